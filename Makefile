@@ -1,0 +1,238 @@
+# FLEXMECH. `make help` lists what can be asked for.
+#
+# This file runs in two stages. The targets a person types first see that the tools are there (`setup`), then call
+# this file again with kind=release or kind=debug. Only that second call looks at sources, compilers and archives:
+# on a fresh machine there is no gfortran yet when the first one is read.
+
+ifeq ($(origin FC),default)
+FC = gfortran
+endif
+export FC
+BLAS   ?= reference
+export BLAS
+PREFIX ?= /usr/local
+
+program = build/release/flexmech
+support = tests/support
+# The second stage uses every processor unless the caller has said how many. V=1 shows the commands in full.
+stage   = +@$(MAKE) --no-print-directory $(if $(V),,-s) $(if $(findstring -j,$(MAKEFLAGS)),,-j$(shell nproc))
+# The unit tests, run by the bundled support or by an installed pFUnit.
+unit_tests = $(if $(PFUNIT_DIR),pfunit,funit)/unit_tests
+
+ifndef kind
+# ---------------------------------------------------------------------------------------------- what a person types
+.PHONY: all debug thesis run figures check golden install setup clean help
+
+all: setup
+	$(stage) kind=release $(program)
+
+debug: setup
+	$(stage) kind=debug build/debug/flexmech
+
+# Installs what is missing; silent and instant when everything is there.
+setup:
+	@sh $(support)/setup.sh
+
+thesis: all
+	$(program) inputs/mechanism1.deck inputs/mechanism2.deck
+	@sh plots/draw_figures.sh outputs/mechanism1
+	@sh plots/draw_figures.sh outputs/mechanism2
+
+# need FILE,COMPLAINT,EXAMPLE: go no further without the file
+need = @test -f "$(1)" || { echo "make: $(2); say: make $@ $(3)" >&2; exit 2; }
+need_deck = $(call need,$(DECK),$(if $(DECK),there is no file $(DECK),DECK is missing),DECK=inputs/mechanism1.deck)
+need_case = $(call need,inputs/$(CASE).deck,$(if $(CASE),there is no inputs/$(CASE).deck,CASE is missing),CASE=mechanism1)
+
+run: all
+	$(need_deck)
+	$(program) "$(DECK)"
+
+figures: all
+	$(need_deck)
+	@# Exit status 1: some rows could not be computed. The figures show where.
+	$(program) "$(DECK)" || test $$? -eq 1
+	@name=$$(basename "$(DECK)"); sh plots/draw_figures.sh "outputs/$${name%.*}"
+
+check: setup
+	@rm -f build/check.count
+	$(stage) kind=release $(program) build/release/$(unit_tests)
+	$(stage) kind=debug build/debug/flexmech build/debug/$(unit_tests)
+	@python3 -B $(support)/check.py $(unit_tests)
+
+golden: all
+	$(need_case)
+	@rm -rf "build/golden/$(CASE)"
+	@# Exit status 1: some rows could not be computed, which may be what the case is there to show.
+	$(program) --out build/golden "inputs/$(CASE).deck" || test $$? -eq 1
+	@rm -rf "tests/golden/$(CASE)" && mkdir -p "tests/golden/$(CASE)"
+	cp build/golden/$(CASE)/*.dat "tests/golden/$(CASE)/"
+
+# Not `all`: `sudo make install` after `make` must not write into build/ as root.
+install:
+	@test -x $(program) || { echo "make: nothing is built yet; say: make" >&2; exit 2; }
+	install -d "$(DESTDIR)$(PREFIX)/bin" "$(DESTDIR)$(PREFIX)/share/flexmech"
+	install -m 755 $(program) "$(DESTDIR)$(PREFIX)/bin/flexmech"
+	cp -R plots "$(DESTDIR)$(PREFIX)/share/flexmech/"
+
+clean:
+	rm -rf build outputs
+
+help:
+	@echo "make                    build build/release/flexmech (installs missing tools first, as all targets that build)"
+	@echo "make debug              build build/debug/flexmech, with every check the compiler has"
+	@echo "make thesis             run both mechanisms of the thesis and draw their figures, in outputs/"
+	@echo "make run DECK=FILE      run one deck"
+	@echo "make figures DECK=FILE  run one deck and draw what its tables allow"
+	@echo "make check              all tests, in the release and in the debug build"
+	@echo "make check PFUNIT_DIR=D the same, with the unit tests run by the pFUnit 4 installed in the folder D"
+	@echo "make golden CASE=NAME   make tests/golden/NAME/ anew from inputs/NAME.deck"
+	@echo "make install PREFIX=DIR copy the program to DIR/bin, the plots to DIR/share/flexmech (DESTDIR is honoured)"
+	@echo "make setup              only install what is missing"
+	@echo "make clean              remove build/ and outputs/"
+	@echo "BLAS=openblas           link OpenBLAS instead of the reference LAPACK and BLAS"
+
+else
+# -------------------------------------------------------------------------------------- the build itself, of one kind
+build = build/$(kind)
+
+# No -ffast-math and no -march=native: the same deck must give the same bytes on every machine of a kind.
+flags_release    = -O3
+flags_debug      = -Og -g -fbacktrace -fcheck=all -fcheck=no-array-temps -ffpe-trap=invalid,zero,overflow -finit-real=snan -finit-derived
+warnings_release =
+# Array temporaries are no mistake, and a note of each would stand between the program's own messages. Without uninitialized: gfortran 12 suspects every allocatable that a function returns. The debug build fills what nobody
+# has set with NaN that traps, which finds the real ones.
+warnings_debug   = -Wall -Wextra -Wno-uninitialized -Wno-maybe-uninitialized -Werror=implicit-interface
+FFLAGS  = $(flags_$(kind))
+compile = $(FC) -std=f2018 -fimplicit-none -fopenmp $(FFLAGS)
+options = -ffree-line-length-132 $(warnings_$(kind)) -J$(build)
+
+# The reference libraries, linked statically: faster to start, and results that do not change with the number of
+# threads or the processor. Debian keeps the reference archives in folders of their own.
+archive = $(firstword $(filter /%,$(foreach name,$(1),$(shell $(FC) -print-file-name=$(name)))))
+ifeq ($(BLAS),openblas)
+libraries := $(call archive,libarpack.a) -lopenblas
+else
+libraries := $(call archive,libarpack.a) $(call archive,lapack/liblapack.a liblapack.a) $(call archive,blas/libblas.a libblas.a)
+endif
+
+# File = module, so the objects of all layers can lie in one folder.
+sources := $(wildcard src/*/*.f90) src/main.f90
+modules := $(patsubst %.f90,$(build)/%.o,$(notdir $(wildcard src/*/*.f90)))
+vpath %.f90 $(sort $(dir $(sources)))
+
+# Found anew at every call (it takes milliseconds), so that dependencies are never older than the sources.
+$(shell mkdir -p $(build)/funit $(build)/pfunit && makedepf90 -b '$$(build)' $(sources) > $(build)/dependencies.mk)
+include $(build)/dependencies.mk
+
+# A .mod whose source was removed or renamed would hide a missing module.
+stale := $(filter-out $(modules:.o=.mod),$(wildcard $(build)/*.mod))
+ifneq ($(stale),)
+$(shell rm -f $(stale))
+endif
+
+# remember FILE,TEXT: write the file only when the text is new, so that what depends on it is made again just then.
+# The rules without commands say that the files are there: make may have listed the folder before they were.
+remember = $(if $(subst x$(file <$(1)),,x$(2)),$(file >$(1),$(2)))
+$(call remember,$(build)/command,$(compile) $(options) $(libraries))
+$(build)/command: ;
+
+$(build)/%.o: %.f90 $(build)/command
+	@echo "$(FC) ($(kind)) $<"
+	$(compile) $(options) -c $< -o $@
+
+$(build)/flexmech: $(modules) $(build)/main.o
+	@echo "link $@"
+	$(compile) $^ $(libraries) -o $@
+
+# ------------------------------------------------------------------------------ unit tests with the bundled support
+tests := $(patsubst tests/unit/%.pf,%,$(wildcard tests/unit/test_*.pf))
+$(call remember,$(build)/tests,$(tests))
+$(build)/tests: ;
+
+# Translated lines are long, and nobody waits for fast tests, only for their compilation.
+fast_release = -O0
+test_options = -ffree-line-length-none $(fast_$(kind)) $(warnings_$(kind)) -J$(build)/funit -I$(build)
+
+$(build)/funit/%.F90: tests/unit/%.pf $(support)/translate_tests.py
+	python3 -B $(support)/translate_tests.py $< $@
+
+# The tests of the tests: these must fail.
+$(build)/funit/test_must_fail.F90: $(support)/test_must_fail.pf $(support)/translate_tests.py
+	python3 -B $(support)/translate_tests.py $< $@
+
+$(build)/funit/driver.f90: $(build)/tests $(support)/translate_tests.py
+	python3 -B $(support)/translate_tests.py --driver $@ $(tests)
+
+$(build)/funit/driver_must_fail.f90: $(support)/translate_tests.py
+	python3 -B $(support)/translate_tests.py --driver $@ test_must_fail
+
+$(build)/funit/funit.o: $(support)/funit.f90 $(build)/command
+	$(compile) $(test_options) -c $< -o $@
+
+# makedepf90 does not read .pf, but what a test uses stands at the head of its lines.
+uses = $(filter $(modules),$(patsubst %,$(build)/%.o,$(shell sed -n 's/^ *use  *\([a-z0-9_]*\).*/\1/p' tests/unit/$(1).pf)))
+$(foreach test,$(tests),$(eval $(build)/funit/$(test).o $(build)/pfunit/$(test).o: $(call uses,$(test))))
+
+$(build)/funit/test_%.o: $(build)/funit/test_%.F90 $(build)/funit/funit.o $(build)/command
+	@echo "$(FC) ($(kind)) test_$*"
+	$(compile) $(test_options) -c $< -o $@
+
+$(build)/funit/unit_tests: $(build)/funit/driver.f90 $(tests:%=$(build)/funit/%.o) $(build)/funit/funit.o $(modules) \
+                           | $(build)/funit/must_fail
+	@echo "link $@"
+	$(compile) $(test_options) $^ $(libraries) -o $@
+
+$(build)/funit/must_fail: $(build)/funit/driver_must_fail.f90 $(build)/funit/test_must_fail.o $(build)/funit/funit.o
+	$(compile) $(test_options) $^ -o $@
+
+# ------------------------------------------------------------------------------- unit tests with an installed pFUnit
+ifneq ($(PFUNIT_DIR),)
+pfunit_mk := $(firstword $(wildcard $(PFUNIT_DIR)/include/PFUNIT.mk $(PFUNIT_DIR)/PFUNIT-*/include/PFUNIT.mk))
+ifeq ($(pfunit_mk),)
+$(error PFUNIT_DIR: there is no include/PFUNIT.mk below $(PFUNIT_DIR))
+endif
+include $(pfunit_mk)
+
+pfunit_compile = $(compile) -ffree-line-length-none $(fast_$(kind)) -I$(build) $(PFUNIT_EXTRA_FFLAGS)
+
+define newline
+
+
+endef
+space := $() $()
+suites = $(subst $(space),$(newline),$(patsubst %,ADD_TEST_SUITE(%_suite),$(1)))
+$(call remember,$(build)/pfunit/unit_tests.inc,$(call suites,$(tests)))
+$(call remember,$(build)/pfunit/must_fail.inc,$(call suites,test_must_fail))
+$(build)/pfunit/%.inc: ;
+
+# The preprocessor of pFUnit wants the file in the current folder.
+$(build)/pfunit/%.pf: tests/unit/%.pf
+	cp $< $@
+
+$(build)/pfunit/test_must_fail.pf: $(support)/test_must_fail.pf
+	cp $< $@
+
+$(build)/pfunit/%.F90: $(build)/pfunit/%.pf
+	cd $(@D) && python3 $(PFUNIT_BIN_DIR)/funitproc -quiet $(<F) $(@F)
+
+$(build)/pfunit/test_%.o: $(build)/pfunit/test_%.F90 $(build)/command
+	@echo "$(FC) ($(kind), pFUnit) test_$*"
+	$(pfunit_compile) -J$(build)/pfunit -c $< -o $@
+
+# A folder a driver for its module, for both drivers have one of the same name.
+$(build)/pfunit/%_driver.o: $(PFUNIT_INCLUDE_DIR)/driver.F90 $(build)/pfunit/%.inc
+	mkdir -p $(build)/pfunit/$*_modules
+	$(pfunit_compile) -J$(build)/pfunit/$*_modules -D_TEST_SUITES='"$(build)/pfunit/$*.inc"' -c $< -o $@
+
+$(build)/pfunit/unit_tests: $(build)/pfunit/unit_tests_driver.o $(tests:%=$(build)/pfunit/%.o) $(modules) \
+                            | $(build)/pfunit/must_fail
+	@echo "link $@"
+	$(pfunit_compile) $^ $(PFUNIT_LIBRARIES) $(libraries) -o $@
+
+$(build)/pfunit/must_fail: $(build)/pfunit/must_fail_driver.o $(build)/pfunit/test_must_fail.o
+	$(pfunit_compile) $^ $(PFUNIT_LIBRARIES) -o $@
+endif
+
+# Keep what is made on the way: a debugger wants the translated tests.
+.SECONDARY:
+endif

@@ -1,0 +1,147 @@
+!> The command line as a value.
+module command_line
+  use deck_runs, only: run_options_t
+  use errors, only: error_t, set_error
+  use numbers, only: read_integer
+  use spelling, only: suggestion
+  use text, only: string_t, word_list
+  implicit none (type, external)
+  private
+
+  public :: command_t, read_command_line, help_text, version_text
+
+  type :: command_t
+    type(run_options_t) :: run
+    type(string_t), allocatable :: decks(:)
+    logical :: check_only = .false.
+    logical :: stats = .false.
+    logical :: help = .false.
+    logical :: version = .false.
+  end type command_t
+
+  character(len=*), parameter :: line_feed = achar(10)
+  integer, parameter :: most_threads = 1024
+
+contains
+
+  !> Reads the arguments of the program. Errors: an unknown option, an option without its value, no deck, one deck twice.
+  subroutine read_command_line(command, error)
+    type(command_t), intent(out) :: command
+    type(error_t), allocatable, intent(out) :: error
+
+    type(string_t), allocatable :: words(:)
+    integer :: i
+    logical :: options_ended
+
+    words = arguments()
+    command%run%folder = "outputs"
+    allocate (command%decks(0))
+    options_ended = .false.
+    i = 1
+    do while (i <= size(words) .and. .not. allocated(error))
+      associate (word => words(i)%text)
+        if (options_ended .or. word == "-" .or. index(word, "-") /= 1) then
+          command%decks = [command%decks, words(i)]
+        else if (word == "--") then
+          options_ended = .true.
+        else
+          call read_option(words, i, command, error)
+        end if
+      end associate
+      i = i + 1
+    end do
+    if (allocated(error) .or. command%help .or. command%version) return
+    if (size(command%decks) == 0) call set_error(error, "no deck given; flexmech --help tells how to run one")
+  end subroutine read_command_line
+
+  function arguments() result(words)
+    type(string_t), allocatable :: words(:)
+
+    integer :: i, length
+
+    allocate (words(command_argument_count()))
+    do i = 1, size(words)
+      call get_command_argument(i, length=length)
+      allocate (character(len=length) :: words(i)%text)
+      if (length > 0) call get_command_argument(i, words(i)%text)
+    end do
+  end function arguments
+
+  !> Reads one option; `i` moves on to its value if it has one. `--out=DIR` is as good as `--out DIR`.
+  subroutine read_option(words, i, command, error)
+    type(string_t), intent(in) :: words(:)
+    integer, intent(inout) :: i
+    type(command_t), intent(inout) :: command
+    type(error_t), allocatable, intent(out) :: error
+
+    character(len=*), parameter :: known = "--check --out --threads --quiet --stats --version --help"
+    character(len=:), allocatable :: name, value, problem
+    integer :: k
+
+    name = words(i)%text
+    k = index(name, "=")
+    if (k > 0) name = name(:k - 1)
+    select case (name)
+    case ("--out", "--threads")
+      if (k > 0) then
+        value = words(i)%text(k + 1:)
+      else if (i < size(words)) then
+        i = i + 1
+        value = words(i)%text
+      else
+        value = ""
+      end if
+      if (len(value) == 0) then
+        call set_error(error, "option "//name//" needs a value")
+      else if (name == "--out") then
+        command%run%folder = value
+      else
+        call read_integer(value, command%run%threads, problem)
+        if (len(problem) > 0 .or. command%run%threads < 1 .or. command%run%threads > most_threads) then
+          call set_error(error, "option --threads needs a number from 1 to 1024, not '"//value//"'")
+        end if
+      end if
+      return
+    end select
+    if (k > 0) name = words(i)%text
+    select case (name)
+    case ("--check")
+      command%check_only = .true.
+    case ("--quiet")
+      command%run%quiet = .true.
+    case ("--stats")
+      command%stats = .true.
+    case ("--version")
+      command%version = .true.
+    case ("--help", "-h")
+      command%help = .true.
+    case default
+      call set_error(error, "unknown option '"//name//"'"//suggestion(name, word_list(known)))
+    end select
+  end subroutine read_option
+
+  pure function version_text() result(text)
+    character(len=:), allocatable :: text
+
+    text = "flexmech 0.1.0"
+  end function version_text
+
+  pure function help_text() result(text)
+    character(len=:), allocatable :: text
+
+    text = "usage: flexmech [options] DECK..."//line_feed//line_feed// &
+      "Computes motion, inertia forces, natural frequencies and mode shapes of flexible linkages."//line_feed// &
+      "For every deck the tables are written to outputs/<deck base name>/. A deck named - is standard input."// &
+      line_feed//line_feed// &
+      "  --check      read and check the decks only"//line_feed// &
+      "  --out DIR    write to DIR/<deck base name>/"//line_feed// &
+      "  --threads N  compute N positions at a time (1)"//line_feed// &
+      "  --quiet      no warnings, no progress; errors are still told"//line_feed// &
+      "  --stats      tell what was computed and how long it took"//line_feed// &
+      "  --version    the program's version"//line_feed// &
+      "  --help       this text"//line_feed//line_feed// &
+      "Exit status: 0 done; 1 some position or mode could not be computed (the rest is written);"//line_feed// &
+      "2 bad deck or command line, nothing written."//line_feed
+  end function help_text
+
+end module command_line

@@ -1,0 +1,181 @@
+!> Checks of a model that need mechanics, with complaints that point at the deck.
+module deck_checks
+  use diagnostics, only: add_error, diagnostics_t, has_errors
+  use four_bar_limits, only: can_reach, crank_reach, reach_t
+  use kinds, only: wp
+  use mechanisms, only: has_beams, has_mesh, mechanism_t, mesh_with, new_mechanism
+  use models, only: model_t, needs_frequencies, solver_band
+  use position_modes, only: lowest_static_eigenvalue
+  use requests, only: value_list_t
+  use round_off, only: round_off_error
+  use text, only: plural, to_string
+  use tokens, only: token_t
+  implicit none (type, external)
+  private
+
+  public :: check_mechanics
+
+  !> Frequencies are not computed where round-off may take more of them than this.
+  real(wp), parameter :: most_round_off = 1.0e-6_wp
+
+  !> Positions at which the lowest frequency is estimated to judge round-off.
+  integer, parameter :: most_samples = 25
+
+contains
+
+  !> Whether the linkage closes, reaches every position, has as many unknowns as modes, and a mesh that keeps enough digits.
+  subroutine check_mechanics(model, diagnostics)
+    type(model_t), intent(in) :: model !! without errors so far
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    type(mechanism_t) :: mechanism
+    type(reach_t) :: reach
+
+    mechanism = new_mechanism(model)
+    associate (ground => mechanism%linkage%ground_position(:, [1, 4]))
+      if (norm2(ground(:, 2) - ground(:, 1)) <= 0.0_wp) then
+        call add_error(diagnostics, model%grounds(2)%pin, "the two ground pivots are at the same place", model%grounds(1)%pin, &
+          "the other one is here")
+        return
+      end if
+      reach = crank_reach(ground, mechanism%linkage%bodies%length)
+    end associate
+    if (.not. reach%closes) then
+      call report_open_linkage(model, mechanism, diagnostics)
+      return
+    end if
+    call check_reach(model, reach, diagnostics)
+    if (.not. needs_frequencies(model) .or. .not. has_mesh(mechanism) .or. .not. has_beams(mechanism)) return
+    call check_modes(model, mechanism, diagnostics)
+    if (has_errors(diagnostics)) return
+    call check_round_off(model, mechanism, diagnostics)
+  end subroutine check_mechanics
+
+  !> One link is longer than all the others together.
+  subroutine report_open_linkage(model, mechanism, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    real(wp) :: ground_length
+    integer :: longest
+
+    associate (ground => mechanism%linkage%ground_position, length => mechanism%linkage%bodies%length)
+      ground_length = norm2(ground(:, 4) - ground(:, 1))
+      longest = maxloc(length, dim=1)
+      if (ground_length > length(longest)) then
+        call add_error(diagnostics, model%grounds(2)%pin, "the linkage closes at no crank angle: the ground pivots are farther "// &
+          "apart than the three links together are long")
+      else
+        call add_error(diagnostics, model%links(model%loop(longest))%length_word, "the linkage closes at no crank angle: link '"// &
+          mechanism%names(longest)%text//"' is longer than the other links and the distance of the ground pivots together")
+      end if
+    end associate
+  end subroutine report_open_linkage
+
+  !> Positions out of reach: one complaint with all that the user needs to mend the deck.
+  subroutine check_reach(model, reach, diagnostics)
+    type(model_t), intent(in) :: model
+    type(reach_t), intent(in) :: reach
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    logical :: out_of_reach(size(model%crank%value))
+    integer :: first
+
+    out_of_reach = .not. can_reach(reach, model%crank%value)
+    if (.not. any(out_of_reach)) return
+    first = findloc(out_of_reach, .true., dim=1)
+    call add_error(diagnostics, model%crank%words(model%crank%word(first)), plural(count(out_of_reach), "crank angle")// &
+      " out of reach, the first "//to_string(model%crank%value(first), 10)//" deg; the linkage closes for: "// &
+      ready_card(reach, step_of(model%crank)))
+  end subroutine check_reach
+
+  !> The step that the user has in mind: that of the first range, or 5 degrees.
+  pure function step_of(crank) result(step)
+    type(value_list_t), intent(in) :: crank
+    real(wp) :: step
+
+    step = 5.0_wp
+    if (size(crank%value) < 2) return
+    if (crank%word(1) == crank%word(2)) step = abs(crank%value(2) - crank%value(1))
+  end function step_of
+
+  !> The reachable crank angles as a CRANK card, a hair inside the limits, which are dead points.
+  pure function ready_card(reach, step) result(card)
+    type(reach_t), intent(in) :: reach
+    real(wp), intent(in) :: step !! [deg]
+    character(len=:), allocatable :: card
+
+    real(wp), parameter :: near_zero = 1.0e-9_wp
+    real(wp) :: least, most
+
+    least = reach%least
+    most = reach%most
+    if (least <= near_zero) then
+      card = "CRANK "//interval(reach%ground - most, reach%ground + most, step)
+    else if (most >= 180.0_wp - near_zero) then
+      card = "CRANK "//interval(reach%ground + least, reach%ground + 360.0_wp - least, step)
+    else
+      card = "CRANK "//interval(reach%ground + least, reach%ground + most, step)//" "// &
+        interval(reach%ground + 360.0_wp - most, reach%ground + 360.0_wp - least, step)
+    end if
+
+  end function ready_card
+
+  !> `a to b step s`, rounded inwards to a ten-thousandth of a degree.
+  pure function interval(a, b, step) result(range_text)
+    real(wp), intent(in) :: a, b, step !! [deg]
+    character(len=:), allocatable :: range_text
+
+    real(wp), parameter :: grid = 1.0e4_wp
+
+    range_text = to_string((floor(a*grid) + 1)/grid, 9)//" to "//to_string((ceiling(b*grid) - 1)/grid, 9)//" step "//to_string(step)
+  end function interval
+
+  subroutine check_modes(model, mechanism, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    type(token_t) :: place
+
+    place = model%modes_word
+    if (place%line == 0) place = model%meshes(1)%keyword
+    if (model%modes > mechanism%mesh%unknowns) then
+      call add_error(diagnostics, place, plural(model%modes, "mode")//" asked for, but the mesh has only "// &
+        plural(mechanism%mesh%unknowns, "unknown"))
+    else if (model%modes == mechanism%mesh%unknowns .and. model%solver == solver_band) then
+      call add_error(diagnostics, place, "SOLVER band finds fewer modes than there are unknowns, here at most "// &
+        to_string(mechanism%mesh%unknowns - 1))
+    end if
+  end subroutine check_modes
+
+  !> Refuses a mesh so fine that the rounding of its matrices spoils the lowest frequencies.
+  !!
+  !! The bound is `ε‖K_e‖/(λ‖M_e‖)`; λ is estimated with at most two elements a link, which is close enough for that.
+  subroutine check_round_off(model, mechanism, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    type(mechanism_t) :: coarse
+    real(wp) :: lambda, bound
+    integer :: i, body, samples, position
+
+    coarse = mesh_with(mechanism, min(mechanism%mesh%elements, 2))
+    lambda = huge(lambda)
+    samples = min(size(model%crank%value), most_samples)
+    do i = 1, samples
+      position = 1 + ((i - 1)*(size(model%crank%value) - 1))/max(1, samples - 1)
+      lambda = min(lambda, lowest_static_eigenvalue(coarse, model%crank%value(position)))
+    end do
+    do body = 1, size(mechanism%beams)
+      bound = round_off_error(mechanism%linkage, mechanism%beams, mechanism%mesh, body)/lambda
+      if (bound <= most_round_off) cycle
+      call add_error(diagnostics, model%meshes(model%links(model%loop(body))%mesh)%keyword, "this mesh is too fine for double "// &
+        "precision: the elements of '"//mechanism%names(body)%text//"' are so stiff that round-off may change the lowest "// &
+        "frequency by a part in "//to_string(1.0_wp/bound, 2)//"; use fewer elements")
+    end do
+  end subroutine check_round_off
+
+end module deck_checks

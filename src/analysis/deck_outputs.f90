@@ -1,0 +1,153 @@
+!> The files of a run: opened together, put in place together.
+module deck_outputs
+  use echo, only: echo_text
+  use errors, only: error_t, set_error
+  use file_system, only: is_directory, joined_path, make_directories, remove_empty_directory, remove_file
+  use frequency_report, only: write_frequencies, write_shapes
+  use frequency_sweep, only: sweep_t
+  use inertia_report, only: write_inertia
+  use kinematics_report, only: write_kinematics
+  use mechanisms, only: mechanism_t
+  use mesh_report, only: write_mesh
+  use models, only: model_t, report_number
+  use output_files, only: append_output, discard_output, finish_output, open_output, output_file_t, publish_output
+  use positions, only: positions_t
+  use requests, only: report_frequencies, report_inertia, report_kinematics, report_mesh, report_shapes
+  use run_findings, only: linkage_notes
+  implicit none (type, external)
+  private
+
+  public :: outputs_t, open_outputs, write_outputs, publish_outputs, discard_outputs
+
+  type :: outputs_t
+    character(len=:), allocatable :: folder
+    logical, private :: is_new = .false.                     !! the folder was not there before
+    integer, allocatable, private :: kind(:)                 !! of each table: its report
+    type(output_file_t), allocatable, private :: tables(:)
+    type(output_file_t), private :: echo, log
+  end type outputs_t
+
+contains
+
+  !> Makes the folder and opens every file in it under a temporary name.
+  subroutine open_outputs(folder, model, outputs, error)
+    character(len=*), intent(in) :: folder
+    type(model_t), intent(in) :: model
+    type(outputs_t), intent(out) :: outputs
+    type(error_t), allocatable, intent(out) :: error
+
+    integer :: i
+    logical :: made
+
+    outputs%folder = folder
+    outputs%is_new = .not. is_directory(folder)
+    outputs%kind = pack([(i, i=1, report_shapes)], [(report_number(model, i) > 0, i=1, report_shapes)])
+    allocate (outputs%tables(size(outputs%kind)))
+    call make_directories(folder, made)
+    if (.not. made) then
+      call set_error(error, folder//": error: this folder cannot be made; is there a file of that name?")
+      return
+    end if
+    do i = 1, size(outputs%kind)
+      call open_output(folder, table_name(outputs%kind(i)), outputs%tables(i), error)
+      if (allocated(error)) return
+    end do
+    call open_output(folder, "echo.deck", outputs%echo, error)
+    if (.not. allocated(error)) call open_output(folder, "run.log", outputs%log, error)
+  end subroutine open_outputs
+
+  pure function table_name(kind) result(name)
+    integer, intent(in) :: kind
+    character(len=:), allocatable :: name
+
+    name = ""
+    select case (kind)
+    case (report_kinematics)
+      name = "kinematics.dat"
+    case (report_inertia)
+      name = "inertia.dat"
+    case (report_mesh)
+      name = "mesh.dat"
+    case (report_frequencies)
+      name = "frequencies.dat"
+    case (report_shapes)
+      name = "shapes.dat"
+    end select
+  end function table_name
+
+  !> Writes all tables, the echo and the log.
+  subroutine write_outputs(outputs, model, mechanism, positions, sweep, log)
+    type(outputs_t), intent(inout) :: outputs
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    character(len=*), intent(in) :: log
+
+    integer :: i
+
+    do i = 1, size(outputs%kind)
+      associate (file => outputs%tables(i))
+        select case (outputs%kind(i))
+        case (report_kinematics)
+          call write_kinematics(file, model, mechanism, positions, linkage_notes(mechanism, positions))
+        case (report_inertia)
+          call write_inertia(file, model, mechanism, positions)
+        case (report_mesh)
+          call write_mesh(file, model, mechanism, positions)
+        case (report_frequencies)
+          call write_frequencies(file, model, positions, sweep)
+        case (report_shapes)
+          call write_shapes(file, model, mechanism, positions, sweep)
+        end select
+      end associate
+    end do
+    call append_output(outputs%echo, echo_text(model))
+    call append_output(outputs%log, log)
+  end subroutine write_outputs
+
+  !> Checks that every file is complete on the disk, and only then renames them all; tables that an earlier run left and this one
+  !> was not asked for are removed. Errors: a file is not complete; nothing has been renamed then.
+  subroutine publish_outputs(outputs, error)
+    type(outputs_t), intent(inout) :: outputs
+    type(error_t), allocatable, intent(out) :: error
+
+    integer :: i
+
+    do i = 1, size(outputs%tables)
+      call finish_output(outputs%tables(i), error)
+      if (allocated(error)) return
+    end do
+    call finish_output(outputs%echo, error)
+    if (allocated(error)) return
+    call finish_output(outputs%log, error)
+    if (allocated(error)) return
+
+    do i = 1, size(outputs%tables)
+      call publish_output(outputs%tables(i), error)
+      if (allocated(error)) return
+    end do
+    call publish_output(outputs%echo, error)
+    if (allocated(error)) return
+    call publish_output(outputs%log, error)
+    if (allocated(error)) return
+    do i = 1, report_shapes
+      if (all(outputs%kind /= i)) call remove_file(joined_path(outputs%folder, table_name(i)))
+    end do
+  end subroutine publish_outputs
+
+  !> Leaves the folder as it was.
+  subroutine discard_outputs(outputs)
+    type(outputs_t), intent(inout) :: outputs
+
+    integer :: i
+
+    do i = 1, size(outputs%tables)
+      call discard_output(outputs%tables(i))
+    end do
+    call discard_output(outputs%echo)
+    call discard_output(outputs%log)
+    if (outputs%is_new) call remove_empty_directory(outputs%folder)
+  end subroutine discard_outputs
+
+end module deck_outputs

@@ -1,0 +1,167 @@
+!> `frequencies.dat` and `shapes.dat`.
+module frequency_report
+  use constants, only: two_pi
+  use deflected_shape, only: mid_link_sign, shape_point
+  use frequency_sweep, only: is_drawn, sweep_t
+  use kinds, only: wp
+  use kinematics_report, only: place_of_row
+  use mechanisms, only: mechanism_t
+  use models, only: effects_static, inertia_lumped, model_t, report_number
+  use output_files, only: output_file_t
+  use poses, only: pose_t
+  use positions, only: positions_t
+  use requests, only: report_shapes
+  use tables, only: column_t, integer_cell, integer_column, name_cell, name_column, real_cells, real_column, write_failure, &
+    write_gap, write_header, write_row
+  use text, only: string_t, to_string
+  use units, only: coherent_unit, dimension_length, dimension_mass, from_si, to_si, unit_t
+  implicit none (type, external)
+  private
+
+  public :: write_frequencies, write_shapes, frequency_of, failure_at
+
+contains
+
+  !> `sign(λ) sqrt(|λ|)/2π`: negative past a divergence [Hz].
+  elemental function frequency_of(lambda) result(frequency)
+    real(wp), intent(in) :: lambda !! ω² [1/s²]
+    real(wp) :: frequency
+
+    frequency = sign(sqrt(abs(lambda)), lambda)/two_pi
+  end function frequency_of
+
+  !> Why there is no result at a position and speed; empty if there is one.
+  pure function failure_at(positions, sweep, state, speed) result(reason)
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    integer, intent(in) :: state, speed !! numbers
+    character(len=:), allocatable :: reason
+
+    if (allocated(positions%states(state)%error)) then
+      reason = positions%states(state)%error%message
+    else
+      reason = sweep%results(state)%failure(speed)%text
+    end if
+  end function failure_at
+
+  !> One row a position, one block a speed; a single block if the frequencies are static.
+  subroutine write_frequencies(file, model, positions, sweep)
+    type(output_file_t), intent(inout) :: file
+    type(model_t), intent(in) :: model
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+
+    integer :: i, k
+    character(len=:), allocatable :: reason
+
+    call write_header(file, model%title, effects_notes(model), [real_column("speed", "rad/s"), real_column("crank", "deg"), &
+      (real_column("f"//to_string(i), "Hz"), i=1, model%modes)])
+    do k = 1, size(sweep%request%speed)
+      if (k > 1) call write_gap(file, 2)
+      do i = 1, size(positions%crank)
+        reason = failure_at(positions, sweep, positions%state(i), k)
+        if (len(reason) > 0) then
+          call write_failure(file, place_of_row(sweep%request%speed(k), positions%crank(i)), reason)
+        else
+          call write_row(file, real_cells([sweep%request%speed(k), positions%crank(i), &
+            frequency_of(sweep%results(positions%state(i))%lambda(:, k))]))
+        end if
+      end do
+    end do
+  end subroutine write_frequencies
+
+  !> What the frequencies are, in words.
+  pure function effects_notes(model) result(notes)
+    type(model_t), intent(in) :: model
+    type(string_t), allocatable :: notes(:)
+
+    notes = [string_t("static frequencies of the instantaneous structure; they do not depend on the speed")]
+    if (model%effects == effects_static) return
+    notes = [string_t("frequencies of the instantaneous structure with the axial forces of its motion; "// &
+      trim(merge("lumped     ", "distributed", model%inertia == inertia_lumped))//" inertia"), &
+      string_t("angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2"), &
+      string_t("a negative frequency stands for sqrt(-lambda)/(2 pi) of a negative eigenvalue: static divergence")]
+  end function effects_notes
+
+  !> Rows along every link of every mode; an empty line between links, two between modes.
+  subroutine write_shapes(file, model, mechanism, positions, sweep)
+    type(output_file_t), intent(inout) :: file
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+
+    type(column_t), allocatable :: columns(:)
+    type(unit_t) :: length, mass
+    character(len=:), allocatable :: reason
+    integer :: i, k, mode
+    logical :: first
+
+    length = coherent_unit(model%units, dimension_length)
+    mass = coherent_unit(model%units, dimension_mass)
+    columns = [real_column("speed", "rad/s"), real_column("crank", "deg"), integer_column("mode"), real_column("frequency", "Hz"), &
+      name_column("link", mechanism%names), real_column("s", length%name), real_column("x", length%name), &
+      real_column("y", length%name), real_column("ux", mass%name//"^-0.5"), real_column("uy", mass%name//"^-0.5"), &
+      real_column("rotation", "rad."//mass%name//"^-0.5."//length%name//"^-1")]
+    call write_header(file, model%title, [effects_notes(model), string_t("shapes are normalised: phi' M phi = 1; s runs along "// &
+      "each link round the loop from "//mechanism%pin_names(1)%text//" to "//mechanism%pin_names(4)%text)], columns)
+    first = .true.
+    associate (report => model%reports(report_number(model, report_shapes)))
+      do k = 1, size(sweep%request%speed)
+        do i = 1, size(positions%crank)
+          if (.not. is_drawn(report, positions%crank(i), sweep%request%speed(k))) cycle
+          if (.not. first) call write_gap(file, 2)
+          first = .false.
+          reason = failure_at(positions, sweep, positions%state(i), k)
+          if (len(reason) > 0) then
+            call write_failure(file, place_of_row(sweep%request%speed(k), positions%crank(i)), reason)
+            cycle
+          end if
+          do mode = 1, model%modes
+            if (mode > 1) call write_gap(file, 2)
+            associate (state => positions%states(positions%state(i)), result => sweep%results(positions%state(i)))
+              call write_mode(file, model, mechanism, columns(5)%width, state%pose, result%modes(k)%vector(:, mode), &
+                [sweep%request%speed(k), positions%crank(i)], mode, frequency_of(result%lambda(mode, k)), report%points)
+            end associate
+          end do
+        end do
+      end do
+    end associate
+  end subroutine write_shapes
+
+  subroutine write_mode(file, model, mechanism, name_width, pose, vector, place, mode, frequency, points)
+    type(output_file_t), intent(inout) :: file
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    integer, intent(in) :: name_width
+    type(pose_t), intent(in) :: pose
+    real(wp), intent(in) :: vector(:)  !! (unknowns) [kg^-1/2]
+    real(wp), intent(in) :: place(2)   !! speed and crank angle [rad/s, deg]
+    integer, intent(in) :: mode
+    real(wp), intent(in) :: frequency  !! [Hz]
+    integer, intent(in) :: points
+
+    real(wp) :: s, displacement(3), scale
+    type(unit_t) :: length
+    integer :: body, i
+
+    length = coherent_unit(model%units, dimension_length)
+    ! Displacements of a normalised mode have the unit mass^(-1/2).
+    scale = mid_link_sign(mechanism%linkage, mechanism%mesh, pose, vector)* &
+      sqrt(to_si(1.0_wp, coherent_unit(model%units, dimension_mass)))
+    do body = 1, size(mechanism%names)
+      associate (this => mechanism%linkage%bodies(body))
+        if (body > 1) call write_gap(file, 1)
+        do i = 1, points
+          s = this%length*(i - 1)/(points - 1)
+          displacement = scale*shape_point(mechanism%linkage, mechanism%mesh, pose, vector, body, s)
+          displacement(3) = to_si(displacement(3), length)
+          call write_row(file, real_cells(place)//integer_cell(mode, "mode")//real_cells([frequency])// &
+            name_cell(mechanism%names(body)%text, name_width)// &
+            real_cells([from_si([s, pose%pin(:, this%first_pin) + s*pose%direction(:, body)], length), displacement]))
+        end do
+      end associate
+    end do
+  end subroutine write_mode
+
+end module frequency_report

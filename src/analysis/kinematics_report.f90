@@ -1,0 +1,91 @@
+!> `kinematics.dat`: how the links move.
+module kinematics_report
+  use constants, only: degree
+  use kinds, only: wp
+  use mechanisms, only: mechanism_t
+  use models, only: model_t
+  use motions, only: angular_acceleration, angular_velocity, motion_t
+  use output_files, only: output_file_t
+  use poses, only: body_angle, pose_t, transmission_angle
+  use positions, only: positions_t
+  use tables, only: column_t, real_cells, real_column, write_failure, write_gap, write_header, write_row
+  use text, only: string_t, to_string
+  use units, only: coherent_unit, dimension_length, from_si, unit_t
+  implicit none (type, external)
+  private
+
+  public :: write_kinematics, place_of_row
+
+contains
+
+  !> One row a position, one block a speed.
+  subroutine write_kinematics(file, model, mechanism, positions, notes)
+    type(output_file_t), intent(inout) :: file
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(positions_t), intent(in) :: positions
+    type(string_t), intent(in) :: notes(:) !! on the linkage as a whole
+
+    type(unit_t) :: length
+    integer :: i, k
+
+    length = coherent_unit(model%units, dimension_length)
+    call write_header(file, model%title, [notes, &
+      string_t("3: link "//mechanism%names(2)%text//", angle from "//mechanism%pin_names(2)%text//" to "// &
+        mechanism%pin_names(3)%text//"; 4: link "//mechanism%names(3)%text//", angle from "//mechanism%pin_names(4)%text// &
+        " to "//mechanism%pin_names(3)%text), &
+      string_t("A: pin "//mechanism%pin_names(2)%text//"; B: pin "//mechanism%pin_names(3)%text), &
+      string_t("angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2")], columns(length))
+    do k = 1, size(model%speed%value)
+      if (k > 1) call write_gap(file, 2)
+      do i = 1, size(positions%crank)
+        associate (state => positions%states(positions%state(i)))
+          if (allocated(state%error)) then
+            call write_failure(file, place_of_row(model%speed%value(k), positions%crank(i)), state%error%message)
+          else
+            call write_row(file, real_cells([model%speed%value(k), positions%crank(i), &
+              row_of(mechanism, state%pose, state%motion, model%speed%value(k), model%acceleration, length)]))
+          end if
+        end associate
+      end do
+    end do
+  end subroutine write_kinematics
+
+  pure function columns(length) result(list)
+    type(unit_t), intent(in) :: length
+    type(column_t), allocatable :: list(:)
+
+    list = [real_column("speed", "rad/s"), real_column("crank", "deg"), real_column("theta3", "deg"), &
+      real_column("theta4", "deg"), real_column("omega3", "rad/s"), real_column("omega4", "rad/s"), &
+      real_column("alpha3", "rad/s2"), real_column("alpha4", "rad/s2"), real_column("Ax", length%name), &
+      real_column("Ay", length%name), real_column("Bx", length%name), real_column("By", length%name), &
+      real_column("transmission_angle", "deg")]
+  end function columns
+
+  pure function row_of(mechanism, pose, motion, speed, acceleration, length) result(row)
+    type(mechanism_t), intent(in) :: mechanism
+    type(pose_t), intent(in) :: pose
+    type(motion_t), intent(in) :: motion
+    real(wp), intent(in) :: speed, acceleration !! of the crank [rad/s, rad/s²]
+    type(unit_t), intent(in) :: length
+    real(wp) :: row(11)
+
+    real(wp) :: velocity(3), angular(3)
+
+    velocity = angular_velocity(motion, speed)
+    angular = angular_acceleration(motion, speed, acceleration)
+    row = [body_angle(mechanism%linkage, pose, 2)/degree, body_angle(mechanism%linkage, pose, 3)/degree, velocity(2:3), &
+      angular(2:3), from_si(pose%pin(:, 2), length), from_si(pose%pin(:, 3), length), &
+      transmission_angle(mechanism%linkage, pose, 1)/degree]
+  end function row_of
+
+  !> The name of a row in messages and failed rows.
+  pure function place_of_row(speed, crank) result(place)
+    real(wp), intent(in) :: speed !! [rad/s]
+    real(wp), intent(in) :: crank !! [deg]
+    character(len=:), allocatable :: place
+
+    place = "speed="//to_string(speed, 12)//" crank="//to_string(crank, 12)
+  end function place_of_row
+
+end module kinematics_report

@@ -1,0 +1,81 @@
+!> `mesh.dat`: the finite element model at every position.
+module mesh_report
+  use beam_mesh, only: element_length
+  use kinds, only: wp
+  use mechanisms, only: mechanism_t
+  use models, only: model_t
+  use output_files, only: output_file_t
+  use poses, only: pose_t
+  use positions, only: positions_t
+  use tables, only: column_t, integer_cell, integer_column, name_cell, name_column, real_cells, real_column, write_failure, &
+    write_gap, write_header, write_row
+  use text, only: string_t, to_string
+  use units, only: coherent_unit, dimension_length, dimension_mass, from_si, unit_t
+  implicit none (type, external)
+  private
+
+  public :: write_mesh
+
+contains
+
+  !> One row an element, an empty line between positions. Each element brings half of its mass to either node.
+  subroutine write_mesh(file, model, mechanism, positions)
+    type(output_file_t), intent(inout) :: file
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(positions_t), intent(in) :: positions
+
+    type(column_t), allocatable :: columns(:)
+    type(unit_t) :: length, mass
+    integer :: i
+
+    length = coherent_unit(model%units, dimension_length)
+    mass = coherent_unit(model%units, dimension_mass)
+    columns = [real_column("crank", "deg"), name_column("link", mechanism%names), integer_column("element"), &
+      integer_column("node_a"), integer_column("node_b"), real_column("xa", length%name), real_column("ya", length%name), &
+      real_column("xb", length%name), real_column("yb", length%name), real_column("mass_a", mass%name), &
+      real_column("mass_b", mass%name)]
+    call write_header(file, model%title, [ &
+      string_t("mass_a and mass_b: what the element brings to the lumped masses of its nodes"), &
+      string_t("both links at a pin have a node of their own there")], columns)
+    do i = 1, size(positions%crank)
+      associate (state => positions%states(positions%state(i)))
+        if (allocated(state%error)) then
+          call write_failure(file, "crank="//to_string(positions%crank(i), 12), state%error%message)
+        else
+          call write_position(file, model, mechanism, columns, state%pose, positions%crank(i))
+          if (i < size(positions%crank)) call write_gap(file, 1)
+        end if
+      end associate
+    end do
+  end subroutine write_mesh
+
+  subroutine write_position(file, model, mechanism, columns, pose, crank)
+    type(output_file_t), intent(inout) :: file
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(column_t), intent(in) :: columns(:)
+    type(pose_t), intent(in) :: pose
+    real(wp), intent(in) :: crank !! [deg]
+
+    real(wp) :: ends(2, 2), length, half_mass
+    integer :: body, i
+
+    do body = 1, size(mechanism%names)
+      associate (this => mechanism%linkage%bodies(body), mesh => mechanism%mesh)
+        length = element_length(mesh, mechanism%linkage, body)
+        half_mass = 0.5_wp*this%line_density*length
+        do i = 1, mesh%elements(body)
+          ends(:, 1) = pose%pin(:, this%first_pin) + (i - 1)*length*pose%direction(:, body)
+          ends(:, 2) = pose%pin(:, this%first_pin) + i*length*pose%direction(:, body)
+          call write_row(file, real_cells([crank])//name_cell(mechanism%names(body)%text, columns(2)%width)// &
+            integer_cell(mesh%first_element(body) + i - 1, "element")//integer_cell(mesh%first_node(body) + i - 1, "node_a")// &
+            integer_cell(mesh%first_node(body) + i, "node_b")// &
+            real_cells([from_si(reshape(ends, [4]), coherent_unit(model%units, dimension_length)), &
+            from_si([half_mass, half_mass], coherent_unit(model%units, dimension_mass))]))
+        end do
+      end associate
+    end do
+  end subroutine write_position
+
+end module mesh_report

@@ -1,0 +1,257 @@
+!> What a run has to say besides its tables: rows that failed, and results that need a warning.
+module run_findings
+  use constants, only: degree
+  use four_bar_limits, only: crank_reach, grashof_class, limit_angles, reach_t
+  use frequency_report, only: failure_at
+  use frequency_sweep, only: sweep_t
+  use kinds, only: wp
+  use mechanisms, only: mechanism_t
+  use models, only: model_t, needs_frequencies
+  use poses, only: transmission_angle
+  use positions, only: positions_t
+  use text, only: string_t, to_string
+  use text_buffer, only: append_text, buffer_text, text_buffer_t
+  implicit none (type, external)
+  private
+
+  public :: findings_t, find_failures, find_warnings, linkage_notes, findings_messages, findings_log
+
+  type :: findings_t
+    integer :: failures = 0                        !! positions × speeds without a result
+    type(text_buffer_t), private :: failure_lines  !! one each
+    type(string_t), allocatable, private :: warnings(:)
+  end type findings_t
+
+  !> The axial frequencies assume that the loads bend the links little; this is the share of a link's length that is still little.
+  real(wp), parameter :: most_deflection = 0.01_wp
+
+  !> More failed rows than this are listed in the log only.
+  integer, parameter :: most_shown = 20
+
+  character(len=*), parameter :: line_feed = achar(10)
+
+contains
+
+  !> Collects every position and speed without a result.
+  pure subroutine find_failures(model, positions, sweep, findings)
+    type(model_t), intent(in) :: model
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep !! empty if no frequencies are asked for
+    type(findings_t), intent(inout) :: findings
+
+    character(len=:), allocatable :: reason
+    integer :: i, k
+
+    do i = 1, size(positions%crank)
+      if (allocated(positions%states(positions%state(i))%error)) then
+        call add_failure(findings, at(positions%crank(i))//": "//positions%states(positions%state(i))%error%message)
+      else if (needs_frequencies(model)) then
+        do k = 1, size(sweep%request%speed)
+          reason = failure_at(positions, sweep, positions%state(i), k)
+          if (len(reason) > 0) call add_failure(findings, at(positions%crank(i), sweep%request%speed(k))//": "//reason)
+        end do
+      end if
+    end do
+
+  end subroutine find_failures
+
+  pure subroutine add_failure(findings, line)
+    type(findings_t), intent(inout) :: findings
+    character(len=*), intent(in) :: line
+
+    findings%failures = findings%failures + 1
+    call append_text(findings%failure_lines, line//line_feed)
+  end subroutine add_failure
+
+  !> Collects divergences and large deflections.
+  pure subroutine find_warnings(model, mechanism, positions, sweep, findings)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    type(findings_t), intent(inout) :: findings
+
+    integer :: k
+
+    allocate (findings%warnings(0))
+    if (.not. needs_frequencies(model)) return
+    do k = 1, size(sweep%request%speed)
+      findings%warnings = [findings%warnings, divergences(positions, sweep, k)]
+    end do
+    if (sweep%request%axial) findings%warnings = [findings%warnings, deflections(mechanism, positions, sweep)]
+  end subroutine find_warnings
+
+  !> The crank angles at which an eigenvalue is negative at one speed, neighbours of the deck's list drawn together.
+  pure function divergences(positions, sweep, speed) result(warning)
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    integer, intent(in) :: speed !! number
+    type(string_t), allocatable :: warning(:)
+
+    character(len=:), allocatable :: ranges
+    integer :: i, first
+
+    allocate (warning(0))
+    ranges = ""
+    first = 0
+    do i = 1, size(positions%crank)
+      if (diverges(positions, sweep, i, speed) .and. first == 0) first = i
+      if (first == 0) cycle
+      if (i < size(positions%crank)) then
+        if (diverges(positions, sweep, i + 1, speed)) cycle
+      end if
+      if (len(ranges) > 0) ranges = ranges//", "
+      ranges = ranges//to_string(positions%crank(first), 10)
+      if (i > first) ranges = ranges//" to "//to_string(positions%crank(i), 10)
+      first = 0
+    end do
+    if (len(ranges) == 0) return
+    warning = [string_t("static divergence at speed "//to_string(sweep%request%speed(speed), 10)//" rad/s, crank "//ranges// &
+      " deg: an eigenvalue is negative, and so the frequency written")]
+
+  end function divergences
+
+  !> Whether the lowest eigenvalue of a position and speed, both by number, is negative.
+  pure function diverges(positions, sweep, position, speed)
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    integer, intent(in) :: position, speed
+    logical :: diverges
+
+    diverges = .false.
+    if (allocated(positions%states(positions%state(position))%error)) return
+    associate (result => sweep%results(positions%state(position)))
+      if (len(result%failure(speed)%text) == 0) diverges = result%lambda(1, speed) < 0.0_wp
+    end associate
+  end function diverges
+
+  !> The largest static deflection under the inertia loads, if it is too large for the theory.
+  pure function deflections(mechanism, positions, sweep) result(warning)
+    type(mechanism_t), intent(in) :: mechanism
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    type(string_t), allocatable :: warning(:)
+
+    real(wp) :: largest
+    integer :: i, body, speed, at_body, at_speed, at_position
+
+    allocate (warning(0))
+    largest = 0.0_wp
+    at_body = 1
+    at_speed = 1
+    at_position = 1
+    do i = 1, size(positions%crank)
+      if (allocated(positions%states(positions%state(i))%error)) cycle
+      do speed = 1, size(sweep%request%speed)
+        do body = 1, size(mechanism%names)
+          ! A hair more, so that equal positions (0 and 360) name the first of them.
+          if (sweep%results(positions%state(i))%deflection(body, speed) <= largest*(1.0_wp + 1.0e-12_wp)) cycle
+          largest = sweep%results(positions%state(i))%deflection(body, speed)
+          at_body = body
+          at_speed = speed
+          at_position = i
+        end do
+      end do
+    end do
+    if (largest <= most_deflection) return
+    warning = [string_t("the inertia loads at "//at(positions%crank(at_position), sweep%request%speed(at_speed))// &
+      " deflect link '"//mechanism%names(at_body)%text//"' by "//to_string(100.0_wp*largest, 3)//" % of its length: above "// &
+      to_string(100.0_wp*most_deflection)//" % the axial frequencies begin to mislead")]
+  end function deflections
+
+  !> `speed 20 rad/s, crank 45 deg`
+  pure function at(crank, speed) result(place)
+    real(wp), intent(in) :: crank           !! [deg]
+    real(wp), intent(in), optional :: speed !! [rad/s]
+    character(len=:), allocatable :: place
+
+    place = "crank "//to_string(crank, 12)//" deg"
+    if (present(speed)) place = "speed "//to_string(speed, 12)//" rad/s, "//place
+  end function at
+
+  !> Everything for standard error, each line with the deck's path.
+  pure function findings_messages(findings, path) result(text)
+    type(findings_t), intent(in) :: findings
+    character(len=*), intent(in) :: path
+    character(len=:), allocatable :: text
+
+    character(len=:), allocatable :: lines
+    integer :: i, start, length
+
+    text = ""
+    do i = 1, size(findings%warnings)
+      text = text//path//": warning: "//findings%warnings(i)%text//line_feed
+    end do
+    lines = buffer_text(findings%failure_lines)
+    start = 1
+    do i = 1, min(findings%failures, most_shown)
+      length = index(lines(start:), line_feed)
+      text = text//path//": error: "//lines(start:start + length - 1)
+      start = start + length
+    end do
+    if (findings%failures > most_shown) then
+      text = text//path//": error: "//to_string(findings%failures - most_shown)//" more rows failed; run.log lists them"//line_feed
+    end if
+  end function findings_messages
+
+  !> The same for the log, complete and without the path.
+  pure function findings_log(findings) result(text)
+    type(findings_t), intent(in) :: findings
+    character(len=:), allocatable :: text
+
+    integer :: i
+
+    text = ""
+    do i = 1, size(findings%warnings)
+      text = text//"warning: "//findings%warnings(i)%text//line_feed
+    end do
+    if (findings%failures == 0) return
+    text = text//"failed rows: "//to_string(findings%failures)//line_feed//buffer_text(findings%failure_lines)
+  end function findings_log
+
+  !> Grashof class, limit positions, extreme transmission angles: what to know of the linkage before its tables.
+  pure function linkage_notes(mechanism, positions) result(notes)
+    type(mechanism_t), intent(in) :: mechanism
+    type(positions_t), intent(in) :: positions
+    type(string_t), allocatable :: notes(:)
+
+    type(reach_t) :: reach
+    character(len=:), allocatable :: limits
+    real(wp) :: angle, least, most
+    real(wp), allocatable :: at_limits(:)
+    integer :: i, at_least, at_most
+
+    associate (ground => mechanism%linkage%ground_position(:, [1, 4]), length => mechanism%linkage%bodies%length)
+      reach = crank_reach(ground, length)
+      notes = [string_t(grashof_class(norm2(ground(:, 2) - ground(:, 1)), length))]
+    end associate
+    at_limits = limit_angles(reach)
+    limits = "limit positions of the crank: none"
+    do i = 1, size(at_limits)
+      if (i == 1) limits = "limit positions of the crank:"
+      limits = limits//" "//to_string(modulo(at_limits(i), 360.0_wp), 9)
+    end do
+    if (size(at_limits) > 0) limits = limits//" deg"
+    notes = [notes, string_t(limits)]
+
+    least = huge(least)
+    most = -1.0_wp
+    at_least = 0
+    at_most = 0
+    do i = 1, size(positions%crank)
+      associate (state => positions%states(positions%state(i)))
+        if (allocated(state%error)) cycle
+        angle = transmission_angle(mechanism%linkage, state%pose, 1)/degree
+      end associate
+      if (angle < least) at_least = i
+      if (angle > most) at_most = i
+      least = min(least, angle)
+      most = max(most, angle)
+    end do
+    if (at_least == 0) return
+    notes = [notes, string_t("transmission angle: "//to_string(least)//" deg at crank "// &
+      to_string(positions%crank(at_least), 10)//" to "//to_string(most)//" deg at crank "// &
+      to_string(positions%crank(at_most), 10))]
+  end function linkage_notes
+
+end module run_findings

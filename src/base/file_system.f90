@@ -1,0 +1,141 @@
+!> The few calls of the operating system that Fortran does not have.
+module file_system
+  use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_ptr
+  implicit none (type, external)
+  private
+
+  public :: is_directory, make_directories, rename_file, remove_file, remove_empty_directory
+  public :: base_name, joined_path, standard_error_is_terminal
+
+  interface
+    function c_opendir(path) bind(c, name="opendir") result(directory)
+      import :: c_char, c_ptr
+      character(kind=c_char), intent(in) :: path(*)
+      type(c_ptr) :: directory
+    end function c_opendir
+
+    function c_closedir(directory) bind(c, name="closedir") result(status)
+      import :: c_int, c_ptr
+      type(c_ptr), value :: directory
+      integer(c_int) :: status
+    end function c_closedir
+
+    !> `mode_t` is an unsigned integer of 16 or 32 bits on every system that has it; passed by value both arrive as `int`.
+    function c_mkdir(path, mode) bind(c, name="mkdir") result(status)
+      import :: c_char, c_int
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int), value :: mode
+      integer(c_int) :: status
+    end function c_mkdir
+
+    function c_rename(from, to) bind(c, name="rename") result(status)
+      import :: c_char, c_int
+      character(kind=c_char), intent(in) :: from(*), to(*)
+      integer(c_int) :: status
+    end function c_rename
+
+    function c_unlink(path) bind(c, name="unlink") result(status)
+      import :: c_char, c_int
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int) :: status
+    end function c_unlink
+
+    function c_rmdir(path) bind(c, name="rmdir") result(status)
+      import :: c_char, c_int
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int) :: status
+    end function c_rmdir
+
+    function c_isatty(descriptor) bind(c, name="isatty") result(status)
+      import :: c_int
+      integer(c_int), value :: descriptor
+      integer(c_int) :: status
+    end function c_isatty
+  end interface
+
+contains
+
+  function is_directory(path) result(is)
+    character(len=*), intent(in) :: path
+    logical :: is
+
+    type(c_ptr) :: directory
+
+    directory = c_opendir(path//c_null_char)
+    is = c_associated(directory)
+    if (is) is = c_closedir(directory) == 0
+  end function is_directory
+
+  !> Makes a folder and those above it; `made` tells whether it is there in the end.
+  subroutine make_directories(path, made)
+    character(len=*), intent(in) :: path
+    logical, intent(out) :: made
+
+    integer(c_int), parameter :: everybody = int(o'777', c_int) ! less what the user's umask takes away
+    integer :: at
+    integer(c_int) :: status
+
+    do at = 2, len(path)
+      if (path(at:at) /= "/") cycle
+      if (.not. is_directory(path(:at - 1))) status = c_mkdir(path(:at - 1)//c_null_char, everybody)
+    end do
+    if (.not. is_directory(path)) status = c_mkdir(path//c_null_char, everybody)
+    made = is_directory(path)
+  end subroutine make_directories
+
+  subroutine rename_file(from, to, done)
+    character(len=*), intent(in) :: from, to
+    logical, intent(out) :: done
+
+    done = c_rename(from//c_null_char, to//c_null_char) == 0
+  end subroutine rename_file
+
+  !> Removes a file; that it is not there is as good.
+  subroutine remove_file(path)
+    character(len=*), intent(in) :: path
+
+    integer(c_int) :: status
+
+    status = c_unlink(path//c_null_char)
+  end subroutine remove_file
+
+  !> Removes a folder if nothing is in it.
+  subroutine remove_empty_directory(path)
+    character(len=*), intent(in) :: path
+
+    integer(c_int) :: status
+
+    status = c_rmdir(path//c_null_char)
+  end subroutine remove_empty_directory
+
+  !> The last part of a path without its last extension: `inputs/one.deck` gives `one`.
+  pure function base_name(path) result(name)
+    character(len=*), intent(in) :: path
+    character(len=:), allocatable :: name
+
+    integer :: dot
+
+    name = path(index(path, "/", back=.true.) + 1:)
+    dot = index(name, ".", back=.true.)
+    if (dot > 1) name = name(:dot - 1)
+  end function base_name
+
+  pure function joined_path(folder, name) result(path)
+    character(len=*), intent(in) :: folder, name
+    character(len=:), allocatable :: path
+
+    path = folder//"/"//name
+    if (len(folder) > 0) then
+      if (folder(len(folder):) == "/") path = folder//name
+    end if
+  end function joined_path
+
+  function standard_error_is_terminal() result(is)
+    logical :: is
+
+    integer(c_int), parameter :: standard_error = 2_c_int
+
+    is = c_isatty(standard_error) /= 0
+  end function standard_error_is_terminal
+
+end module file_system

@@ -1,0 +1,138 @@
+!> The one converter from text to numbers.
+!!
+!! Fortran's own list-directed `read` takes `/`, `1,000`, `2*3.5` and `nan` for numbers; a deck must not.
+module numbers
+  use kinds, only: wp
+  implicit none (type, external)
+  private
+
+  public :: number_length, read_real, read_integer
+
+contains
+
+  !> How many leading characters of `string` form a number; 0 if it does not begin with one.
+  !!
+  !! A number is `[sign] digits [. digits] [e|d [sign] digits]` with at least one digit before the exponent. The letter is an
+  !! exponent only before a digit or a sign, so that `10deg` is 10 and a unit.
+  pure function number_length(string) result(length)
+    character(len=*), intent(in) :: string
+    integer :: length
+
+    integer :: at, whole, fraction, exponent_start
+
+    length = 0
+    at = 1
+    if (at <= len(string)) then
+      if (scan(string(at:at), "+-") == 1) at = at + 1
+    end if
+    whole = digit_count(string, at)
+    at = at + whole
+    fraction = 0
+    if (at <= len(string)) then
+      if (string(at:at) == ".") then
+        fraction = digit_count(string, at + 1)
+        at = at + 1 + fraction
+      end if
+    end if
+    if (whole + fraction == 0) return
+    length = at - 1
+
+    if (at + 1 > len(string)) return
+    if (scan(string(at:at), "eEdD") == 0) return
+    exponent_start = at + 1
+    if (scan(string(at + 1:at + 1), "+-") == 1) exponent_start = at + 2
+    if (exponent_start > at + 1 .or. digit_count(string, exponent_start) > 0) then
+      length = exponent_start - 1 + digit_count(string, exponent_start)
+    end if
+  end function number_length
+
+  !> Number of consecutive decimal digits from position `start` on.
+  pure function digit_count(string, start) result(count)
+    character(len=*), intent(in) :: string
+    integer, intent(in) :: start
+    integer :: count
+
+    count = 0
+    do while (start + count <= len(string))
+      if (scan(string(start + count:start + count), "0123456789") == 0) exit
+      count = count + 1
+    end do
+  end function digit_count
+
+  !> Reads a text that is a number and nothing else.
+  !!
+  !! `problem` is empty, or says in words why the text is not a number that a double can hold.
+  pure subroutine read_real(string, value, problem)
+    character(len=*), intent(in) :: string
+    real(wp), intent(out) :: value
+    character(len=:), allocatable, intent(out) :: problem
+
+    character(len=len(string)) :: digits
+    character(len=32) :: form
+    integer :: i, status
+
+    value = 0.0_wp
+    if (number_length(string) /= len(string) .or. len(string) == 0) then
+      problem = "'"//string//"' is not a number"
+      return
+    end if
+    if (scan(string(len(string):), "+-") == 1) then
+      problem = "the exponent of '"//string//"' has no digits"
+      return
+    end if
+    do i = 1, len(string)
+      digits(i:i) = string(i:i)
+      if (scan(string(i:i), "dD") == 1) digits(i:i) = "e"
+    end do
+    write (form, "(a,i0,a)") "(f", len(string), ".0)"
+    read (digits, form, iostat=status) value
+    if (status /= 0 .or. abs(value) > huge(value)) then
+      problem = "'"//string//"' is too large for a number"
+      value = 0.0_wp
+    else if (abs(value) < tiny(value) .and. has_significant_digit(digits)) then
+      problem = "'"//string//"' is too small for a number"
+    else
+      problem = ""
+    end if
+  end subroutine read_real
+
+  !> Whether the digits before the exponent hold anything but zeros.
+  pure function has_significant_digit(digits) result(has)
+    character(len=*), intent(in) :: digits
+    logical :: has
+
+    integer :: mantissa_end
+
+    mantissa_end = scan(digits, "eE") - 1
+    if (mantissa_end < 0) mantissa_end = len(digits)
+    has = scan(digits(:mantissa_end), "123456789") > 0
+  end function has_significant_digit
+
+  !> Reads a text that is a whole number and nothing else; `problem` as for `read_real`.
+  pure subroutine read_integer(string, value, problem)
+    character(len=*), intent(in) :: string
+    integer, intent(out) :: value
+    character(len=:), allocatable, intent(out) :: problem
+
+    character(len=32) :: form
+    integer :: first, status
+
+    value = 0
+    first = 1
+    if (len(string) > 1) then
+      if (scan(string(1:1), "+-") == 1) first = 2
+    end if
+    if (len(string) == 0 .or. digit_count(string, first) /= len(string) - first + 1) then
+      problem = "'"//string//"' is not a whole number"
+      return
+    end if
+    write (form, "(a,i0,a)") "(i", len(string), ")"
+    read (string, form, iostat=status) value
+    problem = ""
+    if (status /= 0) then
+      value = 0
+      problem = "'"//string//"' is too large for a whole number"
+    end if
+  end subroutine read_integer
+
+end module numbers

@@ -1,0 +1,74 @@
+!> Nearest spelling of a misspelt word.
+module spelling
+  use text, only: lower_case, string_t
+  implicit none (type, external)
+  private
+
+  public :: nearest_word, suggestion, edit_distance
+
+  !> Words longer than this are not compared: no name of a deck is, and the comparison is quadratic.
+  integer, parameter :: longest_compared = 64
+
+contains
+
+  !> ` (did you mean 'steel'?)` if one of the candidates is near enough, else nothing.
+  pure function suggestion(word, candidates) result(phrase)
+    character(len=*), intent(in) :: word
+    type(string_t), intent(in) :: candidates(:)
+    character(len=:), allocatable :: phrase
+
+    integer :: nearest
+
+    nearest = nearest_word(word, candidates)
+    phrase = ""
+    if (nearest > 0) phrase = " (did you mean '"//candidates(nearest)%text//"'?)"
+  end function suggestion
+
+  !> Number of the candidate nearest to `word`; 0 if none is within a third of its length (one letter at least).
+  pure function nearest_word(word, candidates) result(nearest)
+    character(len=*), intent(in) :: word
+    type(string_t), intent(in) :: candidates(:)
+    integer :: nearest
+
+    integer :: i, distance, best
+
+    nearest = 0
+    if (len(word) > longest_compared) return
+    best = max(1, (len(word) + 1)/3) + 1
+    do i = 1, size(candidates)
+      if (abs(len(candidates(i)%text) - len(word)) >= best) cycle
+      distance = edit_distance(lower_case(word), lower_case(candidates(i)%text))
+      ! A word of one or two letters is near everything; only a slip in one letter of more, or of case, is a spelling.
+      if (distance > 0 .and. distance >= max(len(word), len(candidates(i)%text))) cycle
+      if (distance < best) then
+        best = distance
+        nearest = i
+      end if
+    end do
+  end function nearest_word
+
+  !> Smallest number of insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
+  !!
+  !! Optimal string alignment distance (Damerau 1964).
+  pure function edit_distance(a, b) result(distance)
+    character(len=*), intent(in) :: a, b
+    integer :: distance
+
+    integer :: cost(0:len(a), 0:len(b)), i, j, replacement
+
+    cost(:, 0) = [(i, i=0, len(a))]
+    cost(0, :) = [(j, j=0, len(b))]
+    do j = 1, len(b)
+      do i = 1, len(a)
+        replacement = merge(0, 1, a(i:i) == b(j:j))
+        cost(i, j) = min(cost(i - 1, j) + 1, cost(i, j - 1) + 1, cost(i - 1, j - 1) + replacement)
+        if (i == 1 .or. j == 1) cycle
+        if (a(i:i) == b(j - 1:j - 1) .and. a(i - 1:i - 1) == b(j:j)) then
+          cost(i, j) = min(cost(i, j), cost(max(0, i - 2), max(0, j - 2)) + 1)
+        end if
+      end do
+    end do
+    distance = cost(len(a), len(b))
+  end function edit_distance
+
+end module spelling

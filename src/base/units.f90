@@ -1,0 +1,306 @@
+!> Units of measurement: names, dimensions and exact factors to SI.
+!!
+!! A factor is kept as a fraction of whole numbers (mm = 1/1000, in = 254/10000), so that 254 mm becomes the double nearest
+!! to 0.254 m and comes back as 254 mm.
+module units
+  use constants, only: pi
+  use kinds, only: wp
+  use spelling, only: suggestion
+  use text, only: string_t, to_string
+  implicit none (type, external)
+  private
+
+  public :: unit_t, unit_system_t, dimension_name, read_unit, new_unit_system, coherent_unit, to_si, from_si
+  public :: dimension_none, dimension_length, dimension_mass, dimension_time, dimension_angle, dimension_rate
+  public :: dimension_angular_acceleration, dimension_velocity, dimension_acceleration, dimension_force, dimension_moment
+  public :: dimension_stress, dimension_density, dimension_area, dimension_second_moment
+
+  !> Exponents of length, mass, time and angle. An angle counts as a dimension here, so that rpm and 1/s stay apart.
+  integer, parameter :: dimension_none(4) = [0, 0, 0, 0]
+  integer, parameter :: dimension_length(4) = [1, 0, 0, 0]
+  integer, parameter :: dimension_mass(4) = [0, 1, 0, 0]
+  integer, parameter :: dimension_time(4) = [0, 0, 1, 0]
+  integer, parameter :: dimension_angle(4) = [0, 0, 0, 1]
+  integer, parameter :: dimension_rate(4) = [0, 0, -1, 1]
+  integer, parameter :: dimension_angular_acceleration(4) = [0, 0, -2, 1]
+  integer, parameter :: dimension_velocity(4) = [1, 0, -1, 0]
+  integer, parameter :: dimension_acceleration(4) = [1, 0, -2, 0]
+  integer, parameter :: dimension_force(4) = [1, 1, -2, 0]
+  integer, parameter :: dimension_moment(4) = [2, 1, -2, 0]
+  integer, parameter :: dimension_stress(4) = [-1, 1, -2, 0]
+  integer, parameter :: dimension_density(4) = [-3, 1, 0, 0]
+  integer, parameter :: dimension_area(4) = [2, 0, 0, 0]
+  integer, parameter :: dimension_second_moment(4) = [4, 0, 0, 0]
+
+  type :: unit_t
+    character(len=:), allocatable :: name
+    integer :: dimension(4) = 0         !! exponents of length, mass, time, angle
+    real(wp) :: numerator = 1.0_wp      !! value in SI = value × numerator/denominator
+    real(wp) :: denominator = 1.0_wp
+  end type unit_t
+
+  !> What bare numbers of a deck mean.
+  type :: unit_system_t
+    type(unit_t) :: length
+    type(unit_t) :: mass
+    type(unit_t) :: time
+  end type unit_system_t
+
+  !> 1 lbf = 1 lbm × 9.80665 m/s²; 1 lbm = 0.45359237 kg; 1 in = 0.0254 m: all exact by definition.
+  real(wp), parameter :: lbm(2) = [45359237.0_wp, 100000000.0_wp]
+  real(wp), parameter :: gravity(2) = [980665.0_wp, 100000.0_wp]
+
+contains
+
+  !> Every unit that has a name of its own; the others are products of their powers.
+  pure function named_units() result(list)
+    type(unit_t), allocatable :: list(:)
+
+    list = [ &
+      unit("m", dimension_length, 1.0_wp, 1.0_wp), unit("mm", dimension_length, 1.0_wp, 1000.0_wp), &
+      unit("cm", dimension_length, 1.0_wp, 100.0_wp), unit("in", dimension_length, 254.0_wp, 10000.0_wp), &
+      unit("ft", dimension_length, 3048.0_wp, 10000.0_wp), &
+      unit("kg", dimension_mass, 1.0_wp, 1.0_wp), unit("g", dimension_mass, 1.0_wp, 1000.0_wp), &
+      unit("tonne", dimension_mass, 1000.0_wp, 1.0_wp), unit("lbm", dimension_mass, lbm(1), lbm(2)), &
+      unit("slug", dimension_mass, lbm(1)/1.0e4_wp*gravity(1), lbm(2)/1.0e4_wp*gravity(2)*0.3048_wp), &
+      unit("slinch", dimension_mass, lbm(1)/1.0e4_wp*gravity(1), lbm(2)/1.0e4_wp*gravity(2)*0.0254_wp), &
+      unit("s", dimension_time, 1.0_wp, 1.0_wp), unit("ms", dimension_time, 1.0_wp, 1000.0_wp), &
+      unit("N", dimension_force, 1.0_wp, 1.0_wp), unit("kN", dimension_force, 1000.0_wp, 1.0_wp), &
+      unit("lbf", dimension_force, lbm(1)/1.0e4_wp*gravity(1), lbm(2)/1.0e4_wp*gravity(2)), &
+      unit("Pa", dimension_stress, 1.0_wp, 1.0_wp), unit("kPa", dimension_stress, 1.0e3_wp, 1.0_wp), &
+      unit("MPa", dimension_stress, 1.0e6_wp, 1.0_wp), unit("GPa", dimension_stress, 1.0e9_wp, 1.0_wp), &
+      unit("psi", dimension_stress, lbm(1)/1.0e4_wp*gravity(1), lbm(2)/1.0e4_wp*gravity(2)*0.00064516_wp), &
+      unit("ksi", dimension_stress, lbm(1)/1.0e1_wp*gravity(1), lbm(2)/1.0e4_wp*gravity(2)*0.00064516_wp), &
+      unit("rad", dimension_angle, 1.0_wp, 1.0_wp), unit("deg", dimension_angle, pi, 180.0_wp), &
+      unit("rpm", dimension_rate, pi, 30.0_wp)]
+  end function named_units
+
+  pure function unit(name, dimension, numerator, denominator)
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: dimension(4)
+    real(wp), intent(in) :: numerator, denominator
+    type(unit_t) :: unit
+
+    unit%name = name
+    unit%dimension = dimension
+    unit%numerator = numerator
+    unit%denominator = denominator
+  end function unit
+
+  !> Reads `mm`, `kg/m3`, `N/mm^2`, `lbf*s2/in`, …
+  !!
+  !! Powers are whole numbers behind a name, with or without `^`; after a `/` everything up to the next `*` divides. Names keep
+  !! the case in which they are written. `problem` is empty, or names the part that is not a unit.
+  pure subroutine read_unit(text, measure, problem)
+    character(len=*), intent(in) :: text
+    type(unit_t), intent(out) :: measure
+    character(len=:), allocatable, intent(out) :: problem
+
+    integer :: first, last, step
+
+    problem = ""
+    measure = unit(text, dimension_none, 1.0_wp, 1.0_wp)
+    first = 1
+    step = 1
+    do
+      last = first - 1 + scan(text(first:)//"*", "*/") - 1
+      call multiply_by_power(measure, text(first:last), step, problem)
+      if (len(problem) > 0 .or. last >= len(text)) return
+      step = merge(-1, 1, text(last + 1:last + 1) == "/")
+      first = last + 2
+    end do
+  end subroutine read_unit
+
+  !> Multiplies (`step = 1`) or divides (`step = -1`) a unit by a named unit to a power.
+  pure subroutine multiply_by_power(measure, factor, step, problem)
+    type(unit_t), intent(inout) :: measure
+    character(len=*), intent(in) :: factor
+    integer, intent(in) :: step
+    character(len=:), allocatable, intent(inout) :: problem
+
+    type(unit_t), allocatable :: known(:)
+    type(string_t), allocatable :: names(:)
+    character(len=:), allocatable :: name
+    integer :: i, power, name_length
+
+    power = 1
+    name_length = len(factor)
+    if (name_length > 1) then
+      i = scan("123456789", factor(name_length:))
+      if (i > 0) then
+        power = i
+        name_length = name_length - 1
+        if (name_length > 1 .and. factor(name_length:name_length) == "^") name_length = name_length - 1
+      end if
+    end if
+    name = factor(:name_length)
+
+    known = named_units()
+    do i = 1, size(known)
+      if (len(known(i)%name) /= len(name)) cycle
+      if (known(i)%name /= name) cycle
+      measure%dimension = measure%dimension + step*power*known(i)%dimension
+      call multiply(measure, known(i), step*power)
+      return
+    end do
+    allocate (names(size(known)))
+    do i = 1, size(known)
+      names(i)%text = known(i)%name
+    end do
+    problem = "unknown unit '"//name//"'"//suggestion(name, names)
+  end subroutine multiply_by_power
+
+  pure function new_unit_system(length, mass, time) result(system)
+    type(unit_t), intent(in) :: length, mass, time
+    type(unit_system_t) :: system
+
+    system%length = length
+    system%mass = mass
+    system%time = time
+  end function new_unit_system
+
+  !> The unit in which a deck means a bare number of the given dimension.
+  !!
+  !! Angles are degrees and speeds rad/s whatever the UNITS card says; everything else follows from it.
+  pure function coherent_unit(system, dimension) result(measure)
+    type(unit_system_t), intent(in) :: system
+    integer, intent(in) :: dimension(4)
+    type(unit_t) :: measure
+
+    if (dimension(4) /= 0) then
+      if (all(dimension == dimension_angle)) measure = unit("deg", dimension, pi, 180.0_wp)
+      if (all(dimension == dimension_rate)) measure = unit("rad/s", dimension, 1.0_wp, 1.0_wp)
+      if (all(dimension == dimension_angular_acceleration)) measure = unit("rad/s2", dimension, 1.0_wp, 1.0_wp)
+      return
+    end if
+    measure = unit("", dimension, 1.0_wp, 1.0_wp)
+    call multiply(measure, system%length, dimension(1))
+    call multiply(measure, system%mass, dimension(2))
+    call multiply(measure, system%time, dimension(3))
+    measure%name = coherent_name(system, measure)
+  end function coherent_unit
+
+  !> Multiplies the factor of a unit by that of another to a power of either sign.
+  pure subroutine multiply(measure, factor, power)
+    type(unit_t), intent(inout) :: measure
+    type(unit_t), intent(in) :: factor
+    integer, intent(in) :: power
+
+    if (power >= 0) then
+      measure%numerator = measure%numerator*factor%numerator**power
+      measure%denominator = measure%denominator*factor%denominator**power
+    else
+      measure%numerator = measure%numerator*factor%denominator**(-power)
+      measure%denominator = measure%denominator*factor%numerator**(-power)
+    end if
+  end subroutine multiply
+
+  !> `N` where the unit has such a name of its own, else `lbm.in/s2` or the like.
+  pure function coherent_name(system, measure) result(name)
+    type(unit_system_t), intent(in) :: system
+    type(unit_t), intent(in) :: measure
+    character(len=:), allocatable :: name
+
+    type(unit_t), allocatable :: known(:)
+    integer :: i
+
+    known = named_units()
+    do i = 1, size(known)
+      if (all(measure%dimension == dimension_moment) .and. all(known(i)%dimension == dimension_force)) then
+        if (same_factor(measure, product_of(known(i), system%length))) then
+          name = known(i)%name//"."//system%length%name
+          return
+        end if
+      end if
+      if (any(known(i)%dimension /= measure%dimension)) cycle
+      if (.not. same_factor(measure, known(i))) cycle
+      name = known(i)%name
+      return
+    end do
+    name = factors_name(system, measure%dimension(:3))
+    if (any(measure%dimension(:3) < 0)) then
+      if (len(name) == 0) name = "1"
+      name = name//"/"//factors_name(system, -measure%dimension(:3))
+    end if
+    if (len(name) == 0) name = "-"
+  end function coherent_name
+
+  pure function same_factor(a, b) result(same)
+    type(unit_t), intent(in) :: a, b
+    logical :: same
+
+    same = abs(a%numerator*b%denominator - b%numerator*a%denominator) <= 1.0e-12_wp*abs(b%numerator*a%denominator)
+  end function same_factor
+
+  pure function product_of(a, b) result(c)
+    type(unit_t), intent(in) :: a, b
+    type(unit_t) :: c
+
+    c = unit(a%name//"."//b%name, a%dimension + b%dimension, a%numerator*b%numerator, a%denominator*b%denominator)
+  end function product_of
+
+  !> `tonne.mm2`: the factors of positive power, mass first.
+  pure function factors_name(system, exponents) result(name)
+    type(unit_system_t), intent(in) :: system
+    integer, intent(in) :: exponents(3) !! of length, mass and time
+    character(len=:), allocatable :: name
+
+    integer, parameter :: in_order(3) = [2, 1, 3]
+    type(string_t) :: factor(3)
+    integer :: i, power
+
+    factor(1)%text = system%mass%name
+    factor(2)%text = system%length%name
+    factor(3)%text = system%time%name
+    name = ""
+    do i = 1, 3
+      power = exponents(in_order(i))
+      if (power < 1) cycle
+      if (len(name) > 0) name = name//"."
+      name = name//factor(i)%text
+      if (power > 1) name = name//to_string(power)
+    end do
+  end function factors_name
+
+  !> A dimension in words, for messages.
+  pure function dimension_name(dimension) result(name)
+    integer, intent(in) :: dimension(4)
+    character(len=:), allocatable :: name
+
+    name = "a quantity of another kind"
+    if (all(dimension == dimension_none)) name = "a pure number"
+    if (all(dimension == dimension_length)) name = "a length"
+    if (all(dimension == dimension_mass)) name = "a mass"
+    if (all(dimension == dimension_time)) name = "a time"
+    if (all(dimension == dimension_angle)) name = "an angle"
+    if (all(dimension == dimension_rate)) name = "an angular velocity"
+    if (all(dimension == dimension_angular_acceleration)) name = "an angular acceleration"
+    if (all(dimension == dimension_velocity)) name = "a velocity"
+    if (all(dimension == dimension_acceleration)) name = "an acceleration"
+    if (all(dimension == dimension_force)) name = "a force"
+    if (all(dimension == dimension_moment)) name = "a moment"
+    if (all(dimension == dimension_stress)) name = "a stress"
+    if (all(dimension == dimension_density)) name = "a density"
+    if (all(dimension == dimension_area)) name = "an area"
+    if (all(dimension == dimension_second_moment)) name = "a second moment of area"
+  end function dimension_name
+
+  !> A value in the given unit, in SI.
+  elemental function to_si(value, measure) result(si)
+    real(wp), intent(in) :: value
+    type(unit_t), intent(in) :: measure
+    real(wp) :: si
+
+    si = value*measure%numerator/measure%denominator
+  end function to_si
+
+  !> A value in SI, in the given unit.
+  elemental function from_si(si, measure) result(value)
+    real(wp), intent(in) :: si
+    type(unit_t), intent(in) :: measure
+    real(wp) :: value
+
+    value = si*measure%denominator/measure%numerator
+  end function from_si
+
+end module units

@@ -1,0 +1,73 @@
+!> Axial force in every element, by equilibrium of the part of the link beyond it.
+module axial_forces
+  use beam_mesh, only: beam_mesh_t, element_count, element_length
+  use inertia_loads, only: lumped_masses, lumped_stations
+  use joint_forces, only: joint_forces_t
+  use kinds, only: wp
+  use linkages, only: linkage_t
+  use motions, only: acceleration_field_t, point_acceleration
+  use poses, only: pose_t
+  implicit none (type, external)
+  private
+
+  public :: lumped_axial_forces, distributed_axial_forces
+
+contains
+
+  !> With all mass on the nodes the force is constant in each element.
+  pure function lumped_axial_forces(linkage, mesh, pose, field, joints) result(force)
+    type(linkage_t), intent(in) :: linkage
+    type(beam_mesh_t), intent(in) :: mesh
+    type(pose_t), intent(in) :: pose
+    type(acceleration_field_t), intent(in) :: field
+    type(joint_forces_t), intent(in) :: joints
+    real(wp), allocatable :: force(:, :) !! (0:2, elements) coefficients of 1, ξ, ξ², tension positive [N]
+
+    real(wp), allocatable :: masses(:), stations(:)
+    real(wp) :: beyond
+    integer :: body, i
+
+    allocate (force(0:2, element_count(mesh)))
+    force = 0.0_wp
+    do body = 1, size(linkage%bodies)
+      masses = lumped_masses(linkage%bodies(body), mesh%elements(body))
+      stations = lumped_stations(linkage%bodies(body), mesh%elements(body))
+      beyond = dot_product(pose%direction(:, body), joints%on_last(:, body))
+      do i = mesh%elements(body), 1, -1
+        beyond = beyond - masses(i + 1)*dot_product(pose%direction(:, body), point_acceleration(field, body, stations(i + 1)))
+        force(0, mesh%first_element(body) + i - 1) = beyond
+      end do
+    end do
+  end function lumped_axial_forces
+
+  !> With uniform mass `N(s) = e·F_last − μ ∫ e·a ds` from s to the last pin: quadratic along the link, so in each element too.
+  pure function distributed_axial_forces(linkage, mesh, pose, field, joints) result(force)
+    type(linkage_t), intent(in) :: linkage
+    type(beam_mesh_t), intent(in) :: mesh
+    type(pose_t), intent(in) :: pose
+    type(acceleration_field_t), intent(in) :: field
+    type(joint_forces_t), intent(in) :: joints
+    real(wp), allocatable :: force(:, :) !! (0:2, elements) coefficients of 1, ξ, ξ², tension positive [N]
+
+    real(wp) :: along, growth, length, left, mu
+    integer :: body, i
+
+    allocate (force(0:2, element_count(mesh)))
+    do body = 1, size(linkage%bodies)
+      associate (e => pose%direction(:, body), this => linkage%bodies(body))
+        mu = this%line_density
+        along = dot_product(e, field%at_first(:, body))
+        growth = dot_product(e, field%slope(:, body))
+        length = element_length(mesh, linkage, body)
+        do i = 1, mesh%elements(body)
+          left = (i - 1)*length
+          force(:, mesh%first_element(body) + i - 1) = [ &
+            dot_product(e, joints%on_last(:, body)) - mu*(this%length - left)*(along + 0.5_wp*growth*(this%length + left)), &
+            mu*length*(along + growth*left), &
+            0.5_wp*mu*growth*length**2]
+        end do
+      end associate
+    end do
+  end function distributed_axial_forces
+
+end module axial_forces

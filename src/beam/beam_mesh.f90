@@ -1,0 +1,122 @@
+!> Nodes, elements and unknowns of a linkage of beams.
+!!
+!! Nodes are numbered round the loop as in the thesis: every body has its own nodes, so that a pin between two bodies is two
+!! nodes in one place. Unknowns are numbered along the same way; at a pin the rotation of the body that ends comes before the
+!! displacements that both share, and these before the rotation of the body that begins. So the half bandwidth of a chain of
+!! bodies is 5, whatever the mesh.
+module beam_mesh
+  use kinds, only: wp
+  use linkages, only: linkage_t
+  implicit none (type, external)
+  private
+
+  public :: beam_t, beam_mesh_t, new_beam_mesh, element_count, node_count, element_length
+
+  !> What a body is made of, as a beam.
+  type :: beam_t
+    real(wp) :: axial_stiffness = 0.0_wp   !! EA [N]
+    real(wp) :: bending_stiffness = 0.0_wp !! EI [N m²]
+  end type beam_t
+
+  type :: beam_mesh_t
+    integer, allocatable :: elements(:)       !! (bodies) elements of each body, all of one length
+    integer, allocatable :: first_element(:)  !! (bodies) number of its first element
+    integer, allocatable :: first_node(:)     !! (bodies) number of its first node; its element i joins nodes i and i + 1 from here
+    integer, allocatable :: unknown(:, :)     !! (6, elements) of u1 v1 θ1 u2 v2 θ2 in global axes; 0: held
+    integer, allocatable :: pin_unknown(:, :) !! (2, pins) of the displacements of pins; 0: held
+    integer :: unknowns = 0
+    integer :: half_bandwidth = 0
+  end type beam_mesh_t
+
+contains
+
+  !> Numbers nodes and unknowns. The driven body is clamped at its first pin, the other grounds hold their pin (thesis, 3.2.2).
+  pure function new_beam_mesh(linkage, elements) result(mesh)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: elements(:) !! (bodies)
+    type(beam_mesh_t) :: mesh
+
+    integer :: body, i, node(3), last_node(3)
+    logical :: placed(size(linkage%is_ground))
+
+    mesh%elements = elements
+    mesh%first_element = [(1 + sum(elements(:body - 1)), body=1, size(elements))]
+    mesh%first_node = [(body + sum(elements(:body - 1)), body=1, size(elements))]
+    allocate (mesh%unknown(6, sum(elements)), mesh%pin_unknown(2, size(linkage%is_ground)))
+    mesh%pin_unknown = 0
+    placed = linkage%is_ground
+
+    do body = 1, size(elements)
+      associate (first => linkage%bodies(body)%first_pin, last => linkage%bodies(body)%last_pin, &
+          start => mesh%first_element(body))
+        call place_pin(mesh, first, placed)
+        last_node = [mesh%pin_unknown(:, first), 0]
+        if (body > 1 .or. .not. linkage%is_ground(first)) call add_unknowns(mesh, last_node(3:3))
+        do i = 1, elements(body)
+          if (i < elements(body)) then
+            call add_unknowns(mesh, node)
+          else
+            call add_unknowns(mesh, node(3:3))
+            call place_pin(mesh, last, placed)
+            node(:2) = mesh%pin_unknown(:, last)
+          end if
+          mesh%unknown(:, start + i - 1) = [last_node, node]
+          last_node = node
+        end do
+      end associate
+    end do
+    mesh%half_bandwidth = 0
+    do i = 1, size(mesh%unknown, 2)
+      associate (column => mesh%unknown(:, i))
+        mesh%half_bandwidth = max(mesh%half_bandwidth, maxval(column) - minval(column, mask=column > 0))
+      end associate
+    end do
+  end function new_beam_mesh
+
+  !> Gives the next numbers to unknowns.
+  pure subroutine add_unknowns(mesh, unknown)
+    type(beam_mesh_t), intent(inout) :: mesh
+    integer, intent(out) :: unknown(:)
+
+    integer :: i
+
+    unknown = [(mesh%unknowns + i, i=1, size(unknown))]
+    mesh%unknowns = mesh%unknowns + size(unknown)
+  end subroutine add_unknowns
+
+  !> Numbers the displacements of a pin when the first body reaches it.
+  pure subroutine place_pin(mesh, pin, placed)
+    type(beam_mesh_t), intent(inout) :: mesh
+    integer, intent(in) :: pin
+    logical, intent(inout) :: placed(:) !! (pins) grounds are placed from the beginning
+
+    if (placed(pin)) return
+    call add_unknowns(mesh, mesh%pin_unknown(:, pin))
+    placed(pin) = .true.
+  end subroutine place_pin
+
+  pure function element_count(mesh) result(count)
+    type(beam_mesh_t), intent(in) :: mesh
+    integer :: count
+
+    count = size(mesh%unknown, 2)
+  end function element_count
+
+  pure function node_count(mesh) result(count)
+    type(beam_mesh_t), intent(in) :: mesh
+    integer :: count
+
+    count = size(mesh%unknown, 2) + size(mesh%elements)
+  end function node_count
+
+  !> Length of the elements of a body [m].
+  pure function element_length(mesh, linkage, body) result(length)
+    type(beam_mesh_t), intent(in) :: mesh
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: body
+    real(wp) :: length
+
+    length = linkage%bodies(body)%length/mesh%elements(body)
+  end function element_length
+
+end module beam_mesh

@@ -1,0 +1,38 @@
+!> How much the rounding of assembled matrices can disturb eigenvalues.
+module round_off
+  use beam_mesh, only: beam_mesh_t, beam_t, element_length
+  use kinds, only: wp
+  use linkages, only: linkage_t
+  implicit none (type, external)
+  private
+
+  public :: round_off_error
+
+contains
+
+  !> `ε ‖K_e‖/‖M_e‖`, the largest over all bodies: the error of an eigenvalue λ from the rounding of K alone [1/s²].
+  !!
+  !! Element stiffnesses grow without bound as elements shrink, and in a smooth mode nearly all of them cancels. A solver in nodal
+  !! unknowns cannot undo it, and residuals and counts of the same matrices do not show it.
+  pure function round_off_error(linkage, beams, mesh, body) result(error)
+    type(linkage_t), intent(in) :: linkage
+    type(beam_t), intent(in) :: beams(:) !! (bodies)
+    type(beam_mesh_t), intent(in) :: mesh
+    integer, intent(in), optional :: body !! of this body only
+    real(wp) :: error
+
+    real(wp) :: length, stiffness
+    integer :: i
+
+    error = 0.0_wp
+    do i = 1, size(beams)
+      if (present(body)) then
+        if (i /= body) cycle
+      end if
+      length = element_length(mesh, linkage, i)
+      stiffness = max(2.0_wp*beams(i)%axial_stiffness/length, 24.0_wp*beams(i)%bending_stiffness/length**3)
+      error = max(error, epsilon(1.0_wp)*stiffness/(linkage%bodies(i)%line_density*length))
+    end do
+  end function round_off_error
+
+end module round_off

@@ -1,0 +1,220 @@
+!> Cards: a keyword, words and `key=value` entries.
+module cards
+  use deck_source, only: line_count, source_line, source_t
+  use diagnostics, only: add_error, diagnostics_t
+  use text, only: character_count, same_word
+  use tokens, only: code_length, split_words, token_t
+  implicit none (type, external)
+  private
+
+  public :: card_t, entry_t, read_cards
+
+  type :: entry_t
+    type(token_t) :: key
+    type(token_t) :: value
+  end type entry_t
+
+  type :: card_t
+    type(token_t) :: keyword
+    type(token_t), allocatable :: words(:)
+    type(entry_t), allocatable :: entries(:)
+  end type card_t
+
+contains
+
+  !> Reads all cards of a deck; what is wrong with the form of a line is noted in `diagnostics`.
+  pure subroutine read_cards(source, cards, diagnostics)
+    type(source_t), intent(in) :: source
+    type(card_t), allocatable, intent(out) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    type(card_t), allocatable :: found(:), larger(:)
+    type(token_t), allocatable :: words(:)
+    type(token_t) :: end_card
+    integer :: line, count
+    logical :: ended
+
+    allocate (found(64))
+    count = 0
+    line = 1
+    ended = .false.
+    do while (line <= line_count(source))
+      call read_logical_line(source, line, words, diagnostics)
+      if (size(words) == 0) cycle
+      if (ended) then
+        call add_error(diagnostics, words(1), "nothing may follow END", end_card, "the deck ends here")
+        exit
+      end if
+      if (same_word(words(1)%text, "END")) then
+        ended = .true.
+        end_card = words(1)
+        if (size(words) > 1) call add_error(diagnostics, words(2), "END stands alone on its line")
+        cycle
+      end if
+      if (count == size(found)) then
+        allocate (larger(2*count))
+        larger(:count) = found
+        call move_alloc(larger, found)
+      end if
+      count = count + 1
+      call sort_words(words, found(count), diagnostics)
+    end do
+    cards = found(:count)
+  end subroutine read_cards
+
+  !> Reads the words of one card: a line and those that continue it. `line` moves past them.
+  pure subroutine read_logical_line(source, line, words, diagnostics)
+    type(source_t), intent(in) :: source
+    integer, intent(inout) :: line
+    type(token_t), allocatable, intent(out) :: words(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=:), allocatable :: text
+    type(token_t), allocatable :: more(:)
+    type(token_t) :: ampersand
+    integer :: length, last, count
+    logical :: continued, found
+
+    allocate (words(0))
+    count = 0
+    continued = .false.
+    do while (line <= line_count(source))
+      text = source_line(source, line)
+      if (.not. continued) then
+        call read_title(text, line, words, found)
+        if (found) then
+          line = line + 1
+          return
+        end if
+      end if
+      length = code_length(text)
+      last = verify(text(:length), " "//achar(9), back=.true.)
+      line = line + 1
+      if (last == 0) then
+        if (continued) cycle
+        exit
+      end if
+      continued = text(last:last) == "&"
+      if (continued) then
+        ampersand = token_t("&", line - 1, character_count(text(:last)))
+        last = last - 1
+      end if
+      if (index(text(:last), "&") > 0) then
+        call add_error(diagnostics, token_t("&", line - 1, character_count(text(:index(text, "&")))), &
+          "'&' continues a card only at the end of a line")
+        words = [token_t ::]
+        return
+      end if
+      more = split_words(text(:last), line - 1)
+      call append_words(words, count, more)
+      if (.not. continued) exit
+    end do
+    words = words(:count)
+    if (continued) call add_error(diagnostics, ampersand, "no line follows to continue this card")
+  end subroutine read_logical_line
+
+  !> Appends words; the array grows by doubling, since a card may go on over many lines.
+  pure subroutine append_words(words, count, more)
+    type(token_t), allocatable, intent(inout) :: words(:)
+    integer, intent(inout) :: count !! words in use
+    type(token_t), intent(in) :: more(:)
+
+    type(token_t), allocatable :: larger(:)
+
+    if (count + size(more) > size(words)) then
+      allocate (larger(2*(count + size(more))))
+      larger(:count) = words(:count)
+      call move_alloc(larger, words)
+    end if
+    words(count + 1:count + size(more)) = more
+    count = count + size(more)
+  end subroutine append_words
+
+  !> A TITLE takes the rest of its line as it stands, comment characters and all.
+  pure subroutine read_title(text, line, words, found)
+    character(len=*), intent(in) :: text
+    integer, intent(in) :: line
+    type(token_t), allocatable, intent(inout) :: words(:)
+    logical, intent(out) :: found
+
+    type(token_t), allocatable :: first(:)
+    integer :: start
+
+    found = .false.
+    first = split_words(text(:min(len(text), verify(text//"x", " "//achar(9)) + 5)), line)
+    if (size(first) == 0) return
+    if (.not. same_word(first(1)%text, "TITLE")) return
+    start = verify(text, " "//achar(9)) + 5
+    if (start <= len(text)) then
+      if (verify(text(start:start), " "//achar(9)) == 1) return
+    end if
+    found = .true.
+    words = first(:1)
+    if (verify(text(start:), " "//achar(9)) == 0) return
+    start = start - 1 + verify(text(start:), " "//achar(9))
+    words = [words, token_t(text(start:verify(text, " "//achar(9), back=.true.)), line, 1 + character_count(text(:start - 1)))]
+  end subroutine read_title
+
+  !> Tells words from entries: what stands before an equals sign is a key, what stands behind it its value.
+  pure subroutine sort_words(words, card, diagnostics)
+    type(token_t), intent(in) :: words(:)
+    type(card_t), intent(out) :: card
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: i, pass, plain, keyed
+    logical :: is_key, is_title
+
+    card%keyword = words(1)
+    is_title = same_word(words(1)%text, "TITLE")
+    do pass = 1, 2
+      plain = 0
+      keyed = 0
+      i = 2
+      do while (i <= size(words))
+        is_key = .false.
+        if (i < size(words) .and. .not. is_title) is_key = words(i + 1)%text == "=" .and. words(i)%text /= "="
+        if (is_key) then
+          keyed = keyed + 1
+          if (pass == 2) call read_entry(words, i, card%entries(keyed), diagnostics)
+          i = i + merge(3, 2, has_value(words, i))
+        else if (words(i)%text == "=" .and. .not. is_title) then
+          if (pass == 1) call add_error(diagnostics, words(i), "'=' needs a key before it")
+          i = i + 1
+        else
+          plain = plain + 1
+          if (pass == 2) card%words(plain) = words(i)
+          i = i + 1
+        end if
+      end do
+      if (pass == 1) allocate (card%words(plain), card%entries(keyed))
+    end do
+  end subroutine sort_words
+
+  !> Whether a value follows the key at `words(i)` and its equals sign. A word with an equals sign behind it is the next key.
+  pure function has_value(words, i) result(has)
+    type(token_t), intent(in) :: words(:)
+    integer, intent(in) :: i
+    logical :: has
+
+    has = i + 2 <= size(words)
+    if (.not. has) return
+    has = words(i + 2)%text /= "="
+    if (has .and. i + 3 <= size(words)) has = words(i + 3)%text /= "="
+  end function has_value
+
+  pure subroutine read_entry(words, i, entry, diagnostics)
+    type(token_t), intent(in) :: words(:)
+    integer, intent(in) :: i
+    type(entry_t), intent(out) :: entry
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    entry%key = words(i)
+    if (has_value(words, i)) then
+      entry%value = words(i + 2)
+    else
+      entry%value = token_t("", words(i + 1)%line, words(i + 1)%column + 1)
+      call add_error(diagnostics, words(i + 1), "'"//words(i)%text//"=' has no value")
+    end if
+  end subroutine read_entry
+
+end module cards

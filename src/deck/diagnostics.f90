@@ -1,0 +1,224 @@
+!> Messages about a deck, with the place they are about and its text under a caret.
+module diagnostics
+  use deck_source, only: line_count, source_line, source_t
+  use kinds, only: wp
+  use sorting, only: ascending_order
+  use text, only: character_count, is_continuation_byte, plural, to_string
+  use text_buffer, only: append_text, buffer_text, text_buffer_t
+  use tokens, only: token_t
+  implicit none (type, external)
+  private
+
+  public :: diagnostics_t, add_error, add_warning, has_errors, error_count, render_errors, render_warnings, warning_texts
+
+  !> One message. A place without a line stands for what the deck lacks.
+  type :: diagnostic_t
+    logical :: is_error = .true.
+    character(len=:), allocatable :: message
+    type(token_t) :: place
+    character(len=:), allocatable :: note !! about the second place
+    type(token_t) :: second_place
+  end type diagnostic_t
+
+  !> All messages about one deck.
+  type :: diagnostics_t
+    integer, private :: errors = 0   !! also those beyond what is kept
+    integer, private :: kept = 0
+    type(diagnostic_t), allocatable, private :: list(:)
+  end type diagnostics_t
+
+  !> A file that is no deck at all has an error a line; nobody reads more than this.
+  integer, parameter :: most_kept = 100
+
+  !> Longest part of a line that is shown.
+  integer, parameter :: window = 150
+
+contains
+
+  !> Notes an error at a word of the deck, perhaps with a second word that explains it.
+  pure subroutine add_error(diagnostics, place, message, second_place, note)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(token_t), intent(in) :: place
+    character(len=*), intent(in) :: message
+    type(token_t), intent(in), optional :: second_place
+    character(len=*), intent(in), optional :: note
+
+    diagnostics%errors = diagnostics%errors + 1
+    call add(diagnostics, .true., place, message, second_place, note)
+  end subroutine add_error
+
+  pure subroutine add_warning(diagnostics, place, message)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(token_t), intent(in) :: place
+    character(len=*), intent(in) :: message
+
+    call add(diagnostics, .false., place, message)
+  end subroutine add_warning
+
+  pure subroutine add(diagnostics, is_error, place, message, second_place, note)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    logical, intent(in) :: is_error
+    type(token_t), intent(in) :: place
+    character(len=*), intent(in) :: message
+    type(token_t), intent(in), optional :: second_place
+    character(len=*), intent(in), optional :: note
+
+    if (.not. allocated(diagnostics%list)) allocate (diagnostics%list(most_kept))
+    if (diagnostics%kept == most_kept) return
+    diagnostics%kept = diagnostics%kept + 1
+    associate (new => diagnostics%list(diagnostics%kept))
+      new%is_error = is_error
+      new%place = place
+      new%message = message
+      new%note = ""
+      if (present(second_place)) new%second_place = second_place
+      if (present(note)) new%note = note
+    end associate
+  end subroutine add
+
+  pure function has_errors(diagnostics) result(has)
+    type(diagnostics_t), intent(in) :: diagnostics
+    logical :: has
+
+    has = diagnostics%errors > 0
+  end function has_errors
+
+  pure function error_count(diagnostics) result(count)
+    type(diagnostics_t), intent(in) :: diagnostics
+    integer :: count
+
+    count = diagnostics%errors
+  end function error_count
+
+  !> All errors, in the order of the deck's lines, ready for standard error; empty if there are none.
+  pure function render_errors(diagnostics, source) result(text)
+    type(diagnostics_t), intent(in) :: diagnostics
+    type(source_t), intent(in) :: source
+    character(len=:), allocatable :: text
+
+    integer :: shown
+
+    call render(diagnostics, source, .true., text, shown)
+    if (diagnostics%errors > shown) then
+      text = text//source%path//": "//plural(diagnostics%errors - shown, "more error")//achar(10)
+    end if
+  end function render_errors
+
+  !> All warnings, like the errors.
+  pure function render_warnings(diagnostics, source) result(text)
+    type(diagnostics_t), intent(in) :: diagnostics
+    type(source_t), intent(in) :: source
+    character(len=:), allocatable :: text
+
+    integer :: shown
+
+    call render(diagnostics, source, .false., text, shown)
+  end function render_warnings
+
+  !> The warnings without path and caret, a line each, for the log.
+  pure function warning_texts(diagnostics) result(text)
+    type(diagnostics_t), intent(in) :: diagnostics
+    character(len=:), allocatable :: text
+
+    integer :: i
+
+    text = ""
+    do i = 1, diagnostics%kept
+      associate (item => diagnostics%list(i))
+        if (item%is_error) cycle
+        text = text//"line "//to_string(item%place%line)//": "//item%message//achar(10)
+      end associate
+    end do
+  end function warning_texts
+
+  pure subroutine render(diagnostics, source, errors, text, shown)
+    type(diagnostics_t), intent(in) :: diagnostics
+    type(source_t), intent(in) :: source
+    logical, intent(in) :: errors !! else warnings
+    character(len=:), allocatable, intent(out) :: text
+    integer, intent(out) :: shown
+
+    type(text_buffer_t) :: buffer
+    integer :: i, order(diagnostics%kept)
+
+    if (diagnostics%kept > 0) then
+      order = ascending_order(real(diagnostics%list(:diagnostics%kept)%place%line, wp)*1.0e9_wp + &
+        diagnostics%list(:diagnostics%kept)%place%column)
+    end if
+    shown = 0
+    do i = 1, diagnostics%kept
+      associate (item => diagnostics%list(order(i)))
+        if (item%is_error .neqv. errors) cycle
+        shown = shown + 1
+        call append_place(buffer, source, item%place, merge("error  ", "warning", errors), item%message)
+        if (len(item%note) > 0) call append_place(buffer, source, item%second_place, "note", item%note)
+      end associate
+    end do
+    text = buffer_text(buffer)
+  end subroutine render
+
+  !> Appends `path:line:column: severity: message`, the line and the caret.
+  pure subroutine append_place(buffer, source, place, severity, message)
+    type(text_buffer_t), intent(inout) :: buffer
+    type(source_t), intent(in) :: source
+    type(token_t), intent(in) :: place
+    character(len=*), intent(in) :: severity, message
+
+    character(len=:), allocatable :: line, number
+    integer :: first, marks
+
+    if (place%line < 1) then
+      ! Something is missing from the deck: there is no word to point at, only its end.
+      call append_text(buffer, source%path//":"//to_string(max(1, line_count(source)))//":1: "//trim(severity)//": "// &
+        message//achar(10))
+      return
+    end if
+    call append_text(buffer, source%path//":"//to_string(place%line)//":"//to_string(place%column)//": "// &
+      trim(severity)//": "//message//achar(10))
+    line = blank_tabs(source_line(source, place%line))
+    first = 1
+    if (character_count(line) > window) first = max(1, place%column - window/2)
+    line = characters(line, first, window)
+    number = to_string(place%line)
+    number = repeat(" ", max(0, 5 - len(number)))//number
+    marks = max(1, min(character_count(place%text), window - (place%column - first)))
+    call append_text(buffer, number//" | "//line//achar(10))
+    call append_text(buffer, repeat(" ", len(number))//" | "//repeat(" ", place%column - first)//repeat("^", marks)//achar(10))
+  end subroutine append_place
+
+  !> A tab counts as one character, so it is shown as one.
+  pure function blank_tabs(line) result(shown)
+    character(len=*), intent(in) :: line
+    character(len=len(line)) :: shown
+
+    integer :: i
+
+    shown = line
+    do i = 1, len(line)
+      if (line(i:i) == achar(9)) shown(i:i) = " "
+    end do
+  end function blank_tabs
+
+  !> At most `most` characters of UTF-8 text, from character number `first` on.
+  pure function characters(line, first, most) result(part)
+    character(len=*), intent(in) :: line
+    integer, intent(in) :: first, most
+    character(len=:), allocatable :: part
+
+    integer :: i, number, start, finish
+
+    number = 0
+    start = len(line) + 1
+    finish = len(line)
+    do i = 1, len(line)
+      if (.not. is_continuation_byte(line(i:i))) number = number + 1
+      if (number == first) start = min(start, i)
+      if (number == first + most) then
+        finish = i - 1
+        exit
+      end if
+    end do
+    part = trim(line(start:finish))
+  end function characters
+
+end module diagnostics

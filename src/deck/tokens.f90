@@ -1,0 +1,79 @@
+!> Words of a deck that remember where they stand.
+module tokens
+  use text, only: character_count, string_t
+  implicit none (type, external)
+  private
+
+  public :: token_t, split_words, token_texts, code_length, name_problem
+
+  type :: token_t
+    character(len=:), allocatable :: text
+    integer :: line = 0   !! in the deck, from 1
+    integer :: column = 0 !! of its first character, from 1; a tab is one character
+  end type token_t
+
+  character(len=*), parameter :: blanks = " "//achar(9)
+  character(len=*), parameter :: name_characters = &
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.'"
+
+contains
+
+  !> How much of a line stands before its comment.
+  pure function code_length(line) result(length)
+    character(len=*), intent(in) :: line
+    integer :: length
+
+    length = scan(line, "!#") - 1
+    if (length < 0) length = len(line)
+  end function code_length
+
+  !> Splits a line at blanks; an equals sign is a word of its own.
+  pure function split_words(line, number) result(words)
+    character(len=*), intent(in) :: line !! without its comment
+    integer, intent(in) :: number        !! of the line in the deck
+    type(token_t), allocatable :: words(:)
+
+    integer :: pass, count, first, length
+
+    do pass = 1, 2
+      count = 0
+      first = 1
+      do while (first <= len(line))
+        if (scan(line(first:first), blanks) == 1) then
+          first = first + 1
+          cycle
+        end if
+        length = 1
+        if (line(first:first) /= "=") length = scan(line(first:)//" ", blanks//"=") - 1
+        count = count + 1
+        if (pass == 2) words(count) = token_t(line(first:first + length - 1), number, 1 + character_count(line(:first - 1)))
+        first = first + length
+      end do
+      if (pass == 1) allocate (words(count))
+    end do
+  end function split_words
+
+  !> The words without their places.
+  pure function token_texts(words) result(texts)
+    type(token_t), intent(in) :: words(:)
+    type(string_t) :: texts(size(words))
+
+    integer :: i
+
+    do i = 1, size(words)
+      texts(i)%text = words(i)%text
+    end do
+  end function token_texts
+
+  !> Why a word cannot be a name; empty if it can.
+  pure function name_problem(word) result(problem)
+    character(len=*), intent(in) :: word
+    character(len=:), allocatable :: problem
+
+    problem = ""
+    if (verify(word, name_characters) > 0) then
+      problem = "'"//word//"' is not a name (letters, digits and _ - . ' make one)"
+    end if
+  end function name_problem
+
+end module tokens

@@ -1,0 +1,88 @@
+!> Inertia loads of moving links: the forces that their masses exert on the linkage.
+module inertia_loads
+  use kinds, only: wp
+  use linkages, only: body_t, cross, linkage_t
+  use motions, only: acceleration_field_t, point_acceleration
+  use poses, only: pose_t
+  implicit none (type, external)
+  private
+
+  public :: load_t, lumped_masses, lumped_stations, lumped_load, distributed_load, pin_load
+
+  !> What a body's inertia does to it as a whole.
+  type :: load_t
+    real(wp) :: force(2) = 0.0_wp  !! [N]
+    real(wp) :: moment = 0.0_wp    !! about its first pin, counter-clockwise [N m]
+  end type load_t
+
+contains
+
+  !> Masses of a uniform link at the nodes of `elements` equal elements: half of each neighbouring element's mass [kg].
+  pure function lumped_masses(body, elements) result(masses)
+    type(body_t), intent(in) :: body
+    integer, intent(in) :: elements
+    real(wp) :: masses(elements + 1)
+
+    masses = body%line_density*body%length/elements
+    masses(1) = 0.5_wp*masses(1)
+    masses(elements + 1) = 0.5_wp*masses(elements + 1)
+  end function lumped_masses
+
+  !> Distances of these nodes from the first pin [m].
+  pure function lumped_stations(body, elements) result(stations)
+    type(body_t), intent(in) :: body
+    integer, intent(in) :: elements
+    real(wp) :: stations(elements + 1)
+
+    integer :: i
+
+    stations = [(body%length*i/elements, i=0, elements)]
+  end function lumped_stations
+
+  !> Load of a link whose mass sits on its nodes: `F = −m a` at each. Ulker 2010 (3.1) to (3.18).
+  pure function lumped_load(body, number, elements, pose, field) result(load)
+    type(body_t), intent(in) :: body
+    integer, intent(in) :: number   !! of the body in the linkage
+    integer, intent(in) :: elements
+    type(pose_t), intent(in) :: pose
+    type(acceleration_field_t), intent(in) :: field
+    type(load_t) :: load
+
+    real(wp) :: masses(elements + 1), stations(elements + 1), force(2)
+    integer :: i
+
+    masses = lumped_masses(body, elements)
+    stations = lumped_stations(body, elements)
+    do i = 1, elements + 1
+      force = -masses(i)*point_acceleration(field, number, stations(i))
+      load%force = load%force + force
+      load%moment = load%moment + stations(i)*cross(pose%direction(:, number), force)
+    end do
+  end function lumped_load
+
+  !> Load of a link with uniform mass, `f(s) = −μ (a_first + s slope)`: force (2.45), moment about the first pin.
+  pure function distributed_load(body, number, pose, field) result(load)
+    type(body_t), intent(in) :: body
+    integer, intent(in) :: number
+    type(pose_t), intent(in) :: pose
+    type(acceleration_field_t), intent(in) :: field
+    type(load_t) :: load
+
+    real(wp) :: mass
+
+    mass = body%line_density*body%length
+    load%force = -mass*(field%at_first(:, number) + 0.5_wp*body%length*field%slope(:, number))
+    load%moment = -mass*body%length*cross(pose%direction(:, number), &
+      0.5_wp*field%at_first(:, number) + body%length/3.0_wp*field%slope(:, number))
+  end function distributed_load
+
+  !> Forces of the pins' own masses [N].
+  pure function pin_load(linkage, field) result(force)
+    type(linkage_t), intent(in) :: linkage
+    type(acceleration_field_t), intent(in) :: field
+    real(wp) :: force(2, size(linkage%pin_mass))
+
+    force = -spread(linkage%pin_mass, 1, 2)*field%at_pin
+  end function pin_load
+
+end module inertia_loads

@@ -1,0 +1,76 @@
+!> A planar linkage as mechanics sees it: pins, links between them, one driven link, and dyads hung on to it.
+!!
+!! Everything but `new_four_bar` works for any linkage of mobility one that can be put together from a driven link and dyads (two
+!! links that meet in a pin, each hung on to a pin whose motion is known already).
+module linkages
+  use kinds, only: wp
+  implicit none (type, external)
+  private
+
+  public :: linkage_t, body_t, dyad_t, new_four_bar, cross, normal_to
+
+  !> A uniform straight link. Along it runs a coordinate from its first pin to its last, round the loop.
+  type :: body_t
+    integer :: first_pin = 0           !! where the way round the loop enters it
+    integer :: last_pin = 0            !! where it leaves it
+    real(wp) :: length = 0.0_wp        !! [m]
+    real(wp) :: line_density = 0.0_wp  !! mass per length [kg/m]
+    real(wp) :: sense = 1.0_wp         !! +1: its angle is that of first → last pin, −1: that of last → first
+  end type body_t
+
+  !> Two bodies that meet in a pin; each hangs on a pin that is placed before.
+  type :: dyad_t
+    integer :: base(2) = 0      !! pins that carry it
+    integer :: body(2) = 0      !! bodies from each base to the middle
+    integer :: middle = 0       !! pin where the bodies meet
+    real(wp) :: side = 1.0_wp   !! +1: the middle lies to the left of base 1 → base 2, −1: to its right
+  end type dyad_t
+
+  type :: linkage_t
+    logical, allocatable :: is_ground(:)          !! (pins)
+    real(wp), allocatable :: ground_position(:, :) !! (2, pins) [m]; zero for moving pins
+    real(wp), allocatable :: pin_mass(:)          !! (pins) [kg]
+    type(body_t), allocatable :: bodies(:)        !! in the order round the loop; the first is driven about its first pin
+    type(dyad_t), allocatable :: dyads(:)         !! in the order in which they are placed
+  end type linkage_t
+
+contains
+
+  !> The four-bar O2–A–B–O4: pins 1 to 4, bodies crank, coupler, follower; the follower's angle is that of O4 → B.
+  pure function new_four_bar(ground, length, line_density, pin_mass, crossed) result(linkage)
+    real(wp), intent(in) :: ground(2, 2)     !! O2 and O4 [m]
+    real(wp), intent(in) :: length(3)        !! crank, coupler, follower [m]
+    real(wp), intent(in) :: line_density(3)  !! [kg/m]
+    real(wp), intent(in) :: pin_mass(2)      !! at A and B [kg]
+    logical, intent(in) :: crossed           !! B to the right of A → O4, not to its left
+    type(linkage_t) :: linkage
+
+    integer :: i
+
+    linkage%is_ground = [.true., .false., .false., .true.]
+    allocate (linkage%ground_position(2, 4))
+    linkage%ground_position = 0.0_wp
+    linkage%ground_position(:, 1) = ground(:, 1)
+    linkage%ground_position(:, 4) = ground(:, 2)
+    linkage%pin_mass = [0.0_wp, pin_mass, 0.0_wp]
+    linkage%bodies = [(body_t(i, i + 1, length(i), line_density(i), merge(-1.0_wp, 1.0_wp, i == 3)), i=1, 3)]
+    linkage%dyads = [dyad_t([2, 4], [2, 3], 3, merge(-1.0_wp, 1.0_wp, crossed))]
+  end function new_four_bar
+
+  !> The component of `a × b` out of the plane.
+  pure function cross(a, b)
+    real(wp), intent(in) :: a(2), b(2)
+    real(wp) :: cross
+
+    cross = a(1)*b(2) - a(2)*b(1)
+  end function cross
+
+  !> A vector turned by 90° counter-clockwise.
+  pure function normal_to(a) result(normal)
+    real(wp), intent(in) :: a(2)
+    real(wp) :: normal(2)
+
+    normal = [-a(2), a(1)]
+  end function normal_to
+
+end module linkages

@@ -1,0 +1,146 @@
+!> Where the links are at a crank angle.
+module poses
+  use constants, only: degree
+  use errors, only: error_t, set_error
+  use kinds, only: wp
+  use linkages, only: cross, dyad_t, linkage_t, normal_to
+  use text, only: to_string
+  implicit none (type, external)
+  private
+
+  public :: pose_t, find_pose, body_angle, transmission_angle, dead_point_sine
+
+  type :: pose_t
+    real(wp), allocatable :: pin(:, :)       !! (2, pins) positions [m]
+    real(wp), allocatable :: direction(:, :) !! (2, bodies) unit vectors, first → last pin
+    real(wp), allocatable :: sine(:)         !! (dyads) of the angle from base 1 → middle to base 2 → middle; 0 at a dead point
+  end type pose_t
+
+  !> Nearer to a dead point than this the motion is not computed: velocities grow like 1/sin(θ4 − θ3).
+  real(wp), parameter :: dead_point_sine = 1.0e-6_wp
+
+contains
+
+  !> Places every pin for a crank angle. Equation 2.1 of Ulker (2010), solved by intersecting circles.
+  !!
+  !! Errors: the position is out of reach, or a dead point (`|sin(θ4 − θ3)|` below 1e-6).
+  pure subroutine find_pose(linkage, crank_degrees, pose, error)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), intent(in) :: crank_degrees !! angle of the driven body from the global x axis [deg]
+    type(pose_t), intent(out) :: pose
+    type(error_t), allocatable, intent(out) :: error
+
+    integer :: i
+
+    allocate (pose%pin(2, size(linkage%is_ground)), pose%direction(2, size(linkage%bodies)), pose%sine(size(linkage%dyads)))
+    pose%pin = linkage%ground_position
+    pose%direction = 0.0_wp
+    pose%sine = 0.0_wp
+    associate (crank => linkage%bodies(1))
+      pose%direction(:, 1) = direction_at(crank_degrees)
+      pose%pin(:, crank%last_pin) = pose%pin(:, crank%first_pin) + crank%length*pose%direction(:, 1)
+    end associate
+    do i = 1, size(linkage%dyads)
+      call place_dyad(linkage, linkage%dyads(i), pose, pose%sine(i), error)
+      if (allocated(error)) return
+    end do
+  end subroutine find_pose
+
+  !> Cosine and sine of an angle in degrees. Whole turns are taken off before: 0° and 360° are one position to the last digit.
+  pure function direction_at(degrees) result(direction)
+    real(wp), intent(in) :: degrees
+    real(wp) :: direction(2)
+
+    real(wp) :: angle, quadrants
+
+    ! Within ±45° of an axis cosine and sine keep their last digits: 90° gives 0 and 1.
+    angle = modulo(degrees, 360.0_wp)
+    quadrants = anint(angle/90.0_wp)
+    angle = (angle - 90.0_wp*quadrants)*degree
+    direction = [cos(angle), sin(angle)]
+    select case (modulo(nint(quadrants), 4))
+    case (1)
+      direction = [-direction(2), direction(1)]
+    case (2)
+      direction = -direction
+    case (3)
+      direction = [direction(2), -direction(1)]
+    end select
+  end function direction_at
+
+  !> Intersects the circles about the two bases of a dyad.
+  !!
+  !! The height of the triangle over the line of the bases is taken from its area in Heron's form, whose factors vanish exactly
+  !! where the dyad is stretched or folded.
+  pure subroutine place_dyad(linkage, dyad, pose, sine, error)
+    type(linkage_t), intent(in) :: linkage
+    type(dyad_t), intent(in) :: dyad
+    type(pose_t), intent(inout) :: pose
+    real(wp), intent(out) :: sine
+    type(error_t), allocatable, intent(inout) :: error
+
+    real(wp) :: base(2), unit(2), distance, r(2), along, four_areas_squared, height, arm(2, 2)
+    integer :: k
+
+    r = linkage%bodies(dyad%body)%length
+    base = pose%pin(:, dyad%base(2)) - pose%pin(:, dyad%base(1))
+    distance = norm2(base)
+    sine = 0.0_wp
+    four_areas_squared = (r(1) + r(2) + distance)*(r(1) + r(2) - distance)*(distance + r(1) - r(2))*(distance - r(1) + r(2))
+    if (four_areas_squared < 0.0_wp) then
+      call set_error(error, "the position is out of reach")
+      return
+    end if
+    ! At a dead point with both bases at one place nothing says where the dyad is.
+    if (distance <= 0.0_wp) then
+      call set_error(error, "dead point: the pins that carry the dyad coincide")
+      return
+    end if
+    unit = base/distance
+    along = 0.5_wp*(distance + (r(1) - r(2))*(r(1) + r(2))/distance)
+    height = 0.5_wp*sqrt(four_areas_squared)/distance
+    pose%pin(:, dyad%middle) = pose%pin(:, dyad%base(1)) + along*unit + dyad%side*height*normal_to(unit)
+
+    do k = 1, 2
+      arm(:, k) = pose%pin(:, dyad%middle) - pose%pin(:, dyad%base(k))
+      arm(:, k) = arm(:, k)/norm2(arm(:, k))
+      pose%direction(:, dyad%body(k)) = merge(1.0_wp, -1.0_wp, linkage%bodies(dyad%body(k))%last_pin == dyad%middle)*arm(:, k)
+    end do
+    sine = cross(arm(:, 1), arm(:, 2))
+    if (abs(sine) < dead_point_sine) then
+      call set_error(error, "dead point: |sin(theta4 - theta3)| = "//to_string(abs(sine), 3)//" is below "// &
+        to_string(dead_point_sine))
+    end if
+  end subroutine place_dyad
+
+  !> Angle of a body from the global x axis, in (−π, π] [rad].
+  pure function body_angle(linkage, pose, body) result(angle)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    integer, intent(in) :: body
+    real(wp) :: angle
+
+    real(wp) :: e(2)
+
+    e = linkage%bodies(body)%sense*pose%direction(:, body)
+    ! Adding zero turns -0 into 0: an angle of -π would be outside the interval.
+    angle = atan2(e(2) + 0.0_wp, e(1) + 0.0_wp)
+  end function body_angle
+
+  !> Angle between the two bodies of a dyad where they meet, in [0, π] [rad]; best at π/2.
+  pure function transmission_angle(linkage, pose, dyad) result(angle)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    integer, intent(in) :: dyad
+    real(wp) :: angle
+
+    real(wp) :: arm(2, 2)
+    integer :: k
+
+    do k = 1, 2
+      arm(:, k) = pose%pin(:, linkage%dyads(dyad)%base(k)) - pose%pin(:, linkage%dyads(dyad)%middle)
+    end do
+    angle = atan2(abs(cross(arm(:, 1), arm(:, 2))), dot_product(arm(:, 1), arm(:, 2)))
+  end function transmission_angle
+
+end module poses

@@ -1,0 +1,152 @@
+!> GROUND, LINK, PINMASS and MESH: what the mechanism consists of, as read; names are not yet looked up.
+module linkage_cards
+  use card_reader, only: check_form, entry_number, read_entry_count, read_entry_quantity, read_name, read_quantity, &
+    require_positive
+  use cards, only: card_t
+  use diagnostics, only: add_error, diagnostics_t
+  use kinds, only: wp
+  use text, only: same_word
+  use tokens, only: token_t
+  use units, only: dimension_length, dimension_mass, unit_system_t
+  implicit none (type, external)
+  private
+
+  public :: ground_t, link_t, pin_mass_t, mesh_t
+  public :: read_ground, read_link, read_pin_mass, read_mesh
+
+  !> A fixed pivot.
+  type :: ground_t
+    type(token_t) :: pin
+    real(wp) :: position(2) = 0.0_wp !! [m]
+  end type ground_t
+
+  !> A link between two pins.
+  type :: link_t
+    type(token_t) :: name
+    type(token_t) :: pin(2)           !! at its ends, in the order of the card
+    type(token_t) :: length_word      !! where the length is given
+    real(wp) :: length = 0.0_wp       !! [m]
+    type(token_t) :: material_name    !! without a line if the card names none
+    type(token_t) :: section_name
+    integer :: material = 0           !! number in the model's list, 0 for none
+    integer :: section = 0
+    integer :: mesh = 0
+  end type link_t
+
+  !> A concentrated mass at a pin.
+  type :: pin_mass_t
+    type(token_t) :: pin
+    real(wp) :: mass = 0.0_wp !! [kg]
+  end type pin_mass_t
+
+  !> How links are divided into elements.
+  type :: mesh_t
+    type(token_t) :: keyword
+    type(token_t), allocatable :: link_names(:)
+    integer :: elements = 0
+  end type mesh_t
+
+  !> The only order of element that there is: cubic across the link, linear along it.
+  integer, parameter :: cubic_order = 3
+
+contains
+
+  !> Reads `GROUND name x y`.
+  pure subroutine read_ground(card, system, diagnostics, ground)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(ground_t), intent(out) :: ground
+
+    logical :: fine
+
+    ground%pin = card%keyword
+    call check_form(card, 3, 3, "", "GROUND name x y", diagnostics, fine)
+    if (size(card%words) > 0) then
+      ground%pin = card%words(1)
+      call read_name(ground%pin, diagnostics)
+    end if
+    if (.not. fine) return
+    call read_quantity(card%words(2), dimension_length, system, diagnostics, ground%position(1), fine)
+    call read_quantity(card%words(3), dimension_length, system, diagnostics, ground%position(2), fine)
+  end subroutine read_ground
+
+  !> Reads `LINK name pin pin length= [material= section=]`.
+  pure subroutine read_link(card, system, diagnostics, link)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(link_t), intent(out) :: link
+
+    logical :: fine
+
+    call check_form(card, 3, 3, "length material section", "LINK name pin pin length= [material= section=]", diagnostics, fine)
+    link%name = card%keyword
+    link%pin(:) = token_t("", 0, 0)
+    link%material_name = token_t("", 0, 0)
+    link%section_name = token_t("", 0, 0)
+    link%length_word = card%keyword
+    if (size(card%words) > 0) then
+      link%name = card%words(1)
+      call read_name(link%name, diagnostics)
+    end if
+    if (fine) then
+      link%pin = card%words(2:3)
+      call read_name(link%pin(1), diagnostics)
+      call read_name(link%pin(2), diagnostics)
+      if (same_word(link%pin(1)%text, link%pin(2)%text)) then
+        call add_error(diagnostics, link%pin(2), "link '"//link%name%text//"' has the same pin at both ends")
+      end if
+    end if
+    call read_entry_quantity(card, "length", dimension_length, system, .true., diagnostics, link%length, fine)
+    if (fine) then
+      call require_positive(card, "length", link%length, diagnostics)
+      link%length_word = card%entries(entry_number(card, "length"))%value
+    end if
+    if (entry_number(card, "material") > 0) link%material_name = card%entries(entry_number(card, "material"))%value
+    if (entry_number(card, "section") > 0) link%section_name = card%entries(entry_number(card, "section"))%value
+  end subroutine read_link
+
+  !> Reads `PINMASS pin mass`.
+  pure subroutine read_pin_mass(card, system, diagnostics, pin_mass)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(pin_mass_t), intent(out) :: pin_mass
+
+    logical :: fine
+
+    pin_mass%pin = card%keyword
+    call check_form(card, 2, 2, "", "PINMASS pin mass", diagnostics, fine)
+    if (size(card%words) > 0) pin_mass%pin = card%words(1)
+    if (.not. fine) return
+    call read_quantity(card%words(2), dimension_mass, system, diagnostics, pin_mass%mass, fine)
+    if (pin_mass%mass < 0.0_wp) then
+      call add_error(diagnostics, card%words(2), "a mass must not be negative, as "//card%words(2)%text//" is")
+    end if
+  end subroutine read_pin_mass
+
+  !> Reads `MESH link … elements= [order=3]`, or `MESH * …` for every link without a card of its own.
+  pure subroutine read_mesh(card, diagnostics, mesh)
+    type(card_t), intent(in) :: card
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(mesh_t), intent(out) :: mesh
+
+    logical :: fine
+    integer :: order
+
+    call check_form(card, 1, huge(1), "elements order", "MESH link ... elements= [order=3], or MESH * ...", diagnostics, fine)
+    mesh%keyword = card%keyword
+    mesh%link_names = card%words
+    call read_entry_count(card, "elements", 1, diagnostics, mesh%elements, fine)
+    if (entry_number(card, "elements") == 0) then
+      call add_error(diagnostics, card%keyword, "'elements=' is missing: a number is needed")
+    end if
+    call read_entry_count(card, "order", 1, diagnostics, order, fine)
+    if (fine .and. order /= cubic_order) then
+      call add_error(diagnostics, card%entries(entry_number(card, "order"))%value, &
+        "'order=' must be 3, the order of the cubic beam element")
+    end if
+  end subroutine read_mesh
+
+end module linkage_cards

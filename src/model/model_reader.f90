@@ -1,0 +1,282 @@
+!> Cards → model.
+module model_reader
+  use card_reader, only: check_form, read_choice
+  use card_echo, only: echo_card
+  use cards, only: card_t
+  use diagnostics, only: add_error, diagnostics_t, has_errors
+  use kinds, only: wp
+  use linkage_cards, only: read_ground, read_link, read_mesh, read_pin_mass
+  use materials, only: read_material
+  use model_checks, only: check_model
+  use models, only: effects_axial, effects_static, is_moving, model_t
+  use numbers, only: read_integer
+  use requests, only: read_crank, read_report, read_speed
+  use sections, only: read_section
+  use spelling, only: suggestion
+  use text, only: lower_case, same_word, string_t, to_string, word_list
+  use tokens, only: token_t
+  use units, only: dimension_length, dimension_mass, dimension_name, dimension_time, read_unit, unit_system_t, unit_t
+  implicit none (type, external)
+  private
+
+  public :: read_model
+
+  character(len=*), parameter :: card_names = &
+    "TITLE UNITS MATERIAL SECTION GROUND LINK DRIVE BRANCH PINMASS MESH CRANK SPEED "// &
+    "INERTIA EFFECTS SOLVER MODES REPORT"
+
+contains
+
+  !> Turns cards into a model and checks all that can be checked without mechanics.
+  !!
+  !! The model is complete only if `diagnostics` has no errors afterwards.
+  subroutine read_model(cards, diagnostics, model)
+    type(card_t), intent(in) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(out) :: model
+
+    integer :: i
+
+    model%title = ""
+    model%drive = token_t("", 0, 0)
+    model%modes_word = token_t("", 0, 0)
+    allocate (model%crank%value(0), model%crank%word(0), model%crank%words(0))
+    model%speed%value = [0.0_wp]
+    model%speed%word = [0]
+    allocate (model%speed%words(0))
+    allocate (model%materials(number_of(cards, "MATERIAL")), model%sections(number_of(cards, "SECTION")), &
+      model%grounds(number_of(cards, "GROUND")), model%links(number_of(cards, "LINK")), &
+      model%pin_masses(number_of(cards, "PINMASS")), model%meshes(number_of(cards, "MESH")), &
+      model%reports(number_of(cards, "REPORT")))
+
+    do i = 1, size(cards)
+      call check_keyword(cards(i), diagnostics)
+    end do
+    call refuse_second_cards(cards, diagnostics)
+    call read_units(cards, diagnostics, model%units)
+    call read_parts(cards, diagnostics, model)
+    call read_requests(cards, diagnostics, model)
+    call check_model(cards, diagnostics, model)
+    if (.not. has_errors(diagnostics)) model%echo = [(echo_card(cards(i)), i=1, size(cards))]
+  end subroutine read_model
+
+  pure function number_of(cards, keyword) result(number)
+    type(card_t), intent(in) :: cards(:)
+    character(len=*), intent(in) :: keyword
+    integer :: number
+
+    integer :: i
+
+    number = 0
+    do i = 1, size(cards)
+      if (same_word(cards(i)%keyword%text, keyword)) number = number + 1
+    end do
+  end function number_of
+
+  pure subroutine check_keyword(card, diagnostics)
+    type(card_t), intent(in) :: card
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    type(string_t), allocatable :: known(:)
+    integer :: i
+
+    known = word_list(card_names)
+    do i = 1, size(known)
+      if (same_word(known(i)%text, card%keyword%text)) return
+    end do
+    call add_error(diagnostics, card%keyword, "unknown card '"//card%keyword%text//"'"//suggestion(card%keyword%text, known))
+  end subroutine check_keyword
+
+  !> Most cards say something that can be said only once.
+  pure subroutine refuse_second_cards(cards, diagnostics)
+    type(card_t), intent(in) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=*), parameter :: single = "TITLE UNITS BRANCH CRANK SPEED INERTIA EFFECTS SOLVER MODES"
+    type(string_t), allocatable :: names(:)
+    integer :: i, k, first
+
+    names = word_list(single)
+    do k = 1, size(names)
+      first = 0
+      do i = 1, size(cards)
+        if (.not. same_word(cards(i)%keyword%text, names(k)%text)) cycle
+        if (first > 0) then
+          call add_error(diagnostics, cards(i)%keyword, "a second "//names(k)%text//" card", cards(first)%keyword, &
+            "the first is here")
+        else
+          first = i
+        end if
+      end do
+    end do
+  end subroutine refuse_second_cards
+
+  !> Reads `UNITS length mass time`, which may stand anywhere. A deck without it is read on in SI, to find its other errors.
+  subroutine read_units(cards, diagnostics, system)
+    type(card_t), intent(in) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(unit_system_t), intent(out) :: system
+
+    integer :: i
+    logical :: fine
+    character(len=:), allocatable :: problem
+
+    call read_unit("m", system%length, problem)
+    call read_unit("kg", system%mass, problem)
+    call read_unit("s", system%time, problem)
+    do i = 1, size(cards)
+      if (.not. same_word(cards(i)%keyword%text, "UNITS")) cycle
+      call check_form(cards(i), 3, 3, "", "UNITS length mass time", diagnostics, fine)
+      if (.not. fine) return
+      call read_one(cards(i)%words(1), dimension_length, system%length)
+      call read_one(cards(i)%words(2), dimension_mass, system%mass)
+      call read_one(cards(i)%words(3), dimension_time, system%time)
+      return
+    end do
+    call add_error(diagnostics, token_t("", 0, 0), "there is no UNITS card; expected: UNITS length mass time")
+
+  contains
+
+    subroutine read_one(word, dimension, measure)
+      type(token_t), intent(in) :: word
+      integer, intent(in) :: dimension(4)
+      type(unit_t), intent(inout) :: measure
+
+      type(unit_t) :: candidate
+
+      call read_unit(word%text, candidate, problem)
+      if (len(problem) > 0) then
+        call add_error(diagnostics, word, problem)
+      else if (any(candidate%dimension /= dimension)) then
+        call add_error(diagnostics, word, "'"//word%text//"' is the unit of "//dimension_name(candidate%dimension)// &
+          "; expected that of "//dimension_name(dimension))
+      else
+        measure = candidate
+      end if
+    end subroutine read_one
+
+  end subroutine read_units
+
+  !> Reads the cards of which there may be many.
+  pure subroutine read_parts(cards, diagnostics, model)
+    type(card_t), intent(in) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(inout) :: model
+
+    integer :: i, material, section, ground, link, pin_mass, mesh, report
+
+    material = 0
+    section = 0
+    ground = 0
+    link = 0
+    pin_mass = 0
+    mesh = 0
+    report = 0
+    do i = 1, size(cards)
+      select case (lower_case(cards(i)%keyword%text))
+      case ("material")
+        material = material + 1
+        call read_material(cards(i), model%units, diagnostics, model%materials(material))
+      case ("section")
+        section = section + 1
+        call read_section(cards(i), model%units, diagnostics, model%sections(section))
+      case ("ground")
+        ground = ground + 1
+        call read_ground(cards(i), model%units, diagnostics, model%grounds(ground))
+      case ("link")
+        link = link + 1
+        call read_link(cards(i), model%units, diagnostics, model%links(link))
+      case ("pinmass")
+        pin_mass = pin_mass + 1
+        call read_pin_mass(cards(i), model%units, diagnostics, model%pin_masses(pin_mass))
+      case ("mesh")
+        mesh = mesh + 1
+        call read_mesh(cards(i), diagnostics, model%meshes(mesh))
+      case ("report")
+        report = report + 1
+        call read_report(cards(i), model%units, diagnostics, model%reports(report))
+      end select
+    end do
+  end subroutine read_parts
+
+  !> Reads the cards that say what to compute, and settles what follows from what they leave out.
+  subroutine read_requests(cards, diagnostics, model)
+    type(card_t), intent(in) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(inout) :: model
+
+    integer :: i
+    logical :: fine, effects_given
+
+    effects_given = .false.
+    do i = 1, size(cards)
+      select case (lower_case(cards(i)%keyword%text))
+      case ("title")
+        if (size(cards(i)%words) > 0) model%title = cards(i)%words(1)%text
+      case ("drive")
+        call check_form(cards(i), 1, 1, "", "DRIVE link", diagnostics, fine)
+        if (.not. fine) cycle
+        if (model%drive%line > 0) then
+          call add_error(diagnostics, cards(i)%words(1), "the linkage is driven twice; it has one driven link", &
+            model%drive, "first driven here")
+        else
+          model%drive = cards(i)%words(1)
+        end if
+      case ("branch")
+        call read_option(cards(i), "BRANCH open|crossed", "open crossed", model%branch)
+      case ("crank")
+        call read_crank(cards(i), model%units, diagnostics, model%crank)
+      case ("speed")
+        call read_speed(cards(i), model%units, diagnostics, model%speed, model%acceleration)
+      case ("inertia")
+        call read_option(cards(i), "INERTIA lumped|distributed", "lumped distributed", model%inertia)
+      case ("effects")
+        call read_option(cards(i), "EFFECTS static|axial", "static axial", model%effects)
+        effects_given = .true.
+      case ("solver")
+        call read_option(cards(i), "SOLVER auto|dense|band", "auto dense band", model%solver)
+      case ("modes")
+        call read_modes(cards(i), diagnostics, model)
+      end select
+    end do
+    if (.not. effects_given) model%effects = merge(effects_axial, effects_static, is_moving(model))
+
+  contains
+
+    subroutine read_option(card, pattern, choices, option)
+      type(card_t), intent(in) :: card
+      character(len=*), intent(in) :: pattern, choices
+      integer, intent(inout) :: option
+
+      integer :: choice
+
+      call check_form(card, 1, 1, "", pattern, diagnostics, fine)
+      if (.not. fine) return
+      call read_choice(card%words(1), choices, diagnostics, choice)
+      if (choice > 0) option = choice
+    end subroutine read_option
+
+  end subroutine read_requests
+
+  pure subroutine read_modes(card, diagnostics, model)
+    type(card_t), intent(in) :: card
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(inout) :: model
+
+    character(len=:), allocatable :: problem
+    logical :: fine
+    integer :: modes
+
+    call check_form(card, 1, 1, "", "MODES number", diagnostics, fine)
+    if (.not. fine) return
+    call read_integer(card%words(1)%text, modes, problem)
+    if (len(problem) == 0 .and. modes < 1) problem = "the number of modes must be at least 1, not "//to_string(modes)
+    if (len(problem) > 0) then
+      call add_error(diagnostics, card%words(1), problem)
+    else
+      model%modes = modes
+      model%modes_word = card%words(1)
+    end if
+  end subroutine read_modes
+
+end module model_reader

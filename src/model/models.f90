@@ -1,0 +1,102 @@
+!> The model: everything that a deck says, in SI, each part with the word it came from.
+module models
+  use card_echo, only: echo_line_t
+  use kinds, only: wp
+  use linkage_cards, only: ground_t, link_t, mesh_t, pin_mass_t
+  use materials, only: material_t
+  use requests, only: report_frequencies, report_shapes, report_t, value_list_t
+  use sections, only: section_t
+  use tokens, only: token_t
+  use units, only: unit_system_t
+  implicit none (type, external)
+  private
+
+  public :: model_t, report_number, is_moving, needs_loads, needs_frequencies, link_mass
+  public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
+  public :: solver_auto, solver_dense, solver_band, branch_open, branch_crossed
+
+  integer, parameter :: inertia_none = 0, inertia_lumped = 1, inertia_distributed = 2
+  integer, parameter :: effects_static = 1, effects_axial = 2
+  integer, parameter :: solver_auto = 1, solver_dense = 2, solver_band = 3
+  integer, parameter :: branch_open = 1, branch_crossed = 2
+
+  type :: model_t
+    character(len=:), allocatable :: title
+    type(unit_system_t) :: units
+    type(material_t), allocatable :: materials(:)
+    type(section_t), allocatable :: sections(:)
+    type(ground_t), allocatable :: grounds(:)
+    type(link_t), allocatable :: links(:)       !! in the order of the deck
+    type(pin_mass_t), allocatable :: pin_masses(:)
+    type(mesh_t), allocatable :: meshes(:)
+    integer, allocatable :: loop(:)             !! links round the loop from the driven ground: numbers in `links`
+    type(token_t), allocatable :: loop_pins(:)  !! pins round the loop, from the driven ground to the other one
+    type(token_t) :: drive                      !! name of the driven link
+    integer :: branch = branch_open
+    type(value_list_t) :: crank                 !! [deg]
+    type(value_list_t) :: speed                 !! [rad/s]
+    real(wp) :: acceleration = 0.0_wp           !! of the crank, at every speed [rad/s²]
+    integer :: inertia = inertia_none
+    integer :: effects = effects_static
+    integer :: solver = solver_auto
+    integer :: modes = 3
+    type(token_t) :: modes_word                 !! without a line if the deck does not say
+    type(report_t), allocatable :: reports(:)
+    type(echo_line_t), allocatable :: echo(:)   !! the cards in the order of the deck, written out again
+  end type model_t
+
+contains
+
+  !> Number of the report of a kind in the model's list; 0 if it is not asked for.
+  pure function report_number(model, kind) result(number)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: kind
+    integer :: number
+
+    integer :: i
+
+    number = 0
+    do i = 1, size(model%reports)
+      if (model%reports(i)%kind == kind) number = i
+    end do
+  end function report_number
+
+  !> Whether any speed or the acceleration is not zero.
+  pure function is_moving(model) result(is)
+    type(model_t), intent(in) :: model
+    logical :: is
+
+    is = any(abs(model%speed%value) > 0.0_wp) .or. abs(model%acceleration) > 0.0_wp
+  end function is_moving
+
+  !> Whether frequencies are asked for, by themselves or with their shapes.
+  pure function needs_frequencies(model) result(needs)
+    type(model_t), intent(in) :: model
+    logical :: needs
+
+    needs = report_number(model, report_frequencies) > 0 .or. report_number(model, report_shapes) > 0
+  end function needs_frequencies
+
+  !> Whether the frequencies asked for feel the loads of the motion.
+  pure function needs_loads(model) result(needs)
+    type(model_t), intent(in) :: model
+    logical :: needs
+
+    needs = needs_frequencies(model) .and. model%effects == effects_axial .and. is_moving(model)
+  end function needs_loads
+
+  !> Mass of a link of the deck; 0 if it has no material or no section [kg].
+  pure function link_mass(model, link) result(mass)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: link
+    real(wp) :: mass
+
+    mass = 0.0_wp
+    associate (this => model%links(link))
+      if (this%material > 0 .and. this%section > 0) then
+        mass = model%materials(this%material)%density*model%sections(this%section)%area*this%length
+      end if
+    end associate
+  end function link_mass
+
+end module models

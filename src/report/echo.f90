@@ -1,0 +1,89 @@
+!> `echo.deck`: the deck as the program understood it, a valid deck itself.
+module echo
+  use card_echo, only: echo_line_t
+  use kinds, only: wp
+  use models, only: effects_axial, link_mass, model_t
+  use text, only: character_count, same_word, to_string
+  use text_buffer, only: append_text, buffer_text, text_buffer_t
+  use units, only: coherent_unit, dimension_area, dimension_mass, dimension_second_moment, from_si, unit_t
+  implicit none (type, external)
+  private
+
+  public :: echo_text
+
+  integer, parameter :: comment_column = 72
+
+contains
+
+  !> All cards with the user's own digits, the defaults as cards, and what follows from them as comments.
+  pure function echo_text(model) result(text)
+    type(model_t), intent(in) :: model
+    character(len=:), allocatable :: text
+
+    type(text_buffer_t) :: buffer
+    integer :: i
+
+    do i = 1, size(model%echo)
+      call append_card(buffer, model%echo(i))
+    end do
+    call append_default(buffer, model, "BRANCH", "open")
+    call append_default(buffer, model, "SPEED", "0")
+    call append_default(buffer, model, "EFFECTS", trim(merge("axial ", "static", model%effects == effects_axial)))
+    call append_default(buffer, model, "SOLVER", "auto")
+    call append_default(buffer, model, "MODES", "3")
+    call append_derived(buffer, model)
+    text = buffer_text(buffer)
+  end function echo_text
+
+  pure subroutine append_card(buffer, line)
+    type(text_buffer_t), intent(inout) :: buffer
+    type(echo_line_t), intent(in) :: line
+
+    call append_text(buffer, line%text)
+    if (len(line%origin) > 0) then
+      call append_text(buffer, repeat(" ", max(1, comment_column - character_count(line%text)))//"! "//line%origin)
+    end if
+    call append_text(buffer, achar(10))
+  end subroutine append_card
+
+  !> Writes a card that the deck leaves out.
+  pure subroutine append_default(buffer, model, keyword, value)
+    type(text_buffer_t), intent(inout) :: buffer
+    type(model_t), intent(in) :: model
+    character(len=*), intent(in) :: keyword, value
+
+    integer :: i
+
+    do i = 1, size(model%echo)
+      associate (text => model%echo(i)%text)
+        if (same_word(text(:index(text//" ", " ") - 1), keyword)) return
+      end associate
+    end do
+    call append_card(buffer, echo_line_t(keyword//" "//value, "default"))
+  end subroutine append_default
+
+  !> What the program made of the cards, in the deck's units.
+  pure subroutine append_derived(buffer, model)
+    type(text_buffer_t), intent(inout) :: buffer
+    type(model_t), intent(in) :: model
+
+    type(unit_t) :: area, second_moment, mass
+    integer :: i
+
+    area = coherent_unit(model%units, dimension_area)
+    second_moment = coherent_unit(model%units, dimension_second_moment)
+    mass = coherent_unit(model%units, dimension_mass)
+    do i = 1, size(model%sections)
+      associate (this => model%sections(i))
+        call append_text(buffer, "! derived: section "//this%name%text//": A = "//to_string(from_si(this%area, area), 17)//" "// &
+          area%name//", I = "//to_string(from_si(this%second_moment, second_moment), 17)//" "//second_moment%name//achar(10))
+      end associate
+    end do
+    do i = 1, size(model%links)
+      if (link_mass(model, i) <= 0.0_wp) cycle
+      call append_text(buffer, "! derived: link "//model%links(i)%name%text//": mass = "// &
+        to_string(from_si(link_mass(model, i), mass), 17)//" "//mass%name//achar(10))
+    end do
+  end subroutine append_derived
+
+end module echo

@@ -1,0 +1,63 @@
+!> The first part of `run.log`: what the deck describes.
+module run_log
+  use kinds, only: wp
+  use models, only: branch_crossed, effects_axial, inertia_distributed, inertia_lumped, link_mass, model_t
+  use text, only: plural, to_string
+  use units, only: coherent_unit, dimension_mass, dimension_length, from_si, unit_t
+  implicit none (type, external)
+  private
+
+  public :: model_summary, total_mass
+
+contains
+
+  !> Title, links in the order of the loop, masses, requests: a few lines.
+  pure function model_summary(model) result(text)
+    type(model_t), intent(in) :: model
+    character(len=:), allocatable :: text
+
+    character(len=*), parameter :: line_feed = achar(10)
+    character(len=:), allocatable :: where_to
+    type(unit_t) :: length, mass
+    integer :: i
+
+    text = ""
+    if (len(model%title) > 0) text = model%title//line_feed
+    length = coherent_unit(model%units, dimension_length)
+    mass = coherent_unit(model%units, dimension_mass)
+    do i = 1, size(model%loop)
+      associate (link => model%links(model%loop(i)))
+        where_to = model%loop_pins(i)%text//" - "//model%loop_pins(i + 1)%text
+        text = text//"link "//link%name%text//": "//where_to//", length "//to_string(from_si(link%length, length), 12)//" "// &
+          length%name
+        if (link_mass(model, model%loop(i)) > 0.0_wp) then
+          text = text//", mass "//to_string(from_si(link_mass(model, model%loop(i)), mass), 12)//" "//mass%name
+        end if
+        text = text//line_feed
+      end associate
+    end do
+    if (total_mass(model) > 0.0_wp) then
+      text = text//"total mass: "//to_string(from_si(total_mass(model), mass), 12)//" "//mass%name//line_feed
+    end if
+    text = text//"branch: "//trim(merge("crossed", "open   ", model%branch == branch_crossed))//line_feed
+    if (model%inertia == inertia_lumped) text = text//"inertia loads: lumped"//line_feed
+    if (model%inertia == inertia_distributed) text = text//"inertia loads: distributed"//line_feed
+    text = text//"effects: "//trim(merge("axial ", "static", model%effects == effects_axial))//line_feed
+    text = text//plural(size(model%crank%value), "crank angle")//", "//plural(size(model%speed%value), "speed")//line_feed
+  end function model_summary
+
+  !> Mass of all links and pins that the deck gives a mass [kg].
+  pure function total_mass(model) result(mass)
+    type(model_t), intent(in) :: model
+    real(wp) :: mass
+
+    integer :: i
+
+    mass = 0.0_wp
+    do i = 1, size(model%links)
+      mass = mass + link_mass(model, i)
+    end do
+    if (size(model%pin_masses) > 0) mass = mass + sum(model%pin_masses%mass)
+  end function total_mass
+
+end module run_log

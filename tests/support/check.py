@@ -1,0 +1,245 @@
+#!/usr/bin/env python3
+"""Runs all tests on what `make check` has built; the last line printed is the count.
+
+    check.py UNIT_TESTS      the program of unit tests below build/release and build/debug, funit/… or pfunit/…
+
+Everything is written below build/check/. Exit status 1 when a test has failed.
+"""
+
+import filecmp
+import os
+import re
+import shutil
+import subprocess
+import sys
+from glob import glob
+
+import compare_tables
+
+SCRATCH = os.path.join("build", "check")
+COUNT = os.path.join("build", "check.count")
+BUILDS = ("release", "debug")
+LONGEST = 600  # seconds; a test that takes longer hangs
+
+
+class Group:
+    """The results of one kind of test: failures at once, one line in the end."""
+
+    passed = failed = 0  # over all groups
+
+    def __init__(self, title):
+        self.title, self.passed, self.failed, self.skipped = title, 0, 0, 0
+
+    def result(self, name, why=None):
+        """One test: passed, unless there is a reason why not."""
+        if why is None:
+            self.passed += 1
+        else:
+            self.failed += 1
+            print(f"not ok {name}: {why}")
+
+    def lines(self, run):
+        """The results of a program that prints `ok NAME` and `not ok NAME: why` itself."""
+        last = "before its first test"
+        before = self.failed
+        for line in run.stdout.splitlines():
+            if line.startswith("ok ") and "# skip" in line.lower():
+                self.skipped += 1
+                print(line)
+            elif line.startswith("ok "):
+                self.passed += 1
+                last = "after " + line[3:]
+            elif line.startswith("not ok "):
+                self.failed += 1
+                print(line)
+            elif line.startswith("# "):
+                last = "in " + line[2:]
+        if run.returncode != 0 and (self.failed == before or run.returncode < 0):
+            self.result(os.path.relpath(run.args[0]), f"ended with status {run.returncode} {last}\n{run.stderr.strip()}")
+        elif self.passed + self.failed + self.skipped == 0:
+            self.result(os.path.relpath(run.args[0]), "ran no test")
+
+    def end(self):
+        skipped = f", {self.skipped} skipped" if self.skipped else ""
+        print(f"{self.title:<32}{self.passed:5d} passed, {self.failed:3d} failed{skipped}", flush=True)
+        Group.passed += self.passed
+        Group.failed += self.failed
+
+
+def execute(command, folder="."):
+    """Run without input, and with a limit of time."""
+    try:
+        return subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace",
+                              timeout=LONGEST, check=False)
+    except subprocess.TimeoutExpired:
+        return subprocess.CompletedProcess(command, -1, "", f"still running after {LONGEST} s")
+
+
+def fresh(*names):
+    """An empty folder, its absolute path."""
+    folder = os.path.abspath(os.path.join(SCRATCH, *names))
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    return folder
+
+
+def program(build):
+    return os.path.abspath(os.path.join("build", build, "flexmech"))
+
+
+def base_name(path):
+    return os.path.splitext(os.path.basename(path))[0]
+
+
+def unit_tests(build, path):
+    group = Group(f"unit tests, {build}")
+    run = execute([os.path.join("build", build, path)])
+    if path.startswith("funit"):
+        group.lines(run)
+    else:
+        ok = re.search(r"^ *OK\s+\((\d+) tests?", run.stdout, re.MULTILINE)
+        bad = re.search(r"Tests run: (\d+), Failures: (\d+), Errors: (\d+)", run.stdout)
+        if ok and run.returncode == 0:
+            group.passed = int(ok[1])
+        else:
+            print(run.stdout.strip(), run.stderr.strip(), sep="\n")
+            group.failed = max(1, int(bad[2]) + int(bad[3]) if bad else 1)
+            group.passed = int(bad[1]) - group.failed if bad else 0
+    group.end()
+
+
+def assertions(build, path):
+    """The assertions fail when they must, and say what they must."""
+    group = Group(f"assertions, {build}")
+    run = execute([os.path.join("build", build, os.path.dirname(path), "must_fail")])
+    if path.startswith("funit"):
+        with open(os.path.join("tests", "support", "test_must_fail.expected"), encoding="utf-8") as kept:
+            expected = kept.read().splitlines()
+        found = [line for line in run.stdout.splitlines() if not line.startswith("# ")]
+        for i, line in enumerate(expected):
+            text = found[i] if i < len(found) else "nothing"
+            group.result(line.split(":")[0], None if text == line else f"expected\n  {line}\nbut it printed\n  {text}")
+        group.result("test_must_fail ends with status 2", None if run.returncode == 2 else f"status {run.returncode}")
+    else:
+        count = re.search(r"Tests run: (\d+), Failures: (\d+)", run.stdout)
+        group.result("all of test_must_fail fail", None if count and count[1] == count[2] else run.stdout)
+    group.end()
+
+
+def layers():
+    group = Group("layers")
+    group.lines(execute([sys.executable, "-B", os.path.join("tests", "support", "check_layers.py")]))
+    group.end()
+
+
+def refused_decks(build):
+    group = Group(f"refused decks, {build}")
+    folder = os.path.join("tests", "decks")
+    for expected_file in sorted(glob(os.path.join(folder, "*.expected"))):
+        name = base_name(expected_file)
+        out = os.path.join(fresh("decks", build), name)  # must not come into being
+        run = execute([program(build), "--out", out, name + ".deck"], folder)
+        with open(expected_file, encoding="utf-8") as kept:
+            expected = kept.read()
+        why = None
+        if run.returncode != 2:
+            why = f"exit status {run.returncode}, not 2"
+        elif run.stderr != expected:
+            why = f"expected\n{expected}but it printed\n{run.stderr}"
+        elif os.path.lexists(out):
+            why = "something was written"
+        group.result(f"{folder}/{name}.deck ({build})", why)
+    for deck in sorted(glob(os.path.join(folder, "*.deck"))):
+        if not os.path.exists(deck[:-len("deck")] + "expected"):
+            group.result(deck, "there is no .expected beside it")
+    group.end()
+
+
+def run_deck(group, build, deck, out):
+    """Run a deck; status 1 (some rows could not be computed) is no failure here, for the tables tell."""
+    run = execute([program(build), "--out", out, deck])
+    if run.returncode in (0, 1):
+        return True
+    group.result(f"{deck} ({build})", f"ended with status {run.returncode}\n{run.stderr.strip()}")
+    return False
+
+
+def goldens(build):
+    group = Group(f"goldens, {build}")
+    for deck in sorted(glob(os.path.join("inputs", "*.deck"))):
+        case = base_name(deck)
+        kept = os.path.join("tests", "golden", case)
+        out = fresh("golden", build)
+        if not os.path.isdir(kept):
+            group.result(deck, f"no {kept}/; say: make golden CASE={case}")
+        elif run_deck(group, build, deck, out):
+            old, new = ({os.path.basename(table) for table in glob(os.path.join(folder, "*.dat"))}
+                        for folder in (kept, os.path.join(out, case)))
+            for table in sorted(old | new):
+                name = f"{kept}/{table} ({build})"
+                if table not in new:
+                    group.result(name, "the program does not write it any more")
+                elif table not in old:
+                    group.result(name, f"a new table; say: make golden CASE={case}")
+                else:
+                    group.result(name, compare_tables.difference(os.path.join(kept, table), os.path.join(out, case, table)))
+    for kept in sorted(glob(os.path.join("tests", "golden", "*", ""))):
+        case = os.path.basename(os.path.dirname(kept))
+        if not os.path.exists(os.path.join("inputs", case + ".deck")):
+            group.result(kept, f"there is no inputs/{case}.deck")
+    group.end()
+
+
+def repeated_runs():
+    """The same deck gives the same bytes."""
+    group = Group("the same bytes twice")
+    for deck in sorted(glob(os.path.join("inputs", "*.deck"))):
+        folders = [fresh("twice", which) for which in ("first", "second")]
+        if not all(run_deck(group, "release", deck, folder) for folder in folders):
+            continue
+        folders = [os.path.join(folder, base_name(deck)) for folder in folders]
+        names = [sorted(os.listdir(folder)) for folder in folders]
+        if names[0] != names[1]:
+            group.result(deck, f"files {names[0]}, then {names[1]}")
+            continue
+        different = filecmp.cmpfiles(*folders, names[0], shallow=False)
+        group.result(deck, f"not the same: {' '.join(different[1] + different[2])}" if different[1] + different[2] else None)
+    group.end()
+
+
+def scripts(build):
+    group = Group(f"scripts, {build}")
+    for script in sorted(glob(os.path.join("tests", "scripts", "*.sh"))):
+        if not os.access(script, os.X_OK):
+            continue  # a part that others read in
+        of_this = Group(script)
+        of_this.lines(execute([os.path.abspath(script), program(build), fresh("scripts", build, base_name(script))]))
+        group.passed, group.failed, group.skipped = (
+            a + b for a, b in ((group.passed, of_this.passed), (group.failed, of_this.failed), (group.skipped, of_this.skipped)))
+    group.end()
+
+
+def main(tests):
+    for build in BUILDS:
+        unit_tests(build, tests)
+    # pFUnit's own comparison of a NaN raises the exception that the debug build traps.
+    for build in BUILDS if tests.startswith("funit") else ("release",):
+        assertions(build, tests)
+    layers()
+    for build in BUILDS:
+        refused_decks(build)
+    for build in BUILDS:
+        goldens(build)
+    repeated_runs()
+    for build in BUILDS:
+        scripts(build)
+
+    total = f"{Group.passed} passed, {Group.failed} failed"
+    with open(COUNT, "w", encoding="utf-8") as count:
+        count.write(total + "\n")
+    print(total, flush=True)
+    return 1 if Group.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))

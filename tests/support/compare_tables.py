@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+"""Compares a table of the program with the one kept for it.
+
+    compare_tables.py KEPT NEW
+
+Lines that start with # and the places of empty lines must agree exactly, NaN and infinity are never right, and the
+columns agree within the tolerances below (numdiff does the arithmetic). Prints why not, and then exits with status 1.
+"""
+
+import math
+import re
+import subprocess
+import sys
+
+# Columns by name: relative tolerance, and absolute tolerance as a fraction of the largest magnitude in the column,
+# which is there for values that would be zero but for rounding. The first row that fits counts.
+TOLERANCES = [
+    # Frequencies: from an eigenvalue solver, whose last digits differ between libraries and processors.
+    (r"f\d+|frequency", 1e-8, 1e-12),
+    # Mode shapes: eigenvectors are less accurate than eigenvalues, and small where they do not move.
+    (r"ux|uy|rotation", 0.0, 1e-6),
+    # All others: closed formulas and small linear systems. Whole numbers are the same or they are not.
+    (r".*", 1e-9, 1e-12),
+]
+
+
+def number(word):
+    try:
+        return float(word)
+    except ValueError:
+        return None
+
+
+def column_names(lines):
+    """They stand in the last but one # line of the header; the last holds the units."""
+    header = []
+    for line in lines:
+        if not line.startswith("#"):
+            break
+        header.append(line)
+    return header[-2][1:].split() if len(header) >= 2 else []
+
+
+def difference(kept_path, new_path):
+    """Why the tables differ, or None."""
+    with open(kept_path, encoding="utf-8") as kept, open(new_path, encoding="utf-8") as new:
+        kept_lines, new_lines = kept.read().split("\n"), new.read().split("\n")
+    names = column_names(kept_lines)
+    largest = {}
+
+    for i, (old, line) in enumerate(zip(kept_lines, new_lines), 1):
+        if old.startswith("#") or line.startswith("#") or not old.strip() or not line.strip():
+            if old != line:
+                return f"line {i}: kept '{old}', now '{line}'"
+            continue
+        old_words, words = old.split(), line.split()
+        if len(words) != len(names) or len(old_words) != len(names):
+            return f"line {i}: {len(old_words)} columns kept, {len(words)} now, {len(names)} named in the header"
+        for name, old_word, word in zip(names, old_words, words):
+            value = number(old_word)
+            for text in (old_word, word):
+                if number(text) is not None and not math.isfinite(number(text)):
+                    return f"line {i}, {name}: {text} is not a number"
+            if value is not None:
+                largest[name] = max(largest.get(name, 0.0), abs(value))
+    if len(kept_lines) != len(new_lines):
+        return f"{len(kept_lines) - 1} lines kept, {len(new_lines) - 1} now"
+
+    command = ["numdiff", "-V"]
+    for field, name in enumerate(names, 1):
+        relative, absolute = next((r, a) for pattern, r, a in TOLERANCES if re.fullmatch(pattern, name))
+        command += ["-r", f"{relative:.0e}:{field}", "-a", f"{absolute * largest.get(name, 0.0):.3e}:{field}"]
+    run = subprocess.run(command + [kept_path, new_path], capture_output=True, text=True, check=False)
+    if run.returncode == 0:
+        return None
+    if run.returncode != 1:
+        return "numdiff: " + (run.stderr or run.stdout).strip()
+    marks = re.search(r"##(\d+)\s+#:(\d+)\s+<==\s*(\S*)\s+##\d+\s+#:\d+\s+==>\s*(\S*)", run.stdout)
+    if not marks:
+        return "numdiff: " + run.stdout.strip()[:300]
+    return f"line {marks[1]}, {names[int(marks[2]) - 1]}: kept {marks[3]}, now {marks[4]}"
+
+
+if __name__ == "__main__":
+    why = difference(sys.argv[1], sys.argv[2])
+    if why:
+        sys.exit(why)
