@@ -173,8 +173,8 @@ contains
       bound = round_off_error(mechanism%linkage, mechanism%beams, mechanism%mesh, body)/lambda
       if (bound <= most_round_off) cycle
       call add_error(diagnostics, model%meshes(model%links(model%loop(body))%mesh)%keyword, "this mesh is too fine for double "// &
-        "precision: the elements of '"//mechanism%names(body)%text//"' are so stiff that round-off may change the lowest "// &
-        "frequency by a part in "//to_string(1.0_wp/bound, 2)//"; use fewer elements")
+        "precision: round-off in the elements of '"//mechanism%names(body)%text//"' may reach "//to_string(bound, 2)// &
+        " of the lowest eigenvalue, above "//to_string(most_round_off)//"; use fewer elements")
     end do
   end subroutine check_round_off
 

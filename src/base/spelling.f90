@@ -36,11 +36,14 @@ contains
     if (len(word) > longest_compared) return
     best = max(1, (len(word) + 1)/3) + 1
     do i = 1, size(candidates)
-      if (abs(len(candidates(i)%text) - len(word)) >= best) cycle
+      if (abs(len(candidates(i)%text) - len(word)) > best) cycle
       distance = edit_distance(lower_case(word), lower_case(candidates(i)%text))
       ! A word of one or two letters is near everything; only a slip in one letter of more, or of case, is a spelling.
       if (distance > 0 .and. distance >= max(len(word), len(candidates(i)%text))) cycle
-      if (distance < best) then
+      if (distance == best .and. nearest > 0) then
+        ! Of two as near, the one of the same length: a slip of the finger is likelier than a letter left out.
+        if (len(candidates(i)%text) == len(word) .and. len(candidates(nearest)%text) /= len(word)) nearest = i
+      else if (distance < best) then
         best = distance
         nearest = i
       end if

@@ -54,16 +54,15 @@ contains
       string = "0"
       return
     end if
-    write (buffer, "(es12.5e3)") value
-    read (buffer(9:12), *) power
-    if (power >= -4 .and. power < max(significant, 7)) then
+    write (form, "(a,i0,a)") "(es40.", significant - 1, "e3)"
+    write (buffer, form) value
+    power = exponent_of(buffer)
+    if (power >= -4 .and. power < max(significant, 6)) then
       decimals = max(significant - 1 - power, 0)
       write (form, "(a,i0,a)") "(f0.", decimals, ")"
       write (buffer, form) value
       string = without_trailing_zeros(with_leading_zero(trim(buffer)))
     else
-      write (form, "(a,i0,a)") "(es40.", significant - 1, ")"
-      write (buffer, form) value
       buffer = adjustl(buffer)
       string = without_trailing_zeros(buffer(:index(buffer, "E") - 1))//"e"//to_string(exponent_of(buffer))
     end if

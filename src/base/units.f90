@@ -90,9 +90,11 @@ contains
   !> Reads `mm`, `kg/m3`, `N/mm^2`, `lbf*s2/in`, …
   !!
   !! Powers are whole numbers behind a name, with or without `^`; after a `/` everything up to the next `*` divides. Names keep
-  !! the case in which they are written. `problem` is empty, or names the part that is not a unit.
-  pure subroutine read_unit(text, measure, problem)
+  !! the case in which they are written. `problem` is empty, or names the part that is not a unit and offers the nearest of the
+  !! dimension that is wanted.
+  pure subroutine read_unit(text, wanted, measure, problem)
     character(len=*), intent(in) :: text
+    integer, intent(in) :: wanted(4)
     type(unit_t), intent(out) :: measure
     character(len=:), allocatable, intent(out) :: problem
 
@@ -104,7 +106,7 @@ contains
     step = 1
     do
       last = first - 1 + scan(text(first:)//"*", "*/") - 1
-      call multiply_by_power(measure, text(first:last), step, problem)
+      call multiply_by_power(measure, text(first:last), step, wanted, problem)
       if (len(problem) > 0 .or. last >= len(text)) return
       step = merge(-1, 1, text(last + 1:last + 1) == "/")
       first = last + 2
@@ -112,14 +114,14 @@ contains
   end subroutine read_unit
 
   !> Multiplies (`step = 1`) or divides (`step = -1`) a unit by a named unit to a power.
-  pure subroutine multiply_by_power(measure, factor, step, problem)
+  pure subroutine multiply_by_power(measure, factor, step, wanted, problem)
     type(unit_t), intent(inout) :: measure
     character(len=*), intent(in) :: factor
     integer, intent(in) :: step
+    integer, intent(in) :: wanted(4) !! dimension of the whole
     character(len=:), allocatable, intent(inout) :: problem
 
     type(unit_t), allocatable :: known(:)
-    type(string_t), allocatable :: names(:)
     character(len=:), allocatable :: name
     integer :: i, power, name_length
 
@@ -143,12 +145,28 @@ contains
       call multiply(measure, known(i), step*power)
       return
     end do
-    allocate (names(size(known)))
-    do i = 1, size(known)
-      names(i)%text = known(i)%name
-    end do
-    problem = "unknown unit '"//name//"'"//suggestion(name, names)
+    problem = "unknown unit '"//name//"'"//suggestion(name, names_of_dimension(known, wanted))
   end subroutine multiply_by_power
+
+  !> Names of the units of a dimension; of all units if none has it.
+  pure function names_of_dimension(known, wanted) result(names)
+    type(unit_t), intent(in) :: known(:)
+    integer, intent(in) :: wanted(4)
+    type(string_t), allocatable :: names(:)
+
+    integer :: i, count
+    logical :: fits(size(known))
+
+    fits = [(all(known(i)%dimension == wanted), i=1, size(known))]
+    if (.not. any(fits)) fits = .true.
+    allocate (names(size(pack([(i, i=1, size(known))], fits))))
+    count = 0
+    do i = 1, size(known)
+      if (.not. fits(i)) cycle
+      count = count + 1
+      names(count)%text = known(i)%name
+    end do
+  end function names_of_dimension
 
   pure function new_unit_system(length, mass, time) result(system)
     type(unit_t), intent(in) :: length, mass, time

@@ -33,25 +33,49 @@ contains
     integer, intent(in) :: number        !! of the line in the deck
     type(token_t), allocatable :: words(:)
 
-    integer :: pass, count, first, length
+    integer :: pass, count, first, last, column
 
     do pass = 1, 2
       count = 0
+      column = 0
+      last = 0
       first = 1
-      do while (first <= len(line))
-        if (scan(line(first:first), blanks) == 1) then
-          first = first + 1
-          cycle
-        end if
-        length = 1
-        if (line(first:first) /= "=") length = scan(line(first:)//" ", blanks//"=") - 1
+      do
+        ! The old word still counts for the column of the new one.
+        if (last > 0) column = column - 1 + character_count(line(first:last))
+        call next_word(line, first, last, column)
+        if (first > len(line)) exit
         count = count + 1
-        if (pass == 2) words(count) = token_t(line(first:first + length - 1), number, 1 + character_count(line(:first - 1)))
-        first = first + length
+        if (pass == 2) words(count) = token_t(line(first:last), number, column)
       end do
       if (pass == 1) allocate (words(count))
     end do
   end function split_words
+
+  !> Moves on from the word that ends at `last` to the next one; `column` follows in characters, not in bytes.
+  pure subroutine next_word(line, first, last, column)
+    character(len=*), intent(in) :: line
+    integer, intent(out) :: first     !! byte at which the next word begins; past the line if there is none
+    integer, intent(inout) :: last    !! byte at which it ends
+    integer, intent(inout) :: column  !! of the first character of the word
+
+    integer :: i
+
+    first = last + 1
+    do while (first <= len(line))
+      if (scan(line(first:first), blanks) == 0) exit
+      first = first + 1
+      column = column + 1
+    end do
+    column = column + 1
+    last = first
+    if (first > len(line)) return
+    if (line(first:first) == "=") return
+    do i = first + 1, len(line)
+      if (scan(line(i:i), blanks//"=") == 1) exit
+      last = i
+    end do
+  end subroutine next_word
 
   !> The words without their places.
   pure function token_texts(words) result(texts)

@@ -3,6 +3,7 @@ module card_echo
   use cards, only: card_t
   use card_reader, only: entry_number
   use text, only: lower_case, same_word, to_string, upper_case
+  use text_buffer, only: append_text, buffer_text, text_buffer_t
   implicit none (type, external)
   private
 
@@ -20,15 +21,17 @@ contains
     type(card_t), intent(in) :: card
     type(echo_line_t) :: line
 
+    type(text_buffer_t) :: buffer
     integer :: i
 
-    line%text = upper_case(card%keyword%text)
+    call append_text(buffer, upper_case(card%keyword%text))
     do i = 1, size(card%words)
-      line%text = line%text//" "//card%words(i)%text
+      call append_text(buffer, " "//card%words(i)%text)
     end do
     do i = 1, size(card%entries)
-      line%text = line%text//" "//card%entries(i)%key%text//"="//card%entries(i)%value%text
+      call append_text(buffer, " "//card%entries(i)%key%text//"="//card%entries(i)%value%text)
     end do
+    line%text = buffer_text(buffer)
     line%origin = "line "//to_string(card%keyword%line)
     select case (lower_case(card%keyword%text))
     case ("title")

@@ -102,11 +102,13 @@ contains
     logical, intent(out) :: fine
 
     character(len=:), allocatable :: problem
-    integer :: length, column
+    type(token_t) :: place
+    integer :: length
 
     measure = bare
     value = 0.0_wp
     fine = .false.
+    place = word
     length = number_length(word%text)
     if (length == 0) then
       call add_error(diagnostics, word, "'"//word%text//"' is not a number; expected "//dimension_name(dimension))
@@ -117,16 +119,17 @@ contains
       if (scan(word%text(length + 1:length + 1), ".,*/+-0123456789") == 1) then
         problem = "'"//word%text//"' is not a number"
       else
-        call read_unit(word%text(length + 1:), measure, problem)
+        call read_unit(word%text(length + 1:), dimension, measure, problem)
         if (len(problem) == 0 .and. any(measure%dimension /= dimension)) then
           problem = "'"//measure%name//"' is the unit of "//dimension_name(measure%dimension)
         end if
+        place%text = word%text(length + 1:)
+        place%column = word%column + length
       end if
     end if
     fine = len(problem) == 0
     if (fine) return
-    column = word%column
-    call add_error(diagnostics, token_t(word%text, word%line, column), problem//"; expected "//dimension_name(dimension))
+    call add_error(diagnostics, place, problem//"; expected "//dimension_name(dimension))
   end subroutine read_measure
 
   !> Reads a quantity in SI.

@@ -121,9 +121,9 @@ contains
     logical :: fine
     character(len=:), allocatable :: problem
 
-    call read_unit("m", system%length, problem)
-    call read_unit("kg", system%mass, problem)
-    call read_unit("s", system%time, problem)
+    call read_unit("m", dimension_length, system%length, problem)
+    call read_unit("kg", dimension_mass, system%mass, problem)
+    call read_unit("s", dimension_time, system%time, problem)
     do i = 1, size(cards)
       if (.not. same_word(cards(i)%keyword%text, "UNITS")) cycle
       call check_form(cards(i), 3, 3, "", "UNITS length mass time", diagnostics, fine)
@@ -144,7 +144,7 @@ contains
 
       type(unit_t) :: candidate
 
-      call read_unit(word%text, candidate, problem)
+      call read_unit(word%text, dimension, candidate, problem)
       if (len(problem) > 0) then
         call add_error(diagnostics, word, problem)
       else if (any(candidate%dimension /= dimension)) then

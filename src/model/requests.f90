@@ -121,7 +121,8 @@ contains
       allocate (words(1 + count([(value%text(i:i) == ",", i=1, len(value%text))])))
       first = 1
       do i = 1, size(words)
-        length = index(value%text(first:)//",", ",") - 1
+        length = index(value%text(first:), ",") - 1
+        if (length < 0) length = len(value%text) - first + 1
         words(i) = token_t(value%text(first:first + length - 1), value%line, value%column + first - 1)
         if (length == 0) then
           call add_error(diagnostics, token_t(",", value%line, value%column + first - 1), "a value is missing in this list")
@@ -190,7 +191,7 @@ contains
     if (number_length(words(count)%text) > 0 .or. same_word(words(count)%text, "to") .or. &
       same_word(words(count)%text, "step") .or. same_word(words(count - 1)%text, "to") .or. &
       same_word(words(count - 1)%text, "step")) return
-    call read_unit(words(count)%text, measure, problem)
+    call read_unit(words(count)%text, dimension, measure, problem)
     if (len(problem) > 0) then
       call add_error(diagnostics, words(count), problem)
     else if (any(measure%dimension /= dimension)) then
@@ -218,7 +219,7 @@ contains
     if (any(dimension /= dimension_angle)) then
       value = to_si(value, measure)
     else if (measure%name /= "deg") then
-      call read_unit("deg", degrees, problem)
+      call read_unit("deg", dimension_angle, degrees, problem)
       value = from_si(to_si(value, measure), degrees)
     end if
   end subroutine read_value

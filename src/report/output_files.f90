@@ -18,6 +18,7 @@ module output_files
     integer(long), private :: bytes = 0_long
     logical, private :: sound = .true.
     type(text_buffer_t), private :: buffer !! text not yet written
+    logical :: gap_due = .false.           !! an empty line is to come before the next row
   end type output_file_t
 
   character(len=*), parameter :: temporary = ".part"

@@ -86,6 +86,8 @@ contains
     type(output_file_t), intent(inout) :: file
     character(len=*), intent(in) :: cells
 
+    if (file%gap_due) call append_output(file, line_feed)
+    file%gap_due = .false.
     call append_output(file, cells//line_feed)
   end subroutine write_row
 
@@ -94,16 +96,20 @@ contains
     type(output_file_t), intent(inout) :: file
     integer, intent(in) :: lines
 
+    file%gap_due = .false.
     call append_output(file, repeat(line_feed, lines))
   end subroutine write_gap
 
   !> A row that could not be computed: a comment, and an empty line that breaks a plotted curve.
+  !!
+  !! Rows that fail one after another share one empty line: two would be the end of a block.
   subroutine write_failure(file, place, reason)
     type(output_file_t), intent(inout) :: file
     character(len=*), intent(in) :: place  !! `speed=… crank=…`
     character(len=*), intent(in) :: reason
 
-    call append_output(file, "# failed "//place//" : "//reason//line_feed//line_feed)
+    call append_output(file, "# failed "//place//" : "//reason//line_feed)
+    file%gap_due = .true.
   end subroutine write_failure
 
   !> Numbers with 17 digits. Zero has no sign: -0 would make equal tables differ.

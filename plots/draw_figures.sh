@@ -1,0 +1,163 @@
+#!/bin/sh
+# Draws every figure that the tables of one deck allow, into the folder `figures` beside them.
+#   draw_figures.sh outputs/mechanism1
+# A figure of the thesis gets its number (thesis_figures.txt). The figures of the last run stay until all new ones are
+# drawn; then they go, and files that this script did not draw stay. Prints a line a figure.
+
+set -u
+LC_ALL=C
+export LC_ALL
+
+fail() {
+    printf 'draw_figures.sh: %s\n' "$1" >&2
+    exit "${2:-1}"
+}
+
+[ $# -eq 1 ] || fail 'usage: draw_figures.sh OUTDIR   (the folder with the tables of one deck)' 2
+outdir=${1%/}
+[ -d "$outdir" ] || fail "no folder $outdir"
+command -v gnuplot > /dev/null || fail 'gnuplot is not installed'
+
+script=$0
+while [ -h "$script" ]; do
+    target=$(readlink "$script")
+    case $target in
+        /*) script=$target ;;
+        *) script=$(dirname "$script")/$target ;;
+    esac
+done
+PLOTS=$(CDPATH='' cd "$(dirname "$script")" && pwd) || exit 1
+export PLOTS
+
+cd "$outdir" || fail "cannot enter $outdir"
+deck=$(basename "$(pwd)")
+new=.figures.$$
+trap 'rm -rf "$new"' EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM HUP
+trap 'exit 141' PIPE
+mkdir "$new" || fail "cannot write into $outdir"
+
+# ask WANT TABLE: see tables.awk
+ask() { awk -v want="$1" -f "$PLOTS/tables.awk" < "$2"; }
+
+# A table is there and has rows.
+have() {
+    [ -f "$1" ] || return 1
+    [ -n "$(ask 'distinct crank' "$1")" ] && return 0
+    printf 'draw_figures.sh: %s/%s has no row that could be computed\n' "$outdir" "$1" >&2
+    return 1
+}
+
+# add FIGURE SCRIPT TABLE [ARGUMENT…]
+add() { (IFS='|'; printf '%s\n' "$*") >> "$new/plan"; }
+
+# A position that shows the mechanism well: the one nearest to 60 degrees.
+telling_crank() {
+    ask 'distinct crank' "$1" | awk '
+        { d = ($1 - 60) % 360; if (d < 0) d += 360; if (d > 180) d = 360 - d }
+        NR == 1 || d < least { least = d; best = $1 }
+        END { print best }'
+}
+
+greatest_speed() { ask 'distinct speed' "$1" | sort -n | tail -n 1; }
+
+plan_mechanism() {
+    mesh=
+    if ask facts inertia.dat | grep -q col_moment; then
+        mesh=mesh.dat
+        if ! have mesh.dat; then
+            echo 'draw_figures.sh: the mechanism of a distributed inertia is drawn only with mesh.dat (REPORT mesh)' >&2
+            return
+        fi
+    fi
+    add mechanism mechanism.gp inertia.dat "$(telling_crank inertia.dat)" "$(greatest_speed inertia.dat)" "$mesh"
+}
+
+plan_frequencies() {
+    speeds=$(ask 'distinct speed' frequencies.dat)
+    n=$(printf '%s\n' "$speeds" | wc -l)
+    for speed in $speeds; do
+        if [ "$n" -eq 1 ]; then name=frequencies; else name=frequencies_speed_$speed; fi
+        add "$name" frequencies.gp frequencies.dat "$speed"
+    done
+    [ "$n" -gt 1 ] || return 0
+    for mode in $(ask facts frequencies.dat | tr ' ' '\n' | sed -n 's/^col_f\([0-9][0-9]*\)$/\1/p'); do
+        add "frequency_${mode}_by_speed" frequency_by_speed.gp frequencies.dat "$mode"
+    done
+}
+
+plan_modes() {
+    ask 'distinct mode crank speed' shapes.dat | while read -r mode crank speed; do
+        add "mode_${mode}_crank_${crank}_speed_$speed" mode_shape.gp shapes.dat "$mode" "$crank" "$speed"
+    done
+}
+
+# Angles always; what stands still has no curve worth drawing.
+plan_kinematics() {
+    add kinematics_angles kinematics.gp kinematics.dat angles
+    [ "$(ask 'range omega3 omega4' kinematics.dat)" = '0 0' ] ||
+        add kinematics_velocities kinematics.gp kinematics.dat velocities
+    [ "$(ask 'range alpha3 alpha4' kinematics.dat)" = '0 0' ] ||
+        add kinematics_accelerations kinematics.gp kinematics.dat accelerations
+}
+
+: > "$new/plan"
+have inertia.dat && plan_mechanism
+have mesh.dat && add finite_element_model finite_element_model.gp mesh.dat "$(telling_crank mesh.dat)"
+have frequencies.dat && plan_frequencies
+have shapes.dat && plan_modes
+have kinematics.dat && plan_kinematics
+[ -s "$new/plan" ] || fail "$outdir has no table that a figure can be drawn from"
+
+# The plan becomes calls of the scripts, dealt out to two runs of gnuplot (starting one for each figure takes longer).
+: > "$new/draw0"
+: > "$new/draw1"
+awk -v deck="$deck" -v new="$new" '
+    function quoted(text) { gsub(/\047/, "\047\047", text); return "\047" text "\047" }
+    NR == FNR {
+        if ($1 != deck) next
+        number[$2] = $3
+        file[$2] = $4
+        for (i = 5; i <= NF; i++) remark[$2] = remark[$2] (i > 5 ? " " : "") $i
+        next
+    }
+    {
+        n = split($0, part, "|")
+        name = part[1]
+        if (!(name in file)) file[name] = name
+        call = "call " quoted(ENVIRON["PLOTS"] "/" part[2]) " " quoted(part[3]) " " quoted(new "/" file[name])
+        for (i = 4; i <= n; i++) call = call " " quoted(part[i])
+        print call, quoted(number[name]), quoted(remark[name]) > (new "/draw" (FNR % 2))
+        print file[name] > (new "/names")
+    }' "$PLOTS/thesis_figures.txt" "$new/plan" || fail 'awk failed'
+
+# The scripts are UTF-8; in the C locale gnuplot warns about every degree sign.
+LC_ALL=C.UTF-8 gnuplot "$new/draw0" &
+first=$!
+LC_ALL=C.UTF-8 gnuplot -e 'fallback_told = 1' "$new/draw1"
+second_status=$?
+wait "$first" && [ $second_status -eq 0 ] || fail "gnuplot failed: $outdir/figures is left as it was"
+
+mkdir -p figures || fail "cannot write into $outdir/figures"
+if [ -f figures/drawn.txt ]; then
+    while read -r name; do
+        case $name in
+            '' | '#'* | */*) ;;
+            *) rm -f "figures/$name" ;;
+        esac
+    done < figures/drawn.txt
+fi
+echo '# Drawn by draw_figures.sh, which removes these files when it draws again.' > "$new/drawn.txt"
+sort "$new/names" > "$new/sorted"
+while read -r name; do
+    for file in "$new/$name".*; do
+        [ -s "$file" ] || fail "gnuplot wrote no $name"
+        basename "$file" >> "$new/drawn.txt"
+        mv -f "$file" figures/ || fail "cannot write into $outdir/figures"
+    done
+done < "$new/sorted"
+cp "$new/drawn.txt" figures/drawn.txt || fail "cannot write into $outdir/figures"
+sed -n "/^#/!p" figures/drawn.txt | while read -r name; do
+    printf '%s/figures/%s\n' "$outdir" "$name"
+done

@@ -1,0 +1,227 @@
+# Answers a question about one of the program's tables, read from standard input:
+#   want=facts                     title, the note that names links 3 and 4, number of rows, and of every column its
+#                                  place, unit, least and greatest value, as gnuplot assignments
+#   want="distinct crank speed"    the distinct values of these columns, a line each, in the table's order
+#   want="range f1 f2"             the least and the greatest value found in these columns
+#   want="change f1 0"             speed, crank and f1's change in percent against the rows of speed 0
+#   want="nodes 60"                the nodes of mesh.dat at crank 60, an empty line between links: number, x, y, unit
+#                                  vector along the link, index in the link, index of its last, element that begins here
+#                                  and its length, unit vector to a place free for a label
+#   want="masses 60 20"            the same of the lumped masses of inertia.dat at crank 60, speed 20; elements are 0
+#   want="shape 1 60 20"           mode 1 of shapes.dat at crank 60, speed 20, drawn finer: x, y, ux, uy, 1 at a link's
+#                                  ends, frequency
+# With datablock=name the answer is a gnuplot datablock of that name.
+# Rows are picked by their values, never by block: two failed rows in a row look like the end of a block.
+
+BEGIN {
+    n_asked = split(want, asked, " ")
+    header = 1
+    if (datablock) print "$" datablock " << EOD"
+}
+
+# The header: title, notes, names, units. A failed row is a comment too, but no part of it.
+header && /^#/ && (NR == 1 || !/^# *failed /) {
+    sub(/^# */, "")
+    if (NR == 1) title = $0
+    if (/^(link +)?3[: ]/) link_note = $0
+    name_line = unit_line
+    unit_line = $0
+    next
+}
+
+header {
+    header = 0
+    name_columns()
+}
+
+/^#/ || NF == 0 {
+    gap[rows + 1] = 1
+    next
+}
+
+{ rows++ }
+
+asked[1] == "distinct" {
+    line = ""
+    for (i = 2; i <= n_asked; i++) line = line (i > 2 ? " " : "") short($at[asked[i]])
+    if (!(line in seen)) print line
+    seen[line] = 1
+}
+
+asked[1] == "facts" {
+    for (i = 1; i <= n_columns; i++) {
+        number = $i + 0
+        if (rows == 1 || number < low[i]) low[i] = number
+        if (rows == 1 || number > high[i]) high[i] = number
+    }
+}
+
+asked[1] == "range" {
+    for (i = 2; i <= n_asked; i++) {
+        number = $at[asked[i]] + 0
+        if (least == "" || number < least) least = number
+        if (greatest == "" || number > greatest) greatest = number
+    }
+}
+
+asked[1] == "change" {
+    speed[rows] = $at["speed"]
+    crank[rows] = $at["crank"]
+    value[rows] = $at[asked[2]] + 0
+    if (same($at["speed"], asked[3])) reference[$at["crank"] + 0] = value[rows]
+}
+
+asked[1] == "shape" && same($at["mode"], asked[2]) && same($at["crank"], asked[3]) && same($at["speed"], asked[4]) {
+    if ($at["link"] != link_drawn) print_link()
+    link_drawn = $at["link"]
+    frequency = $at["frequency"]
+    points++
+    for (i = 1; i <= 4; i++) shape[i, points] = $at[i == 1 ? "x" : i == 2 ? "y" : i == 3 ? "ux" : "uy"]
+}
+
+asked[1] == "nodes" && same($at["crank"], asked[2]) {
+    node($at["node_a"], $at["xa"], $at["ya"], $at["link"], $at["element"])
+    node($at["node_b"], $at["xb"], $at["yb"], $at["link"], 0)
+}
+
+asked[1] == "masses" && same($at["crank"], asked[2]) && same($at["speed"], asked[3]) && $at["link"] !~ /^pin:/ {
+    node($at["mass"], $at["x"], $at["y"], $at["link"], 0)
+    Fx[nodes] = $at["Fx"]
+    Fy[nodes] = $at["Fy"]
+}
+
+END {
+    if (header) name_columns()
+    if (asked[1] == "facts") print_facts()
+    if (asked[1] == "range") printf "%.12g %.12g\n", least, greatest
+    if (asked[1] == "shape") print_link()
+    if (asked[1] == "change") print_change()
+    if (asked[1] == "nodes" || asked[1] == "masses") print_nodes()
+    if (datablock) print "EOD"
+}
+
+function name_columns(    i) {
+    n_columns = split(name_line, name, " ")
+    split(unit_line, unit, " ")
+    for (i = 1; i <= n_columns; i++) at[name[i]] = i
+}
+
+function print_facts(    i) {
+    printf "deck_title = %s; link_note = %s; columns = %s; rows = %d", \
+        quoted(title), quoted(link_note), quoted(name_line), rows
+    for (i = 1; i <= n_columns; i++) {
+        if (name[i] ~ /^[A-Za-z_][A-Za-z_0-9]*$/) {
+            printf "; col_%s = %d; unit_%s = %s; low_%s = %.15g; high_%s = %.15g", \
+                name[i], i, name[i], quoted(unit[i]), name[i], low[i], name[i], high[i]
+        }
+    }
+    print ""
+}
+
+# A change between two frequencies of which one has diverged has no percentage.
+function print_change(    i, base) {
+    for (i = 1; i <= rows; i++) {
+        if (gap[i]) print ""
+        base = reference[crank[i] + 0] + 0
+        print speed[i], crank[i], (base > 0 && value[i] > 0) ? 100 * (value[i] / base - 1) : "NaN"
+    }
+}
+
+# The rows of one link, with three points put between each two by the cubic through the four nearest rows: a high mode
+# then stays a smooth curve, and every row is still met.
+function print_link(    i, k, j, first, t) {
+    for (j = 1; j <= points; j++) {
+        first = j - 1 < 1 ? 1 : j - 1
+        if (first > points - 3) first = points - 3
+        for (k = 0; k < (j < points && points > 3 ? 4 : 1); k++) {
+            t = j + k / 4 - first
+            for (i = 1; i <= 4; i++) printf "%.9g ", k == 0 ? shape[i, j] : cubic(i, first, t)
+            print k == 0 && (j == 1 || j == points), frequency
+        }
+    }
+    if (points) print ""
+    points = 0
+}
+
+function cubic(i, j, t) {
+    return -shape[i, j] * (t - 1) * (t - 2) * (t - 3) / 6 + shape[i, j + 1] * t * (t - 2) * (t - 3) / 2 \
+        - shape[i, j + 2] * t * (t - 1) * (t - 3) / 2 + shape[i, j + 3] * t * (t - 1) * (t - 2) / 6
+}
+
+# Elements bring their inner nodes twice.
+function node(number, x, y, link, element) {
+    if (number != number_of[nodes] || link != link_of[nodes]) {
+        nodes++
+        index_of[nodes] = link == link_of[nodes - 1] ? index_of[nodes - 1] + 1 : 0
+    }
+    number_of[nodes] = number; x_of[nodes] = x; y_of[nodes] = y; link_of[nodes] = link; element_of[nodes] = element
+    last_of[link] = index_of[nodes]
+}
+
+# The last node of a link looks along it as the one before does; a link with one node looks nowhere.
+function print_nodes(    i, dx, dy) {
+    for (i = 1; i <= nodes; i++) {
+        if (index_of[i] < last_of[link_of[i]]) {
+            dx = x_of[i + 1] - x_of[i]
+            dy = y_of[i + 1] - y_of[i]
+            length_of[i] = sqrt(dx * dx + dy * dy)
+            along_x[i] = dx / length_of[i]
+            along_y[i] = dy / length_of[i]
+        } else if (index_of[i] > 0) {
+            along_x[i] = along_x[i - 1]
+            along_y[i] = along_y[i - 1]
+        }
+    }
+    for (i = 1; i <= nodes; i++) {
+        place_label(i)
+        if (index_of[i] == 0 && i > 1) print ""
+        print number_of[i], x_of[i], y_of[i], along_x[i] + 0, along_y[i] + 0, index_of[i], last_of[link_of[i]], \
+            element_of[i], length_of[i] + 0, cos(label[i]), sin(label[i])
+    }
+}
+
+# A label keeps 60 degrees, or what there is, from links, the force, the other node's label at a pin and the triangle under
+# a fixed pivot; then it leans towards its own link and to the left of it.
+function place_label(i,    angle, score, best, k, back) {
+    obstacles = 0
+    block_links(i)
+    if (i > 1 && index_of[i] == 0) { block_links(i - 1); block(cos(label[i - 1]), sin(label[i - 1])) }
+    if (i < nodes && index_of[i] == last_of[link_of[i]]) block_links(i + 1)
+    if (i == 1 || i == nodes) block(0, -1)
+    block(Fx[i], Fy[i])
+    back = index_of[i] == 0 ? 1 : index_of[i] == last_of[link_of[i]] ? -1 : 0
+    for (k = 0; k < 48; k++) {
+        angle = k * 3.14159265358979 / 24
+        score = 0.25 * back * (cos(angle) * along_x[i] + sin(angle) * along_y[i]) \
+            + 0.1 * (sin(angle) * along_x[i] - cos(angle) * along_y[i]) + clearance(angle)
+        if (k == 0 || score > best) { best = score; label[i] = angle }
+    }
+}
+
+function block_links(i) {
+    if (index_of[i] > 0) block(-along_x[i], -along_y[i])
+    if (index_of[i] < last_of[link_of[i]]) block(along_x[i], along_y[i])
+}
+
+function block(x, y) {
+    if (x == 0 && y == 0) return
+    obstacle[++obstacles] = atan2(y, x)
+}
+
+function clearance(angle,    k, least) {
+    least = 3.14159265358979 / 3
+    for (k = 1; k <= obstacles; k++) least = smaller(least, absolute(turned(angle - obstacle[k])))
+    return least
+}
+
+function turned(angle) { return atan2(sin(angle), cos(angle)) }
+
+function smaller(a, b) { return a < b ? a : b }
+
+function quoted(text) { gsub(/'/, "''", text); return "'" text "'" }
+
+function short(text) { return text ~ /^[-+.0-9]/ ? sprintf("%.12g", text) : text }
+
+function absolute(a) { return a < 0 ? -a : a }
+
+function same(a, b) { return absolute(a - b) <= 1e-9 * (1 + absolute(b)) }
