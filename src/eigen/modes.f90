@@ -21,8 +21,8 @@ module modes
     integer :: factorizations = 0           !! Cholesky and counting ones
   end type modes_t
 
-  !> Up to this many unknowns the full matrices are faster than Lanczos steps (measured, see docs/verification.md).
-  integer, parameter :: dense_limit = 60
+  !> Up to this many unknowns full matrices are faster than Lanczos steps (measured for three modes, docs/verification.md).
+  integer, parameter :: dense_limit = 30
 
   !> What a sound solution stays well below: residuals come out near 1e-15, orthogonality near 1e-13.
   real(wp), parameter :: most_residual = 1.0e-11_wp, most_orthogonality = 1.0e-9_wp

@@ -1,7 +1,7 @@
 !> The first part of `run.log`: what the deck describes.
 module run_log
   use kinds, only: wp
-  use models, only: branch_crossed, effects_axial, inertia_distributed, inertia_lumped, link_mass, model_t
+  use models, only: branch_crossed, effects_axial, inertia_distributed, inertia_lumped, link_mass, model_t, needs_frequencies
   use text, only: plural, to_string
   use units, only: coherent_unit, dimension_mass, dimension_length, from_si, unit_t
   implicit none (type, external)
@@ -36,13 +36,19 @@ contains
         text = text//line_feed
       end associate
     end do
+    do i = 1, size(model%pin_masses)
+      text = text//"mass at pin "//model%pin_masses(i)%pin%text//": "//to_string(from_si(model%pin_masses(i)%mass, mass), 12)// &
+        " "//mass%name//line_feed
+    end do
     if (total_mass(model) > 0.0_wp) then
       text = text//"total mass: "//to_string(from_si(total_mass(model), mass), 12)//" "//mass%name//line_feed
     end if
     text = text//"branch: "//trim(merge("crossed", "open   ", model%branch == branch_crossed))//line_feed
     if (model%inertia == inertia_lumped) text = text//"inertia loads: lumped"//line_feed
     if (model%inertia == inertia_distributed) text = text//"inertia loads: distributed"//line_feed
-    text = text//"effects: "//trim(merge("axial ", "static", model%effects == effects_axial))//line_feed
+    if (needs_frequencies(model)) then
+      text = text//"effects: "//trim(merge("axial ", "static", model%effects == effects_axial))//line_feed
+    end if
     text = text//plural(size(model%crank%value), "crank angle")//", "//plural(size(model%speed%value), "speed")//line_feed
   end function model_summary
 
