@@ -6,10 +6,10 @@ module deck_checks
   use mechanisms, only: has_beams, has_mesh, mechanism_t, mesh_with, new_mechanism
   use models, only: model_t, needs_frequencies, solver_band
   use position_modes, only: lowest_static_eigenvalue
-  use requests, only: value_list_t
   use round_off, only: round_off_error
   use text, only: plural, to_string
   use tokens, only: token_t
+  use value_lists, only: value_list_t
   implicit none (type, external)
   private
 
@@ -79,14 +79,20 @@ contains
     type(reach_t), intent(in) :: reach
     type(diagnostics_t), intent(inout) :: diagnostics
 
+    character(len=:), allocatable :: message
     logical :: out_of_reach(size(model%crank%value))
     integer :: first
 
     out_of_reach = .not. can_reach(reach, model%crank%value)
     if (.not. any(out_of_reach)) return
     first = findloc(out_of_reach, .true., dim=1)
-    call add_error(diagnostics, model%crank%words(model%crank%word(first)), plural(count(out_of_reach), "crank angle")// &
-      " out of reach, the first "//to_string(model%crank%value(first), 10)//" deg; the linkage closes for: "// &
+    if (count(out_of_reach) == 1) then
+      message = "the crank angle "//to_string(model%crank%value(first), 10)//" deg is out of reach"
+    else
+      message = to_string(count(out_of_reach))//" crank angles are out of reach, the first at "// &
+        to_string(model%crank%value(first), 10)//" deg"
+    end if
+    call add_error(diagnostics, model%crank%words(model%crank%word(first)), message//"; the linkage closes for: "// &
       ready_card(reach, step_of(model%crank)))
   end subroutine check_reach
 
@@ -174,7 +180,7 @@ contains
       if (bound <= most_round_off) cycle
       call add_error(diagnostics, model%meshes(model%links(model%loop(body))%mesh)%keyword, "this mesh is too fine for double "// &
         "precision: round-off in the elements of '"//mechanism%names(body)%text//"' may reach "//to_string(bound, 2)// &
-        " of the lowest eigenvalue, above "//to_string(most_round_off)//"; use fewer elements")
+        " times the lowest eigenvalue; the limit is "//to_string(most_round_off)//"; use fewer elements")
     end do
   end subroutine check_round_off
 

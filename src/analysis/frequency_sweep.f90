@@ -8,7 +8,8 @@ module frequency_sweep
   use position_modes, only: mode_request_t, position_result_t, solve_position
   use positions, only: positions_t
   use progress, only: progress_t, show_progress
-  use requests, only: report_shapes, report_t, value_list_t
+  use requests, only: report_shapes, report_t
+  use value_lists, only: value_list_t
   implicit none (type, external)
   private
 

@@ -34,7 +34,7 @@ contains
 
     nearest = 0
     if (len(word) > longest_compared) return
-    best = max(1, (len(word) + 1)/3) + 1
+    best = max(1, (len(word) + 2)/3) + 1
     do i = 1, size(candidates)
       if (abs(len(candidates(i)%text) - len(word)) > best) cycle
       distance = edit_distance(lower_case(word), lower_case(candidates(i)%text))

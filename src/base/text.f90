@@ -182,16 +182,18 @@ contains
     end do
   end function word_list
 
-  !> `a, b, c`
-  pure function joined(list) result(phrase)
+  !> `a, b, c`, or with another separator.
+  pure function joined(list, separator) result(phrase)
     type(string_t), intent(in) :: list(:)
+    character(len=*), intent(in), optional :: separator
     character(len=:), allocatable :: phrase
 
     integer :: i
 
     phrase = ""
     do i = 1, size(list)
-      if (i > 1) phrase = phrase//", "
+      if (i > 1 .and. present(separator)) phrase = phrase//separator
+      if (i > 1 .and. .not. present(separator)) phrase = phrase//", "
       phrase = phrase//list(i)%text
     end do
   end function joined

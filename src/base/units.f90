@@ -10,7 +10,7 @@ module units
   implicit none (type, external)
   private
 
-  public :: unit_t, unit_system_t, dimension_name, read_unit, new_unit_system, coherent_unit, to_si, from_si
+  public :: unit_t, unit_system_t, dimension_name, wrong_unit, read_unit, new_unit_system, coherent_unit, to_si, from_si
   public :: dimension_none, dimension_length, dimension_mass, dimension_time, dimension_angle, dimension_rate
   public :: dimension_angular_acceleration, dimension_velocity, dimension_acceleration, dimension_force, dimension_moment
   public :: dimension_stress, dimension_density, dimension_area, dimension_second_moment
@@ -145,7 +145,8 @@ contains
       call multiply(measure, known(i), step*power)
       return
     end do
-    problem = "unknown unit '"//name//"'"//suggestion(name, names_of_dimension(known, wanted))
+    problem = "unknown unit '"//factor//"'"//suggestion(name, names_of_dimension(known, wanted))//"; expected a unit of "// &
+      dimension_noun(wanted)
   end subroutine multiply_by_power
 
   !> Names of the units of a dimension; of all units if none has it.
@@ -280,28 +281,57 @@ contains
     end do
   end function factors_name
 
-  !> A dimension in words, for messages.
+  !> A dimension in a word, for messages; empty if it has none.
+  pure function dimension_noun(dimension) result(noun)
+    integer, intent(in) :: dimension(4)
+    character(len=:), allocatable :: noun
+
+    noun = ""
+    if (all(dimension == dimension_none)) noun = "pure number"
+    if (all(dimension == dimension_length)) noun = "length"
+    if (all(dimension == dimension_mass)) noun = "mass"
+    if (all(dimension == dimension_time)) noun = "time"
+    if (all(dimension == dimension_angle)) noun = "angle"
+    if (all(dimension == dimension_rate)) noun = "angular velocity"
+    if (all(dimension == dimension_angular_acceleration)) noun = "angular acceleration"
+    if (all(dimension == dimension_velocity)) noun = "velocity"
+    if (all(dimension == dimension_acceleration)) noun = "acceleration"
+    if (all(dimension == dimension_force)) noun = "force"
+    if (all(dimension == dimension_moment)) noun = "moment"
+    if (all(dimension == dimension_stress)) noun = "stress"
+    if (all(dimension == dimension_density)) noun = "density"
+    if (all(dimension == dimension_area)) noun = "area"
+    if (all(dimension == dimension_second_moment)) noun = "second moment of area"
+  end function dimension_noun
+
+  !> `a length`, `an area`: what a value should have been.
   pure function dimension_name(dimension) result(name)
     integer, intent(in) :: dimension(4)
     character(len=:), allocatable :: name
 
-    name = "a quantity of another kind"
-    if (all(dimension == dimension_none)) name = "a pure number"
-    if (all(dimension == dimension_length)) name = "a length"
-    if (all(dimension == dimension_mass)) name = "a mass"
-    if (all(dimension == dimension_time)) name = "a time"
-    if (all(dimension == dimension_angle)) name = "an angle"
-    if (all(dimension == dimension_rate)) name = "an angular velocity"
-    if (all(dimension == dimension_angular_acceleration)) name = "an angular acceleration"
-    if (all(dimension == dimension_velocity)) name = "a velocity"
-    if (all(dimension == dimension_acceleration)) name = "an acceleration"
-    if (all(dimension == dimension_force)) name = "a force"
-    if (all(dimension == dimension_moment)) name = "a moment"
-    if (all(dimension == dimension_stress)) name = "a stress"
-    if (all(dimension == dimension_density)) name = "a density"
-    if (all(dimension == dimension_area)) name = "an area"
-    if (all(dimension == dimension_second_moment)) name = "a second moment of area"
+    name = dimension_noun(dimension)
+    if (scan(name(:1), "aeiou") == 1) then
+      name = "an "//name
+    else
+      name = "a "//name
+    end if
   end function dimension_name
+
+  !> Why a unit does not serve where another dimension is wanted.
+  pure function wrong_unit(measure, wanted) result(problem)
+    type(unit_t), intent(in) :: measure
+    integer, intent(in) :: wanted(4)
+    character(len=:), allocatable :: problem
+
+    if (len(dimension_noun(measure%dimension)) == 0) then
+      problem = "'"//measure%name//"' is not a unit of "//dimension_noun(wanted)
+    else if (all(wanted == dimension_none)) then
+      problem = "'"//measure%name//"' is a unit of "//dimension_noun(measure%dimension)//"; expected a number without unit"
+    else
+      problem = "'"//measure%name//"' is a unit of "//dimension_noun(measure%dimension)//"; expected a unit of "// &
+        dimension_noun(wanted)
+    end if
+  end function wrong_unit
 
   !> A value in the given unit, in SI.
   elemental function to_si(value, measure) result(si)

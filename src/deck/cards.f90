@@ -32,18 +32,20 @@ contains
     type(token_t), allocatable :: words(:)
     type(token_t) :: end_card
     integer :: line, count
-    logical :: ended
+    logical :: ended, told
 
     allocate (found(64))
     count = 0
     line = 1
     ended = .false.
+    told = .false.
     do while (line <= line_count(source))
       call read_logical_line(source, line, words, diagnostics)
       if (size(words) == 0) cycle
-      if (ended) then
+      ! What follows is read all the same: its cards would otherwise be told as missing.
+      if (ended .and. .not. told) then
         call add_error(diagnostics, words(1), "nothing may follow END", end_card, "the deck ends here")
-        exit
+        told = .true.
       end if
       if (same_word(words(1)%text, "END")) then
         ended = .true.
@@ -72,7 +74,7 @@ contains
     character(len=:), allocatable :: text
     type(token_t), allocatable :: more(:)
     type(token_t) :: ampersand
-    integer :: length, last, count
+    integer :: length, last, count, inside
     logical :: continued, found
 
     allocate (words(0))
@@ -99,11 +101,11 @@ contains
         ampersand = token_t("&", line - 1, character_count(text(:last)))
         last = last - 1
       end if
-      if (index(text(:last), "&") > 0) then
-        call add_error(diagnostics, token_t("&", line - 1, character_count(text(:index(text, "&")))), &
+      inside = index(text(:last), "&")
+      if (inside > 0) then
+        call add_error(diagnostics, token_t("&", line - 1, character_count(text(:inside))), &
           "'&' continues a card only at the end of a line")
-        words = [token_t ::]
-        return
+        text(inside:inside) = " "
       end if
       more = split_words(text(:last), line - 1)
       call append_words(words, count, more)

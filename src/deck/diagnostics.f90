@@ -13,18 +13,23 @@ module diagnostics
 
   !> One message. A place without a line stands for what the deck lacks.
   type :: diagnostic_t
-    logical :: is_error = .true.
     character(len=:), allocatable :: message
     type(token_t) :: place
     character(len=:), allocatable :: note !! about the second place
     type(token_t) :: second_place
   end type diagnostic_t
 
+  !> Messages of one severity.
+  type :: message_list_t
+    integer :: total = 0 !! also those beyond what is kept
+    integer :: kept = 0
+    type(diagnostic_t), allocatable :: list(:)
+  end type message_list_t
+
   !> All messages about one deck.
   type :: diagnostics_t
-    integer, private :: errors = 0   !! also those beyond what is kept
-    integer, private :: kept = 0
-    type(diagnostic_t), allocatable, private :: list(:)
+    type(message_list_t), private :: errors
+    type(message_list_t), private :: warnings
   end type diagnostics_t
 
   !> A file that is no deck at all has an error a line; nobody reads more than this.
@@ -43,8 +48,7 @@ contains
     type(token_t), intent(in), optional :: second_place
     character(len=*), intent(in), optional :: note
 
-    diagnostics%errors = diagnostics%errors + 1
-    call add(diagnostics, .true., place, message, second_place, note)
+    call add(diagnostics%errors, place, message, second_place, note)
   end subroutine add_error
 
   pure subroutine add_warning(diagnostics, place, message)
@@ -52,22 +56,21 @@ contains
     type(token_t), intent(in) :: place
     character(len=*), intent(in) :: message
 
-    call add(diagnostics, .false., place, message)
+    call add(diagnostics%warnings, place, message)
   end subroutine add_warning
 
-  pure subroutine add(diagnostics, is_error, place, message, second_place, note)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    logical, intent(in) :: is_error
+  pure subroutine add(messages, place, message, second_place, note)
+    type(message_list_t), intent(inout) :: messages
     type(token_t), intent(in) :: place
     character(len=*), intent(in) :: message
     type(token_t), intent(in), optional :: second_place
     character(len=*), intent(in), optional :: note
 
-    if (.not. allocated(diagnostics%list)) allocate (diagnostics%list(most_kept))
-    if (diagnostics%kept == most_kept) return
-    diagnostics%kept = diagnostics%kept + 1
-    associate (new => diagnostics%list(diagnostics%kept))
-      new%is_error = is_error
+    messages%total = messages%total + 1
+    if (.not. allocated(messages%list)) allocate (messages%list(most_kept))
+    if (messages%kept == most_kept) return
+    messages%kept = messages%kept + 1
+    associate (new => messages%list(messages%kept))
       new%place = place
       new%message = message
       new%note = ""
@@ -80,14 +83,15 @@ contains
     type(diagnostics_t), intent(in) :: diagnostics
     logical :: has
 
-    has = diagnostics%errors > 0
+    has = diagnostics%errors%total > 0
   end function has_errors
 
+  !> Number of errors, also of those that are not told.
   pure function error_count(diagnostics) result(count)
     type(diagnostics_t), intent(in) :: diagnostics
     integer :: count
 
-    count = diagnostics%errors
+    count = diagnostics%errors%total
   end function error_count
 
   !> All errors, in the order of the deck's lines, ready for standard error; empty if there are none.
@@ -96,12 +100,7 @@ contains
     type(source_t), intent(in) :: source
     character(len=:), allocatable :: text
 
-    integer :: shown
-
-    call render(diagnostics, source, .true., text, shown)
-    if (diagnostics%errors > shown) then
-      text = text//source%path//": "//plural(diagnostics%errors - shown, "more error")//achar(10)
-    end if
+    text = rendered(diagnostics%errors, source, "error")
   end function render_errors
 
   !> All warnings, like the errors.
@@ -110,9 +109,7 @@ contains
     type(source_t), intent(in) :: source
     character(len=:), allocatable :: text
 
-    integer :: shown
-
-    call render(diagnostics, source, .false., text, shown)
+    text = rendered(diagnostics%warnings, source, "warning")
   end function render_warnings
 
   !> The warnings without path and caret, a line each, for the log.
@@ -123,39 +120,41 @@ contains
     integer :: i
 
     text = ""
-    do i = 1, diagnostics%kept
-      associate (item => diagnostics%list(i))
-        if (item%is_error) cycle
-        text = text//"line "//to_string(item%place%line)//": "//item%message//achar(10)
-      end associate
-    end do
+    associate (warnings => diagnostics%warnings)
+      do i = 1, warnings%kept
+        text = text//"line "//to_string(warnings%list(i)%place%line)//": "//warnings%list(i)%message//achar(10)
+      end do
+      if (warnings%total > warnings%kept) text = text//plural(warnings%total - warnings%kept, "more warning")//achar(10)
+    end associate
   end function warning_texts
 
-  pure subroutine render(diagnostics, source, errors, text, shown)
-    type(diagnostics_t), intent(in) :: diagnostics
+  pure function rendered(messages, source, severity) result(text)
+    type(message_list_t), intent(in) :: messages
     type(source_t), intent(in) :: source
-    logical, intent(in) :: errors !! else warnings
-    character(len=:), allocatable, intent(out) :: text
-    integer, intent(out) :: shown
+    character(len=*), intent(in) :: severity
+    character(len=:), allocatable :: text
 
     type(text_buffer_t) :: buffer
-    integer :: i, order(diagnostics%kept)
+    real(wp) :: place(messages%kept)
+    integer :: i, order(messages%kept)
 
-    if (diagnostics%kept > 0) then
-      order = ascending_order(real(diagnostics%list(:diagnostics%kept)%place%line, wp)*1.0e9_wp + &
-        diagnostics%list(:diagnostics%kept)%place%column)
-    end if
-    shown = 0
-    do i = 1, diagnostics%kept
-      associate (item => diagnostics%list(order(i)))
-        if (item%is_error .neqv. errors) cycle
-        shown = shown + 1
-        call append_place(buffer, source, item%place, merge("error  ", "warning", errors), item%message)
+    do i = 1, messages%kept
+      ! What has no place stands for the deck's end, and comes last.
+      place(i) = huge(place)
+      if (messages%list(i)%place%line > 0) place(i) = messages%list(i)%place%line*1.0e9_wp + messages%list(i)%place%column
+    end do
+    order = ascending_order(place)
+    do i = 1, messages%kept
+      associate (item => messages%list(order(i)))
+        call append_place(buffer, source, item%place, severity, item%message)
         if (len(item%note) > 0) call append_place(buffer, source, item%second_place, "note", item%note)
       end associate
     end do
+    if (messages%total > messages%kept) then
+      call append_text(buffer, source%path//": "//plural(messages%total - messages%kept, "more "//severity)//achar(10))
+    end if
     text = buffer_text(buffer)
-  end subroutine render
+  end function rendered
 
   !> Appends `path:line:column: severity: message`, the line and the caret.
   pure subroutine append_place(buffer, source, place, severity, message)
@@ -169,12 +168,12 @@ contains
 
     if (place%line < 1) then
       ! Something is missing from the deck: there is no word to point at, only its end.
-      call append_text(buffer, source%path//":"//to_string(max(1, line_count(source)))//":1: "//trim(severity)//": "// &
+      call append_text(buffer, source%path//":"//to_string(max(1, line_count(source)))//":1: "//severity//": "// &
         message//achar(10))
       return
     end if
     call append_text(buffer, source%path//":"//to_string(place%line)//":"//to_string(place%column)//": "// &
-      trim(severity)//": "//message//achar(10))
+      severity//": "//message//achar(10))
     line = blank_tabs(source_line(source, place%line))
     first = 1
     if (character_count(line) > window) first = max(1, place%column - window/2)

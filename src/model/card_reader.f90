@@ -1,13 +1,13 @@
 !> What every card needs when its words become values: names, quantities with units, keys, and clear complaints.
 module card_reader
-  use cards, only: card_t, entry_t
+  use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
   use numbers, only: number_length, read_integer, read_real
   use spelling, only: suggestion
   use text, only: joined, same_word, string_t, to_string, word_list
   use tokens, only: name_problem, token_t
-  use units, only: coherent_unit, dimension_name, dimension_none, read_unit, to_si, unit_system_t, unit_t
+  use units, only: coherent_unit, dimension_name, read_unit, to_si, unit_system_t, unit_t, wrong_unit
   implicit none (type, external)
   private
 
@@ -16,15 +16,18 @@ module card_reader
 
 contains
 
-  !> Checks the number of a card's words and its keys. `fine` tells whether the words are as many as they should be.
-  pure subroutine check_form(card, least, most, keys, pattern, diagnostics, fine)
+  !> Checks the number of a card's words and its keys. `fine` tells whether the words are as many as they should be, `known_keys`
+  !! whether all keys are known: beside a key that is not, one that is missing need not be told.
+  pure subroutine check_form(card, least, most, keys, pattern, diagnostics, fine, known_keys)
     type(card_t), intent(in) :: card
     integer, intent(in) :: least, most        !! words besides the keyword
     character(len=*), intent(in) :: keys      !! allowed keys, separated by single blanks
     character(len=*), intent(in) :: pattern   !! the card as it should be, for messages
     type(diagnostics_t), intent(inout) :: diagnostics
     logical, intent(out) :: fine
+    logical, intent(out), optional :: known_keys
 
+    integer, parameter :: most_keys = 100
     type(string_t), allocatable :: allowed(:)
     integer :: i, j
 
@@ -35,9 +38,12 @@ contains
       call add_error(diagnostics, card%words(most + 1), "unexpected '"//card%words(most + 1)%text//"'; expected: "//pattern)
     end if
     allowed = word_list(keys)
-    do i = 1, size(card%entries)
+    if (present(known_keys)) known_keys = .true.
+    ! No card has a dozen keys: what comes after a hundred has been complained of often enough.
+    do i = 1, min(size(card%entries), most_keys)
       associate (key => card%entries(i)%key)
         if (.not. any_same(allowed, key%text)) then
+          if (present(known_keys)) known_keys = .false.
           if (size(allowed) > 0) then
             call add_error(diagnostics, key, "unknown key '"//key%text//"'"//suggestion(key%text, allowed)// &
               "; expected: "//pattern)
@@ -115,21 +121,23 @@ contains
       return
     end if
     call read_real(word%text(:length), value, problem)
-    if (len(problem) == 0 .and. length < len(word%text)) then
-      if (scan(word%text(length + 1:length + 1), ".,*/+-0123456789") == 1) then
-        problem = "'"//word%text//"' is not a number"
+    if (len(problem) > 0) then
+      problem = problem//"; expected "//dimension_name(dimension)
+    else if (length < len(word%text)) then
+      if (word%text(length + 1:length + 1) == ",") then
+        problem = "'"//word%text//"' is not a number: no commas here; expected "//dimension_name(dimension)
+      else if (scan(word%text(length + 1:length + 1), ".*/+-0123456789") == 1) then
+        problem = "'"//word%text//"' is not a number; expected "//dimension_name(dimension)
       else
         call read_unit(word%text(length + 1:), dimension, measure, problem)
-        if (len(problem) == 0 .and. any(measure%dimension /= dimension)) then
-          problem = "'"//measure%name//"' is the unit of "//dimension_name(measure%dimension)
-        end if
+        if (len(problem) == 0 .and. any(measure%dimension /= dimension)) problem = wrong_unit(measure, dimension)
         place%text = word%text(length + 1:)
         place%column = word%column + length
       end if
     end if
     fine = len(problem) == 0
     if (fine) return
-    call add_error(diagnostics, place, problem//"; expected "//dimension_name(dimension))
+    call add_error(diagnostics, place, problem)
   end subroutine read_measure
 
   !> Reads a quantity in SI.
@@ -170,16 +178,9 @@ contains
     if (i > 0) then
       call read_quantity(card%entries(i)%value, dimension, system, diagnostics, value, fine)
     else if (required .and. .not. has_key(card, key)) then
-      call add_error(diagnostics, card%keyword, "'"//key//"=' is missing: "//article(dimension))
+      call add_error(diagnostics, card%keyword, "'"//key//"=' is missing; expected "//dimension_name(dimension))
     end if
   end subroutine read_entry_quantity
-
-  pure function article(dimension) result(phrase)
-    integer, intent(in) :: dimension(4)
-    character(len=:), allocatable :: phrase
-
-    phrase = dimension_name(dimension)//" is needed"
-  end function article
 
   pure function has_key(card, key) result(has)
     type(card_t), intent(in) :: card
@@ -253,7 +254,7 @@ contains
       if (same_word(list(i)%text, word%text)) choice = i
     end do
     if (choice == 0) then
-      call add_error(diagnostics, word, "unknown '"//word%text//"'"//suggestion(word%text, list)// &
+      call add_error(diagnostics, word, "unknown word '"//word%text//"'"//suggestion(word%text, list)// &
         "; expected one of: "//joined(list))
     end if
   end subroutine read_choice

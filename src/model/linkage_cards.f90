@@ -16,14 +16,14 @@ module linkage_cards
 
   !> A fixed pivot.
   type :: ground_t
-    type(token_t) :: pin
+    type(token_t) :: pin             !! without a line if it cannot be read
     real(wp) :: position(2) = 0.0_wp !! [m]
   end type ground_t
 
   !> A link between two pins.
   type :: link_t
     type(token_t) :: name
-    type(token_t) :: pin(2)           !! at its ends, in the order of the card
+    type(token_t) :: pin(2)           !! at its ends, in the order of the card; without a line if they cannot be read
     type(token_t) :: length_word      !! where the length is given
     real(wp) :: length = 0.0_wp       !! [m]
     type(token_t) :: material_name    !! without a line if the card names none
@@ -60,7 +60,7 @@ contains
 
     logical :: fine
 
-    ground%pin = card%keyword
+    ground%pin = token_t("", 0, 0)
     call check_form(card, 3, 3, "", "GROUND name x y", diagnostics, fine)
     if (size(card%words) > 0) then
       ground%pin = card%words(1)
@@ -78,13 +78,16 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(link_t), intent(out) :: link
 
-    logical :: fine
+    type(token_t) :: nowhere
+    logical :: fine, known_keys
 
-    call check_form(card, 3, 3, "length material section", "LINK name pin pin length= [material= section=]", diagnostics, fine)
+    call check_form(card, 3, 3, "length material section", "LINK name pin pin length= [material= section=]", diagnostics, fine, &
+      known_keys)
     link%name = card%keyword
-    link%pin(:) = token_t("", 0, 0)
-    link%material_name = token_t("", 0, 0)
-    link%section_name = token_t("", 0, 0)
+    nowhere = token_t("", 0, 0)
+    link%pin(:) = nowhere
+    link%material_name = nowhere
+    link%section_name = nowhere
     link%length_word = card%keyword
     if (size(card%words) > 0) then
       link%name = card%words(1)
@@ -96,9 +99,10 @@ contains
       call read_name(link%pin(2), diagnostics)
       if (same_word(link%pin(1)%text, link%pin(2)%text)) then
         call add_error(diagnostics, link%pin(2), "link '"//link%name%text//"' has the same pin at both ends")
+        link%pin(:) = nowhere
       end if
     end if
-    call read_entry_quantity(card, "length", dimension_length, system, .true., diagnostics, link%length, fine)
+    call read_entry_quantity(card, "length", dimension_length, system, known_keys, diagnostics, link%length, fine)
     if (fine) then
       call require_positive(card, "length", link%length, diagnostics)
       link%length_word = card%entries(entry_number(card, "length"))%value
@@ -116,7 +120,7 @@ contains
 
     logical :: fine
 
-    pin_mass%pin = card%keyword
+    pin_mass%pin = token_t("", 0, 0)
     call check_form(card, 2, 2, "", "PINMASS pin mass", diagnostics, fine)
     if (size(card%words) > 0) pin_mass%pin = card%words(1)
     if (.not. fine) return
@@ -132,15 +136,16 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(mesh_t), intent(out) :: mesh
 
-    logical :: fine
+    logical :: fine, known_keys
     integer :: order
 
-    call check_form(card, 1, huge(1), "elements order", "MESH link ... elements= [order=3], or MESH * ...", diagnostics, fine)
+    call check_form(card, 1, huge(1), "elements order", "MESH link ... elements= [order=3], or MESH * ...", diagnostics, &
+      fine, known_keys)
     mesh%keyword = card%keyword
     mesh%link_names = card%words
     call read_entry_count(card, "elements", 1, diagnostics, mesh%elements, fine)
-    if (entry_number(card, "elements") == 0) then
-      call add_error(diagnostics, card%keyword, "'elements=' is missing: a number is needed")
+    if (known_keys .and. entry_number(card, "elements") == 0) then
+      call add_error(diagnostics, card%keyword, "'elements=' is missing; expected a whole number")
     end if
     call read_entry_count(card, "order", 1, diagnostics, order, fine)
     if (fine .and. order /= cubic_order) then

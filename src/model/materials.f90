@@ -30,18 +30,18 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(material_t), intent(out) :: material
 
-    logical :: fine, has_modulus, has_density, has_ratio
+    logical :: fine, known_keys, has_modulus, has_density, has_ratio
     real(wp) :: poissons_ratio, wave_speed
 
-    call check_form(card, 1, 1, "E density nu", "MATERIAL name E= density= [nu=]", diagnostics, fine)
+    call check_form(card, 1, 1, "E density nu", "MATERIAL name E= density= [nu=]", diagnostics, fine, known_keys)
     material%name = card%keyword
     if (fine) then
       material%name = card%words(1)
       call read_name(material%name, diagnostics)
     end if
-    call read_entry_quantity(card, "E", dimension_stress, system, .true., diagnostics, material%youngs_modulus, has_modulus)
+    call read_entry_quantity(card, "E", dimension_stress, system, known_keys, diagnostics, material%youngs_modulus, has_modulus)
     if (has_modulus) call require_positive(card, "E", material%youngs_modulus, diagnostics)
-    call read_entry_quantity(card, "density", dimension_density, system, .true., diagnostics, material%density, has_density)
+    call read_entry_quantity(card, "density", dimension_density, system, known_keys, diagnostics, material%density, has_density)
     if (has_density) call require_positive(card, "density", material%density, diagnostics)
     call read_entry_quantity(card, "nu", dimension_none, system, .false., diagnostics, poissons_ratio, has_ratio)
     if (has_ratio .and. (poissons_ratio <= -1.0_wp .or. poissons_ratio >= 0.5_wp)) then

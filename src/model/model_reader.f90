@@ -7,23 +7,21 @@ module model_reader
   use kinds, only: wp
   use linkage_cards, only: read_ground, read_link, read_mesh, read_pin_mass
   use materials, only: read_material
-  use model_checks, only: check_model
+  use loop_finder, only: find_loop
   use models, only: effects_axial, effects_static, is_moving, model_t
+  use name_checks, only: check_names
   use numbers, only: read_integer
+  use request_checks, only: card_names, check_required, check_requests
   use requests, only: read_crank, read_report, read_speed
   use sections, only: read_section
   use spelling, only: suggestion
   use text, only: lower_case, same_word, string_t, to_string, word_list
   use tokens, only: token_t
-  use units, only: dimension_length, dimension_mass, dimension_name, dimension_time, read_unit, unit_system_t, unit_t
+  use units, only: dimension_length, dimension_mass, dimension_time, read_unit, unit_system_t, unit_t, wrong_unit
   implicit none (type, external)
   private
 
   public :: read_model
-
-  character(len=*), parameter :: card_names = &
-    "TITLE UNITS MATERIAL SECTION GROUND LINK DRIVE BRANCH PINMASS MESH CRANK SPEED "// &
-    "INERTIA EFFECTS SOLVER MODES REPORT"
 
 contains
 
@@ -56,7 +54,10 @@ contains
     call read_units(cards, diagnostics, model%units)
     call read_parts(cards, diagnostics, model)
     call read_requests(cards, diagnostics, model)
-    call check_model(cards, diagnostics, model)
+    call check_required(cards, diagnostics)
+    call check_names(diagnostics, model)
+    call find_loop(diagnostics, model)
+    call check_requests(cards, diagnostics, model)
     if (.not. has_errors(diagnostics)) model%echo = [(echo_card(cards(i)), i=1, size(cards))]
   end subroutine read_model
 
@@ -133,7 +134,6 @@ contains
       call read_one(cards(i)%words(3), dimension_time, system%time)
       return
     end do
-    call add_error(diagnostics, token_t("", 0, 0), "there is no UNITS card; expected: UNITS length mass time")
 
   contains
 
@@ -148,8 +148,7 @@ contains
       if (len(problem) > 0) then
         call add_error(diagnostics, word, problem)
       else if (any(candidate%dimension /= dimension)) then
-        call add_error(diagnostics, word, "'"//word%text//"' is the unit of "//dimension_name(candidate%dimension)// &
-          "; expected that of "//dimension_name(dimension))
+        call add_error(diagnostics, word, wrong_unit(candidate, dimension))
       else
         measure = candidate
       end if

@@ -4,10 +4,11 @@ module models
   use kinds, only: wp
   use linkage_cards, only: ground_t, link_t, mesh_t, pin_mass_t
   use materials, only: material_t
-  use requests, only: report_frequencies, report_shapes, report_t, value_list_t
+  use requests, only: report_frequencies, report_shapes, report_t
   use sections, only: section_t
   use tokens, only: token_t
   use units, only: unit_system_t
+  use value_lists, only: value_list_t
   implicit none (type, external)
   private
 

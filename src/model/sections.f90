@@ -64,11 +64,11 @@ contains
     type(section_t), intent(inout) :: section
 
     real(wp) :: thickness, width
-    logical :: fine
+    logical :: fine, known_keys
 
-    call check_form(card, 2, 2, "thickness width", "SECTION name rectangle thickness= width=", diagnostics, fine)
-    call read_positive(card, "thickness", dimension_length, system, .true., diagnostics, thickness)
-    call read_positive(card, "width", dimension_length, system, .true., diagnostics, width)
+    call check_form(card, 2, 2, "thickness width", "SECTION name rectangle thickness= width=", diagnostics, fine, known_keys)
+    call read_positive(card, "thickness", dimension_length, system, known_keys, diagnostics, thickness)
+    call read_positive(card, "width", dimension_length, system, known_keys, diagnostics, width)
     section%area = thickness*width
     section%second_moment = width*thickness**3/12.0_wp
     section%depth = thickness
@@ -82,10 +82,10 @@ contains
     type(section_t), intent(inout) :: section
 
     real(wp) :: diameter
-    logical :: fine
+    logical :: fine, known_keys
 
-    call check_form(card, 2, 2, "diameter", "SECTION name circle diameter=", diagnostics, fine)
-    call read_positive(card, "diameter", dimension_length, system, .true., diagnostics, diameter)
+    call check_form(card, 2, 2, "diameter", "SECTION name circle diameter=", diagnostics, fine, known_keys)
+    call read_positive(card, "diameter", dimension_length, system, known_keys, diagnostics, diameter)
     section%area = pi*diameter**2/4.0_wp
     section%second_moment = pi*diameter**4/64.0_wp
     section%depth = diameter
@@ -99,14 +99,15 @@ contains
     type(section_t), intent(inout) :: section
 
     real(wp) :: outer, inner
-    logical :: fine
+    logical :: fine, known_keys
 
-    call check_form(card, 2, 2, "outer inner", "SECTION name tube outer= inner=", diagnostics, fine)
-    call read_positive(card, "outer", dimension_length, system, .true., diagnostics, outer)
-    call read_positive(card, "inner", dimension_length, system, .true., diagnostics, inner)
+    call check_form(card, 2, 2, "outer inner", "SECTION name tube outer= inner=", diagnostics, fine, known_keys)
+    call read_positive(card, "outer", dimension_length, system, known_keys, diagnostics, outer)
+    call read_positive(card, "inner", dimension_length, system, known_keys, diagnostics, inner)
     if (outer > 0.0_wp .and. inner >= outer) then
       call add_error(diagnostics, card%entries(entry_number(card, "inner"))%value, &
-        "'inner=' must be less than 'outer=' "//card%entries(entry_number(card, "outer"))%value%text)
+        "'inner=' must be less than 'outer=', "//card%entries(entry_number(card, "outer"))%value%text//", not "// &
+        card%entries(entry_number(card, "inner"))%value%text)
       return
     end if
     section%area = pi*(outer - inner)*(outer + inner)/4.0_wp
@@ -120,11 +121,11 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(section_t), intent(inout) :: section
 
-    logical :: fine
+    logical :: fine, known_keys
 
-    call check_form(card, 2, 2, "A I depth", "SECTION name general A= I= [depth=]", diagnostics, fine)
-    call read_positive(card, "A", dimension_area, system, .true., diagnostics, section%area)
-    call read_positive(card, "I", dimension_second_moment, system, .true., diagnostics, section%second_moment)
+    call check_form(card, 2, 2, "A I depth", "SECTION name general A= I= [depth=]", diagnostics, fine, known_keys)
+    call read_positive(card, "A", dimension_area, system, known_keys, diagnostics, section%area)
+    call read_positive(card, "I", dimension_second_moment, system, known_keys, diagnostics, section%second_moment)
     call read_positive(card, "depth", dimension_length, system, .false., diagnostics, section%depth)
   end subroutine read_general
 

@@ -7,7 +7,7 @@ module run_log
   implicit none (type, external)
   private
 
-  public :: model_summary, total_mass
+  public :: model_summary
 
 contains
 

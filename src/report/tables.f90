@@ -7,7 +7,7 @@ module tables
   private
 
   public :: column_t, real_column, integer_column, name_column, write_header, write_row, write_gap, write_failure
-  public :: real_cells, integer_cell, name_cell, number_width
+  public :: real_cells, integer_cell, name_cell
 
   type :: column_t
     character(len=:), allocatable :: name

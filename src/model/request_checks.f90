@@ -1,0 +1,206 @@
+!> What is asked for: whether the deck has all it takes, and whether it makes sense.
+module request_checks
+  use cards, only: card_t
+  use diagnostics, only: add_error, add_warning, diagnostics_t
+  use kinds, only: wp
+  use models, only: effects_static, inertia_lumped, inertia_none, is_moving, model_t, needs_frequencies, needs_loads, &
+    report_number
+  use requests, only: report_frequencies, report_inertia, report_kinds, report_mesh, report_shapes
+  use spelling, only: nearest_word
+  use text, only: joined, same_word, string_t, to_string, word_list
+  use tokens, only: token_t
+  use value_lists, only: value_list_t
+  implicit none (type, external)
+  private
+
+  public :: check_required, check_requests, card_names
+
+  character(len=*), parameter :: card_names = &
+    "TITLE UNITS MATERIAL SECTION GROUND LINK DRIVE BRANCH PINMASS MESH CRANK SPEED INERTIA EFFECTS SOLVER MODES REPORT"
+
+  !> A link stubbier than this is no beam: shear and rotary inertia, which the theory leaves out, decide.
+  real(wp), parameter :: least_slenderness = 10.0_wp
+
+contains
+
+  !> Cards that no deck can do without.
+  subroutine check_required(cards, diagnostics)
+    type(card_t), intent(in) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    if (.not. has_card("UNITS")) call missing("there is no UNITS card; expected: UNITS length mass time")
+    if (.not. has_card("GROUND") .or. .not. has_card("LINK")) then
+      call missing("there are no "//trim(merge("GROUND", "LINK  ", .not. has_card("GROUND")))//" cards: no linkage is described")
+    end if
+    if (.not. has_card("DRIVE")) call missing("the linkage is not driven; expected: DRIVE link")
+    if (.not. has_card("CRANK")) call missing("there is no CRANK card; expected: CRANK a to b step s, or a list of angles")
+    if (.not. has_card("REPORT")) then
+      call missing("there is no REPORT card; expected REPORT and one of: "//joined(word_list(report_kinds)))
+    end if
+
+  contains
+
+    function has_card(keyword) result(has)
+      character(len=*), intent(in) :: keyword
+      logical :: has
+
+      integer :: i
+
+      has = .false.
+      do i = 1, size(cards)
+        has = has .or. same_word(cards(i)%keyword%text, keyword) .or. means(cards(i)%keyword%text, keyword)
+      end do
+    end function has_card
+
+    subroutine missing(message)
+      character(len=*), intent(in) :: message
+
+      call add_error(diagnostics, token_t("", 0, 0), message)
+    end subroutine missing
+
+  end subroutine check_required
+
+  !> Whether an unknown keyword is likely a misspelt `keyword`: then that card is not missing but wrong.
+  pure function means(unknown, keyword)
+    character(len=*), intent(in) :: unknown, keyword
+    logical :: means
+
+    type(string_t), allocatable :: known(:)
+    integer :: nearest
+
+    known = word_list(card_names)
+    nearest = nearest_word(unknown, known)
+    means = .false.
+    if (nearest > 0) means = same_word(known(nearest)%text, keyword)
+  end function means
+
+  !> What reports need, values that must be on other cards, and what deserves a warning.
+  subroutine check_requests(cards, diagnostics, model)
+    type(card_t), intent(in) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    call check_what_reports_need(diagnostics, model)
+    call check_shapes(diagnostics, model)
+    call warn_of_stubby_links(diagnostics, model)
+    call warn_of_static_speeds(cards, diagnostics, model)
+  end subroutine check_requests
+
+  !> Beams need material, section and mesh; loads need INERTIA.
+  pure subroutine check_what_reports_need(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    character(len=:), allocatable :: lacking
+    integer :: i, inertia, mesh
+    logical :: needs_beams, needs_mass, needs_mesh
+
+    inertia = report_number(model, report_inertia)
+    mesh = report_number(model, report_mesh)
+    needs_beams = needs_frequencies(model) .or. mesh > 0
+    needs_mass = needs_beams .or. inertia > 0
+    needs_mesh = needs_beams .or. (inertia > 0 .and. model%inertia == inertia_lumped)
+    do i = 1, size(model%links)
+      associate (link => model%links(i))
+        lacking = ""
+        if (needs_mass .and. link%material_name%line == 0) lacking = lacking//" material"
+        if (needs_mass .and. link%section_name%line == 0) lacking = lacking//" section"
+        if (needs_mesh .and. link%mesh == 0) lacking = lacking//" mesh"
+        if (len(lacking) > 0) then
+          call add_error(diagnostics, link%name, "link '"//link%name%text//"' has no "// &
+            joined(word_list(lacking(2:)), ", no ")//"; the reports asked for need "// &
+            trim(merge("it  ", "them", index(lacking(2:), " ") == 0)))
+        end if
+      end associate
+    end do
+    if (model%inertia /= inertia_none) return
+    if (inertia > 0) then
+      call add_error(diagnostics, model%reports(inertia)%keyword, &
+        "this report uses inertia loads, and there is no INERTIA card; expected: INERTIA lumped or INERTIA distributed")
+    else if (needs_loads(model)) then
+      call add_error(diagnostics, model%reports(max(report_number(model, report_frequencies), &
+        report_number(model, report_shapes)))%keyword, "frequencies under the loads of the motion are asked for, "// &
+        "and there is no INERTIA card; expected: INERTIA lumped or INERTIA distributed")
+    end if
+  end subroutine check_what_reports_need
+
+  !> Shapes are drawn where positions are computed.
+  subroutine check_shapes(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: i, number
+
+    number = report_number(model, report_shapes)
+    if (number == 0) return
+    associate (report => model%reports(number))
+      call check_values(report%crank, model%crank, "crank angle", "CRANK")
+      if (model%effects == effects_static .and. size(report%speed%value) > 0) then
+        call add_error(diagnostics, report%speed%words(1), &
+          "static shapes do not depend on the speed: 'speed=' has no meaning here")
+      else
+        call check_values(report%speed, model%speed, "speed", "SPEED")
+      end if
+    end associate
+
+  contains
+
+    subroutine check_values(wanted, given, noun, card)
+      type(value_list_t), intent(in) :: wanted, given
+      character(len=*), intent(in) :: noun, card
+
+      do i = 1, size(wanted%value)
+        if (size(given%value) == 0 .or. value_number(given, wanted%value(i)) > 0) cycle
+        call add_error(diagnostics, wanted%words(wanted%word(i)), "the "//noun//" "//to_string(wanted%value(i))// &
+          " is not on the "//card//" card")
+      end do
+    end subroutine check_values
+
+  end subroutine check_shapes
+
+  !> Number of a value in a list, allowing for the last digits of ranges and of conversions; 0 if it is not there.
+  pure function value_number(list, value) result(number)
+    type(value_list_t), intent(in) :: list
+    real(wp), intent(in) :: value
+    integer :: number
+
+    do number = size(list%value), 1, -1
+      if (abs(list%value(number) - value) <= 1.0e-9_wp*max(1.0_wp, abs(value))) return
+    end do
+  end function value_number
+
+  pure subroutine warn_of_stubby_links(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: i
+
+    if (.not. needs_frequencies(model)) return
+    do i = 1, size(model%links)
+      associate (link => model%links(i))
+        if (link%section == 0 .or. link%length <= 0.0_wp) cycle
+        associate (depth => model%sections(link%section)%depth)
+          if (depth <= 0.0_wp .or. link%length >= least_slenderness*depth) cycle
+          call add_warning(diagnostics, link%length_word, "link '"//link%name%text//"' is only "// &
+            to_string(link%length/depth, 3)//" times as long as thick; slender-beam theory wants 10 or more")
+        end associate
+      end associate
+    end do
+  end subroutine warn_of_stubby_links
+
+  pure subroutine warn_of_static_speeds(cards, diagnostics, model)
+    type(card_t), intent(in) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: i
+
+    if (model%effects /= effects_static .or. .not. is_moving(model) .or. .not. needs_frequencies(model)) return
+    do i = 1, size(cards)
+      if (.not. same_word(cards(i)%keyword%text, "EFFECTS")) cycle
+      call add_warning(diagnostics, cards(i)%keyword, &
+        "static frequencies do not depend on the speed: they are computed once, whatever SPEED says")
+    end do
+  end subroutine warn_of_static_speeds
+
+end module request_checks
