@@ -166,6 +166,7 @@ contains
 
     type(mechanism_t) :: coarse
     real(wp) :: lambda, bound
+    character(len=:), allocatable :: fault
     integer :: i, body, samples, position
 
     coarse = mesh_with(mechanism, min(mechanism%mesh%elements, 2))
@@ -178,9 +179,14 @@ contains
     do body = 1, size(mechanism%beams)
       bound = round_off_error(mechanism%linkage, mechanism%beams, mechanism%mesh, body)/lambda
       if (bound <= most_round_off) cycle
-      call add_error(diagnostics, model%meshes(model%links(model%loop(body))%mesh)%keyword, "this mesh is too fine for double "// &
-        "precision: round-off in the elements of '"//mechanism%names(body)%text//"' may reach "//to_string(bound, 2)// &
-        " times the lowest eigenvalue; the limit is "//to_string(most_round_off)//"; use fewer elements")
+      if (mechanism%mesh%elements(body) > 1) then
+        fault = "this mesh is too fine for double precision: use fewer elements"
+      else
+        fault = "link '"//mechanism%names(body)%text//"' is too slender for double precision"
+      end if
+      call add_error(diagnostics, model%meshes(model%links(model%loop(body))%mesh)%keyword, fault//"; round-off in '"// &
+        mechanism%names(body)%text//"' may reach "//to_string(bound, 2)//" times the lowest eigenvalue, and the limit is "// &
+        to_string(most_round_off))
     end do
   end subroutine check_round_off
 

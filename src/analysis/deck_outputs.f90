@@ -2,7 +2,7 @@
 module deck_outputs
   use echo, only: echo_text
   use errors, only: error_t, set_error
-  use file_system, only: is_directory, joined_path, make_directories, remove_empty_directory, remove_file
+  use file_system, only: is_directory, joined_path, make_directories, remove_empty_directory
   use frequency_report, only: write_frequencies, write_shapes
   use frequency_sweep, only: sweep_t
   use inertia_report, only: write_inertia
@@ -10,10 +10,11 @@ module deck_outputs
   use mechanisms, only: mechanism_t
   use mesh_report, only: write_mesh
   use models, only: model_t, report_number
-  use output_files, only: append_output, discard_output, finish_output, open_output, output_file_t, publish_output
+  use output_files, only: append_output, discard_output, finish_output, open_output, output_file_t, publish_output, remove_output
   use positions, only: positions_t
   use requests, only: report_frequencies, report_inertia, report_kinematics, report_mesh, report_shapes
   use run_findings, only: linkage_notes
+  use text, only: string_t
   implicit none (type, external)
   private
 
@@ -21,7 +22,7 @@ module deck_outputs
 
   type :: outputs_t
     character(len=:), allocatable :: folder
-    logical, private :: is_new = .false.                     !! the folder was not there before
+    type(string_t), allocatable, private :: is_new(:)        !! folders that were not there before, outermost first
     integer, allocatable, private :: kind(:)                 !! of each table: its report
     type(output_file_t), allocatable, private :: tables(:)
     type(output_file_t), private :: echo, log
@@ -40,14 +41,20 @@ contains
     logical :: made
 
     outputs%folder = folder
-    outputs%is_new = .not. is_directory(folder)
     outputs%kind = pack([(i, i=1, report_shapes)], [(report_number(model, i) > 0, i=1, report_shapes)])
     allocate (outputs%tables(size(outputs%kind)))
-    call make_directories(folder, made)
+    call make_directories(folder, made, outputs%is_new)
     if (.not. made) then
       call set_error(error, folder//": error: this folder cannot be made; is there a file of that name?")
       return
     end if
+    ! A folder where a file is to be would show only when some files are in place and others are not.
+    do i = 1, size(outputs%kind)
+      call refuse_folder(joined_path(folder, table_name(outputs%kind(i))), error)
+    end do
+    call refuse_folder(joined_path(folder, "echo.deck"), error)
+    call refuse_folder(joined_path(folder, "run.log"), error)
+    if (allocated(error)) return
     do i = 1, size(outputs%kind)
       call open_output(folder, table_name(outputs%kind(i)), outputs%tables(i), error)
       if (allocated(error)) return
@@ -55,6 +62,13 @@ contains
     call open_output(folder, "echo.deck", outputs%echo, error)
     if (.not. allocated(error)) call open_output(folder, "run.log", outputs%log, error)
   end subroutine open_outputs
+
+  subroutine refuse_folder(path, error)
+    character(len=*), intent(in) :: path
+    type(error_t), allocatable, intent(inout) :: error
+
+    if (is_directory(path)) call set_error(error, path//": error: this is a folder, and a file is to be written there")
+  end subroutine refuse_folder
 
   pure function table_name(kind) result(name)
     integer, intent(in) :: kind
@@ -132,7 +146,7 @@ contains
     call publish_output(outputs%log, error)
     if (allocated(error)) return
     do i = 1, report_shapes
-      if (all(outputs%kind /= i)) call remove_file(joined_path(outputs%folder, table_name(i)))
+      if (all(outputs%kind /= i)) call remove_output(outputs%folder, table_name(i))
     end do
   end subroutine publish_outputs
 
@@ -147,7 +161,9 @@ contains
     end do
     call discard_output(outputs%echo)
     call discard_output(outputs%log)
-    if (outputs%is_new) call remove_empty_directory(outputs%folder)
+    do i = size(outputs%is_new), 1, -1
+      call remove_empty_directory(outputs%is_new(i)%text)
+    end do
   end subroutine discard_outputs
 
 end module deck_outputs

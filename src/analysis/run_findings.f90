@@ -9,6 +9,7 @@ module run_findings
   use models, only: model_t, needs_frequencies
   use poses, only: transmission_angle
   use positions, only: positions_t
+  use sorting, only: ascending_order
   use text, only: string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   implicit none (type, external)
@@ -225,11 +226,12 @@ contains
       reach = crank_reach(ground, length)
       notes = [string_t(grashof_class(norm2(ground(:, 2) - ground(:, 1)), length))]
     end associate
-    at_limits = limit_angles(reach)
+    at_limits = modulo(limit_angles(reach), 360.0_wp)
+    at_limits = at_limits(ascending_order(at_limits))
     limits = "limit positions of the crank: none"
     do i = 1, size(at_limits)
       if (i == 1) limits = "limit positions of the crank:"
-      limits = limits//" "//to_string(modulo(at_limits(i), 360.0_wp), 9)
+      limits = limits//" "//to_string(at_limits(i), 9)
     end do
     if (size(at_limits) > 0) limits = limits//" deg"
     notes = [notes, string_t(limits)]

@@ -1,6 +1,7 @@
 !> The few calls of the operating system that Fortran does not have.
 module file_system
   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_ptr
+  use text, only: string_t
   implicit none (type, external)
   private
 
@@ -66,20 +67,27 @@ contains
     if (is) is = c_closedir(directory) == 0
   end function is_directory
 
-  !> Makes a folder and those above it; `made` tells whether it is there in the end.
-  subroutine make_directories(path, made)
+  !> Makes a folder and those above it.
+  subroutine make_directories(path, made, is_new)
     character(len=*), intent(in) :: path
-    logical, intent(out) :: made
+    logical, intent(out) :: made                        !! whether the folder is there in the end
+    type(string_t), allocatable, intent(out) :: is_new(:) !! the folders that were not there before, outermost first
 
     integer(c_int), parameter :: everybody = int(o'777', c_int) ! less what the user's umask takes away
-    integer :: at
-    integer(c_int) :: status
+    integer :: at, count
 
-    do at = 2, len(path)
-      if (path(at:at) /= "/") cycle
-      if (.not. is_directory(path(:at - 1))) status = c_mkdir(path(:at - 1)//c_null_char, everybody)
+    allocate (is_new(len(path)))
+    count = 0
+    do at = 1, len(path)
+      if (at < len(path)) then
+        if (path(at + 1:at + 1) /= "/") cycle
+      end if
+      if (is_directory(path(:at))) cycle
+      if (c_mkdir(path(:at)//c_null_char, everybody) /= 0) exit
+      count = count + 1
+      is_new(count)%text = path(:at)
     end do
-    if (.not. is_directory(path)) status = c_mkdir(path//c_null_char, everybody)
+    is_new = is_new(:count)
     made = is_directory(path)
   end subroutine make_directories
 

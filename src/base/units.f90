@@ -310,7 +310,9 @@ contains
     character(len=:), allocatable :: name
 
     name = dimension_noun(dimension)
-    if (scan(name(:1), "aeiou") == 1) then
+    if (len(name) == 0) then
+      name = "a quantity of another kind"
+    else if (scan(name(:1), "aeiou") == 1) then
       name = "an "//name
     else
       name = "a "//name

@@ -19,7 +19,7 @@ contains
   !> Solves `K x = λ M x` for the lowest λ as `K⁻¹ M x = θ x` for the largest θ = 1/λ (ARPACK mode 3 with shift 0).
   !!
   !! The start vector is fixed, so that the same matrices give the same digits whatever was solved before. ARPACK keeps state between
-  !! its calls: only one thread at a time may be here.
+  !! its calls, so that threads take turns.
   !! Errors: K is not positive definite, ARPACK does not converge.
   subroutine solve_band(stiffness, mass, modes, want_vectors, inverse, vectors, error)
     type(band_matrix_t), intent(in) :: stiffness !! positive definite
@@ -55,15 +55,15 @@ contains
     iparam = 0
     iparam([1, 3, 7]) = [1, most_restarts, 3]
     ipntr = 0
+    !$omp critical (arpack)
     call iterate(factor, mass, modes, residual, basis, iparam, ipntr, workd, workl, tolerance, info)
-    if (info /= 0) then
-      call set_error(error, "ARPACK did not converge (dsaupd info = "//to_string(info)//")")
-      return
+    if (info == 0) then
+      call dseupd(want_vectors, "A", selected, lambda, z, n, 0.0_wp, "G", n, "LM", modes, tolerance, residual, basis_size, basis, &
+        n, iparam, ipntr, workd, workl, size(workl), info)
     end if
-    call dseupd(want_vectors, "A", selected, lambda, z, n, 0.0_wp, "G", n, "LM", modes, tolerance, residual, basis_size, basis, &
-      n, iparam, ipntr, workd, workl, size(workl), info)
+    !$omp end critical (arpack)
     if (info /= 0) then
-      call set_error(error, "ARPACK could not give the modes (dseupd info = "//to_string(info)//")")
+      call set_error(error, "ARPACK did not converge (info = "//to_string(info)//")")
       return
     end if
     call sort_modes(lambda, z, want_vectors, inverse, vectors)

@@ -19,6 +19,9 @@ module poses
   !> Nearer to a dead point than this the motion is not computed: velocities grow like 1/sin(θ4 − θ3).
   real(wp), parameter :: dead_point_sine = 1.0e-6_wp
 
+  !> A limit position missed by rounding is a dead point, not out of reach: relative slack for the area of the dyad's triangle.
+  real(wp), parameter :: limit_slack = 1.0e-11_wp
+
 contains
 
   !> Places every pin for a crank angle. Equation 2.1 of Ulker (2010), solved by intersecting circles.
@@ -30,20 +33,22 @@ contains
     type(pose_t), intent(out) :: pose
     type(error_t), allocatable, intent(out) :: error
 
+    real(wp) :: origin(2)
     integer :: i
 
     allocate (pose%pin(2, size(linkage%is_ground)), pose%direction(2, size(linkage%bodies)), pose%sine(size(linkage%dyads)))
-    pose%pin = linkage%ground_position
+    ! Seen from the crank's pivot, so that no digits go to a drawing's far-off origin.
+    origin = linkage%ground_position(:, linkage%bodies(1)%first_pin)
+    pose%pin = linkage%ground_position - spread(origin, 2, size(pose%pin, 2))
     pose%direction = 0.0_wp
     pose%sine = 0.0_wp
-    associate (crank => linkage%bodies(1))
-      pose%direction(:, 1) = direction_at(crank_degrees)
-      pose%pin(:, crank%last_pin) = pose%pin(:, crank%first_pin) + crank%length*pose%direction(:, 1)
-    end associate
+    pose%direction(:, 1) = direction_at(crank_degrees)
+    pose%pin(:, linkage%bodies(1)%last_pin) = linkage%bodies(1)%length*pose%direction(:, 1)
     do i = 1, size(linkage%dyads)
       call place_dyad(linkage, linkage%dyads(i), pose, pose%sine(i), error)
       if (allocated(error)) return
     end do
+    pose%pin = pose%pin + spread(origin, 2, size(pose%pin, 2))
   end subroutine find_pose
 
   !> Cosine and sine of an angle in degrees. Whole turns are taken off before: 0° and 360° are one position to the last digit.
@@ -87,7 +92,7 @@ contains
     distance = norm2(base)
     sine = 0.0_wp
     four_areas_squared = (r(1) + r(2) + distance)*(r(1) + r(2) - distance)*(distance + r(1) - r(2))*(distance - r(1) + r(2))
-    if (four_areas_squared < 0.0_wp) then
+    if (four_areas_squared < -limit_slack*maxval([r, distance])**4) then
       call set_error(error, "the position is out of reach")
       return
     end if
@@ -98,7 +103,7 @@ contains
     end if
     unit = base/distance
     along = 0.5_wp*(distance + (r(1) - r(2))*(r(1) + r(2))/distance)
-    height = 0.5_wp*sqrt(four_areas_squared)/distance
+    height = 0.5_wp*sqrt(max(four_areas_squared, 0.0_wp))/distance
     pose%pin(:, dyad%middle) = pose%pin(:, dyad%base(1)) + along*unit + dyad%side*height*normal_to(unit)
 
     do k = 1, 2
@@ -134,13 +139,14 @@ contains
     integer, intent(in) :: dyad
     real(wp) :: angle
 
-    real(wp) :: arm(2, 2)
-    integer :: k
+    real(wp) :: cosine
 
-    do k = 1, 2
-      arm(:, k) = pose%pin(:, linkage%dyads(dyad)%base(k)) - pose%pin(:, linkage%dyads(dyad)%middle)
-    end do
-    angle = atan2(abs(cross(arm(:, 1), arm(:, 2))), dot_product(arm(:, 1), arm(:, 2)))
+    associate (bodies => linkage%dyads(dyad)%body)
+      cosine = dot_product(pose%direction(:, bodies(1)), pose%direction(:, bodies(2)))
+      ! Both directions away from the pin where the bodies meet, or both towards it, keep the sign.
+      if (linkage%bodies(bodies(1))%last_pin /= linkage%bodies(bodies(2))%last_pin) cosine = -cosine
+    end associate
+    angle = atan2(abs(pose%sine(dyad)), cosine)
   end function transmission_angle
 
 end module poses

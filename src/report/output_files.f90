@@ -10,11 +10,12 @@ module output_files
   implicit none (type, external)
   private
 
-  public :: output_file_t, open_output, append_output, finish_output, publish_output, discard_output
+  public :: output_file_t, open_output, append_output, finish_output, publish_output, remove_output, discard_output
 
   type :: output_file_t
     character(len=:), allocatable :: path
     integer, private :: unit = -1
+    logical, private :: is_open = .false.
     integer(long), private :: bytes = 0_long
     logical, private :: sound = .true.
     type(text_buffer_t), private :: buffer !! text not yet written
@@ -36,6 +37,7 @@ contains
     file%path = joined_path(folder, name)
     open (newunit=file%unit, file=file%path//temporary, status="replace", action="write", access="stream", form="unformatted", &
       iostat=status)
+    file%is_open = status == 0
     if (status /= 0) call set_error(error, file%path//temporary//": error: this file cannot be written")
   end subroutine open_output
 
@@ -70,6 +72,7 @@ contains
 
     call write_buffer(file)
     close (file%unit, iostat=status)
+    file%is_open = .false.
     file%sound = file%sound .and. status == 0
     inquire (file=file%path//temporary, size=size_on_disk)
     if (.not. file%sound .or. size_on_disk /= file%bytes) then
@@ -88,16 +91,23 @@ contains
     if (.not. done) call set_error(error, file%path//": error: the file cannot be put in place")
   end subroutine publish_output
 
+  !> Removes a file that is no longer asked for, and what an earlier run that was killed may have left of it.
+  subroutine remove_output(folder, name)
+    character(len=*), intent(in) :: folder, name
+
+    call remove_file(joined_path(folder, name))
+    call remove_file(joined_path(folder, name)//temporary)
+  end subroutine remove_output
+
   !> Removes what was written so far.
   subroutine discard_output(file)
     type(output_file_t), intent(inout) :: file
 
     integer :: status
-    logical :: is_open
 
     if (.not. allocated(file%path)) return
-    inquire (unit=file%unit, opened=is_open)
-    if (is_open) close (file%unit, iostat=status)
+    if (file%is_open) close (file%unit, iostat=status)
+    file%is_open = .false.
     call remove_file(file%path//temporary)
   end subroutine discard_output
 
