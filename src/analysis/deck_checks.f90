@@ -128,14 +128,21 @@ contains
 
   end function ready_card
 
-  !> `a to b step s`, rounded inwards to a ten-thousandth of a degree.
+  !> `a to b step s`, rounded inwards to a ten-thousandth of a degree; the middle alone where nothing is left between.
   pure function interval(a, b, step) result(range_text)
     real(wp), intent(in) :: a, b, step !! [deg]
     character(len=:), allocatable :: range_text
 
     real(wp), parameter :: grid = 1.0e4_wp
+    integer :: first, last
 
-    range_text = to_string((floor(a*grid) + 1)/grid, 9)//" to "//to_string((ceiling(b*grid) - 1)/grid, 9)//" step "//to_string(step)
+    first = floor(a*grid) + 1
+    last = ceiling(b*grid) - 1
+    if (first < last) then
+      range_text = to_string(first/grid, 9)//" to "//to_string(last/grid, 9)//" step "//to_string(step)
+    else
+      range_text = to_string(0.5_wp*(a + b), 12)
+    end if
   end function interval
 
   subroutine check_modes(model, mechanism, diagnostics)
