@@ -157,9 +157,9 @@ contains
     if (model%modes > mechanism%mesh%unknowns) then
       call add_error(diagnostics, place, plural(model%modes, "mode")//" asked for, but the mesh has only "// &
         plural(mechanism%mesh%unknowns, "unknown"))
-    else if (model%modes == mechanism%mesh%unknowns .and. model%solver == solver_band) then
-      call add_error(diagnostics, place, "SOLVER band finds fewer modes than there are unknowns, here at most "// &
-        to_string(mechanism%mesh%unknowns - 1))
+    else if (model%modes > mechanism%mesh%unknowns - 2 .and. model%solver == solver_band) then
+      call add_error(diagnostics, place, "SOLVER band finds at least two modes fewer than the mesh has unknowns, here at most "// &
+        to_string(mechanism%mesh%unknowns - 2))
     end if
   end subroutine check_modes
 

@@ -100,12 +100,14 @@ contains
 
     character(len=:), allocatable :: kept
     integer :: i, lines, length
+    logical :: has_mark
 
     allocate (character(len=len(text) + 1) :: kept)
+    has_mark = index(text, byte_order_mark) == 1
     length = 0
     lines = 0
     do i = 1, len(text)
-      if (i <= 3 .and. index(text, byte_order_mark) == 1) cycle
+      if (i <= 3 .and. has_mark) cycle
       if (text(i:i) == carriage_return) then
         if (i == len(text)) cycle
         if (text(i + 1:i + 1) == line_feed) cycle

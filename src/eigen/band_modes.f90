@@ -24,7 +24,7 @@ contains
   subroutine solve_band(stiffness, mass, modes, want_vectors, inverse, vectors, error)
     type(band_matrix_t), intent(in) :: stiffness !! positive definite
     type(band_matrix_t), intent(in) :: mass
-    integer, intent(in) :: modes                 !! less than the number of unknowns
+    integer, intent(in) :: modes                 !! at least two fewer than the unknowns
     logical, intent(in) :: want_vectors
     real(wp), intent(out) :: inverse(:)          !! (modes) 1/λ, largest first
     real(wp), allocatable, intent(out) :: vectors(:, :) !! (unknowns, modes); (unknowns, 0) unless wanted
@@ -41,7 +41,8 @@ contains
     call factor_band(factor, error)
     if (allocated(error)) return
     n = order_of(stiffness)
-    basis_size = min(n, max(2*modes + 1, 20))
+    ! A basis of the whole space leaves no residual, and ARPACK divides by it.
+    basis_size = min(n - 1, max(2*modes + 1, 20))
     allocate (residual(n), basis(n, basis_size), workd(3*n), workl(basis_size*(basis_size + 8)))
     allocate (selected(basis_size), lambda(modes), z(n, merge(modes, 1, want_vectors)))
     basis = 0.0_wp

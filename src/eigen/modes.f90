@@ -30,6 +30,10 @@ module modes
   !> Relative width of an eigenvalue's bracket, and what a bracket widened for round-off may not exceed.
   real(wp), parameter :: bracket = 1.0e-9_wp, widest_bracket = 1.0e-5_wp
 
+  !> Multiples of the round-off bounds of K and of the solver. The first bound is generous in itself; with its margin the bracket
+  !! stays within what is allowed up to the limit of 1e-6 that a mesh must keep.
+  real(wp), parameter :: stiffness_margin = 4.0_wp, solver_margin = 100.0_wp
+
 contains
 
   !> Finds and checks the lowest modes.
@@ -109,7 +113,7 @@ contains
     lowest = found%lambda(1) + shift
     do i = 1, size(found%lambda)
       size_of = abs(found%lambda(i)) + shift
-      width = bracket*size_of + 100.0_wp*(roundoff + epsilon(1.0_wp)*size_of**2/lowest)
+      width = bracket*size_of + stiffness_margin*roundoff + solver_margin*epsilon(1.0_wp)*size_of**2/lowest
       found%uncertainty = max(found%uncertainty, width/size_of)
       below = count_below(stiffness, mass, found%lambda(i) - width)
       up_to = count_below(stiffness, mass, found%lambda(i) + width)

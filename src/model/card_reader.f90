@@ -11,7 +11,7 @@ module card_reader
   implicit none (type, external)
   private
 
-  public :: check_form, entry_number, read_name, read_quantity, read_measure, require_positive
+  public :: check_form, has_key, entry_number, read_name, read_quantity, read_measure, require_positive
   public :: read_entry_quantity, read_entry_count, read_choice
 
 contains
@@ -182,6 +182,7 @@ contains
     end if
   end subroutine read_entry_quantity
 
+  !> Whether a card has a key, with a value or without.
   pure function has_key(card, key) result(has)
     type(card_t), intent(in) :: card
     character(len=*), intent(in) :: key

@@ -1,7 +1,7 @@
 !> GROUND, LINK, PINMASS and MESH: what the mechanism consists of, as read; names are not yet looked up.
 module linkage_cards
-  use card_reader, only: check_form, entry_number, read_entry_count, read_entry_quantity, read_name, read_quantity, &
-    require_positive
+  use card_reader, only: check_form, entry_number, has_key, read_entry_count, read_entry_quantity, read_name, &
+    read_quantity, require_positive
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
@@ -144,7 +144,7 @@ contains
     mesh%keyword = card%keyword
     mesh%link_names = card%words
     call read_entry_count(card, "elements", 1, diagnostics, mesh%elements, fine)
-    if (known_keys .and. entry_number(card, "elements") == 0) then
+    if (known_keys .and. .not. has_key(card, "elements")) then
       call add_error(diagnostics, card%keyword, "'elements=' is missing; expected a whole number")
     end if
     call read_entry_count(card, "order", 1, diagnostics, order, fine)

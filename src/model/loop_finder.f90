@@ -54,7 +54,7 @@ contains
       model%loop_pins(position + 1) = pin
       if (position == 3) exit
       link = link_at(model%links, used, pin%text)
-      if (link == 0) then
+      if (link == 0 .or. find_name(grounds, pin%text) > 0) then
         call refuse_open_loop(diagnostics, model, grounds, used)
         return
       end if
