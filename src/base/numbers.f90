@@ -2,6 +2,7 @@
 !!
 !! Fortran's own list-directed `read` takes `/`, `1,000`, `2*3.5` and `nan` for numbers; a deck must not.
 module numbers
+  use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_overflow, ieee_set_flag, ieee_set_halting_mode
   use kinds, only: wp
   implicit none (type, external)
   private
@@ -70,6 +71,7 @@ contains
     character(len=len(string)) :: digits
     character(len=32) :: form
     integer :: i, status
+    logical :: halts
 
     value = 0.0_wp
     if (number_length(string) /= len(string) .or. len(string) == 0) then
@@ -85,7 +87,12 @@ contains
       if (scan(string(i:i), "dD") == 1) digits(i:i) = "e"
     end do
     write (form, "(a,i0,a)") "(f", len(string), ".0)"
+    ! A number out of range is the user's slip, not ours to die of, even where overflow traps.
+    call ieee_get_halting_mode(ieee_overflow, halts)
+    call ieee_set_halting_mode(ieee_overflow, .false.)
     read (digits, form, iostat=status) value
+    call ieee_set_flag(ieee_overflow, .false.)
+    call ieee_set_halting_mode(ieee_overflow, halts)
     if (status /= 0 .or. abs(value) > huge(value)) then
       problem = "'"//string//"' is too large for a number"
       value = 0.0_wp

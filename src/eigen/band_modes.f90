@@ -20,7 +20,7 @@ contains
   !!
   !! The start vector is fixed, so that the same matrices give the same digits whatever was solved before. ARPACK keeps state between
   !! its calls, so that threads take turns.
-  !! Errors: K is not positive definite, ARPACK does not converge.
+  !! Errors: K is not positive definite, too many modes, ARPACK does not converge.
   subroutine solve_band(stiffness, mass, modes, want_vectors, inverse, vectors, error)
     type(band_matrix_t), intent(in) :: stiffness !! positive definite
     type(band_matrix_t), intent(in) :: mass
@@ -41,6 +41,10 @@ contains
     call factor_band(factor, error)
     if (allocated(error)) return
     n = order_of(stiffness)
+    if (modes > n - 2) then
+      call set_error(error, "ARPACK finds at least two modes fewer than there are unknowns")
+      return
+    end if
     ! A basis of the whole space leaves no residual, and ARPACK divides by it.
     basis_size = min(n - 1, max(2*modes + 1, 20))
     allocate (residual(n), basis(n, basis_size), workd(3*n), workl(basis_size*(basis_size + 8)))
@@ -88,19 +92,14 @@ contains
     do
       call dsaupd(ido, "G", n, "LM", modes, tolerance, residual, size(basis, 2), basis, n, iparam, ipntr, workd, workl, &
         size(workl), info)
+      if (all(ido /= [-1, 1, 2])) return
       associate (x => workd(ipntr(1):ipntr(1) + n - 1), y => workd(ipntr(2):ipntr(2) + n - 1))
-        select case (ido)
-        case (-1)
-          y = band_times_vector(mass, x)
-          call solve_with_factor(factor, y)
-        case (1)
+        if (ido == 1) then
           y = workd(ipntr(3):ipntr(3) + n - 1) ! M x is here already
-          call solve_with_factor(factor, y)
-        case (2)
+        else
           y = band_times_vector(mass, x)
-        case default
-          return
-        end select
+        end if
+        if (ido /= 2) call solve_with_factor(factor, y)
       end associate
     end do
   end subroutine iterate

@@ -135,10 +135,34 @@ contains
         place%column = word%column + length
       end if
     end if
+    if (len(problem) == 0) then
+      problem = range_problem(word%text, value, measure)
+      if (len(problem) > 0) place = word
+    end if
     fine = len(problem) == 0
     if (fine) return
     call add_error(diagnostics, place, problem)
   end subroutine read_measure
+
+  !> Why a number is beyond reason; empty if it is not.
+  !!
+  !! The limits are far from any mechanism, and near enough to keep products such as EI/L³ and their squares from overflowing.
+  pure function range_problem(text, value, measure) result(problem)
+    character(len=*), intent(in) :: text
+    real(wp), intent(in) :: value        !! as written
+    type(unit_t), intent(in) :: measure
+    character(len=:), allocatable :: problem
+
+    real(wp), parameter :: largest = 1.0e30_wp, smallest = 1.0e-30_wp
+
+    problem = ""
+    ! Before the conversion, which may overflow.
+    if (abs(value) > largest*measure%denominator/measure%numerator) then
+      problem = "'"//text//"' is too large: numbers up to 1e30 (in SI units) are taken"
+    else if (abs(value) > 0.0_wp .and. abs(value) < smallest*measure%denominator/measure%numerator) then
+      problem = "'"//text//"' is too small: numbers from 1e-30 (in SI units) are taken"
+    end if
+  end function range_problem
 
   !> Reads a quantity in SI.
   pure subroutine read_quantity(word, dimension, system, diagnostics, value, fine)
@@ -153,10 +177,6 @@ contains
 
     call read_measure(word, dimension, coherent_unit(system, dimension), diagnostics, value, measure, fine)
     if (fine) value = to_si(value, measure)
-    if (fine .and. abs(value) > huge(value)) then
-      call add_error(diagnostics, word, "'"//word%text//"' is too large")
-      fine = .false.
-    end if
   end subroutine read_quantity
 
   !> Reads the quantity of a key in SI; a key that must be there and is not is an error.

@@ -1,0 +1,55 @@
+#!/bin/sh
+# Positions that cannot be computed: status 1, the rest is written, and the tables keep their blocks.
+. tests/scripts/functions.sh
+
+deck=$scratch/change.deck
+out=$scratch/out/change
+# A parallelogram: at 0 and 180 degrees all links lie on one line.
+cat >"$deck" <<'END_OF_DECK'
+UNITS    mm tonne s
+MATERIAL steel E=200GPa density=7800kg/m3
+SECTION  strip rectangle thickness=1 width=10
+GROUND   O2 0 0
+GROUND   O4 100 0
+LINK     a O2 A length=50  material=steel section=strip
+LINK     b A  B length=100 material=steel section=strip
+LINK     c O4 B length=50  material=steel section=strip
+DRIVE    a
+MESH     * elements=2
+CRANK    0 360 720 30 90 180 540 200 -180
+SPEED    0 1 2
+INERTIA  lumped
+REPORT   kinematics
+REPORT   frequencies
+REPORT   inertia
+REPORT   shapes points=3
+REPORT   mesh
+END_OF_DECK
+
+# status: every failed angle is told, the log lists them, nothing else is missing.
+status() {
+  run 1 --out "$scratch/out" "$deck" || return 1
+  for angle in 0 360 720 180 540 -180; do
+    says "change.deck: error: crank $angle deg: dead point" && grep -q "^crank $angle deg: dead point" "$out/run.log" || return 1
+  done
+  for table in kinematics frequencies; do
+    [ "$(grep -c '^# failed speed=1 crank=360 : dead point' "$out/$table.dat")" -eq 1 ] || { echo "$table.dat tells no failed row"; return 1; }
+    [ "$(grep -vc -e '^#' -e '^$' "$out/$table.dat")" -eq 9 ] || { echo "$table.dat: wrong number of rows"; return 1; }
+  done
+}
+
+# blocks TABLE: as gnuplot reads it, to which comments are nothing: two empty lines begin a block, a block a speed.
+# Neither failed rows in a run nor those at an end of a block make one more. To the eye it is never more than two lines.
+blocks() {
+  awk '/^#/ { lines = 0; next }
+    /^$/ { empty++; if (++lines > 2) { print "three empty lines, line", NR; failed = 1 }; next }
+    { if (rows++ && empty >= 2) blocks++; empty = lines = 0 }
+    END { if (blocks != 2) { print blocks + 1, "blocks"; failed = 1 }; if (lines == 2) { print "empty lines at the end"; failed = 1 }
+      exit failed }' "$out/$1.dat"
+}
+
+check "failed rows are told and the rest is written" status
+for table in kinematics frequencies inertia; do
+  check "blocks of $table.dat with failed rows" blocks $table
+done
+check "quiet still tells failed rows" eval 'run 1 --quiet --out "$scratch/out" "$deck" && says "crank 0 deg: dead point"'

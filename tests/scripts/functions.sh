@@ -1,0 +1,98 @@
+# Read in by the scripts of this folder, which check.py runs as: script PROGRAM SCRATCH, in the repository's root.
+program=$1
+scratch=$2
+
+# check NAME COMMAND...: one test; the command is silent when all is well, and else prints why not.
+check() {
+  test_name=$1
+  shift
+  if why=$("$@" 2>&1); then
+    echo "ok $test_name"
+  else
+    echo "not ok $test_name:" $why
+  fi
+}
+
+skip() {
+  echo "ok $1 # skip $2"
+}
+
+# run STATUS ARGUMENT...: the program; what it says is kept in $scratch/stdout and stderr.
+run() {
+  wanted=$1
+  shift
+  timeout 120 "$program" "$@" >"$scratch/stdout" 2>"$scratch/stderr" </dev/null
+  found=$?
+  [ $found -eq "$wanted" ] && return
+  echo "status $found, not $wanted; it said:"
+  head -n 5 "$scratch/stderr"
+  return 1
+}
+
+# says TEXT: on standard error, in the last run.
+says() {
+  grep -qF -e "$1" "$scratch/stderr" && return
+  echo "it did not say '$1' but:"
+  head -n 5 "$scratch/stderr"
+  return 1
+}
+
+silent() {
+  [ ! -s "$scratch/stderr" ] && return
+  echo "it said:"
+  head -n 5 "$scratch/stderr"
+  return 1
+}
+
+# absent PATH...
+absent() {
+  for path in "$@"; do
+    [ -e "$path" ] && echo "${path##*/} is there" && return 1
+  done
+  return 0
+}
+
+# same FOLDER FOLDER: the same files with the same bytes.
+same() {
+  diff -rq "$1" "$2"
+}
+
+# same_tables FOLDER FOLDER: likewise, but for the log and the echo, which name lines of their deck.
+same_tables() {
+  diff -rq -x run.log -x echo.deck "$1" "$2"
+}
+
+# A four-bar for what needs no beams.
+motion_deck() {
+  cat <<END_OF_DECK
+UNITS    mm tonne s
+GROUND   O2  0 0
+GROUND   O4  254 0
+LINK     crank    O2 A  length=100
+LINK     coupler  A  B  length=279.4
+LINK     follower O4 B  length=266.7
+DRIVE    crank
+CRANK    ${1:-0 to 360 step 30}
+REPORT   kinematics
+END_OF_DECK
+}
+
+# One with beams and all reports; the arguments are more cards.
+beam_deck() {
+  cat <<END_OF_DECK
+UNITS    mm tonne s
+MATERIAL steel  E=200000 density=7.8e-9
+SECTION  strip  rectangle thickness=1.6 width=25.4
+GROUND   O2  0 0
+GROUND   O4  254 0
+LINK     crank    O2 A  length=100    material=steel section=strip
+LINK     coupler  A  B  length=279.4  material=steel section=strip
+LINK     follower O4 B  length=266.7  material=steel section=strip
+DRIVE    crank
+MESH     *  elements=2
+INERTIA  lumped
+END_OF_DECK
+  for card in "$@"; do
+    echo "$card"
+  done
+}

@@ -1,0 +1,81 @@
+#!/bin/sh
+# The command line and its exit statuses.
+. tests/scripts/functions.sh
+
+deck=$scratch/four.deck
+out=$scratch/out
+motion_deck >"$deck"
+
+help() {
+  run 0 --help && silent || return 1
+  for option in --check --out --threads --quiet --stats --version --help; do
+    grep -q -e "^ *$option" "$scratch/stdout" || { echo "$option is not explained"; return 1; }
+  done
+}
+
+version() {
+  run 0 --version && silent && grep -qx 'flexmech [0-9.]*' "$scratch/stdout"
+}
+
+check_only() {
+  run 0 --check --out "$out" "$deck" && silent && absent "$out"
+}
+
+check_refuses() {
+  motion_deck "0 to 360" >"$scratch/bad.deck"
+  run 2 --check "$scratch/bad.deck" && says "bad.deck:8:12: error:"
+}
+
+unknown_option() {
+  run 2 --thread=2 "$deck" && says "unknown option '--thread" && says "did you mean '--threads'?"
+}
+
+value_missing() {
+  run 2 "$deck" --out && says "option --out needs a value" &&
+    run 2 --out= "$deck" && says "option --out needs a value"
+}
+
+threads_refused() {
+  for number in 0 -1 two 1e3 99999999999; do
+    run 2 --threads "$number" --out "$out" "$deck" && says "--threads needs a number" && absent "$out" || return 1
+  done
+}
+
+out_twice() {
+  run 0 --out="$out/deep/er" "$deck" && silent && run 0 --out "$out" "$deck" && same "$out/four" "$out/deep/er/four"
+}
+
+default_folder() {
+  mkdir -p "$scratch/here"
+  (cd "$scratch/here" && run 0 "$deck") && same "$scratch/here/outputs/four" "$out/four"
+}
+
+after_two_dashes() {
+  motion_deck >"$scratch/-x.deck"
+  (cd "$scratch" && run 0 --out dashes -- -x.deck) && [ -s "$scratch/dashes/-x/kinematics.dat" ]
+}
+
+stats() {
+  run 0 --stats --out "$out" "$deck" && says "four"
+}
+
+threads() {
+  beam_deck "CRANK 0 to 360 step 5" "SPEED 0 10 20" "REPORT frequencies" "REPORT shapes" "REPORT inertia" >"$scratch/beam.deck"
+  for number in 1 3 8; do
+    run 0 --quiet --threads $number --out "$out/$number" "$scratch/beam.deck" && same "$out/1" "$out/$number" || return 1
+  done
+}
+
+check "--help explains every option" help
+check "--version" version
+check "--check of a good deck writes nothing" check_only
+check "--check of a bad deck" check_refuses
+check "an unknown option" unknown_option
+check "no deck" eval 'run 2 && says "no deck given" && run 2 --check && says "no deck given"'
+check "an option without its value" value_missing
+check "--threads with no number" threads_refused
+check "--out and --out=, folders that are not there" out_twice
+check "outputs/ is the default" default_folder
+check "a deck behind --" after_two_dashes
+check "--stats" stats
+check "the same bytes whatever the threads" threads

@@ -1,0 +1,54 @@
+#!/bin/sh
+# The form of the tables, for every deck in inputs/.
+. tests/scripts/functions.sh
+
+# form TABLE: the last lines of the head are names and units, every row has as many columns, and no number is none.
+form() {
+  awk 'function fail(why) { print FILENAME ":" FNR ": " why; failed = 1; exit 1 }
+    /^# failed / { if (!columns) columns = words; next }
+    /^#/ && !rows { names = units; words = last; units = $0; last = NF - 1; next }
+    /^$/ { next }
+    { if (!rows++ && words != last) fail("the columns have not as many units as names")
+      if (NF != last) fail(NF " columns, not " last)
+      if (tolower($0) ~ /nan|inf|\*/) fail("no number") }
+    END { if (!failed && !rows) { print FILENAME ": no rows"; exit 1 } }' "$1"
+}
+
+# Where 0 and 360 degrees are both there: computed once, so their rows differ in nothing but the angle.
+full_turn() {
+  awk '/^#/ || !NF { next }
+    { angle = $2; first = $1; $1 = $2 = ""; rest = $0 }
+    angle == 0 { row[first] = row[first] rest "\n"; zeros++ }
+    angle == 360 { again[first] = again[first] rest "\n"; turns++ }
+    END { if (!turns) exit 0
+      if (zeros != turns) { print zeros " rows at 0, " turns " at 360"; exit 1 }
+      for (first in row) if (row[first] != again[first]) { print "the rows at 0 and 360 degrees differ"; exit 1 } }' "$1"
+}
+
+for deck in inputs/*.deck; do
+  base=$(basename "$deck" .deck)
+  # The program may say that some rows failed; that is not what is looked at here.
+  "$program" --quiet --out "$scratch" "$deck" 2>/dev/null
+  for table in "$scratch/$base"/*.dat; do
+    name=$base/$(basename "$table")
+    check "form of $name" form "$table"
+    case $name in
+      */mesh.dat) ;;
+      *) check "0 and 360 degrees in $name" full_turn "$table" ;;
+    esac
+  done
+done
+
+head_of() {
+  beam_deck "CRANK 0 to 360 step 60" "SPEED 0 10" "MODES 4" "REPORT $1" >"$scratch/$1.deck"
+  run 0 --out "$scratch" "$scratch/$1.deck" && form "$scratch/$1/$1.dat" || return 1
+  found=$(grep '^#' "$scratch/$1/$1.dat" | tail -n 2 | head -n 1 | sed 's/^# *//; s/  */ /g')
+  [ "$found" = "$2" ] || { echo "columns are $found"; return 1; }
+}
+
+check "columns of kinematics.dat" head_of kinematics \
+  "speed crank theta3 theta4 omega3 omega4 alpha3 alpha4 Ax Ay Bx By transmission_angle"
+check "columns of inertia.dat" head_of inertia "speed crank mass link x y ax ay Fx Fy m"
+check "columns of mesh.dat" head_of mesh "crank link element node_a node_b xa ya xb yb mass_a mass_b"
+check "columns of frequencies.dat" head_of frequencies "speed crank f1 f2 f3 f4"
+check "columns of shapes.dat" head_of shapes "speed crank mode frequency link s x y ux uy rotation"

@@ -1,0 +1,53 @@
+#!/bin/sh
+# Warnings stand on standard error and in the log; --quiet takes them from standard error only.
+. tests/scripts/functions.sh
+
+# warned NAME TEXT: of the deck on standard input
+warned() {
+  deck=$scratch/$1.deck
+  cat >"$deck"
+  run 0 --out "$scratch/out" "$deck" && says "warning: $2" || return 1
+  grep -qF -e "$2" "$scratch/out/$1/run.log" || { echo "the log does not tell"; return 1; }
+  run 0 --quiet --out "$scratch/out" "$deck" && silent || return 1
+  grep -qF -e "$2" "$scratch/out/$1/run.log" || { echo "the log does not tell when quiet"; return 1; }
+}
+
+stubby() {
+  beam_deck "CRANK 0" "REPORT frequencies" | sed 's/thickness=1.6/thickness=20/' |
+    warned stubby "link 'crank' is only 5 times as long as thick"
+}
+
+wave_speed() {
+  beam_deck "CRANK 0" "REPORT frequencies" | sed 's/7.8e-9/7800/' | warned wave_speed "sound would run through 'steel' at"
+}
+
+deflection() {
+  beam_deck "CRANK 0 to 350 step 10" "SPEED 0 40" "REPORT frequencies" |
+    warned deflection "the inertia loads at speed 40 rad/s, crank"
+  grep -q "deflect link '[a-z]*' by [0-9.]* % of its length" "$scratch/out/deflection/run.log"
+}
+
+static_speeds() {
+  beam_deck "CRANK 0" "SPEED 0 20 40" "EFFECTS static" "REPORT frequencies" |
+    warned static "static frequencies do not depend on the speed" || return 1
+  [ "$(grep -vc -e '^#' -e '^$' "$scratch/out/static/frequencies.dat")" -eq 1 ] || { echo "more than one block"; return 1; }
+}
+
+mass_at_ground() {
+  { beam_deck "CRANK 0" "REPORT frequencies" "PINMASS o4 1kg"; } | warned ground "a mass at the ground pivot 'o4' has no effect" || return 1
+  beam_deck "CRANK 0" "REPORT frequencies" >"$scratch/without.deck"
+  run 0 --out "$scratch/out" "$scratch/without.deck" && same_tables "$scratch/out/without" "$scratch/out/ground"
+}
+
+divergence() {
+  beam_deck "CRANK 0 to 350 step 10" "SPEED 0 200" "REPORT frequencies" |
+    warned divergence "static divergence at speed 200 rad/s, crank" || return 1
+  grep -v '^#' "$scratch/out/divergence/frequencies.dat" | grep -q ' -[0-9]' || { echo "no negative frequency"; return 1; }
+}
+
+check "a stubby link" stubby
+check "a speed of sound of no solid" wave_speed
+check "a deflection above 1 %" deflection
+check "static frequencies and speeds" static_speeds
+check "a mass at a ground pivot" mass_at_ground
+check "static divergence" divergence
