@@ -158,8 +158,8 @@ contains
       call add_error(diagnostics, place, plural(model%modes, "mode")//" asked for, but the mesh has only "// &
         plural(mechanism%mesh%unknowns, "unknown"))
     else if (model%modes > mechanism%mesh%unknowns - 2 .and. model%solver == solver_band) then
-      call add_error(diagnostics, place, "SOLVER band finds at least two modes fewer than the mesh has unknowns, here at most "// &
-        to_string(mechanism%mesh%unknowns - 2))
+      call add_error(diagnostics, place, "SOLVER band finds at most "//plural(mechanism%mesh%unknowns - 2, "mode")// &
+        " of this mesh (two fewer than its unknowns), not "//to_string(model%modes))
     end if
   end subroutine check_modes
 

@@ -42,9 +42,8 @@ contains
     order = ascending_order(reduced)
     allocate (positions%state(size(crank)))
     ! Equal angles stand side by side in the sorted order, the first listed before the others.
-    first(order(:1)) = order(:1)
+    first = [(i, i=1, size(crank))]
     do i = 2, size(crank)
-      first(order(i)) = order(i)
       if (reduced(order(i)) <= reduced(order(i - 1))) first(order(i)) = first(order(i - 1))
     end do
     states = 0

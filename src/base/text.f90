@@ -53,6 +53,9 @@ contains
     if (abs(value) <= 0.0_wp) then
       string = "0"
       return
+    else if (.not. abs(value) <= huge(value)) then
+      string = "not a number"
+      return
     end if
     write (form, "(a,i0,a)") "(es40.", significant - 1, "e3)"
     write (buffer, form) value

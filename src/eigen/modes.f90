@@ -87,7 +87,9 @@ contains
     shift = 0.0_wp
     factorizations = factorizations + 1
     if (count_below(stiffness, mass, 0.0_wp) == 0) return
-    shift = small*minval(abs(stiffness%entry(1, :))/mass%entry(1, :))
+    ! A diagonal entry may vanish by chance; the largest of the matrix does not.
+    shift = max(small*minval(abs(stiffness%entry(1, :))/mass%entry(1, :)), &
+      small**2*maxval(abs(stiffness%entry))/maxval(mass%entry(1, :)))
     do
       factorizations = factorizations + 1
       if (count_below(stiffness, mass, -shift) == 0) exit

@@ -26,7 +26,7 @@ contains
     a = shifted(stiffness, mass, -shift)
     number = 0
     do j = 1, order_of(a)
-      least = epsilon(1.0_wp)*(abs(stiffness%entry(1, j)) + abs(shift)*mass%entry(1, j))
+      least = tiny(1.0_wp) + epsilon(1.0_wp)*(abs(stiffness%entry(1, j)) + abs(shift)*mass%entry(1, j))
       pivot = a%entry(1, j)
       if (abs(pivot) < least) pivot = -least
       if (pivot < 0.0_wp) number = number + 1

@@ -3,7 +3,7 @@ module joint_forces
   use inertia_loads, only: load_t
   use kinds, only: wp
   use linkages, only: cross, dyad_t, linkage_t, normal_to
-  use poses, only: pose_t
+  use poses, only: arm_to_middle, pose_t
   implicit none (type, external)
   private
 
@@ -61,12 +61,9 @@ contains
 
     do k = 1, 2
       associate (body => linkage%bodies(dyad%body(k)), load => body_load(dyad%body(k)))
-        e(:, k) = pose%direction(:, dyad%body(k))
+        e(:, k) = arm_to_middle(linkage, dyad, pose, k)
         moment(k) = load%moment
-        if (body%last_pin /= dyad%middle) then
-          moment(k) = load%moment - body%length*cross(e(:, k), load%force)
-          e(:, k) = -e(:, k)
-        end if
+        if (body%last_pin /= dyad%middle) moment(k) = load%moment + body%length*cross(e(:, k), load%force)
         moment(k) = moment(k)/body%length
       end associate
     end do

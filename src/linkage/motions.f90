@@ -5,7 +5,7 @@
 module motions
   use kinds, only: wp
   use linkages, only: dyad_t, linkage_t, normal_to
-  use poses, only: pose_t
+  use poses, only: arm_to_middle, pose_t
   implicit none (type, external)
   private
 
@@ -68,8 +68,7 @@ contains
 
     do k = 1, 2
       r(k) = linkage%bodies(dyad%body(k))%length
-      e(:, k) = pose%direction(:, dyad%body(k))
-      if (linkage%bodies(dyad%body(k))%last_pin /= dyad%middle) e(:, k) = -e(:, k)
+      e(:, k) = arm_to_middle(linkage, dyad, pose, k)
     end do
     w = motion%pin(:, dyad%base(2)) - motion%pin(:, dyad%base(1))
     h = [dot_product(w, e(:, 2)), dot_product(w, e(:, 1))]/(r*sine)

@@ -8,7 +8,7 @@ module poses
   implicit none (type, external)
   private
 
-  public :: pose_t, find_pose, body_angle, transmission_angle, dead_point_sine
+  public :: pose_t, find_pose, arm_to_middle, body_angle, transmission_angle, dead_point_sine
 
   type :: pose_t
     real(wp), allocatable :: pin(:, :)       !! (2, pins) positions [m]
@@ -139,14 +139,25 @@ contains
     integer, intent(in) :: dyad
     real(wp) :: angle
 
-    real(wp) :: cosine
+    real(wp) :: arm(2, 2)
+    integer :: k
 
-    associate (bodies => linkage%dyads(dyad)%body)
-      cosine = dot_product(pose%direction(:, bodies(1)), pose%direction(:, bodies(2)))
-      ! Both directions away from the pin where the bodies meet, or both towards it, keep the sign.
-      if (linkage%bodies(bodies(1))%last_pin /= linkage%bodies(bodies(2))%last_pin) cosine = -cosine
-    end associate
-    angle = atan2(abs(pose%sine(dyad)), cosine)
+    do k = 1, 2
+      arm(:, k) = arm_to_middle(linkage, linkage%dyads(dyad), pose, k)
+    end do
+    angle = atan2(abs(pose%sine(dyad)), dot_product(arm(:, 1), arm(:, 2)))
   end function transmission_angle
+
+  !> Unit vector of a body of a dyad, from its base to the middle.
+  pure function arm_to_middle(linkage, dyad, pose, k) result(arm)
+    type(linkage_t), intent(in) :: linkage
+    type(dyad_t), intent(in) :: dyad
+    type(pose_t), intent(in) :: pose
+    integer, intent(in) :: k !! 1 or 2
+    real(wp) :: arm(2)
+
+    arm = pose%direction(:, dyad%body(k))
+    if (linkage%bodies(dyad%body(k))%last_pin /= dyad%middle) arm = -arm
+  end function arm_to_middle
 
 end module poses

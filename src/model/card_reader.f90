@@ -153,14 +153,14 @@ contains
     type(unit_t), intent(in) :: measure
     character(len=:), allocatable :: problem
 
-    real(wp), parameter :: largest = 1.0e30_wp, smallest = 1.0e-30_wp
+    real(wp), parameter :: largest = 1.0e30_wp, smallest = 1.0e-40_wp
 
     problem = ""
     ! Before the conversion, which may overflow.
     if (abs(value) > largest*measure%denominator/measure%numerator) then
       problem = "'"//text//"' is too large: numbers up to 1e30 (in SI units) are taken"
     else if (abs(value) > 0.0_wp .and. abs(value) < smallest*measure%denominator/measure%numerator) then
-      problem = "'"//text//"' is too small: numbers from 1e-30 (in SI units) are taken"
+      problem = "'"//text//"' is too small: numbers from 1e-40 (in SI units) are taken"
     end if
   end function range_problem
 
