@@ -7,6 +7,7 @@ module deck_checks
   use models, only: model_t, needs_frequencies, solver_band
   use position_modes, only: lowest_static_eigenvalue
   use round_off, only: round_off_error
+  use sorting, only: ascending_order
   use text, only: plural, to_string
   use tokens, only: token_t
   use value_lists, only: value_list_t
@@ -92,8 +93,8 @@ contains
       message = to_string(count(out_of_reach))//" crank angles are out of reach, the first at "// &
         to_string(model%crank%value(first), 10)//" deg"
     end if
-    call add_error(diagnostics, model%crank%words(model%crank%word(first)), message//"; the linkage closes for: "// &
-      ready_card(reach, step_of(model%crank)))
+    call add_error(diagnostics, model%crank%words(model%crank%word(first)), message//"; the linkage closes "// &
+      reachable(reach)//": "//ready_card(reach, step_of(model%crank)))
   end subroutine check_reach
 
   !> The step that the user has in mind: that of the first range, or 5 degrees.
@@ -106,38 +107,68 @@ contains
     if (crank%word(1) == crank%word(2)) step = abs(crank%value(2) - crank%value(1))
   end function step_of
 
-  !> The reachable crank angles as a CRANK card, a hair inside the limits, which are dead points.
+  !> The reachable crank angles as a CRANK card. It keeps off the limits: these are dead points, and near them frequencies fade.
   pure function ready_card(reach, step) result(card)
     type(reach_t), intent(in) :: reach
     real(wp), intent(in) :: step !! [deg]
     character(len=:), allocatable :: card
 
-    real(wp), parameter :: near_zero = 1.0e-9_wp
-    real(wp) :: least, most
+    real(wp), allocatable :: limits(:, :)
+    integer :: i
 
-    least = reach%least
-    most = reach%most
-    if (least <= near_zero) then
-      card = "CRANK "//interval(reach%ground - most, reach%ground + most, step)
-    else if (most >= 180.0_wp - near_zero) then
-      card = "CRANK "//interval(reach%ground + least, reach%ground + 360.0_wp - least, step)
-    else
-      card = "CRANK "//interval(reach%ground + least, reach%ground + most, step)//" "// &
-        interval(reach%ground + 360.0_wp - most, reach%ground + 360.0_wp - least, step)
-    end if
-
+    limits = reachable_intervals(reach)
+    card = "CRANK"
+    do i = 1, size(limits, 2)
+      card = card//" "//interval(limits(1, i), limits(2, i), step)
+    end do
   end function ready_card
 
-  !> `a to b step s`, rounded inwards to a ten-thousandth of a degree; the middle alone where nothing is left between.
+  !> `between -132.6 and 132.6 deg`
+  pure function reachable(reach) result(phrase)
+    type(reach_t), intent(in) :: reach
+    character(len=:), allocatable :: phrase
+
+    real(wp), allocatable :: limits(:, :)
+    integer :: i
+
+    limits = reachable_intervals(reach)
+    phrase = ""
+    do i = 1, size(limits, 2)
+      if (i > 1) phrase = phrase//" and "
+      phrase = phrase//"between "//to_string(limits(1, i), 7)//" and "//to_string(limits(2, i), 7)
+    end do
+    phrase = phrase//" deg"
+  end function reachable
+
+  !> One interval or two, from the global x axis.
+  pure function reachable_intervals(reach) result(limits)
+    type(reach_t), intent(in) :: reach
+    real(wp), allocatable :: limits(:, :) !! (2, intervals) [deg]
+
+    real(wp), parameter :: near_zero = 1.0e-9_wp
+
+    if (reach%least <= near_zero) then
+      limits = reshape([-reach%most, reach%most], [2, 1])
+    else if (reach%most >= 180.0_wp - near_zero) then
+      limits = reshape([reach%least, 360.0_wp - reach%least], [2, 1])
+    else
+      limits = reshape([reach%least, reach%most, 360.0_wp - reach%most, 360.0_wp - reach%least], [2, 2])
+    end if
+    limits = limits + reach%ground
+  end function reachable_intervals
+
+  !> `a to b step s`, half a degree or more inside the limits; a twentieth in a short interval, the middle alone in a tiny one.
   pure function interval(a, b, step) result(range_text)
     real(wp), intent(in) :: a, b, step !! [deg]
     character(len=:), allocatable :: range_text
 
-    real(wp), parameter :: grid = 1.0e4_wp
+    real(wp), parameter :: short = 10.0_wp
+    real(wp) :: grid
     integer :: first, last
 
-    first = floor(a*grid) + 1
-    last = ceiling(b*grid) - 1
+    grid = merge(1.0_wp, 10.0_wp, b - a > short)
+    first = ceiling(a*grid + 0.5_wp)
+    last = floor(b*grid - 0.5_wp)
     if (first < last) then
       range_text = to_string(first/grid, 9)//" to "//to_string(last/grid, 9)//" step "//to_string(step)
     else
@@ -165,26 +196,29 @@ contains
 
   !> Refuses a mesh so fine that the rounding of its matrices spoils the lowest frequencies.
   !!
-  !! The bound is `ε‖K_e‖/(λ‖M_e‖)`; λ is estimated with at most two elements a link, which is close enough for that.
+  !! The bound is `ε‖K_e‖/(λ‖M_e‖)`; λ is estimated with at most two elements a link, which is close enough for that, and the
+  !! median of the positions decides: one of them near a dead point is a matter of its own row.
   subroutine check_round_off(model, mechanism, diagnostics)
     type(model_t), intent(in) :: model
     type(mechanism_t), intent(in) :: mechanism
     type(diagnostics_t), intent(inout) :: diagnostics
 
     type(mechanism_t) :: coarse
-    real(wp) :: lambda, bound
+    real(wp), allocatable :: lambda(:)
+    real(wp) :: bound
     character(len=:), allocatable :: fault
     integer :: i, body, samples, position
 
     coarse = mesh_with(mechanism, min(mechanism%mesh%elements, 2))
-    lambda = huge(lambda)
     samples = min(size(model%crank%value), most_samples)
+    allocate (lambda(samples))
     do i = 1, samples
       position = 1 + ((i - 1)*(size(model%crank%value) - 1))/max(1, samples - 1)
-      lambda = min(lambda, lowest_static_eigenvalue(coarse, model%crank%value(position)))
+      lambda(i) = lowest_static_eigenvalue(coarse, model%crank%value(position))
     end do
+    lambda = lambda(ascending_order(lambda))
     do body = 1, size(mechanism%beams)
-      bound = round_off_error(mechanism%linkage, mechanism%beams, mechanism%mesh, body)/lambda
+      bound = round_off_error(mechanism%linkage, mechanism%beams, mechanism%mesh, body)/lambda((samples + 1)/2)
       if (bound <= most_round_off) cycle
       if (mechanism%mesh%elements(body) > 1) then
         fault = "this mesh is too fine for double precision: use fewer elements"

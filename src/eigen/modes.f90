@@ -28,7 +28,7 @@ module modes
   real(wp), parameter :: most_residual = 1.0e-11_wp, most_orthogonality = 1.0e-9_wp
 
   !> Relative width of an eigenvalue's bracket, and what a bracket widened for round-off may not exceed.
-  real(wp), parameter :: bracket = 1.0e-9_wp, widest_bracket = 1.0e-5_wp
+  real(wp), parameter :: bracket = 1.0e-9_wp, widest_bracket = 5.0e-6_wp
 
   !> Multiples of the round-off bounds of K and of the solver. The first bound is generous in itself; with its margin the bracket
   !! stays within what is allowed up to the limit of 1e-6 that a mesh must keep.
