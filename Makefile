@@ -99,7 +99,8 @@ build = build/$(kind)
 flags_release    = -O3
 flags_debug      = -Og -g -fbacktrace -fcheck=all -fcheck=no-array-temps -ffpe-trap=invalid,zero,overflow -finit-real=snan -finit-derived
 warnings_release =
-# Array temporaries are no mistake, and a note of each would stand between the program's own messages. Without uninitialized: gfortran 12 suspects every allocatable that a function returns. The debug build fills what nobody
+# Array temporaries are no mistake, and a note of each would stand between the program's own messages (no-array-temps).
+# gfortran 12 suspects every allocatable that a function returns (no-uninitialized); the debug build fills what nobody
 # has set with NaN that traps, which finds the real ones.
 warnings_debug   = -Wall -Wextra -Wno-uninitialized -Wno-maybe-uninitialized -Werror=implicit-interface
 FFLAGS  = $(flags_$(kind))

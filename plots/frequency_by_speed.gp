@@ -36,14 +36,14 @@ plot for [k=1:n] table using (field("crank")):(pick(k, field(name))) with lines 
     for [k=1:n] table using (field("crank")):(pick(k, field(name))) with points lt k pt 7 ps 0.4 notitle, \
     for [k=1:n] table every mark_step(positions)::mark_first(k, n, positions) using (field("crank")):(pick(k, field(name))) \
         with points lt k notitle, \
-    for [k=1:n] keyentry with linespoints lt k title word(speeds, k)." ".unit_speed
+    for [k=1:n] keyentry with linespoints lt k title sprintf("%.5g %s", word(speeds, k) + 0, unit_speed)
 
 unset label
 set tmargin at screen up(lower + 315)
 set bmargin at screen up(lower)
 set format x "%h"
 set xlabel "crank angle θ₂".unit("crank")
-set ylabel sprintf("change against\n%.10g %s [%%]", reference, unit_speed)
+set ylabel sprintf("change against\n%.5g %s [%%]", reference, unit_speed)
 eval zero_line
 unset key
 load keep("changes", table, sprintf("change %s %.12g", name, reference))

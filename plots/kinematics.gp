@@ -69,7 +69,7 @@ if (kind eq "angles") {
             for [k=1:n] table using (field("crank")):(pick(k, name)) with points lt k pt 7 ps 0.4 notitle, \
             for [k=1:n] table every mark_step(positions)::mark_first(k, n, positions) using (field("crank")):(pick(k, name)) \
                 with points lt k notitle, \
-            for [k=1:n] keyentry with linespoints lt k title word(speeds, k)." ".unit_speed
+            for [k=1:n] keyentry with linespoints lt k title sprintf("%.5g %s", word(speeds, k) + 0, unit_speed)
     }
     unset multiplot
 }

@@ -218,17 +218,27 @@ contains
     end do
     lambda = lambda(ascending_order(lambda))
     do body = 1, size(mechanism%beams)
-      bound = round_off_error(mechanism%linkage, mechanism%beams, mechanism%mesh, body)/lambda((samples + 1)/2)
+      bound = bound_of(mechanism, body, lambda((samples + 1)/2))
       if (bound <= most_round_off) cycle
-      if (mechanism%mesh%elements(body) > 1) then
+      if (bound_of(mesh_with(mechanism, spread(1, 1, size(mechanism%beams))), body, lambda((samples + 1)/2)) <= most_round_off) then
         fault = "this mesh is too fine for double precision: use fewer elements"
       else
         fault = "link '"//mechanism%names(body)%text//"' is too slender for double precision"
       end if
       call add_error(diagnostics, model%meshes(model%links(model%loop(body))%mesh)%keyword, fault//"; round-off in '"// &
-        mechanism%names(body)%text//"' may reach "//to_string(bound, 2)//" times the lowest eigenvalue, and the limit is "// &
-        to_string(most_round_off))
+        mechanism%names(body)%text//"' may reach "//to_string(min(bound, 1.0e3_wp), 2)//" times the lowest eigenvalue, "// &
+        "and the limit is "//to_string(most_round_off))
     end do
   end subroutine check_round_off
+
+  !> `ε‖K_e‖/(λ‖M_e‖)` of a body's elements.
+  pure function bound_of(mechanism, body, lambda) result(bound)
+    type(mechanism_t), intent(in) :: mechanism
+    integer, intent(in) :: body
+    real(wp), intent(in) :: lambda !! [1/s²]
+    real(wp) :: bound
+
+    bound = round_off_error(mechanism%linkage, mechanism%beams, mechanism%mesh, body)/max(lambda, sqrt(tiny(lambda)))
+  end function bound_of
 
 end module deck_checks

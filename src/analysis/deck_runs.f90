@@ -66,6 +66,9 @@ contains
     deck%warnings = ""
     deck%warning_lines = ""
     call read_source(path, deck%source, error)
+    if (.not. allocated(error) .and. (deck%base == "" .or. deck%base == "." .or. deck%base == "..")) then
+      call set_error(error, path//": error: this name gives no folder for the results")
+    end if
     if (allocated(error)) then
       deck%errors = error%message//line_feed
       return

@@ -6,7 +6,7 @@ module frequency_report
   use kinds, only: wp
   use kinematics_report, only: place_of_row
   use mechanisms, only: mechanism_t
-  use models, only: effects_static, inertia_lumped, model_t, report_number
+  use models, only: effects_static, inertia_lumped, model_t, needs_loads, report_number
   use output_files, only: output_file_t
   use poses, only: pose_t
   use positions, only: positions_t
@@ -77,6 +77,8 @@ contains
 
     notes = [string_t("static frequencies of the instantaneous structure; they do not depend on the speed")]
     if (model%effects == effects_static) return
+    notes = [string_t("frequencies of the instantaneous structure at rest: no axial forces")]
+    if (.not. needs_loads(model)) return
     notes = [string_t("frequencies of the instantaneous structure with the axial forces of its motion; "// &
       trim(merge("lumped     ", "distributed", model%inertia == inertia_lumped))//" inertia"), &
       string_t("angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2"), &

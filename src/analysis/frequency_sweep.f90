@@ -9,7 +9,7 @@ module frequency_sweep
   use positions, only: positions_t
   use progress, only: progress_t, show_progress
   use requests, only: report_shapes, report_t
-  use value_lists, only: value_list_t
+  use value_lists, only: value_list_t, value_number
   implicit none (type, external)
   private
 
@@ -40,7 +40,8 @@ contains
     call choose_drawn(model, positions, sweep)
     allocate (sweep%results(size(positions%states)))
     done = 0
-    !$omp parallel do schedule(static) num_threads(threads) default(shared) private(i)
+    ! The band solver has ARPACK, which serves one thread at a time: more of them would only wait.
+    !$omp parallel do schedule(static) num_threads(merge(threads, 1, sweep%request%dense)) default(shared) private(i)
     do i = 1, size(positions%states)
       if (was_interrupted()) cycle
       if (allocated(positions%states(i)%error)) cycle
@@ -108,15 +109,14 @@ contains
 
   end function is_drawn
 
+  !> Whether a list has a value; an empty list has them all.
   pure function chosen(list, value)
     type(value_list_t), intent(in) :: list
     real(wp), intent(in) :: value
     logical :: chosen
 
-    real(wp), parameter :: same = 1.0e-9_wp
-
     chosen = size(list%value) == 0
-    if (.not. chosen) chosen = any(abs(list%value - value) <= same*max(1.0_wp, abs(value)))
+    if (.not. chosen) chosen = value_number(list, value) > 0
   end function chosen
 
 end module frequency_sweep

@@ -155,7 +155,7 @@ contains
     end if
   end function unit_axial_forces
 
-  !> The lowest ω² of the unloaded structure at a crank angle; huge where there is none [1/s²].
+  !> The lowest ω² of the unloaded structure at a crank angle [1/s²]: huge at a dead point, 0 where no digit of it can be found.
   function lowest_static_eigenvalue(mechanism, crank_degrees) result(lambda)
     type(mechanism_t), intent(in) :: mechanism
     real(wp), intent(in) :: crank_degrees
@@ -172,7 +172,9 @@ contains
     request%modes = 1
     request%speed = [0.0_wp]
     call solve_position(mechanism, pose, find_motion(mechanism%linkage, pose), request, [.false.], result)
-    if (len(result%failure(1)%text) == 0) lambda = result%lambda(1, 1)
+    ! Even where its checks fail, the value is the best there is; where there is none, nothing can be vouched for.
+    lambda = 0.0_wp
+    if (allocated(result%modes(1)%lambda)) lambda = max(0.0_wp, result%modes(1)%lambda(1))
   end function lowest_static_eigenvalue
 
 end module position_modes

@@ -77,24 +77,30 @@ contains
 
     character(len=:), allocatable :: solver
     real(wp) :: uncertainty, residual, orthogonality
-    integer :: i
+    integer :: i, k, rows
 
     uncertainty = 0.0_wp
     residual = 0.0_wp
     orthogonality = 0.0_wp
+    rows = 0
     do i = 1, size(sweep%results)
       if (.not. allocated(sweep%results(i)%modes)) cycle
-      uncertainty = max(uncertainty, maxval(sweep%results(i)%modes%uncertainty))
-      residual = max(residual, maxval(sweep%results(i)%modes%residual))
-      orthogonality = max(orthogonality, maxval(sweep%results(i)%modes%orthogonality))
+      do k = 1, size(sweep%results(i)%modes)
+        if (len(sweep%results(i)%failure(k)%text) > 0) cycle
+        rows = rows + 1
+        uncertainty = max(uncertainty, sweep%results(i)%modes(k)%uncertainty)
+        residual = max(residual, sweep%results(i)%modes(k)%residual)
+        orthogonality = max(orthogonality, sweep%results(i)%modes(k)%orthogonality)
+      end do
     end do
     solver = "shift and invert on dpbtrf (ARPACK)"
     if (sweep%request%dense) solver = "dsygvx (LAPACK)"
     text = "finite element model: "//to_string(unknowns)//" unknowns, half bandwidth "//to_string(half_bandwidth)// &
-      ", solved by "//solver//achar(10)//"every eigenvalue confirmed by counts within "//to_string(uncertainty, 2)// &
-      " of itself"//achar(10)
+      ", solved by "//solver//achar(10)
+    if (rows == 0) return
+    text = text//"every eigenvalue written is confirmed by counts within "//to_string(uncertainty, 2)//" of itself"//achar(10)
     if (any(sweep%drawn)) then
-      text = text//"shapes: largest residual "//to_string(residual, 2)//", mass orthogonality within "// &
+      text = text//"shapes written: largest residual "//to_string(residual, 2)//", mass orthogonality within "// &
         to_string(orthogonality, 2)//achar(10)
     end if
   end function sweep_summary

@@ -10,7 +10,7 @@ module beam_mesh
   implicit none (type, external)
   private
 
-  public :: beam_t, beam_mesh_t, new_beam_mesh, element_count, node_count, element_length
+  public :: beam_t, beam_mesh_t, new_beam_mesh, element_count, element_length
 
   !> What a body is made of, as a beam.
   type :: beam_t
@@ -101,13 +101,6 @@ contains
 
     count = size(mesh%unknown, 2)
   end function element_count
-
-  pure function node_count(mesh) result(count)
-    type(beam_mesh_t), intent(in) :: mesh
-    integer :: count
-
-    count = size(mesh%unknown, 2) + size(mesh%elements)
-  end function node_count
 
   !> Length of the elements of a body [m].
   pure function element_length(mesh, linkage, body) result(length)

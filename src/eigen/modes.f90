@@ -30,6 +30,9 @@ module modes
   !> Relative width of an eigenvalue's bracket, and what a bracket widened for round-off may not exceed.
   real(wp), parameter :: bracket = 1.0e-9_wp, widest_bracket = 5.0e-6_wp
 
+  !> Most that the rounding of K may take of the lowest eigenvalue.
+  real(wp), parameter :: most_roundoff = 1.0e-6_wp
+
   !> Multiples of the round-off bounds of K and of the solver. The first bound is generous in itself; with its margin the bracket
   !! stays within what is allowed up to the limit of 1e-6 that a mesh must keep.
   real(wp), parameter :: stiffness_margin = 4.0_wp, solver_margin = 100.0_wp
@@ -56,6 +59,10 @@ contains
     real(wp) :: shift, inverse(modes)
     integer :: i
 
+    if (.not. (all(abs(stiffness%entry) <= huge(1.0_wp)) .and. all(abs(mass%entry) <= huge(1.0_wp)))) then
+      call set_error(error, "the matrices hold numbers beyond the range of double precision")
+      return
+    end if
     shift = 0.0_wp
     if (.not. definite) call find_definite_shift(stiffness, mass, shift, found%factorizations)
     if (dense) then
@@ -120,7 +127,7 @@ contains
       below = count_below(stiffness, mass, found%lambda(i) - width)
       up_to = count_below(stiffness, mass, found%lambda(i) + width)
       found%factorizations = found%factorizations + 2
-      if (width > widest_bracket*size_of) then
+      if (width > widest_bracket*size_of .or. (i == 1 .and. roundoff > most_roundoff*size_of)) then
         call set_error(error, "round-off leaves mode "//to_string(i)//" uncertain by "//to_string(0.5_wp*width/size_of, 2)// &
           " of its frequency")
       else if (below > i - 1) then
@@ -141,7 +148,7 @@ contains
     type(modes_t), intent(inout) :: found
     type(error_t), allocatable, intent(inout) :: error
 
-    real(wp) :: residual, mass_times(order_of(mass)), scale(order_of(mass))
+    real(wp) :: residual, product_of, mass_times(order_of(mass)), scale(order_of(mass))
     integer :: i, j
 
     scale = sqrt(abs(stiffness%entry(1, :)) + maxval(abs(found%lambda))*mass%entry(1, :))
@@ -149,15 +156,18 @@ contains
       mass_times = band_times_vector(mass, found%vector(:, i))
       residual = norm2((band_times_vector(stiffness, found%vector(:, i)) - found%lambda(i)*mass_times)/scale)/ &
         norm2(scale*found%vector(:, i))
+      ! Asked here too: max() of a number and NaN may be the number.
+      if (.not. residual <= most_residual) found%residual = huge(residual)
       found%residual = max(found%residual, residual)
       do j = 1, i
-        found%orthogonality = max(found%orthogonality, &
-          abs(dot_product(found%vector(:, j), mass_times) - merge(1.0_wp, 0.0_wp, i == j)))
+        product_of = dot_product(found%vector(:, j), mass_times) - merge(1.0_wp, 0.0_wp, i == j)
+        if (.not. abs(product_of) <= most_orthogonality) found%orthogonality = huge(product_of)
+        found%orthogonality = max(found%orthogonality, abs(product_of))
       end do
     end do
-    if (.not. found%residual <= most_residual) then
+    if (found%residual > most_residual) then
       call set_error(error, "the residual of a mode is "//to_string(found%residual, 2)//", above "//to_string(most_residual))
-    else if (.not. found%orthogonality <= most_orthogonality) then
+    else if (found%orthogonality > most_orthogonality) then
       call set_error(error, "modes are orthogonal only to "//to_string(found%orthogonality, 2)//", above "// &
         to_string(most_orthogonality))
     end if

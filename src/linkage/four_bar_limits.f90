@@ -23,7 +23,8 @@ contains
     real(wp), intent(in) :: length(3)    !! crank, coupler, follower [m]
     type(reach_t) :: reach
 
-    real(wp) :: r1, line(2), nearest, farthest
+    real(wp), parameter :: rounding = 1.0e-13_wp
+    real(wp) :: r1, line(2), nearest, farthest, slack
 
     line = ground(:, 2) - ground(:, 1)
     r1 = norm2(line)
@@ -31,17 +32,19 @@ contains
     associate (r2 => length(1), r3 => length(2), r4 => length(3))
       nearest = abs(r3 - r4)
       farthest = r3 + r4
-      reach%closes = r1 + r2 >= nearest .and. abs(r1 - r2) <= farthest
+      ! Links that close only stretched out or folded, as far as their digits tell, reach that dead point and are not refused.
+      slack = rounding*(r1 + r2 + r3 + r4)
+      reach%closes = r1 + r2 >= nearest - slack .and. abs(r1 - r2) <= farthest + slack
       if (.not. reach%closes) return
-      reach%least = crank_angle_at(r1, r2, nearest)
-      reach%most = crank_angle_at(r1, r2, farthest)
+      if (nearest > abs(r1 - r2) + slack) reach%least = crank_angle_at(r1, r2, nearest)
+      if (farthest < r1 + r2 - slack) reach%most = crank_angle_at(r1, r2, farthest)
     end associate
 
   end function crank_reach
 
   !> The crank angle from the line O2 → O4 at which A is at a distance from O4 [deg].
   !!
-  !! `distance² = (r1 − r2)² + 4 r1 r2 sin²(φ/2)`: no digits are lost at φ = 0.
+  !! `distance² = (r1 − r2)² + 4 r1 r2 sin²(φ/2)`: no digits are lost at φ = 0, half of them at 180°.
   pure function crank_angle_at(r1, r2, distance) result(angle)
     real(wp), intent(in) :: r1, r2, distance !! [m]
     real(wp) :: angle

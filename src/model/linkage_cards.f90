@@ -5,7 +5,7 @@ module linkage_cards
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
-  use text, only: same_word
+  use text, only: same_word, to_string
   use tokens, only: token_t
   use units, only: dimension_length, dimension_mass, unit_system_t
   implicit none (type, external)
@@ -48,6 +48,9 @@ module linkage_cards
 
   !> The only order of element that there is: cubic across the link, linear along it.
   integer, parameter :: cubic_order = 3
+
+  !> Round-off forbids far fewer; this only keeps sums and memory within reason.
+  integer, parameter :: most_elements = 1000000
 
 contains
 
@@ -125,7 +128,7 @@ contains
     if (size(card%words) > 0) pin_mass%pin = card%words(1)
     if (.not. fine) return
     call read_quantity(card%words(2), dimension_mass, system, diagnostics, pin_mass%mass, fine)
-    if (pin_mass%mass < 0.0_wp) then
+    if (fine .and. pin_mass%mass < 0.0_wp) then
       call add_error(diagnostics, card%words(2), "a mass must not be negative, as "//card%words(2)%text//" is")
     end if
   end subroutine read_pin_mass
@@ -146,6 +149,11 @@ contains
     call read_entry_count(card, "elements", 1, diagnostics, mesh%elements, fine)
     if (known_keys .and. .not. has_key(card, "elements")) then
       call add_error(diagnostics, card%keyword, "'elements=' is missing; expected a whole number")
+    end if
+    if (fine .and. mesh%elements > most_elements) then
+      call add_error(diagnostics, card%entries(entry_number(card, "elements"))%value, "'elements=' must be at most "// &
+        to_string(most_elements))
+      mesh%elements = 1
     end if
     call read_entry_count(card, "order", 1, diagnostics, order, fine)
     if (fine .and. order /= cubic_order) then

@@ -211,7 +211,11 @@ contains
     do i = 1, size(cards)
       select case (lower_case(cards(i)%keyword%text))
       case ("title")
-        if (size(cards(i)%words) > 0) model%title = cards(i)%words(1)%text
+        if (size(cards(i)%words) == 0) cycle
+        model%title = cards(i)%words(1)%text
+        if (cards(i)%words(1)%column == cards(i)%keyword%column + len("TITLE")) then
+          call add_error(diagnostics, cards(i)%words(1), "a blank must stand between TITLE and its text")
+        end if
       case ("drive")
         call check_form(cards(i), 1, 1, "", "DRIVE link", diagnostics, fine)
         if (.not. fine) cycle

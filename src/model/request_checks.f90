@@ -9,7 +9,7 @@ module request_checks
   use spelling, only: nearest_word
   use text, only: joined, same_word, string_t, to_string, word_list
   use tokens, only: token_t
-  use value_lists, only: value_list_t
+  use value_lists, only: value_list_t, value_number
   implicit none (type, external)
   private
 
@@ -157,17 +157,6 @@ contains
     end subroutine check_values
 
   end subroutine check_shapes
-
-  !> Number of a value in a list, allowing for the last digits of ranges and of conversions; 0 if it is not there.
-  pure function value_number(list, value) result(number)
-    type(value_list_t), intent(in) :: list
-    real(wp), intent(in) :: value
-    integer :: number
-
-    do number = size(list%value), 1, -1
-      if (abs(list%value(number) - value) <= 1.0e-9_wp*max(1.0_wp, abs(value))) return
-    end do
-  end function value_number
 
   pure subroutine warn_of_stubby_links(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics

@@ -12,7 +12,7 @@ module value_lists
   implicit none (type, external)
   private
 
-  public :: value_list_t, empty_list, read_values, read_entry_list
+  public :: value_list_t, empty_list, read_values, read_entry_list, value_number
 
   !> Numbers that a card lists, each with the word it came from.
   type :: value_list_t
@@ -84,16 +84,17 @@ contains
     bare = coherent_unit(system, dimension)
     count = size(words)
     call read_common_unit(words, dimension, diagnostics, bare, count)
+    fine = .true.
     i = 1
     do while (i <= count)
       call read_value(words(i), dimension, bare, diagnostics, first, fine)
-      if (.not. fine) return
+      if (.not. fine) exit
       if (i < count) then
         if (same_word(words(i + 1)%text, "to")) then
           call read_range_end(words(:count), i, dimension, bare, noun, diagnostics, last, step, fine)
-          if (.not. fine) return
+          if (.not. fine) exit
           call append_range(first, last, step, i, noun, diagnostics, list, filled, fine)
-          if (.not. fine) return
+          if (.not. fine) exit
           i = i + 5
           cycle
         end if
@@ -103,7 +104,7 @@ contains
     end do
     list%value = list%value(:filled)
     list%word = list%word(:filled)
-    call refuse_duplicates(noun, diagnostics, list)
+    if (fine) call refuse_duplicates(noun, diagnostics, list)
   end subroutine read_values
 
   !> A last word that is no number is the unit of all bare numbers before it; `count` then leaves it out.
@@ -200,7 +201,7 @@ contains
     fine = .false.
     if (steps < 0.0_wp) then
       call add_error(diagnostics, list%words(word + 4), "the step leads away from "//list%words(word + 2)%text)
-    else if (steps > most_values) then
+    else if (steps > most_values - 1) then
       call add_error(diagnostics, list%words(word + 4), "this range has more than "//to_string(most_values)//" "//noun//"s")
     else
       points = [(first + i*step, i=0, floor(steps + hit))]
@@ -253,5 +254,16 @@ contains
         " is given twice", list%words(list%word(earlier)), "first given here")
     end do
   end subroutine refuse_duplicates
+
+  !> Number of a value in a list, allowing for the last digits of ranges and of conversions; 0 if it is not there.
+  pure function value_number(list, value) result(number)
+    type(value_list_t), intent(in) :: list
+    real(wp), intent(in) :: value
+    integer :: number
+
+    do number = size(list%value), 1, -1
+      if (abs(list%value(number) - value) <= 1.0e-9_wp*max(1.0_wp, abs(value))) return
+    end do
+  end function value_number
 
 end module value_lists

@@ -70,6 +70,7 @@ contains
     integer :: status
     integer(long) :: size_on_disk
 
+    if (file%gap_due) call append_text(file%buffer, achar(10))
     call write_buffer(file)
     close (file%unit, iostat=status)
     file%is_open = .false.

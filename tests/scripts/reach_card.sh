@@ -34,3 +34,15 @@ check "a card with the user's step" eval 'reach f "0 0" "100 0" 80 90 75 "CRANK 
 check "a card for angles far from a turn" reach g "0 0" "100 0" 80 90 75 "CRANK 3690 to 3700 step 1 180"
 check "a card for a narrow interval" reach h "0 0" "100 0" 80 10.001 10 "CRANK 0 to 350 step 10"
 check "a card for a range down" reach i "0 0" "100 0" 80 90 75 "CRANK 180 to -180 step -20"
+
+# The ends of the card keep off the dead points, where beams have no frequencies.
+beams() {
+  beam_deck "CRANK 0 180" "REPORT frequencies" |
+    sed 's/254 0/300 0/; s/length=100/length=240/; s/length=279.4/length=270/; s/length=266.7/length=225/' >"$scratch/beams.deck"
+  run 2 "$scratch/beams.deck" && says "out of reach" || return 1
+  card=$(sed -n 's/.*: \(CRANK .*\)/\1/p' "$scratch/stderr" | head -n 1)
+  sed "s/^CRANK.*/$card/" "$scratch/beams.deck" >"$scratch/beams_in_reach.deck"
+  run 0 --out "$scratch/out" "$scratch/beams_in_reach.deck" && silent
+}
+
+check "a card for beams" beams
