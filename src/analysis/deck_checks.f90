@@ -206,7 +206,7 @@ contains
     type(mechanism_t) :: coarse
     real(wp), allocatable :: lambda(:)
     real(wp) :: bound
-    character(len=:), allocatable :: fault
+    character(len=:), allocatable :: fault, amount
     integer :: i, body, samples, position
 
     coarse = mesh_with(mechanism, min(mechanism%mesh%elements, 2))
@@ -225,8 +225,10 @@ contains
       else
         fault = "link '"//mechanism%names(body)%text//"' is too slender for double precision"
       end if
+      amount = "more than 1000"
+      if (bound < 1.0e3_wp) amount = to_string(bound, 2)
       call add_error(diagnostics, model%meshes(model%links(model%loop(body))%mesh)%keyword, fault//"; round-off in '"// &
-        mechanism%names(body)%text//"' may reach "//to_string(min(bound, 1.0e3_wp), 2)//" times the lowest eigenvalue, "// &
+        mechanism%names(body)%text//"' may reach "//amount//" times the lowest eigenvalue, "// &
         "and the limit is "//to_string(most_round_off))
     end do
   end subroutine check_round_off

@@ -93,16 +93,21 @@ contains
 
     type(name_index_t) :: links
     type(token_t) :: place(0:size(model%links))
-    integer :: i, k, link, for_all
+    integer :: i, k, link, for_all, misnamed
 
     links = new_name_index(token_texts(model%links%name))
     for_all = 0
+    misnamed = 0
     do i = 1, size(model%meshes)
       do k = 1, size(model%meshes(i)%link_names)
         associate (word => model%meshes(i)%link_names(k))
           link = 0
           if (word%text /= "*") call look_up(word, links, "link", diagnostics, link)
-          if (word%text /= "*" .and. link == 0) cycle
+          if (word%text /= "*" .and. link == 0) then
+            ! Some link is meant: it is not told to lack a mesh as well.
+            misnamed = i
+            cycle
+          end if
           if (place(link)%line > 0) then
             call add_error(diagnostics, word, "a second mesh for '"//word%text//"'", place(link), "the first is here")
             cycle
@@ -113,7 +118,7 @@ contains
         end associate
       end do
     end do
-    where (model%links%mesh == 0) model%links%mesh = for_all
+    where (model%links%mesh == 0) model%links%mesh = merge(for_all, misnamed, for_all > 0)
   end subroutine find_meshes
 
   !> Finds a name in a list, or complains and offers the nearest.
