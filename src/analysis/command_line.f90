@@ -40,7 +40,9 @@ contains
     i = 1
     do while (i <= size(words) .and. .not. allocated(error))
       associate (word => words(i)%text)
-        if (options_ended .or. word == "-" .or. index(word, "-") /= 1) then
+        if (word == "-" .and. count_same(command%decks, word) > 0) then
+          call set_error(error, "standard input can be read only once")
+        else if (options_ended .or. word == "-" .or. index(word, "-") /= 1) then
           command%decks = [command%decks, words(i)]
         else if (word == "--") then
           options_ended = .true.
@@ -53,6 +55,19 @@ contains
     if (allocated(error) .or. command%help .or. command%version) return
     if (size(command%decks) == 0) call set_error(error, "no deck given; flexmech --help tells how to run one")
   end subroutine read_command_line
+
+  pure function count_same(list, word) result(count)
+    type(string_t), intent(in) :: list(:)
+    character(len=*), intent(in) :: word
+    integer :: count
+
+    integer :: i
+
+    count = 0
+    do i = 1, size(list)
+      if (list(i)%text == word) count = count + 1
+    end do
+  end function count_same
 
   function arguments() result(words)
     type(string_t), allocatable :: words(:)

@@ -1,6 +1,6 @@
 !> Checks of a model that need mechanics, with complaints that point at the deck.
 module deck_checks
-  use diagnostics, only: add_error, diagnostics_t, has_errors
+  use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use four_bar_limits, only: can_reach, crank_reach, reach_t
   use kinds, only: wp
   use mechanisms, only: has_beams, has_mesh, mechanism_t, mesh_with, new_mechanism
@@ -18,6 +18,9 @@ module deck_checks
 
   !> Frequencies are not computed where round-off may take more of them than this.
   real(wp), parameter :: most_round_off = 1.0e-6_wp
+
+  !> Share of the distance of the ground pivots that the rounding of their coordinates may take.
+  real(wp), parameter :: most_coordinate_error = 1.0e-10_wp
 
   !> Positions at which the lowest frequency is estimated to judge round-off.
   integer, parameter :: most_samples = 25
@@ -38,6 +41,10 @@ contains
         call add_error(diagnostics, model%grounds(2)%pin, "the two ground pivots are at the same place", model%grounds(1)%pin, &
           "the other one is here")
         return
+      end if
+      if (epsilon(1.0_wp)*maxval(abs(ground)) > most_coordinate_error*norm2(ground(:, 2) - ground(:, 1))) then
+        call add_warning(diagnostics, model%grounds(2)%pin, "the ground pivots are so far from the origin that their distance "// &
+          "has lost digits; put the origin nearer to them")
       end if
       reach = crank_reach(ground, mechanism%linkage%bodies%length)
     end associate

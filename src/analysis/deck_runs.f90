@@ -117,10 +117,14 @@ contains
       call find_failures(deck%model, positions, sweep, findings)
       call find_warnings(deck%model, mechanism, positions, sweep, findings)
       call write_outputs(outputs, deck%model, mechanism, positions, sweep, log_text(deck, mechanism, positions, sweep, findings))
-      if (.not. was_interrupted()) call publish_outputs(outputs, error)
-      call stop_stage(watch, "tables")
     end if
-    if (was_interrupted()) call set_error(error, deck%source%path//": interrupted; its earlier results are untouched")
+    ! Asked once, before the files are put in place: from there on the run is done.
+    if (was_interrupted()) then
+      call set_error(error, deck%source%path//": interrupted; its earlier results are untouched")
+    else
+      call publish_outputs(outputs, error)
+    end if
+    call stop_stage(watch, "tables")
     if (allocated(error)) then
       call discard_outputs(outputs)
       return

@@ -17,6 +17,7 @@ module deck_source
   end type source_t
 
   character(len=*), parameter :: line_feed = achar(10), carriage_return = achar(13), tab = achar(9)
+  integer, parameter :: most_bytes = 500000000
   character(len=*), parameter :: byte_order_mark = char(239)//char(187)//char(191)
 
 contains
@@ -79,6 +80,16 @@ contains
       length = 0
       read (unit, "(a)", advance="no", size=length, iostat=status, iomsg=message) piece
       if (length > 0) call append_text(buffer, piece(:length))
+      ! An endless device must not fill the memory: a NUL byte is no text, and nobody writes a deck of a gigabyte.
+      if (index(piece(:length), achar(0)) > 0) then
+        call append_text(buffer, line_feed)
+        status = 0
+        return
+      else if (buffer%length > most_bytes) then
+        status = 1
+        message = "it is larger than "//to_string(most_bytes)//" bytes"
+        return
+      end if
       in_line = in_line .or. length > 0
       if (status == iostat_eor) then
         call append_text(buffer, line_feed)

@@ -80,7 +80,7 @@ contains
         x = x/sqrt(dot_product(x, band_times_vector(mass, x)))
       end associate
     end do
-    call check_vectors(stiffness, mass, found, error)
+    call check_vectors(stiffness, mass, shift, found, error)
   end subroutine find_modes
 
   !> The smallest of σ, 4σ, 16σ, … for which `K + σM` is definite; 0 if K is.
@@ -116,19 +116,20 @@ contains
     type(modes_t), intent(inout) :: found
     type(error_t), allocatable, intent(inout) :: error
 
-    real(wp) :: width, lowest, size_of
+    real(wp) :: width, relative_width, lowest, size_of
     integer :: i, below, up_to
 
     lowest = found%lambda(1) + shift
     do i = 1, size(found%lambda)
       size_of = abs(found%lambda(i)) + shift
-      width = bracket*size_of + stiffness_margin*roundoff + solver_margin*epsilon(1.0_wp)*size_of**2/lowest
-      found%uncertainty = max(found%uncertainty, width/size_of)
+      width = bracket*abs(found%lambda(i)) + stiffness_margin*roundoff + solver_margin*epsilon(1.0_wp)*size_of**2/lowest
+      relative_width = width/max(abs(found%lambda(i)), epsilon(width)*width)
+      found%uncertainty = max(found%uncertainty, relative_width)
       below = count_below(stiffness, mass, found%lambda(i) - width)
       up_to = count_below(stiffness, mass, found%lambda(i) + width)
       found%factorizations = found%factorizations + 2
-      if (width > widest_bracket*size_of .or. (i == 1 .and. roundoff > most_roundoff*size_of)) then
-        call set_error(error, "round-off leaves mode "//to_string(i)//" uncertain by "//to_string(0.5_wp*width/size_of, 2)// &
+      if (relative_width > widest_bracket .or. (i == 1 .and. roundoff > most_roundoff*size_of)) then
+        call set_error(error, "round-off leaves mode "//to_string(i)//" uncertain by "//to_string(0.5_wp*relative_width, 2)// &
           " of its frequency")
       else if (below > i - 1) then
         call set_error(error, "a mode is missing: "//to_string(below)//" eigenvalues are counted below mode "//to_string(i))
@@ -142,13 +143,15 @@ contains
 
   !> Checks `K x = λ M x` and `xᵢᵀMxⱼ = δᵢⱼ`.
   !!
-  !! Displacements and rotations are made comparable by the diagonals: `‖D^{-1/2}(Kx − λMx)‖ ≤ tolerance ‖D^{1/2}x‖`.
-  pure subroutine check_vectors(stiffness, mass, found, error)
+  !! Displacements and rotations are made comparable by the diagonals: `‖D^{-1/2}(Kx − λMx)‖ ≤ tolerance ‖D^{1/2}x‖`. The tolerance
+  !! grows with λ, since the solvers work on 1/λ and their error is relative to the largest of these.
+  pure subroutine check_vectors(stiffness, mass, shift, found, error)
     type(band_matrix_t), intent(in) :: stiffness, mass
+    real(wp), intent(in) :: shift !! that made the stiffness definite [1/s²]
     type(modes_t), intent(inout) :: found
     type(error_t), allocatable, intent(inout) :: error
 
-    real(wp) :: residual, product_of, mass_times(order_of(mass)), scale(order_of(mass))
+    real(wp) :: residual, tolerance, product_of, mass_times(order_of(mass)), scale(order_of(mass))
     integer :: i, j
 
     scale = sqrt(abs(stiffness%entry(1, :)) + maxval(abs(found%lambda))*mass%entry(1, :))
@@ -156,21 +159,24 @@ contains
       mass_times = band_times_vector(mass, found%vector(:, i))
       residual = norm2((band_times_vector(stiffness, found%vector(:, i)) - found%lambda(i)*mass_times)/scale)/ &
         norm2(scale*found%vector(:, i))
-      ! Asked here too: max() of a number and NaN may be the number.
-      if (.not. residual <= most_residual) found%residual = huge(residual)
+      tolerance = most_residual + solver_margin*epsilon(residual)*(found%lambda(i) + shift)/(found%lambda(1) + shift)
+      ! Not `residual > tolerance`: NaN must not pass.
+      if (.not. residual <= tolerance) then
+        call set_error(error, "the residual of mode "//to_string(i)//" is "//to_string(residual, 2)//", above "// &
+          to_string(tolerance, 2))
+        return
+      end if
       found%residual = max(found%residual, residual)
       do j = 1, i
-        product_of = dot_product(found%vector(:, j), mass_times) - merge(1.0_wp, 0.0_wp, i == j)
-        if (.not. abs(product_of) <= most_orthogonality) found%orthogonality = huge(product_of)
-        found%orthogonality = max(found%orthogonality, abs(product_of))
+        product_of = abs(dot_product(found%vector(:, j), mass_times) - merge(1.0_wp, 0.0_wp, i == j))
+        if (.not. product_of <= most_orthogonality) then
+          call set_error(error, "modes "//to_string(j)//" and "//to_string(i)//" are orthogonal only to "// &
+            to_string(product_of, 2)//", above "//to_string(most_orthogonality))
+          return
+        end if
+        found%orthogonality = max(found%orthogonality, product_of)
       end do
     end do
-    if (found%residual > most_residual) then
-      call set_error(error, "the residual of a mode is "//to_string(found%residual, 2)//", above "//to_string(most_residual))
-    else if (found%orthogonality > most_orthogonality) then
-      call set_error(error, "modes are orthogonal only to "//to_string(found%orthogonality, 2)//", above "// &
-        to_string(most_orthogonality))
-    end if
   end subroutine check_vectors
 
 end module modes

@@ -176,7 +176,11 @@ contains
     type(unit_t) :: measure
 
     call read_measure(word, dimension, coherent_unit(system, dimension), diagnostics, value, measure, fine)
-    if (fine) value = to_si(value, measure)
+    if (fine) then
+      value = to_si(value, measure)
+    else
+      value = 0.0_wp ! a number out of range would overflow further on
+    end if
   end subroutine read_quantity
 
   !> Reads the quantity of a key in SI; a key that must be there and is not is an error.

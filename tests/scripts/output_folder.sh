@@ -44,6 +44,17 @@ refused_deck_leaves_tables() {
     run 2 --out "$scratch/g" "$deck" && same "$scratch/g" "$scratch/g_before" && motion_deck >"$deck"
 }
 
+# The folder is named after the deck; these names would mean the folder above it.
+names_of_folders() {
+  mkdir -p "$scratch/h/inside"
+  for name in . ..; do
+    cp "$deck" "$scratch/$name.deck"
+    run 2 --out "$scratch/h/inside" "$scratch/$name.deck" && says "error:" || return 1
+  done
+  [ "$(ls -A "$scratch/h")" = inside ] && [ -z "$(ls -A "$scratch/h/inside")" ] || { echo "something was written"; return 1; }
+}
+
+check "decks whose names leave no name for a folder" names_of_folders
 check "a file where the folder should be" file_in_the_way
 check "a file where the folder above should be" file_above_in_the_way
 check "a folder where a table should be" folder_for_a_table
