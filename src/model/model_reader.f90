@@ -17,7 +17,7 @@ module model_reader
   use spelling, only: suggestion
   use text, only: lower_case, same_word, string_t, to_string, word_list
   use tokens, only: token_t
-  use units, only: dimension_length, dimension_mass, dimension_time, read_unit, unit_system_t, unit_t, wrong_unit
+  use units, only: dimension_length, dimension_mass, dimension_time, new_unit_system, read_unit, unit_system_t, unit_t, wrong_unit
   implicit none (type, external)
   private
 
@@ -118,22 +118,24 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(unit_system_t), intent(out) :: system
 
+    type(unit_t) :: length, mass, time
     integer :: i
     logical :: fine
     character(len=:), allocatable :: problem
 
-    call read_unit("m", dimension_length, system%length, problem)
-    call read_unit("kg", dimension_mass, system%mass, problem)
-    call read_unit("s", dimension_time, system%time, problem)
+    call read_unit("m", dimension_length, length, problem)
+    call read_unit("kg", dimension_mass, mass, problem)
+    call read_unit("s", dimension_time, time, problem)
     do i = 1, size(cards)
       if (.not. same_word(cards(i)%keyword%text, "UNITS")) cycle
       call check_form(cards(i), 3, 3, "", "UNITS length mass time", diagnostics, fine)
-      if (.not. fine) return
-      call read_one(cards(i)%words(1), dimension_length, system%length)
-      call read_one(cards(i)%words(2), dimension_mass, system%mass)
-      call read_one(cards(i)%words(3), dimension_time, system%time)
-      return
+      if (.not. fine) exit
+      call read_one(cards(i)%words(1), dimension_length, length)
+      call read_one(cards(i)%words(2), dimension_mass, mass)
+      call read_one(cards(i)%words(3), dimension_time, time)
+      exit
     end do
+    system = new_unit_system(length, mass, time)
 
   contains
 

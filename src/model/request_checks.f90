@@ -18,7 +18,7 @@ module request_checks
   character(len=*), parameter :: card_names = &
     "TITLE UNITS MATERIAL SECTION GROUND LINK DRIVE BRANCH PINMASS MESH CRANK SPEED INERTIA EFFECTS SOLVER MODES REPORT"
 
-  !> A link stubbier than this is no beam: shear and rotary inertia, which the theory leaves out, decide.
+  !> A link stockier than this is no beam: shear and rotary inertia, which the theory leaves out, decide.
   real(wp), parameter :: least_slenderness = 10.0_wp
 
 contains
@@ -82,7 +82,7 @@ contains
 
     call check_what_reports_need(diagnostics, model)
     call check_shapes(diagnostics, model)
-    call warn_of_stubby_links(diagnostics, model)
+    call warn_of_stocky_links(diagnostics, model)
     call warn_of_static_speeds(cards, diagnostics, model)
   end subroutine check_requests
 
@@ -158,7 +158,7 @@ contains
 
   end subroutine check_shapes
 
-  pure subroutine warn_of_stubby_links(diagnostics, model)
+  pure subroutine warn_of_stocky_links(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
@@ -175,7 +175,7 @@ contains
         end associate
       end associate
     end do
-  end subroutine warn_of_stubby_links
+  end subroutine warn_of_stocky_links
 
   pure subroutine warn_of_static_speeds(cards, diagnostics, model)
     type(card_t), intent(in) :: cards(:)

@@ -12,9 +12,9 @@ warned() {
   grep -qF -e "$2" "$scratch/out/$1/run.log" || { echo "the log does not tell when quiet"; return 1; }
 }
 
-stubby() {
+stocky() {
   beam_deck "CRANK 0" "REPORT frequencies" | sed 's/thickness=1.6/thickness=20/' |
-    warned stubby "link 'crank' is only 5 times as long as thick"
+    warned stocky "link 'crank' is only 5 times as long as thick"
 }
 
 wave_speed() {
@@ -45,7 +45,7 @@ divergence() {
   grep -v '^#' "$scratch/out/divergence/frequencies.dat" | grep -q ' -[0-9]' || { echo "no negative frequency"; return 1; }
 }
 
-check "a stubby link" stubby
+check "a stocky link" stocky
 check "a speed of sound of no solid" wave_speed
 check "a deflection above 1 %" deflection
 check "static frequencies and speeds" static_speeds
