@@ -31,19 +31,21 @@ contains
 
     type(string_t), allocatable :: words(:)
     integer :: i
-    logical :: options_ended
+    logical :: options_ended, input_taken
 
     words = arguments()
     command%run%folder = "outputs"
     allocate (command%decks(0))
     options_ended = .false.
+    input_taken = .false.
     i = 1
     do while (i <= size(words) .and. .not. allocated(error))
       associate (word => words(i)%text)
-        if (word == "-" .and. count_same(command%decks, word) > 0) then
+        if (word == "-" .and. input_taken) then
           call set_error(error, "standard input can be read only once")
         else if (options_ended .or. word == "-" .or. index(word, "-") /= 1) then
           command%decks = [command%decks, words(i)]
+          input_taken = input_taken .or. word == "-"
         else if (word == "--") then
           options_ended = .true.
         else
@@ -55,19 +57,6 @@ contains
     if (allocated(error) .or. command%help .or. command%version) return
     if (size(command%decks) == 0) call set_error(error, "no deck given; flexmech --help tells how to run one")
   end subroutine read_command_line
-
-  pure function count_same(list, word) result(count)
-    type(string_t), intent(in) :: list(:)
-    character(len=*), intent(in) :: word
-    integer :: count
-
-    integer :: i
-
-    count = 0
-    do i = 1, size(list)
-      if (list(i)%text == word) count = count + 1
-    end do
-  end function count_same
 
   function arguments() result(words)
     type(string_t), allocatable :: words(:)

@@ -5,6 +5,7 @@ module deck_checks
   use kinds, only: wp
   use mechanisms, only: has_beams, has_mesh, mechanism_t, mesh_with, new_mechanism
   use models, only: model_t, needs_frequencies, solver_band
+  use modes, only: most_round_off
   use position_modes, only: lowest_static_eigenvalue
   use round_off, only: round_off_error
   use sorting, only: ascending_order
@@ -15,9 +16,6 @@ module deck_checks
   private
 
   public :: check_mechanics
-
-  !> Frequencies are not computed where round-off may take more of them than this.
-  real(wp), parameter :: most_round_off = 1.0e-6_wp
 
   !> Share of the distance of the ground pivots that the rounding of their coordinates may take.
   real(wp), parameter :: most_coordinate_error = 1.0e-10_wp

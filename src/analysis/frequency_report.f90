@@ -122,7 +122,7 @@ contains
           do mode = 1, model%modes
             if (mode > 1) call write_gap(file, 2)
             associate (state => positions%states(positions%state(i)), result => sweep%results(positions%state(i)))
-              call write_mode(file, model, mechanism, columns(5)%width, state%pose, result%modes(k)%vector(:, mode), &
+              call write_mode(file, mechanism, columns(5)%width, length, mass, state%pose, result%modes(k)%vector(:, mode), &
                 [sweep%request%speed(k), positions%crank(i)], mode, frequency_of(result%lambda(mode, k)), report%points)
             end associate
           end do
@@ -131,11 +131,11 @@ contains
     end associate
   end subroutine write_shapes
 
-  subroutine write_mode(file, model, mechanism, name_width, pose, vector, place, mode, frequency, points)
+  subroutine write_mode(file, mechanism, name_width, length, mass, pose, vector, place, mode, frequency, points)
     type(output_file_t), intent(inout) :: file
-    type(model_t), intent(in) :: model
     type(mechanism_t), intent(in) :: mechanism
     integer, intent(in) :: name_width
+    type(unit_t), intent(in) :: length, mass
     type(pose_t), intent(in) :: pose
     real(wp), intent(in) :: vector(:)  !! (unknowns) [kg^-1/2]
     real(wp), intent(in) :: place(2)   !! speed and crank angle [rad/s, deg]
@@ -144,13 +144,11 @@ contains
     integer, intent(in) :: points
 
     real(wp) :: s, displacement(3), scale
-    type(unit_t) :: length
     integer :: body, i
 
-    length = coherent_unit(model%units, dimension_length)
     ! Displacements of a normalised mode have the unit mass^(-1/2).
     scale = mid_link_sign(mechanism%linkage, mechanism%mesh, pose, vector)* &
-      sqrt(to_si(1.0_wp, coherent_unit(model%units, dimension_mass)))
+      sqrt(to_si(1.0_wp, mass))
     do body = 1, size(mechanism%names)
       associate (this => mechanism%linkage%bodies(body))
         if (body > 1) call write_gap(file, 1)

@@ -43,18 +43,18 @@ contains
         if (allocated(state%error)) then
           call write_failure(file, "crank="//to_string(positions%crank(i), 12), state%error%message)
         else
-          call write_position(file, model, mechanism, columns, state%pose, positions%crank(i))
+          call write_position(file, mechanism, columns, length, mass, state%pose, positions%crank(i))
           if (i < size(positions%crank)) call write_gap(file, 1)
         end if
       end associate
     end do
   end subroutine write_mesh
 
-  subroutine write_position(file, model, mechanism, columns, pose, crank)
+  subroutine write_position(file, mechanism, columns, length_unit, mass_unit, pose, crank)
     type(output_file_t), intent(inout) :: file
-    type(model_t), intent(in) :: model
     type(mechanism_t), intent(in) :: mechanism
     type(column_t), intent(in) :: columns(:)
+    type(unit_t), intent(in) :: length_unit, mass_unit
     type(pose_t), intent(in) :: pose
     real(wp), intent(in) :: crank !! [deg]
 
@@ -71,8 +71,7 @@ contains
           call write_row(file, real_cells([crank])//name_cell(mechanism%names(body)%text, columns(2)%width)// &
             integer_cell(mesh%first_element(body) + i - 1, "element")//integer_cell(mesh%first_node(body) + i - 1, "node_a")// &
             integer_cell(mesh%first_node(body) + i, "node_b")// &
-            real_cells([from_si(reshape(ends, [4]), coherent_unit(model%units, dimension_length)), &
-            from_si([half_mass, half_mass], coherent_unit(model%units, dimension_mass))]))
+            real_cells([from_si(reshape(ends, [4]), length_unit), from_si([half_mass, half_mass], mass_unit)]))
         end do
       end associate
     end do

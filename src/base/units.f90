@@ -155,17 +155,17 @@ contains
     integer, intent(in) :: wanted(4)
     type(string_t), allocatable :: names(:)
 
-    integer :: i, count
+    integer :: i, number
     logical :: fits(size(known))
 
     fits = [(all(known(i)%dimension == wanted), i=1, size(known))]
     if (.not. any(fits)) fits = .true.
-    allocate (names(size(pack([(i, i=1, size(known))], fits))))
-    count = 0
+    allocate (names(count(fits)))
+    number = 0
     do i = 1, size(known)
       if (.not. fits(i)) cycle
-      count = count + 1
-      names(count)%text = known(i)%name
+      number = number + 1
+      names(number)%text = known(i)%name
     end do
   end function names_of_dimension
 

@@ -80,7 +80,7 @@ contains
       length = 0
       read (unit, "(a)", advance="no", size=length, iostat=status, iomsg=message) piece
       if (length > 0) call append_text(buffer, piece(:length))
-      ! An endless device must not fill the memory: a NUL byte is no text, and nobody writes a deck of a gigabyte.
+      ! An endless device must not fill the memory: a NUL byte is no text, and nobody writes a deck of half a gigabyte.
       if (index(piece(:length), achar(0)) > 0) then
         call append_text(buffer, line_feed)
         status = 0

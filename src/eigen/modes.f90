@@ -10,7 +10,7 @@ module modes
   implicit none (type, external)
   private
 
-  public :: modes_t, find_modes, dense_limit
+  public :: modes_t, find_modes, dense_limit, most_round_off
 
   type :: modes_t
     real(wp), allocatable :: lambda(:)      !! ω², ascending; negative past a divergence [1/s²]
@@ -31,7 +31,7 @@ module modes
   real(wp), parameter :: bracket = 1.0e-9_wp, widest_bracket = 5.0e-6_wp
 
   !> Most that the rounding of K may take of the lowest eigenvalue.
-  real(wp), parameter :: most_roundoff = 1.0e-6_wp
+  real(wp), parameter :: most_round_off = 1.0e-6_wp
 
   !> Multiples of the round-off bounds of K and of the solver. The first bound is generous in itself; with its margin the bracket
   !! stays within what is allowed up to the limit of 1e-6 that a mesh must keep.
@@ -128,7 +128,7 @@ contains
       below = count_below(stiffness, mass, found%lambda(i) - width)
       up_to = count_below(stiffness, mass, found%lambda(i) + width)
       found%factorizations = found%factorizations + 2
-      if (relative_width > widest_bracket .or. (i == 1 .and. roundoff > most_roundoff*size_of)) then
+      if (relative_width > widest_bracket .or. (i == 1 .and. roundoff > most_round_off*size_of)) then
         call set_error(error, "round-off leaves mode "//to_string(i)//" uncertain by "//to_string(0.5_wp*relative_width, 2)// &
           " of its frequency")
       else if (below > i - 1) then

@@ -39,7 +39,6 @@ contains
       if (nearest > abs(r1 - r2) + slack) reach%least = crank_angle_at(r1, r2, nearest)
       if (farthest < r1 + r2 - slack) reach%most = crank_angle_at(r1, r2, farthest)
     end associate
-
   end function crank_reach
 
   !> The crank angle from the line O2 → O4 at which A is at a distance from O4 [deg].

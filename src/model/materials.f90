@@ -18,7 +18,7 @@ module materials
     real(wp) :: density = 0.0_wp        !! [kg/m³]
   end type material_t
 
-  !> Longitudinal waves run at 1200 m/s in lead, 5100 in steel, 18,000 in diamond, 300 in cork; links are made of
+  !> Longitudinal waves run at 1200 m/s in lead, 5100 in steel, 17,000 in diamond, 300 in cork; links are made of
   !! nothing slower, unless of rubber. A thousandfold slip (E in GPa for MPa, density in kg for tonne) turns steel's 5100 into
   !! 160 [m/s].
   real(wp), parameter :: slowest_wave = 200.0_wp, fastest_wave = 30000.0_wp

@@ -47,9 +47,7 @@ contains
       model%pin_masses(number_of(cards, "PINMASS")), model%meshes(number_of(cards, "MESH")), &
       model%reports(number_of(cards, "REPORT")))
 
-    do i = 1, size(cards)
-      call check_keyword(cards(i), diagnostics)
-    end do
+    call check_keywords(cards, diagnostics)
     call refuse_second_cards(cards, diagnostics)
     call read_units(cards, diagnostics, model%units)
     call read_parts(cards, diagnostics, model)
@@ -74,19 +72,22 @@ contains
     end do
   end function number_of
 
-  pure subroutine check_keyword(card, diagnostics)
-    type(card_t), intent(in) :: card
+  !> Complains about every card that does not exist.
+  pure subroutine check_keywords(cards, diagnostics)
+    type(card_t), intent(in) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
 
     type(string_t), allocatable :: known(:)
-    integer :: i
+    integer :: i, k
 
     known = word_list(card_names)
-    do i = 1, size(known)
-      if (same_word(known(i)%text, card%keyword%text)) return
+    do i = 1, size(cards)
+      associate (keyword => cards(i)%keyword)
+        if (any([(same_word(known(k)%text, keyword%text), k=1, size(known))])) cycle
+        call add_error(diagnostics, keyword, "unknown card '"//keyword%text//"'"//suggestion(keyword%text, known))
+      end associate
     end do
-    call add_error(diagnostics, card%keyword, "unknown card '"//card%keyword%text//"'"//suggestion(card%keyword%text, known))
-  end subroutine check_keyword
+  end subroutine check_keywords
 
   !> Most cards say something that can be said only once.
   pure subroutine refuse_second_cards(cards, diagnostics)

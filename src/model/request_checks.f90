@@ -28,6 +28,9 @@ contains
     type(card_t), intent(in) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
 
+    type(string_t), allocatable :: known(:)
+
+    known = word_list(card_names)
     if (.not. has_card("UNITS")) call missing("there is no UNITS card; expected: UNITS length mass time")
     if (.not. has_card("GROUND") .or. .not. has_card("LINK")) then
       call missing("there are no "//trim(merge("GROUND", "LINK  ", .not. has_card("GROUND")))//" cards: no linkage is described")
@@ -46,10 +49,14 @@ contains
 
       integer :: i
 
-      has = .false.
+      has = .true.
       do i = 1, size(cards)
-        has = has .or. same_word(cards(i)%keyword%text, keyword) .or. means(cards(i)%keyword%text, keyword)
+        if (same_word(cards(i)%keyword%text, keyword)) return
       end do
+      do i = 1, size(cards)
+        if (means(cards(i)%keyword%text, keyword, known)) return
+      end do
+      has = .false.
     end function has_card
 
     subroutine missing(message)
@@ -61,14 +68,13 @@ contains
   end subroutine check_required
 
   !> Whether an unknown keyword is likely a misspelt `keyword`: then that card is not missing but wrong.
-  pure function means(unknown, keyword)
+  pure function means(unknown, keyword, known)
     character(len=*), intent(in) :: unknown, keyword
+    type(string_t), intent(in) :: known(:) !! all keywords
     logical :: means
 
-    type(string_t), allocatable :: known(:)
     integer :: nearest
 
-    known = word_list(card_names)
     nearest = nearest_word(unknown, known)
     means = .false.
     if (nearest > 0) means = same_word(known(nearest)%text, keyword)
