@@ -12,7 +12,8 @@ module deck_outputs
   use models, only: model_t, report_number
   use output_files, only: append_output, discard_output, finish_output, open_output, output_file_t, publish_output, remove_output
   use positions, only: positions_t
-  use requests, only: report_frequencies, report_inertia, report_kinematics, report_mesh, report_shapes
+  use requests, only: report_branches, report_frequencies, report_inertia, report_kind_count, report_kinematics, report_mesh, &
+    report_shapes
   use run_findings, only: linkage_notes
   use text, only: string_t
   implicit none (type, external)
@@ -41,7 +42,7 @@ contains
     logical :: made
 
     outputs%folder = folder
-    outputs%kind = pack([(i, i=1, report_shapes)], [(report_number(model, i) > 0, i=1, report_shapes)])
+    outputs%kind = pack([(i, i=1, report_kind_count)], [(report_number(model, i) > 0, i=1, report_kind_count)])
     allocate (outputs%tables(size(outputs%kind)))
     call make_directories(folder, made, outputs%is_new)
     if (.not. made) then
@@ -86,6 +87,8 @@ contains
       name = "frequencies.dat"
     case (report_shapes)
       name = "shapes.dat"
+    case (report_branches)
+      name = "branches.dat"
     end select
   end function table_name
 
@@ -113,6 +116,7 @@ contains
           call write_frequencies(file, model, positions, sweep)
         case (report_shapes)
           call write_shapes(file, model, mechanism, positions, sweep)
+        case (report_branches)
         end select
       end associate
     end do
@@ -145,7 +149,7 @@ contains
     if (allocated(error)) return
     call publish_output(outputs%log, error)
     if (allocated(error)) return
-    do i = 1, report_shapes
+    do i = 1, report_kind_count
       if (all(outputs%kind /= i)) call remove_output(outputs%folder, table_name(i))
     end do
   end subroutine publish_outputs

@@ -4,9 +4,9 @@ module name_checks
   use linkage_cards, only: link_t
   use models, only: model_t
   use name_index, only: find_name, name_index_t, new_name_index
-  use requests, only: report_kinds
+  use requests, only: report_kind_count
   use spelling, only: suggestion
-  use text, only: same_word, string_t, word_list
+  use text, only: same_word, string_t
   use tokens, only: token_t, token_texts
   implicit none (type, external)
   private
@@ -40,7 +40,7 @@ contains
     call refuse_same(model%links%name, "link")
     call refuse_same(model%pin_masses%pin, "mass at pin")
     do i = 2, size(model%reports)
-      do j = 1, min(i - 1, size(word_list(report_kinds)) + 1)
+      do j = 1, min(i - 1, report_kind_count + 1)
         if (model%reports(i)%kind == 0 .or. model%reports(i)%kind /= model%reports(j)%kind) cycle
         call add_error(diagnostics, model%reports(i)%keyword, "this report is asked for twice", model%reports(j)%keyword, &
           "first asked for here")

@@ -10,8 +10,8 @@ module requests
   implicit none (type, external)
   private
 
-  public :: report_t, read_crank, read_speed, read_report, report_kinds
-  public :: report_kinematics, report_inertia, report_mesh, report_frequencies, report_shapes
+  public :: report_t, read_crank, read_speed, read_report, report_kinds, report_kind_count
+  public :: report_kinematics, report_inertia, report_mesh, report_frequencies, report_shapes, report_branches
 
   !> One REPORT card.
   type :: report_t
@@ -22,8 +22,10 @@ module requests
     integer :: points = 21       !! of `points=`, along each link
   end type report_t
 
-  character(len=*), parameter :: report_kinds = "kinematics inertia mesh frequencies shapes"
-  integer, parameter :: report_kinematics = 1, report_inertia = 2, report_mesh = 3, report_frequencies = 4, report_shapes = 5
+  character(len=*), parameter :: report_kinds = "kinematics inertia mesh frequencies shapes branches"
+  integer, parameter :: report_kinematics = 1, report_inertia = 2, report_mesh = 3, report_frequencies = 4, report_shapes = 5, &
+    report_branches = 6
+  integer, parameter :: report_kind_count = 6
 
 contains
 
@@ -78,7 +80,7 @@ contains
         report%points = points
       end if
     else if (report%kind > 0 .or. size(card%words) == 0) then
-      call check_form(card, 1, 1, "", "REPORT kinematics|inertia|mesh|frequencies|shapes", diagnostics, fine)
+      call check_form(card, 1, 1, "", "REPORT kinematics|inertia|mesh|frequencies|shapes|branches", diagnostics, fine)
     end if
   end subroutine read_report
 
