@@ -37,7 +37,7 @@ contains
     case ("title")
       line%origin = ""
     case ("mesh")
-      if (entry_number(card, "order") == 0) call append_default(line, "order=3")
+      if (entry_number(card, "order") == 0 .and. entry_number(card, "accuracy") == 0) call append_default(line, "order=3")
     case ("report")
       if (.not. same_word(card%words(1)%text, "shapes")) return
       if (entry_number(card, "points") == 0) call append_default(line, "points=21")

@@ -5,10 +5,11 @@ module model_reader
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t, has_errors
   use kinds, only: wp
-  use linkage_cards, only: read_ground, read_link, read_mesh, read_pin_mass
+  use linkage_cards, only: read_ground, read_link, read_mesh, read_pin_mass, set_default_mesh
   use materials, only: read_material
   use loop_finder, only: find_loop
-  use models, only: effects_axial, effects_static, is_moving, model_t
+  use mesh_checks, only: check_meshes
+  use models, only: effects_axial, effects_static, is_moving, model_t, needs_mesh
   use name_checks, only: check_names
   use numbers, only: read_integer
   use request_checks, only: card_names, check_required, check_requests
@@ -38,6 +39,8 @@ contains
     model%title = ""
     model%drive = token_t("", 0, 0)
     model%modes_word = token_t("", 0, 0)
+    model%inertia_word = token_t("", 0, 0)
+    model%solver_word = token_t("", 0, 0)
     allocate (model%crank%value(0), model%crank%word(0), model%crank%words(0))
     model%speed%value = [0.0_wp]
     model%speed%word = [0]
@@ -52,10 +55,16 @@ contains
     call read_units(cards, diagnostics, model%units)
     call read_parts(cards, diagnostics, model)
     call read_requests(cards, diagnostics, model)
+    if (size(model%meshes) == 0 .and. needs_mesh(model)) then
+      deallocate (model%meshes)
+      allocate (model%meshes(1))
+      call set_default_mesh(model%meshes(1))
+    end if
     call check_required(cards, diagnostics)
     call check_names(diagnostics, model)
     call find_loop(diagnostics, model)
     call check_requests(cards, diagnostics, model)
+    call check_meshes(cards, diagnostics, model)
     if (.not. has_errors(diagnostics)) model%echo = [(echo_card(cards(i)), i=1, size(cards))]
   end subroutine read_model
 
@@ -193,7 +202,7 @@ contains
         call read_pin_mass(cards(i), model%units, diagnostics, model%pin_masses(pin_mass))
       case ("mesh")
         mesh = mesh + 1
-        call read_mesh(cards(i), diagnostics, model%meshes(mesh))
+        call read_mesh(cards(i), model%units, diagnostics, model%meshes(mesh))
       case ("report")
         report = report + 1
         call read_report(cards(i), model%units, diagnostics, model%reports(report))
@@ -235,12 +244,13 @@ contains
       case ("speed")
         call read_speed(cards(i), model%units, diagnostics, model%speed, model%acceleration)
       case ("inertia")
-        call read_option(cards(i), "INERTIA lumped|distributed", "lumped distributed", model%inertia)
+        call read_option(cards(i), "INERTIA lumped|distributed", "lumped distributed", model%inertia, model%inertia_word)
       case ("effects")
         call read_option(cards(i), "EFFECTS static|axial", "static axial", model%effects)
         effects_given = .true.
       case ("solver")
-        call read_option(cards(i), "SOLVER auto|dense|band", "auto dense band", model%solver)
+        call read_option(cards(i), "SOLVER auto|deformation|dense|band", "auto deformation dense band", model%solver, &
+          model%solver_word)
       case ("modes")
         call read_modes(cards(i), diagnostics, model)
       end select
@@ -249,17 +259,20 @@ contains
 
   contains
 
-    subroutine read_option(card, pattern, choices, option)
+    subroutine read_option(card, pattern, choices, option, word)
       type(card_t), intent(in) :: card
       character(len=*), intent(in) :: pattern, choices
       integer, intent(inout) :: option
+      type(token_t), intent(inout), optional :: word
 
       integer :: choice
 
       call check_form(card, 1, 1, "", pattern, diagnostics, fine)
       if (.not. fine) return
       call read_choice(card%words(1), choices, diagnostics, choice)
-      if (choice > 0) option = choice
+      if (choice == 0) return
+      option = choice
+      if (present(word)) word = card%words(1)
     end subroutine read_option
 
   end subroutine read_requests

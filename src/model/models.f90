@@ -4,7 +4,7 @@ module models
   use kinds, only: wp
   use linkage_cards, only: ground_t, link_t, mesh_t, pin_mass_t
   use materials, only: material_t
-  use requests, only: report_frequencies, report_shapes, report_t
+  use requests, only: report_branches, report_frequencies, report_inertia, report_mesh, report_shapes, report_t
   use sections, only: section_t
   use tokens, only: token_t
   use units, only: unit_system_t
@@ -12,13 +12,13 @@ module models
   implicit none (type, external)
   private
 
-  public :: model_t, report_number, is_moving, needs_loads, needs_frequencies, link_mass
+  public :: model_t, report_number, is_moving, needs_loads, needs_frequencies, needs_beams, needs_mesh, link_mass
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
-  public :: solver_auto, solver_dense, solver_band, branch_open, branch_crossed
+  public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
   integer, parameter :: inertia_none = 0, inertia_lumped = 1, inertia_distributed = 2
   integer, parameter :: effects_static = 1, effects_axial = 2
-  integer, parameter :: solver_auto = 1, solver_dense = 2, solver_band = 3
+  integer, parameter :: solver_auto = 1, solver_deformation = 2, solver_dense = 3, solver_band = 4
   integer, parameter :: branch_open = 1, branch_crossed = 2
 
   type :: model_t
@@ -38,8 +38,10 @@ module models
     type(value_list_t) :: speed                 !! [rad/s]
     real(wp) :: acceleration = 0.0_wp           !! of the crank, at every speed [rad/s²]
     integer :: inertia = inertia_none
+    type(token_t) :: inertia_word               !! without a line if the deck does not say
     integer :: effects = effects_static
     integer :: solver = solver_auto
+    type(token_t) :: solver_word                !! without a line if the deck does not say
     integer :: modes = 3
     type(token_t) :: modes_word                 !! without a line if the deck does not say
     type(report_t), allocatable :: reports(:)
@@ -70,13 +72,30 @@ contains
     is = any(abs(model%speed%value) > 0.0_wp) .or. abs(model%acceleration) > 0.0_wp
   end function is_moving
 
-  !> Whether frequencies are asked for, by themselves or with their shapes.
+  !> Whether frequencies are asked for, by themselves, with their shapes or along their branches.
   pure function needs_frequencies(model) result(needs)
     type(model_t), intent(in) :: model
     logical :: needs
 
-    needs = report_number(model, report_frequencies) > 0 .or. report_number(model, report_shapes) > 0
+    needs = report_number(model, report_frequencies) > 0 .or. report_number(model, report_shapes) > 0 .or. &
+      report_number(model, report_branches) > 0
   end function needs_frequencies
+
+  !> Whether links are asked for as beams.
+  pure function needs_beams(model) result(needs)
+    type(model_t), intent(in) :: model
+    logical :: needs
+
+    needs = needs_frequencies(model) .or. report_number(model, report_mesh) > 0
+  end function needs_beams
+
+  !> Whether the links are divided: for beams, and for lumped masses, which sit on nodes.
+  pure function needs_mesh(model) result(needs)
+    type(model_t), intent(in) :: model
+    logical :: needs
+
+    needs = needs_beams(model) .or. (model%inertia == inertia_lumped .and. report_number(model, report_inertia) > 0)
+  end function needs_mesh
 
   !> Whether the frequencies asked for feel the loads of the motion.
   pure function needs_loads(model) result(needs)

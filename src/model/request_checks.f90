@@ -3,9 +3,9 @@ module request_checks
   use cards, only: card_t
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use kinds, only: wp
-  use models, only: effects_static, inertia_lumped, inertia_none, is_moving, model_t, needs_frequencies, needs_loads, &
+  use models, only: effects_static, inertia_none, is_moving, model_t, needs_beams, needs_frequencies, needs_loads, needs_mesh, &
     report_number
-  use requests, only: report_frequencies, report_inertia, report_kinds, report_mesh, report_shapes
+  use requests, only: report_branches, report_frequencies, report_inertia, report_kinds, report_shapes
   use spelling, only: nearest_word
   use text, only: joined, same_word, string_t, to_string, word_list
   use tokens, only: token_t
@@ -13,13 +13,15 @@ module request_checks
   implicit none (type, external)
   private
 
-  public :: check_required, check_requests, card_names
+  public :: check_required, check_requests, has_card, card_names
 
   character(len=*), parameter :: card_names = &
     "TITLE UNITS MATERIAL SECTION GROUND LINK DRIVE BRANCH PINMASS MESH CRANK SPEED INERTIA EFFECTS SOLVER MODES REPORT"
 
   !> A link stockier than this is no beam: shear and rotary inertia, which the theory leaves out, decide.
   real(wp), parameter :: least_slenderness = 10.0_wp
+
+  integer, parameter :: most_modes = 100
 
 contains
 
@@ -28,36 +30,18 @@ contains
     type(card_t), intent(in) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
 
-    type(string_t), allocatable :: known(:)
-
-    known = word_list(card_names)
-    if (.not. has_card("UNITS")) call missing("there is no UNITS card; expected: UNITS length mass time")
-    if (.not. has_card("GROUND") .or. .not. has_card("LINK")) then
-      call missing("there are no "//trim(merge("GROUND", "LINK  ", .not. has_card("GROUND")))//" cards: no linkage is described")
+    if (.not. has_card(cards, "UNITS")) call missing("there is no UNITS card; expected: UNITS length mass time")
+    if (.not. has_card(cards, "GROUND") .or. .not. has_card(cards, "LINK")) then
+      call missing("there are no "//trim(merge("GROUND", "LINK  ", .not. has_card(cards, "GROUND")))// &
+        " cards: no linkage is described")
     end if
-    if (.not. has_card("DRIVE")) call missing("the linkage is not driven; expected: DRIVE link")
-    if (.not. has_card("CRANK")) call missing("there is no CRANK card; expected: CRANK a to b step s, or a list of angles")
-    if (.not. has_card("REPORT")) then
+    if (.not. has_card(cards, "DRIVE")) call missing("the linkage is not driven; expected: DRIVE link")
+    if (.not. has_card(cards, "CRANK")) call missing("there is no CRANK card; expected: CRANK a to b step s, or a list of angles")
+    if (.not. has_card(cards, "REPORT")) then
       call missing("there is no REPORT card; expected REPORT and one of: "//joined(word_list(report_kinds)))
     end if
 
   contains
-
-    function has_card(keyword) result(has)
-      character(len=*), intent(in) :: keyword
-      logical :: has
-
-      integer :: i
-
-      has = .true.
-      do i = 1, size(cards)
-        if (same_word(cards(i)%keyword%text, keyword)) return
-      end do
-      do i = 1, size(cards)
-        if (means(cards(i)%keyword%text, keyword, known)) return
-      end do
-      has = .false.
-    end function has_card
 
     subroutine missing(message)
       character(len=*), intent(in) :: message
@@ -66,6 +50,26 @@ contains
     end subroutine missing
 
   end subroutine check_required
+
+  !> Whether a deck has a card, be it misspelt.
+  function has_card(cards, keyword) result(has)
+    type(card_t), intent(in) :: cards(:)
+    character(len=*), intent(in) :: keyword
+    logical :: has
+
+    type(string_t), allocatable :: known(:)
+    integer :: i
+
+    has = .true.
+    do i = 1, size(cards)
+      if (same_word(cards(i)%keyword%text, keyword)) return
+    end do
+    known = word_list(card_names)
+    do i = 1, size(cards)
+      if (means(cards(i)%keyword%text, keyword, known)) return
+    end do
+    has = .false.
+  end function has_card
 
   !> Whether an unknown keyword is likely a misspelt `keyword`: then that card is not missing but wrong.
   pure function means(unknown, keyword, known)
@@ -87,6 +91,7 @@ contains
     type(model_t), intent(in) :: model
 
     call check_what_reports_need(diagnostics, model)
+    call check_modes(diagnostics, model)
     call check_shapes(diagnostics, model)
     call warn_of_stocky_links(diagnostics, model)
     call warn_of_static_speeds(cards, diagnostics, model)
@@ -98,20 +103,18 @@ contains
     type(model_t), intent(in) :: model
 
     character(len=:), allocatable :: lacking
-    integer :: i, inertia, mesh
-    logical :: needs_beams, needs_mass, needs_mesh
+    integer :: i, inertia
+    logical :: mass, mesh !! whether a report needs them
 
     inertia = report_number(model, report_inertia)
-    mesh = report_number(model, report_mesh)
-    needs_beams = needs_frequencies(model) .or. mesh > 0
-    needs_mass = needs_beams .or. inertia > 0
-    needs_mesh = needs_beams .or. (inertia > 0 .and. model%inertia == inertia_lumped)
+    mass = needs_beams(model) .or. inertia > 0
+    mesh = needs_mesh(model)
     do i = 1, size(model%links)
       associate (link => model%links(i))
         lacking = ""
-        if (needs_mass .and. link%material_name%line == 0) lacking = lacking//" material"
-        if (needs_mass .and. link%section_name%line == 0) lacking = lacking//" section"
-        if (needs_mesh .and. link%mesh == 0) lacking = lacking//" mesh"
+        if (mass .and. link%material_name%line == 0) lacking = lacking//" material"
+        if (mass .and. link%section_name%line == 0) lacking = lacking//" section"
+        if (mesh .and. link%mesh == 0) lacking = lacking//" mesh"
         if (len(lacking) > 0) then
           call add_error(diagnostics, link%name, "link '"//link%name%text//"' has no "// &
             joined(word_list(lacking(2:)), ", no ")//"; the reports asked for need "// &
@@ -125,10 +128,20 @@ contains
         "this report uses inertia loads, and there is no INERTIA card; expected: INERTIA lumped or INERTIA distributed")
     else if (needs_loads(model)) then
       call add_error(diagnostics, model%reports(max(report_number(model, report_frequencies), &
-        report_number(model, report_shapes)))%keyword, "frequencies under the loads of the motion are asked for, "// &
-        "and there is no INERTIA card; expected: INERTIA lumped or INERTIA distributed")
+        report_number(model, report_shapes), report_number(model, report_branches)))%keyword, &
+        "frequencies under the loads of the motion are asked for, and there is no INERTIA card; "// &
+        "expected: INERTIA lumped or INERTIA distributed")
     end if
   end subroutine check_what_reports_need
+
+  pure subroutine check_modes(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    if (.not. needs_frequencies(model) .or. model%modes <= most_modes) return
+    call add_error(diagnostics, model%modes_word, "at most "//to_string(most_modes)//" modes are certified, not "// &
+      to_string(model%modes))
+  end subroutine check_modes
 
   !> Shapes are drawn where positions are computed.
   subroutine check_shapes(diagnostics, model)

@@ -27,6 +27,8 @@ contains
       call append_card(buffer, model%echo(i))
     end do
     call append_default(buffer, model, "BRANCH", "open")
+    ! A model without MESH cards has a mesh only where a report needs one.
+    if (size(model%meshes) > 0) call append_default(buffer, model, "MESH", "* accuracy="//to_string(model%meshes(1)%accuracy))
     call append_default(buffer, model, "SPEED", "0")
     call append_default(buffer, model, "EFFECTS", trim(merge("axial ", "static", model%effects == effects_axial)))
     call append_default(buffer, model, "SOLVER", "auto")
