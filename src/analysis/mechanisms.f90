@@ -52,7 +52,7 @@ contains
         model%sections(links%section)%second_moment
     end if
     mechanism%linkage = new_four_bar(ground, length, line_density, pin_mass, model%branch == branch_crossed)
-    if (meshed) mechanism%mesh = new_beam_mesh(mechanism%linkage, model%meshes(links%mesh)%elements)
+    if (meshed) mechanism%mesh = new_beam_mesh(mechanism%linkage, model%meshes(links%mesh)%elements, spread(3, 1, 3))
     mechanism%names = token_texts(links%name)
     mechanism%pin_names = token_texts(model%loop_pins)
 
@@ -79,7 +79,7 @@ contains
     type(mechanism_t) :: other
 
     other = mechanism
-    other%mesh = new_beam_mesh(mechanism%linkage, elements)
+    other%mesh = new_beam_mesh(mechanism%linkage, elements, mechanism%mesh%order)
   end function mesh_with
 
   pure function has_beams(mechanism) result(has)

@@ -1,11 +1,9 @@
 !> The frequencies of the instantaneous structure at one position, for all speeds.
 module position_modes
-  use assembly, only: assemble_geometric_stiffness, assemble_inertia_load, assemble_mass, assemble_stiffness
+  use assembly, only: assemble_geometric_stiffness, assemble_mass, assemble_stiffness
   use axial_forces, only: distributed_axial_forces, lumped_axial_forces
   use band_matrix, only: band_matrix_t
   use beam_mesh, only: beam_mesh_t
-  use cholesky_factor, only: factor_band, solve_with_factor
-  use deflected_shape, only: largest_displacement
   use errors, only: error_t
   use inertia_loads, only: distributed_load, load_t, lumped_load, pin_load
   use joint_forces, only: find_joint_forces, joint_forces_t
@@ -69,7 +67,7 @@ contains
     stiffness = assemble_stiffness(mechanism%linkage, mechanism%beams, mechanism%mesh, pose)
     mass = assemble_mass(mechanism%linkage, mechanism%mesh, pose)
     loaded = request%axial .and. [any(abs(request%speed) > 0.0_wp), abs(request%acceleration) > 0.0_wp]
-    if (any(loaded)) call load_position(mechanism, pose, motion, request, loaded, stiffness, unit_stiffness, result)
+    if (any(loaded)) call load_position(mechanism, pose, motion, request, loaded, unit_stiffness, result)
 
     do k = 1, size(request%speed)
       result%failure(k)%text = ""
@@ -89,41 +87,25 @@ contains
     end do
   end subroutine solve_position
 
-  !> Geometric stiffness and static deflection of the unit loads: ω2² = 1 and α2 = 1.
-  subroutine load_position(mechanism, pose, motion, request, loaded, stiffness, unit_stiffness, result)
+  !> Geometric stiffness of the unit loads: ω2² = 1 and α2 = 1.
+  subroutine load_position(mechanism, pose, motion, request, loaded, unit_stiffness, result)
     type(mechanism_t), intent(in) :: mechanism
     type(pose_t), intent(in) :: pose
     type(motion_t), intent(in) :: motion
     type(mode_request_t), intent(in) :: request
     logical, intent(in) :: loaded(2) !! which of the two loads occur
-    type(band_matrix_t), intent(in) :: stiffness
     type(band_matrix_t), intent(out) :: unit_stiffness(2)
     type(position_result_t), intent(inout) :: result
 
     type(acceleration_field_t) :: fields(2)
-    type(band_matrix_t) :: factor
-    type(error_t), allocatable :: error
-    real(wp) :: deflection(mechanism%mesh%unknowns, 2)
-    integer :: i, k
+    integer :: i
 
     fields = unit_fields(mechanism%linkage, pose, motion)
-    factor = stiffness
-    call factor_band(factor, error)
-    result%factorizations = result%factorizations + 1
-    deflection = 0.0_wp
     do i = 1, 2
       if (.not. loaded(i)) cycle
       unit_stiffness(i) = assemble_geometric_stiffness(mechanism%linkage, mechanism%mesh, pose, &
         unit_axial_forces(mechanism%linkage, mechanism%mesh, pose, fields(i), request%lumped))
       result%geometric_stiffnesses = result%geometric_stiffnesses + 1
-      ! A stiffness that is not definite is found again, and named, when the modes are.
-      if (allocated(error)) cycle
-      deflection(:, i) = assemble_inertia_load(mechanism%linkage, mechanism%mesh, pose, fields(i), request%lumped)
-      call solve_with_factor(factor, deflection(:, i))
-    end do
-    do k = 1, size(request%speed)
-      result%deflection(:, k) = largest_displacement(mechanism%linkage, mechanism%mesh, &
-        request%speed(k)**2*deflection(:, 1) + request%acceleration*deflection(:, 2))
     end do
   end subroutine load_position
 

@@ -1,149 +1,281 @@
-!> The beam element of the thesis: cubic across the link, linear along it.
+!> One beam element of any order p ≥ 3: degree p across the link, degree q along it. Order 3 is the element of the thesis.
 !!
-!! Unknowns {u1 v1 θ1 u2 v2 θ2} (2.72): along and across the element and the rotation, at either node.
+!! Unknowns {u1 v1 θ1 | bubbles across 1 … p−3 | bubbles along 1 … q−1 | u2 v2 θ2}: along and across the element and the rotation,
+!! at either node, as in (2.72), and between them what is zero at both. With ξ from 0 to 1 the bubbles are made of Legendre polynomials
+!! on that interval: those across have `d²v/dξ² = P_j` for j = 2 … p−2 and neither value nor slope at the ends, those along have
+!! `du/dξ = P_j` for j = 1 … q−1. So no stiffness couples a bubble with another unknown. Bubbles are lengths [m].
+!!
+!! Matrices are made of the Legendre coefficients of the shapes: integrals are then sums over orthogonal polynomials, exact but for
+!! rounding whatever the order. Values come from the recurrence. Powers of ξ would lose all digits at high orders.
 module beam_element
   use kinds, only: wp
+  use legendre, only: legendre_values
   implicit none (type, external)
   private
 
-  public :: element_mass, element_stiffness, element_geometric_stiffness, element_load, turned_to_global, to_local, interpolate
+  public :: reference_element_t, new_reference_element, axial_degree, element_unknowns
+  public :: element_mass, element_stiffness, element_geometric_stiffness, turned_to_global, to_local, interpolate
+
+  !> Everything about an element that depends on its order only: length 1, rotations multiplied by the length.
+  type :: reference_element_t
+    integer :: order = 0                          !! p
+    real(wp), allocatable :: mass(:, :)           !! (unknowns, unknowns) ∫ u² + v² dξ
+    real(wp), allocatable :: axial(:, :)          !! (unknowns, unknowns) ∫ (du/dξ)² dξ
+    real(wp), allocatable :: bending(:, :)        !! (unknowns, unknowns) ∫ (d²v/dξ²)² dξ
+    real(wp), allocatable :: geometric(:, :, :)   !! (unknowns, unknowns, 0:2) ∫ ξⁱ (dv/dξ)² dξ
+  end type reference_element_t
 
 contains
 
-  !> Consistent mass matrix, Ulker 2010 (2.78).
-  pure function element_mass(line_density, length) result(mass)
+  !> Degree q of the displacement along an element that is of degree p across it.
+  !!
+  !! Order 3 is the thesis's element, linear along it. Beyond, about a third of p is as good as the full degree: at the frequencies
+  !! of bending a link is short compared with its axial waves.
+  elemental function axial_degree(order) result(degree)
+    integer, intent(in) :: order !! p
+    integer :: degree
+
+    degree = merge(1, order/3 + 1, order == 3)
+  end function axial_degree
+
+  !> Six at the nodes, p − 3 bubbles across and q − 1 along.
+  elemental function element_unknowns(order) result(unknowns)
+    integer, intent(in) :: order
+    integer :: unknowns
+
+    unknowns = order + axial_degree(order) + 2
+  end function element_unknowns
+
+  !> Makes the matrices of an order. Shapes are integrated from their strains, with 1 added where u, v or v' begins with 1.
+  pure function new_reference_element(order) result(element)
+    integer, intent(in) :: order !! p, at least 3
+    type(reference_element_t) :: element
+
+    real(wp), dimension(0:order, element_unknowns(order)) :: strain, curvature, along, across, slope, slope_xi
+    integer :: n
+
+    n = element_unknowns(order)
+    strain = strain_coefficients(order)
+    along = integrated(strain)
+    along(0, 1) = along(0, 1) + 1.0_wp
+    curvature = curvature_coefficients(order)
+    slope = integrated(curvature)
+    slope(0, 3) = slope(0, 3) + 1.0_wp
+    across = integrated(slope)
+    across(0, 2) = across(0, 2) + 1.0_wp
+    slope_xi = times_xi(slope)
+
+    element%order = order
+    element%mass = products(along, along) + products(across, across)
+    element%axial = products(strain, strain)
+    element%bending = products(curvature, curvature)
+    allocate (element%geometric(n, n, 0:2))
+    element%geometric(:, :, 0) = products(slope, slope)
+    element%geometric(:, :, 1) = products(slope, slope_xi)
+    element%geometric(:, :, 2) = products(slope_xi, slope_xi)
+  end function new_reference_element
+
+  !> Legendre coefficients of du/dξ for each unknown.
+  pure function strain_coefficients(order) result(strain)
+    integer, intent(in) :: order
+    real(wp) :: strain(0:order, element_unknowns(order))
+
+    integer :: j
+
+    strain = 0.0_wp
+    strain(0, 1) = -1.0_wp
+    strain(0, element_unknowns(order) - 2) = 1.0_wp
+    do j = 1, axial_degree(order) - 1
+      strain(j, order + j) = 1.0_wp
+    end do
+  end function strain_coefficients
+
+  !> Legendre coefficients of d²v/dξ² for each unknown; the nodal ones are those of (2.71): 6(2ξ − 1), −1 + 3(2ξ − 1), …
+  pure function curvature_coefficients(order) result(curvature)
+    integer, intent(in) :: order
+    real(wp) :: curvature(0:order, element_unknowns(order))
+
+    integer :: j, n
+
+    n = element_unknowns(order)
+    curvature = 0.0_wp
+    curvature(1, [2, n - 1]) = [6.0_wp, -6.0_wp]
+    curvature(0, [3, n]) = [-1.0_wp, 1.0_wp]
+    curvature(1, [3, n]) = 3.0_wp
+    do j = 2, order - 2
+      curvature(j, j + 2) = 1.0_wp
+    end do
+  end function curvature_coefficients
+
+  !> Coefficients of `∫ f dξ` from 0: `∫ P_j = (P_{j+1} − P_{j−1})/(2(2j + 1))` and `∫ P_0 = (P_0 + P_1)/2`.
+  pure function integrated(coefficients) result(integral)
+    real(wp), intent(in) :: coefficients(0:, :) !! (0:p, functions), zero for P_p
+    real(wp) :: integral(0:ubound(coefficients, 1), size(coefficients, 2))
+
+    integer :: j
+
+    integral = 0.0_wp
+    integral(0, :) = 0.5_wp*coefficients(0, :)
+    integral(1, :) = 0.5_wp*coefficients(0, :)
+    do j = 1, ubound(coefficients, 1) - 1
+      integral(j + 1, :) = integral(j + 1, :) + coefficients(j, :)/(2*(2*j + 1))
+      integral(j - 1, :) = integral(j - 1, :) - coefficients(j, :)/(2*(2*j + 1))
+    end do
+  end function integrated
+
+  !> Coefficients of `ξ f`, ξ = (1 + x)/2 and `(2j + 1) x P_j = (j + 1) P_{j+1} + j P_{j−1}`.
+  pure function times_xi(coefficients) result(product_of)
+    real(wp), intent(in) :: coefficients(0:, :) !! (0:p, functions), zero for P_p
+    real(wp) :: product_of(0:ubound(coefficients, 1), size(coefficients, 2))
+
+    integer :: j
+
+    product_of = 0.5_wp*coefficients
+    do j = 0, ubound(coefficients, 1) - 1
+      product_of(j + 1, :) = product_of(j + 1, :) + (j + 1)*coefficients(j, :)/(2*(2*j + 1))
+      if (j > 0) product_of(j - 1, :) = product_of(j - 1, :) + j*coefficients(j, :)/(2*(2*j + 1))
+    end do
+  end function times_xi
+
+  !> `∫ f_i g_j dξ` of functions for which this is symmetric; `∫ P_j² dξ = 1/(2j + 1)`.
+  pure function products(f, g) result(matrix)
+    real(wp), intent(in) :: f(0:, :), g(0:, :) !! (0:p, functions) Legendre coefficients
+    real(wp) :: matrix(size(f, 2), size(f, 2))
+
+    real(wp) :: weight(0:ubound(f, 1))
+    integer :: i, j
+
+    weight = [(real(2*j + 1, wp), j=0, ubound(f, 1))]
+    do j = 1, size(f, 2)
+      do i = 1, j
+        matrix(i, j) = sum(f(:, i)*g(:, j)/weight)
+        matrix(j, i) = matrix(i, j)
+      end do
+    end do
+  end function products
+
+  !> Consistent mass matrix; Ulker 2010 (2.78) for order 3.
+  pure function element_mass(reference, line_density, length) result(mass)
+    type(reference_element_t), intent(in) :: reference
     real(wp), intent(in) :: line_density !! ρA [kg/m]
     real(wp), intent(in) :: length       !! [m]
-    real(wp) :: mass(6, 6)               !! [kg, kg m, kg m²]
+    real(wp) :: mass(size(reference%mass, 1), size(reference%mass, 2)) !! [kg, kg m, kg m²]
 
-    mass = 0.0_wp
-    mass([1, 4], [1, 4]) = reshape([2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp]/6.0_wp, [2, 2])
-    mass([2, 3, 5, 6], [2, 3, 5, 6]) = reshape([ &
-      156.0_wp, 22.0_wp, 54.0_wp, -13.0_wp, &
-      22.0_wp, 4.0_wp, 13.0_wp, -3.0_wp, &
-      54.0_wp, 13.0_wp, 156.0_wp, -22.0_wp, &
-      -13.0_wp, -3.0_wp, -22.0_wp, 4.0_wp]/420.0_wp, [4, 4])
-    mass = line_density*length*with_lengths(mass, length)
+    mass = line_density*length*with_lengths(reference%mass, length)
   end function element_mass
 
-  !> Stiffness matrix, Ulker 2010 (2.79) with entry (3, 6) = +2EI/L.
-  pure function element_stiffness(axial, bending, length) result(stiffness)
+  !> Stiffness matrix; Ulker 2010 (2.79) with entry (3, 6) = +2EI/L for order 3.
+  pure function element_stiffness(reference, axial, bending, length) result(stiffness)
+    type(reference_element_t), intent(in) :: reference
     real(wp), intent(in) :: axial        !! EA [N]
     real(wp), intent(in) :: bending      !! EI [N m²]
     real(wp), intent(in) :: length       !! [m]
-    real(wp) :: stiffness(6, 6)          !! [N/m, N, N m]
+    real(wp) :: stiffness(size(reference%axial, 1), size(reference%axial, 2)) !! [N/m, N, N m]
 
-    stiffness = 0.0_wp
-    stiffness([1, 4], [1, 4]) = axial/length*reshape([1.0_wp, -1.0_wp, -1.0_wp, 1.0_wp], [2, 2])
-    stiffness([2, 3, 5, 6], [2, 3, 5, 6]) = bending/length**3*reshape([ &
-      12.0_wp, 6.0_wp, -12.0_wp, 6.0_wp, &
-      6.0_wp, 4.0_wp, -6.0_wp, 2.0_wp, &
-      -12.0_wp, -6.0_wp, 12.0_wp, -6.0_wp, &
-      6.0_wp, 2.0_wp, -6.0_wp, 4.0_wp], [4, 4])
-    stiffness = with_lengths(stiffness, length)
+    stiffness = with_lengths(axial/length*reference%axial + bending/length**3*reference%bending, length)
   end function element_stiffness
 
   !> Geometric stiffness `∫ N v'² dx` of an axial force `N(ξ) = n0 + n1 ξ + n2 ξ²`, ξ from 0 to 1 along the element.
   !!
-  !! For n1 = n2 = 0 this is (2.84) of Ulker (2010); the other two are the same integrals with ξ and ξ².
-  pure function element_geometric_stiffness(force, length) result(stiffness)
+  !! For order 3 and n1 = n2 = 0 this is (2.84) of Ulker (2010).
+  pure function element_geometric_stiffness(reference, force, length) result(stiffness)
+    type(reference_element_t), intent(in) :: reference
     real(wp), intent(in) :: force(0:2) !! n0, n1, n2, tension positive [N]
     real(wp), intent(in) :: length     !! [m]
-    real(wp) :: stiffness(6, 6)        !! [N/m, N, N m]
+    real(wp) :: stiffness(size(reference%geometric, 1), size(reference%geometric, 2)) !! [N/m, N, N m]
 
-    real(wp), parameter :: constant(4, 4) = reshape([ &
-      36.0_wp, 3.0_wp, -36.0_wp, 3.0_wp, &
-      3.0_wp, 4.0_wp, -3.0_wp, -1.0_wp, &
-      -36.0_wp, -3.0_wp, 36.0_wp, -3.0_wp, &
-      3.0_wp, -1.0_wp, -3.0_wp, 4.0_wp]/30.0_wp, [4, 4])
-    real(wp), parameter :: linear(4, 4) = reshape([ &
-      36.0_wp, 6.0_wp, -36.0_wp, 0.0_wp, &
-      6.0_wp, 2.0_wp, -6.0_wp, -1.0_wp, &
-      -36.0_wp, -6.0_wp, 36.0_wp, 0.0_wp, &
-      0.0_wp, -1.0_wp, 0.0_wp, 6.0_wp]/60.0_wp, [4, 4])
-    real(wp), parameter :: quadratic(4, 4) = reshape([ &
-      72.0_wp, 15.0_wp, -72.0_wp, -6.0_wp, &
-      15.0_wp, 4.0_wp, -15.0_wp, -3.0_wp, &
-      -72.0_wp, -15.0_wp, 72.0_wp, 6.0_wp, &
-      -6.0_wp, -3.0_wp, 6.0_wp, 18.0_wp]/210.0_wp, [4, 4])
-
-    stiffness = 0.0_wp
-    stiffness([2, 3, 5, 6], [2, 3, 5, 6]) = (force(0)*constant + force(1)*linear + force(2)*quadratic)/length
-    stiffness = with_lengths(stiffness, length)
+    stiffness = with_lengths((force(0)*reference%geometric(:, :, 0) + force(1)*reference%geometric(:, :, 1) + &
+      force(2)*reference%geometric(:, :, 2))/length, length)
   end function element_geometric_stiffness
 
-  !> Consistent load of forces per length that vary linearly, `f(ξ) = f1 + (f2 − f1) ξ`, in the element's own axes.
-  pure function element_load(force_first, force_last, length) result(load)
-    real(wp), intent(in) :: force_first(2) !! along and across at the first node [N/m]
-    real(wp), intent(in) :: force_last(2)  !! at the last node [N/m]
-    real(wp), intent(in) :: length         !! [m]
-    real(wp) :: load(6)                    !! [N, N m]
-
-    load([1, 4]) = length/6.0_wp*[2.0_wp*force_first(1) + force_last(1), force_first(1) + 2.0_wp*force_last(1)]
-    load([2, 5]) = length/20.0_wp*[7.0_wp*force_first(2) + 3.0_wp*force_last(2), 3.0_wp*force_first(2) + 7.0_wp*force_last(2)]
-    load(3) = length**2/60.0_wp*(3.0_wp*force_first(2) + 2.0_wp*force_last(2))
-    load(6) = -length**2/60.0_wp*(2.0_wp*force_first(2) + 3.0_wp*force_last(2))
-  end function element_load
-
-  !> Gives rotations, written as L θ in the tables above, their length.
+  !> Gives rotations, which the reference element has as L θ, their length.
   pure function with_lengths(matrix, length) result(scaled)
-    real(wp), intent(in) :: matrix(6, 6)
+    real(wp), intent(in) :: matrix(:, :)
     real(wp), intent(in) :: length
-    real(wp) :: scaled(6, 6)
+    real(wp) :: scaled(size(matrix, 1), size(matrix, 2))
 
+    integer :: n
+
+    n = size(matrix, 1)
     scaled = matrix
-    scaled([3, 6], :) = scaled([3, 6], :)*length
-    scaled(:, [3, 6]) = scaled(:, [3, 6])*length
+    scaled([3, n], :) = scaled([3, n], :)*length
+    scaled(:, [3, n]) = scaled(:, [3, n])*length
   end function with_lengths
 
-  !> An element matrix in the global axes: `Tᵀ A T`, T made of the transpose of (2.75) at either node.
+  !> An element matrix in the global axes: `Tᵀ A T`, T made of the transpose of (2.75) at either node. Bubbles do not turn.
   pure function turned_to_global(matrix, direction) result(turned)
-    real(wp), intent(in) :: matrix(6, 6)
+    real(wp), intent(in) :: matrix(:, :)
     real(wp), intent(in) :: direction(2) !! unit vector along the element
-    real(wp) :: turned(6, 6)
+    real(wp) :: turned(size(matrix, 1), size(matrix, 2))
 
-    real(wp) :: t(6, 6)
+    real(wp) :: t(2, 2)
+    integer :: first(2), k
 
     t = rotation(direction)
-    turned = matmul(transpose(t), matmul(matrix, t))
+    first = first_of_nodes(size(matrix, 1))
+    turned = matrix
+    do k = 1, 2
+      turned(:, first(k):first(k) + 1) = matmul(turned(:, first(k):first(k) + 1), t)
+    end do
+    do k = 1, 2
+      turned(first(k):first(k) + 1, :) = matmul(transpose(t), turned(first(k):first(k) + 1, :))
+    end do
   end function turned_to_global
 
-  !> Displacements in global axes, seen in the element's own.
+  !> Unknowns of an element with nodal displacements in global axes, seen in the element's own.
   pure function to_local(displacement, direction) result(local)
-    real(wp), intent(in) :: displacement(6)
+    real(wp), intent(in) :: displacement(:)
     real(wp), intent(in) :: direction(2)
-    real(wp) :: local(6)
+    real(wp) :: local(size(displacement))
 
-    local = matmul(rotation(direction), displacement)
+    integer :: first(2), k
+
+    first = first_of_nodes(size(displacement))
+    local = displacement
+    do k = 1, 2
+      local(first(k):first(k) + 1) = matmul(rotation(direction), displacement(first(k):first(k) + 1))
+    end do
   end function to_local
+
+  !> Where the displacements of either node stand among the unknowns of an element.
+  pure function first_of_nodes(unknowns) result(first)
+    integer, intent(in) :: unknowns
+    integer :: first(2)
+
+    first = [1, unknowns - 2]
+  end function first_of_nodes
 
   pure function rotation(direction) result(t)
     real(wp), intent(in) :: direction(2)
-    real(wp) :: t(6, 6)
+    real(wp) :: t(2, 2)
 
-    t = 0.0_wp
-    t([1, 2], [1, 2]) = reshape([direction(1), -direction(2), direction(2), direction(1)], [2, 2])
-    t([4, 5], [4, 5]) = t([1, 2], [1, 2])
-    t(3, 3) = 1.0_wp
-    t(6, 6) = 1.0_wp
+    t = reshape([direction(1), -direction(2), direction(2), direction(1)], [2, 2])
   end function rotation
 
-  !> Displacement inside the element: along it, across it, and the rotation v'. Equation (2.71).
-  pure function interpolate(local, length, xi) result(displacement)
-    real(wp), intent(in) :: local(6) !! in the element's own axes
+  !> Displacement inside the element: along it, across it, and the rotation v'. Equation (2.71), and the bubbles.
+  !!
+  !! Bubbles are differences of polynomials that are equal at the ends to the last bit, so that the nodes are met exactly.
+  pure function interpolate(order, local, length, xi) result(displacement)
+    integer, intent(in) :: order
+    real(wp), intent(in) :: local(:) !! (unknowns) in the element's own axes
     real(wp), intent(in) :: length   !! [m]
     real(wp), intent(in) :: xi       !! from 0 to 1 along the element
     real(wp) :: displacement(3)
 
-    real(wp) :: shape(4), slope(4)
+    real(wp) :: shape(4), slope(4), p(0:order), once(1:order - 1), twice(2:order - 2)
+    integer :: j, n
 
+    n = size(local)
     shape = [(1.0_wp - xi)**2*(1.0_wp + 2.0_wp*xi), length*xi*(1.0_wp - xi)**2, &
       xi**2*(3.0_wp - 2.0_wp*xi), length*xi**2*(xi - 1.0_wp)]
     slope = [-6.0_wp*xi*(1.0_wp - xi)/length, (1.0_wp - xi)*(1.0_wp - 3.0_wp*xi), 6.0_wp*xi*(1.0_wp - xi)/length, &
       xi*(3.0_wp*xi - 2.0_wp)]
-    displacement(1) = (1.0_wp - xi)*local(1) + xi*local(4)
-    displacement(2) = dot_product(shape, local([2, 3, 5, 6]))
-    displacement(3) = dot_product(slope, local([2, 3, 5, 6]))
+    p = legendre_values(order, 2.0_wp*xi - 1.0_wp)
+    once = [((p(j + 1) - p(j - 1))/(2*(2*j + 1)), j=1, order - 1)]
+    twice = [((once(j + 1) - once(j - 1))/(2*(2*j + 1)), j=2, order - 2)]
+    displacement(1) = (1.0_wp - xi)*local(1) + xi*local(n - 2) + dot_product(once(:n - 3 - order), local(order + 1:n - 3))
+    displacement(2) = dot_product(shape, local([2, 3, n - 1, n])) + dot_product(twice, local(4:order))
+    displacement(3) = dot_product(slope, local([2, 3, n - 1, n])) + dot_product(once(2:order - 2), local(4:order))/length
   end function interpolate
 
 end module beam_element

@@ -2,9 +2,11 @@
 !!
 !! Nodes are numbered round the loop as in the thesis: every body has its own nodes, so that a pin between two bodies is two
 !! nodes in one place. Unknowns are numbered along the same way; at a pin the rotation of the body that ends comes before the
-!! displacements that both share, and these before the rotation of the body that begins. So the half bandwidth of a chain of
-!! bodies is 5, whatever the mesh.
+!! displacements that both share, and these before the rotation of the body that begins. Bubbles come
+!! between the nodes of their element. So the half bandwidth of a chain of bodies is one less than the unknowns of its largest
+!! element, 5 for order 3, whatever the number of elements.
 module beam_mesh
+  use beam_element, only: element_unknowns, new_reference_element, reference_element_t
   use kinds, only: wp
   use linkages, only: linkage_t
   implicit none (type, external)
@@ -20,10 +22,14 @@ module beam_mesh
 
   type :: beam_mesh_t
     integer, allocatable :: elements(:)       !! (bodies) elements of each body, all of one length
+    integer, allocatable :: order(:)          !! (bodies) of its elements
     integer, allocatable :: first_element(:)  !! (bodies) number of its first element
     integer, allocatable :: first_node(:)     !! (bodies) number of its first node; its element i joins nodes i and i + 1 from here
-    integer, allocatable :: unknown(:, :)     !! (6, elements) of u1 v1 θ1 u2 v2 θ2 in global axes; 0: held
+    !> (largest element, elements) of u1 v1 θ1, bubbles, u2 v2 θ2 as in the element, nodal displacements in global axes; 0: held.
+    !! An element has as many as its order asks for, and zeros beyond.
+    integer, allocatable :: unknown(:, :)
     integer, allocatable :: pin_unknown(:, :) !! (2, pins) of the displacements of pins; 0: held
+    type(reference_element_t), allocatable :: reference(:) !! (bodies) what its elements have in common
     integer :: unknowns = 0
     integer :: half_bandwidth = 0
   end type beam_mesh_t
@@ -31,39 +37,27 @@ module beam_mesh
 contains
 
   !> Numbers nodes and unknowns. The driven body is clamped at its first pin, the other grounds hold their pin (thesis, 3.2.2).
-  pure function new_beam_mesh(linkage, elements) result(mesh)
+  pure function new_beam_mesh(linkage, elements, orders) result(mesh)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: elements(:) !! (bodies)
+    integer, intent(in) :: orders(:)   !! (bodies) at least 3
     type(beam_mesh_t) :: mesh
 
-    integer :: body, i, node(3), last_node(3)
+    integer :: body, i
     logical :: placed(size(linkage%is_ground))
 
     mesh%elements = elements
+    mesh%order = orders
     mesh%first_element = [(1 + sum(elements(:body - 1)), body=1, size(elements))]
     mesh%first_node = [(body + sum(elements(:body - 1)), body=1, size(elements))]
-    allocate (mesh%unknown(6, sum(elements)), mesh%pin_unknown(2, size(linkage%is_ground)))
+    allocate (mesh%unknown(maxval(element_unknowns(orders)), sum(elements)), mesh%pin_unknown(2, size(linkage%is_ground)))
+    allocate (mesh%reference(size(elements)))
+    mesh%unknown = 0
     mesh%pin_unknown = 0
     placed = linkage%is_ground
-
     do body = 1, size(elements)
-      associate (first => linkage%bodies(body)%first_pin, last => linkage%bodies(body)%last_pin, &
-          start => mesh%first_element(body))
-        call place_pin(mesh, first, placed)
-        last_node = [mesh%pin_unknown(:, first), 0]
-        if (body > 1 .or. .not. linkage%is_ground(first)) call add_unknowns(mesh, last_node(3:3))
-        do i = 1, elements(body)
-          if (i < elements(body)) then
-            call add_unknowns(mesh, node)
-          else
-            call add_unknowns(mesh, node(3:3))
-            call place_pin(mesh, last, placed)
-            node(:2) = mesh%pin_unknown(:, last)
-          end if
-          mesh%unknown(:, start + i - 1) = [last_node, node]
-          last_node = node
-        end do
-      end associate
+      mesh%reference(body) = new_reference_element(orders(body))
+      call number_body(mesh, linkage, body, placed)
     end do
     mesh%half_bandwidth = 0
     do i = 1, size(mesh%unknown, 2)
@@ -72,6 +66,35 @@ contains
       end associate
     end do
   end function new_beam_mesh
+
+  !> Numbers the unknowns of a body: bubbles between the nodes of their element, so that every element has a run of its own.
+  pure subroutine number_body(mesh, linkage, body, placed)
+    type(beam_mesh_t), intent(inout) :: mesh
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: body
+    logical, intent(inout) :: placed(:) !! (pins)
+
+    integer :: i, n, node(3), last_node(3), bubble(element_unknowns(mesh%order(body)) - 6)
+
+    n = size(bubble) + 6
+    associate (first => linkage%bodies(body)%first_pin, last => linkage%bodies(body)%last_pin)
+      call place_pin(mesh, first, placed)
+      last_node = [mesh%pin_unknown(:, first), 0]
+      if (body > 1 .or. .not. linkage%is_ground(first)) call add_unknowns(mesh, last_node(3:3))
+      do i = 1, mesh%elements(body)
+        call add_unknowns(mesh, bubble)
+        if (i < mesh%elements(body)) then
+          call add_unknowns(mesh, node)
+        else
+          call add_unknowns(mesh, node(3:3))
+          call place_pin(mesh, last, placed)
+          node(:2) = mesh%pin_unknown(:, last)
+        end if
+        mesh%unknown(:n, mesh%first_element(body) + i - 1) = [last_node, bubble, node]
+        last_node = node
+      end do
+    end associate
+  end subroutine number_body
 
   !> Gives the next numbers to unknowns.
   pure subroutine add_unknowns(mesh, unknown)

@@ -1,6 +1,6 @@
-!> Displacements along the links, from the displacements of the nodes.
+!> Displacements along the links, from the unknowns of their elements.
 module deflected_shape
-  use beam_element, only: interpolate, to_local
+  use beam_element, only: element_unknowns, interpolate, to_local
   use beam_mesh, only: beam_mesh_t, element_length
   use kinds, only: wp
   use linkages, only: linkage_t, normal_to
@@ -8,7 +8,7 @@ module deflected_shape
   implicit none (type, external)
   private
 
-  public :: shape_point, mid_link_sign, largest_displacement
+  public :: shape_point, mid_link_sign
 
 contains
 
@@ -29,24 +29,26 @@ contains
     position = s/length
     i = max(1, min(mesh%elements(body), 1 + int(position)))
     associate (e => pose%direction(:, body))
-      local = interpolate(to_local(element_vector(mesh, vector, mesh%first_element(body) + i - 1), e), length, position - (i - 1))
+      local = interpolate(mesh%order(body), to_local(element_vector(mesh, vector, body, i), e), length, position - (i - 1))
       displacement = [local(1)*e + local(2)*normal_to(e), local(3)]
     end associate
   end function shape_point
 
-  !> Displacements of the two nodes of an element; those that are held are zero.
-  pure function element_vector(mesh, vector, element) result(nodal)
+  !> Unknowns of the i-th element of a body; those that are held are zero.
+  pure function element_vector(mesh, vector, body, i) result(values)
     type(beam_mesh_t), intent(in) :: mesh
     real(wp), intent(in) :: vector(:)
-    integer, intent(in) :: element
-    real(wp) :: nodal(6)
+    integer, intent(in) :: body, i
+    real(wp) :: values(element_unknowns(mesh%order(body)))
 
-    integer :: i
+    integer :: k
 
-    nodal = 0.0_wp
-    do i = 1, 6
-      if (mesh%unknown(i, element) > 0) nodal(i) = vector(mesh%unknown(i, element))
-    end do
+    values = 0.0_wp
+    associate (unknown => mesh%unknown(:size(values), mesh%first_element(body) + i - 1))
+      do k = 1, size(values)
+        if (unknown(k) > 0) values(k) = vector(unknown(k))
+      end do
+    end associate
   end function element_vector
 
   !> The sign that makes the largest transverse displacement at mid-link positive, in that link's own axes (those of its angle).
@@ -70,25 +72,5 @@ contains
     body = findloc(abs(across) >= (1.0_wp - tie)*maxval(abs(across)), .true., dim=1)
     sign_of_mode = sign(1.0_wp, across(body))
   end function mid_link_sign
-
-  !> Largest displacement of a node of each body, compared with the body's length [-].
-  pure function largest_displacement(linkage, mesh, vector) result(ratio)
-    type(linkage_t), intent(in) :: linkage
-    type(beam_mesh_t), intent(in) :: mesh
-    real(wp), intent(in) :: vector(:) !! (unknowns) [m, rad]
-    real(wp) :: ratio(size(linkage%bodies))
-
-    real(wp) :: nodal(6)
-    integer :: body, i
-
-    ratio = 0.0_wp
-    do body = 1, size(linkage%bodies)
-      do i = mesh%first_element(body), mesh%first_element(body) + mesh%elements(body) - 1
-        nodal = element_vector(mesh, vector, i)
-        ratio(body) = max(ratio(body), norm2(nodal(1:2)), norm2(nodal(4:5)))
-      end do
-    end do
-    ratio = ratio/linkage%bodies%length
-  end function largest_displacement
 
 end module deflected_shape

@@ -13,7 +13,8 @@ contains
   !> `ε ‖K_e‖/‖M_e‖`, the largest over all bodies: the error of an eigenvalue λ from the rounding of K alone [1/s²].
   !!
   !! Element stiffnesses grow without bound as elements shrink, and in a smooth mode nearly all of them cancels. A solver in nodal
-  !! unknowns cannot undo it, and residuals and counts of the same matrices do not show it.
+  !! unknowns cannot undo it, and residuals and counts of the same matrices do not show it. The order of an element does not matter:
+  !! its nodal stiffness is that of order 3, and bubbles stand alone on the diagonal, so that nothing of theirs can cancel.
   pure function round_off_error(linkage, beams, mesh, body) result(error)
     type(linkage_t), intent(in) :: linkage
     type(beam_t), intent(in) :: beams(:) !! (bodies)
