@@ -9,7 +9,7 @@ module positions
   implicit none (type, external)
   private
 
-  public :: positions_t, state_t, find_positions
+  public :: positions_t, state_t, find_positions, by_crank_angle
 
   !> The linkage at one crank angle.
   type :: state_t
@@ -66,5 +66,13 @@ contains
       end associate
     end do
   end function find_positions
+
+  !> The numbers of all states in the order of their crank angles.
+  pure function by_crank_angle(positions) result(states)
+    type(positions_t), intent(in) :: positions
+    integer :: states(size(positions%states))
+
+    states = ascending_order(modulo(positions%states%crank, 360.0_wp))
+  end function by_crank_angle
 
 end module positions

@@ -10,7 +10,7 @@ module axial_forces
   implicit none (type, external)
   private
 
-  public :: lumped_axial_forces, distributed_axial_forces
+  public :: lumped_axial_forces, distributed_axial_forces, link_axial_force
 
 contains
 
@@ -69,5 +69,24 @@ contains
       end associate
     end do
   end function distributed_axial_forces
+
+  !> The same for a link as a whole: `N(ξ) = n0 + n1 ξ + n2 ξ²`, ξ from 0 to 1 along it.
+  pure function link_axial_force(linkage, body, pose, field, joints) result(force)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: body
+    type(pose_t), intent(in) :: pose
+    type(acceleration_field_t), intent(in) :: field
+    type(joint_forces_t), intent(in) :: joints
+    real(wp) :: force(0:2) !! n0, n1, n2, tension positive [N]
+
+    real(wp) :: along, growth, mass
+
+    associate (e => pose%direction(:, body), length => linkage%bodies(body)%length)
+      mass = linkage%bodies(body)%line_density*length
+      along = dot_product(e, field%at_first(:, body))
+      growth = 0.5_wp*length*dot_product(e, field%slope(:, body))
+      force = [dot_product(e, joints%on_last(:, body)) - mass*(along + growth), mass*along, mass*growth]
+    end associate
+  end function link_axial_force
 
 end module axial_forces

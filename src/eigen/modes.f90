@@ -10,7 +10,7 @@ module modes
   implicit none (type, external)
   private
 
-  public :: modes_t, find_modes, dense_limit, most_round_off
+  public :: modes_t, find_modes, find_definite_shift, dense_limit, most_round_off
 
   type :: modes_t
     real(wp), allocatable :: lambda(:)      !! ω², ascending; negative past a divergence [1/s²]

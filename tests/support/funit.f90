@@ -367,7 +367,7 @@ contains
     rank (0)
       v%reals = [x]
     rank (1)
-      v%reals = x
+      v%reals = [x] ! not x alone: gfortran would keep its lower bound, 0 for an expression
     rank (2)
       v%reals = reshape(x, [size(x)])
     rank default
@@ -387,7 +387,7 @@ contains
     rank (0)
       v%reals = [real(x, real64)]
     rank (1)
-      v%reals = real(x, real64)
+      v%reals = [real(x, real64)]
     rank (2)
       v%reals = real(reshape(x, [size(x)]), real64)
     rank default
@@ -407,7 +407,7 @@ contains
     rank (0)
       v%integers = [int(x, int64)]
     rank (1)
-      v%integers = int(x, int64)
+      v%integers = [int(x, int64)]
     rank (2)
       v%integers = int(reshape(x, [size(x)]), int64)
     rank default
@@ -425,7 +425,7 @@ contains
     rank (0)
       v%integers = [x]
     rank (1)
-      v%integers = x
+      v%integers = [x]
     rank (2)
       v%integers = reshape(x, [size(x)])
     rank default

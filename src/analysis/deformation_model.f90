@@ -1,0 +1,85 @@
+!> A linkage of beams in its links' own deformations: all that does not change with the position, found once a run.
+module deformation_model
+  use beam_element, only: axial_degree
+  use beam_mesh, only: beam_t
+  use bordered_matrix, only: layout_t
+  use deformation_shapes, only: axial_shapes, bending_shapes, deformation_shapes_t
+  use errors, only: error_t
+  use kinds, only: wp
+  use link_modes, only: held_shapes, link_modes_t, new_link_modes
+  use linkages, only: linkage_t
+  use reduced_assembly, only: reduced_layout
+  use singular_vectors, only: find_right_singular_vectors
+  implicit none (type, external)
+  private
+
+  public :: deformation_model_t, new_deformation_model
+
+  type :: deformation_model_t
+    integer, allocatable :: elements(:)         !! (bodies)
+    integer, allocatable :: order(:)            !! (bodies) polynomial degree of the transverse displacement
+    logical, allocatable :: lumped(:)           !! (bodies) axial forces are constant in each element
+    type(link_modes_t), allocatable :: links(:) !! (bodies)
+    type(layout_t) :: layout
+  end type deformation_model_t
+
+contains
+
+  !> Errors: the own modes of a link could not be found.
+  subroutine new_deformation_model(linkage, beams, elements, order, lumped, model, error)
+    type(linkage_t), intent(in) :: linkage
+    type(beam_t), intent(in) :: beams(:)    !! (bodies)
+    integer, intent(in) :: elements(:)      !! (bodies)
+    integer, intent(in) :: order(:)         !! (bodies)
+    logical, intent(in) :: lumped(:)        !! (bodies)
+    type(deformation_model_t), intent(out) :: model
+    type(error_t), allocatable, intent(out) :: error
+
+    integer :: b
+
+    model%elements = elements
+    model%order = order
+    model%lumped = lumped
+    allocate (model%links(size(beams)))
+    do b = 1, size(beams)
+      call find_own_modes(linkage, beams(b), b, elements(b), order(b), lumped(b), model%links(b), error)
+      if (allocated(error)) return
+    end do
+    model%layout = reduced_layout(linkage, model%links)
+  end subroutine new_deformation_model
+
+  !> One link. A single element knows the next two orders as well, to tell its own error.
+  subroutine find_own_modes(linkage, beam, b, elements, order, lumped, link, error)
+    type(linkage_t), intent(in) :: linkage
+    type(beam_t), intent(in) :: beam
+    integer, intent(in) :: b, elements, order
+    logical, intent(in) :: lumped
+    type(link_modes_t), intent(out) :: link
+    type(error_t), allocatable, intent(out) :: error
+
+    type(deformation_shapes_t) :: bending, axial
+    real(wp), allocatable :: basis(:, :), axial_basis(:, :), displacement(:, :), own(:, :), axial_own(:, :)
+    integer :: more, degree, kept, axial_kept
+    logical :: clamped
+
+    clamped = b == 1
+    more = merge(2, 0, elements == 1)
+    degree = axial_degree(order)
+    associate (body => linkage%bodies(b))
+      bending = bending_shapes(body%length, body%line_density, beam%bending_stiffness, elements, order + more)
+      axial = axial_shapes(body%length, body%line_density, beam%axial_stiffness, elements, &
+        merge(axial_degree(order + 2) + 1, degree, elements == 1))
+    end associate
+    kept = elements*(order - 1)
+    axial_kept = elements*degree - 1
+    call held_shapes(bending, kept, clamped, basis, displacement)
+    call find_right_singular_vectors(displacement, own, error)
+    if (allocated(error)) return
+    call held_shapes(axial, axial_kept, .false., axial_basis, displacement)
+    call find_right_singular_vectors(displacement, axial_own, error)
+    if (allocated(error)) return
+    call new_link_modes(bending, axial, kept, axial_kept, clamped, [beam%axial_stiffness, beam%bending_stiffness], lumped, &
+      matmul(basis, own), axial_own, link)
+  end subroutine find_own_modes
+
+end module deformation_model

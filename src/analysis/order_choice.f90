@@ -1,0 +1,199 @@
+!> Polynomial orders that reach an accuracy, link by link.
+module order_choice
+  use axial_forces, only: link_axial_force
+  use beam_mesh, only: beam_t
+  use bordered_modes, only: bordered_modes_t
+  use deformation_model, only: deformation_model_t, new_deformation_model
+  use errors, only: error_t
+  use inertia_loads, only: distributed_load, load_t, pin_load
+  use joint_forces, only: find_joint_forces, joint_forces_t
+  use kinds, only: wp
+  use ledger, only: ledger_t
+  use linkages, only: linkage_t
+  use motions, only: acceleration_field_t, motion_t, unit_fields
+  use pin_displacements, only: chords_t
+  use poses, only: pose_t
+  use positions, only: positions_t
+  use reduced_modes, only: new_reduced_work, order_error, reduced_work_t, solve_reduced
+  use text, only: string_t
+  implicit none (type, external)
+  private
+
+  public :: choose_orders, distributed_unit_forces
+
+  !> Orders are raised up to the first number plus two thirds of the number of modes: more than any accuracy needs that double
+  !! precision can give, but under loads that buckle a link many times over (as beside a dead point).
+  integer, parameter :: spare_orders = 36
+
+  !> Positions at which orders are tried; every row of the sweep tells its own error afterwards.
+  integer, parameter :: samples = 6
+
+  !> Share of the accuracy that one link may use up at the samples: other positions may be worse.
+  real(wp), parameter :: share = 0.1_wp
+
+contains
+
+  !> Finds a model that keeps the error of every eigenvalue below a bound, at samples of the positions, at rest and at the highest
+  !! speed; each link has one element of the least order that does. One element is enough for any accuracy: links are uniform and
+  !! loads smooth along them.
+  !!
+  !! The error of order p is about `((kL/4)^{p−1}/(p−1)!)²` for a wave number k; this gives a first guess, which the error told by
+  !! the model itself then raises. Errors: those of the model; none for a bound that is not reached at the highest order.
+  subroutine choose_orders(linkage, beams, positions, states, factor, modes, bound, model, counts, error)
+    type(linkage_t), intent(in) :: linkage
+    type(beam_t), intent(in) :: beams(:)
+    type(positions_t), intent(in) :: positions
+    integer, intent(in) :: states(:)     !! numbers of those that the model is to serve
+    real(wp), intent(in) :: factor(:, :) !! (2, speeds) ω2² and α2
+    integer, intent(in) :: modes
+    real(wp), intent(in) :: bound        !! relative error of eigenvalues
+    type(deformation_model_t), intent(out) :: model
+    type(ledger_t), intent(inout) :: counts
+    type(error_t), allocatable, intent(out) :: error
+
+    real(wp) :: link_error(size(beams)), highest
+    integer :: order(size(beams)), b, highest_order
+    integer, allocatable :: chosen(:)
+    integer :: one_element(size(beams))
+    logical :: continuous(size(beams))
+
+    chosen = sample_states(positions, states)
+    highest_order = spare_orders + (2*modes)/3
+    order = max(8, modes/2 + 6)
+    one_element = 1
+    continuous = .false. ! no masses on nodes
+    call new_deformation_model(linkage, beams, one_element, order, continuous, model, error)
+    counts%link_models = counts%link_models + size(beams)
+    if (allocated(error) .or. size(chosen) == 0) return
+    call try_samples(linkage, model, positions, chosen, factor, modes, link_error, highest, counts)
+    do b = 1, size(beams)
+      order(b) = guessed_order(linkage%bodies(b)%length*(linkage%bodies(b)%line_density*highest/ &
+        beams(b)%bending_stiffness)**0.25_wp, share*bound, order(b), highest_order, modes)
+    end do
+    do
+      call new_deformation_model(linkage, beams, one_element, order, continuous, model, error)
+      counts%link_models = counts%link_models + size(beams)
+      if (allocated(error)) return
+      call try_samples(linkage, model, positions, chosen, factor, modes, link_error, highest, counts)
+      if (all(link_error <= share*bound .or. order >= highest_order)) exit
+      where (link_error > share*bound) order = min(highest_order, order + merge(2, 1, link_error > 100.0_wp*share*bound))
+    end do
+  end subroutine choose_orders
+
+  !> Some of the states that have a pose, spread over the list.
+  pure function sample_states(positions, states) result(chosen)
+    type(positions_t), intent(in) :: positions
+    integer, intent(in) :: states(:)
+    integer, allocatable :: chosen(:)
+
+    integer :: sound(size(states)), i, count, number
+
+    count = 0
+    do i = 1, size(states)
+      if (allocated(positions%states(states(i))%error)) cycle
+      count = count + 1
+      sound(count) = states(i)
+    end do
+    number = min(samples, count)
+    chosen = [(sound(1 + ((i - 1)*(count - 1))/max(1, number - 1)), i=1, number)]
+  end function sample_states
+
+  !> Order for a wave number times length, a bound of the error, and no fewer unknowns than a first model had for all modes.
+  pure function guessed_order(wave, bound, first, highest, modes) result(order)
+    real(wp), intent(in) :: wave  !! kL
+    real(wp), intent(in) :: bound
+    integer, intent(in) :: first, highest, modes
+    integer :: order
+
+    real(wp) :: term
+    integer :: least
+
+    least = 4
+    if (2*modes > 3*least) least = first
+    term = 1.0_wp
+    do order = 2, highest
+      term = term*0.25_wp*wave/(order - 1)
+      if (order >= max(least, nint(0.5_wp*wave)) .and. term**2 <= bound) return
+    end do
+    order = highest
+  end function guessed_order
+
+  !> The largest error of any mode by link, and the largest eigenvalue, over the samples at the least and the greatest speed.
+  subroutine try_samples(linkage, model, positions, chosen, factor, modes, link_error, highest, counts)
+    type(linkage_t), intent(in) :: linkage
+    type(deformation_model_t), intent(in) :: model
+    type(positions_t), intent(in) :: positions
+    integer, intent(in) :: chosen(:)
+    real(wp), intent(in) :: factor(:, :)
+    integer, intent(in) :: modes
+    real(wp), intent(out) :: link_error(:)
+    real(wp), intent(out) :: highest
+    type(ledger_t), intent(inout) :: counts
+
+    type(reduced_work_t) :: work
+    type(chords_t) :: chords
+    type(bordered_modes_t), allocatable :: found(:)
+    type(string_t), allocatable :: failure(:)
+    real(wp), allocatable :: force(:, :, :), tried(:, :)
+    integer :: i, k
+
+    tried = factor(:, [minloc(factor(1, :), dim=1), maxloc(factor(1, :), dim=1)])
+    if (all(abs(tried(:, 1) - tried(:, 2)) <= 0.0_wp)) tried = tried(:, :1)
+    allocate (found(size(tried, 2)), failure(size(tried, 2)))
+    work = new_reduced_work(model, size(tried, 2))
+    link_error = 0.0_wp
+    highest = 0.0_wp
+    do i = 1, size(chosen)
+      associate (state => positions%states(chosen(i)))
+        force = distributed_unit_forces(linkage, state%pose, state%motion, any(abs(factor) > 0.0_wp))
+        do k = 1, size(failure)
+          failure(k)%text = ""
+        end do
+        call solve_reduced(linkage, model, state%pose, state%crank, force, tried, modes, spread(.false., 1, size(found)), work, &
+          chords, found, failure, counts)
+      end associate
+      do k = 1, size(found)
+        if (len(failure(k)%text) > 0) cycle
+        highest = max(highest, maxval(abs(found(k)%lambda(:modes))))
+        link_error = max(link_error, maxval(order_error(model, chords, total_force(force, tried(:, k)), found(k), modes), dim=2))
+      end do
+    end do
+  end subroutine try_samples
+
+  !> `ω2² N_ω + α2 N_α`
+  pure function total_force(unit_force, factor) result(force)
+    real(wp), intent(in) :: unit_force(:, :, :)
+    real(wp), intent(in) :: factor(2)
+    real(wp) :: force(size(unit_force, 1), size(unit_force, 2))
+
+    force = factor(1)*unit_force(:, :, 1) + factor(2)*unit_force(:, :, 2)
+  end function total_force
+
+  !> Axial forces of uniform links under the inertia loads of the two unit fields; without loads there are no force functions.
+  pure function distributed_unit_forces(linkage, pose, motion, loaded) result(force)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(motion_t), intent(in) :: motion
+    logical, intent(in) :: loaded
+    real(wp), allocatable :: force(:, :, :) !! (1, ξ, ξ²; bodies; for ω2² = 1 and α2 = 1) [N]
+
+    type(acceleration_field_t) :: fields(2)
+    type(load_t) :: loads(size(linkage%bodies))
+    type(joint_forces_t) :: joints
+    integer :: b, i
+
+    allocate (force(merge(3, 0, loaded), size(linkage%bodies), 2))
+    if (.not. loaded) return
+    fields = unit_fields(linkage, pose, motion)
+    do i = 1, 2
+      do b = 1, size(linkage%bodies)
+        loads(b) = distributed_load(linkage%bodies(b), b, pose, fields(i))
+      end do
+      joints = find_joint_forces(linkage, pose, loads, pin_load(linkage, fields(i)))
+      do b = 1, size(linkage%bodies)
+        force(:, b, i) = link_axial_force(linkage, b, pose, fields(i), joints)
+      end do
+    end do
+  end function distributed_unit_forces
+
+end module order_choice

@@ -1,0 +1,123 @@
+!> What the rounding of a position does to its frequencies.
+!!
+!! Near a dead point a crank angle, itself rounded, says less and less about the rest of the linkage.
+module pose_rounding
+  use bordered_matrix, only: bordered_matrix_t, bordered_times_vector, new_bordered_matrix
+  use bordered_modes, only: bordered_modes_t
+  use deformation_model, only: deformation_model_t
+  use errors, only: error_t
+  use kinds, only: wp
+  use linkages, only: linkage_t
+  use motions, only: find_motion, motion_t
+  use order_choice, only: distributed_unit_forces
+  use pin_displacements, only: chords_t, find_chords
+  use poses, only: find_pose, pose_t
+  use positions, only: state_t
+  use reduced_assembly, only: reduced_geometric_stiffness, reduced_mass
+  implicit none (type, external)
+  private
+
+  public :: pose_error
+
+  !> Multiples of ε, measured against quadruple precision: of 1/sin² far from dead points, of the sensitivity near them.
+  real(wp), parameter :: far_multiple = 4.0_wp, near_multiple = 2.0_wp
+
+  !> Nearer than this, in |sin(θ4 − θ3)|, sensitivities are worked out.
+  real(wp), parameter :: near_sine = 0.15_wp
+
+  !> Change of a length, of itself and times sin², by which they are worked out.
+  real(wp), parameter :: small_change = 1.0e-3_wp
+
+contains
+
+  !> Relative error of every eigenvalue: ε times the change of the eigenvalue with the lengths of the links.
+  !!
+  !! Where dead points are far, `ε/sin²(θ4 − θ3)` bounds it, more where terms cancel in λ. Near them, modes differ: some soften
+  !! with the sine, others do not feel it, loads grow like its powers. There each length is changed a little, and `yᵀ(ΔG − λΔM)y` is
+  !! what that does.
+  subroutine pose_error(linkage, model, state, factor, found, modes, error)
+    type(linkage_t), intent(in) :: linkage
+    type(deformation_model_t), intent(in) :: model
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: factor(2)  !! ω2² and α2
+    type(bordered_modes_t), intent(in) :: found
+    integer, intent(in) :: modes
+    real(wp), intent(out) :: error(:)  !! (modes) of eigenvalues
+
+    real(wp) :: sine, energy, rest(modes), changed(modes)
+    type(linkage_t) :: other
+    integer :: b, i, side
+    logical :: reached
+
+    sine = minval(abs(state%pose%sine))
+    if (sine >= near_sine) then
+      do i = 1, modes
+        energy = dot_product(found%vector(:, i), found%vector(:, i))
+        error(i) = 2.0_wp*far_multiple*epsilon(1.0_wp)/sine**2*(1.0_wp + energy/max(abs(found%lambda(i)), tiny(energy)))
+      end do
+      return
+    end if
+    call rayleigh_quotients(linkage, model, state%crank, factor, found, rest, reached)
+    error = 0.0_wp
+    do b = 1, size(linkage%bodies)
+      do side = 1, -1, -2
+        other = linkage
+        other%bodies(b)%length = linkage%bodies(b)%length*(1.0_wp + side*small_change*sine**2)
+        call rayleigh_quotients(other, model, state%crank, factor, found, changed, reached)
+        if (reached) exit
+      end do
+      if (.not. reached) then
+        error = error + 1.0_wp
+        cycle
+      end if
+      error = error + near_multiple*epsilon(1.0_wp)*abs(changed - rest)/(small_change*sine**2*max(abs(found%lambda(:modes)), &
+        tiny(1.0_wp)))
+    end do
+    error = 2.0_wp*error
+  end subroutine pose_error
+
+  !> `yᵀ(I + G − λM)y` of all modes in a linkage whose lengths may differ from those of the modes.
+  subroutine rayleigh_quotients(linkage, model, crank, factor, found, quotient, reached)
+    type(linkage_t), intent(in) :: linkage
+    type(deformation_model_t), intent(in) :: model
+    real(wp), intent(in) :: crank      !! [deg]
+    real(wp), intent(in) :: factor(2)
+    type(bordered_modes_t), intent(in) :: found
+    real(wp), intent(out) :: quotient(:) !! (modes)
+    logical, intent(out) :: reached
+
+    type(pose_t) :: pose
+    type(motion_t) :: motion
+    type(chords_t) :: chords
+    type(bordered_matrix_t) :: mass, geometric
+    type(error_t), allocatable :: error
+    real(wp), allocatable :: force(:, :, :)
+    real(wp) :: product(model%layout%unknowns)
+    integer :: i
+
+    quotient = 0.0_wp
+    call find_pose(linkage, crank, pose, error)
+    reached = .not. allocated(error)
+    if (.not. reached) return
+    motion = find_motion(linkage, pose)
+    chords = find_chords(linkage, model%links, pose)
+    mass = new_bordered_matrix(model%layout, .false.)
+    call reduced_mass(linkage, model%links, model%layout, chords, mass)
+    force = distributed_unit_forces(linkage, pose, motion, any(abs(factor) > 0.0_wp))
+    geometric = new_bordered_matrix(model%layout, .true.)
+    if (size(force) > 0) then
+      call reduced_geometric_stiffness(model%links, model%layout, chords, factor(1)*force(:, :, 1) + factor(2)*force(:, :, 2), &
+        geometric)
+    end if
+    do i = 1, size(quotient)
+      associate (y => found%vector(:, i))
+        call bordered_times_vector(model%layout, mass, y, product)
+        quotient(i) = dot_product(y, y) - found%lambda(i)*dot_product(y, product)
+        if (size(force) == 0) cycle
+        call bordered_times_vector(model%layout, geometric, y, product)
+        quotient(i) = quotient(i) + dot_product(y, product)
+      end associate
+    end do
+  end subroutine rayleigh_quotients
+
+end module pose_rounding

@@ -1,0 +1,131 @@
+!> The modes of one model in deformation coordinates at one position, for all speeds.
+module reduced_modes
+  use bordered_matrix, only: add_scaled, bordered_matrix_t, new_bordered_matrix
+  use bordered_modes, only: bordered_modes_t, find_bordered_modes, start_t
+  use deformation_model, only: deformation_model_t
+  use errors, only: error_t
+  use kinds, only: wp
+  use ledger, only: ledger_t
+  use linkages, only: linkage_t
+  use mode_tracks, only: extrapolated_start, remember, track_t
+  use pin_displacements, only: chords_t, find_chords
+  use poses, only: pose_t
+  use reduced_assembly, only: next_order_change, reduced_geometric_stiffness, reduced_mass
+  use text, only: string_t
+  implicit none (type, external)
+  private
+
+  public :: reduced_work_t, new_reduced_work, solve_reduced, combine, order_error
+
+  !> Beyond this step neighbours say too little about each other [deg].
+  real(wp), parameter :: longest_step = 10.0_wp
+
+  !> What the next two orders leave to all the others that follow: the change they make is multiplied by this. Where it is not small,
+  !! orders may be far from enough (a link pressed so hard that it buckles many times over), and more is left.
+  real(wp), parameter :: order_margin = 1.5_wp, rough_margin = 8.0_wp, rough_change = 1.0e-5_wp
+
+  !> Matrices, made once and filled at every position, and what is remembered of the last positions.
+  type :: reduced_work_t
+    type(bordered_matrix_t) :: mass, unit(2), geometric
+    type(track_t), allocatable :: tracks(:) !! (speeds)
+  end type reduced_work_t
+
+contains
+
+  pure function new_reduced_work(model, speeds) result(work)
+    type(deformation_model_t), intent(in) :: model
+    integer, intent(in) :: speeds
+    type(reduced_work_t) :: work
+
+    work%mass = new_bordered_matrix(model%layout, .false.)
+    work%geometric = new_bordered_matrix(model%layout, .true.)
+    work%unit(1) = work%geometric
+    work%unit(2) = work%geometric
+    allocate (work%tracks(speeds))
+  end function new_reduced_work
+
+  !> Solves `(I + ω2² G_ω + α2 G_α) y = λ M y` for every speed, from the modes of the last positions.
+  subroutine solve_reduced(linkage, model, pose, place, unit_force, factor, modes, accurate_vectors, work, chords, found, failure, &
+      counts)
+    type(linkage_t), intent(in) :: linkage
+    type(deformation_model_t), intent(in) :: model
+    type(pose_t), intent(in) :: pose
+    real(wp), intent(in) :: place                !! of the position among its neighbours [deg]
+    real(wp), intent(in) :: unit_force(:, :, :)  !! (force functions, bodies, 2) for ω2² = 1 and α2 = 1 [N]; no functions: no loads
+    real(wp), intent(in) :: factor(:, :)         !! (2, speeds) ω2² and α2
+    integer, intent(in) :: modes
+    logical, intent(in) :: accurate_vectors(:)   !! (speeds)
+    type(reduced_work_t), intent(inout) :: work
+    type(chords_t), intent(out) :: chords
+    type(bordered_modes_t), intent(out) :: found(:) !! (speeds)
+    type(string_t), intent(inout) :: failure(:)     !! (speeds)
+    type(ledger_t), intent(inout) :: counts
+
+    type(start_t) :: start
+    type(error_t), allocatable :: error
+    integer :: i, k
+    logical :: loaded, from_track, occurs(2) !! of the unit loads
+
+    chords = find_chords(linkage, model%links, pose)
+    call reduced_mass(linkage, model%links, model%layout, chords, work%mass)
+    counts%mass_matrices = counts%mass_matrices + 1
+    do i = 1, 2
+      occurs(i) = size(unit_force, 1) > 0 .and. any(abs(factor(i, :)) > 0.0_wp)
+      if (.not. occurs(i)) cycle
+      call reduced_geometric_stiffness(model%links, model%layout, chords, unit_force(:, :, i), work%unit(i))
+      counts%geometric_matrices = counts%geometric_matrices + 1
+    end do
+    do k = 1, size(factor, 2)
+      loaded = size(unit_force, 1) > 0 .and. any(abs(factor(:, k)) > 0.0_wp)
+      if (loaded) call combine(work, factor(:, k))
+      start = extrapolated_start(work%tracks(k), place, longest_step)
+      call find_bordered_modes(model%layout, work%mass, work%geometric, loaded, modes, accurate_vectors(k), start, found(k), error)
+      counts%factorizations = counts%factorizations + found(k)%factorizations
+      counts%reduced_solutions = counts%reduced_solutions + found(k)%reduced_solutions
+      counts%full_solutions = counts%full_solutions + found(k)%full_solutions
+      if (allocated(error)) then
+        if (len(failure(k)%text) == 0) failure(k)%text = error%message
+        work%tracks(k)%length = 0
+        cycle
+      end if
+      counts%proofs = counts%proofs + 1
+      from_track = found(k)%reduced_solutions + found(k)%full_solutions == 0
+      if (from_track) counts%extrapolated = counts%extrapolated + 1
+      call remember(work%tracks(k), place, found(k), from_track)
+    end do
+  end subroutine solve_reduced
+
+  !> `G = ω2² G_ω + α2 G_α` from the unit matrices of the last position.
+  pure subroutine combine(work, factor)
+    type(reduced_work_t), intent(inout) :: work
+    real(wp), intent(in) :: factor(2) !! ω2² and α2
+
+    integer :: i
+
+    work%geometric%border = 0.0_wp
+    work%geometric%coupling = 0.0_wp
+    work%geometric%block = 0.0_wp
+    do i = 1, 2
+      if (abs(factor(i)) > 0.0_wp) call add_scaled(work%geometric, factor(i), work%unit(i))
+    end do
+  end subroutine combine
+
+  !> Relative error of every eigenvalue because the polynomials end at their order, link by link.
+  pure function order_error(model, chords, force, found, modes) result(error)
+    type(deformation_model_t), intent(in) :: model
+    type(chords_t), intent(in) :: chords
+    real(wp), intent(in) :: force(:, :) !! (force functions, bodies) at this speed [N]
+    type(bordered_modes_t), intent(in) :: found
+    integer, intent(in) :: modes
+    real(wp) :: error(size(model%links), modes)
+
+    integer :: i
+
+    do i = 1, modes
+      error(:, i) = next_order_change(model%links, model%layout, chords, force, found%vector(:, i), found%lambda(i))/ &
+        max(abs(found%lambda(i)), tiny(1.0_wp))
+      error(:, i) = merge(order_margin, rough_margin, sum(error(:, i)) < rough_change)*error(:, i)
+    end do
+  end function order_error
+
+end module reduced_modes

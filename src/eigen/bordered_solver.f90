@@ -1,0 +1,149 @@
+!> `(K − μ M) x = b` for a stiffness `K = I + G` and bordered matrices G and M: the step of every inverse iteration.
+module bordered_solver
+  use bordered_matrix, only: bordered_matrix_t, layout_t
+  use kinds, only: wp
+  implicit none (type, external)
+  private
+
+  public :: solve_shifted
+
+  !> A pivot nearer to zero is moved away from it: the solution, a direction only, keeps enough digits to be improved.
+  real(wp), parameter :: least_pivot = 1.0e-14_wp
+
+contains
+
+  !> Eliminates block after block, each with its rows of the border and the right side, then the border.
+  !!
+  !! `L D Lᵀ` without pivoting. Nothing rests on its accuracy: whoever uses the solution measures its residual.
+  pure subroutine solve_shifted(layout, mass, geometric, loaded, shift, right_side, solution)
+    type(layout_t), intent(in) :: layout
+    type(bordered_matrix_t), intent(in) :: mass      !! M, diagonal in its blocks
+    type(bordered_matrix_t), intent(in) :: geometric !! G
+    logical, intent(in) :: loaded                    !! whether there is a G
+    real(wp), intent(in) :: shift                    !! μ
+    real(wp), intent(in) :: right_side(:)            !! (unknowns)
+    real(wp), intent(out) :: solution(:)             !! (unknowns)
+
+    real(wp) :: panel(layout%border + maxval(layout%size) + 1, merge(maxval(layout%size), 0, loaded), size(layout%size))
+    real(wp) :: border(layout%border + 1, layout%border), pivot, factor
+    integer :: b, i, j, k, first_single
+
+    associate (n => layout%border)
+      border(:n, :) = -shift*mass%border
+      if (loaded) border(:n, :) = border(:n, :) + geometric%border
+      do i = 1, n
+        border(i, i) = border(i, i) + 1.0_wp
+      end do
+      border(n + 1, :) = right_side(:n)
+
+      first_single = n + 1
+      if (loaded) then
+        do b = 1, size(layout%size)
+          call eliminate_block(layout, mass, geometric, shift, right_side, b, panel(:, :, b), border)
+        end do
+        first_single = n + 1 + sum(layout%size)
+      end if
+      do k = first_single, layout%unknowns
+        pivot = 1.0_wp - shift*mass%diagonal(k)
+        if (abs(pivot) < least_pivot) pivot = sign(least_pivot, pivot)
+        do j = 1, n
+          factor = -shift*mass%coupling(j, k)/pivot
+          do i = j, n
+            border(i, j) = border(i, j) + shift*mass%coupling(i, k)*factor
+          end do
+          border(n + 1, j) = border(n + 1, j) - factor*right_side(k)
+        end do
+      end do
+
+      call eliminate(border, n)
+      call substitute_back(border, n, solution(:n))
+      if (loaded) then
+        do b = 1, size(layout%size)
+          associate (m => layout%size(b), first => layout%first(b))
+            do k = 1, m
+              panel(m + n + 1, k, b) = panel(m + n + 1, k, b) - dot_product(panel(m + 1:m + n, k, b), solution(:n))
+              panel(m + 1, k, b) = panel(m + n + 1, k, b)
+            end do
+            call substitute_back(panel(:m + 1, :m, b), m, solution(first:first + m - 1))
+          end associate
+        end do
+      end if
+      do k = first_single, layout%unknowns
+        pivot = 1.0_wp - shift*mass%diagonal(k)
+        if (abs(pivot) < least_pivot) pivot = sign(least_pivot, pivot)
+        solution(k) = (right_side(k) + shift*dot_product(mass%coupling(:, k), solution(:n)))/pivot
+      end do
+    end associate
+  end subroutine solve_shifted
+
+  !> Eliminates a block and takes what it leaves from the border.
+  pure subroutine eliminate_block(layout, mass, geometric, shift, right_side, b, panel, border)
+    type(layout_t), intent(in) :: layout
+    type(bordered_matrix_t), intent(in) :: mass, geometric
+    real(wp), intent(in) :: shift
+    real(wp), intent(in) :: right_side(:)
+    integer, intent(in) :: b                 !! number of the block
+    real(wp), intent(out) :: panel(:, :)     !! columns of the block; below it the border's rows and the right side
+    real(wp), intent(inout) :: border(:, :)
+
+    real(wp) :: factor
+    integer :: i, j, k, m, n, first
+
+    m = layout%size(b)
+    n = layout%border
+    first = layout%first(b) - 1
+    do k = 1, m
+      do j = k, m
+        panel(j, k) = geometric%block(j, k, b)
+      end do
+      panel(k, k) = 1.0_wp + panel(k, k) - shift*mass%diagonal(first + k)
+      do i = 1, n
+        panel(m + i, k) = geometric%coupling(i, first + k) - shift*mass%coupling(i, first + k)
+      end do
+      panel(m + n + 1, k) = right_side(first + k)
+    end do
+    call eliminate(panel(:m + n + 1, :m), m)
+    do k = 1, m
+      do j = 1, n
+        factor = panel(m + j, k)/panel(k, k)
+        do i = j, n + 1
+          border(i, j) = border(i, j) - factor*panel(m + i, k)
+        end do
+      end do
+    end do
+  end subroutine eliminate_block
+
+  !> `L D Lᵀ` of the first rows; the others are carried along. Column k is left as `L D` of it.
+  pure subroutine eliminate(panel, m)
+    real(wp), intent(inout) :: panel(:, :)
+    integer, intent(in) :: m
+
+    real(wp) :: factor
+    integer :: i, j, k
+
+    do k = 1, m
+      if (abs(panel(k, k)) < least_pivot) panel(k, k) = sign(least_pivot, panel(k, k))
+      do j = k + 1, m
+        factor = panel(j, k)/panel(k, k)
+        do i = j, size(panel, 1)
+          panel(i, j) = panel(i, j) - factor*panel(i, k)
+        end do
+      end do
+    end do
+  end subroutine eliminate
+
+  !> Solves with what `eliminate` left; the right side is the panel's last row.
+  pure subroutine substitute_back(panel, m, solution)
+    real(wp), intent(in) :: panel(:, :)
+    integer, intent(in) :: m
+    real(wp), intent(out) :: solution(:)
+
+    integer :: k, last
+
+    last = size(panel, 1)
+    do k = m, 1, -1
+      solution(k) = (panel(last, k) - dot_product(panel(k + 1:m, k), solution(k + 1:m)))/panel(k, k)
+    end do
+  end subroutine substitute_back
+
+end module bordered_solver
