@@ -1,5 +1,7 @@
 !> The files of a run: opened together, put in place together.
 module deck_outputs
+  use branch_report, only: write_branches
+  use branch_tracking, only: branches_t
   use echo, only: echo_text
   use errors, only: error_t, set_error
   use file_system, only: is_directory, joined_path, make_directories, remove_empty_directory
@@ -93,12 +95,14 @@ contains
   end function table_name
 
   !> Writes all tables, the echo and the log.
-  subroutine write_outputs(outputs, model, mechanism, positions, sweep, log)
+  subroutine write_outputs(outputs, model, mechanism, positions, sweep, branches, threads, log)
     type(outputs_t), intent(inout) :: outputs
     type(model_t), intent(in) :: model
     type(mechanism_t), intent(in) :: mechanism
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
+    type(branches_t), intent(in) :: branches !! empty if nobody asks for them
+    integer, intent(in) :: threads
     character(len=*), intent(in) :: log
 
     integer :: i
@@ -113,10 +117,11 @@ contains
         case (report_mesh)
           call write_mesh(file, model, mechanism, positions)
         case (report_frequencies)
-          call write_frequencies(file, model, positions, sweep)
+          call write_frequencies(file, model, positions, sweep, threads)
         case (report_shapes)
           call write_shapes(file, model, mechanism, positions, sweep)
         case (report_branches)
+          call write_branches(file, model, positions, sweep, branches)
         end select
       end associate
     end do

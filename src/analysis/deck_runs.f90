@@ -1,5 +1,6 @@
 !> One deck: read and checked, then computed and written.
 module deck_runs
+  use branch_tracking, only: branches_t, follow_branches
   use cards, only: card_t, read_cards
   use deck_checks, only: check_mechanics
   use deck_outputs, only: discard_outputs, open_outputs, outputs_t, publish_outputs, write_outputs
@@ -93,6 +94,7 @@ contains
     type(mechanism_t) :: mechanism
     type(positions_t) :: positions
     type(sweep_t) :: sweep
+    type(branches_t) :: branches
     type(findings_t) :: findings
     type(outputs_t) :: outputs
     type(progress_t) :: progress
@@ -109,14 +111,23 @@ contains
     call stop_stage(watch, "motion")
     if (needs_frequencies(deck%model)) then
       call start_progress(progress, deck%base, .not. options%quiet)
-      call run_sweep(deck%model, mechanism, positions, options%threads, progress, sweep)
+      call run_sweep(deck%model, mechanism, positions, options%threads, progress, sweep, error)
       call end_progress(progress)
+      if (allocated(error)) then
+        call discard_outputs(outputs)
+        return
+      end if
       call stop_stage(watch, "modes")
+      if (sweep%request%follow) then
+        call follow_branches(mechanism, positions, sweep, branches)
+        call stop_stage(watch, "branches")
+      end if
     end if
     if (.not. was_interrupted()) then
       call find_failures(deck%model, positions, sweep, findings)
       call find_warnings(deck%model, mechanism, positions, sweep, findings)
-      call write_outputs(outputs, deck%model, mechanism, positions, sweep, log_text(deck, mechanism, positions, sweep, findings))
+      call write_outputs(outputs, deck%model, mechanism, positions, sweep, branches, options%threads, &
+        log_text(deck, mechanism, positions, sweep, findings))
     end if
     ! Asked once, before the files are put in place: from there on the run is done.
     if (was_interrupted()) then
@@ -151,7 +162,7 @@ contains
     do i = 1, size(notes)
       text = text//notes(i)%text//line_feed
     end do
-    if (allocated(sweep%results)) text = text//sweep_summary(sweep, mechanism%mesh%unknowns, mechanism%mesh%half_bandwidth)
+    if (allocated(sweep%results)) text = text//sweep_summary(sweep, mechanism%mesh)
     if (len(deck%warning_lines) > 0) text = text//"warnings of the deck:"//line_feed//deck%warning_lines
     text = text//findings_log(findings)
   end function log_text

@@ -1,7 +1,6 @@
 !> `frequencies.dat` and `shapes.dat`.
 module frequency_report
   use constants, only: two_pi
-  use deflected_shape, only: mid_link_sign, shape_point
   use frequency_sweep, only: is_drawn, sweep_t
   use kinds, only: wp
   use kinematics_report, only: place_of_row
@@ -18,7 +17,10 @@ module frequency_report
   implicit none (type, external)
   private
 
-  public :: write_frequencies, write_shapes, frequency_of, failure_at
+  public :: write_frequencies, write_shapes, frequency_of, failure_at, has_result, effects_notes
+
+  !> Rows whose digits are worked out together, by all threads.
+  integer, parameter :: rows_at_once = 1024
 
 contains
 
@@ -45,30 +47,85 @@ contains
   end function failure_at
 
   !> One row a position, one block a speed; a single block if the frequencies are static.
-  subroutine write_frequencies(file, model, positions, sweep)
+  subroutine write_frequencies(file, model, positions, sweep, threads)
     type(output_file_t), intent(inout) :: file
     type(model_t), intent(in) :: model
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
+    integer, intent(in) :: threads
 
+    type(column_t), allocatable :: columns(:)
     integer :: i, k
-    character(len=:), allocatable :: reason
 
-    call write_header(file, model%title, effects_notes(model), [real_column("speed", "rad/s"), real_column("crank", "deg"), &
-      (real_column("f"//to_string(i), "Hz"), i=1, model%modes)])
+    allocate (columns(2*model%modes + 2))
+    columns(1) = real_column("speed", "rad/s")
+    columns(2) = real_column("crank", "deg")
+    do i = 1, model%modes
+      columns(2 + i) = real_column("f"//to_string(i), "Hz")
+      columns(2 + model%modes + i) = real_column("error"//to_string(i), "-")
+    end do
+    call write_header(file, model%title, [effects_notes(model), string_t("error1 and so on: how far off each frequency may be, "// &
+      "of itself: mesh and rounding")], columns)
     do k = 1, size(sweep%request%speed)
       if (k > 1) call write_gap(file, 2)
-      do i = 1, size(positions%crank)
-        reason = failure_at(positions, sweep, positions%state(i), k)
-        if (len(reason) > 0) then
-          call write_failure(file, place_of_row(sweep%request%speed(k), positions%crank(i)), reason)
+      call write_block(file, positions, sweep, k, threads, sum(columns%width))
+    end do
+  end subroutine write_frequencies
+
+  !> All rows of a speed. Their digits are worked out by all threads, a number of rows at a time, and written in order.
+  subroutine write_block(file, positions, sweep, speed, threads, width)
+    type(output_file_t), intent(inout) :: file
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    integer, intent(in) :: speed   !! number
+    integer, intent(in) :: threads
+    integer, intent(in) :: width   !! of a row
+
+    character(len=width) :: rows(rows_at_once)
+    integer :: i, first, last
+
+    do first = 1, size(positions%crank), rows_at_once
+      last = min(first + rows_at_once - 1, size(positions%crank))
+      !$omp parallel do num_threads(threads) default(shared) private(i)
+      do i = first, last
+        if (has_result(positions, sweep, positions%state(i), speed)) then
+          call fill_row(positions, sweep, i, speed, rows(i - first + 1))
+        end if
+      end do
+      !$omp end parallel do
+      do i = first, last
+        if (has_result(positions, sweep, positions%state(i), speed)) then
+          call write_row(file, rows(i - first + 1))
         else
-          call write_row(file, real_cells([sweep%request%speed(k), positions%crank(i), &
-            frequency_of(sweep%results(positions%state(i))%lambda(:, k))]))
+          call write_failure(file, place_of_row(sweep%request%speed(speed), positions%crank(i)), &
+            failure_at(positions, sweep, positions%state(i), speed))
         end if
       end do
     end do
-  end subroutine write_frequencies
+  end subroutine write_block
+
+  !> Whether there is a result at a position and speed.
+  pure function has_result(positions, sweep, state, speed) result(has)
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    integer, intent(in) :: state, speed !! numbers
+    logical :: has
+
+    has = .not. allocated(positions%states(state)%error)
+    if (has) has = len(sweep%results(state)%failure(speed)%text) == 0
+  end function has_result
+
+  subroutine fill_row(positions, sweep, row, speed, text)
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    integer, intent(in) :: row, speed !! numbers
+    character(len=*), intent(out) :: text
+
+    associate (result => sweep%results(positions%state(row)))
+      text = real_cells([sweep%request%speed(speed), positions%crank(row), frequency_of(result%lambda(:, speed)), &
+        result%error(:, speed)])
+    end associate
+  end subroutine fill_row
 
   !> What the frequencies are, in words.
   pure function effects_notes(model) result(notes)
@@ -122,8 +179,9 @@ contains
           do mode = 1, model%modes
             if (mode > 1) call write_gap(file, 2)
             associate (state => positions%states(positions%state(i)), result => sweep%results(positions%state(i)))
-              call write_mode(file, mechanism, columns(5)%width, length, mass, state%pose, result%modes(k)%vector(:, mode), &
-                [sweep%request%speed(k), positions%crank(i)], mode, frequency_of(result%lambda(mode, k)), report%points)
+              call write_mode(file, mechanism, columns(5)%width, length, mass, state%pose, &
+                result%shapes(k)%displacement(:, :, :, mode), [sweep%request%speed(k), positions%crank(i)], mode, &
+                frequency_of(result%lambda(mode, k)))
             end associate
           end do
         end do
@@ -131,30 +189,28 @@ contains
     end associate
   end subroutine write_shapes
 
-  subroutine write_mode(file, mechanism, name_width, length, mass, pose, vector, place, mode, frequency, points)
+  subroutine write_mode(file, mechanism, name_width, length, mass, pose, shape, place, mode, frequency)
     type(output_file_t), intent(inout) :: file
     type(mechanism_t), intent(in) :: mechanism
     integer, intent(in) :: name_width
     type(unit_t), intent(in) :: length, mass
     type(pose_t), intent(in) :: pose
-    real(wp), intent(in) :: vector(:)  !! (unknowns) [kg^-1/2]
-    real(wp), intent(in) :: place(2)   !! speed and crank angle [rad/s, deg]
+    real(wp), intent(in) :: shape(:, :, :) !! (x, y and rotation; points; bodies) [kg^-1/2]
+    real(wp), intent(in) :: place(2)       !! speed and crank angle [rad/s, deg]
     integer, intent(in) :: mode
-    real(wp), intent(in) :: frequency  !! [Hz]
-    integer, intent(in) :: points
+    real(wp), intent(in) :: frequency      !! [Hz]
 
     real(wp) :: s, displacement(3), scale
     integer :: body, i
 
     ! Displacements of a normalised mode have the unit mass^(-1/2).
-    scale = mid_link_sign(mechanism%linkage, mechanism%mesh, pose, vector)* &
-      sqrt(to_si(1.0_wp, mass))
+    scale = sqrt(to_si(1.0_wp, mass))
     do body = 1, size(mechanism%names)
       associate (this => mechanism%linkage%bodies(body))
         if (body > 1) call write_gap(file, 1)
-        do i = 1, points
-          s = this%length*(i - 1)/(points - 1)
-          displacement = scale*shape_point(mechanism%linkage, mechanism%mesh, pose, vector, body, s)
+        do i = 1, size(shape, 2)
+          s = this%length*(i - 1)/(size(shape, 2) - 1)
+          displacement = scale*shape(:, i, body)
           displacement(3) = to_si(displacement(3), length)
           call write_row(file, real_cells(place)//integer_cell(mode, "mode")//real_cells([frequency])// &
             name_cell(mechanism%names(body)%text, name_width)// &

@@ -1,14 +1,18 @@
 !> Frequencies at every position and speed.
 module frequency_sweep
+  use errors, only: error_t
+  use frequency_models, only: by_band, by_dense, by_link_modes, by_long_mesh, by_orders, frequency_models_t, mode_request_t, &
+    is_long_link, new_frequency_models
   use interruption, only: was_interrupted
   use kinds, only: wp
+  use ledger, only: add_ledger, ledger_t
   use mechanisms, only: mechanism_t
-  use models, only: effects_static, inertia_lumped, model_t, needs_loads, report_number, solver_auto, solver_dense
-  use modes, only: dense_limit
-  use position_modes, only: mode_request_t, position_result_t, solve_position
-  use positions, only: positions_t
+  use models, only: effects_static, inertia_lumped, model_t, needs_loads, report_number, solver_band, solver_dense
+  use position_modes, only: new_position_work, solve_position
+  use position_results, only: position_result_t, position_work_t
+  use positions, only: by_crank_angle, positions_t
   use progress, only: progress_t, show_progress
-  use requests, only: report_shapes, report_t
+  use requests, only: report_branches, report_shapes, report_t
   use value_lists, only: value_list_t, value_number
   implicit none (type, external)
   private
@@ -18,57 +22,117 @@ module frequency_sweep
   !> The results, one a different position.
   type :: sweep_t
     type(mode_request_t) :: request
+    type(frequency_models_t) :: models                 !! that serve most positions
     type(position_result_t), allocatable :: results(:) !! (states); nothing in it where there is no pose
     logical, allocatable :: drawn(:, :)                !! (states, speeds) whether its shapes are asked for
+    type(ledger_t) :: counts
   end type sweep_t
+
+  !> Positions, neighbours in crank angle, that are solved one after the other. The division into chunks is the same for any number
+  !! of threads, and so are the results.
+  integer, parameter :: chunk = 64
+
+  !> Times that orders are chosen anew for positions that need more than they give.
+  integer, parameter :: most_attempts = 4
 
 contains
 
-  !> Solves every position that has a pose, on as many threads as are allowed. Each result depends on its own position only, so
-  !! that the number of threads changes nothing.
-  subroutine run_sweep(model, mechanism, positions, threads, progress, sweep)
+  !> Solves every position that has a pose, on as many threads as are allowed.
+  !!
+  !! Errors: the models could not be made.
+  subroutine run_sweep(model, mechanism, positions, threads, progress, sweep, error)
     type(model_t), intent(in) :: model
     type(mechanism_t), intent(in) :: mechanism
     type(positions_t), intent(in) :: positions
     integer, intent(in) :: threads
     type(progress_t), intent(inout) :: progress
     type(sweep_t), intent(out) :: sweep
+    type(error_t), allocatable, intent(out) :: error
 
-    integer :: i, done
+    type(frequency_models_t) :: models
+    integer, allocatable :: states(:)
+    integer :: attempt, i
 
     sweep%request = request_of(model, mechanism)
     call choose_drawn(model, positions, sweep)
     allocate (sweep%results(size(positions%states)))
-    done = 0
-    ! The band solver has ARPACK, which serves one thread at a time: more of them would only wait.
-    !$omp parallel do schedule(static) num_threads(merge(threads, 1, sweep%request%dense)) default(shared) private(i)
-    do i = 1, size(positions%states)
-      if (was_interrupted()) cycle
-      if (allocated(positions%states(i)%error)) cycle
-      call solve_position(mechanism, positions%states(i)%pose, positions%states(i)%motion, sweep%request, sweep%drawn(i, :), &
-        sweep%results(i))
+    states = by_crank_angle(positions)
+    do attempt = 1, most_attempts
+      call new_frequency_models(mechanism, positions, states, sweep%request, sweep%request%accuracy, models, sweep%counts, error)
+      if (allocated(error)) return
+      if (attempt == 1) sweep%models = models
+      call sweep_positions(mechanism, positions, states, models, threads, progress, sweep)
+      ! Some positions may need more than the samples by which orders were chosen: these are found again.
+      states = pack(states, sweep%results(states)%order_error > sweep%request%accuracy)
+      if (size(states) == 0 .or. was_interrupted()) exit
+    end do
+    do i = 1, size(sweep%results)
+      call add_ledger(sweep%counts, sweep%results(i)%counts)
+    end do
+  end subroutine run_sweep
+
+  !> Solves chunk after chunk of some positions, given in the order of their crank angles, and each chunk from position to position.
+  subroutine sweep_positions(mechanism, positions, states, models, threads, progress, sweep)
+    type(mechanism_t), intent(in) :: mechanism
+    type(positions_t), intent(in) :: positions
+    integer, intent(in) :: states(:) !! numbers
+    type(frequency_models_t), intent(in) :: models
+    integer, intent(in) :: threads
+    type(progress_t), intent(inout) :: progress
+    type(sweep_t), intent(inout) :: sweep
+
+    type(position_work_t) :: work
+    type(position_result_t) :: result
+    integer :: i, k, first, done
+
+    done = size(positions%states) - size(states)
+    ! ARPACK serves one thread at a time: more of them would only wait.
+    !$omp parallel do schedule(dynamic) num_threads(merge(1, threads, sweep%request%method == by_band)) default(shared) &
+    !$omp   private(first, k, i, work, result)
+    do first = 1, size(states), chunk
+      work = new_position_work(models, sweep%request)
+      do k = first, min(first + chunk - 1, size(states))
+        i = states(k)
+        if (was_interrupted()) cycle
+        if (allocated(positions%states(i)%error)) cycle
+        call solve_position(mechanism, models, positions%states(i), sweep%request, sweep%drawn(i, :), work, result)
+        call add_ledger(result%counts, sweep%results(i)%counts)
+        sweep%results(i) = result
+      end do
       !$omp critical (count_progress)
-      done = done + 1
+      done = done + min(chunk, size(states) - first + 1)
       call show_progress(progress, done, size(positions%states))
       !$omp end critical (count_progress)
     end do
     !$omp end parallel do
-  end subroutine run_sweep
+  end subroutine sweep_positions
 
-  !> What the deck asks for, with the solver chosen.
+  !> What the deck asks for, with the way to find it.
   pure function request_of(model, mechanism) result(request)
     type(model_t), intent(in) :: model
     type(mechanism_t), intent(in) :: mechanism
     type(mode_request_t) :: request
 
+    integer :: number
+
     request%modes = model%modes
     request%axial = needs_loads(model)
     request%lumped = model%inertia == inertia_lumped
-    request%dense = model%solver == solver_dense
-    ! ARPACK finds fewer modes than there are unknowns, and gains nothing when nearly all are wanted.
-    if (model%solver == solver_auto) then
-      request%dense = mechanism%mesh%unknowns <= max(dense_limit, 2*model%modes)
+    if (mechanism%accuracy > 0.0_wp) then
+      request%method = by_orders
+      request%accuracy = mechanism%accuracy
+    else if (model%solver == solver_dense) then
+      request%method = by_dense
+    else if (model%solver == solver_band) then
+      request%method = by_band
+    else if (.not. any(is_long_link(mechanism%mesh%elements, mechanism%mesh%order))) then
+      request%method = by_link_modes
+    else
+      request%method = by_long_mesh
     end if
+    request%follow = report_number(model, report_branches) > 0
+    number = report_number(model, report_shapes)
+    if (number > 0) request%points = model%reports(number)%points
     request%acceleration = model%acceleration
     if (model%effects == effects_static) then
       request%speed = [0.0_wp]

@@ -16,6 +16,7 @@ module mechanisms
     type(linkage_t) :: linkage
     type(beam_t), allocatable :: beams(:)     !! (bodies); empty if a link has no material or section
     type(beam_mesh_t) :: mesh                 !! without unknowns if a link has no mesh
+    real(wp) :: accuracy = 0.0_wp             !! of frequencies, where the deck leaves the mesh to the program; else 0
     type(string_t), allocatable :: names(:)   !! (bodies) of the links
     type(string_t), allocatable :: pin_names(:) !! (pins)
   end type mechanism_t
@@ -52,7 +53,10 @@ contains
         model%sections(links%section)%second_moment
     end if
     mechanism%linkage = new_four_bar(ground, length, line_density, pin_mass, model%branch == branch_crossed)
-    if (meshed) mechanism%mesh = new_beam_mesh(mechanism%linkage, model%meshes(links%mesh)%elements, spread(3, 1, 3))
+    if (meshed) then
+      mechanism%mesh = new_beam_mesh(mechanism%linkage, model%meshes(links%mesh)%elements, model%meshes(links%mesh)%order)
+      mechanism%accuracy = maxval(model%meshes(links%mesh)%accuracy)
+    end if
     mechanism%names = token_texts(links%name)
     mechanism%pin_names = token_texts(model%loop_pins)
 

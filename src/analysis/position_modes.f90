@@ -1,162 +1,136 @@
-!> The frequencies of the instantaneous structure at one position, for all speeds.
+!> The frequencies of the instantaneous structure at one position, for all speeds, each with its error.
 module position_modes
-  use assembly, only: assemble_geometric_stiffness, assemble_mass, assemble_stiffness
-  use axial_forces, only: distributed_axial_forces, lumped_axial_forces
-  use band_matrix, only: band_matrix_t
-  use beam_mesh, only: beam_mesh_t
-  use errors, only: error_t
-  use inertia_loads, only: distributed_load, load_t, lumped_load, pin_load
-  use joint_forces, only: find_joint_forces, joint_forces_t
+  use bordered_modes, only: bordered_modes_t
+  use deformation_model, only: deformation_model_t
+  use frequency_models, only: by_band, by_dense, by_link_modes, by_long_mesh, by_orders, frequency_models_t, load_factors, &
+    mode_request_t
   use kinds, only: wp
+  use link_modes, only: stations
   use linkages, only: linkage_t
   use mechanisms, only: mechanism_t
-  use modes, only: find_modes, modes_t
-  use motions, only: acceleration_field_t, find_motion, motion_t, unit_fields
-  use poses, only: find_pose, pose_t
-  use round_off, only: round_off_error
-  use text, only: string_t
+  use mesh_modes, only: solve_long_mesh, solve_mesh, solve_nodal
+  use mode_prints, only: new_mode_prints
+  use motions, only: acceleration_field_t, unit_fields
+  use order_choice, only: distributed_unit_forces
+  use pin_displacements, only: chords_t
+  use pose_rounding, only: pose_error
+  use position_results, only: position_result_t, position_work_t
+  use positions, only: state_t
+  use reduced_assembly, only: reduced_deflection
+  use reduced_modes, only: new_reduced_work, order_error, solve_reduced
+  use shape_samples, only: sample_reduced
   implicit none (type, external)
   private
 
-  public :: mode_request_t, position_result_t, solve_position, lowest_static_eigenvalue
+  public :: new_position_work, solve_position
 
-  !> What is wanted at every position.
-  type :: mode_request_t
-    integer :: modes = 3
-    logical :: axial = .false.         !! with the geometric stiffness of the inertia loads
-    logical :: lumped = .true.         !! inertia loads on the nodes, or along the links
-    logical :: dense = .true.
-    real(wp), allocatable :: speed(:)  !! [rad/s]; static: one value, which has no effect
-    real(wp) :: acceleration = 0.0_wp  !! [rad/s²]
-  end type mode_request_t
-
-  !> What was found there.
-  type :: position_result_t
-    real(wp), allocatable :: lambda(:, :)      !! (modes, speeds) ω² [1/s²]
-    type(modes_t), allocatable :: modes(:)     !! (speeds); their vectors only if wanted
-    type(string_t), allocatable :: failure(:)  !! (speeds) empty, or why there is no result
-    real(wp), allocatable :: deflection(:, :)  !! (bodies, speeds) largest static deflection under the loads, of the length [-]
-    integer :: geometric_stiffnesses = 0       !! assembled
-    integer :: factorizations = 0
-    integer :: solutions = 0                   !! eigenproblems solved
-  end type position_result_t
+  !> A frequency is off by half of what its eigenvalue is.
+  real(wp), parameter :: of_frequency = 0.5_wp
 
 contains
 
+  pure function new_position_work(models, request) result(work)
+    type(frequency_models_t), intent(in) :: models
+    type(mode_request_t), intent(in) :: request
+    type(position_work_t) :: work
+
+    work%continuum = new_reduced_work(models%continuum, size(request%speed))
+    if (any(request%method == [by_link_modes, by_long_mesh])) work%mesh = new_reduced_work(models%mesh, size(request%speed))
+    if (request%method == by_long_mesh) work%chain = models%chain
+  end function new_position_work
+
   !> Solves (2.88) at a pose for every speed, with or without the axial forces of the motion.
   !!
-  !! Matrices are assembled once; the geometric stiffness is made of two unit matrices, one for ω2² and one for α2.
-  subroutine solve_position(mechanism, pose, motion, request, want_vectors, result)
+  !! Always solved is the structure with continuous links, to the accuracy of `models`. Where the deck has a mesh of its own, that is
+  !! solved as well, and written; the error of its frequencies is their difference.
+  subroutine solve_position(mechanism, models, state, request, want_shapes, work, result)
     type(mechanism_t), intent(in) :: mechanism
-    type(pose_t), intent(in) :: pose
-    type(motion_t), intent(in) :: motion
+    type(frequency_models_t), intent(in) :: models
+    type(state_t), intent(in) :: state       !! with a pose
     type(mode_request_t), intent(in) :: request
-    logical, intent(in) :: want_vectors(:) !! (speeds)
+    logical, intent(in) :: want_shapes(:)    !! (speeds)
+    type(position_work_t), intent(inout) :: work
     type(position_result_t), intent(out) :: result
 
-    type(band_matrix_t) :: stiffness, mass, total, unit_stiffness(2)
-    type(error_t), allocatable :: error
-    real(wp) :: factor(2)
-    integer :: k
-    logical :: loaded(2)
+    type(bordered_modes_t) :: found(size(request%speed))
+    type(chords_t) :: chords
+    real(wp), allocatable :: unit_force(:, :, :)
+    real(wp) :: factor(2, size(request%speed)), discretisation(size(mechanism%beams), request%modes)
+    real(wp) :: rounding(request%modes)
+    integer :: k, n
 
-    allocate (result%lambda(request%modes, size(request%speed)), result%modes(size(request%speed)))
-    allocate (result%failure(size(request%speed)), result%deflection(size(mechanism%linkage%bodies), size(request%speed)))
+    n = size(request%speed)
+    allocate (result%lambda(request%modes, n), result%error(request%modes, n), result%failure(n), result%shapes(n))
+    allocate (result%deflection(size(mechanism%beams), n))
     result%lambda = 0.0_wp
+    result%error = 0.0_wp
     result%deflection = 0.0_wp
-    stiffness = assemble_stiffness(mechanism%linkage, mechanism%beams, mechanism%mesh, pose)
-    mass = assemble_mass(mechanism%linkage, mechanism%mesh, pose)
-    loaded = request%axial .and. [any(abs(request%speed) > 0.0_wp), abs(request%acceleration) > 0.0_wp]
-    if (any(loaded)) call load_position(mechanism, pose, motion, request, loaded, unit_stiffness, result)
-
-    do k = 1, size(request%speed)
+    do k = 1, n
       result%failure(k)%text = ""
-      factor = [request%speed(k)**2, request%acceleration]
-      total = stiffness
-      if (loaded(1) .and. factor(1) > 0.0_wp) total%entry = total%entry + factor(1)*unit_stiffness(1)%entry
-      if (loaded(2)) total%entry = total%entry + factor(2)*unit_stiffness(2)%entry
-      call find_modes(total, mass, request%modes, request%dense, .not. (loaded(2) .or. (loaded(1) .and. factor(1) > 0.0_wp)), &
-        round_off_error(mechanism%linkage, mechanism%beams, mechanism%mesh), want_vectors(k), result%modes(k), error)
-      result%solutions = result%solutions + 1
-      result%factorizations = result%factorizations + result%modes(k)%factorizations
-      if (allocated(error)) then
-        result%failure(k)%text = error%message
-      else
-        result%lambda(:, k) = result%modes(k)%lambda
-      end if
     end do
+    factor = load_factors(request)
+    unit_force = distributed_unit_forces(mechanism%linkage, state%pose, state%motion, any(abs(factor) > 0.0_wp))
+    call solve_reduced(mechanism%linkage, models%continuum, state%pose, state%crank, unit_force, factor, request%modes, &
+      want_shapes .and. request%method == by_orders, work%continuum, chords, found, result%failure, result%counts)
+    if (size(unit_force) > 0) call find_deflection(mechanism%linkage, models%continuum, chords, state, factor, result%deflection)
+    do k = 1, n
+      if (len(result%failure(k)%text) > 0) cycle
+      discretisation = order_error(models%continuum, chords, factor(1, k)*unit_force(:, :, 1) + &
+        factor(2, k)*unit_force(:, :, 2), found(k), request%modes)
+      result%order_error = max(result%order_error, maxval(sum(discretisation, dim=1)))
+      result%lambda(:, k) = found(k)%lambda(:request%modes)
+      call pose_error(mechanism%linkage, models%continuum, state, factor(:, k), found(k), request%modes, rounding)
+      result%error(:, k) = of_frequency*(sum(discretisation, dim=1) + found(k)%error(:request%modes) + rounding)
+    end do
+    if (request%follow) then
+      allocate (result%prints(n))
+      do k = 1, n
+        if (len(result%failure(k)%text) == 0) result%prints(k) = new_mode_prints(models%continuum%layout, found(k), request%modes)
+      end do
+    end if
+    select case (request%method)
+    case (by_orders)
+      do k = 1, n
+        if (want_shapes(k) .and. len(result%failure(k)%text) == 0) then
+          call sample_reduced(mechanism%linkage, models%continuum, chords, state, found(k), request, result%shapes(k))
+          result%counts%shapes = result%counts%shapes + request%modes
+        end if
+      end do
+    case (by_link_modes)
+      call solve_mesh(mechanism, models%mesh, state, request, factor, want_shapes, work%mesh, result)
+    case (by_long_mesh)
+      call solve_long_mesh(mechanism, models%mesh, state, request, factor, want_shapes, work, result)
+    case (by_dense, by_band)
+      call solve_nodal(mechanism, state, request, factor, want_shapes, result)
+    end select
   end subroutine solve_position
 
-  !> Geometric stiffness of the unit loads: ω2² = 1 and α2 = 1.
-  subroutine load_position(mechanism, pose, motion, request, loaded, unit_stiffness, result)
-    type(mechanism_t), intent(in) :: mechanism
-    type(pose_t), intent(in) :: pose
-    type(motion_t), intent(in) :: motion
-    type(mode_request_t), intent(in) :: request
-    logical, intent(in) :: loaded(2) !! which of the two loads occur
-    type(band_matrix_t), intent(out) :: unit_stiffness(2)
-    type(position_result_t), intent(inout) :: result
+  !> Largest static deflection of the links at every speed, compared with their lengths.
+  subroutine find_deflection(linkage, model, chords, state, factor, ratio)
+    type(linkage_t), intent(in) :: linkage
+    type(deformation_model_t), intent(in) :: model
+    type(chords_t), intent(in) :: chords
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: factor(:, :)  !! (2, speeds) ω2² and α2
+    real(wp), intent(out) :: ratio(:, :)  !! (bodies, speeds)
 
     type(acceleration_field_t) :: fields(2)
-    integer :: i
+    real(wp) :: unit(2, stations, size(linkage%bodies), 2), squared
+    integer :: b, i, k
 
-    fields = unit_fields(mechanism%linkage, pose, motion)
+    fields = unit_fields(linkage, state%pose, state%motion)
     do i = 1, 2
-      if (.not. loaded(i)) cycle
-      unit_stiffness(i) = assemble_geometric_stiffness(mechanism%linkage, mechanism%mesh, pose, &
-        unit_axial_forces(mechanism%linkage, mechanism%mesh, pose, fields(i), request%lumped))
-      result%geometric_stiffnesses = result%geometric_stiffnesses + 1
+      call reduced_deflection(linkage, model%links, model%layout, chords, state%pose, fields(i), unit(:, :, :, i))
     end do
-  end subroutine load_position
-
-  !> Axial forces in all elements under the inertia loads of an acceleration field.
-  pure function unit_axial_forces(linkage, mesh, pose, field, lumped) result(force)
-    type(linkage_t), intent(in) :: linkage
-    type(beam_mesh_t), intent(in) :: mesh
-    type(pose_t), intent(in) :: pose
-    type(acceleration_field_t), intent(in) :: field
-    logical, intent(in) :: lumped
-    real(wp), allocatable :: force(:, :) !! (0:2, elements) coefficients of 1, ξ, ξ² [N]
-
-    type(load_t) :: loads(size(linkage%bodies))
-    type(joint_forces_t) :: joints
-    integer :: i
-
-    do i = 1, size(loads)
-      if (lumped) then
-        loads(i) = lumped_load(linkage%bodies(i), i, mesh%elements(i), pose, field)
-      else
-        loads(i) = distributed_load(linkage%bodies(i), i, pose, field)
-      end if
+    do k = 1, size(factor, 2)
+      do b = 1, size(linkage%bodies)
+        squared = 0.0_wp
+        do i = 1, stations
+          squared = max(squared, sum((factor(1, k)*unit(:, i, b, 1) + factor(2, k)*unit(:, i, b, 2))**2))
+        end do
+        ratio(b, k) = sqrt(squared)/linkage%bodies(b)%length
+      end do
     end do
-    joints = find_joint_forces(linkage, pose, loads, pin_load(linkage, field))
-    if (lumped) then
-      force = lumped_axial_forces(linkage, mesh, pose, field, joints)
-    else
-      force = distributed_axial_forces(linkage, mesh, pose, field, joints)
-    end if
-  end function unit_axial_forces
-
-  !> The lowest ω² of the unloaded structure at a crank angle [1/s²]: huge at a dead point, 0 where no digit of it can be found.
-  function lowest_static_eigenvalue(mechanism, crank_degrees) result(lambda)
-    type(mechanism_t), intent(in) :: mechanism
-    real(wp), intent(in) :: crank_degrees
-    real(wp) :: lambda
-
-    type(pose_t) :: pose
-    type(mode_request_t) :: request
-    type(position_result_t) :: result
-    type(error_t), allocatable :: error
-
-    lambda = huge(lambda)
-    call find_pose(mechanism%linkage, crank_degrees, pose, error)
-    if (allocated(error)) return
-    request%modes = 1
-    request%speed = [0.0_wp]
-    call solve_position(mechanism, pose, find_motion(mechanism%linkage, pose), request, [.false.], result)
-    ! Even where its checks fail, the value is the best there is; where there is none, nothing can be vouched for.
-    lambda = 0.0_wp
-    if (allocated(result%modes(1)%lambda)) lambda = max(0.0_wp, result%modes(1)%lambda(1))
-  end function lowest_static_eigenvalue
+  end subroutine find_deflection
 
 end module position_modes

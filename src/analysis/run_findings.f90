@@ -2,6 +2,7 @@
 module run_findings
   use constants, only: degree
   use four_bar_limits, only: crank_reach, grashof_class, limit_angles, reach_t
+  use frequency_models, only: by_orders
   use frequency_report, only: failure_at
   use frequency_sweep, only: sweep_t
   use kinds, only: wp
@@ -10,7 +11,7 @@ module run_findings
   use poses, only: transmission_angle
   use positions, only: positions_t
   use sorting, only: ascending_order
-  use text, only: string_t, to_string
+  use text, only: plural, string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   implicit none (type, external)
   private
@@ -80,6 +81,7 @@ contains
       findings%warnings = [findings%warnings, divergences(positions, sweep, k)]
     end do
     if (sweep%request%axial) findings%warnings = [findings%warnings, deflections(mechanism, positions, sweep)]
+    if (sweep%request%method == by_orders) findings%warnings = [findings%warnings, missed_accuracy(positions, sweep)]
   end subroutine find_warnings
 
   !> The crank angles at which an eigenvalue is negative at one speed, neighbours of the deck's list drawn together.
@@ -159,6 +161,41 @@ contains
       " deflect link '"//mechanism%names(at_body)%text//"' by "//to_string(100.0_wp*largest, 3)//" % of its length: above "// &
       to_string(100.0_wp*most_deflection)//" % the axial frequencies begin to mislead")]
   end function deflections
+
+  !> Where a frequency is not as accurate as the deck asks for, mostly because of rounding.
+  pure function missed_accuracy(positions, sweep) result(warning)
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    type(string_t), allocatable :: warning(:)
+
+    real(wp) :: worst, error
+    integer :: i, k, rows, at_position, at_speed
+
+    allocate (warning(0))
+    worst = 0.0_wp
+    rows = 0
+    at_position = 1
+    at_speed = 1
+    do i = 1, size(positions%crank)
+      if (allocated(positions%states(positions%state(i))%error)) cycle
+      associate (result => sweep%results(positions%state(i)))
+        do k = 1, size(sweep%request%speed)
+          if (len(result%failure(k)%text) > 0) cycle
+          error = maxval(result%error(:, k))
+          if (error <= sweep%request%accuracy) cycle
+          rows = rows + 1
+          if (error <= worst) cycle
+          worst = error
+          at_position = i
+          at_speed = k
+        end do
+      end associate
+    end do
+    if (rows == 0) return
+    warning = [string_t("the accuracy "//to_string(sweep%request%accuracy)//" is not reached in "//plural(rows, "row")// &
+      ": the error is up to "//to_string(worst, 2)//", at "//at(positions%crank(at_position), sweep%request%speed(at_speed))// &
+      " (near a dead point or a divergence digits are lost; the error columns tell how many)")]
+  end function missed_accuracy
 
   !> `speed 20 rad/s, crank 45 deg`
   pure function at(crank, speed) result(place)

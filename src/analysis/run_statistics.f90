@@ -1,9 +1,11 @@
 !> What a run computed, and how long its stages took.
 module run_statistics
+  use beam_mesh, only: beam_mesh_t
+  use frequency_models, only: by_band, by_dense, by_link_modes, by_long_mesh, by_orders
   use frequency_sweep, only: sweep_t
   use kinds, only: long, wp
   use positions, only: positions_t
-  use text, only: string_t, to_string
+  use text, only: plural, string_t, to_string
   implicit none (type, external)
   private
 
@@ -47,12 +49,12 @@ contains
     character(len=*), parameter :: line_feed = achar(10)
     integer :: i
 
-    text = name//": rows "//to_string(size(positions%crank))//", different positions "//to_string(size(positions%states))//line_feed
+    text = name//": rows "//to_string(size(positions%crank))//", positions "//to_string(size(positions%states))// &
+      ", kinematic solutions "//to_string(size(positions%states))//line_feed
     if (allocated(sweep%results)) then
-      text = text//name//": stiffness and mass assembled "//to_string(count(solved(sweep)))//", geometric stiffness "// &
-        to_string(sum(sweep%results%geometric_stiffnesses))//", eigenproblems "//to_string(sum(sweep%results%solutions))// &
-        ", factorizations "//to_string(sum(sweep%results%factorizations))//", with vectors "// &
-        to_string(count(sweep%drawn .and. spread(solved(sweep), 2, size(sweep%drawn, 2))))//line_feed
+      text = text//frequency_lines(name, positions, sweep)
+    else
+      text = text//name//": skipped beams, matrices and eigenproblems: no report needs them"//line_feed
     end if
     text = text//name//":"
     do i = 1, size(watch%stages)
@@ -62,47 +64,93 @@ contains
     text = text//line_feed
   end function statistics_text
 
-  pure function solved(sweep)
+  !> What frequencies took, and what was not needed.
+  pure function frequency_lines(name, positions, sweep) result(text)
+    character(len=*), intent(in) :: name
+    type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
-    logical :: solved(size(sweep%results))
-
-    solved = sweep%results%solutions > 0
-  end function solved
-
-  !> How well the frequencies were checked, for the log.
-  pure function sweep_summary(sweep, unknowns, half_bandwidth) result(text)
-    type(sweep_t), intent(in) :: sweep
-    integer, intent(in) :: unknowns, half_bandwidth
     character(len=:), allocatable :: text
 
-    character(len=:), allocatable :: solver
-    real(wp) :: uncertainty, residual, orthogonality
-    integer :: i, k, rows
+    character(len=*), parameter :: line_feed = achar(10)
 
-    uncertainty = 0.0_wp
-    residual = 0.0_wp
-    orthogonality = 0.0_wp
-    rows = 0
+    associate (counts => sweep%counts)
+      text = name//": link models "//to_string(counts%link_models)//", mass matrices "//to_string(counts%mass_matrices)// &
+        ", stiffness matrices "//to_string(counts%stiffness_matrices)//", geometric stiffness matrices "// &
+        to_string(counts%geometric_matrices)//line_feed
+      text = text//name//": eigenproblems begun from neighbours "//to_string(counts%extrapolated)// &
+        ", from a few modes of every link "//to_string(counts%reduced_solutions)//", solved in full "// &
+        to_string(counts%full_solutions)//line_feed
+      text = text//name//": factorizations, one an inverse iteration or count, "//to_string(counts%factorizations)// &
+        ", products with a long mesh "//to_string(counts%operator_products)//line_feed
+      text = text//name//": proofs that no mode is missing "//to_string(counts%proofs)//", mode shapes "// &
+        to_string(counts%shapes)//line_feed
+      if (size(positions%states) < size(positions%crank)) then
+        text = text//name//": skipped "//plural(size(positions%crank) - size(positions%states), "row")// &
+          ": computed already, a full turn away"//line_feed
+      end if
+      if (counts%geometric_matrices == 0) text = text//name//": skipped geometric stiffness: no loads of the motion"//line_feed
+      if (counts%shapes == 0) text = text//name//": skipped mode shapes: none are asked for"//line_feed
+      if (size(sweep%request%speed) > 1) then
+        text = text//name//": skipped kinematics, mass and unit loads of "//plural(size(sweep%request%speed) - 1, "more speed")// &
+          ": those of the first serve"//line_feed
+      end if
+    end associate
+  end function frequency_lines
+
+  !> How the frequencies were found and how sure they are, for the log.
+  pure function sweep_summary(sweep, mesh) result(text)
+    type(sweep_t), intent(in) :: sweep
+    type(beam_mesh_t), intent(in) :: mesh
+    character(len=:), allocatable :: text
+
+    character(len=*), parameter :: line_feed = achar(10)
+    real(wp) :: largest
+    integer :: i, k
+
+    select case (sweep%request%method)
+    case (by_orders)
+      text = "orders chosen by the program, one element a link: "//listed(sweep%models%continuum%order)// &
+        ", solved in deformation coordinates: "//to_string(sweep%models%continuum%layout%unknowns)//" unknowns"
+    case (by_link_modes, by_long_mesh)
+      text = "mesh of the deck, solved in deformation coordinates: "//to_string(mesh%unknowns)//" unknowns"
+    case (by_dense)
+      text = "mesh of the deck, solved in nodal displacements by dsygvx (LAPACK): "//to_string(mesh%unknowns)//" unknowns"
+    case default
+      text = "mesh of the deck, solved in nodal displacements by shift and invert on dpbtrf (ARPACK): "// &
+        to_string(mesh%unknowns)//" unknowns, half bandwidth "//to_string(mesh%half_bandwidth)
+    end select
+    if (sweep%request%method /= by_orders) then
+      text = text//line_feed//"errors told by continuous links of orders "//listed(sweep%models%continuum%order)//": "// &
+        to_string(sweep%models%continuum%layout%unknowns)//" unknowns"
+    end if
+    largest = -1.0_wp
     do i = 1, size(sweep%results)
-      if (.not. allocated(sweep%results(i)%modes)) cycle
-      do k = 1, size(sweep%results(i)%modes)
-        if (len(sweep%results(i)%failure(k)%text) > 0) cycle
-        rows = rows + 1
-        uncertainty = max(uncertainty, sweep%results(i)%modes(k)%uncertainty)
-        residual = max(residual, sweep%results(i)%modes(k)%residual)
-        orthogonality = max(orthogonality, sweep%results(i)%modes(k)%orthogonality)
+      if (.not. allocated(sweep%results(i)%failure)) cycle
+      do k = 1, size(sweep%results(i)%failure)
+        if (len(sweep%results(i)%failure(k)%text) == 0) largest = max(largest, maxval(sweep%results(i)%error(:, k)))
       end do
     end do
-    solver = "shift and invert on dpbtrf (ARPACK)"
-    if (sweep%request%dense) solver = "dsygvx (LAPACK)"
-    text = "finite element model: "//to_string(unknowns)//" unknowns, half bandwidth "//to_string(half_bandwidth)// &
-      ", solved by "//solver//achar(10)
-    if (rows == 0) return
-    text = text//"every eigenvalue written is confirmed by counts within "//to_string(uncertainty, 2)//" of itself"//achar(10)
-    if (any(sweep%drawn)) then
-      text = text//"shapes written: largest residual "//to_string(residual, 2)//", mass orthogonality within "// &
-        to_string(orthogonality, 2)//achar(10)
+    text = text//line_feed
+    if (largest < 0.0_wp) return
+    text = text//"every frequency written is within "//to_string(largest, 2)// &
+      " of itself, and none is missing: "
+    if (any(sweep%request%method == [by_dense, by_band])) then
+      text = text//"by counts of the same matrices"//line_feed
+    else
+      text = text//"that is proven"//line_feed
     end if
   end function sweep_summary
+
+  pure function listed(numbers) result(text)
+    integer, intent(in) :: numbers(:)
+    character(len=:), allocatable :: text
+
+    integer :: i
+
+    text = to_string(numbers(1))
+    do i = 2, size(numbers)
+      text = text//", "//to_string(numbers(i))
+    end do
+  end function listed
 
 end module run_statistics

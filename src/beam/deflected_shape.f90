@@ -8,7 +8,7 @@ module deflected_shape
   implicit none (type, external)
   private
 
-  public :: shape_point, mid_link_sign
+  public :: shape_point
 
 contains
 
@@ -50,27 +50,5 @@ contains
       end do
     end associate
   end function element_vector
-
-  !> The sign that makes the largest transverse displacement at mid-link positive, in that link's own axes (those of its angle).
-  !!
-  !! Displacements equal within 1e-9 of the largest are ties, and the first of these links round the loop decides.
-  pure function mid_link_sign(linkage, mesh, pose, vector) result(sign_of_mode)
-    type(linkage_t), intent(in) :: linkage
-    type(beam_mesh_t), intent(in) :: mesh
-    type(pose_t), intent(in) :: pose
-    real(wp), intent(in) :: vector(:) !! (unknowns)
-    real(wp) :: sign_of_mode
-
-    real(wp), parameter :: tie = 1.0e-9_wp
-    real(wp) :: across(size(linkage%bodies)), displacement(3)
-    integer :: body
-
-    do body = 1, size(linkage%bodies)
-      displacement = shape_point(linkage, mesh, pose, vector, body, 0.5_wp*linkage%bodies(body)%length)
-      across(body) = linkage%bodies(body)%sense*dot_product(normal_to(pose%direction(:, body)), displacement(:2))
-    end do
-    body = findloc(abs(across) >= (1.0_wp - tie)*maxval(abs(across)), .true., dim=1)
-    sign_of_mode = sign(1.0_wp, across(body))
-  end function mid_link_sign
 
 end module deflected_shape

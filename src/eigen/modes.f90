@@ -10,7 +10,7 @@ module modes
   implicit none (type, external)
   private
 
-  public :: modes_t, find_modes, find_definite_shift, dense_limit, most_round_off
+  public :: modes_t, find_modes, find_definite_shift, most_round_off
 
   type :: modes_t
     real(wp), allocatable :: lambda(:)      !! ω², ascending; negative past a divergence [1/s²]
@@ -20,9 +20,6 @@ module modes
     real(wp) :: orthogonality = 0.0_wp      !! largest |xᵢᵀMxⱼ − δᵢⱼ|
     integer :: factorizations = 0           !! Cholesky and counting ones
   end type modes_t
-
-  !> Up to this many unknowns full matrices are faster than Lanczos steps (measured for three modes, docs/verification.md).
-  integer, parameter :: dense_limit = 30
 
   !> What a sound solution stays well below: residuals come out near 1e-15, orthogonality near 1e-13.
   real(wp), parameter :: most_residual = 1.0e-11_wp, most_orthogonality = 1.0e-9_wp

@@ -1,6 +1,7 @@
 !> Tables: plain text, one row that stands alone, all the digits of a double.
 module tables
   use kinds, only: wp
+  use number_text, only: scientific
   use output_files, only: append_output, output_file_t
   use text, only: string_t
   implicit none (type, external)
@@ -113,14 +114,14 @@ contains
   end subroutine write_failure
 
   !> Numbers with 17 digits. Zero has no sign: -0 would make equal tables differ.
-  pure function real_cells(values) result(cells)
+  function real_cells(values) result(cells)
     real(wp), intent(in) :: values(:)
     character(len=number_width*size(values)) :: cells
 
     integer :: i
 
     do i = 1, size(values)
-      write (cells(number_width*(i - 1) + 1:number_width*i), "(es25.16e3)") values(i) + 0.0_wp
+      cells(number_width*(i - 1) + 1:number_width*i) = scientific(values(i) + 0.0_wp, number_width)
     end do
   end function real_cells
 

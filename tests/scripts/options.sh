@@ -55,14 +55,45 @@ after_two_dashes() {
   (cd "$scratch" && run 0 --out dashes -- -x.deck) && [ -s "$scratch/dashes/-x/kinematics.dat" ]
 }
 
+# told NAME CARD...: the ledger of a deck with beams
+told() {
+  name=$1
+  shift
+  beam_deck "$@" >"$scratch/$name.deck"
+  run 0 --stats --out "$out" "$scratch/$name.deck"
+}
+
+# Motion alone builds no beam.
 stats() {
-  run 0 --stats --out "$out" "$deck" && says "four"
+  run 0 --stats --out "$out" "$deck" && says "four: rows 13, positions 12, kinematic solutions 12" && says "four: motion " || return 1
+  ! grep -q -e 'mass matri' -e link -e begun "$scratch/stderr" || { echo "it tells of beams"; return 1; }
+}
+
+stats_static() {
+  told static "CRANK 0 to 360 step 5" "SPEED 20 40" "EFFECTS static" "REPORT frequencies" || return 1
+  says "static: rows 73, positions 72, kinematic solutions 72" && says "geometric stiffness matrices 0" &&
+    says "mode shapes 0" && says "skipped geometric stiffness" && says "skipped mode shapes" &&
+    says "skipped 1 row: computed already"
+}
+
+# A second speed adds no kinematics and no matrices but geometric ones: none for it alone either.
+stats_speeds() {
+  told speeds "CRANK 0 to 355 step 5" "SPEED 20" "REPORT frequencies" || return 1
+  one=$(sed -n 's/.*\(positions [0-9]*\), \(kinematic solutions [0-9]*\)$/\1 \2/p; s/.*\(link models .*\)/\1/p' "$scratch/stderr")
+  told speeds "CRANK 0 to 355 step 5" "SPEED 20 25" "REPORT frequencies" && says "of 1 more speed" || return 1
+  two=$(sed -n 's/.*\(positions [0-9]*\), \(kinematic solutions [0-9]*\)$/\1 \2/p; s/.*\(link models .*\)/\1/p' "$scratch/stderr")
+  [ -n "$one" ] && [ "$one" = "$two" ] || { echo "$one; with two speeds $two"; return 1; }
+}
+
+stats_shapes() {
+  told shapes "CRANK 0 to 355 step 5" "MODES 4" "REPORT shapes crank=0,90" && says "mode shapes 8" || return 1
+  ! grep -q "skipped mode shapes" "$scratch/stderr" || { echo "it tells that shapes are skipped"; return 1; }
 }
 
 threads() {
   beam_deck "CRANK 0 to 360 step 5" "SPEED 0 10 20" "REPORT frequencies" "REPORT shapes" "REPORT inertia" >"$scratch/beam.deck"
   for number in 1 3 8; do
-    run 0 --quiet --threads $number --out "$out/$number" "$scratch/beam.deck" && same "$out/1" "$out/$number" || return 1
+    run 0 --quiet --threads $number --out "$out/$number" "$scratch/beam.deck" inputs/*.deck && same "$out/1" "$out/$number" || return 1
   done
 }
 
@@ -77,5 +108,8 @@ check "--threads with no number" threads_refused
 check "--out and --out=, folders that are not there" out_twice
 check "outputs/ is the default" default_folder
 check "a deck behind --" after_two_dashes
-check "--stats" stats
+check "--stats: motion alone" stats
+check "--stats: static frequencies" stats_static
+check "--stats: more speeds" stats_speeds
+check "--stats: shapes" stats_shapes
 check "the same bytes whatever the threads" threads

@@ -21,6 +21,11 @@ wave_speed() {
   beam_deck "CRANK 0" "REPORT frequencies" | sed 's/7.8e-9/7800/' | warned wave_speed "sound would run through 'steel' at"
 }
 
+deflection() {
+  beam_deck "CRANK 0 to 350 step 10" "SPEED 0 40" "REPORT frequencies" |
+    warned deflection "the inertia loads at speed 40 rad/s, crank 10 deg deflect link 'crank' by 6.28 % of its length"
+}
+
 static_speeds() {
   beam_deck "CRANK 0" "SPEED 0 20 40" "EFFECTS static" "REPORT frequencies" |
     warned static "static frequencies do not depend on the speed" || return 1
@@ -41,6 +46,7 @@ divergence() {
 
 check "a stocky link" stocky
 check "a speed of sound of no solid" wave_speed
+check "a deflection above 1 %" deflection
 check "static frequencies and speeds" static_speeds
 check "a mass at a ground pivot" mass_at_ground
 check "static divergence" divergence

@@ -1,0 +1,100 @@
+!> `branches.dat`: frequencies by branch.
+module branch_report
+  use branch_tracking, only: branches_t, event_ambiguous, event_crossing, event_start, event_veering
+  use frequency_report, only: effects_notes, failure_at, frequency_of
+  use frequency_sweep, only: sweep_t
+  use kinematics_report, only: place_of_row
+  use models, only: model_t
+  use output_files, only: output_file_t
+  use positions, only: positions_t
+  use sorting, only: ascending_order
+  use tables, only: column_t, integer_cell, integer_column, name_cell, real_cells, real_column, write_failure, write_gap, &
+    write_header, write_row
+  use text, only: string_t, to_string
+  implicit none (type, external)
+  private
+
+  public :: write_branches
+
+  integer, parameter :: event_width = 18
+
+contains
+
+  !> One row a position and branch; a block a speed, within it branch after branch, each along the crank angle.
+  subroutine write_branches(file, model, positions, sweep, branches)
+    type(output_file_t), intent(inout) :: file
+    type(model_t), intent(in) :: model
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    type(branches_t), intent(in) :: branches
+
+    integer :: branch, k
+    logical :: first
+
+    call write_header(file, model%title, [effects_notes(model), string_t("modes followed by their shapes; mac: likeness to "// &
+      "the row before, in the mass inner product, from 0 to 1"), string_t("event: - or start, crossing:BRANCH, "// &
+      "veering:BRANCH, ambiguous (shapes do not tell which branch goes on: a new one begins)")], &
+      [real_column("speed", "rad/s"), real_column("crank", "deg"), integer_column("branch"), integer_column("mode"), &
+      real_column("frequency", "Hz"), real_column("mac", "-"), column_t("event", "-", event_width)])
+    do k = 1, size(sweep%request%speed)
+      if (k > 1) call write_gap(file, 2)
+      first = .true.
+      do branch = 1, branches%count
+        if (all(branches%branch(:, :, k) /= branch)) cycle
+        if (.not. first) call write_gap(file, 1)
+        first = .false.
+        call write_branch(file, positions, sweep, branches, branch, k)
+      end do
+    end do
+  end subroutine write_branches
+
+  !> The rows of one branch at one speed; where it is interrupted by a failed row, so is its curve.
+  subroutine write_branch(file, positions, sweep, branches, branch, speed)
+    type(output_file_t), intent(inout) :: file
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    type(branches_t), intent(in) :: branches
+    integer, intent(in) :: branch, speed !! numbers
+
+    integer :: order(size(positions%crank)), i, row, mode, last
+    character(len=:), allocatable :: reason
+
+    order = ascending_order(positions%crank)
+    last = 0
+    do i = 1, size(order)
+      if (any(branches%branch(:, order(i), speed) == branch)) last = i
+    end do
+    do i = findloc([(any(branches%branch(:, order(row), speed) == branch), row=1, size(order))], .true., dim=1), last
+      row = order(i)
+      reason = failure_at(positions, sweep, positions%state(row), speed)
+      if (len(reason) > 0) then
+        call write_failure(file, place_of_row(sweep%request%speed(speed), positions%crank(row)), reason)
+        cycle
+      end if
+      mode = findloc(branches%branch(:, row, speed), branch, dim=1)
+      call write_row(file, real_cells([sweep%request%speed(speed), positions%crank(row)])//integer_cell(branch, "branch")// &
+        integer_cell(mode, "mode")//real_cells([frequency_of(sweep%results(positions%state(row))%lambda(mode, speed)), &
+        branches%mac(mode, row, speed)])//name_cell(event_name(branches%event(mode, row, speed), &
+        branches%partner(mode, row, speed)), event_width))
+    end do
+  end subroutine write_branch
+
+  pure function event_name(event, partner) result(name)
+    integer, intent(in) :: event, partner
+    character(len=:), allocatable :: name
+
+    select case (event)
+    case (event_start)
+      name = "start"
+    case (event_crossing)
+      name = "crossing:"//to_string(partner)
+    case (event_veering)
+      name = "veering:"//to_string(partner)
+    case (event_ambiguous)
+      name = "ambiguous"
+    case default
+      name = "-"
+    end select
+  end function event_name
+
+end module branch_report
