@@ -74,13 +74,19 @@ plan_mechanism() {
     add mechanism mechanism.gp inertia.dat "$(telling_crank inertia.dat)" "$(greatest_speed inertia.dat)" "$mesh"
 }
 
-plan_frequencies() {
-    speeds=$(ask 'distinct speed' frequencies.dat)
+# plan_speeds NAME TABLE: NAME.gp draws one speed of the table.
+plan_speeds() {
+    speeds=$(ask 'distinct speed' "$2")
     n=$(printf '%s\n' "$speeds" | wc -l)
     for speed in $speeds; do
-        if [ "$n" -eq 1 ]; then name=frequencies; else name=frequencies_speed_$speed; fi
-        add "$name" frequencies.gp frequencies.dat "$speed"
+        if [ "$n" -eq 1 ]; then name=$1; else name=$1_speed_$speed; fi
+        add "$name" "$1.gp" "$2" "$speed"
     done
+}
+
+plan_frequencies() {
+    plan_speeds frequencies frequencies.dat
+    ask facts frequencies.dat | grep -q col_error1 && plan_speeds errors frequencies.dat
     [ "$n" -gt 1 ] || return 0
     for mode in $(ask facts frequencies.dat | tr ' ' '\n' | sed -n 's/^col_f\([0-9][0-9]*\)$/\1/p'); do
         add "frequency_${mode}_by_speed" frequency_by_speed.gp frequencies.dat "$mode"
@@ -106,6 +112,7 @@ plan_kinematics() {
 have inertia.dat && plan_mechanism
 have mesh.dat && add finite_element_model finite_element_model.gp mesh.dat "$(telling_crank mesh.dat)"
 have frequencies.dat && plan_frequencies
+have branches.dat && plan_speeds branches branches.dat
 have shapes.dat && plan_modes
 have kinematics.dat && plan_kinematics
 [ -s "$new/plan" ] || fail "$outdir has no table that a figure can be drawn from"

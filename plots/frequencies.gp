@@ -16,7 +16,7 @@ positions = rows/words(answer(table, "distinct speed"))
 headline = numbered(figure, sprintf("Natural frequencies against crank angle, %s", at_speed(speed, unit_speed)))
 note = lowest < 0 ? divergence : ""
 
-eval curve_page(1000)
+eval legend_page(1000, modes)
 eval heading
 eval crank_axis(low_crank, high_crank)
 eval value_axis(lowest, word(range, 2) + 0.0)
@@ -31,5 +31,6 @@ plot for [k=1:modes] table using (field("crank")):(pick("f".k)) with lines lt k 
     for [k=1:modes] table using (field("crank")):(pick("f".k)) with points lt k pt 7 ps 0.4 notitle, \
     for [k=1:modes] table every mark_step(positions)::mark_first(k, modes, positions) using (field("crank")):(pick("f".k)) \
         with points lt k notitle, \
-    for [k=1:modes] keyentry with linespoints lt k title sprintf("mode %d", k)
+    for [k=1:listed(modes)] keyentry with linespoints lt k title sprintf("mode %d", k), \
+    keyentry title unlisted(modes)
 eval close

@@ -50,7 +50,7 @@ do for [k=1:8] {                                    # the next eight: the same w
     eval sprintf("set linetype %d lw 3 lc rgb '%s' dt %s pt %d ps 1.7", k + 8, \
         word("#000000 #0060A8 #C04000 #007A5A #7A3E9D #6B6B6B #B8860B #A01850", k), \
         word("solid (16,7) (4,5) (18,6,4,6) (26,6) (10,5,3,5,3,5) (8,8) (2,4)", k), \
-        word("7 9 5 13 11 15 14 3", k) + 0)
+        word("7 9 5 13 11 15 14 2", k) + 0)
 }
 set linetype cycle 16
 
@@ -100,10 +100,16 @@ heading = "set label 901 headline at screen 0.5, down(38) center noenhanced font
     "set label 904 remark at screen 0.5, up(30) center noenhanced font ',17' tc rgb '#303030'"
 
 # ---- Curves against the crank angle ---------------------------------------------------------------------------
-# The legend stands in a column of its own at the right, so it never meets a curve.
+# The legend stands in columns of its own at the right, so it never meets a curve; what is beyond three columns is counted.
 
-curve_page(h) = open_page(1600, h)."; set lmargin at screen across(165); set rmargin at screen across(1290); ".\
-    "set key at screen across(1305), down(125) left top Left reverse vertical samplen 3.2 spacing 1.35 maxrows 26"
+legend_rows = 14
+listed(n) = n > 3*legend_rows ? 3*legend_rows - 1 : n
+columns_of(entries) = entries > 2*legend_rows ? 3 : entries > legend_rows ? 2 : 1
+unlisted(n) = n > listed(n) ? sprintf("… +%d", n - listed(n)) : ""
+legend_page(h, entries) = open_page(1600 + 310*(columns_of(entries) - 1), h).\
+    "; set lmargin at screen across(165); set rmargin at screen across(1290); ".\
+    "set key at screen across(1305), down(125) left top Left reverse vertical samplen 3.2 spacing 1.35 maxrows ".legend_rows
+curve_page(h) = legend_page(h, 1)
 crank_axis(lowest, highest) = lowest == highest \
     ? sprintf("set xrange [%g:%g]; set xtics 10; set mxtics 2", lowest - 30, highest + 30) \
     : highest - lowest > 150 \

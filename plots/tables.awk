@@ -3,6 +3,7 @@
 #                                  place, unit, least and greatest value, as gnuplot assignments
 #   want="distinct crank speed"    the distinct values of these columns, a line each, in the table's order
 #   want="range f1 f2"             the least and the greatest value found in these columns
+#   want="positive error1 error2"  the same of values above zero; nothing if there are none
 #   want="change f1 0"             speed, crank and f1's change in percent against the rows of speed 0
 #   want="nodes 60"                the nodes of mesh.dat at crank 60, an empty line between links: number, x, y, unit
 #                                  vector along the link, index in the link, index of its last, element that begins here
@@ -10,10 +11,15 @@
 #   want="masses 60 20"            the same of the lumped masses of inertia.dat at crank 60, speed 20; elements are 0
 #   want="shape 1 60 20"           mode 1 of shapes.dat at crank 60, speed 20, drawn finer: x, y, ux, uy, 1 at a link's
 #                                  ends, frequency
+#   want="branches 20"             the branches of branches.dat at speed 20, an index a branch, an empty line where rows
+#                                  have failed: crank, frequency, branch, 1 on its first row, 1 where a mark is drawn
+#   want="events 20"               what befalls them: 1 crossing, 2 veering, 3 ambiguous; crank; the lower and the higher
+#                                  frequency (a crossing lies between two rows; one that came with the speed is not told)
 # With datablock=name the answer is a gnuplot datablock of that name.
 # Rows are picked by their values, never by block: two failed rows in a row look like the end of a block.
 
 BEGIN {
+    OFMT = CONVFMT = "%.12g"
     n_asked = split(want, asked, " ")
     header = 1
     if (datablock) print "$" datablock " << EOD"
@@ -64,11 +70,31 @@ asked[1] == "range" {
     }
 }
 
+asked[1] == "positive" {
+    for (i = 2; i <= n_asked; i++) {
+        number = $at[asked[i]] + 0
+        if (number > 0 && (least == "" || number < least)) least = number
+        if (number > 0 && (greatest == "" || number > greatest)) greatest = number
+    }
+}
+
 asked[1] == "change" {
     speed[rows] = $at["speed"]
     crank[rows] = $at["crank"]
     value[rows] = $at[asked[2]] + 0
     if (same($at["speed"], asked[3])) reference[$at["crank"] + 0] = value[rows]
+}
+
+(asked[1] == "branches" || asked[1] == "events") && same($at["speed"], asked[2]) {
+    points++
+    crank[points] = $at["crank"] + 0
+    value[points] = $at["frequency"] + 0
+    branch[points] = $at["branch"] + 0
+    event[points] = $at["event"]
+    broken[points] = gap[rows]
+    row_of[branch[points], crank[points]] = points
+    if (branch[points] != branch[points - 1]) branches++
+    if (!(crank[points] in place)) place[crank[points]] = ++places
 }
 
 asked[1] == "shape" && same($at["mode"], asked[2]) && same($at["crank"], asked[3]) && same($at["speed"], asked[4]) {
@@ -94,6 +120,9 @@ END {
     if (header) name_columns()
     if (asked[1] == "facts") print_facts()
     if (asked[1] == "range") printf "%.12g %.12g\n", least, greatest
+    if (asked[1] == "positive" && least != "") printf "%.12g %.12g\n", least, greatest
+    if (asked[1] == "branches") print_branches()
+    if (asked[1] == "events") print_events()
     if (asked[1] == "shape") print_link()
     if (asked[1] == "change") print_change()
     if (asked[1] == "nodes" || asked[1] == "masses") print_nodes()
@@ -125,6 +154,51 @@ function print_change(    i, base) {
         base = reference[crank[i] + 0] + 0
         print speed[i], crank[i], (base > 0 && value[i] > 0) ? 100 * (value[i] / base - 1) : "NaN"
     }
+}
+
+# Marks stand on some rows, shifted from branch to branch, and on a row alone between failed ones; a branch that has none
+# gets one in its middle.
+function print_branches(    i, first, last, step, number, marked, mark) {
+    step = places > 24 ? int(places / 12) : 1
+    for (first = 1; first <= points; first = last + 1) {
+        for (last = first; branch[last + 1] == branch[first]; ) last++
+        if (number++) print "\n"
+        marked = 0
+        broken[first] = broken[last + 1] = 1
+        for (i = first; i <= last; i++) {
+            mark[i] = (place[crank[i]] - 1) % step == int((number - 1) * step / branches) || (broken[i] && broken[i + 1])
+            marked += mark[i]
+        }
+        if (!marked) mark[int((first + last) / 2)] = 1
+        for (i = first; i <= last; i++) {
+            if (broken[i] && i > first) print ""
+            print crank[i], value[i], branch[i], i == first, mark[i]
+        }
+    }
+}
+
+# Either of the two branches tells of a crossing or a veering; it is printed once.
+function print_events(    i, other, kind, partner) {
+    for (i = 1; i <= points; i++) {
+        split(event[i], partner, ":")
+        kind = partner[1] == "crossing" ? 1 : partner[1] == "veering" ? 2 : partner[1] == "ambiguous" ? 3 : 0
+        if (kind == 3) print kind, crank[i], value[i], value[i]
+        other = row_of[partner[2] + 0, crank[i]]
+        if (kind == 0 || kind == 3 || !other || told[other, i]) continue
+        told[i, other] = 1
+        if (kind == 1) print_crossing(i, other)
+        if (kind == 2) print kind, crank[i], smaller(value[i], value[other]), -smaller(-value[i], -value[other])
+    }
+}
+
+# Where the straight lines from the rows before meet.
+function print_crossing(i, j,    before, now, t, height) {
+    if (branch[i - 1] != branch[i] || branch[j - 1] != branch[j] || crank[i - 1] != crank[j - 1]) return
+    before = value[i - 1] - value[j - 1]
+    now = value[i] - value[j]
+    t = before * now < 0 ? before / (before - now) : 1
+    height = value[i - 1] + t * (value[i] - value[i - 1])
+    print 1, crank[i - 1] + t * (crank[i] - crank[i - 1]), height, height
 }
 
 # The rows of one link, with three points put between each two by the cubic through the four nearest rows: a high mode
@@ -220,7 +294,7 @@ function smaller(a, b) { return a < b ? a : b }
 
 function quoted(text) { gsub(/'/, "''", text); return "'" text "'" }
 
-function short(text) { return text ~ /^[-+.0-9]/ ? sprintf("%.12g", text) : text }
+function short(text) { return text ~ /^[-+.]*[0-9]/ ? sprintf("%.12g", text) : text }
 
 function absolute(a) { return a < 0 ? -a : a }
 

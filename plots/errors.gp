@@ -1,0 +1,47 @@
+# The estimated relative errors of all frequencies of one speed against the crank angle.
+#   gnuplot -c errors.gp frequencies.dat OUT SPEED [FIGURE [REMARK]]
+# All speeds share one axis.
+
+load ARG0[1 : strlen(ARG0) - strlen("errors.gp")]."style.gp"
+table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
+
+eval answer(table, "facts")
+modes = 0
+names = ""
+do for [name in columns] { if (name eq sprintf("error%d", modes + 1)) { modes = modes + 1; names = names." ".name } }
+range = answer(table, "range".names)
+zeros = word(range, 1) + 0.0 <= 0
+positive = answer(table, "positive".names)          # empty: all are zero
+least = positive eq "" ? 1e-16 : word(positive, 1) + 0.0
+greatest = positive eq "" ? 1e-16 : word(positive, 2) + 0.0
+
+# Whole decades, two at least; zero, which has no place on such an axis, lies on its lower edge.
+bottom = floor(log10(least)) - zeros
+top = ceil(log10(greatest))
+if (top - bottom < 2) { top = bottom + 2 }
+pick(name) = same(field("speed"), speed) ? (field(name) > 0 ? field(name) : 10.0**bottom) : NaN
+
+positions = rows/words(answer(table, "distinct speed"))
+headline = numbered(figure, sprintf("Errors of the natural frequencies against crank angle, %s", at_speed(speed, unit_speed)))
+note = zeros ? "on the lower edge: no error" : ""
+
+eval legend_page(1000, modes)
+eval heading
+eval crank_axis(low_crank, high_crank)
+set logscale y
+set yrange [10.0**bottom:10.0**top]
+set format y "10^{%T}"
+set ytics 10.0**ceil((top - bottom)/12.0)
+set mytics top - bottom <= 12 ? 10 : 1
+set tmargin at screen down(125)
+set bmargin at screen up(foot(lines_of_notes(note, remark)))
+set xlabel "crank angle θ₂".unit("crank")
+set ylabel "relative error (estimated)"
+
+plot for [k=1:modes] table using (field("crank")):(pick("error".k)) with lines lt k notitle, \
+    for [k=1:modes] table using (field("crank")):(pick("error".k)) with points lt k pt 7 ps 0.4 notitle, \
+    for [k=1:modes] table every mark_step(positions)::mark_first(k, modes, positions) \
+        using (field("crank")):(pick("error".k)) with points lt k notitle, \
+    for [k=1:listed(modes)] keyentry with linespoints lt k title sprintf("mode %d", k), \
+    keyentry title unlisted(modes)
+eval close
