@@ -1,7 +1,7 @@
 !> `branches.dat`: frequencies by branch.
 module branch_report
   use branch_tracking, only: branches_t, event_ambiguous, event_crossing, event_start, event_veering
-  use frequency_report, only: effects_notes, failure_at, frequency_of
+  use frequency_report, only: effects_notes, failure_at, frequency_of, has_result
   use frequency_sweep, only: sweep_t
   use kinematics_report, only: place_of_row
   use models, only: model_t
@@ -38,6 +38,7 @@ contains
       real_column("frequency", "Hz"), real_column("mac", "-"), column_t("event", "-", event_width)])
     do k = 1, size(sweep%request%speed)
       if (k > 1) call write_gap(file, 2)
+      call write_failures(file, positions, sweep, k)
       first = .true.
       do branch = 1, branches%count
         if (all(branches%branch(:, :, k) /= branch)) cycle
@@ -48,6 +49,23 @@ contains
     end do
   end subroutine write_branches
 
+  !> The failed rows of a speed, in the order of their crank angles.
+  subroutine write_failures(file, positions, sweep, speed)
+    type(output_file_t), intent(inout) :: file
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    integer, intent(in) :: speed !! number
+
+    integer :: order(size(positions%crank)), i
+
+    order = ascending_order(positions%crank)
+    do i = 1, size(order)
+      if (has_result(positions, sweep, positions%state(order(i)), speed)) cycle
+      call write_failure(file, place_of_row(sweep%request%speed(speed), positions%crank(order(i))), &
+        failure_at(positions, sweep, positions%state(order(i)), speed))
+    end do
+  end subroutine write_failures
+
   !> The rows of one branch at one speed; where it is interrupted by a failed row, so is its curve.
   subroutine write_branch(file, positions, sweep, branches, branch, speed)
     type(output_file_t), intent(inout) :: file
@@ -57,20 +75,23 @@ contains
     integer, intent(in) :: branch, speed !! numbers
 
     integer :: order(size(positions%crank)), i, row, mode, last
-    character(len=:), allocatable :: reason
+    logical :: broken
 
     order = ascending_order(positions%crank)
     last = 0
+    broken = .false.
     do i = 1, size(order)
       if (any(branches%branch(:, order(i), speed) == branch)) last = i
     end do
     do i = findloc([(any(branches%branch(:, order(row), speed) == branch), row=1, size(order))], .true., dim=1), last
       row = order(i)
-      reason = failure_at(positions, sweep, positions%state(row), speed)
-      if (len(reason) > 0) then
-        call write_failure(file, place_of_row(sweep%request%speed(speed), positions%crank(row)), reason)
+      if (.not. has_result(positions, sweep, positions%state(row), speed)) then
+        ! One empty line breaks a curve; two would end the block.
+        if (.not. broken) call write_gap(file, 1)
+        broken = .true.
         cycle
       end if
+      broken = .false.
       mode = findloc(branches%branch(:, row, speed), branch, dim=1)
       call write_row(file, real_cells([sweep%request%speed(speed), positions%crank(row)])//integer_cell(branch, "branch")// &
         integer_cell(mode, "mode")//real_cells([frequency_of(sweep%results(positions%state(row))%lambda(mode, speed)), &

@@ -55,6 +55,7 @@ contains
     type(branches_t), intent(out) :: branches
 
     integer :: order(size(positions%crank)), rows, speeds, modes, i, k, last, first_row
+    logical :: apart
 
     rows = size(positions%crank)
     speeds = size(sweep%request%speed)
@@ -69,15 +70,21 @@ contains
     first_row = 0
     do k = 1, speeds
       last = 0
+      apart = .false.
       do i = 1, rows
+        ! Beyond a dead point the linkage may have another form: nobody could tell which branch goes on there.
+        if (last > 0 .and. allocated(positions%states(positions%state(order(i)))%error)) apart = .true.
         if (.not. has_result(positions, sweep, positions%state(order(i)), k)) cycle
-        if (last > 0) then
+        if (apart) then
+          call start_branches(branches, order(i), k)
+        else if (last > 0) then
           call follow_step(mechanism, positions, sweep, branches, [last, k], [order(i), k])
         else if (first_row > 0 .and. k > 1) then
           call follow_step(mechanism, positions, sweep, branches, [first_row, k - 1], [order(i), k])
         else
           call start_branches(branches, order(i), k)
         end if
+        apart = .false.
         if (last == 0) first_row = order(i)
         last = order(i)
       end do

@@ -23,7 +23,7 @@ module order_choice
 
   !> Orders are raised up to the first number plus two thirds of the number of modes: more than any accuracy needs that double
   !! precision can give, but under loads that buckle a link many times over (as beside a dead point).
-  integer, parameter :: spare_orders = 36
+  integer, parameter :: spare_orders = 56
 
   !> Positions at which orders are tried; every row of the sweep tells its own error afterwards.
   integer, parameter :: samples = 6

@@ -22,8 +22,8 @@ module pose_rounding
   !> Multiples of ε, measured against quadruple precision: of 1/sin² far from dead points, of the sensitivity near them.
   real(wp), parameter :: far_multiple = 4.0_wp, near_multiple = 2.0_wp
 
-  !> Nearer than this, in |sin(θ4 − θ3)|, sensitivities are worked out.
-  real(wp), parameter :: near_sine = 0.15_wp
+  !> Nearer than this, in |sin(θ4 − θ3)|, sensitivities are worked out: at rest, and under loads, which grow with 1/sin themselves.
+  real(wp), parameter :: near_sine = 0.15_wp, loaded_near_sine = 0.4_wp
 
   !> Change of a length, of itself and times sin², by which they are worked out.
   real(wp), parameter :: small_change = 1.0e-3_wp
@@ -50,7 +50,7 @@ contains
     logical :: reached
 
     sine = minval(abs(state%pose%sine))
-    if (sine >= near_sine) then
+    if (sine >= merge(loaded_near_sine, near_sine, any(abs(factor) > 0.0_wp))) then
       do i = 1, modes
         energy = dot_product(found%vector(:, i), found%vector(:, i))
         error(i) = 2.0_wp*far_multiple*epsilon(1.0_wp)/sine**2*(1.0_wp + energy/max(abs(found%lambda(i)), tiny(energy)))

@@ -22,7 +22,7 @@ module reduced_modes
 
   !> What the next two orders leave to all the others that follow: the change they make is multiplied by this. Where it is not small,
   !! orders may be far from enough (a link pressed so hard that it buckles many times over), and more is left.
-  real(wp), parameter :: order_margin = 1.5_wp, rough_margin = 8.0_wp, rough_change = 1.0e-5_wp
+  real(wp), parameter :: order_margin = 1.5_wp, rough_margin = 16.0_wp, rough_change = 1.0e-5_wp
 
   !> Matrices, made once and filled at every position, and what is remembered of the last positions.
   type :: reduced_work_t

@@ -132,6 +132,10 @@ contains
     end do
     text = text//line_feed
     if (largest < 0.0_wp) return
+    if (largest > 1.0_wp) then
+      text = text//"some frequencies written are not known to any digit: see the error columns"//line_feed
+      return
+    end if
     text = text//"every frequency written is within "//to_string(largest, 2)// &
       " of itself, and none is missing: "
     if (any(sweep%request%method == [by_dense, by_band])) then

@@ -114,7 +114,11 @@ contains
       if (proven) return
       if (guards == layout%unknowns - wanted .or. guards >= most_guards) exit
     end do
-    call set_error(error, "it could not be proven that no mode is missing (norm of the rest "//to_string(found%rest, 3)//")")
+    if (found%rest > 0.0_wp) then
+      call set_error(error, "it could not be proven that no mode is missing (norm of the rest "//to_string(found%rest, 3)//")")
+    else
+      call set_error(error, "fewer modes were found than are wanted")
+    end if
   end subroutine find_bordered_modes
 
   !> Improves every mode of a start, puts them in order, and looks whether all is well.

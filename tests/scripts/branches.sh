@@ -48,7 +48,7 @@ one_position() {
   run 0 --out "$scratch/out" "$scratch/one.deck" && silent && whole one 1
 }
 
-# The shapes of two equal halves of a turn are the same: a branch that is followed there and back ends where it began.
+# Rows are followed in the order of their angles, however the deck lists them.
 there_and_back() {
   sed 's/^CRANK.*/CRANK 40 to 100 step 2/; s/^SPEED.*/SPEED 0/' inputs/branches.deck >"$scratch/there.deck"
   sed 's/^CRANK.*/CRANK 100 to 40 step -2/; s/^SPEED.*/SPEED 0/' inputs/branches.deck >"$scratch/back.deck"
@@ -57,8 +57,19 @@ there_and_back() {
   diff "$scratch/there" "$scratch/back"
 }
 
+# A dead point is told where it is, and nobody says which branch goes on beyond it.
+dead_point() {
+  beam_deck "CRANK 30 170 180 190" "MODES 2" "REPORT frequencies" "REPORT branches" |
+    sed 's/254 0/250 0/; s/length=279.4/length=250/; s/length=266.7/length=100/' >"$scratch/dead.deck"
+  run 1 --quiet --out "$scratch/out" "$scratch/dead.deck" && whole dead 2 || return 1
+  [ "$(grep -c '^# failed speed=0 crank=180' "$scratch/out/dead/branches.dat")" -eq 1 ] || { echo "the failed row is not told once"; return 1; }
+  awk '!/^#/ && NF && $2 == 190 { print $3, $7 }' "$scratch/out/dead/branches.dat" >"$scratch/beyond"
+  printf '3 start\n4 start\n' | diff - "$scratch/beyond"
+}
+
 check "veerings of the second mechanism" veerings
 check "branches over long steps" long_steps
 check "branches through rows of several orders" several_orders
 check "branches of one position" one_position
 check "branches do not depend on the order of the deck's list" there_and_back
+check "branches beyond a dead point" dead_point
