@@ -1,4 +1,4 @@
-!> Frequencies of the deck's own mesh at one position, in one of four ways.
+!> Frequencies of the deck's own mesh at one position, in one of three ways.
 module mesh_modes
   use assembly, only: assemble_geometric_stiffness, assemble_mass, assemble_stiffness
   use axial_forces, only: distributed_axial_forces, link_axial_force, lumped_axial_forces
