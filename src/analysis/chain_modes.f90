@@ -10,7 +10,7 @@ module chain_modes
   use deformation_model, only: deformation_model_t
   use errors, only: error_t, set_error
   use kinds, only: wp
-  use mode_count, only: is_complete
+  use mode_count, only: count_limit, is_complete
   use reduced_assembly, only: first_axial
   use reduced_modes, only: reduced_work_t
   use subspace_modes, only: find_subspace_modes, subspace_modes_t
@@ -19,9 +19,6 @@ module chain_modes
   private
 
   public :: find_chain_modes
-
-  !> Upper end of the interval in which modes are counted, above the last wanted mode.
-  real(wp), parameter :: count_margin = 1.0e-8_wp
 
   !> Modes beyond those wanted, where the next one is so near that the near model counts it in.
   integer, parameter :: guards(3) = [0, 2, 6]
@@ -43,7 +40,6 @@ contains
 
     type(bordered_modes_t) :: modes
     real(wp), allocatable :: vectors(:, :)
-    real(wp) :: limit
     integer :: i, products
     logical :: proven
 
@@ -62,10 +58,8 @@ contains
       products = products + found%products
       found%products = products
       if (allocated(error)) return
-      limit = found%lambda(wanted + guards(i))
-      limit = limit + count_margin*abs(limit)
-      call is_complete(near%layout, work%mass, least_geometric, loaded, limit, modes%lambda(:wanted + guards(i)), &
-        modes%mass_times(:, :wanted + guards(i)), proven)
+      call is_complete(near%layout, work%mass, least_geometric, loaded, count_limit(found%lambda(wanted + guards(i))), &
+        modes%lambda(:wanted + guards(i)), modes%mass_times(:, :wanted + guards(i)), proven)
       if (proven) return
       deallocate (vectors)
     end do

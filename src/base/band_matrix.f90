@@ -4,7 +4,7 @@ module band_matrix
   implicit none (type, external)
   private
 
-  public :: band_matrix_t, new_band_matrix, add_to_band, band_times_vector, full_matrix, order_of, half_bandwidth_of
+  public :: band_matrix_t, new_band_matrix, add_to_band, band_times_vector, full_matrix, full_band, order_of, half_bandwidth_of
 
   !> `entry(1 + i - j, j) = A(i, j)` for `j ≤ i ≤ min(n, j + half bandwidth)`.
   type :: band_matrix_t
@@ -88,5 +88,19 @@ contains
       end do
     end do
   end function full_matrix
+
+  !> A full symmetric matrix, of which the lower triangle is read, as a band of the largest width.
+  pure function full_band(full) result(band)
+    real(wp), intent(in) :: full(:, :)
+    type(band_matrix_t) :: band
+
+    integer :: j, n
+
+    n = size(full, 1)
+    band = new_band_matrix(n, n - 1)
+    do j = 1, n
+      band%entry(:n - j + 1, j) = full(j:, j)
+    end do
+  end function full_band
 
 end module band_matrix

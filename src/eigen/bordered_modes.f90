@@ -1,12 +1,13 @@
 !> The lowest modes of `(I + G) y = λ M y` for bordered matrices, each with a bound of its error, and a proof that none is missing.
 module bordered_modes
-  use band_matrix, only: band_matrix_t, new_band_matrix
+  use band_matrix, only: band_matrix_t, full_band
   use bordered_matrix, only: all_unknowns, bordered_matrix_t, bordered_times_vector, dense_form, layout_t
   use bordered_solver, only: solve_shifted
   use dense_modes, only: solve_dense
+  use eigenvalue_gaps, only: relative_gap
   use errors, only: error_t, set_error
   use kinds, only: wp
-  use mode_count, only: is_complete, rest_norms
+  use mode_count, only: count_limit, count_margin, is_complete, rest_norm
   use modes, only: find_definite_shift
   use sorting, only: ascending_order
   use sturm_count, only: shifted
@@ -28,7 +29,7 @@ module bordered_modes
     real(wp), allocatable :: vector(:, :)     !! (unknowns, modes) with yᵀMy = 1
     real(wp), allocatable :: mass_times(:, :) !! (unknowns, modes) M y
     real(wp), allocatable :: error(:)         !! (modes) relative bound of the error of the eigenvalue of these matrices
-    integer, allocatable :: origin(:)         !! (modes) number in the start from which each came; 0: not from the start given
+    integer, allocatable :: origin(:)         !! (modes) number in the start from which each came
     real(wp) :: rest = 0.0_wp                 !! norm that proves, below 1, that no mode up to the last wanted is missing
     integer :: factorizations = 0             !! of the bordered matrix: one an inverse iteration
     integer :: full_solutions = 0             !! of the dense eigenproblem
@@ -46,15 +47,9 @@ module bordered_modes
   !> Error of an eigenvalue from rounding, in units of ε times the terms that cancel in its Rayleigh quotient.
   real(wp), parameter :: rounding = 16.0_wp
 
-  !> Upper end of the interval in which modes are counted, above the last mode.
-  real(wp), parameter :: count_margin = 1.0e-8_wp
-
   !> Below the first the proof holds, with a margin for its own rounding. Modes beyond those wanted serve it, and are kept for the
   !! next position unless it holds easily without them.
   real(wp), parameter :: most_rest = 0.999_wp, easy_rest = 0.8_wp
-
-  !> Distance of the next mode beyond the last one, where only a Cholesky factorization told that it lies above `count_margin`.
-  real(wp), parameter :: least_gap = count_margin
 
   !> Modes beyond those wanted that a search without a start begins with, and that it may go up to.
   integer, parameter :: first_guards = 2, most_guards = 32
@@ -142,7 +137,7 @@ contains
     allocate (found%vector(layout%unknowns, start%modes), found%mass_times(layout%unknowns, start%modes))
     number = 0
     do i = 1, start%modes
-      call improve(layout, mass, geometric, loaded, accurate_vectors, gap(start%lambda, i), start%lambda(i), &
+      call improve(layout, mass, geometric, loaded, accurate_vectors, relative_gap(start%lambda, i), start%lambda(i), &
         start%direction(:, i), found%lambda(:number), found%vector(:, :number), found%mass_times(:, :number), &
         found%lambda(number + 1), found%vector(:, number + 1), found%mass_times(:, number + 1), &
         stiffness_times(:, number + 1), found%error(number + 1), found%factorizations, converged)
@@ -186,27 +181,12 @@ contains
     found%mass_times = found%mass_times(:, order)
   end subroutine choose_modes
 
-  !> Distance of an eigenvalue to the nearest other one, relative to the larger of both.
-  pure function gap(lambda, i)
-    real(wp), intent(in) :: lambda(:)
-    integer, intent(in) :: i
-    real(wp) :: gap
-
-    integer :: j
-
-    gap = 1.0_wp
-    do j = 1, size(lambda)
-      if (j == i) cycle
-      gap = min(gap, abs(lambda(j) - lambda(i))/max(abs(lambda(i)), abs(lambda(j)), tiny(gap)))
-    end do
-  end function gap
-
   !> Inverse iteration at the Rayleigh quotient, from a direction `M y` and an estimate of the eigenvalue.
   !!
   !! Where modes with nearly the same eigenvalue are known, it is kept perpendicular to them: rounding alone would decide which of
   !! them it leads to.
   pure subroutine improve(layout, mass, geometric, loaded, accurate_vector, gap_guess, estimate, direction, known, known_vector, &
-      known_mass_times, lambda, vector, mass_times, stiffness_times, error, factorizations, converged)
+      known_mass_times, lambda, vector, mass_times, stiffness_times, residual_of_lambda, factorizations, converged)
     type(layout_t), intent(in) :: layout
     type(bordered_matrix_t), intent(in) :: mass, geometric
     logical, intent(in) :: loaded, accurate_vector
@@ -217,11 +197,11 @@ contains
     real(wp), intent(in) :: known_vector(:, :), known_mass_times(:, :)
     real(wp), intent(out) :: lambda
     real(wp), intent(out) :: vector(:), mass_times(:), stiffness_times(:)
-    real(wp), intent(out) :: error         !! relative, times the relative distance of the nearest other eigenvalue
+    real(wp), intent(out) :: residual_of_lambda !! |r|²/λ; divided by the relative gap it is the relative error of λ
     integer, intent(inout) :: factorizations
     logical, intent(out) :: converged
 
-    real(wp) :: residual, scale, bent, previous
+    real(wp) :: residual, scale, error, previous
     integer :: i, j, pass
 
     lambda = estimate
@@ -251,21 +231,20 @@ contains
       mass_times = scale*mass_times
       stiffness_times = scale*stiffness_times
       lambda = dot_product(vector, stiffness_times)
-      ! With yᵀMy = 1 and K near I: |y|² is about λ, and the error of λ about |r|²/gap.
+      ! With yᵀMy = 1 and K near I: |y|² = scale² is about λ, and the error of λ about |r|²/gap.
       residual = sum((stiffness_times - lambda*mass_times)**2)
-      bent = scale**2
-      error = residual/(bent*max(gap_guess, epsilon(1.0_wp)))
-      converged = error*bent <= 0.25_wp*epsilon(1.0_wp)*abs(lambda)
-      if (accurate_vector) converged = converged .and. error <= (1.0e-13_wp)**2
+      error = residual/max(gap_guess, epsilon(1.0_wp))
+      converged = error <= 0.25_wp*epsilon(1.0_wp)*abs(lambda)
+      if (accurate_vector) converged = converged .and. error <= (1.0e-13_wp*scale)**2
       if (converged) exit
       ! Rounding ends the descent of the residual: then this is all there is.
       if (i > 2 .and. residual >= 0.25_wp*previous) then
-        converged = error*bent <= 1.0e-10_wp*max(abs(lambda), 1.0e-6_wp*bent)
+        converged = error <= 1.0e-10_wp*max(abs(lambda), 1.0e-6_wp*scale**2)
         exit
       end if
       previous = residual
     end do
-    error = error*bent*max(gap_guess, epsilon(1.0_wp))/max(abs(lambda), tiny(lambda))
+    residual_of_lambda = residual/max(abs(lambda), tiny(lambda))
   end subroutine improve
 
   !> Sum of the sizes of the terms of `yᵀKy/yᵀMy`, relative to λ: what rounding is multiplied by.
@@ -305,21 +284,19 @@ contains
     type(bordered_modes_t), intent(inout) :: found
     logical, intent(out) :: proven
 
-    real(wp) :: limit, rest(size(found%lambda)), norms(size(found%lambda))
+    real(wp) :: limit, rest(size(found%lambda))
     integer :: i, kept, below
 
     rest = huge(1.0_wp)
     do i = wanted, size(rest)
-      limit = above(found%lambda(i))
-      norms(:i) = rest_norms(layout, mass, geometric, loaded, limit, stiffness_times(:, :i))
-      rest(i) = norms(i)
+      rest(i) = rest_norm(layout, mass, geometric, loaded, count_limit(found%lambda(i)), stiffness_times(:, :i))
       if (rest(i) < easy_rest) exit
     end do
     kept = wanted - 1 + minloc(rest(wanted:), dim=1)
     found%rest = rest(kept)
     proven = found%rest < most_rest
     if (.not. proven) then
-      limit = above(found%lambda(wanted))
+      limit = count_limit(found%lambda(wanted))
       below = count(found%lambda < limit)
       call is_complete(layout, mass, geometric, loaded, limit, found%lambda(:below), found%mass_times(:, :below), proven)
       found%factorizations = found%factorizations + 1
@@ -333,23 +310,16 @@ contains
     if (kept < size(found%lambda)) call choose_modes(found, [(i, i=1, kept)])
   end subroutine check
 
-  !> Upper end of the interval in which modes are counted.
-  pure function above(lambda) result(limit)
-    real(wp), intent(in) :: lambda
-    real(wp) :: limit
-
-    limit = lambda + count_margin*abs(lambda)
-  end function above
-
-  !> Relative distance of an eigenvalue to the nearest other one; for the last one wanted the proof tells how near another may be.
+  !> Relative distance of an eigenvalue to the nearest other one; for the last one wanted the proof tells how near another may be:
+  !! only beyond the limit of the count, if that is all it tells.
   pure function true_gap(lambda, i, wanted, rest) result(distance)
     real(wp), intent(in) :: lambda(:)
     integer, intent(in) :: i, wanted
     real(wp), intent(in) :: rest
     real(wp) :: distance
 
-    distance = max(gap(lambda, i), epsilon(1.0_wp))
-    if (i >= wanted) distance = min(distance, max(1.0_wp - rest, least_gap))
+    distance = max(relative_gap(lambda, i), epsilon(1.0_wp))
+    if (i >= wanted) distance = min(distance, max(1.0_wp - rest, count_margin))
   end function true_gap
 
   !> Modes of the dense eigenproblem of some unknowns, the others held.
@@ -392,21 +362,6 @@ contains
       call bordered_times_vector(layout, mass, full, start%direction(:, i))
     end do
   end subroutine solve_dense_start
-
-  !> A full symmetric matrix as a band of the largest width.
-  pure function full_band(dense) result(band)
-    real(wp), intent(in) :: dense(:, :)
-    type(band_matrix_t) :: band
-
-    integer :: i, j
-
-    band = new_band_matrix(size(dense, 1), size(dense, 1) - 1)
-    do j = 1, size(dense, 2)
-      do i = j, size(dense, 1)
-        band%entry(1 + i - j, j) = dense(i, j)
-      end do
-    end do
-  end function full_band
 
   !> The border and the first own modes of every link: close to the lowest modes, for a small price.
   pure function leading_unknowns(layout, wanted) result(chosen)

@@ -1,6 +1,6 @@
 !> A proof that no mode is missing, by sums of squares only.
 module mode_count
-  use band_matrix, only: new_band_matrix, band_matrix_t
+  use band_matrix, only: band_matrix_t, full_band
   use bordered_matrix, only: all_unknowns, bordered_matrix_t, bordered_times_vector, dense_form, layout_t
   use cholesky_factor, only: factor_band
   use errors, only: error_t
@@ -8,23 +8,34 @@ module mode_count
   implicit none (type, external)
   private
 
-  public :: rest_norms, squared_norm, perpendicular, projected_norms, is_complete
+  public :: count_limit, count_margin, rest_norm, squared_norm, perpendicular, projected_norm, is_complete
+
+  !> How far above the last mode the interval reaches in which modes are counted, relatively.
+  real(wp), parameter :: count_margin = 1.0e-8_wp
 
   !> What the difference of sums of squares may lose to rounding, relative to the largest, and how much of that is bearable.
   real(wp), parameter :: loss = 100.0_wp*epsilon(1.0_wp), most_loss = 1.0e-3_wp
 
 contains
 
-  !> Frobenius norms of `P E P`, `E = μM − G`, P the projection on the complement of the first, the first two … of some directions.
+  !> Upper end of the interval in which modes are counted, for the eigenvalue of the last one.
+  pure function count_limit(lambda) result(limit)
+    real(wp), intent(in) :: lambda
+    real(wp) :: limit
+
+    limit = lambda + count_margin*abs(lambda)
+  end function count_limit
+
+  !> Frobenius norm of `P E P`, `E = μM − G`, P the projection on the complement of some directions.
   !!
   !! `‖P E P‖² = ‖E‖² − 2 ‖E Q‖² + ‖Qᵀ E Q‖²` for an orthonormal basis Q of these directions.
-  pure function rest_norms(layout, mass, geometric, loaded, limit, directions) result(norms)
+  pure function rest_norm(layout, mass, geometric, loaded, limit, directions) result(norm)
     type(layout_t), intent(in) :: layout
     type(bordered_matrix_t), intent(in) :: mass, geometric
     logical, intent(in) :: loaded
     real(wp), intent(in) :: limit              !! μ
     real(wp), intent(in) :: directions(:, :)   !! (unknowns, directions), independent
-    real(wp) :: norms(size(directions, 2))
+    real(wp) :: norm
 
     real(wp) :: q(size(directions, 1), size(directions, 2)), e_times_q(size(directions, 1), size(directions, 2))
     real(wp) :: product(size(directions, 1)), square
@@ -40,12 +51,13 @@ contains
       end if
     end do
     square = squared_norm(layout, mass, geometric, loaded, limit)
-    norms = projected_norms(square, q, e_times_q)
-    if (loss*square < most_loss) return
-    ! With many modes ‖E‖² is so large that the difference has no digits left: the projected matrix itself is worked out.
-    norms = huge(1.0_wp)
-    norms(size(norms)) = worked_out_norm(layout, mass, geometric, loaded, limit, q)
-  end function rest_norms
+    if (loss*square < most_loss) then
+      norm = projected_norm(square, q, e_times_q)
+    else
+      ! With many modes ‖E‖² is so large that the difference has no digits left: the projected matrix itself is worked out.
+      norm = worked_out_norm(layout, mass, geometric, loaded, limit, q)
+    end if
+  end function rest_norm
 
   !> The same norm, column by column of `P E P`.
   pure function worked_out_norm(layout, mass, geometric, loaded, limit, q) result(norm)
@@ -95,12 +107,12 @@ contains
     unit = unit/sqrt(dot_product(unit, unit))
   end function perpendicular
 
-  !> `√(‖E‖² − 2 ‖E Q‖² + ‖Qᵀ E Q‖²)` for the first column of Q, the first two, …
-  pure function projected_norms(square, q, e_times_q) result(norms)
+  !> `√(‖E‖² − 2 ‖E Q‖² + ‖Qᵀ E Q‖²)`
+  pure function projected_norm(square, q, e_times_q) result(norm)
     real(wp), intent(in) :: square          !! ‖E‖²
     real(wp), intent(in) :: q(:, :)         !! orthonormal columns
     real(wp), intent(in) :: e_times_q(:, :)
-    real(wp) :: norms(size(q, 2))
+    real(wp) :: norm
 
     real(wp) :: rest
     integer :: i, j
@@ -111,10 +123,10 @@ contains
       do j = 1, i - 1
         rest = rest + 2.0_wp*dot_product(q(:, j), e_times_q(:, i))**2
       end do
-      ! What the subtraction may have lost is added.
-      norms(i) = sqrt(max(rest, 0.0_wp) + loss*square)
     end do
-  end function projected_norms
+    ! What the subtraction may have lost is added.
+    norm = sqrt(max(rest, 0.0_wp) + loss*square)
+  end function projected_norm
 
   !> `‖μM − G‖²` of Frobenius.
   pure function squared_norm(layout, mass, geometric, loaded, limit) result(square)
@@ -196,11 +208,10 @@ contains
     end do
     ! Rounding of the sums, and (n + 2) ε/2 times the trace for the factorization.
     margin = margin*epsilon(margin)*(n + 2 + 8*size(lambda))
-    band = new_band_matrix(n, n - 1)
-    do j = 1, n
-      dense(j, j) = dense(j, j) - margin
-      band%entry(:n - j + 1, j) = dense(j:, j)
+    do i = 1, n
+      dense(i, i) = dense(i, i) - margin
     end do
+    band = full_band(dense)
     call factor_band(band, error)
     proven = .not. allocated(error)
   end subroutine is_complete

@@ -1,7 +1,8 @@
 !> The lowest modes of `K x = λ M x` from products with vectors only, for a stiffness near the unit matrix.
 module subspace_modes
-  use band_matrix, only: band_matrix_t, new_band_matrix
+  use band_matrix, only: band_matrix_t, band_times_vector, new_band_matrix
   use dense_modes, only: solve_dense
+  use eigenvalue_gaps, only: relative_gap
   use errors, only: error_t, set_error
   use kinds, only: wp
   use modes, only: find_definite_shift
@@ -78,7 +79,6 @@ contains
         residual = found%stiffness_times(:, i) - found%lambda(i)*found%mass_times(:, i)
         squared(i) = long_dot(residual, residual)/long_dot(found%vector(:, i), found%vector(:, i))
         converged(i) = squared(i) <= merge(1.0e-24_wp, 1.0e-17_wp*gap(found%lambda, i), accurate_vectors)
-        ! Rounding: what is left of the residual may be all in the basis already.
         if (.not. converged(i)) call extend(pencil, residual, basis, mass_times, stiffness_times, number, found%products)
       end do
       if (all(converged)) exit
@@ -101,8 +101,8 @@ contains
     real(wp) :: unit(size(direction)), length
     integer :: j, pass
 
+    ! A basis of all unknowns has every direction.
     if (number == min(size(basis, 2), size(direction))) return
-
     unit = direction/sqrt(long_dot(direction, direction))
     do pass = 1, 3
       do j = 1, number
@@ -146,40 +146,17 @@ contains
     lambda = 1.0_wp/inverse - shift
     do i = 1, modes
       ! Unit mass.
-      small(:, i) = small(:, i)/sqrt(dot_product(small(:, i), full_times(m, small(:, i))))
+      small(:, i) = small(:, i)/sqrt(dot_product(small(:, i), band_times_vector(m, small(:, i))))
     end do
   end subroutine solve_small
 
-  !> A full symmetric matrix, held as a band of the largest width, times a vector.
-  pure function full_times(matrix, vector) result(product)
-    type(band_matrix_t), intent(in) :: matrix
-    real(wp), intent(in) :: vector(:)
-    real(wp) :: product(size(vector))
-
-    integer :: i, j
-
-    product = 0.0_wp
-    do j = 1, size(vector)
-      product(j) = product(j) + matrix%entry(1, j)*vector(j)
-      do i = j + 1, size(vector)
-        product(i) = product(i) + matrix%entry(1 + i - j, j)*vector(j)
-        product(j) = product(j) + matrix%entry(1 + i - j, j)*vector(i)
-      end do
-    end do
-  end function full_times
-
-  !> Relative distance of an eigenvalue to the nearest other one found.
+  !> Relative distance of an eigenvalue to the nearest other one, found or not; never 0.
   pure function gap(lambda, i)
     real(wp), intent(in) :: lambda(:)
     integer, intent(in) :: i
     real(wp) :: gap
 
-    integer :: j
-
-    gap = 1.0_wp
-    do j = 1, size(lambda)
-      if (j /= i) gap = min(gap, abs(lambda(j) - lambda(i))/max(abs(lambda(i)), abs(lambda(j)), tiny(gap)))
-    end do
+    gap = relative_gap(lambda, i)
     ! Beyond the last one there may be another, which nobody has looked for.
     if (i == size(lambda)) gap = min(gap, unknown_gap)
     gap = max(gap, epsilon(gap))
