@@ -1,5 +1,6 @@
 !> Modes followed by their shapes along crank angle and speed.
 module branch_tracking
+  use axial_forces, only: distributed_unit_forces
   use bordered_modes, only: bordered_modes_t
   use errors, only: error_t
   use frequency_models, only: frequency_models_t, load_factors, mode_request_t
@@ -11,7 +12,6 @@ module branch_tracking
   use mechanisms, only: mechanism_t
   use mode_prints, only: likeness, mode_prints_t, new_mode_prints
   use motions, only: find_motion
-  use order_choice, only: distributed_unit_forces
   use pin_displacements, only: chords_t
   use poses, only: find_pose, pose_t
   use positions, only: positions_t
@@ -54,6 +54,7 @@ contains
     type(sweep_t), intent(inout) :: sweep !! its ledger counts what is found between the rows
     type(branches_t), intent(out) :: branches
 
+    type(reduced_work_t) :: work
     integer :: order(size(positions%crank)), rows, speeds, modes, i, k, last, first_row
     logical :: apart
 
@@ -67,6 +68,7 @@ contains
     branches%event = event_none
     branches%partner = 0
     order = ascending_order(positions%crank)
+    work = new_reduced_work(sweep%models%continuum, 1)
     first_row = 0
     do k = 1, speeds
       last = 0
@@ -78,9 +80,9 @@ contains
         if (apart) then
           call start_branches(branches, order(i), k)
         else if (last > 0) then
-          call follow_step(mechanism, positions, sweep, branches, [last, k], [order(i), k])
+          call follow_step(mechanism, positions, [last, k], [order(i), k], work, sweep, branches)
         else if (first_row > 0 .and. k > 1) then
-          call follow_step(mechanism, positions, sweep, branches, [first_row, k - 1], [order(i), k])
+          call follow_step(mechanism, positions, [first_row, k - 1], [order(i), k], work, sweep, branches)
         else
           call start_branches(branches, order(i), k)
         end if
@@ -108,19 +110,18 @@ contains
   end subroutine start_branches
 
   !> From one row to the next: every mode gets the branch of the mode that it continues, or begins a new one.
-  subroutine follow_step(mechanism, positions, sweep, branches, from, to)
+  subroutine follow_step(mechanism, positions, from, to, work, sweep, branches)
     type(mechanism_t), intent(in) :: mechanism
     type(positions_t), intent(in) :: positions
+    integer, intent(in) :: from(2), to(2)         !! row and speed
+    type(reduced_work_t), intent(inout) :: work   !! for what lies between them
     type(sweep_t), intent(inout) :: sweep
     type(branches_t), intent(inout) :: branches
-    integer, intent(in) :: from(2), to(2) !! row and speed
 
-    type(reduced_work_t) :: work
     integer :: next(sweep%request%modes), i, j
     real(wp) :: mac(sweep%request%modes, sweep%request%modes), place(2), target_place(2)
     logical :: clear(sweep%request%modes)
 
-    work = new_reduced_work(sweep%models%continuum, 1)
     associate (first => sweep%results(positions%state(from(1)))%prints(from(2)), &
         second => sweep%results(positions%state(to(1)))%prints(to(2)))
       place = [positions%crank(from(1)), sweep%request%speed(from(2))]

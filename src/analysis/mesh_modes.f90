@@ -1,7 +1,7 @@
 !> Frequencies of the deck's own mesh at one position, in one of three ways.
 module mesh_modes
   use assembly, only: assemble_geometric_stiffness, assemble_mass, assemble_stiffness
-  use axial_forces, only: distributed_axial_forces, link_axial_force, lumped_axial_forces
+  use axial_forces, only: distributed_axial_forces, link_axial_force, lumped_axial_forces, total_force
   use band_matrix, only: band_matrix_t
   use bordered_matrix, only: bordered_matrix_t
   use bordered_modes, only: bordered_modes_t
@@ -16,7 +16,7 @@ module mesh_modes
   use modes, only: find_modes, modes_t
   use motions, only: acceleration_field_t, unit_fields
   use pin_displacements, only: chords_t
-  use position_results, only: position_result_t, position_work_t
+  use position_results, only: of_frequency, position_result_t, position_work_t
   use positions, only: state_t
   use reduced_assembly, only: reduced_geometric_stiffness
   use reduced_modes, only: combine, reduced_work_t, solve_reduced
@@ -27,9 +27,6 @@ module mesh_modes
   private
 
   public :: solve_mesh, solve_long_mesh, solve_nodal
-
-  !> A frequency is off by half of what its eigenvalue is.
-  real(wp), parameter :: of_frequency = 0.5_wp
 
 contains
 
@@ -88,11 +85,11 @@ contains
       if (len(result%failure(k)%text) > 0) cycle
       loaded = any(abs(factor(:, k)) > 0.0_wp)
       elements = merge(size(in_element, 2), 0, loaded)
-      work%chain%axial_force = factor(1, k)*in_element(:, :elements, 1) + factor(2, k)*in_element(:, :elements, 2)
+      work%chain%axial_force = total_force(in_element(:, :elements, :), factor(:, k))
       least_geometric = work%mesh%geometric
       if (loaded) then
         call combine(work%mesh, factor(:, k))
-        total = factor(1, k)*unit_force(:, :, 1) + factor(2, k)*unit_force(:, :, 2)
+        total = total_force(unit_force, factor(:, k))
         call lower_to_mesh(mechanism, near, work%chain%axial_force, total)
         call reduced_geometric_stiffness(near%links, near%layout, work%chain%chords, total, least_geometric)
       end if

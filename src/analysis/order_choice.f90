@@ -1,25 +1,21 @@
 !> Polynomial orders that reach an accuracy, link by link.
 module order_choice
-  use axial_forces, only: link_axial_force
+  use axial_forces, only: distributed_unit_forces, total_force
   use beam_mesh, only: beam_t
   use bordered_modes, only: bordered_modes_t
   use deformation_model, only: deformation_model_t, new_deformation_model
   use errors, only: error_t
-  use inertia_loads, only: distributed_load, load_t, pin_load
-  use joint_forces, only: find_joint_forces, joint_forces_t
   use kinds, only: wp
   use ledger, only: ledger_t
   use linkages, only: linkage_t
-  use motions, only: acceleration_field_t, motion_t, unit_fields
   use pin_displacements, only: chords_t
-  use poses, only: pose_t
   use positions, only: positions_t
   use reduced_modes, only: new_reduced_work, order_error, reduced_work_t, solve_reduced
   use text, only: string_t
   implicit none (type, external)
   private
 
-  public :: choose_orders, distributed_unit_forces
+  public :: choose_orders
 
   !> Orders are raised up to the first number plus two thirds of the number of modes: more than any accuracy needs that double
   !! precision can give, but under loads that buckle a link many times over (as beside a dead point).
@@ -33,8 +29,8 @@ module order_choice
 
 contains
 
-  !> Finds a model that keeps the error of every eigenvalue below a bound, at samples of the positions, at rest and at the highest
-  !! speed; each link has one element of the least order that does. One element is enough for any accuracy: links are uniform and
+  !> Finds a model that keeps the error of every eigenvalue below a bound, at samples of the positions, at the least and the
+  !! greatest speed; each link has one element of the least order that does. One element is enough for any accuracy: links are uniform and
   !! loads smooth along them.
   !!
   !! The error of order p is about `((kL/4)^{p−1}/(p−1)!)²` for a wave number k; this gives a first guess, which the error told by
@@ -159,41 +155,5 @@ contains
       end do
     end do
   end subroutine try_samples
-
-  !> `ω2² N_ω + α2 N_α`
-  pure function total_force(unit_force, factor) result(force)
-    real(wp), intent(in) :: unit_force(:, :, :)
-    real(wp), intent(in) :: factor(2)
-    real(wp) :: force(size(unit_force, 1), size(unit_force, 2))
-
-    force = factor(1)*unit_force(:, :, 1) + factor(2)*unit_force(:, :, 2)
-  end function total_force
-
-  !> Axial forces of uniform links under the inertia loads of the two unit fields; without loads there are no force functions.
-  pure function distributed_unit_forces(linkage, pose, motion, loaded) result(force)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(motion_t), intent(in) :: motion
-    logical, intent(in) :: loaded
-    real(wp), allocatable :: force(:, :, :) !! (1, ξ, ξ²; bodies; for ω2² = 1 and α2 = 1) [N]
-
-    type(acceleration_field_t) :: fields(2)
-    type(load_t) :: loads(size(linkage%bodies))
-    type(joint_forces_t) :: joints
-    integer :: b, i
-
-    allocate (force(merge(3, 0, loaded), size(linkage%bodies), 2))
-    if (.not. loaded) return
-    fields = unit_fields(linkage, pose, motion)
-    do i = 1, 2
-      do b = 1, size(linkage%bodies)
-        loads(b) = distributed_load(linkage%bodies(b), b, pose, fields(i))
-      end do
-      joints = find_joint_forces(linkage, pose, loads, pin_load(linkage, fields(i)))
-      do b = 1, size(linkage%bodies)
-        force(:, b, i) = link_axial_force(linkage, b, pose, fields(i), joints)
-      end do
-    end do
-  end function distributed_unit_forces
 
 end module order_choice

@@ -2,6 +2,7 @@
 !!
 !! Near a dead point a crank angle, itself rounded, says less and less about the rest of the linkage.
 module pose_rounding
+  use axial_forces, only: distributed_unit_forces, total_force
   use bordered_matrix, only: bordered_matrix_t, bordered_times_vector, new_bordered_matrix
   use bordered_modes, only: bordered_modes_t
   use deformation_model, only: deformation_model_t
@@ -9,7 +10,6 @@ module pose_rounding
   use kinds, only: wp
   use linkages, only: linkage_t
   use motions, only: find_motion, motion_t
-  use order_choice, only: distributed_unit_forces
   use pin_displacements, only: chords_t, find_chords
   use poses, only: find_pose, pose_t
   use positions, only: state_t
@@ -106,8 +106,7 @@ contains
     force = distributed_unit_forces(linkage, pose, motion, any(abs(factor) > 0.0_wp))
     geometric = new_bordered_matrix(model%layout, .true.)
     if (size(force) > 0) then
-      call reduced_geometric_stiffness(model%links, model%layout, chords, factor(1)*force(:, :, 1) + factor(2)*force(:, :, 2), &
-        geometric)
+      call reduced_geometric_stiffness(model%links, model%layout, chords, total_force(force, factor), geometric)
     end if
     do i = 1, size(quotient)
       associate (y => found%vector(:, i))

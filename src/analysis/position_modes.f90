@@ -1,5 +1,6 @@
 !> The frequencies of the instantaneous structure at one position, for all speeds, each with its error.
 module position_modes
+  use axial_forces, only: distributed_unit_forces, total_force
   use bordered_modes, only: bordered_modes_t
   use deformation_model, only: deformation_model_t
   use frequency_models, only: by_band, by_dense, by_link_modes, by_long_mesh, by_orders, frequency_models_t, load_factors, &
@@ -11,10 +12,9 @@ module position_modes
   use mesh_modes, only: solve_long_mesh, solve_mesh, solve_nodal
   use mode_prints, only: new_mode_prints
   use motions, only: acceleration_field_t, unit_fields
-  use order_choice, only: distributed_unit_forces
   use pin_displacements, only: chords_t
   use pose_rounding, only: pose_error
-  use position_results, only: position_result_t, position_work_t
+  use position_results, only: of_frequency, position_result_t, position_work_t
   use positions, only: state_t
   use reduced_assembly, only: reduced_deflection
   use reduced_modes, only: new_reduced_work, order_error, solve_reduced
@@ -23,9 +23,6 @@ module position_modes
   private
 
   public :: new_position_work, solve_position
-
-  !> A frequency is off by half of what its eigenvalue is.
-  real(wp), parameter :: of_frequency = 0.5_wp
 
 contains
 
@@ -75,8 +72,7 @@ contains
     if (size(unit_force) > 0) call find_deflection(mechanism%linkage, models%continuum, chords, state, factor, result%deflection)
     do k = 1, n
       if (len(result%failure(k)%text) > 0) cycle
-      discretisation = order_error(models%continuum, chords, factor(1, k)*unit_force(:, :, 1) + &
-        factor(2, k)*unit_force(:, :, 2), found(k), request%modes)
+      discretisation = order_error(models%continuum, chords, total_force(unit_force, factor(:, k)), found(k), request%modes)
       result%order_error = max(result%order_error, maxval(sum(discretisation, dim=1)))
       result%lambda(:, k) = found(k)%lambda(:request%modes)
       call pose_error(mechanism%linkage, models%continuum, state, factor(:, k), found(k), request%modes, rounding)

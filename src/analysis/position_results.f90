@@ -10,7 +10,10 @@ module position_results
   implicit none (type, external)
   private
 
-  public :: position_result_t, position_work_t
+  public :: position_result_t, position_work_t, of_frequency
+
+  !> A frequency is off by half of what its eigenvalue is.
+  real(wp), parameter :: of_frequency = 0.5_wp
 
   !> What was found at a position.
   type :: position_result_t

@@ -1,16 +1,16 @@
 !> Axial force in every element, by equilibrium of the part of the link beyond it.
 module axial_forces
   use beam_mesh, only: beam_mesh_t, element_count, element_length
-  use inertia_loads, only: lumped_masses, lumped_stations
-  use joint_forces, only: joint_forces_t
+  use inertia_loads, only: distributed_load, load_t, lumped_masses, lumped_stations, pin_load
+  use joint_forces, only: find_joint_forces, joint_forces_t
   use kinds, only: wp
   use linkages, only: linkage_t
-  use motions, only: acceleration_field_t, point_acceleration
+  use motions, only: acceleration_field_t, motion_t, point_acceleration, unit_fields
   use poses, only: pose_t
   implicit none (type, external)
   private
 
-  public :: lumped_axial_forces, distributed_axial_forces, link_axial_force
+  public :: lumped_axial_forces, distributed_axial_forces, link_axial_force, distributed_unit_forces, total_force
 
 contains
 
@@ -88,5 +88,41 @@ contains
       force = [dot_product(e, joints%on_last(:, body)) - mass*(along + growth), mass*along, mass*growth]
     end associate
   end function link_axial_force
+
+  !> `ω2² N_ω + α2 N_α` from the forces of the two unit loads.
+  pure function total_force(unit_force, factor) result(force)
+    real(wp), intent(in) :: unit_force(:, :, :) !! (…, …, 2) [N]
+    real(wp), intent(in) :: factor(2)           !! ω2² and α2
+    real(wp) :: force(size(unit_force, 1), size(unit_force, 2))
+
+    force = factor(1)*unit_force(:, :, 1) + factor(2)*unit_force(:, :, 2)
+  end function total_force
+
+  !> Axial forces of uniform links under the inertia loads of the two unit fields; without loads there are no force functions.
+  pure function distributed_unit_forces(linkage, pose, motion, loaded) result(force)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(motion_t), intent(in) :: motion
+    logical, intent(in) :: loaded
+    real(wp), allocatable :: force(:, :, :) !! (1, ξ, ξ²; bodies; for ω2² = 1 and α2 = 1) [N]
+
+    type(acceleration_field_t) :: fields(2)
+    type(load_t) :: loads(size(linkage%bodies))
+    type(joint_forces_t) :: joints
+    integer :: b, i
+
+    allocate (force(merge(3, 0, loaded), size(linkage%bodies), 2))
+    if (.not. loaded) return
+    fields = unit_fields(linkage, pose, motion)
+    do i = 1, 2
+      do b = 1, size(linkage%bodies)
+        loads(b) = distributed_load(linkage%bodies(b), b, pose, fields(i))
+      end do
+      joints = find_joint_forces(linkage, pose, loads, pin_load(linkage, fields(i)))
+      do b = 1, size(linkage%bodies)
+        force(:, b, i) = link_axial_force(linkage, b, pose, fields(i), joints)
+      end do
+    end do
+  end function distributed_unit_forces
 
 end module axial_forces

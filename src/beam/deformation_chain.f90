@@ -9,6 +9,7 @@ module deformation_chain
   use kinds, only: wp
   use legendre, only: gauss_rule, legendre_values
   use linkages, only: linkage_t
+  use long_sums, only: add_exactly, long_dot
   use pin_displacements, only: chords_t
   use symmetric_pencil, only: symmetric_pencil_t
   implicit none (type, external)
@@ -173,9 +174,7 @@ contains
     real(wp) :: parts(2)
     integer :: b, e
 
-    associate (driven => pencil%links(1))
-      border(1) = running_dot(driven%start_slope, vector(:size(driven%start_slope)))/driven%end_rotation
-    end associate
+    border(1) = slope_at_start(pencil%links(1), vector)/pencil%links(1)%end_rotation
     do b = 1, size(pencil%links)
       associate (link => pencil%links(b))
         parts = 0.0_wp
@@ -193,15 +192,9 @@ contains
     real(wp), intent(in) :: on_border(:)
     real(wp), intent(inout) :: vector(:)
 
-    real(wp) :: factor
     integer :: b, e, i
 
-    associate (driven => pencil%links(1))
-      factor = on_border(1)/driven%end_rotation
-      do i = 1, size(driven%start_slope)
-        vector(i) = vector(i) + factor*driven%start_slope(i)
-      end do
-    end associate
+    call add_from_start(pencil%links(1), on_border(1)/pencil%links(1)%end_rotation, vector)
     do b = 1, size(pencil%links)
       associate (link => pencil%links(b))
         do e = 1, link%elements
@@ -254,9 +247,7 @@ contains
       on_ends = on_ends + force(1)*[1.0_wp - (e - 0.5_wp)/link%elements, (e - 0.5_wp)/link%elements] + &
         0.5_wp*force(2)/link%elements*[-1.0_wp, 1.0_wp]
     end do
-    do i = 1, size(link%start_slope)
-      mass_times(link%first_curvature + i) = mass_times(link%first_curvature + i) + sum(slope)*link%start_slope(i)
-    end do
+    call add_from_start(link, sum(slope), mass_times)
     on_border = on_border + matmul(on_ends, across(1:2, :))
   end subroutine add_bending
 
@@ -319,9 +310,7 @@ contains
       call add_back_at_end(link%turn, sum(slope), stiffness_times(i + 1:i + link%curvatures))
       call add_exactly(slope, moment(1, e))
     end do
-    do i = 1, size(link%start_slope)
-      stiffness_times(link%first_curvature + i) = stiffness_times(link%first_curvature + i) + sum(slope)*link%start_slope(i)
-    end do
+    call add_from_start(link, sum(slope), stiffness_times)
     on_border = on_border + sum(slope)*turn
   end subroutine add_geometric
 
@@ -331,8 +320,21 @@ contains
     real(wp), intent(in) :: vector(:)
     real(wp) :: slope
 
-    slope = running_dot(link%start_slope, vector(link%first_curvature + 1:link%first_curvature + size(link%start_slope)))
+    slope = long_dot(link%start_slope, vector(link%first_curvature + 1:link%first_curvature + size(link%start_slope)))
   end function slope_at_start
+
+  !> The transpose of `slope_at_start`.
+  pure subroutine add_from_start(link, moment, vector)
+    type(chain_t), intent(in) :: link
+    real(wp), intent(in) :: moment
+    real(wp), intent(inout) :: vector(:)
+
+    integer :: i
+
+    do i = 1, size(link%start_slope)
+      vector(link%first_curvature + i) = vector(link%first_curvature + i) + moment*link%start_slope(i)
+    end do
+  end subroutine add_from_start
 
   !> Value at the end of an element.
   pure function at_end(table, y) result(value)
@@ -365,34 +367,6 @@ contains
 
     y = y + matmul(force, table)
   end subroutine add_back
-
-  !> Adds to a running sum held in two parts, the second what the first has lost to rounding.
-  pure subroutine add_exactly(total, term)
-    real(wp), intent(inout) :: total(2)
-    real(wp), intent(in) :: term
-
-    real(wp) :: sum_of, part
-
-    sum_of = total(1) + term
-    part = sum_of - total(1)
-    total(2) = total(2) + ((total(1) - (sum_of - part)) + (term - part))
-    total(1) = sum_of
-  end subroutine add_exactly
-
-  !> Scalar product with such a sum.
-  pure function running_dot(a, b) result(total)
-    real(wp), intent(in) :: a(:), b(:)
-    real(wp) :: total
-
-    real(wp) :: parts(2)
-    integer :: i
-
-    parts = 0.0_wp
-    do i = 1, size(a)
-      call add_exactly(parts, a(i)*b(i))
-    end do
-    total = sum(parts)
-  end function running_dot
 
   !> Modes of a model that is continuous on some links, and has the mesh itself on others: starts for the modes of the mesh.
   pure subroutine project_modes(pencil, continuous, curvature, strain, vectors)

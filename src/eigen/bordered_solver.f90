@@ -7,9 +7,6 @@ module bordered_solver
 
   public :: solve_shifted
 
-  !> A pivot nearer to zero is moved away from it: the solution, a direction only, keeps enough digits to be improved.
-  real(wp), parameter :: least_pivot = 1.0e-14_wp
-
 contains
 
   !> Eliminates block after block, each with its rows of the border and the right side, then the border.
@@ -44,8 +41,7 @@ contains
         first_single = n + 1 + sum(layout%size)
       end if
       do k = first_single, layout%unknowns
-        pivot = 1.0_wp - shift*mass%diagonal(k)
-        if (abs(pivot) < least_pivot) pivot = sign(least_pivot, pivot)
+        pivot = off_zero(1.0_wp - shift*mass%diagonal(k))
         do j = 1, n
           factor = -shift*mass%coupling(j, k)/pivot
           do i = j, n
@@ -69,8 +65,7 @@ contains
         end do
       end if
       do k = first_single, layout%unknowns
-        pivot = 1.0_wp - shift*mass%diagonal(k)
-        if (abs(pivot) < least_pivot) pivot = sign(least_pivot, pivot)
+        pivot = off_zero(1.0_wp - shift*mass%diagonal(k))
         solution(k) = (right_side(k) + shift*dot_product(mass%coupling(:, k), solution(:n)))/pivot
       end do
     end associate
@@ -122,7 +117,7 @@ contains
     integer :: i, j, k
 
     do k = 1, m
-      if (abs(panel(k, k)) < least_pivot) panel(k, k) = sign(least_pivot, panel(k, k))
+      panel(k, k) = off_zero(panel(k, k))
       do j = k + 1, m
         factor = panel(j, k)/panel(k, k)
         do i = j, size(panel, 1)
@@ -131,6 +126,17 @@ contains
       end do
     end do
   end subroutine eliminate
+
+  !> A pivot, moved away from zero if it is near: the solution, a direction only, keeps enough digits to be improved.
+  pure function off_zero(pivot) result(moved)
+    real(wp), intent(in) :: pivot
+    real(wp) :: moved
+
+    real(wp), parameter :: least_pivot = 1.0e-14_wp
+
+    moved = pivot
+    if (abs(moved) < least_pivot) moved = sign(least_pivot, pivot)
+  end function off_zero
 
   !> Solves with what `eliminate` left; the right side is the panel's last row.
   pure subroutine substitute_back(panel, m, solution)

@@ -5,9 +5,10 @@ module subspace_modes
   use eigenvalue_gaps, only: relative_gap
   use errors, only: error_t, set_error
   use kinds, only: wp
+  use long_sums, only: long_dot
   use modes, only: find_definite_shift
   use sturm_count, only: shifted
-  use symmetric_pencil, only: long_dot, symmetric_pencil_t
+  use symmetric_pencil, only: symmetric_pencil_t
   use text, only: to_string
   implicit none (type, external)
   private
