@@ -10,6 +10,7 @@ module deck_runs
   use file_system, only: base_name, joined_path
   use frequency_sweep, only: run_sweep, sweep_t
   use interruption, only: was_interrupted
+  use link_store, only: link_store_t
   use mechanisms, only: mechanism_t, new_mechanism
   use model_reader, only: read_model
   use models, only: model_t, needs_frequencies
@@ -99,6 +100,7 @@ contains
     type(outputs_t) :: outputs
     type(progress_t) :: progress
     type(stopwatch_t) :: watch
+    type(link_store_t) :: store
 
     call start_stopwatch(watch)
     call open_outputs(joined_path(options%folder, deck%base), deck%model, outputs, error)
@@ -111,7 +113,7 @@ contains
     call stop_stage(watch, "motion")
     if (needs_frequencies(deck%model)) then
       call start_progress(progress, deck%base, .not. options%quiet)
-      call run_sweep(deck%model, mechanism, positions, options%threads, progress, sweep, error)
+      call run_sweep(deck%model, mechanism, positions, options%threads, progress, store, sweep, error)
       call end_progress(progress)
       if (allocated(error)) then
         call discard_outputs(outputs)

@@ -7,6 +7,7 @@ module deformation_model
   use errors, only: error_t
   use kinds, only: wp
   use link_modes, only: held_shapes, link_modes_t, new_link_modes
+  use link_store, only: find_link, keep_link, link_key_t, link_store_t, new_link_key
   use linkages, only: linkage_t
   use reduced_assembly, only: reduced_layout
   use singular_vectors, only: find_right_singular_vectors
@@ -25,8 +26,8 @@ module deformation_model
 
 contains
 
-  !> Errors: the own modes of a link could not be found.
-  subroutine new_deformation_model(linkage, beams, elements, order, lumped, model, error)
+  !> Takes every link apart that a store, where there is one, does not know. Errors: the own modes of a link could not be found.
+  subroutine new_deformation_model(linkage, beams, elements, order, lumped, model, error, store)
     type(linkage_t), intent(in) :: linkage
     type(beam_t), intent(in) :: beams(:)    !! (bodies)
     integer, intent(in) :: elements(:)      !! (bodies)
@@ -34,16 +35,24 @@ contains
     logical, intent(in) :: lumped(:)        !! (bodies)
     type(deformation_model_t), intent(out) :: model
     type(error_t), allocatable, intent(out) :: error
+    type(link_store_t), intent(inout), optional :: store
 
+    type(link_key_t) :: key
     integer :: b
+    logical :: known
 
     model%elements = elements
     model%order = order
     model%lumped = lumped
     allocate (model%links(size(beams)))
     do b = 1, size(beams)
+      key = new_link_key(linkage%bodies(b), beams(b), elements(b), order(b), b == 1, lumped(b))
+      known = .false.
+      if (present(store)) call find_link(store, key, model%links(b), known)
+      if (known) cycle
       call find_own_modes(linkage, beams(b), b, elements(b), order(b), lumped(b), model%links(b), error)
       if (allocated(error)) return
+      if (present(store)) call keep_link(store, key, model%links(b))
     end do
     model%layout = reduced_layout(linkage, model%links)
   end subroutine new_deformation_model

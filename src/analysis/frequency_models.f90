@@ -6,6 +6,7 @@ module frequency_models
   use errors, only: error_t
   use kinds, only: wp
   use ledger, only: ledger_t
+  use link_store, only: link_store_t
   use mechanisms, only: mechanism_t
   use order_choice, only: choose_orders
   use positions, only: positions_t
@@ -69,12 +70,13 @@ contains
   end function is_long_link
 
   !> Errors: the own modes of a link could not be found.
-  subroutine new_frequency_models(mechanism, positions, states, request, bound, models, counts, error)
+  subroutine new_frequency_models(mechanism, positions, states, request, bound, store, models, counts, error)
     type(mechanism_t), intent(in) :: mechanism
     type(positions_t), intent(in) :: positions
     integer, intent(in) :: states(:) !! numbers of those that they are to serve
     type(mode_request_t), intent(in) :: request
     real(wp), intent(in) :: bound !! relative error of eigenvalues that the orders must keep
+    type(link_store_t), intent(inout) :: store
     type(frequency_models_t), intent(out) :: models
     type(ledger_t), intent(inout) :: counts
     type(error_t), allocatable, intent(out) :: error
@@ -83,15 +85,14 @@ contains
 
     call choose_orders(mechanism%linkage, mechanism%beams, positions, states, load_factors(request), &
       request%modes + merge(long_mesh_guards, 0, request%method == by_long_mesh), bound, &
-      models%continuum, counts, error)
+      store, models%continuum, counts, error)
     if (allocated(error)) return
     if (request%method /= by_link_modes .and. request%method /= by_long_mesh) return
     associate (mesh => mechanism%mesh)
       is_long = is_long_link(mesh%elements, mesh%order)
       call new_deformation_model(mechanism%linkage, mechanism%beams, merge(1, mesh%elements, is_long), &
         merge(models%continuum%order, mesh%order, is_long), request%lumped .and. request%axial .and. .not. is_long, models%mesh, &
-        error)
-      counts%link_models = counts%link_models + size(mechanism%beams)
+        error, store)
       if (request%method == by_long_mesh) models%chain = new_deformation_chain(mechanism%linkage, mechanism%beams, &
         mesh%elements, mesh%order, axial_degree(mesh%order))
     end associate

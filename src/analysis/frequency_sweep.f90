@@ -6,6 +6,7 @@ module frequency_sweep
   use interruption, only: was_interrupted
   use kinds, only: wp
   use ledger, only: add_ledger, ledger_t
+  use link_store, only: link_store_t
   use mechanisms, only: mechanism_t
   use models, only: effects_static, inertia_lumped, model_t, needs_loads, report_number, solver_band, solver_dense
   use position_modes, only: new_position_work, solve_position
@@ -40,25 +41,28 @@ contains
   !> Solves every position that has a pose, on as many threads as are allowed.
   !!
   !! Errors: the models could not be made.
-  subroutine run_sweep(model, mechanism, positions, threads, progress, sweep, error)
+  subroutine run_sweep(model, mechanism, positions, threads, progress, store, sweep, error)
     type(model_t), intent(in) :: model
     type(mechanism_t), intent(in) :: mechanism
     type(positions_t), intent(in) :: positions
     integer, intent(in) :: threads
     type(progress_t), intent(inout) :: progress
+    type(link_store_t), intent(inout) :: store !! of links taken apart before
     type(sweep_t), intent(out) :: sweep
     type(error_t), allocatable, intent(out) :: error
 
     type(frequency_models_t) :: models
     integer, allocatable :: states(:)
-    integer :: attempt, i
+    integer :: attempt, i, made
 
     sweep%request = request_of(model, mechanism)
     call choose_drawn(model, positions, sweep)
     allocate (sweep%results(size(positions%states)))
     states = by_crank_angle(positions)
+    made = store%made
     do attempt = 1, most_attempts
-      call new_frequency_models(mechanism, positions, states, sweep%request, sweep%request%accuracy, models, sweep%counts, error)
+      call new_frequency_models(mechanism, positions, states, sweep%request, sweep%request%accuracy, store, models, &
+        sweep%counts, error)
       if (allocated(error)) return
       if (attempt == 1) sweep%models = models
       call sweep_positions(mechanism, positions, states, models, threads, progress, sweep)
@@ -66,6 +70,7 @@ contains
       states = pack(states, sweep%results(states)%order_error > sweep%request%accuracy)
       if (size(states) == 0 .or. was_interrupted()) exit
     end do
+    sweep%counts%link_models = store%made - made
     do i = 1, size(sweep%results)
       call add_ledger(sweep%counts, sweep%results(i)%counts)
     end do

@@ -7,6 +7,7 @@ module order_choice
   use errors, only: error_t
   use kinds, only: wp
   use ledger, only: ledger_t
+  use link_store, only: link_store_t
   use linkages, only: linkage_t
   use pin_displacements, only: chords_t
   use positions, only: positions_t
@@ -21,8 +22,8 @@ module order_choice
   !! precision can give, but under loads that buckle a link many times over (as beside a dead point).
   integer, parameter :: spare_orders = 56
 
-  !> Positions at which orders are tried; every row of the sweep tells its own error afterwards.
-  integer, parameter :: samples = 6
+  !> Positions at which orders are tried: one in so many, within these limits. Every row of the sweep tells its own error afterwards.
+  integer, parameter :: positions_a_sample = 9, least_samples = 2, most_samples = 6
 
   !> Share of the accuracy that one link may use up at the samples: other positions may be worse.
   real(wp), parameter :: share = 0.1_wp
@@ -35,7 +36,7 @@ contains
   !!
   !! The error of order p is about `((kL/4)^{p−1}/(p−1)!)²` for a wave number k; this gives a first guess, which the error told by
   !! the model itself then raises. Errors: those of the model; none for a bound that is not reached at the highest order.
-  subroutine choose_orders(linkage, beams, positions, states, factor, modes, bound, model, counts, error)
+  subroutine choose_orders(linkage, beams, positions, states, factor, modes, bound, store, model, counts, error)
     type(linkage_t), intent(in) :: linkage
     type(beam_t), intent(in) :: beams(:)
     type(positions_t), intent(in) :: positions
@@ -43,6 +44,7 @@ contains
     real(wp), intent(in) :: factor(:, :) !! (2, speeds) ω2² and α2
     integer, intent(in) :: modes
     real(wp), intent(in) :: bound        !! relative error of eigenvalues
+    type(link_store_t), intent(inout) :: store
     type(deformation_model_t), intent(out) :: model
     type(ledger_t), intent(inout) :: counts
     type(error_t), allocatable, intent(out) :: error
@@ -58,21 +60,21 @@ contains
     order = max(8, modes/2 + 6)
     one_element = 1
     continuous = .false. ! no masses on nodes
-    call new_deformation_model(linkage, beams, one_element, order, continuous, model, error)
-    counts%link_models = counts%link_models + size(beams)
+    call new_deformation_model(linkage, beams, one_element, order, continuous, model, error, store)
     if (allocated(error) .or. size(chosen) == 0) return
     call try_samples(linkage, model, positions, chosen, factor, modes, link_error, highest, counts)
     do b = 1, size(beams)
-      order(b) = guessed_order(linkage%bodies(b)%length*(linkage%bodies(b)%line_density*highest/ &
-        beams(b)%bending_stiffness)**0.25_wp, share*bound, order(b), highest_order, modes)
+      order(b) = guessed_order(wave_of(linkage, beams, b, highest), share*bound, order(b), highest_order, modes)
     end do
     do
-      call new_deformation_model(linkage, beams, one_element, order, continuous, model, error)
-      counts%link_models = counts%link_models + size(beams)
-      if (allocated(error)) return
+      call new_deformation_model(linkage, beams, one_element, order, continuous, model, error, store)
+        if (allocated(error)) return
       call try_samples(linkage, model, positions, chosen, factor, modes, link_error, highest, counts)
       if (all(link_error <= share*bound .or. order >= highest_order)) exit
-      where (link_error > share*bound) order = min(highest_order, order + merge(2, 1, link_error > 100.0_wp*share*bound))
+      do b = 1, size(beams)
+        if (link_error(b) > share*bound) order(b) = raised_order(wave_of(linkage, beams, b, highest), share*bound/link_error(b), &
+          order(b), highest_order)
+      end do
     end do
   end subroutine choose_orders
 
@@ -90,7 +92,7 @@ contains
       count = count + 1
       sound(count) = states(i)
     end do
-    number = min(samples, count)
+    number = min(max(least_samples, min(count/positions_a_sample, most_samples)), count)
     chosen = [(sound(1 + ((i - 1)*(count - 1))/max(1, number - 1)), i=1, number)]
   end function sample_states
 
@@ -113,6 +115,36 @@ contains
     end do
     order = highest
   end function guessed_order
+
+  !> Order at which an error has fallen to a share of itself: from order p to p + 1 it falls by the square of `kL/4p`. At most by
+  !! `most_raised`: where orders are far too low the error says little.
+  pure function raised_order(wave, share_wanted, order, highest) result(raised)
+    real(wp), intent(in) :: wave         !! kL
+    real(wp), intent(in) :: share_wanted !! below 1
+    integer, intent(in) :: order, highest
+    integer :: raised
+
+    integer, parameter :: most_raised = 8
+    real(wp) :: fallen
+
+    fallen = 1.0_wp
+    do raised = order + 1, min(order + most_raised, highest) - 1
+      fallen = fallen*min(0.5_wp, 0.25_wp*wave/(raised - 1))**2
+      if (fallen <= share_wanted) return
+    end do
+    raised = min(order + most_raised, highest)
+  end function raised_order
+
+  !> kL of a body at an eigenvalue.
+  pure function wave_of(linkage, beams, body, lambda) result(wave)
+    type(linkage_t), intent(in) :: linkage
+    type(beam_t), intent(in) :: beams(:)
+    integer, intent(in) :: body
+    real(wp), intent(in) :: lambda !! [1/s²]
+    real(wp) :: wave
+
+    wave = linkage%bodies(body)%length*(linkage%bodies(body)%line_density*lambda/beams(body)%bending_stiffness)**0.25_wp
+  end function wave_of
 
   !> The largest error of any mode by link, and the largest eigenvalue, over the samples at the least and the greatest speed.
   subroutine try_samples(linkage, model, positions, chosen, factor, modes, link_error, highest, counts)
