@@ -108,7 +108,18 @@ plan_kinematics() {
         add kinematics_accelerations kinematics.gp kinematics.dat accelerations
 }
 
+# A deck with VARY: its rows belong to many mechanisms, and its frequencies are drawn against what was varied.
+varied=
+if [ -f frequencies.dat ]; then varied=$(ask varied frequencies.dat); fi
+
 : > "$new/plan"
+if [ -n "$varied" ]; then
+    if have frequencies.dat; then
+        for parameter in $varied; do
+            add "frequencies_by_$parameter" varied.gp frequencies.dat "$parameter"
+        done
+    fi
+else
 have inertia.dat && plan_mechanism
 have mesh.dat && add finite_element_model finite_element_model.gp mesh.dat "$(telling_crank mesh.dat)"
 have frequencies.dat && plan_frequencies

@@ -13,6 +13,9 @@
 #                                  ends, frequency
 #   want="branches 20"             the branches of branches.dat at speed 20, an index a branch, an empty line where rows
 #                                  have failed: crank, frequency, branch, 1 on its first row, 1 where a mark is drawn
+#   want="varied"                  the columns of varied parameters: those before speed
+#   want="band L"                  where the other parameters and the speed are those of the first row: L, then the least and the
+#                                  greatest value over all positions of f1, of f2, …
 #   want="events 20"               what befalls them: 1 crossing, 2 veering, 3 ambiguous; crank; the lower and the higher
 #                                  frequency (a crossing lies between two rows; one that came with the speed is not told)
 # With datablock=name the answer is a gnuplot datablock of that name.
@@ -97,6 +100,13 @@ asked[1] == "change" {
     if (!(crank[points] in place)) place[crank[points]] = ++places
 }
 
+asked[1] == "band" {
+    if (rows == 1) for (i = 1; i <= at["speed"]; i++) first_row[i] = $i
+    kept = 1
+    for (i = 1; i <= at["speed"]; i++) if (name[i] != asked[2] && $i != first_row[i]) kept = 0
+    if (kept) band($at[asked[2]])
+}
+
 asked[1] == "shape" && same($at["mode"], asked[2]) && same($at["crank"], asked[3]) && same($at["speed"], asked[4]) {
     if ($at["link"] != link_drawn) print_link()
     link_drawn = $at["link"]
@@ -125,6 +135,8 @@ END {
     if (asked[1] == "events") print_events()
     if (asked[1] == "shape") print_link()
     if (asked[1] == "change") print_change()
+    if (asked[1] == "varied") for (i = 1; i < at["speed"]; i++) print name[i]
+    if (asked[1] == "band") print_bands()
     if (asked[1] == "nodes" || asked[1] == "masses") print_nodes()
     if (datablock) print "EOD"
 }
@@ -145,6 +157,22 @@ function print_facts(    i) {
         }
     }
     print ""
+}
+
+function band(value,    k) {
+    if (!(value in least_of)) { place[++places] = value; least_of[value] = 1 }
+    for (k = 1; ("f" k) in at; k++) {
+        if (!((value, k) in low) || $at["f" k] + 0 < low[value, k]) low[value, k] = $at["f" k] + 0
+        if (!((value, k) in high) || $at["f" k] + 0 > high[value, k]) high[value, k] = $at["f" k] + 0
+    }
+}
+
+function print_bands(    i, k, line) {
+    for (i = 1; i <= places; i++) {
+        line = place[i] + 0
+        for (k = 1; ("f" k) in at; k++) line = line " " low[place[i], k] " " high[place[i], k]
+        print line
+    }
 }
 
 # A change between two frequencies of which one has diverged has no percentage.

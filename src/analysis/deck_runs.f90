@@ -113,7 +113,7 @@ contains
     call stop_stage(watch, "motion")
     if (needs_frequencies(deck%model)) then
       call start_progress(progress, deck%base, .not. options%quiet)
-      call run_sweep(deck%model, mechanism, positions, options%threads, progress, store, sweep, error)
+      call run_sweep(deck%model, mechanism, positions, options%threads, progress, journal, 1, store, sweep, error)
       call end_progress(progress)
       if (allocated(error)) then
         call discard_outputs(outputs)

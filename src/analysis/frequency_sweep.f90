@@ -14,6 +14,7 @@ module frequency_sweep
   use positions, only: by_crank_angle, positions_t
   use progress, only: progress_t, show_progress
   use requests, only: report_branches, report_shapes, report_t
+  use sweep_journal, only: journal_t, keep_block, recall_block
   use value_lists, only: value_list_t, value_number
   implicit none (type, external)
   private
@@ -38,21 +39,25 @@ module frequency_sweep
 
 contains
 
-  !> Solves every position that has a pose, on as many threads as are allowed.
+  !> Solves every position that has a pose, on as many threads as are allowed. What a journal knows is not solved again, what is
+  !! solved is kept there; the first variant has its models made in any case, for the log.
   !!
   !! Errors: the models could not be made.
-  subroutine run_sweep(model, mechanism, positions, threads, progress, store, sweep, error)
+  subroutine run_sweep(model, mechanism, positions, threads, progress, journal, variant, store, sweep, error)
     type(model_t), intent(in) :: model
     type(mechanism_t), intent(in) :: mechanism
     type(positions_t), intent(in) :: positions
     integer, intent(in) :: threads
     type(progress_t), intent(inout) :: progress
+    type(journal_t), intent(inout) :: journal
+    integer, intent(in) :: variant             !! number of this model among those of the journal
     type(link_store_t), intent(inout) :: store !! of links taken apart before
     type(sweep_t), intent(out) :: sweep
     type(error_t), allocatable, intent(out) :: error
 
     type(frequency_models_t) :: models
     integer, allocatable :: states(:)
+    logical, allocatable :: known(:) !! (chunks)
     integer :: attempt, i, made
 
     sweep%request = request_of(model, mechanism)
@@ -60,12 +65,17 @@ contains
     allocate (sweep%results(size(positions%states)))
     states = by_crank_angle(positions)
     made = store%made
+    allocate (known((size(states) + chunk - 1)/chunk))
+    call recall_chunks(journal, variant, states, sweep%results, known)
     do attempt = 1, most_attempts
-      call new_frequency_models(mechanism, positions, states, sweep%request, sweep%request%accuracy, store, models, &
-        sweep%counts, error)
-      if (allocated(error)) return
-      if (attempt == 1) sweep%models = models
-      call sweep_positions(mechanism, positions, states, models, threads, progress, sweep)
+      if (attempt > 1 .or. .not. all(known) .or. variant == 1 .or. sweep%request%follow) then
+        call new_frequency_models(mechanism, positions, states, sweep%request, sweep%request%accuracy, store, models, &
+          sweep%counts, error)
+        if (allocated(error)) return
+        if (attempt == 1) sweep%models = models
+        call sweep_positions(mechanism, positions, states, known .and. attempt == 1, models, threads, progress, journal, &
+          merge(variant, 0, attempt == 1), sweep)
+      end if
       ! Some positions may need more than the samples by which orders were chosen: these are found again.
       states = pack(states, sweep%results(states)%order_error > sweep%request%accuracy)
       if (size(states) == 0 .or. was_interrupted()) exit
@@ -76,27 +86,49 @@ contains
     end do
   end subroutine run_sweep
 
+  !> Takes chunks from the journal.
+  subroutine recall_chunks(journal, variant, states, results, known)
+    type(journal_t), intent(inout) :: journal
+    integer, intent(in) :: variant
+    integer, intent(in) :: states(:)
+    type(position_result_t), intent(inout) :: results(:)
+    logical, intent(out) :: known(:) !! (chunks)
+
+    integer :: i
+
+    !$omp critical (use_journal)
+    do i = 1, size(known)
+      call recall_block(journal, variant, i, states((i - 1)*chunk + 1:min(i*chunk, size(states))), results, known(i))
+    end do
+    !$omp end critical (use_journal)
+  end subroutine recall_chunks
+
   !> Solves chunk after chunk of some positions, given in the order of their crank angles, and each chunk from position to position.
-  subroutine sweep_positions(mechanism, positions, states, models, threads, progress, sweep)
+  subroutine sweep_positions(mechanism, positions, states, known, models, threads, progress, journal, variant, sweep)
     type(mechanism_t), intent(in) :: mechanism
     type(positions_t), intent(in) :: positions
     integer, intent(in) :: states(:) !! numbers
+    logical, intent(in) :: known(:)  !! (chunks) solved already
     type(frequency_models_t), intent(in) :: models
     integer, intent(in) :: threads
     type(progress_t), intent(inout) :: progress
+    type(journal_t), intent(inout) :: journal
+    integer, intent(in) :: variant !! under which to keep what is solved; 0: not at all
     type(sweep_t), intent(inout) :: sweep
 
     type(position_work_t) :: work
     type(position_result_t) :: result
-    integer :: i, k, first, done
+    integer :: i, k, first, last, done
 
     done = size(positions%states) - size(states)
     ! ARPACK serves one thread at a time: more of them would only wait.
     !$omp parallel do schedule(dynamic) num_threads(merge(1, threads, sweep%request%method == by_band)) default(shared) &
-    !$omp   private(first, k, i, work, result)
+    !$omp   private(first, last, k, i, work, result)
     do first = 1, size(states), chunk
+      last = min(first + chunk - 1, size(states))
+      if (known((first - 1)/chunk + 1)) cycle
       work = new_position_work(models, sweep%request)
-      do k = first, min(first + chunk - 1, size(states))
+      do k = first, last
         i = states(k)
         if (was_interrupted()) cycle
         if (allocated(positions%states(i)%error)) cycle
@@ -104,8 +136,13 @@ contains
         call add_ledger(result%counts, sweep%results(i)%counts)
         sweep%results(i) = result
       end do
+      if (variant > 0 .and. .not. was_interrupted()) then
+        !$omp critical (use_journal)
+        call keep_block(journal, variant, (first - 1)/chunk + 1, states(first:last), sweep%results)
+        !$omp end critical (use_journal)
+      end if
       !$omp critical (count_progress)
-      done = done + min(chunk, size(states) - first + 1)
+      done = done + last - first + 1
       call show_progress(progress, done, size(positions%states))
       !$omp end critical (count_progress)
     end do
