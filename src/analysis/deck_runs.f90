@@ -1,7 +1,8 @@
 !> One deck: read and checked, then computed and written.
 module deck_runs
   use branch_tracking, only: branches_t, follow_branches
-  use cards, only: card_t, read_cards
+  use card_echo, only: echo_cards
+  use cards, only: card_t
   use deck_checks, only: check_mechanics
   use deck_outputs, only: discard_outputs, open_outputs, outputs_t, publish_outputs, write_outputs
   use deck_source, only: read_source, source_t
@@ -9,6 +10,7 @@ module deck_runs
   use errors, only: error_t, set_error
   use file_system, only: base_name, joined_path
   use frequency_sweep, only: run_sweep, sweep_t
+  use includes, only: read_all_cards
   use interruption, only: was_interrupted
   use mechanisms, only: mechanism_t, new_mechanism
   use model_reader, only: read_model
@@ -74,12 +76,13 @@ contains
       deck%errors = error%message//line_feed
       return
     end if
-    call read_cards(deck%source, cards, diagnostics)
+    call read_all_cards(deck%source, cards, diagnostics)
     call read_model(cards, diagnostics, deck%model)
     if (.not. has_errors(diagnostics)) call check_mechanics(deck%model, diagnostics)
+    if (.not. has_errors(diagnostics)) deck%model%echo = echo_cards(cards, deck%source)
     deck%errors = render_errors(diagnostics, deck%source)
     deck%warnings = render_warnings(diagnostics, deck%source)
-    deck%warning_lines = warning_texts(diagnostics)
+    deck%warning_lines = warning_texts(diagnostics, deck%source)
   end subroutine read_deck
 
   !> Computes what a sound deck asks for and writes its files.

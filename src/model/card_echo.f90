@@ -2,12 +2,13 @@
 module card_echo
   use cards, only: card_t
   use card_reader, only: entry_number
-  use text, only: lower_case, same_word, to_string, upper_case
+  use deck_source, only: line_origin, source_t
+  use text, only: lower_case, same_word, upper_case
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   implicit none (type, external)
   private
 
-  public :: echo_line_t, echo_card
+  public :: echo_line_t, echo_cards, echo_card
 
   type :: echo_line_t
     character(len=:), allocatable :: text   !! the card
@@ -16,9 +17,23 @@ module card_echo
 
 contains
 
+  !> The cards in the order of the deck.
+  pure function echo_cards(cards, source) result(lines)
+    type(card_t), intent(in) :: cards(:)
+    type(source_t), intent(in) :: source !! that the cards are from
+    type(echo_line_t) :: lines(size(cards))
+
+    integer :: i
+
+    do i = 1, size(cards)
+      lines(i) = echo_card(cards(i), source)
+    end do
+  end function echo_cards
+
   !> A card with its defaults written out.
-  pure function echo_card(card) result(line)
+  pure function echo_card(card, source) result(line)
     type(card_t), intent(in) :: card
+    type(source_t), intent(in) :: source !! that the card is from
     type(echo_line_t) :: line
 
     type(text_buffer_t) :: buffer
@@ -32,7 +47,7 @@ contains
       call append_text(buffer, " "//card%entries(i)%key%text//"="//card%entries(i)%value%text)
     end do
     line%text = buffer_text(buffer)
-    line%origin = "line "//to_string(card%keyword%line)
+    line%origin = line_origin(source, card%keyword%line)
     select case (lower_case(card%keyword%text))
     case ("title")
       line%origin = ""
