@@ -12,6 +12,7 @@ module cards
   type :: entry_t
     type(token_t) :: key
     type(token_t) :: value
+    type(token_t), allocatable :: items(:) !! of a list with a `$name` in it, each with its own place; else not allocated
   end type entry_t
 
   type :: card_t

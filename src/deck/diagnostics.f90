@@ -170,7 +170,10 @@ contains
     type(token_t) :: setting
 
     if (place%set_line <= 0) return
-    setting = token_t(place%text, place%set_line, place%set_column)
+    ! Not by a constructor: gfortran 12 loses the text of another word there.
+    setting%text = place%text
+    setting%line = place%set_line
+    setting%column = place%set_column
     note = "'"//written_word(source, place)//"' is set here"
     if (written_word(source, setting) /= place%text) note = "'"//written_word(source, place)//"' is "//place%text//", set here"
     call append_place(buffer, source, setting, "note", note)
@@ -217,18 +220,18 @@ contains
     type(token_t), intent(in) :: place
     character(len=:), allocatable :: word
 
-    character(len=:), allocatable :: line
+    character(len=:), allocatable :: line, rest
     integer :: length
 
     line = source_line(source, place%line)
-    line = characters(line, place%column, len(line))
+    rest = characters(line, place%column, len(line))
     word = place%text
-    if (index(line, word) == 1) return
-    length = scan(line, " ="//achar(9)) - 1
-    if (length < 0) length = len(line)
+    if (index(rest, word) == 1) return
+    length = scan(rest, " ="//achar(9)) - 1
+    if (length < 0) length = len(rest)
     ! A `$name` ends where a list goes on; its value may be a list itself.
-    if (index(line, "$") == 1 .and. index(line(:length), ",") > 0) length = index(line, ",") - 1
-    word = line(:length)
+    if (index(rest, "$") == 1 .and. index(rest(:length), ",") > 0) length = index(rest, ",") - 1
+    word = rest(:length)
   end function written_word
 
   !> A tab counts as one character, so it is shown as one.

@@ -34,6 +34,7 @@ contains
     type(model_t), intent(out) :: model
 
     model%title = ""
+    model%variant = ""
     model%drive = token_t("", 0, 0)
     model%modes_word = token_t("", 0, 0)
     model%inertia_word = token_t("", 0, 0)
