@@ -4,7 +4,8 @@ module command_line
   use errors, only: error_t, set_error
   use numbers, only: read_integer
   use spelling, only: suggestion
-  use text, only: string_t, word_list
+  use text, only: same_word, string_t, word_list
+  use tokens, only: name_problem
   implicit none (type, external)
   private
 
@@ -13,6 +14,7 @@ module command_line
   type :: command_t
     type(run_options_t) :: run
     type(string_t), allocatable :: decks(:)
+    type(string_t), allocatable :: settings(:) !! of `--set`, each `name=value`
     logical :: check_only = .false.
     logical :: stats = .false.
     logical :: help = .false.
@@ -24,7 +26,8 @@ module command_line
 
 contains
 
-  !> Reads the arguments of the program. Errors: an unknown option, an option without its value, no deck, one deck twice.
+  !> Reads the arguments of the program. Errors: an unknown option, an option without its value, a setting that is none or
+  !! is given twice, no deck, one deck twice.
   subroutine read_command_line(command, error)
     type(command_t), intent(out) :: command
     type(error_t), allocatable, intent(out) :: error
@@ -35,7 +38,7 @@ contains
 
     words = arguments()
     command%run%folder = "outputs"
-    allocate (command%decks(0))
+    allocate (command%decks(0), command%settings(0))
     options_ended = .false.
     input_taken = .false.
     i = 1
@@ -78,7 +81,7 @@ contains
     type(command_t), intent(inout) :: command
     type(error_t), allocatable, intent(out) :: error
 
-    character(len=*), parameter :: known = "--check --out --threads --quiet --stats --version --help"
+    character(len=*), parameter :: known = "--check --out --set --threads --quiet --stats --version --help"
     character(len=:), allocatable :: name, value, problem
     integer :: k
 
@@ -86,7 +89,7 @@ contains
     k = index(name, "=")
     if (k > 0) name = name(:k - 1)
     select case (name)
-    case ("--out", "--threads")
+    case ("--out", "--set", "--threads")
       if (k > 0) then
         value = words(i)%text(k + 1:)
       else if (i < size(words)) then
@@ -99,6 +102,8 @@ contains
         call set_error(error, "option "//name//" needs a value")
       else if (name == "--out") then
         command%run%folder = value
+      else if (name == "--set") then
+        call take_setting(value, command%settings, error)
       else
         call read_integer(value, command%run%threads, problem)
         if (len(problem) > 0 .or. command%run%threads < 1 .or. command%run%threads > most_threads) then
@@ -124,6 +129,34 @@ contains
     end select
   end subroutine read_option
 
+  !> Takes `name=value`; that the decks have the name is checked when they are read.
+  pure subroutine take_setting(word, settings, error)
+    character(len=*), intent(in) :: word
+    type(string_t), allocatable, intent(inout) :: settings(:)
+    type(error_t), allocatable, intent(inout) :: error
+
+    character(len=:), allocatable :: name, value
+    integer :: sign, i
+
+    sign = index(word, "=")
+    if (sign < 2 .or. sign == len(word)) then
+      call set_error(error, "option --set needs a name and a value, as in --set L=100mm, not '"//word//"'")
+      return
+    end if
+    name = word(:sign - 1)
+    value = word(sign + 1:)
+    if (len(name_problem(name)) > 0) then
+      call set_error(error, "option --set: "//name_problem(name))
+    else if (scan(value, " =!#&"//achar(9)//line_feed) > 0) then
+      call set_error(error, "option --set: '"//value//"' is not one value, as a SET card has it")
+    end if
+    do i = 1, size(settings)
+      if (.not. same_word(settings(i)%text(:index(settings(i)%text, "=") - 1), name)) cycle
+      call set_error(error, "option --set gives '"//name//"' twice: "//settings(i)%text//" and "//word)
+    end do
+    settings = [settings, string_t(word)]
+  end subroutine take_setting
+
   pure function version_text() result(text)
     character(len=:), allocatable :: text
 
@@ -139,6 +172,7 @@ contains
       line_feed//line_feed// &
       "  --check      read and check the decks only"//line_feed// &
       "  --out DIR    write to DIR/<deck base name>/"//line_feed// &
+      "  --set N=V    put V in place of the value that SET or VARY gives the name N; may be repeated"//line_feed// &
       "  --threads N  compute N positions at a time (1)"//line_feed// &
       "  --quiet      no warnings, no progress; errors are still told"//line_feed// &
       "  --stats      tell what was computed and how long it took"//line_feed// &

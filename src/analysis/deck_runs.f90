@@ -1,7 +1,8 @@
 !> One deck: read and checked, then computed and written.
 module deck_runs
   use branch_tracking, only: branches_t, follow_branches
-  use cards, only: card_t, read_cards
+  use card_echo, only: echo_cards
+  use cards, only: card_t
   use deck_checks, only: check_mechanics
   use deck_outputs, only: discard_outputs, open_outputs, outputs_t, publish_outputs, write_outputs
   use deck_source, only: read_source, source_t
@@ -9,6 +10,7 @@ module deck_runs
   use errors, only: error_t, set_error
   use file_system, only: base_name, joined_path
   use frequency_sweep, only: run_sweep, sweep_t
+  use includes, only: read_all_cards
   use interruption, only: was_interrupted
   use link_store, only: link_store_t
   use mechanisms, only: mechanism_t, new_mechanism
@@ -20,15 +22,17 @@ module deck_runs
   use run_log, only: model_summary
   use run_statistics, only: start_stopwatch, statistics_text, stop_stage, stopwatch_t, sweep_summary
   use text, only: string_t
+  use variants, only: deck_cards_t, read_deck_cards, take_variant, variant_text
   implicit none (type, external)
   private
 
-  public :: deck_t, run_options_t, run_result_t, read_deck, run_deck
+  public :: deck_t, run_options_t, run_result_t, read_deck, read_variant, run_deck
 
   !> A deck that has been read.
   type :: deck_t
     type(source_t) :: source
-    type(model_t) :: model
+    type(deck_cards_t) :: cards
+    type(model_t) :: model                         !! of the first variant, of the only one where nothing varies
     character(len=:), allocatable :: base          !! name of its output folder
     character(len=:), allocatable :: errors        !! ready for standard error; empty if there are none
     character(len=:), allocatable :: warnings      !! likewise
@@ -53,13 +57,15 @@ module deck_runs
 
 contains
 
-  !> Reads and checks a deck; the path `-` is standard input.
-  subroutine read_deck(path, deck)
+  !> Reads and checks a deck; the path `-` is standard input. Of a deck with VARY it checks the first variant.
+  subroutine read_deck(path, deck, settings)
     character(len=*), intent(in) :: path
     type(deck_t), intent(out) :: deck
+    type(string_t), intent(in), optional :: settings(:) !! of the command line, each `name=value`
 
     type(card_t), allocatable :: cards(:)
     type(diagnostics_t) :: diagnostics
+    type(string_t) :: none(0)
     type(error_t), allocatable :: error
 
     deck%base = base_name(path)
@@ -75,13 +81,33 @@ contains
       deck%errors = error%message//line_feed
       return
     end if
-    call read_cards(deck%source, cards, diagnostics)
-    call read_model(cards, diagnostics, deck%model)
-    if (.not. has_errors(diagnostics)) call check_mechanics(deck%model, diagnostics)
+    call read_all_cards(deck%source, cards, diagnostics)
+    if (present(settings)) then
+      call read_deck_cards(cards, settings, deck%source, diagnostics, deck%cards)
+    else
+      call read_deck_cards(cards, none, deck%source, diagnostics, deck%cards)
+    end if
+    call read_variant(deck%cards, 1, cards, diagnostics, deck%model)
+    if (.not. has_errors(diagnostics)) deck%model%echo = echo_cards(deck%cards, cards, deck%source)
     deck%errors = render_errors(diagnostics, deck%source)
     deck%warnings = render_warnings(diagnostics, deck%source)
-    deck%warning_lines = warning_texts(diagnostics)
+    deck%warning_lines = warning_texts(diagnostics, deck%source)
   end subroutine read_deck
+
+  !> Turns the cards of one variant into a model and checks it; nothing is read again. A deck without VARY has one variant.
+  subroutine read_variant(deck_cards, number, cards, diagnostics, model)
+    type(deck_cards_t), intent(in) :: deck_cards
+    integer, intent(in) :: number                        !! of the variant, from 1
+    type(card_t), allocatable, intent(inout) :: cards(:) !! of another variant or not allocated; on return, of this one
+    type(diagnostics_t), intent(inout) :: diagnostics    !! of the cards; the model is complete only if it has no errors afterwards
+    type(model_t), intent(out) :: model
+
+    call take_variant(deck_cards, number, cards)
+    call read_model(cards, diagnostics, model)
+    if (has_errors(diagnostics)) return
+    model%variant = variant_text(deck_cards, number)
+    call check_mechanics(model, diagnostics)
+  end subroutine read_variant
 
   !> Computes what a sound deck asks for and writes its files.
   !!
@@ -102,6 +128,10 @@ contains
     type(stopwatch_t) :: watch
     type(link_store_t) :: store
 
+    if (size(deck%cards%variations) > 0) then
+      call set_error(error, deck%source%path//": error: VARY is not run yet")
+      return
+    end if
     call start_stopwatch(watch)
     call open_outputs(joined_path(options%folder, deck%base), deck%model, outputs, error)
     if (allocated(error)) then

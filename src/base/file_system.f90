@@ -6,7 +6,7 @@ module file_system
   private
 
   public :: is_directory, make_directories, rename_file, remove_file, remove_empty_directory
-  public :: base_name, joined_path, standard_error_is_terminal
+  public :: base_name, joined_path, real_path, standard_error_is_terminal
 
   interface
     function c_opendir(path) bind(c, name="opendir") result(directory)
@@ -46,6 +46,14 @@ module file_system
       character(kind=c_char), intent(in) :: path(*)
       integer(c_int) :: status
     end function c_rmdir
+
+    !> Into a buffer of PATH_MAX bytes at least, 4096 on the systems that have the most.
+    function c_realpath(path, resolved) bind(c, name="realpath") result(found)
+      import :: c_char, c_ptr
+      character(kind=c_char), intent(in) :: path(*)
+      character(kind=c_char), intent(inout) :: resolved(*)
+      type(c_ptr) :: found
+    end function c_realpath
 
     function c_isatty(descriptor) bind(c, name="isatty") result(status)
       import :: c_int
@@ -137,6 +145,25 @@ contains
       if (folder(len(folder):) == "/") path = folder//name
     end if
   end function joined_path
+
+  !> The one absolute path of a file, whatever links and dots lead to it; empty if there is no such file.
+  function real_path(path) result(absolute)
+    character(len=*), intent(in) :: path
+    character(len=:), allocatable :: absolute
+
+    integer, parameter :: longest = 8192
+    character(kind=c_char) :: resolved(longest)
+    integer :: i, length
+
+    absolute = ""
+    resolved = c_null_char
+    if (.not. c_associated(c_realpath(path//c_null_char, resolved))) return
+    length = findloc(resolved, c_null_char, dim=1) - 1
+    absolute = repeat(" ", length)
+    do i = 1, length
+      absolute(i:i) = resolved(i)
+    end do
+  end function real_path
 
   function standard_error_is_terminal() result(is)
     logical :: is

@@ -4,10 +4,11 @@
 module numbers
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_overflow, ieee_set_flag, ieee_set_halting_mode
   use kinds, only: wp
+  use text, only: to_string
   implicit none (type, external)
   private
 
-  public :: number_length, read_real, read_integer
+  public :: number_length, read_real, read_integer, shortest_text
 
 contains
 
@@ -102,6 +103,22 @@ contains
       problem = ""
     end if
   end subroutine read_real
+
+  !> A number in as few digits, from 15 on, as read back to the same double; trailing zeros are dropped.
+  pure function shortest_text(value) result(string)
+    real(wp), intent(in) :: value
+    character(len=:), allocatable :: string
+
+    character(len=:), allocatable :: problem
+    real(wp) :: again
+    integer :: digits
+
+    do digits = 15, 17
+      string = to_string(value, digits)
+      call read_real(string, again, problem)
+      if (abs(again - value) <= 0.0_wp) return
+    end do
+  end function shortest_text
 
   !> Whether the digits before the exponent hold anything but zeros.
   pure function has_significant_digit(digits) result(has)

@@ -1,6 +1,6 @@
 !> Cards: a keyword, words and `key=value` entries.
 module cards
-  use deck_source, only: line_count, source_line, source_t
+  use deck_source, only: first_line, last_line, source_line, source_t
   use diagnostics, only: add_error, diagnostics_t
   use text, only: character_count, same_word
   use tokens, only: code_length, split_words, token_t
@@ -12,6 +12,7 @@ module cards
   type :: entry_t
     type(token_t) :: key
     type(token_t) :: value
+    type(token_t), allocatable :: items(:) !! of a list with a `$name` in it, each with its own place; else not allocated
   end type entry_t
 
   type :: card_t
@@ -22,25 +23,31 @@ module cards
 
 contains
 
-  !> Reads all cards of a deck; what is wrong with the form of a line is noted in `diagnostics`.
-  pure subroutine read_cards(source, cards, diagnostics)
+  !> Reads all cards of a deck, or of another file of its source; what is wrong with the form of a line is noted in `diagnostics`.
+  pure subroutine read_cards(source, cards, diagnostics, file)
     type(source_t), intent(in) :: source
     type(card_t), allocatable, intent(out) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
+    integer, intent(in), optional :: file !! number in the source of a file that is included; absent: the deck itself
 
     type(card_t), allocatable :: found(:), larger(:)
     type(token_t), allocatable :: words(:)
     type(token_t) :: end_card
-    integer :: line, count
+    integer :: line, last, count
     logical :: ended, told
 
     allocate (found(64))
     count = 0
     line = 1
+    last = last_line(source, 1)
+    if (present(file)) then
+      line = first_line(source, file)
+      last = last_line(source, file)
+    end if
     ended = .false.
     told = .false.
-    do while (line <= line_count(source))
-      call read_logical_line(source, line, words, diagnostics)
+    do while (line <= last)
+      call read_logical_line(source, last, line, words, diagnostics)
       if (size(words) == 0) cycle
       ! What follows is read all the same: its cards would otherwise be told as missing.
       if (ended .and. .not. told) then
@@ -48,6 +55,10 @@ contains
         told = .true.
       end if
       if (same_word(words(1)%text, "END")) then
+        if (present(file)) then
+          call add_error(diagnostics, words(1), "END stands in the deck, not in a file that it includes")
+          cycle
+        end if
         ended = .true.
         end_card = words(1)
         if (size(words) > 1) call add_error(diagnostics, words(2), "END stands alone on its line")
@@ -65,8 +76,9 @@ contains
   end subroutine read_cards
 
   !> Reads the words of one card: a line and those that continue it. `line` moves past them.
-  pure subroutine read_logical_line(source, line, words, diagnostics)
+  pure subroutine read_logical_line(source, file_end, line, words, diagnostics)
     type(source_t), intent(in) :: source
+    integer, intent(in) :: file_end !! number of the last line of the file
     integer, intent(inout) :: line
     type(token_t), allocatable, intent(out) :: words(:)
     type(diagnostics_t), intent(inout) :: diagnostics
@@ -80,10 +92,11 @@ contains
     allocate (words(0))
     count = 0
     continued = .false.
-    do while (line <= line_count(source))
+    do while (line <= file_end)
       text = source_line(source, line)
       if (.not. continued) then
         call read_title(text, line, words, found)
+        if (.not. found) call read_quoted_include(text, line, words, found, diagnostics)
         if (found) then
           line = line + 1
           return
@@ -156,6 +169,41 @@ contains
     start = start - 1 + verify(text(start:), " "//achar(9))
     words = [words, token_t(text(start:verify(text, " "//achar(9), back=.true.)), line, 1 + character_count(text(:start - 1)))]
   end subroutine read_title
+
+  !> An INCLUDE whose file name is in quotes: the name may hold blanks and all other characters. The quotes stay in its word.
+  pure subroutine read_quoted_include(text, line, words, found, diagnostics)
+    character(len=*), intent(in) :: text
+    integer, intent(in) :: line
+    type(token_t), allocatable, intent(inout) :: words(:)
+    logical, intent(out) :: found
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    type(token_t), allocatable :: more(:)
+    integer :: start, finish, i
+
+    found = .false.
+    start = verify(text, " "//achar(9))
+    if (start == 0 .or. start + len("INCLUDE") > len(text)) return
+    if (.not. same_word(text(start:start + len("INCLUDE") - 1), "INCLUDE")) return
+    finish = start + len("INCLUDE")
+    if (verify(text(finish:finish), " "//achar(9)) == 1) return
+    finish = finish - 1 + verify(text(finish:)//"x", " "//achar(9))
+    if (finish > len(text)) return
+    if (scan(text(finish:finish), """'") == 0) return
+    found = .true.
+    words = [token_t(text(start:start + len("INCLUDE") - 1), line, start), &
+      token_t(text(finish:), line, 1 + character_count(text(:finish - 1)))]
+    i = index(text(finish + 1:), text(finish:finish))
+    if (i == 0) then
+      words(2)%set_line = -1
+      call add_error(diagnostics, token_t(text(finish:finish), line, words(2)%column), "this quote is not closed")
+      return
+    end if
+    words(2)%text = text(finish:finish + i)
+    more = split_words(text(finish + i + 1:finish + i + code_length(text(finish + i + 1:))), line)
+    more%column = more%column + character_count(text(:finish + i))
+    words = [words, more]
+  end subroutine read_quoted_include
 
   !> Tells words from entries: what stands before an equals sign is a key, what stands behind it its value.
   pure subroutine sort_words(words, card, diagnostics)

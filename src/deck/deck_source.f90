@@ -1,4 +1,7 @@
-!> The text of a deck, line by line, as the user wrote it.
+!> The text of a deck and of the files it includes, line by line, as the user wrote it.
+!!
+!! Lines are numbered through all files: those of the deck first, then those of each file in the order of its reading. So a
+!! line number is a place whatever the file, and only what is written for people looks up which file it is in.
 module deck_source
   use, intrinsic :: iso_fortran_env, only: input_unit, iostat_end, iostat_eor
   use errors, only: error_t, set_error
@@ -8,16 +11,26 @@ module deck_source
   implicit none (type, external)
   private
 
-  public :: source_t, read_source, source_from_text, line_count, source_line
+  public :: source_t, source_file_t, read_source, read_file, source_from_text, append_source, line_count, source_line
+  public :: file_of_line, first_line, last_line, line_place, line_origin
+
+  !> One of the files that a source is made of.
+  type :: source_file_t
+    character(len=:), allocatable :: path !! as the user gave it, or where it is seen from the working folder
+    integer :: first_line = 1             !! number of its first line in the source
+    integer :: include_line = 0           !! line of the INCLUDE card that names it; 0 for none
+  end type source_file_t
 
   type :: source_t
-    character(len=:), allocatable :: path !! as the user gave it
+    character(len=:), allocatable :: path !! of the deck, as the user gave it
     character(len=:), allocatable :: text !! every line ends in a line feed
     integer, allocatable :: line_start(:) !! byte at which each line begins, and one past the end of the text
+    type(source_file_t), allocatable :: files(:)
   end type source_t
 
   character(len=*), parameter :: line_feed = achar(10), carriage_return = achar(13), tab = achar(9)
   integer, parameter :: most_bytes = 500000000
+  character(len=*), parameter :: unreadable = "the deck cannot be read: "
   character(len=*), parameter :: byte_order_mark = char(239)//char(187)//char(191)
 
 contains
@@ -31,38 +44,67 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     type(text_buffer_t) :: buffer
+    character(len=:), allocatable :: problem, place
+    integer :: status
+    character(len=256) :: message
+
+    if (path == "-") then
+      message = ""
+      call read_lines(input_unit, buffer, status, message)
+      source = source_from_text("<standard input>", buffer_text(buffer))
+      if (status == 0) then
+        call find_binary(source, problem, place)
+      else
+        problem = unreadable//trim(message)
+        place = ""
+      end if
+    else
+      call read_file(path, source, problem, place)
+    end if
+    if (len(problem) == 0) return
+    ! Standard input has a name of its own as soon as it has lines.
+    if (len(place) > 0) then
+      call set_error(error, source%path//place//": error: "//problem)
+    else
+      call set_error(error, path//": error: "//problem)
+    end if
+  end subroutine read_source
+
+  !> Reads a file; `problem` is empty, or says why it cannot be done.
+  subroutine read_file(path, source, problem, place)
+    character(len=*), intent(in) :: path
+    type(source_t), intent(out) :: source
+    character(len=:), allocatable, intent(out) :: problem
+    character(len=:), allocatable, intent(out) :: place !! `:line:column` of the problem, empty if it has none
+
+    type(text_buffer_t) :: buffer
     integer :: unit, status
     character(len=256) :: message
     logical :: exists
 
-    if (path == "-") then
-      unit = input_unit
-      message = ""
-      call read_lines(unit, buffer, status, message)
-      source = source_from_text("<standard input>", buffer_text(buffer))
-    else
-      inquire (file=path, exist=exists)
-      if (is_directory(path)) then
-        call set_error(error, path//": error: this is a folder, not a deck")
-        return
-      else if (.not. exists) then
-        call set_error(error, path//": error: no such file")
-        return
-      end if
-      open (newunit=unit, file=path, status="old", action="read", access="sequential", form="formatted", &
-        iostat=status, iomsg=message)
-      if (status == 0) then
-        call read_lines(unit, buffer, status, message)
-        close (unit)
-      end if
-      source = source_from_text(path, buffer_text(buffer))
-    end if
-    if (status /= 0) then
-      call set_error(error, path//": error: the deck cannot be read: "//trim(message))
+    problem = ""
+    place = ""
+    inquire (file=path, exist=exists)
+    if (is_directory(path)) then
+      problem = "this is a folder, not a deck"
+      return
+    else if (.not. exists) then
+      problem = "no such file"
       return
     end if
-    call refuse_binary(source, error)
-  end subroutine read_source
+    open (newunit=unit, file=path, status="old", action="read", access="sequential", form="formatted", &
+      iostat=status, iomsg=message)
+    if (status == 0) then
+      call read_lines(unit, buffer, status, message)
+      close (unit)
+    end if
+    if (status /= 0) then
+      problem = unreadable//trim(message)
+      return
+    end if
+    source = source_from_text(path, buffer_text(buffer))
+    call find_binary(source, problem, place)
+  end subroutine read_file
 
   !> Reads to the end of a file, lines of any length.
   subroutine read_lines(unit, buffer, status, message)
@@ -145,8 +187,31 @@ contains
       lines = lines + 1
       source%line_start(lines) = i + 1
     end do
+    allocate (source%files(1))
+    source%files(1)%path = path
   end function source_from_text
 
+  !> Appends the lines of a file that `include_line` asks for (0: nobody does).
+  pure subroutine append_source(source, more, include_line)
+    type(source_t), intent(inout) :: source
+    type(source_t), intent(in) :: more !! one file
+    integer, intent(in) :: include_line
+
+    type(source_file_t), allocatable :: files(:)
+    integer :: count
+
+    count = size(source%files)
+    allocate (files(count + 1))
+    files(:count) = source%files
+    files(count + 1)%path = more%path
+    files(count + 1)%first_line = line_count(source) + 1
+    files(count + 1)%include_line = include_line
+    call move_alloc(files, source%files)
+    source%line_start = [source%line_start(:line_count(source)), len(source%text) + more%line_start]
+    source%text = source%text//more%text
+  end subroutine append_source
+
+  !> Number of all lines, those of the files included among them.
   pure function line_count(source) result(count)
     type(source_t), intent(in) :: source
     integer :: count
@@ -163,24 +228,84 @@ contains
     line = source%text(source%line_start(number):source%line_start(number + 1) - 2)
   end function source_line
 
-  !> Finds the first control character: no text has one.
-  pure subroutine refuse_binary(source, error)
+  !> Number of the file that a line is in.
+  pure function file_of_line(source, line) result(file)
     type(source_t), intent(in) :: source
-    type(error_t), allocatable, intent(inout) :: error
+    integer, intent(in) :: line
+    integer :: file
+
+    do file = size(source%files), 2, -1
+      if (source%files(file)%first_line <= line) return
+    end do
+    file = 1
+  end function file_of_line
+
+  !> Numbers of the first and last line of a file; an empty file's last comes before its first.
+  pure function first_line(source, file) result(line)
+    type(source_t), intent(in) :: source
+    integer, intent(in) :: file
+    integer :: line
+
+    line = source%files(file)%first_line
+  end function first_line
+
+  pure function last_line(source, file) result(line)
+    type(source_t), intent(in) :: source
+    integer, intent(in) :: file
+    integer :: line
+
+    line = line_count(source)
+    if (file < size(source%files)) line = source%files(file + 1)%first_line - 1
+  end function last_line
+
+  !> `path:line`, as the user finds it.
+  pure function line_place(source, line) result(place)
+    type(source_t), intent(in) :: source
+    integer, intent(in) :: line
+    character(len=:), allocatable :: place
+
+    associate (file => source%files(file_of_line(source, line)))
+      place = file%path//":"//to_string(line - file%first_line + 1)
+    end associate
+  end function line_place
+
+  !> Where a line stands, as seen from the deck: `line 7`, or `parts/steel.deck:7` in a file that it includes.
+  pure function line_origin(source, line) result(origin)
+    type(source_t), intent(in) :: source
+    integer, intent(in) :: line
+    character(len=:), allocatable :: origin
+
+    integer :: folder
+
+    if (file_of_line(source, line) == 1) then
+      origin = "line "//to_string(line)
+      return
+    end if
+    origin = line_place(source, line)
+    folder = index(source%path, "/", back=.true.)
+    if (index(origin, source%path(:folder)) == 1) origin = origin(folder + 1:)
+  end function line_origin
+
+  !> Finds the first control character: no text has one.
+  pure subroutine find_binary(source, problem, place)
+    type(source_t), intent(in) :: source
+    character(len=:), allocatable, intent(out) :: problem !! empty if there is none
+    character(len=:), allocatable, intent(out) :: place   !! `:line:column`
 
     integer :: i, line
     character(len=2) :: code
 
+    problem = ""
+    place = ""
     do i = 1, len(source%text)
       if (iachar(source%text(i:i)) >= 32 .and. iachar(source%text(i:i)) /= 127) cycle
       if (source%text(i:i) == line_feed .or. source%text(i:i) == tab) cycle
       line = count(source%line_start <= i)
       write (code, "(z2.2)") iachar(source%text(i:i))
-      call set_error(error, source%path//":"//to_string(line)//":"// &
-        to_string(character_count(source%text(source%line_start(line):i)))// &
-        ": error: byte 0x"//code//" is no part of a text; is this a deck?")
+      place = ":"//to_string(line)//":"//to_string(character_count(source%text(source%line_start(line):i)))
+      problem = "byte 0x"//code//" is no part of a text; is this a deck?"
       return
     end do
-  end subroutine refuse_binary
+  end subroutine find_binary
 
 end module deck_source

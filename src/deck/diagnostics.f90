@@ -1,6 +1,6 @@
 !> Messages about a deck, with the place they are about and its text under a caret.
 module diagnostics
-  use deck_source, only: line_count, source_line, source_t
+  use deck_source, only: file_of_line, last_line, line_origin, line_place, source_line, source_t
   use kinds, only: wp
   use sorting, only: ascending_order
   use text, only: character_count, is_continuation_byte, plural, to_string
@@ -66,6 +66,8 @@ contains
     type(token_t), intent(in), optional :: second_place
     character(len=*), intent(in), optional :: note
 
+    ! A word whose `$name` could not be looked up has been complained of.
+    if (place%set_line < 0) return
     messages%total = messages%total + 1
     if (.not. allocated(messages%list)) allocate (messages%list(most_kept))
     if (messages%kept == most_kept) return
@@ -113,8 +115,9 @@ contains
   end function render_warnings
 
   !> The warnings without path and caret, a line each, for the log.
-  pure function warning_texts(diagnostics) result(text)
+  pure function warning_texts(diagnostics, source) result(text)
     type(diagnostics_t), intent(in) :: diagnostics
+    type(source_t), intent(in) :: source
     character(len=:), allocatable :: text
 
     integer :: i
@@ -122,7 +125,7 @@ contains
     text = ""
     associate (warnings => diagnostics%warnings)
       do i = 1, warnings%kept
-        text = text//"line "//to_string(warnings%list(i)%place%line)//": "//warnings%list(i)%message//achar(10)
+        text = text//line_origin(source, warnings%list(i)%place%line)//": "//warnings%list(i)%message//achar(10)
       end do
       if (warnings%total > warnings%kept) text = text//plural(warnings%total - warnings%kept, "more warning")//achar(10)
     end associate
@@ -147,6 +150,7 @@ contains
     do i = 1, messages%kept
       associate (item => messages%list(order(i)))
         call append_place(buffer, source, item%place, severity, item%message)
+        call append_setting(buffer, source, item%place)
         if (len(item%note) > 0) call append_place(buffer, source, item%second_place, "note", item%note)
       end associate
     end do
@@ -156,7 +160,26 @@ contains
     text = buffer_text(buffer)
   end function rendered
 
-  !> Appends `path:line:column: severity: message`, the line and the caret.
+  !> Appends where the text of a word is set that stands as `$name` on its card.
+  pure subroutine append_setting(buffer, source, place)
+    type(text_buffer_t), intent(inout) :: buffer
+    type(source_t), intent(in) :: source
+    type(token_t), intent(in) :: place
+
+    character(len=:), allocatable :: note
+    type(token_t) :: setting
+
+    if (place%set_line <= 0) return
+    ! Not by a constructor: gfortran 12 loses the text of another word there.
+    setting%text = place%text
+    setting%line = place%set_line
+    setting%column = place%set_column
+    note = "'"//written_word(source, place)//"' is set here"
+    if (written_word(source, setting) /= place%text) note = "'"//written_word(source, place)//"' is "//place%text//", set here"
+    call append_place(buffer, source, setting, "note", note)
+  end subroutine append_setting
+
+  !> Appends `path:line:column: severity: message`, the line and the caret, and who includes the file.
   pure subroutine append_place(buffer, source, place, severity, message)
     type(text_buffer_t), intent(inout) :: buffer
     type(source_t), intent(in) :: source
@@ -164,26 +187,52 @@ contains
     character(len=*), intent(in) :: severity, message
 
     character(len=:), allocatable :: line, number
-    integer :: first, marks
+    integer :: first, marks, file
 
     if (place%line < 1) then
       ! Something is missing from the deck: there is no word to point at, only its end.
-      call append_text(buffer, source%path//":"//to_string(max(1, line_count(source)))//":1: "//severity//": "// &
+      call append_text(buffer, source%path//":"//to_string(max(1, last_line(source, 1)))//":1: "//severity//": "// &
         message//achar(10))
       return
     end if
-    call append_text(buffer, source%path//":"//to_string(place%line)//":"//to_string(place%column)//": "// &
+    call append_text(buffer, line_place(source, place%line)//":"//to_string(place%column)//": "// &
       severity//": "//message//achar(10))
+    file = file_of_line(source, place%line)
     line = blank_tabs(source_line(source, place%line))
     first = 1
     if (character_count(line) > window) first = max(1, place%column - window/2)
     line = characters(line, first, window)
-    number = to_string(place%line)
+    number = to_string(place%line - source%files(file)%first_line + 1)
     number = repeat(" ", max(0, 5 - len(number)))//number
-    marks = max(1, min(character_count(place%text), window - (place%column - first)))
+    marks = max(1, min(character_count(written_word(source, place)), window - (place%column - first)))
     call append_text(buffer, number//" | "//line//achar(10))
     call append_text(buffer, repeat(" ", len(number))//" | "//repeat(" ", place%column - first)//repeat("^", marks)//achar(10))
+    do while (source%files(file)%include_line > 0)
+      call append_text(buffer, repeat(" ", len(number))//" included from "// &
+        line_place(source, source%files(file)%include_line)//achar(10))
+      file = file_of_line(source, source%files(file)%include_line)
+    end do
   end subroutine append_place
+
+  !> A word as it stands in the deck: its text, unless it has another one there, as `$name` has.
+  pure function written_word(source, place) result(word)
+    type(source_t), intent(in) :: source
+    type(token_t), intent(in) :: place
+    character(len=:), allocatable :: word
+
+    character(len=:), allocatable :: line, rest
+    integer :: length
+
+    line = source_line(source, place%line)
+    rest = characters(line, place%column, len(line))
+    word = place%text
+    if (index(rest, word) == 1) return
+    length = scan(rest, " ="//achar(9)) - 1
+    if (length < 0) length = len(rest)
+    ! A `$name` ends where a list goes on; its value may be a list itself.
+    if (index(rest, "$") == 1 .and. index(rest(:length), ",") > 0) length = index(rest, ",") - 1
+    word = rest(:length)
+  end function written_word
 
   !> A tab counts as one character, so it is shown as one.
   pure function blank_tabs(line) result(shown)

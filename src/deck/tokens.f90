@@ -4,12 +4,15 @@ module tokens
   implicit none (type, external)
   private
 
-  public :: token_t, split_words, token_texts, code_length, name_problem
+  public :: token_t, split_words, token_part, list_items, token_texts, code_length, name_problem
 
+  !> A word. Where `$name` stands in the deck, it has the text that `$name` stands for, and knows both places.
   type :: token_t
     character(len=:), allocatable :: text
-    integer :: line = 0   !! in the deck, from 1
-    integer :: column = 0 !! of its first character, from 1; a tab is one character
+    integer :: line = 0       !! in the deck, from 1
+    integer :: column = 0     !! of its first character, from 1; a tab is one character
+    integer :: set_line = 0   !! where the text of a `$name` is set; 0: it stands here; negative: unknown, which is told
+    integer :: set_column = 0
   end type token_t
 
   character(len=*), parameter :: blanks = " "//achar(9)
@@ -76,6 +79,37 @@ contains
       last = i
     end do
   end subroutine next_word
+
+  !> Some characters of a word. What `$name` stands for has its parts where it is set, and its place where it is used.
+  pure function token_part(word, first, last) result(part)
+    type(token_t), intent(in) :: word
+    integer, intent(in) :: first, last !! bytes of its text
+    type(token_t) :: part
+
+    part = word
+    part%text = word%text(first:last)
+    if (word%set_line > 0) then
+      part%set_column = word%set_column + character_count(word%text(:first - 1))
+    else if (word%set_line == 0) then
+      part%column = word%column + character_count(word%text(:first - 1))
+    end if
+  end function token_part
+
+  !> The items of a list that is one word, with commas between them.
+  pure function list_items(word) result(items)
+    type(token_t), intent(in) :: word
+    type(token_t), allocatable :: items(:)
+
+    integer :: i, first, length
+
+    allocate (items(1 + count([(word%text(i:i) == ",", i=1, len(word%text))])))
+    first = 1
+    do i = 1, size(items)
+      length = index(word%text(first:)//",", ",") - 1
+      items(i) = token_part(word, first, first + length - 1)
+      first = first + length + 1
+    end do
+  end function list_items
 
   !> The words without their places.
   pure function token_texts(words) result(texts)

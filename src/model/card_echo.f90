@@ -2,12 +2,15 @@
 module card_echo
   use cards, only: card_t
   use card_reader, only: entry_number
-  use text, only: lower_case, same_word, to_string, upper_case
+  use deck_source, only: line_origin, source_t
+  use settings, only: setting_t
+  use text, only: lower_case, same_word, upper_case
   use text_buffer, only: append_text, buffer_text, text_buffer_t
+  use variants, only: deck_cards_t
   implicit none (type, external)
   private
 
-  public :: echo_line_t, echo_card
+  public :: echo_line_t, echo_cards, echo_card
 
   type :: echo_line_t
     character(len=:), allocatable :: text   !! the card
@@ -16,10 +19,66 @@ module card_echo
 
 contains
 
-  !> A card with its defaults written out.
-  pure function echo_card(card) result(line)
+  !> The cards in the order of the deck. A `$name` stays as it is, with its SET or VARY card; what the command line says is a SET
+  !! card, so that the echo needs nothing but itself.
+  pure function echo_cards(deck, cards, source) result(lines)
+    type(deck_cards_t), intent(in) :: deck
+    type(card_t), intent(in) :: cards(:) !! of one of its variants
+    type(source_t), intent(in) :: source !! that the cards are from
+    type(echo_line_t) :: lines(size(cards))
+
+    integer :: i
+
+    do i = 1, size(cards)
+      lines(i) = echo_card(deck%written(i), cards(i), source)
+    end do
+    do i = 1, size(deck%settings%list)
+      associate (setting => deck%settings%list(i))
+        if (setting%is_overridden) lines(setting%card) = overridden_line(deck%written(setting%card), setting, source)
+      end associate
+    end do
+  end function echo_cards
+
+  !> The SET card that says what the command line has said, beside what the deck says.
+  pure function overridden_line(card, setting, source) result(line)
     type(card_t), intent(in) :: card
+    type(setting_t), intent(in) :: setting
+    type(source_t), intent(in) :: source
     type(echo_line_t) :: line
+
+    line%text = "SET "//setting%name%text//" "//setting%value%text
+    line%origin = "--set on the command line; "//line_origin(source, card%keyword%line)//" has "
+    if (same_word(card%keyword%text, "VARY")) then
+      line%origin = line%origin//card_text(card)
+    else
+      line%origin = line%origin//card%words(2)%text
+    end if
+  end function overridden_line
+
+  !> A card with its defaults written out.
+  pure function echo_card(written, card, source) result(line)
+    type(card_t), intent(in) :: written  !! as it stands in the deck
+    type(card_t), intent(in) :: card     !! with values in place of its `$name`s
+    type(source_t), intent(in) :: source !! that the card is from
+    type(echo_line_t) :: line
+
+    line%text = card_text(written)
+    line%origin = line_origin(source, card%keyword%line)
+    select case (lower_case(card%keyword%text))
+    case ("title")
+      line%origin = ""
+    case ("mesh")
+      if (entry_number(card, "order") == 0 .and. entry_number(card, "accuracy") == 0) call append_default(line, "order=3")
+    case ("report")
+      if (.not. same_word(card%words(1)%text, "shapes")) return
+      if (entry_number(card, "points") == 0) call append_default(line, "points=21")
+    end select
+  end function echo_card
+
+  !> A card in one form: words first, single blanks.
+  pure function card_text(card) result(text)
+    type(card_t), intent(in) :: card
+    character(len=:), allocatable :: text
 
     type(text_buffer_t) :: buffer
     integer :: i
@@ -31,18 +90,8 @@ contains
     do i = 1, size(card%entries)
       call append_text(buffer, " "//card%entries(i)%key%text//"="//card%entries(i)%value%text)
     end do
-    line%text = buffer_text(buffer)
-    line%origin = "line "//to_string(card%keyword%line)
-    select case (lower_case(card%keyword%text))
-    case ("title")
-      line%origin = ""
-    case ("mesh")
-      if (entry_number(card, "order") == 0 .and. entry_number(card, "accuracy") == 0) call append_default(line, "order=3")
-    case ("report")
-      if (.not. same_word(card%words(1)%text, "shapes")) return
-      if (entry_number(card, "points") == 0) call append_default(line, "points=21")
-    end select
-  end function echo_card
+    text = buffer_text(buffer)
+  end function card_text
 
   pure subroutine append_default(line, entry)
     type(echo_line_t), intent(inout) :: line

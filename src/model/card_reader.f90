@@ -6,7 +6,7 @@ module card_reader
   use numbers, only: number_length, read_integer, read_real
   use spelling, only: suggestion
   use text, only: joined, same_word, string_t, to_string, word_list
-  use tokens, only: name_problem, token_t
+  use tokens, only: name_problem, token_part, token_t
   use units, only: coherent_unit, dimension_name, read_unit, to_si, unit_system_t, unit_t, wrong_unit
   implicit none (type, external)
   private
@@ -131,8 +131,7 @@ contains
       else
         call read_unit(word%text(length + 1:), dimension, measure, problem)
         if (len(problem) == 0 .and. any(measure%dimension /= dimension)) problem = wrong_unit(measure, dimension)
-        place%text = word%text(length + 1:)
-        place%column = word%column + length
+        place = token_part(word, length + 1, len(word%text))
       end if
     end if
     if (len(problem) == 0) then

@@ -1,9 +1,8 @@
 !> Cards → model.
 module model_reader
   use card_reader, only: check_form, read_choice
-  use card_echo, only: echo_card
   use cards, only: card_t
-  use diagnostics, only: add_error, diagnostics_t, has_errors
+  use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
   use linkage_cards, only: read_ground, read_link, read_mesh, read_pin_mass, set_default_mesh
   use materials, only: read_material
@@ -34,9 +33,8 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(out) :: model
 
-    integer :: i
-
     model%title = ""
+    model%variant = ""
     model%drive = token_t("", 0, 0)
     model%modes_word = token_t("", 0, 0)
     model%inertia_word = token_t("", 0, 0)
@@ -65,7 +63,6 @@ contains
     call find_loop(diagnostics, model)
     call check_requests(cards, diagnostics, model)
     call check_meshes(cards, diagnostics, model)
-    if (.not. has_errors(diagnostics)) model%echo = [(echo_card(cards(i)), i=1, size(cards))]
   end subroutine read_model
 
   pure function number_of(cards, keyword) result(number)

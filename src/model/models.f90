@@ -45,7 +45,8 @@ module models
     integer :: modes = 3
     type(token_t) :: modes_word                 !! without a line if the deck does not say
     type(report_t), allocatable :: reports(:)
-    type(echo_line_t), allocatable :: echo(:)   !! the cards in the order of the deck, written out again
+    type(echo_line_t), allocatable :: echo(:)   !! the cards in the order of the deck, written out again; no part of reading them
+    character(len=:), allocatable :: variant    !! `L=90mm`, of a deck with VARY; else empty
   end type model_t
 
 contains

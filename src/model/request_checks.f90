@@ -16,7 +16,8 @@ module request_checks
   public :: check_required, check_requests, has_card, card_names
 
   character(len=*), parameter :: card_names = &
-    "TITLE UNITS MATERIAL SECTION GROUND LINK DRIVE BRANCH PINMASS MESH CRANK SPEED INERTIA EFFECTS SOLVER MODES REPORT"
+    "TITLE UNITS INCLUDE SET VARY MATERIAL SECTION GROUND LINK DRIVE BRANCH PINMASS MESH CRANK SPEED INERTIA EFFECTS SOLVER "// &
+    "MODES REPORT"
 
   !> A link stockier than this is no beam: shear and rotary inertia, which the theory leaves out, decide.
   real(wp), parameter :: least_slenderness = 10.0_wp

@@ -7,8 +7,8 @@ module value_lists
   use numbers, only: number_length
   use sorting, only: ascending_order
   use text, only: same_word, to_string
-  use tokens, only: token_t
-  use units, only: coherent_unit, dimension_angle, from_si, read_unit, to_si, unit_system_t, unit_t, wrong_unit
+  use tokens, only: list_items, token_t
+  use units, only: coherent_unit, dimension_angle, dimension_none, from_si, read_unit, to_si, unit_system_t, unit_t, wrong_unit
   implicit none (type, external)
   private
 
@@ -43,24 +43,26 @@ contains
     type(value_list_t), intent(out) :: list
 
     type(token_t), allocatable :: words(:)
-    integer :: i, first, length
+    integer :: i
 
     list = empty_list()
     if (entry_number(card, key) == 0) return
-    associate (value => card%entries(entry_number(card, key))%value)
-      allocate (words(1 + count([(value%text(i:i) == ",", i=1, len(value%text))])))
-      first = 1
-      do i = 1, size(words)
-        length = index(value%text(first:), ",") - 1
-        if (length < 0) length = len(value%text) - first + 1
-        words(i) = token_t(value%text(first:first + length - 1), value%line, value%column + first - 1)
-        if (length == 0) then
-          call add_error(diagnostics, token_t(",", value%line, value%column + first - 1), "a value is missing in this list")
-          return
-        end if
-        first = first + length + 1
-      end do
+    associate (entry => card%entries(entry_number(card, key)))
+      if (allocated(entry%items)) then
+        allocate (words(0))
+        do i = 1, size(entry%items)
+          words = [words, list_items(entry%items(i))]
+        end do
+      else
+        words = list_items(entry%value)
+      end if
     end associate
+    do i = 1, size(words)
+      if (len(words(i)%text) > 0) cycle
+      words(i)%text = ","
+      call add_error(diagnostics, words(i), "a value is missing in this list")
+      return
+    end do
     call read_values(words, dimension, system, key//" value", diagnostics, list)
   end subroutine read_entry_list
 
@@ -104,7 +106,8 @@ contains
     end do
     list%value = list%value(:filled)
     list%word = list%word(:filled)
-    if (fine) call refuse_duplicates(noun, diagnostics, list)
+    ! Angles and speeds are of the order of one or are zero; a pure number may stand for anything.
+    if (fine) call refuse_duplicates(noun, merge(0.0_wp, 1.0_wp, all(dimension == dimension_none)), diagnostics, list)
   end subroutine read_values
 
   !> A last word that is no number is the unit of all bare numbers before it; `count` then leaves it out.
@@ -231,8 +234,9 @@ contains
   end subroutine append_points
 
   !> A value given twice is an error: the second is a slip, or the table would hold the same row twice.
-  pure subroutine refuse_duplicates(noun, diagnostics, list)
+  pure subroutine refuse_duplicates(noun, least, diagnostics, list)
     character(len=*), intent(in) :: noun
+    real(wp), intent(in) :: least !! values are compared relative to themselves, or to this if they are smaller
     type(diagnostics_t), intent(inout) :: diagnostics
     type(value_list_t), intent(in) :: list
 
@@ -246,7 +250,7 @@ contains
     do i = 2, size(order)
       earlier = min(order(i - 1), order(i))
       later = max(order(i - 1), order(i))
-      if (abs(list%value(later) - list%value(earlier)) > same*max(1.0_wp, abs(list%value(later)))) cycle
+      if (abs(list%value(later) - list%value(earlier)) > same*max(least, abs(list%value(later)))) cycle
       ! Two ranges may share hundreds of values; one is enough to point them out.
       if (told(list%word(later))) cycle
       told(list%word(later)) = .true.

@@ -70,20 +70,23 @@ contains
     type(model_t), intent(in) :: model
 
     type(unit_t) :: area, second_moment, mass
+    character(len=:), allocatable :: derived
     integer :: i
 
+    derived = "! derived:"
+    if (len(model%variant) > 0) derived = "! derived at "//model%variant//":"
     area = coherent_unit(model%units, dimension_area)
     second_moment = coherent_unit(model%units, dimension_second_moment)
     mass = coherent_unit(model%units, dimension_mass)
     do i = 1, size(model%sections)
       associate (this => model%sections(i))
-        call append_text(buffer, "! derived: section "//this%name%text//": A = "//to_string(from_si(this%area, area), 15)//" "// &
+        call append_text(buffer, derived//" section "//this%name%text//": A = "//to_string(from_si(this%area, area), 15)//" "// &
           area%name//", I = "//to_string(from_si(this%second_moment, second_moment), 15)//" "//second_moment%name//achar(10))
       end associate
     end do
     do i = 1, size(model%links)
       if (link_mass(model, i) <= 0.0_wp) cycle
-      call append_text(buffer, "! derived: link "//model%links(i)%name%text//": mass = "// &
+      call append_text(buffer, derived//" link "//model%links(i)%name%text//": mass = "// &
         to_string(from_si(link_mass(model, i), mass), 15)//" "//mass%name//achar(10))
     end do
   end subroutine append_derived

@@ -1,0 +1,213 @@
+!> INCLUDE: the cards of other files in place of the card that names them.
+module includes
+  use cards, only: card_t, read_cards
+  use deck_source, only: append_source, file_of_line, read_file, source_t
+  use diagnostics, only: add_error, diagnostics_t
+  use file_system, only: real_path
+  use text, only: same_word, string_t, to_string
+  use tokens, only: token_t
+  implicit none (type, external)
+  private
+
+  public :: read_all_cards
+
+  !> Nobody nests files deeper by hand, and a file may be included many times, but not without end.
+  integer, parameter :: most_levels = 50, most_files = 1000
+
+  character(len=*), parameter :: pattern = "INCLUDE file"
+
+contains
+
+  !> Reads the cards of a deck, with those of the files that it includes in the places of their INCLUDE cards.
+  !!
+  !! The lines of the files are appended to `source`, so that every word has its place. What cannot be included is noted in
+  !! `diagnostics`; the cards that are there are read all the same.
+  subroutine read_all_cards(source, cards, diagnostics)
+    type(source_t), intent(inout) :: source !! the deck
+    type(card_t), allocatable, intent(out) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    type(string_t) :: chain(0:most_levels)
+
+    call read_cards(source, cards, diagnostics)
+    if (.not. any_include(cards)) return
+    chain(0)%text = real_path(source%path)
+    call insert_files(source, chain, 0, cards, diagnostics)
+  end subroutine read_all_cards
+
+  pure function any_include(cards) result(any_is)
+    type(card_t), intent(in) :: cards(:)
+    logical :: any_is
+
+    integer :: i
+
+    any_is = .false.
+    do i = 1, size(cards)
+      any_is = any_is .or. same_word(cards(i)%keyword%text, "INCLUDE")
+    end do
+  end function any_include
+
+  !> Puts the cards of the files in place of the INCLUDE cards of one file.
+  recursive subroutine insert_files(source, chain, level, cards, diagnostics)
+    type(source_t), intent(inout) :: source
+    type(string_t), intent(inout) :: chain(0:) !! the files under way, the deck first, as absolute paths
+    integer, intent(in) :: level               !! of the file whose cards these are; 0 is the deck
+    type(card_t), allocatable, intent(inout) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    type(card_t), allocatable :: all(:), more(:)
+    integer :: i, count
+
+    allocate (all(size(cards)))
+    count = 0
+    do i = 1, size(cards)
+      if (same_word(cards(i)%keyword%text, "INCLUDE")) then
+        call read_included(source, chain, level, cards(i), more, diagnostics)
+        call append_cards(all, count, more)
+      else
+        call append_cards(all, count, cards(i:i))
+      end if
+    end do
+    cards = all(:count)
+  end subroutine insert_files
+
+  !> Appends cards; the array grows by doubling.
+  pure subroutine append_cards(cards, count, more)
+    type(card_t), allocatable, intent(inout) :: cards(:)
+    integer, intent(inout) :: count !! cards in use
+    type(card_t), intent(in) :: more(:)
+
+    type(card_t), allocatable :: larger(:)
+
+    if (count + size(more) > size(cards)) then
+      allocate (larger(2*(count + size(more))))
+      larger(:count) = cards(:count)
+      call move_alloc(larger, cards)
+    end if
+    cards(count + 1:count + size(more)) = more
+    count = count + size(more)
+  end subroutine append_cards
+
+  !> Reads the file that an INCLUDE card names; no cards if it cannot be done.
+  recursive subroutine read_included(source, chain, level, card, cards, diagnostics)
+    type(source_t), intent(inout) :: source
+    type(string_t), intent(inout) :: chain(0:)
+    integer, intent(in) :: level
+    type(card_t), intent(in) :: card
+    type(card_t), allocatable, intent(out) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    type(source_t) :: more
+    character(len=:), allocatable :: path, problem, place
+
+    allocate (cards(0))
+    call read_path(source, card, path, diagnostics)
+    if (len(path) == 0) return
+    problem = loop_problem(source, chain(:level), path, card%keyword%line)
+    if (level == most_levels) problem = "files include each other more than "//to_string(most_levels)//" levels deep"
+    if (size(source%files) > most_files) problem = "more than "//to_string(most_files)//" files are included"
+    if (len(problem) == 0) then
+      call read_file(path, more, problem, place)
+      if (len(problem) > 0) problem = "'"//path//place//"' cannot be included: "//problem
+    end if
+    if (len(problem) > 0) then
+      call add_error(diagnostics, card%words(1), problem)
+      return
+    end if
+    call append_source(source, more, card%keyword%line)
+    call read_cards(source, cards, diagnostics, size(source%files))
+    call drop_units(cards, diagnostics)
+    chain(level + 1)%text = real_path(path)
+    call insert_files(source, chain, level + 1, cards, diagnostics)
+  end subroutine read_included
+
+  !> The path on an INCLUDE card, relative to the file that the card is in; empty if the card is wrong.
+  subroutine read_path(source, card, path, diagnostics)
+    type(source_t), intent(in) :: source
+    type(card_t), intent(in) :: card
+    character(len=:), allocatable, intent(out) :: path
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=:), allocatable :: name
+
+    path = ""
+    if (size(card%entries) > 0) then
+      call add_error(diagnostics, card%entries(1)%key, "a file name with an equals sign needs quotes; expected: "//pattern)
+      return
+    else if (size(card%words) == 0) then
+      call add_error(diagnostics, card%keyword, "this card is too short; expected: "//pattern)
+      return
+    else if (size(card%words) > 1) then
+      call add_error(diagnostics, card%words(2), "unexpected '"//card%words(2)%text// &
+        "'; expected: "//pattern//" (a name with blanks needs quotes)")
+      return
+    end if
+    name = card%words(1)%text
+    if (card%words(1)%set_line < 0) return
+    if (index(name, "$") == 1) then
+      call add_error(diagnostics, card%words(1), "files are included before values are set: INCLUDE takes no '"//name//"'")
+      return
+    end if
+    if (scan(name(1:1), """'") == 1) name = name(2:len(name) - 1)
+    if (len_trim(name) == 0) then
+      call add_error(diagnostics, card%words(1), "a file name is missing here")
+      return
+    end if
+    path = name
+    associate (file => source%files(file_of_line(source, card%keyword%line)))
+      if (index(name, "/") /= 1) path = file%path(:index(file%path, "/", back=.true.))//name
+    end associate
+    ! A file of this name, not standard input.
+    if (path == "-") path = "./-"
+  end subroutine read_path
+
+  !> Why a file cannot be included that is being read already; empty if it is not.
+  function loop_problem(source, chain, path, line) result(problem)
+    type(source_t), intent(in) :: source
+    type(string_t), intent(in) :: chain(0:)
+    character(len=*), intent(in) :: path
+    integer, intent(in) :: line !! of the INCLUDE card
+    character(len=:), allocatable :: problem
+
+    character(len=:), allocatable :: absolute
+    integer :: level, above, at
+
+    problem = ""
+    absolute = real_path(path)
+    if (len(absolute) == 0) return
+    do level = ubound(chain, 1), 0, -1
+      if (chain(level)%text /= absolute) cycle
+      problem = path
+      at = line
+      do above = ubound(chain, 1), level, -1
+        associate (file => source%files(file_of_line(source, at)))
+          problem = file%path//" -> "//problem
+          at = file%include_line
+        end associate
+      end do
+      problem = "this file includes itself: "//problem
+      return
+    end do
+  end function loop_problem
+
+  !> UNITS belongs to the deck: a file that others include cannot know their units, and must not change them.
+  pure subroutine drop_units(cards, diagnostics)
+    type(card_t), allocatable, intent(inout) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    type(card_t), allocatable :: kept(:)
+    integer :: i, count
+
+    count = 0
+    allocate (kept(size(cards)))
+    do i = 1, size(cards)
+      if (same_word(cards(i)%keyword%text, "UNITS")) then
+        call add_error(diagnostics, cards(i)%keyword, "UNITS stands in the deck, not in a file that it includes")
+      else
+        call append_cards(kept, count, cards(i:i))
+      end if
+    end do
+    if (count < size(cards)) cards = kept(:count)
+  end subroutine drop_units
+
+end module includes
