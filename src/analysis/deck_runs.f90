@@ -3,11 +3,12 @@ module deck_runs
   use branch_tracking, only: branches_t, follow_branches
   use cards, only: card_t, read_cards
   use deck_checks, only: check_mechanics
-  use deck_outputs, only: discard_outputs, open_outputs, outputs_t, publish_outputs, write_outputs
-  use deck_source, only: read_source, source_t
+  use deck_outputs, only: discard_outputs, open_outputs, outputs_t, publish_outputs, write_outputs, write_summary
+  use deck_source, only: read_source, source_from_text, source_t
+  use deck_summary, only: summary_text
   use diagnostics, only: diagnostics_t, has_errors, render_errors, render_warnings, warning_texts
   use errors, only: error_t, set_error
-  use file_system, only: base_name, joined_path
+  use file_system, only: base_name, file_name, joined_path
   use frequency_sweep, only: run_sweep, sweep_t
   use interruption, only: was_interrupted
   use mechanisms, only: mechanism_t, new_mechanism
@@ -28,6 +29,8 @@ module deck_runs
   type :: deck_t
     type(source_t) :: source
     type(model_t) :: model
+    type(diagnostics_t) :: diagnostics
+    character(len=:), allocatable :: refusal       !! why it could not be read at all, with its path; empty if it could
     character(len=:), allocatable :: base          !! name of its output folder
     character(len=:), allocatable :: errors        !! ready for standard error; empty if there are none
     character(len=:), allocatable :: warnings      !! likewise
@@ -39,6 +42,7 @@ module deck_runs
     character(len=:), allocatable :: folder !! that holds the output folders
     integer :: threads = 1
     logical :: quiet = .false.
+    logical :: csv = .false.                !! tables as comma-separated values too
   end type run_options_t
 
   !> What a run has to say.
@@ -46,6 +50,7 @@ module deck_runs
     character(len=:), allocatable :: messages   !! warnings and failed rows, for standard error
     character(len=:), allocatable :: statistics !! what was computed, for `--stats`
     logical :: failed = .false.                 !! some position or mode could not be computed
+    type(findings_t) :: findings                !! what the messages tell
   end type run_result_t
 
   character(len=*), parameter :: line_feed = achar(10)
@@ -58,11 +63,11 @@ contains
     type(deck_t), intent(out) :: deck
 
     type(card_t), allocatable :: cards(:)
-    type(diagnostics_t) :: diagnostics
     type(error_t), allocatable :: error
 
     deck%base = base_name(path)
     if (path == "-") deck%base = "stdin"
+    deck%refusal = ""
     deck%errors = ""
     deck%warnings = ""
     deck%warning_lines = ""
@@ -71,15 +76,17 @@ contains
       call set_error(error, path//": error: this name gives no folder for the results")
     end if
     if (allocated(error)) then
+      deck%source = source_from_text(path, "")
+      deck%refusal = error%message
       deck%errors = error%message//line_feed
       return
     end if
-    call read_cards(deck%source, cards, diagnostics)
-    call read_model(cards, diagnostics, deck%model)
-    if (.not. has_errors(diagnostics)) call check_mechanics(deck%model, diagnostics)
-    deck%errors = render_errors(diagnostics, deck%source)
-    deck%warnings = render_warnings(diagnostics, deck%source)
-    deck%warning_lines = warning_texts(diagnostics)
+    call read_cards(deck%source, cards, deck%diagnostics)
+    call read_model(cards, deck%diagnostics, deck%model)
+    if (.not. has_errors(deck%diagnostics)) call check_mechanics(deck%model, deck%diagnostics)
+    deck%errors = render_errors(deck%diagnostics, deck%source)
+    deck%warnings = render_warnings(deck%diagnostics, deck%source)
+    deck%warning_lines = warning_texts(deck%diagnostics)
   end subroutine read_deck
 
   !> Computes what a sound deck asks for and writes its files.
@@ -95,13 +102,12 @@ contains
     type(positions_t) :: positions
     type(sweep_t) :: sweep
     type(branches_t) :: branches
-    type(findings_t) :: findings
     type(outputs_t) :: outputs
     type(progress_t) :: progress
     type(stopwatch_t) :: watch
 
     call start_stopwatch(watch)
-    call open_outputs(joined_path(options%folder, deck%base), deck%model, outputs, error)
+    call open_outputs(joined_path(options%folder, deck%base), deck%model, options%csv, outputs, error)
     if (allocated(error)) then
       call discard_outputs(outputs)
       return
@@ -124,10 +130,12 @@ contains
       end if
     end if
     if (.not. was_interrupted()) then
-      call find_failures(deck%model, positions, sweep, findings)
-      call find_warnings(deck%model, mechanism, positions, sweep, findings)
+      call find_failures(deck%model, positions, sweep, result%findings)
+      call find_warnings(deck%model, mechanism, positions, sweep, result%findings)
       call write_outputs(outputs, deck%model, mechanism, positions, sweep, branches, options%threads, &
-        log_text(deck, mechanism, positions, sweep, findings))
+        log_text(deck, mechanism, positions, sweep, result%findings))
+      call write_summary(outputs, summary_text(deck%base, file_name(deck%source%path), deck%diagnostics, deck%source, &
+        result%findings, deck%model, positions, outputs%tables))
     end if
     ! Asked once, before the files are put in place: from there on the run is done.
     if (was_interrupted()) then
@@ -140,8 +148,8 @@ contains
       call discard_outputs(outputs)
       return
     end if
-    result%failed = findings%failures > 0
-    result%messages = findings_messages(findings, deck%source%path)
+    result%failed = result%findings%failures > 0
+    result%messages = findings_messages(result%findings, deck%source%path)
     result%statistics = statistics_text(watch, deck%base, positions, sweep)
   end subroutine run_deck
 

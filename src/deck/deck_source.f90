@@ -8,7 +8,7 @@ module deck_source
   implicit none (type, external)
   private
 
-  public :: source_t, read_source, source_from_text, line_count, source_line
+  public :: source_t, standard_input, read_source, source_from_text, line_count, source_line
 
   type :: source_t
     character(len=:), allocatable :: path !! as the user gave it
@@ -16,6 +16,7 @@ module deck_source
     integer, allocatable :: line_start(:) !! byte at which each line begins, and one past the end of the text
   end type source_t
 
+  character(len=*), parameter :: standard_input = "<standard input>" !! in place of a path
   character(len=*), parameter :: line_feed = achar(10), carriage_return = achar(13), tab = achar(9)
   integer, parameter :: most_bytes = 500000000
   character(len=*), parameter :: byte_order_mark = char(239)//char(187)//char(191)
@@ -39,7 +40,7 @@ contains
       unit = input_unit
       message = ""
       call read_lines(unit, buffer, status, message)
-      source = source_from_text("<standard input>", buffer_text(buffer))
+      source = source_from_text(standard_input, buffer_text(buffer))
     else
       inquire (file=path, exist=exists)
       if (is_directory(path)) then
