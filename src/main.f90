@@ -2,22 +2,25 @@
 program main
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
   use command_line, only: command_t, help_text, read_command_line, version_text
-  use deck_runs, only: deck_t, read_deck, run_deck, run_result_t
+  use deck_runs, only: deck_t, read_deck, run_deck
   use errors, only: error_t
   use interruption, only: was_interrupted, watch_for_interruption
+  use run_document, only: deck_outcome_t, document_text
+  use text, only: string_t
   implicit none (type, external)
 
   type(command_t) :: command
   type(deck_t), allocatable :: decks(:)
-  type(run_result_t) :: result
+  type(deck_outcome_t), allocatable :: outcomes(:)
   type(error_t), allocatable :: error
   integer :: i, j
-  logical :: refused, failed
+  logical :: refused
 
   call read_command_line(command, error)
   if (allocated(error)) then
     call say("flexmech: error: "//error%message//achar(10))
-    stop 2, quiet=.true.
+    allocate (decks(0), outcomes(0))
+    call finish(2, error%message)
   end if
   if (command%help) then
     write (output_unit, "(a)", advance="no") help_text()
@@ -27,39 +30,66 @@ program main
     stop 0, quiet=.true.
   end if
 
-  allocate (decks(size(command%decks)))
+  allocate (decks(size(command%decks)), outcomes(size(command%decks)))
   refused = .false.
   do i = 1, size(decks)
     call read_deck(command%decks(i)%text, decks(i), command%settings)
     if (.not. command%run%quiet) call say(decks(i)%warnings)
     call say(decks(i)%errors)
-    refused = refused .or. len(decks(i)%errors) > 0
+    if (len(decks(i)%errors) > 0) outcomes(i)%exit_status = 2
     do j = 1, i - 1
       if (decks(j)%base /= decks(i)%base) cycle
-      call say("flexmech: error: two decks would write to the same folder '"//decks(i)%base//"': "//command%decks(j)%text// &
-        " and "//command%decks(i)%text//achar(10))
-      refused = .true.
+      call complain(outcomes(i), "two decks would write to the same folder '"//decks(i)%base//"': "//command%decks(j)%text// &
+        " and "//command%decks(i)%text)
+      call say("flexmech: error: "//outcomes(i)%complaints(size(outcomes(i)%complaints))%text//achar(10))
     end do
+    refused = refused .or. outcomes(i)%exit_status == 2
   end do
-  if (refused) stop 2, quiet=.true.
-  if (command%check_only) stop 0, quiet=.true.
+  if (refused) call finish(2, "")
+  if (command%check_only) then
+    outcomes%exit_status = 0
+    call finish(0, "")
+  end if
 
   call watch_for_interruption()
-  failed = .false.
   do i = 1, size(decks)
-    call run_deck(decks(i), command%run, result, error)
+    call run_deck(decks(i), command%run, outcomes(i)%result, error)
     if (allocated(error)) then
       call say(error%message//achar(10))
-      if (was_interrupted()) stop 130, quiet=.true.
-      stop 2, quiet=.true.
+      call complain(outcomes(i), error%message)
+      if (was_interrupted()) outcomes(i)%exit_status = 130
+      call finish(outcomes(i)%exit_status, "")
     end if
-    if (.not. command%run%quiet .or. result%failed) call say(result%messages)
-    if (command%stats) call say(result%statistics)
-    failed = failed .or. result%failed
+    associate (result => outcomes(i)%result)
+      if (.not. command%run%quiet .or. result%failed) call say(result%messages)
+      if (command%stats) call say(result%statistics)
+      outcomes(i)%exit_status = merge(1, 0, result%failed)
+    end associate
   end do
-  if (failed) stop 1, quiet=.true.
+  call finish(maxval(outcomes%exit_status), "")
 
 contains
+
+  !> Ends the program, with the document that a program reads if that is asked for.
+  subroutine finish(status, complaint)
+    integer, intent(in) :: status
+    character(len=*), intent(in) :: complaint !! what is wrong with the command line
+
+    if (command%json) then
+      write (output_unit, "(a)", advance="no") document_text(status, complaint, command%decks, decks, outcomes)
+    end if
+    stop status, quiet=.true.
+  end subroutine finish
+
+  !> Keeps what is wrong with a deck as a whole.
+  subroutine complain(outcome, complaint)
+    type(deck_outcome_t), intent(inout) :: outcome
+    character(len=*), intent(in) :: complaint
+
+    if (.not. allocated(outcome%complaints)) allocate (outcome%complaints(0))
+    outcome%complaints = [outcome%complaints, string_t(complaint)]
+    outcome%exit_status = 2
+  end subroutine complain
 
   !> Writes to standard error; the text brings its own line ends.
   subroutine say(text)

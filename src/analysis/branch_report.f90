@@ -3,13 +3,11 @@ module branch_report
   use branch_tracking, only: branches_t, event_ambiguous, event_crossing, event_start, event_veering
   use frequency_report, only: effects_notes, failure_at, frequency_of, has_result
   use frequency_sweep, only: sweep_t
-  use kinematics_report, only: place_of_row
   use models, only: model_t
-  use output_files, only: output_file_t
   use positions, only: positions_t
   use sorting, only: ascending_order
-  use tables, only: column_t, integer_cell, integer_column, name_cell, real_cells, real_column, write_failure, write_gap, &
-    write_header, write_row
+  use tables, only: column_t, integer_cell, integer_column, name_cell, real_cells, real_column, table_t, write_failure, &
+    write_gap, write_header, write_row
   use text, only: string_t, to_string
   implicit none (type, external)
   private
@@ -21,8 +19,8 @@ module branch_report
 contains
 
   !> One row a position and branch; a block a speed, within it branch after branch, each along the crank angle.
-  subroutine write_branches(file, model, positions, sweep, branches)
-    type(output_file_t), intent(inout) :: file
+  subroutine write_branches(table, model, positions, sweep, branches)
+    type(table_t), intent(inout) :: table
     type(model_t), intent(in) :: model
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
@@ -31,27 +29,27 @@ contains
     integer :: branch, k
     logical :: first
 
-    call write_header(file, model%title, [effects_notes(model), string_t("modes followed by their shapes; mac: likeness to "// &
+    call write_header(table, model%title, [effects_notes(model), string_t("modes followed by their shapes; mac: likeness to "// &
       "the row before, in the mass inner product, from 0 to 1"), string_t("event: - or start, crossing:BRANCH, "// &
       "veering:BRANCH, ambiguous (shapes do not tell which branch goes on: a new one begins)")], &
       [real_column("speed", "rad/s"), real_column("crank", "deg"), integer_column("branch"), integer_column("mode"), &
       real_column("frequency", "Hz"), real_column("mac", "-"), column_t("event", "-", event_width)])
     do k = 1, size(sweep%request%speed)
-      if (k > 1) call write_gap(file, 2)
-      call write_failures(file, positions, sweep, k)
+      if (k > 1) call write_gap(table, 2)
+      call write_failures(table, positions, sweep, k)
       first = .true.
       do branch = 1, branches%count
         if (all(branches%branch(:, :, k) /= branch)) cycle
-        if (.not. first) call write_gap(file, 1)
+        if (.not. first) call write_gap(table, 1)
         first = .false.
-        call write_branch(file, positions, sweep, branches, branch, k)
+        call write_branch(table, positions, sweep, branches, branch, k)
       end do
     end do
   end subroutine write_branches
 
   !> The failed rows of a speed, in the order of their crank angles.
-  subroutine write_failures(file, positions, sweep, speed)
-    type(output_file_t), intent(inout) :: file
+  subroutine write_failures(table, positions, sweep, speed)
+    type(table_t), intent(inout) :: table
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
     integer, intent(in) :: speed !! number
@@ -61,14 +59,14 @@ contains
     order = ascending_order(positions%crank)
     do i = 1, size(order)
       if (has_result(positions, sweep, positions%state(order(i)), speed)) cycle
-      call write_failure(file, place_of_row(sweep%request%speed(speed), positions%crank(order(i))), &
+      call write_failure(table, [sweep%request%speed(speed), positions%crank(order(i))], &
         failure_at(positions, sweep, positions%state(order(i)), speed))
     end do
   end subroutine write_failures
 
   !> The rows of one branch at one speed; where it is interrupted by a failed row, so is its curve.
-  subroutine write_branch(file, positions, sweep, branches, branch, speed)
-    type(output_file_t), intent(inout) :: file
+  subroutine write_branch(table, positions, sweep, branches, branch, speed)
+    type(table_t), intent(inout) :: table
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
     type(branches_t), intent(in) :: branches
@@ -87,13 +85,13 @@ contains
       row = order(i)
       if (.not. has_result(positions, sweep, positions%state(row), speed)) then
         ! One empty line breaks a curve; two would end the block.
-        if (.not. broken) call write_gap(file, 1)
+        if (.not. broken) call write_gap(table, 1)
         broken = .true.
         cycle
       end if
       broken = .false.
       mode = findloc(branches%branch(:, row, speed), branch, dim=1)
-      call write_row(file, real_cells([sweep%request%speed(speed), positions%crank(row)])//integer_cell(branch, "branch")// &
+      call write_row(table, real_cells([sweep%request%speed(speed), positions%crank(row)])//integer_cell(branch, "branch")// &
         integer_cell(mode, "mode")//real_cells([frequency_of(sweep%results(positions%state(row))%lambda(mode, speed)), &
         branches%mac(mode, row, speed)])//name_cell(event_name(branches%event(mode, row, speed), &
         branches%partner(mode, row, speed)), event_width))

@@ -3,6 +3,7 @@ module command_line
   use deck_runs, only: run_options_t
   use errors, only: error_t, set_error
   use numbers, only: read_integer
+  use program_version, only: program_name, version_number
   use spelling, only: suggestion
   use text, only: same_word, string_t, word_list
   use tokens, only: name_problem
@@ -17,8 +18,10 @@ module command_line
     type(string_t), allocatable :: settings(:) !! of `--set`, each `name=value`
     logical :: check_only = .false.
     logical :: stats = .false.
+    logical :: json = .false.
     logical :: help = .false.
     logical :: version = .false.
+    character(len=:), allocatable, private :: valued !! the options with a value that were given, between blanks
   end type command_t
 
   character(len=*), parameter :: line_feed = achar(10)
@@ -38,6 +41,7 @@ contains
 
     words = arguments()
     command%run%folder = "outputs"
+    command%valued = " "
     allocate (command%decks(0), command%settings(0))
     options_ended = .false.
     input_taken = .false.
@@ -57,6 +61,8 @@ contains
       end associate
       i = i + 1
     end do
+    ! Where the line goes wrong before `--json`, that is still how the answer is wanted.
+    if (allocated(error)) command%json = any([(words(i)%text == "--json", i=1, size(words))])
     if (allocated(error) .or. command%help .or. command%version) return
     if (size(command%decks) == 0) call set_error(error, "no deck given; flexmech --help tells how to run one")
   end subroutine read_command_line
@@ -81,15 +87,15 @@ contains
     type(command_t), intent(inout) :: command
     type(error_t), allocatable, intent(out) :: error
 
-    character(len=*), parameter :: known = "--check --out --set --threads --quiet --stats --version --help"
-    character(len=:), allocatable :: name, value, problem
+    character(len=*), parameter :: known = "--check --out --set --threads --format --resume --quiet --stats --json --version --help"
+    character(len=:), allocatable :: name, value
     integer :: k
 
     name = words(i)%text
     k = index(name, "=")
     if (k > 0) name = name(:k - 1)
     select case (name)
-    case ("--out", "--set", "--threads")
+    case ("--out", "--set", "--threads", "--format")
       if (k > 0) then
         value = words(i)%text(k + 1:)
       else if (i < size(words)) then
@@ -100,15 +106,13 @@ contains
       end if
       if (len(value) == 0) then
         call set_error(error, "option "//name//" needs a value")
-      else if (name == "--out") then
-        command%run%folder = value
       else if (name == "--set") then
         call take_setting(value, command%settings, error)
+      else if (index(command%valued, " "//name//" ") > 0) then
+        call set_error(error, "option "//name//" is given twice")
       else
-        call read_integer(value, command%run%threads, problem)
-        if (len(problem) > 0 .or. command%run%threads < 1 .or. command%run%threads > most_threads) then
-          call set_error(error, "option --threads needs a number from 1 to 1024, not '"//value//"'")
-        end if
+        command%valued = command%valued//name//" "
+        call read_option_value(name, value, command, error)
       end if
       return
     end select
@@ -118,8 +122,12 @@ contains
       command%check_only = .true.
     case ("--quiet")
       command%run%quiet = .true.
+    case ("--resume")
+      command%run%resume = .true.
     case ("--stats")
       command%stats = .true.
+    case ("--json")
+      command%json = .true.
     case ("--version")
       command%version = .true.
     case ("--help", "-h")
@@ -157,10 +165,34 @@ contains
     settings = [settings, string_t(word)]
   end subroutine take_setting
 
+  subroutine read_option_value(name, value, command, error)
+    character(len=*), intent(in) :: name, value
+    type(command_t), intent(inout) :: command
+    type(error_t), allocatable, intent(out) :: error
+
+    character(len=*), parameter :: formats = "plain csv"
+    character(len=:), allocatable :: problem
+
+    select case (name)
+    case ("--out")
+      command%run%folder = value
+    case ("--threads")
+      call read_integer(value, command%run%threads, problem)
+      if (len(problem) > 0 .or. command%run%threads < 1 .or. command%run%threads > most_threads) then
+        call set_error(error, "option --threads needs a number from 1 to 1024, not '"//value//"'")
+      end if
+    case ("--format")
+      command%run%csv = value == "csv"
+      if (value /= "csv" .and. value /= "plain") then
+        call set_error(error, "unknown format '"//value//"'"//suggestion(value, word_list(formats))//"; --format is plain or csv")
+      end if
+    end select
+  end subroutine read_option_value
+
   pure function version_text() result(text)
     character(len=:), allocatable :: text
 
-    text = "flexmech 0.1.0"
+    text = program_name//" "//version_number
   end function version_text
 
   pure function help_text() result(text)
@@ -174,8 +206,11 @@ contains
       "  --out DIR    write to DIR/<deck base name>/"//line_feed// &
       "  --set N=V    put V in place of the value that SET or VARY gives the name N; may be repeated"//line_feed// &
       "  --threads N  compute N positions at a time (1)"//line_feed// &
+      "  --format csv write every table as comma-separated values too (plain)"//line_feed// &
+      "  --resume     go on where an earlier run of the deck was killed or interrupted"//line_feed// &
       "  --quiet      no warnings, no progress; errors are still told"//line_feed// &
       "  --stats      tell what was computed and how long it took"//line_feed// &
+      "  --json       on standard output: errors, warnings and failed rows of all decks as JSON"//line_feed// &
       "  --version    the program's version"//line_feed// &
       "  --help       this text"//line_feed//line_feed// &
       "Exit status: 0 done; 1 some position or mode could not be computed (the rest is written);"//line_feed// &

@@ -17,26 +17,31 @@ module deck_outputs
   use requests, only: report_branches, report_frequencies, report_inertia, report_kind_count, report_kinematics, report_mesh, &
     report_shapes
   use run_findings, only: linkage_notes
+  use tables, only: discard_table, finish_table, open_table, publish_table, table_t
   use text, only: string_t
   implicit none (type, external)
   private
 
-  public :: outputs_t, open_outputs, write_outputs, publish_outputs, discard_outputs
+  public :: outputs_t, open_outputs, write_outputs, write_summary, publish_outputs, discard_outputs
 
   type :: outputs_t
     character(len=:), allocatable :: folder
+    logical, private :: csv = .false.
     type(string_t), allocatable, private :: is_new(:)        !! folders that were not there before, outermost first
     integer, allocatable, private :: kind(:)                 !! of each table: its report
-    type(output_file_t), allocatable, private :: tables(:)
-    type(output_file_t), private :: echo, log
+    type(table_t), allocatable :: tables(:)
+    type(output_file_t), private :: echo, log, summary
   end type outputs_t
+
+  character(len=*), parameter :: echo_name = "echo.deck", log_name = "run.log", summary_name = "summary.json"
 
 contains
 
   !> Makes the folder and opens every file in it under a temporary name.
-  subroutine open_outputs(folder, model, outputs, error)
+  subroutine open_outputs(folder, model, csv, outputs, error)
     character(len=*), intent(in) :: folder
     type(model_t), intent(in) :: model
+    logical, intent(in) :: csv !! whether tables are wanted as comma-separated values too
     type(outputs_t), intent(out) :: outputs
     type(error_t), allocatable, intent(out) :: error
 
@@ -44,6 +49,7 @@ contains
     logical :: made
 
     outputs%folder = folder
+    outputs%csv = csv
     outputs%kind = pack([(i, i=1, report_kind_count)], [(report_number(model, i) > 0, i=1, report_kind_count)])
     allocate (outputs%tables(size(outputs%kind)))
     call make_directories(folder, made, outputs%is_new)
@@ -53,17 +59,20 @@ contains
     end if
     ! A folder where a file is to be would show only when some files are in place and others are not.
     do i = 1, size(outputs%kind)
-      call refuse_folder(joined_path(folder, table_name(outputs%kind(i))), error)
+      call refuse_folder(joined_path(folder, table_name(outputs%kind(i))//".dat"), error)
+      if (csv) call refuse_folder(joined_path(folder, table_name(outputs%kind(i))//".csv"), error)
     end do
-    call refuse_folder(joined_path(folder, "echo.deck"), error)
-    call refuse_folder(joined_path(folder, "run.log"), error)
+    call refuse_folder(joined_path(folder, echo_name), error)
+    call refuse_folder(joined_path(folder, log_name), error)
+    call refuse_folder(joined_path(folder, summary_name), error)
     if (allocated(error)) return
     do i = 1, size(outputs%kind)
-      call open_output(folder, table_name(outputs%kind(i)), outputs%tables(i), error)
+      call open_table(folder, table_name(outputs%kind(i)), csv, outputs%tables(i), error)
       if (allocated(error)) return
     end do
-    call open_output(folder, "echo.deck", outputs%echo, error)
-    if (.not. allocated(error)) call open_output(folder, "run.log", outputs%log, error)
+    call open_output(folder, echo_name, outputs%echo, error)
+    if (.not. allocated(error)) call open_output(folder, log_name, outputs%log, error)
+    if (.not. allocated(error)) call open_output(folder, summary_name, outputs%summary, error)
   end subroutine open_outputs
 
   subroutine refuse_folder(path, error)
@@ -73,6 +82,7 @@ contains
     if (is_directory(path)) call set_error(error, path//": error: this is a folder, and a file is to be written there")
   end subroutine refuse_folder
 
+  !> The name of a report's table, without `.dat` and `.csv`.
   pure function table_name(kind) result(name)
     integer, intent(in) :: kind
     character(len=:), allocatable :: name
@@ -80,17 +90,17 @@ contains
     name = ""
     select case (kind)
     case (report_kinematics)
-      name = "kinematics.dat"
+      name = "kinematics"
     case (report_inertia)
-      name = "inertia.dat"
+      name = "inertia"
     case (report_mesh)
-      name = "mesh.dat"
+      name = "mesh"
     case (report_frequencies)
-      name = "frequencies.dat"
+      name = "frequencies"
     case (report_shapes)
-      name = "shapes.dat"
+      name = "shapes"
     case (report_branches)
-      name = "branches.dat"
+      name = "branches"
     end select
   end function table_name
 
@@ -108,26 +118,34 @@ contains
     integer :: i
 
     do i = 1, size(outputs%kind)
-      associate (file => outputs%tables(i))
+      associate (table => outputs%tables(i))
         select case (outputs%kind(i))
         case (report_kinematics)
-          call write_kinematics(file, model, mechanism, positions, linkage_notes(mechanism, positions))
+          call write_kinematics(table, model, mechanism, positions, linkage_notes(mechanism, positions))
         case (report_inertia)
-          call write_inertia(file, model, mechanism, positions)
+          call write_inertia(table, model, mechanism, positions)
         case (report_mesh)
-          call write_mesh(file, model, mechanism, positions)
+          call write_mesh(table, model, mechanism, positions)
         case (report_frequencies)
-          call write_frequencies(file, model, positions, sweep, threads)
+          call write_frequencies(table, model, positions, sweep, threads)
         case (report_shapes)
-          call write_shapes(file, model, mechanism, positions, sweep)
+          call write_shapes(table, model, mechanism, positions, sweep)
         case (report_branches)
-          call write_branches(file, model, positions, sweep, branches)
+          call write_branches(table, model, positions, sweep, branches)
         end select
       end associate
     end do
     call append_output(outputs%echo, echo_text(model))
     call append_output(outputs%log, log)
   end subroutine write_outputs
+
+  !> Writes the summary, which tells what is in the tables and so comes after them.
+  subroutine write_summary(outputs, summary)
+    type(outputs_t), intent(inout) :: outputs
+    character(len=*), intent(in) :: summary
+
+    call append_output(outputs%summary, summary)
+  end subroutine write_summary
 
   !> Checks that every file is complete on the disk, and only then renames them all; tables that an earlier run left and this one
   !> was not asked for are removed. Errors: a file is not complete; nothing has been renamed then.
@@ -138,24 +156,29 @@ contains
     integer :: i
 
     do i = 1, size(outputs%tables)
-      call finish_output(outputs%tables(i), error)
+      call finish_table(outputs%tables(i), error)
       if (allocated(error)) return
     end do
     call finish_output(outputs%echo, error)
     if (allocated(error)) return
     call finish_output(outputs%log, error)
     if (allocated(error)) return
+    call finish_output(outputs%summary, error)
+    if (allocated(error)) return
 
     do i = 1, size(outputs%tables)
-      call publish_output(outputs%tables(i), error)
+      call publish_table(outputs%tables(i), error)
       if (allocated(error)) return
     end do
     call publish_output(outputs%echo, error)
     if (allocated(error)) return
     call publish_output(outputs%log, error)
     if (allocated(error)) return
+    call publish_output(outputs%summary, error)
+    if (allocated(error)) return
     do i = 1, report_kind_count
-      if (all(outputs%kind /= i)) call remove_output(outputs%folder, table_name(i))
+      if (all(outputs%kind /= i)) call remove_output(outputs%folder, table_name(i)//".dat")
+      if (all(outputs%kind /= i) .or. .not. outputs%csv) call remove_output(outputs%folder, table_name(i)//".csv")
     end do
   end subroutine publish_outputs
 
@@ -166,10 +189,11 @@ contains
     integer :: i
 
     do i = 1, size(outputs%tables)
-      call discard_output(outputs%tables(i))
+      call discard_table(outputs%tables(i))
     end do
     call discard_output(outputs%echo)
     call discard_output(outputs%log)
+    call discard_output(outputs%summary)
     do i = size(outputs%is_new), 1, -1
       call remove_empty_directory(outputs%is_new(i)%text)
     end do

@@ -4,11 +4,12 @@ module deck_runs
   use card_echo, only: echo_cards
   use cards, only: card_t
   use deck_checks, only: check_mechanics
-  use deck_outputs, only: discard_outputs, open_outputs, outputs_t, publish_outputs, write_outputs
-  use deck_source, only: read_source, source_t
+  use deck_outputs, only: discard_outputs, open_outputs, outputs_t, publish_outputs, write_outputs, write_summary
+  use deck_source, only: read_source, source_from_text, source_t
+  use deck_summary, only: summary_text
   use diagnostics, only: diagnostics_t, has_errors, render_errors, render_warnings, warning_texts
   use errors, only: error_t, set_error
-  use file_system, only: base_name, joined_path
+  use file_system, only: base_name, file_name, joined_path
   use frequency_sweep, only: run_sweep, sweep_t
   use includes, only: read_all_cards
   use interruption, only: was_interrupted
@@ -21,6 +22,7 @@ module deck_runs
   use run_findings, only: find_failures, find_warnings, findings_log, findings_messages, findings_t, linkage_notes
   use run_log, only: model_summary
   use run_statistics, only: start_stopwatch, statistics_text, stop_stage, stopwatch_t, sweep_summary
+  use sweep_journal, only: journal_t
   use text, only: string_t
   use variants, only: deck_cards_t, read_deck_cards, take_variant, variant_text
   implicit none (type, external)
@@ -33,6 +35,8 @@ module deck_runs
     type(source_t) :: source
     type(deck_cards_t) :: cards
     type(model_t) :: model                         !! of the first variant, of the only one where nothing varies
+    type(diagnostics_t) :: diagnostics
+    character(len=:), allocatable :: refusal       !! why it could not be read at all, with its path; empty if it could
     character(len=:), allocatable :: base          !! name of its output folder
     character(len=:), allocatable :: errors        !! ready for standard error; empty if there are none
     character(len=:), allocatable :: warnings      !! likewise
@@ -44,6 +48,8 @@ module deck_runs
     character(len=:), allocatable :: folder !! that holds the output folders
     integer :: threads = 1
     logical :: quiet = .false.
+    logical :: resume = .false.             !! go on where an earlier run was killed
+    logical :: csv = .false.                !! tables as comma-separated values too
   end type run_options_t
 
   !> What a run has to say.
@@ -51,6 +57,7 @@ module deck_runs
     character(len=:), allocatable :: messages   !! warnings and failed rows, for standard error
     character(len=:), allocatable :: statistics !! what was computed, for `--stats`
     logical :: failed = .false.                 !! some position or mode could not be computed
+    type(findings_t) :: findings                !! what the messages tell
   end type run_result_t
 
   character(len=*), parameter :: line_feed = achar(10)
@@ -64,12 +71,12 @@ contains
     type(string_t), intent(in), optional :: settings(:) !! of the command line, each `name=value`
 
     type(card_t), allocatable :: cards(:)
-    type(diagnostics_t) :: diagnostics
     type(string_t) :: none(0)
     type(error_t), allocatable :: error
 
     deck%base = base_name(path)
     if (path == "-") deck%base = "stdin"
+    deck%refusal = ""
     deck%errors = ""
     deck%warnings = ""
     deck%warning_lines = ""
@@ -78,20 +85,22 @@ contains
       call set_error(error, path//": error: this name gives no folder for the results")
     end if
     if (allocated(error)) then
+      deck%source = source_from_text(path, "")
+      deck%refusal = error%message
       deck%errors = error%message//line_feed
       return
     end if
-    call read_all_cards(deck%source, cards, diagnostics)
+    call read_all_cards(deck%source, cards, deck%diagnostics)
     if (present(settings)) then
-      call read_deck_cards(cards, settings, deck%source, diagnostics, deck%cards)
+      call read_deck_cards(cards, settings, deck%source, deck%diagnostics, deck%cards)
     else
-      call read_deck_cards(cards, none, deck%source, diagnostics, deck%cards)
+      call read_deck_cards(cards, none, deck%source, deck%diagnostics, deck%cards)
     end if
-    call read_variant(deck%cards, 1, cards, diagnostics, deck%model)
-    if (.not. has_errors(diagnostics)) deck%model%echo = echo_cards(deck%cards, cards, deck%source)
-    deck%errors = render_errors(diagnostics, deck%source)
-    deck%warnings = render_warnings(diagnostics, deck%source)
-    deck%warning_lines = warning_texts(diagnostics, deck%source)
+    call read_variant(deck%cards, 1, cards, deck%diagnostics, deck%model)
+    if (.not. has_errors(deck%diagnostics)) deck%model%echo = echo_cards(deck%cards, cards, deck%source)
+    deck%errors = render_errors(deck%diagnostics, deck%source)
+    deck%warnings = render_warnings(deck%diagnostics, deck%source)
+    deck%warning_lines = warning_texts(deck%diagnostics, deck%source)
   end subroutine read_deck
 
   !> Turns the cards of one variant into a model and checks it; nothing is read again. A deck without VARY has one variant.
@@ -122,18 +131,14 @@ contains
     type(positions_t) :: positions
     type(sweep_t) :: sweep
     type(branches_t) :: branches
-    type(findings_t) :: findings
     type(outputs_t) :: outputs
     type(progress_t) :: progress
     type(stopwatch_t) :: watch
     type(link_store_t) :: store
+    type(journal_t) :: journal
 
-    if (size(deck%cards%variations) > 0) then
-      call set_error(error, deck%source%path//": error: VARY is not run yet")
-      return
-    end if
     call start_stopwatch(watch)
-    call open_outputs(joined_path(options%folder, deck%base), deck%model, outputs, error)
+    call open_outputs(joined_path(options%folder, deck%base), deck%model, options%csv, outputs, error)
     if (allocated(error)) then
       call discard_outputs(outputs)
       return
@@ -156,10 +161,12 @@ contains
       end if
     end if
     if (.not. was_interrupted()) then
-      call find_failures(deck%model, positions, sweep, findings)
-      call find_warnings(deck%model, mechanism, positions, sweep, findings)
+      call find_failures(deck%model, positions, sweep, result%findings)
+      call find_warnings(deck%model, mechanism, positions, sweep, result%findings)
       call write_outputs(outputs, deck%model, mechanism, positions, sweep, branches, options%threads, &
-        log_text(deck, mechanism, positions, sweep, findings))
+        log_text(deck, mechanism, positions, sweep, result%findings))
+      call write_summary(outputs, summary_text(deck%base, file_name(deck%source%path), deck%diagnostics, deck%source, &
+        result%findings, deck%model, positions, outputs%tables))
     end if
     ! Asked once, before the files are put in place: from there on the run is done.
     if (was_interrupted()) then
@@ -172,8 +179,8 @@ contains
       call discard_outputs(outputs)
       return
     end if
-    result%failed = findings%failures > 0
-    result%messages = findings_messages(findings, deck%source%path)
+    result%failed = result%findings%failures > 0
+    result%messages = findings_messages(result%findings, deck%source%path)
     result%statistics = statistics_text(watch, deck%base, positions, sweep)
   end subroutine run_deck
 

@@ -3,15 +3,13 @@ module frequency_report
   use constants, only: two_pi
   use frequency_sweep, only: is_drawn, sweep_t
   use kinds, only: wp
-  use kinematics_report, only: place_of_row
   use mechanisms, only: mechanism_t
   use models, only: effects_static, inertia_lumped, model_t, needs_loads, report_number
-  use output_files, only: output_file_t
   use poses, only: pose_t
   use positions, only: positions_t
   use requests, only: report_shapes
-  use tables, only: column_t, integer_cell, integer_column, name_cell, name_column, real_cells, real_column, write_failure, &
-    write_gap, write_header, write_row
+  use tables, only: column_t, integer_cell, integer_column, name_cell, name_column, real_cells, real_column, table_t, &
+    write_failure, write_gap, write_header, write_row
   use text, only: string_t, to_string
   use units, only: coherent_unit, dimension_length, dimension_mass, from_si, to_si, unit_t
   implicit none (type, external)
@@ -47,8 +45,8 @@ contains
   end function failure_at
 
   !> One row a position, one block a speed; a single block if the frequencies are static.
-  subroutine write_frequencies(file, model, positions, sweep, threads)
-    type(output_file_t), intent(inout) :: file
+  subroutine write_frequencies(table, model, positions, sweep, threads)
+    type(table_t), intent(inout) :: table
     type(model_t), intent(in) :: model
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
@@ -64,17 +62,17 @@ contains
       columns(2 + i) = real_column("f"//to_string(i), "Hz")
       columns(2 + model%modes + i) = real_column("error"//to_string(i), "-")
     end do
-    call write_header(file, model%title, [effects_notes(model), string_t("error1 and so on: how far off each frequency may be, "// &
-      "of itself: mesh and rounding")], columns)
+    call write_header(table, model%title, [effects_notes(model), string_t("error1 and so on: how far off each frequency may "// &
+      "be, of itself: mesh and rounding")], columns)
     do k = 1, size(sweep%request%speed)
-      if (k > 1) call write_gap(file, 2)
-      call write_block(file, positions, sweep, k, threads, sum(columns%width))
+      if (k > 1) call write_gap(table, 2)
+      call write_block(table, positions, sweep, k, threads, sum(columns%width))
     end do
   end subroutine write_frequencies
 
   !> All rows of a speed. Their digits are worked out by all threads, a number of rows at a time, and written in order.
-  subroutine write_block(file, positions, sweep, speed, threads, width)
-    type(output_file_t), intent(inout) :: file
+  subroutine write_block(table, positions, sweep, speed, threads, width)
+    type(table_t), intent(inout) :: table
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
     integer, intent(in) :: speed   !! number
@@ -95,9 +93,9 @@ contains
       !$omp end parallel do
       do i = first, last
         if (has_result(positions, sweep, positions%state(i), speed)) then
-          call write_row(file, rows(i - first + 1))
+          call write_row(table, rows(i - first + 1))
         else
-          call write_failure(file, place_of_row(sweep%request%speed(speed), positions%crank(i)), &
+          call write_failure(table, [sweep%request%speed(speed), positions%crank(i)], &
             failure_at(positions, sweep, positions%state(i), speed))
         end if
       end do
@@ -143,8 +141,8 @@ contains
   end function effects_notes
 
   !> Rows along every link of every mode; an empty line between links, two between modes.
-  subroutine write_shapes(file, model, mechanism, positions, sweep)
-    type(output_file_t), intent(inout) :: file
+  subroutine write_shapes(table, model, mechanism, positions, sweep)
+    type(table_t), intent(inout) :: table
     type(model_t), intent(in) :: model
     type(mechanism_t), intent(in) :: mechanism
     type(positions_t), intent(in) :: positions
@@ -162,24 +160,24 @@ contains
       name_column("link", mechanism%names), real_column("s", length%name), real_column("x", length%name), &
       real_column("y", length%name), real_column("ux", mass%name//"^-0.5"), real_column("uy", mass%name//"^-0.5"), &
       real_column("rotation", "rad."//mass%name//"^-0.5."//length%name//"^-1")]
-    call write_header(file, model%title, [effects_notes(model), string_t("shapes are normalised: phi' M phi = 1; s runs along "// &
-      "each link round the loop from "//mechanism%pin_names(1)%text//" to "//mechanism%pin_names(4)%text)], columns)
+    call write_header(table, model%title, [effects_notes(model), string_t("shapes are normalised: phi' M phi = 1; s runs "// &
+      "along each link round the loop from "//mechanism%pin_names(1)%text//" to "//mechanism%pin_names(4)%text)], columns)
     first = .true.
     associate (report => model%reports(report_number(model, report_shapes)))
       do k = 1, size(sweep%request%speed)
         do i = 1, size(positions%crank)
           if (.not. is_drawn(report, positions%crank(i), sweep%request%speed(k))) cycle
-          if (.not. first) call write_gap(file, 2)
+          if (.not. first) call write_gap(table, 2)
           first = .false.
           reason = failure_at(positions, sweep, positions%state(i), k)
           if (len(reason) > 0) then
-            call write_failure(file, place_of_row(sweep%request%speed(k), positions%crank(i)), reason)
+            call write_failure(table, [sweep%request%speed(k), positions%crank(i)], reason)
             cycle
           end if
           do mode = 1, model%modes
-            if (mode > 1) call write_gap(file, 2)
+            if (mode > 1) call write_gap(table, 2)
             associate (state => positions%states(positions%state(i)), result => sweep%results(positions%state(i)))
-              call write_mode(file, mechanism, columns(5)%width, length, mass, state%pose, &
+              call write_mode(table, mechanism, columns(5)%width, length, mass, state%pose, &
                 result%shapes(k)%displacement(:, :, :, mode), [sweep%request%speed(k), positions%crank(i)], mode, &
                 frequency_of(result%lambda(mode, k)))
             end associate
@@ -189,8 +187,8 @@ contains
     end associate
   end subroutine write_shapes
 
-  subroutine write_mode(file, mechanism, name_width, length, mass, pose, shape, place, mode, frequency)
-    type(output_file_t), intent(inout) :: file
+  subroutine write_mode(table, mechanism, name_width, length, mass, pose, shape, place, mode, frequency)
+    type(table_t), intent(inout) :: table
     type(mechanism_t), intent(in) :: mechanism
     integer, intent(in) :: name_width
     type(unit_t), intent(in) :: length, mass
@@ -207,12 +205,12 @@ contains
     scale = sqrt(to_si(1.0_wp, mass))
     do body = 1, size(mechanism%names)
       associate (this => mechanism%linkage%bodies(body))
-        if (body > 1) call write_gap(file, 1)
+        if (body > 1) call write_gap(table, 1)
         do i = 1, size(shape, 2)
           s = this%length*(i - 1)/(size(shape, 2) - 1)
           displacement = scale*shape(:, i, body)
           displacement(3) = to_si(displacement(3), length)
-          call write_row(file, real_cells(place)//integer_cell(mode, "mode")//real_cells([frequency])// &
+          call write_row(table, real_cells(place)//integer_cell(mode, "mode")//real_cells([frequency])// &
             name_cell(mechanism%names(body)%text, name_width)// &
             real_cells([from_si([s, pose%pin(:, this%first_pin) + s*pose%direction(:, body)], length), displacement]))
         end do

@@ -2,15 +2,13 @@
 module inertia_report
   use inertia_loads, only: lumped_masses, lumped_stations
   use kinds, only: wp
-  use kinematics_report, only: place_of_row
   use mechanisms, only: mechanism_t
   use models, only: inertia_lumped, model_t
   use motions, only: acceleration_field_t, point_acceleration, scaled_sum, unit_fields
-  use output_files, only: output_file_t
   use poses, only: pose_t
   use positions, only: positions_t
-  use tables, only: column_t, integer_cell, integer_column, name_cell, name_column, real_cells, real_column, write_failure, &
-    write_gap, write_header, write_row
+  use tables, only: column_t, integer_cell, integer_column, name_cell, name_column, real_cells, real_column, table_t, &
+    write_failure, write_gap, write_header, write_row
   use text, only: string_t, to_string
   use units, only: coherent_unit, dimension_acceleration, dimension_force, dimension_length, dimension_mass, dimension_moment, &
     from_si, unit_system_t, unit_t
@@ -27,8 +25,8 @@ module inertia_report
 contains
 
   !> One row a mass (lumped) or a link (distributed), then one a pin that has a mass of its own; one block a speed.
-  subroutine write_inertia(file, model, mechanism, positions)
-    type(output_file_t), intent(inout) :: file
+  subroutine write_inertia(table, model, mechanism, positions)
+    type(table_t), intent(inout) :: table
     type(model_t), intent(in) :: model
     type(mechanism_t), intent(in) :: mechanism
     type(positions_t), intent(in) :: positions
@@ -48,21 +46,21 @@ contains
       real_column("ax", measures%acceleration%name), real_column("ay", measures%acceleration%name), &
       real_column("Fx", measures%force%name), real_column("Fy", measures%force%name), real_column("m", measures%mass%name)]
     if (model%inertia == inertia_lumped) then
-      call write_header(file, model%title, [string_t("lumped inertia: masses on the mesh nodes, F = -m a"), &
+      call write_header(table, model%title, [string_t("lumped inertia: masses on the mesh nodes, F = -m a"), &
         string_t("masses at pins in rows of their own"), acceleration_note(model)], columns)
     else
-      call write_header(file, model%title, [string_t("distributed inertia: a row a link at its mass centre, F = -m a, "// &
+      call write_header(table, model%title, [string_t("distributed inertia: a row a link at its mass centre, F = -m a, "// &
         "moment = -I alpha about the mass centre"), string_t("masses at pins in rows of their own"), acceleration_note(model)], &
         [columns, real_column("moment", measures%moment%name)])
     end if
     do k = 1, size(model%speed%value)
-      if (k > 1) call write_gap(file, 2)
+      if (k > 1) call write_gap(table, 2)
       do i = 1, size(positions%crank)
         associate (state => positions%states(positions%state(i)))
           if (allocated(state%error)) then
-            call write_failure(file, place_of_row(model%speed%value(k), positions%crank(i)), state%error%message)
+            call write_failure(table, [model%speed%value(k), positions%crank(i)], state%error%message)
           else
-            call write_position(file, mechanism, measures, columns, state%pose, &
+            call write_position(table, mechanism, measures, columns, state%pose, &
               scaled_sum(unit_fields(mechanism%linkage, state%pose, state%motion), model%speed%value(k), model%acceleration), &
               [model%speed%value(k), positions%crank(i)], model%inertia == inertia_lumped)
           end if
@@ -90,8 +88,8 @@ contains
   end function acceleration_note
 
   !> All masses at one position and speed.
-  subroutine write_position(file, mechanism, measures, columns, pose, field, place, lumped)
-    type(output_file_t), intent(inout) :: file
+  subroutine write_position(table, mechanism, measures, columns, pose, field, place, lumped)
+    type(table_t), intent(inout) :: table
     type(mechanism_t), intent(in) :: mechanism
     type(measures_t), intent(in) :: measures
     type(column_t), intent(in) :: columns(:)
@@ -139,7 +137,7 @@ contains
       character(len=*), intent(in) :: owner
       real(wp), intent(in) :: position(2), acceleration(2), mass !! [m, m/s², kg]
 
-      call write_row(file, real_cells(place)//integer_cell(number, columns(3)%name)//name_cell(owner, columns(4)%width)// &
+      call write_row(table, real_cells(place)//integer_cell(number, columns(3)%name)//name_cell(owner, columns(4)%width)// &
         real_cells([from_si(position, measures%length), from_si(acceleration, measures%acceleration), &
         from_si(-mass*acceleration, measures%force), from_si(mass, measures%mass), from_si(moment, measures%moment)]))
     end subroutine write_mass

@@ -5,22 +5,21 @@ module kinematics_report
   use mechanisms, only: mechanism_t
   use models, only: model_t
   use motions, only: angular_acceleration, angular_velocity, motion_t
-  use output_files, only: output_file_t
   use poses, only: body_angle, pose_t, transmission_angle
   use positions, only: positions_t
-  use tables, only: column_t, real_cells, real_column, write_failure, write_gap, write_header, write_row
+  use tables, only: column_t, real_cells, real_column, table_t, write_failure, write_gap, write_header, write_row
   use text, only: string_t, to_string
   use units, only: coherent_unit, dimension_length, from_si, unit_t
   implicit none (type, external)
   private
 
-  public :: write_kinematics, place_of_row
+  public :: write_kinematics
 
 contains
 
   !> One row a position, one block a speed.
-  subroutine write_kinematics(file, model, mechanism, positions, notes)
-    type(output_file_t), intent(inout) :: file
+  subroutine write_kinematics(table, model, mechanism, positions, notes)
+    type(table_t), intent(inout) :: table
     type(model_t), intent(in) :: model
     type(mechanism_t), intent(in) :: mechanism
     type(positions_t), intent(in) :: positions
@@ -30,20 +29,20 @@ contains
     integer :: i, k
 
     length = coherent_unit(model%units, dimension_length)
-    call write_header(file, model%title, [notes, &
+    call write_header(table, model%title, [notes, &
       string_t("3: link "//mechanism%names(2)%text//", angle from "//mechanism%pin_names(2)%text//" to "// &
         mechanism%pin_names(3)%text//"; 4: link "//mechanism%names(3)%text//", angle from "//mechanism%pin_names(4)%text// &
         " to "//mechanism%pin_names(3)%text), &
       string_t("A: pin "//mechanism%pin_names(2)%text//"; B: pin "//mechanism%pin_names(3)%text), &
       string_t("angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2")], columns(length))
     do k = 1, size(model%speed%value)
-      if (k > 1) call write_gap(file, 2)
+      if (k > 1) call write_gap(table, 2)
       do i = 1, size(positions%crank)
         associate (state => positions%states(positions%state(i)))
           if (allocated(state%error)) then
-            call write_failure(file, place_of_row(model%speed%value(k), positions%crank(i)), state%error%message)
+            call write_failure(table, [model%speed%value(k), positions%crank(i)], state%error%message)
           else
-            call write_row(file, real_cells([model%speed%value(k), positions%crank(i), &
+            call write_row(table, real_cells([model%speed%value(k), positions%crank(i), &
               row_of(mechanism, state%pose, state%motion, model%speed%value(k), model%acceleration, length)]))
           end if
         end associate
@@ -78,14 +77,5 @@ contains
       angular(2:3), from_si(pose%pin(:, 2), length), from_si(pose%pin(:, 3), length), &
       transmission_angle(mechanism%linkage, pose, 1)/degree]
   end function row_of
-
-  !> The name of a row in messages and failed rows.
-  pure function place_of_row(speed, crank) result(place)
-    real(wp), intent(in) :: speed !! [rad/s]
-    real(wp), intent(in) :: crank !! [deg]
-    character(len=:), allocatable :: place
-
-    place = "speed="//to_string(speed, 12)//" crank="//to_string(crank, 12)
-  end function place_of_row
 
 end module kinematics_report

@@ -4,12 +4,11 @@ module mesh_report
   use kinds, only: wp
   use mechanisms, only: mechanism_t
   use models, only: model_t
-  use output_files, only: output_file_t
   use poses, only: pose_t
   use positions, only: positions_t
-  use tables, only: column_t, integer_cell, integer_column, name_cell, name_column, real_cells, real_column, write_failure, &
-    write_gap, write_header, write_row
-  use text, only: string_t, to_string
+  use tables, only: column_t, integer_cell, integer_column, name_cell, name_column, real_cells, real_column, table_t, &
+    write_failure, write_gap, write_header, write_row
+  use text, only: string_t
   use units, only: coherent_unit, dimension_length, dimension_mass, from_si, unit_t
   implicit none (type, external)
   private
@@ -19,8 +18,8 @@ module mesh_report
 contains
 
   !> One row an element, an empty line between positions. Each element brings half of its mass to either node.
-  subroutine write_mesh(file, model, mechanism, positions)
-    type(output_file_t), intent(inout) :: file
+  subroutine write_mesh(table, model, mechanism, positions)
+    type(table_t), intent(inout) :: table
     type(model_t), intent(in) :: model
     type(mechanism_t), intent(in) :: mechanism
     type(positions_t), intent(in) :: positions
@@ -35,23 +34,23 @@ contains
       integer_column("node_a"), integer_column("node_b"), real_column("xa", length%name), real_column("ya", length%name), &
       real_column("xb", length%name), real_column("yb", length%name), real_column("mass_a", mass%name), &
       real_column("mass_b", mass%name)]
-    call write_header(file, model%title, [ &
+    call write_header(table, model%title, [ &
       string_t("mass_a and mass_b: what the element brings to the lumped masses of its nodes"), &
       string_t("both links at a pin have a node of their own there")], columns)
     do i = 1, size(positions%crank)
       associate (state => positions%states(positions%state(i)))
         if (allocated(state%error)) then
-          call write_failure(file, "crank="//to_string(positions%crank(i), 12), state%error%message)
+          call write_failure(table, [positions%crank(i)], state%error%message)
         else
-          call write_position(file, mechanism, columns, length, mass, state%pose, positions%crank(i))
-          if (i < size(positions%crank)) call write_gap(file, 1)
+          call write_position(table, mechanism, columns, length, mass, state%pose, positions%crank(i))
+          if (i < size(positions%crank)) call write_gap(table, 1)
         end if
       end associate
     end do
   end subroutine write_mesh
 
-  subroutine write_position(file, mechanism, columns, length_unit, mass_unit, pose, crank)
-    type(output_file_t), intent(inout) :: file
+  subroutine write_position(table, mechanism, columns, length_unit, mass_unit, pose, crank)
+    type(table_t), intent(inout) :: table
     type(mechanism_t), intent(in) :: mechanism
     type(column_t), intent(in) :: columns(:)
     type(unit_t), intent(in) :: length_unit, mass_unit
@@ -68,7 +67,7 @@ contains
         do i = 1, mesh%elements(body)
           ends(:, 1) = pose%pin(:, this%first_pin) + (i - 1)*length*pose%direction(:, body)
           ends(:, 2) = pose%pin(:, this%first_pin) + i*length*pose%direction(:, body)
-          call write_row(file, real_cells([crank])//name_cell(mechanism%names(body)%text, columns(2)%width)// &
+          call write_row(table, real_cells([crank])//name_cell(mechanism%names(body)%text, columns(2)%width)// &
             integer_cell(mesh%first_element(body) + i - 1, "element")//integer_cell(mesh%first_node(body) + i - 1, "node_a")// &
             integer_cell(mesh%first_node(body) + i, "node_b")// &
             real_cells([from_si(reshape(ends, [4]), length_unit), from_si([half_mass, half_mass], mass_unit)]))

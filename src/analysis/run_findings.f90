@@ -16,12 +16,20 @@ module run_findings
   implicit none (type, external)
   private
 
-  public :: findings_t, find_failures, find_warnings, linkage_notes, findings_messages, findings_log
+  public :: findings_t, failure_t, find_failures, find_warnings, linkage_notes, findings_messages, findings_log
+
+  !> A position without a result.
+  type :: failure_t
+    real(wp) :: crank = 0.0_wp     !! [deg]
+    logical :: at_every_speed = .true. !! there is no pose
+    real(wp) :: speed = 0.0_wp     !! where there is a pose, but there are no modes [rad/s]
+    character(len=:), allocatable :: reason
+  end type failure_t
 
   type :: findings_t
-    integer :: failures = 0                        !! positions × speeds without a result
-    type(text_buffer_t), private :: failure_lines  !! one each
-    type(string_t), allocatable, private :: warnings(:)
+    integer :: failures = 0                   !! positions without a pose, and positions × speeds without modes
+    type(failure_t), allocatable :: failed(:) !! (at least failures)
+    type(string_t), allocatable :: warnings(:)
   end type findings_t
 
   !> The axial frequencies assume that the loads bend the links little; this is the share of a link's length that is still little.
@@ -46,24 +54,51 @@ contains
 
     do i = 1, size(positions%crank)
       if (allocated(positions%states(positions%state(i))%error)) then
-        call add_failure(findings, at(positions%crank(i))//": "//positions%states(positions%state(i))%error%message)
+        call add_failure(findings, positions%states(positions%state(i))%error%message, positions%crank(i))
       else if (needs_frequencies(model)) then
         do k = 1, size(sweep%request%speed)
           reason = failure_at(positions, sweep, positions%state(i), k)
-          if (len(reason) > 0) call add_failure(findings, at(positions%crank(i), sweep%request%speed(k))//": "//reason)
+          if (len(reason) > 0) call add_failure(findings, reason, positions%crank(i), sweep%request%speed(k))
         end do
       end if
     end do
 
   end subroutine find_failures
 
-  pure subroutine add_failure(findings, line)
+  pure subroutine add_failure(findings, reason, crank, speed)
     type(findings_t), intent(inout) :: findings
-    character(len=*), intent(in) :: line
+    character(len=*), intent(in) :: reason
+    real(wp), intent(in) :: crank           !! [deg]
+    real(wp), intent(in), optional :: speed !! [rad/s]
 
+    type(failure_t), allocatable :: larger(:)
+
+    if (.not. allocated(findings%failed)) allocate (findings%failed(16))
+    if (findings%failures == size(findings%failed)) then
+      allocate (larger(2*findings%failures))
+      larger(:findings%failures) = findings%failed
+      call move_alloc(larger, findings%failed)
+    end if
     findings%failures = findings%failures + 1
-    call append_text(findings%failure_lines, line//line_feed)
+    associate (new => findings%failed(findings%failures))
+      new%reason = reason
+      new%crank = crank
+      new%at_every_speed = .not. present(speed)
+      if (present(speed)) new%speed = speed
+    end associate
   end subroutine add_failure
+
+  !> `speed 20 rad/s, crank 45 deg: reason`
+  pure function failure_line(failure) result(line)
+    type(failure_t), intent(in) :: failure
+    character(len=:), allocatable :: line
+
+    if (failure%at_every_speed) then
+      line = at(failure%crank)//": "//failure%reason//line_feed
+    else
+      line = at(failure%crank, failure%speed)//": "//failure%reason//line_feed
+    end if
+  end function failure_line
 
   !> Collects divergences and large deflections.
   pure subroutine find_warnings(model, mechanism, positions, sweep, findings)
@@ -213,19 +248,14 @@ contains
     character(len=*), intent(in) :: path
     character(len=:), allocatable :: text
 
-    character(len=:), allocatable :: lines
-    integer :: i, start, length
+    integer :: i
 
     text = ""
     do i = 1, size(findings%warnings)
       text = text//path//": warning: "//findings%warnings(i)%text//line_feed
     end do
-    lines = buffer_text(findings%failure_lines)
-    start = 1
     do i = 1, min(findings%failures, most_shown)
-      length = index(lines(start:), line_feed)
-      text = text//path//": error: "//lines(start:start + length - 1)
-      start = start + length
+      text = text//path//": error: "//failure_line(findings%failed(i))
     end do
     if (findings%failures > most_shown) then
       text = text//path//": error: "//to_string(findings%failures - most_shown)//" more rows failed; run.log lists them"//line_feed
@@ -237,14 +267,17 @@ contains
     type(findings_t), intent(in) :: findings
     character(len=:), allocatable :: text
 
+    type(text_buffer_t) :: buffer
     integer :: i
 
-    text = ""
     do i = 1, size(findings%warnings)
-      text = text//"warning: "//findings%warnings(i)%text//line_feed
+      call append_text(buffer, "warning: "//findings%warnings(i)%text//line_feed)
     end do
-    if (findings%failures == 0) return
-    text = text//"failed rows: "//to_string(findings%failures)//line_feed//buffer_text(findings%failure_lines)
+    if (findings%failures > 0) call append_text(buffer, "failed rows: "//to_string(findings%failures)//line_feed)
+    do i = 1, findings%failures
+      call append_text(buffer, failure_line(findings%failed(i)))
+    end do
+    text = buffer_text(buffer)
   end function findings_log
 
   !> Grashof class, limit positions, extreme transmission angles: what to know of the linkage before its tables.

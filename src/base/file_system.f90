@@ -6,7 +6,7 @@ module file_system
   private
 
   public :: is_directory, make_directories, rename_file, remove_file, remove_empty_directory
-  public :: base_name, joined_path, real_path, standard_error_is_terminal
+  public :: base_name, file_name, joined_path, real_path, standard_error_is_terminal
 
   interface
     function c_opendir(path) bind(c, name="opendir") result(directory)
@@ -131,10 +131,18 @@ contains
 
     integer :: dot
 
-    name = path(index(path, "/", back=.true.) + 1:)
+    name = file_name(path)
     dot = index(name, ".", back=.true.)
     if (dot > 1) name = name(:dot - 1)
   end function base_name
+
+  !> The last part of a path: `inputs/one.deck` gives `one.deck`.
+  pure function file_name(path) result(name)
+    character(len=*), intent(in) :: path
+    character(len=:), allocatable :: name
+
+    name = path(index(path, "/", back=.true.) + 1:)
+  end function file_name
 
   pure function joined_path(folder, name) result(path)
     character(len=*), intent(in) :: folder, name

@@ -11,8 +11,8 @@ module deck_source
   implicit none (type, external)
   private
 
-  public :: source_t, source_file_t, read_source, read_file, source_from_text, append_source, line_count, source_line
-  public :: file_of_line, first_line, last_line, line_place, line_origin
+  public :: source_t, source_file_t, standard_input, read_source, read_file, source_from_text, append_source, line_count
+  public :: source_line, file_of_line, first_line, last_line, line_place, line_origin, path_from_deck
 
   !> One of the files that a source is made of.
   type :: source_file_t
@@ -28,6 +28,7 @@ module deck_source
     type(source_file_t), allocatable :: files(:)
   end type source_t
 
+  character(len=*), parameter :: standard_input = "<standard input>" !! in place of a path
   character(len=*), parameter :: line_feed = achar(10), carriage_return = achar(13), tab = achar(9)
   integer, parameter :: most_bytes = 500000000
   character(len=*), parameter :: unreadable = "the deck cannot be read: "
@@ -51,7 +52,7 @@ contains
     if (path == "-") then
       message = ""
       call read_lines(input_unit, buffer, status, message)
-      source = source_from_text("<standard input>", buffer_text(buffer))
+      source = source_from_text(standard_input, buffer_text(buffer))
       if (status == 0) then
         call find_binary(source, problem, place)
       else
@@ -275,16 +276,25 @@ contains
     integer, intent(in) :: line
     character(len=:), allocatable :: origin
 
-    integer :: folder
-
     if (file_of_line(source, line) == 1) then
       origin = "line "//to_string(line)
-      return
+    else
+      origin = path_from_deck(source, line_place(source, line))
     end if
-    origin = line_place(source, line)
-    folder = index(source%path, "/", back=.true.)
-    if (index(origin, source%path(:folder)) == 1) origin = origin(folder + 1:)
   end function line_origin
+
+  !> A path as seen from the folder of the deck, if it is below it.
+  pure function path_from_deck(source, path) result(seen)
+    type(source_t), intent(in) :: source
+    character(len=*), intent(in) :: path
+    character(len=:), allocatable :: seen
+
+    integer :: folder
+
+    seen = path
+    folder = index(source%path, "/", back=.true.)
+    if (index(path, source%path(:folder)) == 1) seen = path(folder + 1:)
+  end function path_from_deck
 
   !> Finds the first control character: no text has one.
   pure subroutine find_binary(source, problem, place)

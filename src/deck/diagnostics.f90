@@ -10,6 +10,7 @@ module diagnostics
   private
 
   public :: diagnostics_t, add_error, add_warning, has_errors, error_count, render_errors, render_warnings, warning_texts
+  public :: diagnostic_t, errors_of, warnings_of, untold_errors, untold_warnings
 
   !> One message. A place without a line stands for what the deck lacks.
   type :: diagnostic_t
@@ -131,13 +132,41 @@ contains
     end associate
   end function warning_texts
 
-  pure function rendered(messages, source, severity) result(text)
-    type(message_list_t), intent(in) :: messages
-    type(source_t), intent(in) :: source
-    character(len=*), intent(in) :: severity
-    character(len=:), allocatable :: text
+  !> The errors that are kept, in the order of the deck's lines.
+  pure function errors_of(diagnostics) result(list)
+    type(diagnostics_t), intent(in) :: diagnostics
+    type(diagnostic_t), allocatable :: list(:)
 
-    type(text_buffer_t) :: buffer
+    list = in_order(diagnostics%errors)
+  end function errors_of
+
+  !> The warnings likewise.
+  pure function warnings_of(diagnostics) result(list)
+    type(diagnostics_t), intent(in) :: diagnostics
+    type(diagnostic_t), allocatable :: list(:)
+
+    list = in_order(diagnostics%warnings)
+  end function warnings_of
+
+  !> Number of errors beyond those that are kept.
+  pure function untold_errors(diagnostics) result(count)
+    type(diagnostics_t), intent(in) :: diagnostics
+    integer :: count
+
+    count = diagnostics%errors%total - diagnostics%errors%kept
+  end function untold_errors
+
+  pure function untold_warnings(diagnostics) result(count)
+    type(diagnostics_t), intent(in) :: diagnostics
+    integer :: count
+
+    count = diagnostics%warnings%total - diagnostics%warnings%kept
+  end function untold_warnings
+
+  pure function in_order(messages) result(list)
+    type(message_list_t), intent(in) :: messages
+    type(diagnostic_t), allocatable :: list(:)
+
     real(wp) :: place(messages%kept)
     integer :: i, order(messages%kept)
 
@@ -147,8 +176,25 @@ contains
       if (messages%list(i)%place%line > 0) place(i) = messages%list(i)%place%line*1.0e9_wp + messages%list(i)%place%column
     end do
     order = ascending_order(place)
+    allocate (list(messages%kept))
     do i = 1, messages%kept
-      associate (item => messages%list(order(i)))
+      list(i) = messages%list(order(i))
+    end do
+  end function in_order
+
+  pure function rendered(messages, source, severity) result(text)
+    type(message_list_t), intent(in) :: messages
+    type(source_t), intent(in) :: source
+    character(len=*), intent(in) :: severity
+    character(len=:), allocatable :: text
+
+    type(text_buffer_t) :: buffer
+    type(diagnostic_t), allocatable :: list(:)
+    integer :: i
+
+    list = in_order(messages)
+    do i = 1, size(list)
+      associate (item => list(i))
         call append_place(buffer, source, item%place, severity, item%message)
         call append_setting(buffer, source, item%place)
         if (len(item%note) > 0) call append_place(buffer, source, item%second_place, "note", item%note)

@@ -19,7 +19,6 @@ module output_files
     integer(long), private :: bytes = 0_long
     logical, private :: sound = .true.
     type(text_buffer_t), private :: buffer !! text not yet written
-    logical :: gap_due = .false.           !! an empty line is to come before the next row
   end type output_file_t
 
   character(len=*), parameter :: temporary = ".part"
@@ -70,7 +69,6 @@ contains
     integer :: status
     integer(long) :: size_on_disk
 
-    if (file%gap_due) call append_text(file%buffer, achar(10))
     call write_buffer(file)
     close (file%unit, iostat=status)
     file%is_open = .false.

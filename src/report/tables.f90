@@ -1,14 +1,17 @@
-!> Tables: plain text, one row that stands alone, all the digits of a double.
+!> Tables: plain text, one row that stands alone, all the digits of a double; beside it, if asked for, the same rows as CSV.
 module tables
-  use kinds, only: wp
+  use csv_text, only: csv_field, csv_line, csv_quoted
+  use errors, only: error_t
+  use kinds, only: long, wp
   use number_text, only: scientific
-  use output_files, only: append_output, output_file_t
-  use text, only: string_t
+  use output_files, only: append_output, discard_output, finish_output, open_output, output_file_t, publish_output
+  use text, only: string_t, to_string
   implicit none (type, external)
   private
 
+  public :: table_t, open_table, finish_table, publish_table, discard_table
   public :: column_t, real_column, integer_column, name_column, write_header, write_row, write_gap, write_failure
-  public :: real_cells, integer_cell, name_cell
+  public :: real_cells, integer_cell, name_cell, has_unit
 
   type :: column_t
     character(len=:), allocatable :: name
@@ -16,11 +19,63 @@ module tables
     integer :: width = 0
   end type column_t
 
+  type :: table_t
+    character(len=:), allocatable :: name     !! of its files, without `.dat` and `.csv`
+    logical :: has_csv = .false.
+    type(column_t), allocatable :: columns(:)
+    integer(long) :: rows = 0_long            !! written so far
+    integer(long) :: failed_rows = 0_long     !! that could not be computed, besides
+    type(output_file_t), private :: plain, csv
+    logical, private :: gap_due = .false.     !! an empty line is to come before the next row
+  end type table_t
+
   integer, parameter :: number_width = 25 !! sign, 17 digits, point, exponent of three digits, and a blank
   integer, parameter :: integer_width = 9
+  character(len=*), parameter :: no_unit = "-"
   character(len=*), parameter :: line_feed = achar(10)
 
 contains
+
+  !> Opens `name.dat` and perhaps `name.csv` under temporary names.
+  subroutine open_table(folder, name, has_csv, table, error)
+    character(len=*), intent(in) :: folder, name
+    logical, intent(in) :: has_csv
+    type(table_t), intent(out) :: table
+    type(error_t), allocatable, intent(out) :: error
+
+    table%name = name
+    table%has_csv = has_csv
+    call open_output(folder, name//".dat", table%plain, error)
+    if (has_csv .and. .not. allocated(error)) call open_output(folder, name//".csv", table%csv, error)
+  end subroutine open_table
+
+  !> Writes what is left and checks that everything is on the disk. Errors: it is not.
+  subroutine finish_table(table, error)
+    type(table_t), intent(inout) :: table
+    type(error_t), allocatable, intent(out) :: error
+
+    if (table%gap_due) call append_output(table%plain, line_feed)
+    table%gap_due = .false.
+    call finish_output(table%plain, error)
+    if (table%has_csv .and. .not. allocated(error)) call finish_output(table%csv, error)
+  end subroutine finish_table
+
+  !> Gives a finished table its names.
+  subroutine publish_table(table, error)
+    type(table_t), intent(in) :: table
+    type(error_t), allocatable, intent(out) :: error
+
+    call publish_output(table%plain, error)
+    if (table%has_csv .and. .not. allocated(error)) call publish_output(table%csv, error)
+  end subroutine publish_table
+
+  !> Removes what was written so far.
+  subroutine discard_table(table)
+    type(table_t), intent(inout) :: table
+
+    call discard_output(table%plain)
+    call discard_output(table%csv)
+  end subroutine discard_table
 
   pure function real_column(name, unit) result(column)
     character(len=*), intent(in) :: name, unit
@@ -33,7 +88,7 @@ contains
     character(len=*), intent(in) :: name
     type(column_t) :: column
 
-    column = column_t(name, "-", max(integer_width, len(name) + 1))
+    column = column_t(name, no_unit, max(integer_width, len(name) + 1))
   end function integer_column
 
   !> A column wide enough for any of the names that stand in it.
@@ -44,34 +99,48 @@ contains
 
     integer :: i
 
-    column = column_t(name, "-", len(name) + 1)
+    column = column_t(name, no_unit, len(name) + 1)
     do i = 1, size(entries)
       column%width = max(column%width, len(entries(i)%text) + 1)
     end do
   end function name_column
 
-  !> Writes the `#` lines: title, notes, names of the columns, their units.
-  subroutine write_header(file, title, notes, columns)
-    type(output_file_t), intent(inout) :: file
+  pure function has_unit(column) result(has)
+    type(column_t), intent(in) :: column
+    logical :: has
+
+    has = column%unit /= no_unit
+  end function has_unit
+
+  !> Writes the `#` lines: title, notes, names of the columns, their units; in CSV the names of the columns alone.
+  subroutine write_header(table, title, notes, columns)
+    type(table_t), intent(inout) :: table
     character(len=*), intent(in) :: title
     type(string_t), intent(in) :: notes(:)
     type(column_t), intent(in) :: columns(:)
 
     character(len=:), allocatable :: names, units
+    type(string_t) :: fields(size(columns) + 1)
     integer :: i
 
-    call append_output(file, "# "//title_line(title)//line_feed)
+    table%columns = columns
+    call append_output(table%plain, "# "//title_line(title)//line_feed)
     do i = 1, size(notes)
-      call append_output(file, "# "//notes(i)%text//line_feed)
+      call append_output(table%plain, "# "//notes(i)%text//line_feed)
     end do
     names = ""
     units = ""
     do i = 1, size(columns)
       names = names//name_cell(columns(i)%name, columns(i)%width)
       units = units//name_cell(columns(i)%unit, columns(i)%width)
+      fields(i)%text = columns(i)%name
+      if (has_unit(columns(i))) fields(i)%text = columns(i)%name//" ["//columns(i)%unit//"]"
+      fields(i)%text = csv_field(fields(i)%text)
     end do
     ! The mark takes the place of a blank that every first column begins with.
-    call append_output(file, "#"//names(2:)//line_feed//"#"//units(2:)//line_feed)
+    call append_output(table%plain, "#"//names(2:)//line_feed//"#"//units(2:)//line_feed)
+    fields(size(fields))%text = "failure"
+    if (table%has_csv) call append_output(table%csv, csv_line("", fields))
   end subroutine write_header
 
   !> A table has a first line whether or not its deck has a title.
@@ -83,34 +152,50 @@ contains
     if (len(title) == 0) line = "(no title)"
   end function title_line
 
-  subroutine write_row(file, cells)
-    type(output_file_t), intent(inout) :: file
+  subroutine write_row(table, cells)
+    type(table_t), intent(inout) :: table
     character(len=*), intent(in) :: cells
 
-    if (file%gap_due) call append_output(file, line_feed)
-    file%gap_due = .false.
-    call append_output(file, cells//line_feed)
+    if (table%gap_due) call append_output(table%plain, line_feed)
+    table%gap_due = .false.
+    call append_output(table%plain, cells//line_feed)
+    table%rows = table%rows + 1
+    if (table%has_csv) call append_output(table%csv, csv_line(cells, [string_t("")]))
   end subroutine write_row
 
-  !> Empty lines: one where a curve breaks, two between blocks.
-  subroutine write_gap(file, lines)
-    type(output_file_t), intent(inout) :: file
+  !> Empty lines: one where a curve breaks, two between blocks. CSV has none: the columns tell.
+  subroutine write_gap(table, lines)
+    type(table_t), intent(inout) :: table
     integer, intent(in) :: lines
 
-    file%gap_due = .false.
-    call append_output(file, repeat(line_feed, lines))
+    table%gap_due = .false.
+    call append_output(table%plain, repeat(line_feed, lines))
   end subroutine write_gap
 
-  !> A row that could not be computed: a comment, and an empty line that breaks a plotted curve.
+  !> A row that could not be computed: a comment, and an empty line that breaks a plotted curve. In CSV it is a row all the same.
   !!
   !! Rows that fail one after another share one empty line: two would be the end of a block.
-  subroutine write_failure(file, place, reason)
-    type(output_file_t), intent(inout) :: file
-    character(len=*), intent(in) :: place  !! `speed=… crank=…`
+  subroutine write_failure(table, place, reason)
+    type(table_t), intent(inout) :: table
+    real(wp), intent(in) :: place(:) !! what the first columns hold: speed, crank angle
     character(len=*), intent(in) :: reason
 
-    call append_output(file, "# failed "//place//" : "//reason//line_feed)
-    file%gap_due = .true.
+    type(string_t) :: missing(size(table%columns) - size(place) + 1)
+    integer :: i
+
+    call append_output(table%plain, "# failed")
+    do i = 1, size(place)
+      call append_output(table%plain, " "//table%columns(i)%name//"="//to_string(place(i), 12))
+    end do
+    call append_output(table%plain, " : "//reason//line_feed)
+    table%gap_due = .true.
+    table%failed_rows = table%failed_rows + 1
+    if (.not. table%has_csv) return
+    do i = 1, size(missing)
+      missing(i)%text = ""
+    end do
+    missing(size(missing))%text = csv_quoted(reason)
+    call append_output(table%csv, csv_line(real_cells(place), missing))
   end subroutine write_failure
 
   !> Numbers with 17 digits. Zero has no sign: -0 would make equal tables differ.

@@ -1,0 +1,10 @@
+!> What the program calls itself.
+module program_version
+  implicit none (type, external)
+  private
+
+  public :: program_name, version_number
+
+  character(len=*), parameter :: program_name = "flexmech", version_number = "0.1.0"
+
+end module program_version

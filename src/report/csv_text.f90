@@ -1,0 +1,65 @@
+!> Comma-separated values (RFC 4180).
+module csv_text
+  use text, only: string_t
+  use text_buffer, only: append_text, buffer_text, text_buffer_t
+  implicit none (type, external)
+  private
+
+  public :: csv_line, csv_field, csv_quoted
+
+  character(len=*), parameter :: line_end = achar(13)//achar(10)
+
+contains
+
+  !> One record with its end: cells separated by blanks, such as the rows of a table, then fields that are ready as they are.
+  pure function csv_line(cells, fields) result(line)
+    character(len=*), intent(in) :: cells
+    type(string_t), intent(in) :: fields(:)
+    character(len=:), allocatable :: line
+
+    type(text_buffer_t) :: buffer
+    integer :: first, last, i
+
+    last = 0
+    do
+      first = verify(cells(last + 1:), " ")
+      if (first == 0) exit
+      first = last + first
+      last = index(cells(first:), " ")
+      last = merge(len(cells), first + last - 2, last == 0)
+      if (buffer%length > 0) call append_text(buffer, ",")
+      call append_text(buffer, csv_field(cells(first:last)))
+    end do
+    do i = 1, size(fields)
+      if (i > 1 .or. buffer%length > 0) call append_text(buffer, ",")
+      call append_text(buffer, fields(i)%text)
+    end do
+    call append_text(buffer, line_end)
+    line = buffer_text(buffer)
+  end function csv_line
+
+  !> A text as a field: in quotes only if it has to be.
+  pure function csv_field(text) result(field)
+    character(len=*), intent(in) :: text
+    character(len=:), allocatable :: field
+
+    field = text
+    if (scan(text, '",'//line_end) > 0) field = csv_quoted(text)
+  end function csv_field
+
+  !> A text in quotes, those inside doubled.
+  pure function csv_quoted(text) result(field)
+    character(len=*), intent(in) :: text
+    character(len=:), allocatable :: field
+
+    integer :: i
+
+    field = '"'
+    do i = 1, len(text)
+      if (text(i:i) == '"') field = field//'"'
+      field = field//text(i:i)
+    end do
+    field = field//'"'
+  end function csv_quoted
+
+end module csv_text
