@@ -2,7 +2,8 @@
 program main
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
   use command_line, only: command_t, help_text, read_command_line, version_text
-  use deck_runs, only: deck_t, read_deck, run_deck
+  use deck_readings, only: deck_t, read_deck
+  use deck_runs, only: run_deck
   use errors, only: error_t
   use interruption, only: was_interrupted, watch_for_interruption
   use run_document, only: deck_outcome_t, document_text

@@ -1,28 +1,25 @@
 !> The files of a run: opened together, put in place together.
 module deck_outputs
   use branch_report, only: write_branches
-  use branch_tracking, only: branches_t
-  use echo, only: echo_text
   use errors, only: error_t, set_error
   use file_system, only: is_directory, joined_path, make_directories, remove_empty_directory
   use frequency_report, only: write_frequencies, write_shapes
-  use frequency_sweep, only: sweep_t
   use inertia_report, only: write_inertia
   use kinematics_report, only: write_kinematics
-  use mechanisms, only: mechanism_t
   use mesh_report, only: write_mesh
   use models, only: model_t, report_number
   use output_files, only: append_output, discard_output, finish_output, open_output, output_file_t, publish_output, remove_output
-  use positions, only: positions_t
   use requests, only: report_branches, report_frequencies, report_inertia, report_kind_count, report_kinematics, report_mesh, &
     report_shapes
   use run_findings, only: linkage_notes
-  use tables, only: discard_table, finish_table, open_table, publish_table, table_t
+  use tables, only: append_sheet, begin_variant, column_t, discard_table, finish_table, new_sheet, open_table, &
+    publish_table, table_t
   use text, only: string_t
+  use variant_runs, only: variant_run_t
   implicit none (type, external)
   private
 
-  public :: outputs_t, open_outputs, write_outputs, write_summary, publish_outputs, discard_outputs
+  public :: outputs_t, open_outputs, write_variant, write_sheets, append_sheets, write_texts, publish_outputs, discard_outputs
 
   type :: outputs_t
     character(len=:), allocatable :: folder
@@ -104,22 +101,56 @@ contains
     end select
   end function table_name
 
-  !> Writes all tables, the echo and the log.
-  subroutine write_outputs(outputs, model, mechanism, positions, sweep, branches, threads, log)
+  !> Writes the rows of a variant to all tables.
+  subroutine write_variant(outputs, parameters, run, threads)
     type(outputs_t), intent(inout) :: outputs
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
-    type(positions_t), intent(in) :: positions
-    type(sweep_t), intent(in) :: sweep
-    type(branches_t), intent(in) :: branches !! empty if nobody asks for them
+    type(column_t), intent(in) :: parameters(:) !! columns of what varies
+    type(variant_run_t), intent(in) :: run
     integer, intent(in) :: threads
-    character(len=*), intent(in) :: log
+
+    call write_reports(outputs%kind, parameters, run, threads, outputs%tables)
+  end subroutine write_variant
+
+  !> Writes the rows of a variant to sheets, which other threads may do at the same time for other variants. The tables have headers.
+  subroutine write_sheets(outputs, parameters, run, sheets)
+    type(outputs_t), intent(in) :: outputs
+    type(column_t), intent(in) :: parameters(:)
+    type(variant_run_t), intent(in) :: run
+    type(table_t), allocatable, intent(out) :: sheets(:)
 
     integer :: i
 
-    do i = 1, size(outputs%kind)
-      associate (table => outputs%tables(i))
-        select case (outputs%kind(i))
+    allocate (sheets(size(outputs%tables)))
+    do i = 1, size(sheets)
+      sheets(i) = new_sheet(outputs%tables(i))
+    end do
+    call write_reports(outputs%kind, parameters, run, 1, sheets)
+  end subroutine write_sheets
+
+  subroutine append_sheets(outputs, sheets)
+    type(outputs_t), intent(inout) :: outputs
+    type(table_t), intent(in) :: sheets(:) !! as the tables
+
+    integer :: i
+
+    do i = 1, size(sheets)
+      call append_sheet(outputs%tables(i), sheets(i))
+    end do
+  end subroutine append_sheets
+
+  subroutine write_reports(kind, parameters, run, threads, tables)
+    integer, intent(in) :: kind(:)
+    type(column_t), intent(in) :: parameters(:)
+    type(variant_run_t), intent(in) :: run
+    integer, intent(in) :: threads
+    type(table_t), intent(inout) :: tables(:) !! (as kind)
+
+    integer :: i
+
+    do i = 1, size(kind)
+      associate (table => tables(i), model => run%model, mechanism => run%mechanism, positions => run%positions, sweep => run%sweep)
+        call begin_variant(table, parameters, model%varied)
+        select case (kind(i))
         case (report_kinematics)
           call write_kinematics(table, model, mechanism, positions, linkage_notes(mechanism, positions))
         case (report_inertia)
@@ -131,21 +162,21 @@ contains
         case (report_shapes)
           call write_shapes(table, model, mechanism, positions, sweep)
         case (report_branches)
-          call write_branches(table, model, positions, sweep, branches)
+          call write_branches(table, model, positions, sweep, run%branches)
         end select
       end associate
     end do
-    call append_output(outputs%echo, echo_text(model))
-    call append_output(outputs%log, log)
-  end subroutine write_outputs
+  end subroutine write_reports
 
-  !> Writes the summary, which tells what is in the tables and so comes after them.
-  subroutine write_summary(outputs, summary)
+  !> Writes what comes after the tables, and tells what is in them.
+  subroutine write_texts(outputs, echo, log, summary)
     type(outputs_t), intent(inout) :: outputs
-    character(len=*), intent(in) :: summary
+    character(len=*), intent(in) :: echo, log, summary
 
+    call append_output(outputs%echo, echo)
+    call append_output(outputs%log, log)
     call append_output(outputs%summary, summary)
-  end subroutine write_summary
+  end subroutine write_texts
 
   !> Checks that every file is complete on the disk, and only then renames them all; tables that an earlier run left and this one
   !> was not asked for are removed. Errors: a file is not complete; nothing has been renamed then.

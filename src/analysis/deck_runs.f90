@@ -1,47 +1,33 @@
-!> One deck: read and checked, then computed and written.
+!> One deck: computed variant by variant, and written.
 module deck_runs
-  use branch_tracking, only: branches_t, follow_branches
-  use card_echo, only: echo_cards
+  use, intrinsic :: iso_fortran_env, only: compiler_version
   use cards, only: card_t
-  use deck_checks, only: check_mechanics
-  use deck_outputs, only: discard_outputs, open_outputs, outputs_t, publish_outputs, write_outputs, write_summary
-  use deck_source, only: read_source, source_from_text, source_t
+  use deck_outputs, only: append_sheets, discard_outputs, open_outputs, outputs_t, publish_outputs, write_sheets, write_texts, &
+    write_variant
+  use deck_readings, only: deck_t, read_variant
   use deck_summary, only: summary_text
-  use diagnostics, only: diagnostics_t, has_errors, render_errors, render_warnings, warning_texts
+  use diagnostics, only: diagnostics_t
+  use echo, only: echo_text
   use errors, only: error_t, set_error
-  use file_system, only: base_name, file_name, joined_path
-  use frequency_sweep, only: run_sweep, sweep_t
-  use includes, only: read_all_cards
+  use file_system, only: file_name, joined_path
   use interruption, only: was_interrupted
   use link_store, only: link_store_t
-  use mechanisms, only: mechanism_t, new_mechanism
-  use model_reader, only: read_model
-  use models, only: model_t, needs_frequencies
-  use positions, only: find_positions, positions_t
-  use progress, only: end_progress, progress_t, start_progress
-  use run_findings, only: find_failures, find_warnings, findings_log, findings_messages, findings_t, linkage_notes
+  use models, only: solver_band
+  use omp_lib, only: omp_get_thread_num
+  use program_version, only: version_number
+  use progress, only: end_progress, progress_t, show_progress, start_progress
+  use run_findings, only: add_findings, findings_log, findings_messages, findings_t, linkage_notes
   use run_log, only: model_summary
-  use run_statistics, only: start_stopwatch, statistics_text, stop_stage, stopwatch_t, sweep_summary
-  use sweep_journal, only: journal_t
-  use text, only: string_t
-  use variants, only: deck_cards_t, read_deck_cards, take_variant, variant_text
+  use run_statistics, only: accuracy_summary, start_stopwatch, statistics_text, stop_stage, stopwatch_t, sweep_summary
+  use sweep_journal, only: close_journal, journal_t, open_journal, remove_journal
+  use tables, only: column_t, real_column, table_t
+  use text, only: plural, string_t, to_string
+  use variant_runs, only: add_totals, run_totals_t, run_variant, totals_of, variant_run_t
+  use variants, only: parameter_names, variant_count, variant_text
   implicit none (type, external)
   private
 
-  public :: deck_t, run_options_t, run_result_t, read_deck, read_variant, run_deck
-
-  !> A deck that has been read.
-  type :: deck_t
-    type(source_t) :: source
-    type(deck_cards_t) :: cards
-    type(model_t) :: model                         !! of the first variant, of the only one where nothing varies
-    type(diagnostics_t) :: diagnostics
-    character(len=:), allocatable :: refusal       !! why it could not be read at all, with its path; empty if it could
-    character(len=:), allocatable :: base          !! name of its output folder
-    character(len=:), allocatable :: errors        !! ready for standard error; empty if there are none
-    character(len=:), allocatable :: warnings      !! likewise
-    character(len=:), allocatable :: warning_lines !! the same for the log
-  end type deck_t
+  public :: run_options_t, run_result_t, run_deck
 
   !> What the command line says about every run.
   type :: run_options_t
@@ -60,150 +46,275 @@ module deck_runs
     type(findings_t) :: findings                !! what the messages tell
   end type run_result_t
 
+  !> A variant that another thread has computed.
+  type :: part_t
+    type(table_t), allocatable :: sheets(:)
+    type(findings_t) :: findings
+    type(run_totals_t) :: totals
+    type(error_t), allocatable :: error
+  end type part_t
+
+  !> What a deck's variants have in common while they are computed.
+  type :: session_t
+    type(outputs_t) :: outputs
+    type(journal_t) :: journal
+    type(progress_t) :: progress
+    type(column_t), allocatable :: parameters(:) !! columns of what varies
+    type(run_totals_t) :: totals
+    type(findings_t) :: findings
+    character(len=:), allocatable :: log         !! of the first variant
+    integer :: method = 0                        !! by which its frequencies were found
+  end type session_t
+
+  !> Variants that are computed at a time have about so many rows together, and there are no more of them than the second.
+  integer, parameter :: rows_at_a_time = 8192, most_at_a_time = 256
+
+  !> Variants with more positions than this keep all threads busy by themselves.
+  integer, parameter :: many_positions = 1024
+
   character(len=*), parameter :: line_feed = achar(10)
 
 contains
 
-  !> Reads and checks a deck; the path `-` is standard input. Of a deck with VARY it checks the first variant.
-  subroutine read_deck(path, deck, settings)
-    character(len=*), intent(in) :: path
-    type(deck_t), intent(out) :: deck
-    type(string_t), intent(in), optional :: settings(:) !! of the command line, each `name=value`
-
-    type(card_t), allocatable :: cards(:)
-    type(string_t) :: none(0)
-    type(error_t), allocatable :: error
-
-    deck%base = base_name(path)
-    if (path == "-") deck%base = "stdin"
-    deck%refusal = ""
-    deck%errors = ""
-    deck%warnings = ""
-    deck%warning_lines = ""
-    call read_source(path, deck%source, error)
-    if (.not. allocated(error) .and. (deck%base == "" .or. deck%base == "." .or. deck%base == "..")) then
-      call set_error(error, path//": error: this name gives no folder for the results")
-    end if
-    if (allocated(error)) then
-      deck%source = source_from_text(path, "")
-      deck%refusal = error%message
-      deck%errors = error%message//line_feed
-      return
-    end if
-    call read_all_cards(deck%source, cards, deck%diagnostics)
-    if (present(settings)) then
-      call read_deck_cards(cards, settings, deck%source, deck%diagnostics, deck%cards)
-    else
-      call read_deck_cards(cards, none, deck%source, deck%diagnostics, deck%cards)
-    end if
-    call read_variant(deck%cards, 1, cards, deck%diagnostics, deck%model)
-    if (.not. has_errors(deck%diagnostics)) deck%model%echo = echo_cards(deck%cards, cards, deck%source)
-    deck%errors = render_errors(deck%diagnostics, deck%source)
-    deck%warnings = render_warnings(deck%diagnostics, deck%source)
-    deck%warning_lines = warning_texts(deck%diagnostics, deck%source)
-  end subroutine read_deck
-
-  !> Turns the cards of one variant into a model and checks it; nothing is read again. A deck without VARY has one variant.
-  subroutine read_variant(deck_cards, number, cards, diagnostics, model)
-    type(deck_cards_t), intent(in) :: deck_cards
-    integer, intent(in) :: number                        !! of the variant, from 1
-    type(card_t), allocatable, intent(inout) :: cards(:) !! of another variant or not allocated; on return, of this one
-    type(diagnostics_t), intent(inout) :: diagnostics    !! of the cards; the model is complete only if it has no errors afterwards
-    type(model_t), intent(out) :: model
-
-    call take_variant(deck_cards, number, cards)
-    call read_model(cards, diagnostics, model)
-    if (has_errors(diagnostics)) return
-    model%variant = variant_text(deck_cards, number)
-    call check_mechanics(model, diagnostics)
-  end subroutine read_variant
-
   !> Computes what a sound deck asks for and writes its files.
   !!
-  !! Errors: the run was interrupted, or its files could not be written; then the output folder is as it was before.
+  !! Errors: the run was interrupted, or its files could not be written; then the output folder is as it was before, but for the
+  !! journal of a long run.
   subroutine run_deck(deck, options, result, error)
     type(deck_t), intent(in) :: deck
     type(run_options_t), intent(in) :: options
     type(run_result_t), intent(out) :: result
     type(error_t), allocatable, intent(out) :: error
 
-    type(mechanism_t) :: mechanism
-    type(positions_t) :: positions
-    type(sweep_t) :: sweep
-    type(branches_t) :: branches
-    type(outputs_t) :: outputs
-    type(progress_t) :: progress
+    type(session_t) :: session
     type(stopwatch_t) :: watch
-    type(link_store_t) :: store
-    type(journal_t) :: journal
+    integer :: blocks, variants
 
+    variants = variant_count(deck%cards)
     call start_stopwatch(watch)
-    call open_outputs(joined_path(options%folder, deck%base), deck%model, options%csv, outputs, error)
+    call open_outputs(joined_path(options%folder, deck%base), deck%model, options%csv, session%outputs, error)
+    if (.not. allocated(error)) then
+      call open_journal(session%outputs%folder, journal_title(deck), options%resume, session%journal, blocks)
+      session%parameters = parameter_columns(deck)
+      call start_progress(session%progress, deck%base, trim(merge("variants ", "positions", variants > 1)), .not. options%quiet)
+      call run_first_variant(deck, options, watch, session, error)
+      if (variants > 1 .and. .not. allocated(error)) then
+        call run_other_variants(deck, options, session, error)
+        call stop_stage(watch, "other variants")
+      end if
+      call end_progress(session%progress)
+    end if
+    if (.not. allocated(error)) call publish(deck, session, error)
+    call stop_stage(watch, "files")
     if (allocated(error)) then
-      call discard_outputs(outputs)
+      call discard_outputs(session%outputs)
       return
     end if
-    mechanism = new_mechanism(deck%model)
-    positions = find_positions(mechanism%linkage, deck%model%crank%value)
-    call stop_stage(watch, "motion")
-    if (needs_frequencies(deck%model)) then
-      call start_progress(progress, deck%base, .not. options%quiet)
-      call run_sweep(deck%model, mechanism, positions, options%threads, progress, journal, 1, store, sweep, error)
-      call end_progress(progress)
-      if (allocated(error)) then
-        call discard_outputs(outputs)
-        return
-      end if
-      call stop_stage(watch, "modes")
-      if (sweep%request%follow) then
-        call follow_branches(mechanism, positions, sweep, branches)
-        call stop_stage(watch, "branches")
-      end if
-    end if
-    if (.not. was_interrupted()) then
-      call find_failures(deck%model, positions, sweep, result%findings)
-      call find_warnings(deck%model, mechanism, positions, sweep, result%findings)
-      call write_outputs(outputs, deck%model, mechanism, positions, sweep, branches, options%threads, &
-        log_text(deck, mechanism, positions, sweep, result%findings))
-      call write_summary(outputs, summary_text(deck%base, file_name(deck%source%path), deck%diagnostics, deck%source, &
-        result%findings, deck%model, positions, outputs%tables))
-    end if
-    ! Asked once, before the files are put in place: from there on the run is done.
-    if (was_interrupted()) then
-      call set_error(error, deck%source%path//": interrupted; its earlier results are untouched")
-    else
-      call publish_outputs(outputs, error)
-    end if
-    call stop_stage(watch, "tables")
-    if (allocated(error)) then
-      call discard_outputs(outputs)
-      return
-    end if
+    result%findings = session%findings
     result%failed = result%findings%failures > 0
-    result%messages = findings_messages(result%findings, deck%source%path)
-    result%statistics = statistics_text(watch, deck%base, positions, sweep)
+    result%messages = resumption_message(deck, options%resume, blocks)//findings_messages(result%findings, deck%source%path)
+    result%statistics = statistics_text(watch, deck%base, session%totals)
   end subroutine run_deck
 
-  !> The text of `run.log`: what the deck describes, how sure its results are, what to beware of.
-  function log_text(deck, mechanism, positions, sweep, findings) result(text)
+  !> What must be the same for a run to go on from the results of another: program, compiler, and the deck with its settings.
+  pure function journal_title(deck) result(title)
     type(deck_t), intent(in) :: deck
-    type(mechanism_t), intent(in) :: mechanism
-    type(positions_t), intent(in) :: positions
-    type(sweep_t), intent(in) :: sweep
-    type(findings_t), intent(in) :: findings
+    character(len=:), allocatable :: title
+
+    title = version_number//line_feed//compiler_version()//line_feed//echo_text(deck%model)
+  end function journal_title
+
+  pure function resumption_message(deck, resume, blocks) result(message)
+    type(deck_t), intent(in) :: deck
+    logical, intent(in) :: resume
+    integer, intent(in) :: blocks !! of an earlier run; -1: it was of something else
+    character(len=:), allocatable :: message
+
+    message = ""
+    if (.not. resume) return
+    if (blocks < 0) then
+      message = "the earlier run was of another deck, or by another program; this one has begun anew"
+    else if (blocks == 0) then
+      message = "no earlier run has left anything to go on from; this one has begun anew"
+    else
+      message = "went on from "//plural(blocks, "block")//" of positions that an earlier run had computed"
+    end if
+    message = deck%source%path//": "//message//line_feed
+  end function resumption_message
+
+  pure function parameter_columns(deck) result(columns)
+    type(deck_t), intent(in) :: deck
+    type(column_t), allocatable :: columns(:)
+
+    type(string_t), allocatable :: names(:)
+    character(len=:), allocatable :: unit
+    integer :: i
+
+    names = parameter_names(deck%cards)
+    allocate (columns(size(names)))
+    do i = 1, size(names)
+      unit = deck%cards%variations(i)%unit
+      if (len(unit) == 0) unit = "-"
+      columns(i) = real_column(names(i)%text, unit)
+    end do
+  end function parameter_columns
+
+  !> Computes the first variant and writes its rows; the log tells more of it than of the others.
+  subroutine run_first_variant(deck, options, watch, session, error)
+    type(deck_t), intent(in) :: deck
+    type(run_options_t), intent(in) :: options
+    type(stopwatch_t), intent(inout) :: watch
+    type(session_t), intent(inout) :: session
+    type(error_t), allocatable, intent(out) :: error
+
+    type(variant_run_t) :: run
+    type(link_store_t) :: store
+    type(progress_t) :: silent
+
+    run%model = deck%model
+    if (size(session%parameters) == 0) then
+      call run_variant(1, options%threads, session%progress, session%journal, store, run, error)
+    else
+      call run_variant(1, options%threads, silent, session%journal, store, run, error)
+    end if
+    call stop_stage(watch, "motion and modes")
+    if (allocated(error) .or. was_interrupted()) return
+    call write_variant(session%outputs, session%parameters, run, options%threads)
+    call stop_stage(watch, "tables")
+    call add_totals(session%totals, totals_of(run))
+    call add_findings(session%findings, run%findings)
+    session%log = first_log(run)
+    if (allocated(run%sweep%results)) session%method = run%sweep%request%method
+  end subroutine run_first_variant
+
+  !> Computes all other variants, many at a time, and writes their rows in order.
+  subroutine run_other_variants(deck, options, session, error)
+    type(deck_t), intent(in) :: deck
+    type(run_options_t), intent(in) :: options
+    type(session_t), intent(inout) :: session
+    type(error_t), allocatable, intent(out) :: error
+
+    type(part_t), allocatable :: parts(:)
+    type(link_store_t), allocatable :: stores(:) !! (threads)
+    integer :: first, last, at_a_time, outer, i
+
+    at_a_time = max(1, min(most_at_a_time, rows_at_a_time/(size(deck%model%crank%value)*size(deck%model%speed%value))))
+    outer = options%threads
+    ! ARPACK serves one thread at a time.
+    if (size(deck%model%crank%value) > many_positions .or. deck%model%solver == solver_band) outer = 1
+    allocate (stores(0:outer - 1))
+    do first = 2, variant_count(deck%cards), at_a_time*outer
+      last = min(first + at_a_time*outer - 1, variant_count(deck%cards))
+      allocate (parts(first:last))
+      !$omp parallel do schedule(dynamic) num_threads(outer) default(shared) private(i)
+      do i = first, last
+        if (was_interrupted()) cycle
+        call run_part(deck, i, merge(options%threads, 1, outer == 1), session%parameters, session%outputs, session%journal, &
+          stores(omp_get_thread_num()), parts(i))
+      end do
+      !$omp end parallel do
+      if (was_interrupted()) return
+      do i = first, last
+        if (allocated(parts(i)%error)) then
+          call move_alloc(parts(i)%error, error)
+          return
+        end if
+        call append_sheets(session%outputs, parts(i)%sheets)
+        call add_findings(session%findings, parts(i)%findings)
+        call add_totals(session%totals, parts(i)%totals)
+      end do
+      deallocate (parts)
+      call show_progress(session%progress, last, variant_count(deck%cards))
+    end do
+  end subroutine run_other_variants
+
+  !> Computes one variant and writes its rows to sheets. That it is sound has been checked.
+  subroutine run_part(deck, number, threads, parameters, outputs, journal, store, part)
+    type(deck_t), intent(in) :: deck
+    integer, intent(in) :: number
+    integer, intent(in) :: threads
+    type(column_t), intent(in) :: parameters(:)
+    type(outputs_t), intent(in) :: outputs
+    type(journal_t), intent(inout) :: journal
+    type(link_store_t), intent(inout) :: store
+    type(part_t), intent(inout) :: part
+
+    type(card_t), allocatable :: cards(:)
+    type(diagnostics_t) :: diagnostics
+    type(variant_run_t) :: run
+    type(progress_t) :: silent
+
+    call read_variant(deck%cards, number, cards, diagnostics, run%model)
+    call run_variant(number, threads, silent, journal, store, run, part%error)
+    if (allocated(part%error) .or. was_interrupted()) return
+    call write_sheets(outputs, parameters, run, part%sheets)
+    part%findings = run%findings
+    part%totals = totals_of(run)
+  end subroutine run_part
+
+  !> Writes what comes after the tables, and puts all files in place. Errors: the run was interrupted, or a file is not complete.
+  subroutine publish(deck, session, error)
+    type(deck_t), intent(in) :: deck
+    type(session_t), intent(inout) :: session
+    type(error_t), allocatable, intent(out) :: error
+
+    integer :: blocks
+
+    ! Asked once, before the files are put in place: from there on the run is done.
+    if (was_interrupted()) then
+      call close_journal(session%journal, blocks)
+      call set_error(error, deck%source%path//": interrupted; its earlier results are untouched"//resume_hint(blocks))
+      return
+    end if
+    call write_texts(session%outputs, echo_text(deck%model), log_text(deck, session), summary_text(deck%base, &
+      file_name(deck%source%path), deck%diagnostics, deck%source, session%findings, deck%model, session%totals, &
+      parameter_names(deck%cards), session%outputs%tables))
+    call publish_outputs(session%outputs, error)
+    if (allocated(error)) then
+      call close_journal(session%journal, blocks)
+    else
+      call remove_journal(session%journal)
+    end if
+  end subroutine publish
+
+  pure function resume_hint(blocks) result(hint)
+    integer, intent(in) :: blocks
+    character(len=:), allocatable :: hint
+
+    hint = ""
+    if (blocks > 0) hint = "; --resume goes on from what it has computed"
+  end function resume_hint
+
+  !> What the deck describes and how its frequencies were found.
+  function first_log(run) result(text)
+    type(variant_run_t), intent(in) :: run
     character(len=:), allocatable :: text
 
     type(string_t), allocatable :: notes(:)
     integer :: i
 
-    text = model_summary(deck%model)
-    notes = linkage_notes(mechanism, positions)
+    text = model_summary(run%model)
+    notes = linkage_notes(run%mechanism, run%positions)
     do i = 1, size(notes)
       text = text//notes(i)%text//line_feed
     end do
-    if (allocated(sweep%results)) text = text//sweep_summary(sweep, mechanism%mesh)
+    if (allocated(run%sweep%results)) text = text//sweep_summary(run%sweep, run%mechanism%mesh)
+  end function first_log
+
+  !> The text of `run.log`: what the deck describes, how sure its results are, what to beware of.
+  pure function log_text(deck, session) result(text)
+    type(deck_t), intent(in) :: deck
+    type(session_t), intent(in) :: session
+    character(len=:), allocatable :: text
+
+    text = session%log
+    if (session%totals%variants > 1) then
+      text = "first of "//to_string(session%totals%variants)//" variants, "//variant_text(deck%cards, 1)//":"//line_feed//text// &
+        "all variants, the last one with "//variant_text(deck%cards, session%totals%variants)//":"//line_feed
+    end if
+    if (session%totals%has_frequencies) text = text//accuracy_summary(session%method, session%totals%largest_error)
     if (len(deck%warning_lines) > 0) text = text//"warnings of the deck:"//line_feed//deck%warning_lines
-    text = text//findings_log(findings)
+    text = text//findings_log(session%findings)
   end function log_text
 
 end module deck_runs

@@ -4,12 +4,12 @@ module deck_summary
   use diagnostics, only: diagnostic_t, diagnostics_t, errors_of, untold_errors, untold_warnings, warnings_of
   use json_text, only: add_item, add_member, json_array, json_list_t, json_null, json_object, json_value
   use models, only: model_t, needs_frequencies
-  use positions, only: positions_t
   use program_version, only: program_name, version_number
   use run_findings, only: failure_t, findings_t
   use tables, only: column_t, has_unit, table_t
-  use text, only: character_count, plural
+  use text, only: character_count, plural, string_t
   use tokens, only: token_t
+  use variant_runs, only: run_totals_t
   implicit none (type, external)
   private
 
@@ -18,14 +18,15 @@ module deck_summary
 contains
 
   !> The text of `summary.json`.
-  pure function summary_text(name, file, diagnostics, source, findings, model, positions, tables) result(text)
+  pure function summary_text(name, file, diagnostics, source, findings, model, totals, parameters, tables) result(text)
     character(len=*), intent(in) :: name             !! of the output folder
     character(len=*), intent(in) :: file             !! name of the deck's file, without its folder
     type(diagnostics_t), intent(in) :: diagnostics
     type(source_t), intent(in) :: source
     type(findings_t), intent(in) :: findings
     type(model_t), intent(in) :: model
-    type(positions_t), intent(in) :: positions
+    type(run_totals_t), intent(in) :: totals
+    type(string_t), intent(in) :: parameters(:)      !! names of what varies
     type(table_t), intent(in) :: tables(:)           !! all rows written
     character(len=:), allocatable :: text
 
@@ -36,9 +37,9 @@ contains
     call add_member(object, "version", json_value(version_number))
     call add_member(object, "deck", json_value(name))
     call add_member(object, "exit_status", json_value(merge(1, 0, findings%failures > 0)))
-    call add_member(object, "counts", count_object(model, positions, tables, findings))
+    call add_member(object, "counts", count_object(model, totals, tables, findings))
     call add_member(object, "warnings", json_array(warning_list(diagnostics, source, findings, file)))
-    call add_member(object, "failures", failure_array(findings))
+    call add_member(object, "failures", failure_array(findings, parameters))
     do i = 1, size(tables)
       call add_item(list, table_object(tables(i)))
     end do
@@ -46,16 +47,17 @@ contains
     text = json_object(object)//achar(10)
   end function summary_text
 
-  pure function count_object(model, positions, tables, findings) result(value)
+  pure function count_object(model, totals, tables, findings) result(value)
     type(model_t), intent(in) :: model
-    type(positions_t), intent(in) :: positions
+    type(run_totals_t), intent(in) :: totals
     type(table_t), intent(in) :: tables(:)
     type(findings_t), intent(in) :: findings
     character(len=:), allocatable :: value
 
     type(json_list_t) :: object
 
-    call add_member(object, "positions", json_value(size(positions%crank)))
+    call add_member(object, "variants", json_value(totals%variants))
+    call add_member(object, "positions", json_value(totals%rows))
     call add_member(object, "speeds", json_value(size(model%speed%value)))
     call add_member(object, "modes", json_value(merge(model%modes, 0, needs_frequencies(model))))
     call add_member(object, "failures", json_value(findings%failures))
@@ -124,8 +126,7 @@ contains
 
     call add_messages(list, warnings_of(diagnostics), source, file)
     if (untold_warnings(diagnostics) > 0) call add_plain_message(list, file, plural(untold_warnings(diagnostics), "more warning"))
-    if (.not. allocated(findings%warnings)) return
-    do i = 1, size(findings%warnings)
+    do i = 1, findings%warning_count
       call add_plain_message(list, file, findings%warnings(i)%text)
     end do
   end function warning_list
@@ -213,25 +214,32 @@ contains
   end function second_place
 
   !> Positions without a pose, for which the speed is null, and positions × speeds without modes.
-  pure function failure_array(findings) result(value)
+  pure function failure_array(findings, parameters) result(value)
     type(findings_t), intent(in) :: findings
+    type(string_t), intent(in) :: parameters(:) !! names of what varies
     character(len=:), allocatable :: value
 
     type(json_list_t) :: list
     integer :: i
 
     do i = 1, findings%failures
-      call add_item(list, failure_object(findings%failed(i)))
+      call add_item(list, failure_object(findings%failed(i), parameters))
     end do
     value = json_array(list)
   end function failure_array
 
-  pure function failure_object(failure) result(value)
+  pure function failure_object(failure, parameters) result(value)
     type(failure_t), intent(in) :: failure
+    type(string_t), intent(in) :: parameters(:)
     character(len=:), allocatable :: value
 
-    type(json_list_t) :: object
+    type(json_list_t) :: object, varied
+    integer :: i
 
+    do i = 1, size(parameters)
+      call add_member(varied, parameters(i)%text, json_value(failure%varied(i)))
+    end do
+    call add_member(object, "parameters", json_object(varied))
     if (failure%at_every_speed) then
       call add_member(object, "stage", json_value("position"))
       call add_member(object, "speed", json_null)

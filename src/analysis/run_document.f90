@@ -1,12 +1,14 @@
 !> What `--json` prints: the errors, warnings and failed positions of all decks in one document.
 module run_document
-  use deck_runs, only: deck_t, run_result_t
+  use deck_readings, only: deck_t
+  use deck_runs, only: run_result_t
   use deck_source, only: standard_input
   use deck_summary, only: add_plain_message, error_list, failure_array, warning_list
   use json_text, only: add_item, add_member, json_array, json_list_t, json_null, json_object, json_value
   use numbers, only: read_integer
   use program_version, only: program_name, version_number
   use text, only: string_t
+  use variants, only: parameter_names
   implicit none (type, external)
   private
 
@@ -82,7 +84,7 @@ contains
     end if
     call add_member(object, "errors", json_array(errors))
     call add_member(object, "warnings", json_array(warning_list(deck%diagnostics, deck%source, outcome%result%findings, path)))
-    call add_member(object, "failures", failure_array(outcome%result%findings))
+    call add_member(object, "failures", failure_array(outcome%result%findings, parameter_names(deck%cards)))
     value = json_object(object)
   end function deck_object
 

@@ -16,7 +16,7 @@ module run_findings
   implicit none (type, external)
   private
 
-  public :: findings_t, failure_t, find_failures, find_warnings, linkage_notes, findings_messages, findings_log
+  public :: findings_t, failure_t, find_failures, find_warnings, add_findings, linkage_notes, findings_messages, findings_log
 
   !> A position without a result.
   type :: failure_t
@@ -24,18 +24,21 @@ module run_findings
     logical :: at_every_speed = .true. !! there is no pose
     real(wp) :: speed = 0.0_wp     !! where there is a pose, but there are no modes [rad/s]
     character(len=:), allocatable :: reason
+    character(len=:), allocatable :: variant !! `L=90mm`, of a deck with VARY; else empty
+    real(wp), allocatable :: varied(:)       !! the values of what varies
   end type failure_t
 
   type :: findings_t
-    integer :: failures = 0                   !! positions without a pose, and positions × speeds without modes
-    type(failure_t), allocatable :: failed(:) !! (at least failures)
-    type(string_t), allocatable :: warnings(:)
+    integer :: failures = 0                    !! positions without a pose, and positions × speeds without modes
+    type(failure_t), allocatable :: failed(:)  !! (at least failures)
+    integer :: warning_count = 0
+    type(string_t), allocatable :: warnings(:) !! (at least warning_count)
   end type findings_t
 
   !> The axial frequencies assume that the loads bend the links little; this is the share of a link's length that is still little.
   real(wp), parameter :: most_deflection = 0.01_wp
 
-  !> More failed rows than this are listed in the log only.
+  !> More warnings, or failed rows, than this are listed in the log only.
   integer, parameter :: most_shown = 20
 
   character(len=*), parameter :: line_feed = achar(10)
@@ -54,39 +57,92 @@ contains
 
     do i = 1, size(positions%crank)
       if (allocated(positions%states(positions%state(i))%error)) then
-        call add_failure(findings, positions%states(positions%state(i))%error%message, positions%crank(i))
+        call add_failure(findings, model, positions%states(positions%state(i))%error%message, positions%crank(i))
       else if (needs_frequencies(model)) then
         do k = 1, size(sweep%request%speed)
           reason = failure_at(positions, sweep, positions%state(i), k)
-          if (len(reason) > 0) call add_failure(findings, reason, positions%crank(i), sweep%request%speed(k))
+          if (len(reason) > 0) call add_failure(findings, model, reason, positions%crank(i), sweep%request%speed(k))
         end do
       end if
     end do
 
   end subroutine find_failures
 
-  pure subroutine add_failure(findings, reason, crank, speed)
+  pure subroutine add_failure(findings, model, reason, crank, speed)
     type(findings_t), intent(inout) :: findings
+    type(model_t), intent(in) :: model
     character(len=*), intent(in) :: reason
     real(wp), intent(in) :: crank           !! [deg]
     real(wp), intent(in), optional :: speed !! [rad/s]
 
-    type(failure_t), allocatable :: larger(:)
-
-    if (.not. allocated(findings%failed)) allocate (findings%failed(16))
-    if (findings%failures == size(findings%failed)) then
-      allocate (larger(2*findings%failures))
-      larger(:findings%failures) = findings%failed
-      call move_alloc(larger, findings%failed)
-    end if
     findings%failures = findings%failures + 1
+    call make_room_for_failures(findings)
     associate (new => findings%failed(findings%failures))
       new%reason = reason
       new%crank = crank
       new%at_every_speed = .not. present(speed)
       if (present(speed)) new%speed = speed
+      new%variant = model%variant
+      new%varied = model%varied
     end associate
   end subroutine add_failure
+
+  !> Sees that all failures have a place.
+  pure subroutine make_room_for_failures(findings)
+    type(findings_t), intent(inout) :: findings
+
+    type(failure_t), allocatable :: larger(:)
+
+    if (.not. allocated(findings%failed)) allocate (findings%failed(16))
+    if (findings%failures <= size(findings%failed)) return
+    allocate (larger(2*findings%failures))
+    larger(:size(findings%failed)) = findings%failed
+    call move_alloc(larger, findings%failed)
+  end subroutine make_room_for_failures
+
+  pure subroutine add_warnings(findings, variant, warnings)
+    type(findings_t), intent(inout) :: findings
+    character(len=*), intent(in) :: variant !! `L=90mm`, or empty
+    type(string_t), intent(in) :: warnings(:)
+
+    type(string_t), allocatable :: larger(:)
+    integer :: i
+
+    if (.not. allocated(findings%warnings)) allocate (findings%warnings(8))
+    if (findings%warning_count + size(warnings) > size(findings%warnings)) then
+      allocate (larger(2*(findings%warning_count + size(warnings))))
+      larger(:findings%warning_count) = findings%warnings(:findings%warning_count)
+      call move_alloc(larger, findings%warnings)
+    end if
+    do i = 1, size(warnings)
+      findings%warnings(findings%warning_count + i)%text = of_variant(variant)//warnings(i)%text
+    end do
+    findings%warning_count = findings%warning_count + size(warnings)
+  end subroutine add_warnings
+
+  !> `L=90mm, `
+  pure function of_variant(variant) result(phrase)
+    character(len=*), intent(in) :: variant
+    character(len=:), allocatable :: phrase
+
+    phrase = ""
+    if (len(variant) > 0) phrase = variant//", "
+  end function of_variant
+
+  !> Appends what was found in a variant to what was found in those before.
+  pure subroutine add_findings(findings, more)
+    type(findings_t), intent(inout) :: findings
+    type(findings_t), intent(in) :: more
+
+    integer :: i
+
+    if (more%warning_count > 0) call add_warnings(findings, "", more%warnings(:more%warning_count))
+    do i = 1, more%failures
+      findings%failures = findings%failures + 1
+      call make_room_for_failures(findings)
+      findings%failed(findings%failures) = more%failed(i)
+    end do
+  end subroutine add_findings
 
   !> `speed 20 rad/s, crank 45 deg: reason`
   pure function failure_line(failure) result(line)
@@ -98,6 +154,7 @@ contains
     else
       line = at(failure%crank, failure%speed)//": "//failure%reason//line_feed
     end if
+    line = of_variant(failure%variant)//line
   end function failure_line
 
   !> Collects divergences and large deflections.
@@ -110,13 +167,12 @@ contains
 
     integer :: k
 
-    allocate (findings%warnings(0))
     if (.not. needs_frequencies(model)) return
     do k = 1, size(sweep%request%speed)
-      findings%warnings = [findings%warnings, divergences(positions, sweep, k)]
+      call add_warnings(findings, model%variant, divergences(positions, sweep, k))
     end do
-    if (sweep%request%axial) findings%warnings = [findings%warnings, deflections(mechanism, positions, sweep)]
-    if (sweep%request%method == by_orders) findings%warnings = [findings%warnings, missed_accuracy(positions, sweep)]
+    if (sweep%request%axial) call add_warnings(findings, model%variant, deflections(mechanism, positions, sweep))
+    if (sweep%request%method == by_orders) call add_warnings(findings, model%variant, missed_accuracy(positions, sweep))
   end subroutine find_warnings
 
   !> The crank angles at which an eigenvalue is negative at one speed, neighbours of the deck's list drawn together.
@@ -251,9 +307,12 @@ contains
     integer :: i
 
     text = ""
-    do i = 1, size(findings%warnings)
+    do i = 1, min(findings%warning_count, most_shown)
       text = text//path//": warning: "//findings%warnings(i)%text//line_feed
     end do
+    if (findings%warning_count > most_shown) then
+      text = text//path//": "//to_string(findings%warning_count - most_shown)//" more warnings; run.log lists them"//line_feed
+    end if
     do i = 1, min(findings%failures, most_shown)
       text = text//path//": error: "//failure_line(findings%failed(i))
     end do
@@ -270,7 +329,7 @@ contains
     type(text_buffer_t) :: buffer
     integer :: i
 
-    do i = 1, size(findings%warnings)
+    do i = 1, findings%warning_count
       call append_text(buffer, "warning: "//findings%warnings(i)%text//line_feed)
     end do
     if (findings%failures > 0) call append_text(buffer, "failed rows: "//to_string(findings%failures)//line_feed)

@@ -4,12 +4,12 @@ module run_statistics
   use frequency_models, only: by_band, by_dense, by_link_modes, by_long_mesh, by_orders
   use frequency_sweep, only: sweep_t
   use kinds, only: long, wp
-  use positions, only: positions_t
   use text, only: plural, string_t, to_string
+  use variant_runs, only: run_totals_t
   implicit none (type, external)
   private
 
-  public :: stopwatch_t, start_stopwatch, stop_stage, statistics_text, sweep_summary
+  public :: stopwatch_t, start_stopwatch, stop_stage, statistics_text, sweep_summary, accuracy_summary
 
   !> Seconds of one stage after another.
   type :: stopwatch_t
@@ -39,20 +39,21 @@ contains
   end subroutine stop_stage
 
   !> The ledger of `--stats`.
-  pure function statistics_text(watch, name, positions, sweep) result(text)
+  pure function statistics_text(watch, name, totals) result(text)
     type(stopwatch_t), intent(in) :: watch
     character(len=*), intent(in) :: name !! of the deck
-    type(positions_t), intent(in) :: positions
-    type(sweep_t), intent(in) :: sweep
+    type(run_totals_t), intent(in) :: totals
     character(len=:), allocatable :: text
 
     character(len=*), parameter :: line_feed = achar(10)
     integer :: i
 
-    text = name//": rows "//to_string(size(positions%crank))//", positions "//to_string(size(positions%states))// &
-      ", kinematic solutions "//to_string(size(positions%states))//line_feed
-    if (allocated(sweep%results)) then
-      text = text//frequency_lines(name, positions, sweep)
+    text = name//":"
+    if (totals%variants > 1) text = text//" variants "//to_string(totals%variants)//","
+    text = text//" rows "//to_string(totals%rows)//", positions "//to_string(totals%positions)//", kinematic solutions "// &
+      to_string(totals%positions)//line_feed
+    if (totals%has_frequencies) then
+      text = text//frequency_lines(name, totals)
     else
       text = text//name//": skipped beams, matrices and eigenproblems: no report needs them"//line_feed
     end if
@@ -65,15 +66,14 @@ contains
   end function statistics_text
 
   !> What frequencies took, and what was not needed.
-  pure function frequency_lines(name, positions, sweep) result(text)
+  pure function frequency_lines(name, totals) result(text)
     character(len=*), intent(in) :: name
-    type(positions_t), intent(in) :: positions
-    type(sweep_t), intent(in) :: sweep
+    type(run_totals_t), intent(in) :: totals
     character(len=:), allocatable :: text
 
     character(len=*), parameter :: line_feed = achar(10)
 
-    associate (counts => sweep%counts)
+    associate (counts => totals%counts)
       text = name//": link models "//to_string(counts%link_models)//", mass matrices "//to_string(counts%mass_matrices)// &
         ", stiffness matrices "//to_string(counts%stiffness_matrices)//", geometric stiffness matrices "// &
         to_string(counts%geometric_matrices)//line_feed
@@ -84,28 +84,26 @@ contains
         ", products with a long mesh "//to_string(counts%operator_products)//line_feed
       text = text//name//": proofs that no mode is missing "//to_string(counts%proofs)//", mode shapes "// &
         to_string(counts%shapes)//line_feed
-      if (size(positions%states) < size(positions%crank)) then
-        text = text//name//": skipped "//plural(size(positions%crank) - size(positions%states), "row")// &
+      if (totals%positions < totals%rows) then
+        text = text//name//": skipped "//plural(int(totals%rows - totals%positions), "row")// &
           ": computed already, a full turn away"//line_feed
       end if
       if (counts%geometric_matrices == 0) text = text//name//": skipped geometric stiffness: no loads of the motion"//line_feed
       if (counts%shapes == 0) text = text//name//": skipped mode shapes: none are asked for"//line_feed
-      if (size(sweep%request%speed) > 1) then
-        text = text//name//": skipped kinematics, mass and unit loads of "//plural(size(sweep%request%speed) - 1, "more speed")// &
+      if (totals%speeds > 1) then
+        text = text//name//": skipped kinematics, mass and unit loads of "//plural(totals%speeds - 1, "more speed")// &
           ": those of the first serve"//line_feed
       end if
     end associate
   end function frequency_lines
 
-  !> How the frequencies were found and how sure they are, for the log.
+  !> How the frequencies were found, for the log.
   pure function sweep_summary(sweep, mesh) result(text)
     type(sweep_t), intent(in) :: sweep
     type(beam_mesh_t), intent(in) :: mesh
     character(len=:), allocatable :: text
 
     character(len=*), parameter :: line_feed = achar(10)
-    real(wp) :: largest
-    integer :: i, k
 
     select case (sweep%request%method)
     case (by_orders)
@@ -123,27 +121,30 @@ contains
       text = text//line_feed//"errors told by continuous links of orders "//listed(sweep%models%continuum%order)//": "// &
         to_string(sweep%models%continuum%layout%unknowns)//" unknowns"
     end if
-    largest = -1.0_wp
-    do i = 1, size(sweep%results)
-      if (.not. allocated(sweep%results(i)%failure)) cycle
-      do k = 1, size(sweep%results(i)%failure)
-        if (len(sweep%results(i)%failure(k)%text) == 0) largest = max(largest, maxval(sweep%results(i)%error(:, k)))
-      end do
-    end do
     text = text//line_feed
+  end function sweep_summary
+
+  !> How sure the frequencies are, for the log.
+  pure function accuracy_summary(method, largest) result(text)
+    integer, intent(in) :: method    !! as in `frequency_models`
+    real(wp), intent(in) :: largest  !! error of any frequency; below 0 there is none
+    character(len=:), allocatable :: text
+
+    character(len=*), parameter :: line_feed = achar(10)
+
+    text = ""
     if (largest < 0.0_wp) return
     if (largest > 1.0_wp) then
-      text = text//"some frequencies written are not known to any digit: see the error columns"//line_feed
+      text = "some frequencies written are not known to any digit: see the error columns"//line_feed
       return
     end if
-    text = text//"every frequency written is within "//to_string(largest, 2)// &
-      " of itself, and none is missing: "
-    if (any(sweep%request%method == [by_dense, by_band])) then
+    text = "every frequency written is within "//to_string(largest, 2)//" of itself, and none is missing: "
+    if (any(method == [by_dense, by_band])) then
       text = text//"by counts of the same matrices"//line_feed
     else
       text = text//"that is proven"//line_feed
     end if
-  end function sweep_summary
+  end function accuracy_summary
 
   pure function listed(numbers) result(text)
     integer, intent(in) :: numbers(:)

@@ -10,7 +10,8 @@ module units
   implicit none (type, external)
   private
 
-  public :: unit_t, unit_system_t, dimension_name, wrong_unit, read_unit, new_unit_system, coherent_unit, to_si, from_si
+  public :: unit_t, unit_system_t, dimension_name, wrong_unit, read_unit, new_unit_system, coherent_unit, coherent_factor, &
+    to_si, from_si
   public :: dimension_none, dimension_length, dimension_mass, dimension_time, dimension_angle, dimension_rate
   public :: dimension_angular_acceleration, dimension_velocity, dimension_acceleration, dimension_force, dimension_moment
   public :: dimension_stress, dimension_density, dimension_area, dimension_second_moment
@@ -186,6 +187,16 @@ contains
     integer, intent(in) :: dimension(4)
     type(unit_t) :: measure
 
+    measure = coherent_factor(system, dimension)
+    if (dimension(4) == 0) measure%name = coherent_name(system, measure)
+  end function coherent_unit
+
+  !> The same without its name, which takes longer to find than all the rest.
+  pure function coherent_factor(system, dimension) result(measure)
+    type(unit_system_t), intent(in) :: system
+    integer, intent(in) :: dimension(4)
+    type(unit_t) :: measure
+
     if (dimension(4) /= 0) then
       if (all(dimension == dimension_angle)) measure = unit("deg", dimension, pi, 180.0_wp)
       if (all(dimension == dimension_rate)) measure = unit("rad/s", dimension, 1.0_wp, 1.0_wp)
@@ -196,8 +207,7 @@ contains
     call multiply(measure, system%length, dimension(1))
     call multiply(measure, system%mass, dimension(2))
     call multiply(measure, system%time, dimension(3))
-    measure%name = coherent_name(system, measure)
-  end function coherent_unit
+  end function coherent_factor
 
   !> Multiplies the factor of a unit by that of another to a power of either sign.
   pure subroutine multiply(measure, factor, power)

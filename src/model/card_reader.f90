@@ -7,7 +7,7 @@ module card_reader
   use spelling, only: suggestion
   use text, only: joined, same_word, string_t, to_string, word_list
   use tokens, only: name_problem, token_part, token_t
-  use units, only: coherent_unit, dimension_name, read_unit, to_si, unit_system_t, unit_t, wrong_unit
+  use units, only: coherent_factor, dimension_name, read_unit, to_si, unit_system_t, unit_t, wrong_unit
   implicit none (type, external)
   private
 
@@ -174,7 +174,7 @@ contains
 
     type(unit_t) :: measure
 
-    call read_measure(word, dimension, coherent_unit(system, dimension), diagnostics, value, measure, fine)
+    call read_measure(word, dimension, coherent_factor(system, dimension), diagnostics, value, measure, fine)
     if (fine) then
       value = to_si(value, measure)
     else

@@ -35,6 +35,7 @@ contains
 
     model%title = ""
     model%variant = ""
+    allocate (model%varied(0))
     model%drive = token_t("", 0, 0)
     model%modes_word = token_t("", 0, 0)
     model%inertia_word = token_t("", 0, 0)

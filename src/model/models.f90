@@ -47,6 +47,7 @@ module models
     type(report_t), allocatable :: reports(:)
     type(echo_line_t), allocatable :: echo(:)   !! the cards in the order of the deck, written out again; no part of reading them
     character(len=:), allocatable :: variant    !! `L=90mm`, of a deck with VARY; else empty
+    real(wp), allocatable :: varied(:)          !! values of what varies, in the units of the VARY cards
   end type model_t
 
 contains

@@ -7,11 +7,12 @@ module variants
   use settings, only: read_settings, settings_t, warn_of_unused_settings
   use substitution, only: put_value, slot_t, substitute
   use text, only: same_word, string_t, to_string
+  use tokens, only: token_texts
   use variations, only: read_variation, variation_t
   implicit none (type, external)
   private
 
-  public :: deck_cards_t, read_deck_cards, variant_count, take_variant, variant_values, variant_text
+  public :: deck_cards_t, read_deck_cards, variant_count, take_variant, variant_values, variant_text, parameter_names
 
   !> All cards of a deck, and what is to stand in place of its `$name`s.
   type :: deck_cards_t
@@ -195,6 +196,15 @@ contains
       rest = rest/count
     end do
   end function choices
+
+  !> The names of what varies.
+  pure function parameter_names(deck) result(names)
+    type(deck_cards_t), intent(in) :: deck
+    type(string_t), allocatable :: names(:)
+
+    allocate (names(0))
+    if (allocated(deck%variations)) names = token_texts(deck%variations%name)
+  end function parameter_names
 
   !> The value of every VARY in a variant, in the units of their cards.
   pure function variant_values(deck, number) result(values)

@@ -13,18 +13,20 @@ module progress
     logical, private :: wanted = .false.
     logical, private :: shown = .false.
     integer(long), private :: last = 0_long !! clock ticks when a line was last written, or at the start
-    character(len=:), allocatable, private :: name
+    character(len=:), allocatable, private :: name, noun
   end type progress_t
 
 contains
 
   !> Nothing is ever shown when standard error is a file or a pipe.
-  subroutine start_progress(progress, name, wanted)
+  subroutine start_progress(progress, name, noun, wanted)
     type(progress_t), intent(out) :: progress
     character(len=*), intent(in) :: name !! of the deck
+    character(len=*), intent(in) :: noun !! what is counted
     logical, intent(in) :: wanted
 
     progress%name = name
+    progress%noun = noun
     progress%wanted = wanted
     if (wanted) progress%wanted = standard_error_is_terminal()
     call system_clock(progress%last)
@@ -33,7 +35,7 @@ contains
   !> Tells how far the run has come, once a second.
   subroutine show_progress(progress, done, total)
     type(progress_t), intent(inout) :: progress
-    integer, intent(in) :: done, total !! positions
+    integer, intent(in) :: done, total
 
     integer(long) :: now, rate
 
@@ -42,7 +44,8 @@ contains
     if (now - progress%last < rate) return
     progress%last = now
     progress%shown = .true.
-    write (error_unit, "(a)", advance="no") achar(13)//progress%name//": "//to_string(done)//" of "//to_string(total)//" positions"
+    write (error_unit, "(a)", advance="no") achar(13)//progress%name//": "//to_string(done)//" of "//to_string(total)// &
+      " "//progress%noun
     flush (error_unit)
   end subroutine show_progress
 

@@ -4,12 +4,12 @@ module tables
   use errors, only: error_t
   use kinds, only: long, wp
   use number_text, only: scientific
-  use output_files, only: append_output, discard_output, finish_output, open_output, output_file_t, publish_output
+  use output_files, only: append_held, append_output, discard_output, finish_output, open_output, output_file_t, publish_output
   use text, only: string_t, to_string
   implicit none (type, external)
   private
 
-  public :: table_t, open_table, finish_table, publish_table, discard_table
+  public :: table_t, open_table, new_sheet, append_sheet, begin_variant, finish_table, publish_table, discard_table
   public :: column_t, real_column, integer_column, name_column, write_header, write_row, write_gap, write_failure
   public :: real_cells, integer_cell, name_cell, has_unit
 
@@ -22,11 +22,15 @@ module tables
   type :: table_t
     character(len=:), allocatable :: name     !! of its files, without `.dat` and `.csv`
     logical :: has_csv = .false.
-    type(column_t), allocatable :: columns(:)
+    type(column_t), allocatable :: columns(:) !! all; not allocated before there is a header
     integer(long) :: rows = 0_long            !! written so far
     integer(long) :: failed_rows = 0_long     !! that could not be computed, besides
     type(output_file_t), private :: plain, csv
     logical, private :: gap_due = .false.     !! an empty line is to come before the next row
+    type(string_t), allocatable, private :: notes(:)       !! of the header
+    type(column_t), allocatable, private :: parameters(:)  !! columns of what varies, before all others; none: one variant only
+    real(wp), allocatable, private :: parameter_values(:)  !! of the variant whose rows are written
+    character(len=:), allocatable, private :: first_cells  !! the same, as every row begins
   end type table_t
 
   integer, parameter :: number_width = 25 !! sign, 17 digits, point, exponent of three digits, and a blank
@@ -45,9 +49,45 @@ contains
 
     table%name = name
     table%has_csv = has_csv
+    allocate (table%parameters(0), table%parameter_values(0))
+    table%first_cells = ""
     call open_output(folder, name//".dat", table%plain, error)
     if (has_csv .and. .not. allocated(error)) call open_output(folder, name//".csv", table%csv, error)
   end subroutine open_table
+
+  !> The rows that follow are those of a variant: what varies stands in their first columns.
+  subroutine begin_variant(table, parameters, values)
+    type(table_t), intent(inout) :: table
+    type(column_t), intent(in) :: parameters(:)
+    real(wp), intent(in) :: values(:)
+
+    table%parameters = parameters
+    table%parameter_values = values
+    table%first_cells = real_cells(values)
+  end subroutine begin_variant
+
+  !> A sheet for the rows of a variant, to be appended to a table that has its header.
+  pure function new_sheet(table) result(sheet)
+    type(table_t), intent(in) :: table
+    type(table_t) :: sheet
+
+    sheet%name = table%name
+    sheet%has_csv = table%has_csv
+    sheet%columns = table%columns
+    sheet%notes = table%notes
+  end function new_sheet
+
+  subroutine append_sheet(table, sheet)
+    type(table_t), intent(inout) :: table
+    type(table_t), intent(in) :: sheet
+
+    call append_held(table%plain, sheet%plain)
+    call append_held(table%csv, sheet%csv)
+    ! The sheet begins with empty lines.
+    table%gap_due = sheet%gap_due
+    table%rows = table%rows + sheet%rows
+    table%failed_rows = table%failed_rows + sheet%failed_rows
+  end subroutine append_sheet
 
   !> Writes what is left and checks that everything is on the disk. Errors: it is not.
   subroutine finish_table(table, error)
@@ -112,7 +152,8 @@ contains
     has = column%unit /= no_unit
   end function has_unit
 
-  !> Writes the `#` lines: title, notes, names of the columns, their units; in CSV the names of the columns alone.
+  !> Writes the `#` lines: title, notes, names of the columns, their units; in CSV the names of the columns alone. Where there is a
+  !! header already, another variant begins: empty lines, and those notes that the header does not have.
   subroutine write_header(table, title, notes, columns)
     type(table_t), intent(inout) :: table
     character(len=*), intent(in) :: title
@@ -120,28 +161,53 @@ contains
     type(column_t), intent(in) :: columns(:)
 
     character(len=:), allocatable :: names, units
-    type(string_t) :: fields(size(columns) + 1)
+    type(string_t), allocatable :: fields(:)
     integer :: i
 
-    table%columns = columns
+    if (allocated(table%columns)) then
+      call write_gap(table, 2)
+      do i = 1, size(notes)
+        if (any_same(table%notes, notes(i)%text)) cycle
+        call append_output(table%plain, "# "//notes(i)%text//line_feed)
+      end do
+      return
+    end if
+    table%notes = notes
+    table%columns = [table%parameters, columns]
     call append_output(table%plain, "# "//title_line(title)//line_feed)
     do i = 1, size(notes)
       call append_output(table%plain, "# "//notes(i)%text//line_feed)
     end do
     names = ""
     units = ""
-    do i = 1, size(columns)
-      names = names//name_cell(columns(i)%name, columns(i)%width)
-      units = units//name_cell(columns(i)%unit, columns(i)%width)
-      fields(i)%text = columns(i)%name
-      if (has_unit(columns(i))) fields(i)%text = columns(i)%name//" ["//columns(i)%unit//"]"
-      fields(i)%text = csv_field(fields(i)%text)
+    allocate (fields(size(table%columns) + 1))
+    do i = 1, size(table%columns)
+      associate (column => table%columns(i))
+        names = names//name_cell(column%name, column%width)
+        units = units//name_cell(column%unit, column%width)
+        fields(i)%text = column%name
+        if (has_unit(column)) fields(i)%text = column%name//" ["//column%unit//"]"
+        fields(i)%text = csv_field(fields(i)%text)
+      end associate
     end do
     ! The mark takes the place of a blank that every first column begins with.
     call append_output(table%plain, "#"//names(2:)//line_feed//"#"//units(2:)//line_feed)
     fields(size(fields))%text = "failure"
     if (table%has_csv) call append_output(table%csv, csv_line("", fields))
   end subroutine write_header
+
+  pure function any_same(list, text) result(any_is)
+    type(string_t), intent(in) :: list(:)
+    character(len=*), intent(in) :: text
+    logical :: any_is
+
+    integer :: i
+
+    any_is = .false.
+    do i = 1, size(list)
+      any_is = any_is .or. list(i)%text == text
+    end do
+  end function any_same
 
   !> A table has a first line whether or not its deck has a title.
   pure function title_line(title) result(line)
@@ -158,9 +224,11 @@ contains
 
     if (table%gap_due) call append_output(table%plain, line_feed)
     table%gap_due = .false.
-    call append_output(table%plain, cells//line_feed)
+    call append_output(table%plain, table%first_cells)
+    call append_output(table%plain, cells)
+    call append_output(table%plain, line_feed)
     table%rows = table%rows + 1
-    if (table%has_csv) call append_output(table%csv, csv_line(cells, [string_t("")]))
+    if (table%has_csv) call append_output(table%csv, csv_line(table%first_cells//cells, [string_t("")]))
   end subroutine write_row
 
   !> Empty lines: one where a curve breaks, two between blocks. CSV has none: the columns tell.
@@ -177,15 +245,18 @@ contains
   !! Rows that fail one after another share one empty line: two would be the end of a block.
   subroutine write_failure(table, place, reason)
     type(table_t), intent(inout) :: table
-    real(wp), intent(in) :: place(:) !! what the first columns hold: speed, crank angle
+    real(wp), intent(in) :: place(:) !! what the first columns hold behind those of what varies: speed, crank angle
     character(len=*), intent(in) :: reason
 
-    type(string_t) :: missing(size(table%columns) - size(place) + 1)
+    type(string_t), allocatable :: missing(:)
+    real(wp), allocatable :: known(:)
     integer :: i
 
+    known = [table%parameter_values, place]
+    allocate (missing(size(table%columns) - size(known) + 1))
     call append_output(table%plain, "# failed")
-    do i = 1, size(place)
-      call append_output(table%plain, " "//table%columns(i)%name//"="//to_string(place(i), 12))
+    do i = 1, size(known)
+      call append_output(table%plain, " "//table%columns(i)%name//"="//to_string(known(i), 12))
     end do
     call append_output(table%plain, " : "//reason//line_feed)
     table%gap_due = .true.
@@ -195,7 +266,7 @@ contains
       missing(i)%text = ""
     end do
     missing(size(missing))%text = csv_quoted(reason)
-    call append_output(table%csv, csv_line(real_cells(place), missing))
+    call append_output(table%csv, csv_line(real_cells(known), missing))
   end subroutine write_failure
 
   !> Numbers with 17 digits. Zero has no sign: -0 would make equal tables differ.
