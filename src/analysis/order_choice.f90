@@ -62,7 +62,9 @@ contains
     continuous = .false. ! no masses on nodes
     call new_deformation_model(linkage, beams, one_element, order, continuous, model, error, store)
     if (allocated(error) .or. size(chosen) == 0) return
-    call try_samples(linkage, model, positions, chosen, factor, modes, link_error, highest, counts)
+    ! One position tells how short the waves are.
+    call try_samples(linkage, model, positions, chosen(size(chosen)/2 + 1:size(chosen)/2 + 1), factor, modes, link_error, highest, &
+      counts)
     do b = 1, size(beams)
       order(b) = guessed_order(wave_of(linkage, beams, b, highest), share*bound, order(b), highest_order, modes)
     end do

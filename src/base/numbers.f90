@@ -3,7 +3,7 @@
 !! Fortran's own list-directed `read` takes `/`, `1,000`, `2*3.5` and `nan` for numbers; a deck must not.
 module numbers
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_overflow, ieee_set_flag, ieee_set_halting_mode
-  use kinds, only: wp
+  use kinds, only: long, wp
   use text, only: to_string
   implicit none (type, external)
   private
@@ -72,7 +72,7 @@ contains
     character(len=len(string)) :: digits
     character(len=32) :: form
     integer :: i, status
-    logical :: halts
+    logical :: halts, done
 
     value = 0.0_wp
     if (number_length(string) /= len(string) .or. len(string) == 0) then
@@ -83,6 +83,9 @@ contains
       problem = "the exponent of '"//string//"' has no digits"
       return
     end if
+    call read_short(string, value, done)
+    problem = ""
+    if (done) return
     do i = 1, len(string)
       digits(i:i) = string(i:i)
       if (scan(string(i:i), "dD") == 1) digits(i:i) = "e"
@@ -103,6 +106,60 @@ contains
       problem = ""
     end if
   end subroutine read_real
+
+  !> Reads a number of few digits, as nearly all of a deck are, in a tenth of the time that a formatted `read` takes.
+  !!
+  !! Whole numbers below 10¹⁵ and powers of ten up to 10²² are doubles exactly; so their product or quotient is the double nearest
+  !! to the number, the same that `read` finds.
+  pure subroutine read_short(string, value, done)
+    character(len=*), intent(in) :: string !! a number
+    real(wp), intent(out) :: value
+    logical, intent(out) :: done           !! false: it has too many digits, or too large an exponent
+
+    integer, parameter :: most_digits = 15, largest_power = 22
+    integer(long) :: whole
+    integer :: at, digits, power, exponent
+    logical :: after_point
+
+    value = 0.0_wp
+    whole = 0_long
+    digits = 0
+    power = 0
+    exponent = 0
+    after_point = .false.
+    done = .false.
+    at = 1
+    if (scan("+-", string(1:1)) > 0) at = 2
+    do while (at <= len(string))
+      select case (string(at:at))
+      case ("0":"9")
+        if (digits == most_digits) return
+        whole = 10_long*whole + (iachar(string(at:at)) - iachar("0"))
+        if (whole > 0_long) digits = digits + 1
+        if (after_point) power = power - 1
+      case (".")
+        after_point = .true.
+      case default
+        exit
+      end select
+      at = at + 1
+    end do
+    if (at < len(string)) then
+      at = at + 1
+      if (len(string) - at > 3) return
+      do digits = at + merge(1, 0, scan("+-", string(at:at)) > 0), len(string)
+        exponent = 10*exponent + (iachar(string(digits:digits)) - iachar("0"))
+      end do
+      if (string(at:at) == "-") exponent = -exponent
+    end if
+    power = power + exponent
+    if (abs(power) > largest_power) return
+    value = real(whole, wp)
+    if (power > 0) value = value*10.0_wp**power
+    if (power < 0) value = value/10.0_wp**(-power)
+    if (string(1:1) == "-") value = -value
+    done = .true.
+  end subroutine read_short
 
   !> A number in as few digits, from 15 on, as read back to the same double; trailing zeros are dropped.
   pure function shortest_text(value) result(string)

@@ -54,6 +54,9 @@ module bordered_modes
   !> Modes beyond those wanted that a search without a start begins with, and that it may go up to.
   integer, parameter :: first_guards = 2, most_guards = 32
 
+  !> Relative accuracy of the last eigenvalue of a start, about: inverse iteration finds the other digits.
+  real(wp), parameter :: start_accuracy = 1.0e-6_wp
+
 contains
 
   pure function new_start() result(start)
@@ -334,7 +337,7 @@ contains
 
     type(band_matrix_t) :: m, k
     real(wp) :: shift, inverse(modes), full(layout%unknowns)
-    real(wp), allocatable :: vector(:, :), dense(:, :)
+    real(wp), allocatable :: vector(:, :), dense(:, :), diagonal(:)
     integer :: i, factorizations
 
     if (modes > size(chosen)) then
@@ -351,7 +354,11 @@ contains
     k = full_band(dense)
     shift = 0.0_wp
     if (loaded) call find_definite_shift(k, m, shift, factorizations)
-    call solve_dense(shifted(k, m, shift), m, modes, .true., inverse, vector, error)
+    ! The diagonal has the eigenvalues about, and so the size of the last one that is wanted.
+    diagonal = m%entry(1, :)/(k%entry(1, :) + shift*m%entry(1, :))
+    diagonal = diagonal(ascending_order(diagonal))
+    call solve_dense(shifted(k, m, shift), m, modes, .true., inverse, vector, error, &
+      start_accuracy*abs(diagonal(size(chosen) - modes + 1)))
     if (allocated(error)) return
     start%modes = modes
     start%lambda = 1.0_wp/inverse - shift
