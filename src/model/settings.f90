@@ -8,6 +8,7 @@ module settings
   use spelling, only: suggestion
   use text, only: character_count, same_word, string_t
   use tokens, only: name_problem, token_t, token_texts
+  use units, only: dimension_none, read_unit, unit_t
   implicit none (type, external)
   private
 
@@ -81,6 +82,7 @@ contains
     end if
     if (size(card%words) == 0) return
     call read_name(card%words(1), diagnostics)
+    if (len(name_problem(card%words(1)%text)) > 0) return
     count = count + 1
     list(count)%name = card%words(1)
     list(count)%card = number
@@ -195,6 +197,7 @@ contains
     integer, intent(out) :: number !! 0 if there is none
 
     type(string_t) :: candidates(size(settings%list))
+    character(len=:), allocatable :: hint
     integer :: i
 
     number = 0
@@ -211,26 +214,33 @@ contains
       settings%list(number)%is_used = .true.
       return
     end if
-    do i = 1, size(candidates)
-      candidates(i)%text = "$"//settings%list(i)%name%text
-    end do
-    call add_error(diagnostics, word, "no SET or VARY card defines '"//word%text//"'"//suggestion(word%text, candidates)// &
-      joined_unit(word%text(2:), settings))
+    hint = joined_unit(word%text(2:), settings)
+    if (len(hint) == 0) then
+      do i = 1, size(candidates)
+        candidates(i)%text = "$"//settings%list(i)%name%text
+      end do
+      hint = suggestion(word%text, candidates)
+    end if
+    call add_error(diagnostics, word, "no SET or VARY card defines '"//word%text//"'"//hint)
   end subroutine look_up_setting
 
-  !> What to say if a name is a known one with something behind it, such as a unit.
+  !> What to say if a name is a known one with a unit behind it.
   pure function joined_unit(name, settings) result(hint)
     character(len=*), intent(in) :: name
     type(settings_t), intent(in) :: settings
     character(len=:), allocatable :: hint
 
-    integer :: i, length
+    type(unit_t) :: measure
+    character(len=:), allocatable :: problem
+    integer :: length
 
     hint = ""
     do length = len(name) - 1, 1, -1
-      i = find_name(settings%names, name(:length))
-      if (i == 0) cycle
-      hint = "; '$"//name(:length)//"' is a whole value, and its unit stands in the value, as in SET "//name(:length)//" 100mm"
+      if (find_name(settings%names, name(:length)) == 0) cycle
+      call read_unit(name(length + 1:), dimension_none, measure, problem)
+      if (len(problem) > 0) cycle
+      hint = "; '$"//name(:length)//"' is a whole value, and its unit stands in the value, as in SET "//name(:length)// &
+        " 100"//name(length + 1:)
       return
     end do
   end function joined_unit
