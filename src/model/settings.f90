@@ -3,9 +3,9 @@ module settings
   use card_reader, only: check_form, read_name
   use cards, only: card_t
   use deck_source, only: append_source, line_count, source_from_text, source_t
-  use diagnostics, only: add_error, add_warning, diagnostics_t
+  use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use name_index, only: find_name, name_index_t, new_name_index
-  use spelling, only: suggestion
+  use spelling, only: nearest_word, suggestion
   use text, only: character_count, same_word, string_t
   use tokens, only: name_problem, token_t, token_texts
   use units, only: dimension_none, read_unit, unit_t
@@ -196,9 +196,8 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     integer, intent(out) :: number !! 0 if there is none
 
-    type(string_t) :: candidates(size(settings%list))
     character(len=:), allocatable :: hint
-    integer :: i
+    integer :: nearest
 
     number = 0
     if (word%text == "$") then
@@ -215,12 +214,8 @@ contains
       return
     end if
     hint = joined_unit(word%text(2:), settings)
-    if (len(hint) == 0) then
-      do i = 1, size(candidates)
-        candidates(i)%text = "$"//settings%list(i)%name%text
-      end do
-      hint = suggestion(word%text, candidates)
-    end if
+    nearest = nearest_word(word%text(2:), settings%names%name)
+    if (len(hint) == 0 .and. nearest > 0) hint = " (did you mean '$"//settings%list(nearest)%name%text//"'?)"
     call add_error(diagnostics, word, "no SET or VARY card defines '"//word%text//"'"//hint)
   end subroutine look_up_setting
 
@@ -245,13 +240,14 @@ contains
     end do
   end function joined_unit
 
-  !> A name that nothing uses is a slip as a rule.
+  !> A name that nothing uses is a slip as a rule; where a `$name` is wrong, that is the slip.
   pure subroutine warn_of_unused_settings(settings, diagnostics)
     type(settings_t), intent(in) :: settings
     type(diagnostics_t), intent(inout) :: diagnostics
 
     integer :: i
 
+    if (has_errors(diagnostics)) return
     do i = 1, size(settings%list)
       if (settings%list(i)%is_used .or. settings%list(i)%is_varied) cycle
       if (find_name(settings%names, settings%list(i)%name%text) /= i) cycle

@@ -73,6 +73,9 @@ contains
         end if
       end associate
     end do
+    do k = 1, size(deck%slots)
+      if (deck%source_of(k) == 0) call mark_unknown(deck%fixed, deck%slots(k))
+    end do
     deallocate (deck%variations)
     allocate (deck%variations(count))
     do k = 1, count
