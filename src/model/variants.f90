@@ -52,7 +52,9 @@ contains
     type(variation_t), allocatable :: list(:)
     integer(long) :: variants
     integer :: i, k, count
+    logical :: all_found !! so far, of what `$name`s mean
 
+    all_found = .not. has_errors(diagnostics)
     call refuse_varied_variations(deck, diagnostics)
     allocate (list(size(deck%settings%list)))
     deck%source_of = spread(0, 1, size(deck%slots))
@@ -63,7 +65,7 @@ contains
         if (.not. setting%is_varied .or. size(deck%fixed(setting%card)%words) < 2) cycle
         count = count + 1
         call read_variation(deck%fixed(setting%card), i, diagnostics, list(count))
-        if (.not. any(deck%slots%setting == i) .and. .not. has_errors(diagnostics)) then
+        if (.not. any(deck%slots%setting == i) .and. all_found) then
           call add_error(diagnostics, setting%name, "no card uses '$"//setting%name%text//"': all variants would be the same")
         end if
         where (deck%slots%setting == i) deck%source_of = count
