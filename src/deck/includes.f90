@@ -88,7 +88,7 @@ contains
     count = count + size(more)
   end subroutine append_cards
 
-  !> Reads the file that an INCLUDE card names; no cards if it cannot be done.
+  !> Reads the file that an INCLUDE card names. If it cannot be done, the card stays: it stands for cards that nobody knows.
   recursive subroutine read_included(source, chain, level, card, cards, diagnostics)
     type(source_t), intent(inout) :: source
     type(string_t), intent(inout) :: chain(0:)
@@ -100,7 +100,8 @@ contains
     type(source_t) :: more
     character(len=:), allocatable :: path, problem, place
 
-    allocate (cards(0))
+    allocate (cards(1))
+    cards(1) = card
     call read_path(source, card, path, diagnostics)
     if (len(path) == 0) return
     problem = loop_problem(source, chain(:level), path, card%keyword%line)

@@ -32,6 +32,8 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
 
     if (.not. has_card(cards, "UNITS")) call missing("there is no UNITS card; expected: UNITS length mass time")
+    ! What a file holds that cannot be included is not missing from the deck.
+    if (has_card(cards, "INCLUDE")) return
     if (.not. has_card(cards, "GROUND") .or. .not. has_card(cards, "LINK")) then
       call missing("there are no "//trim(merge("GROUND", "LINK  ", .not. has_card(cards, "GROUND")))// &
         " cards: no linkage is described")
@@ -78,10 +80,14 @@ contains
     type(string_t), intent(in) :: known(:) !! all keywords
     logical :: means
 
-    integer :: nearest
+    integer :: i, nearest
 
-    nearest = nearest_word(unknown, known)
     means = .false.
+    ! Most are no misspelt ones, and comparing spellings takes its time.
+    do i = 1, size(known)
+      if (same_word(known(i)%text, unknown)) return
+    end do
+    nearest = nearest_word(unknown, known)
     if (nearest > 0) means = same_word(known(nearest)%text, keyword)
   end function means
 

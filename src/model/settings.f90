@@ -3,11 +3,12 @@ module settings
   use card_reader, only: check_form, read_name
   use cards, only: card_t
   use deck_source, only: append_source, line_count, source_from_text, source_t
-  use diagnostics, only: add_error, add_warning, diagnostics_t
+  use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use name_index, only: find_name, name_index_t, new_name_index
-  use spelling, only: suggestion
+  use spelling, only: nearest_word, suggestion
   use text, only: character_count, same_word, string_t
   use tokens, only: name_problem, token_t, token_texts
+  use units, only: dimension_none, read_unit, unit_t
   implicit none (type, external)
   private
 
@@ -81,6 +82,7 @@ contains
     end if
     if (size(card%words) == 0) return
     call read_name(card%words(1), diagnostics)
+    if (len(name_problem(card%words(1)%text)) > 0) return
     count = count + 1
     list(count)%name = card%words(1)
     list(count)%card = number
@@ -194,8 +196,8 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     integer, intent(out) :: number !! 0 if there is none
 
-    type(string_t) :: candidates(size(settings%list))
-    integer :: i
+    character(len=:), allocatable :: hint
+    integer :: nearest
 
     number = 0
     if (word%text == "$") then
@@ -211,37 +213,41 @@ contains
       settings%list(number)%is_used = .true.
       return
     end if
-    do i = 1, size(candidates)
-      candidates(i)%text = "$"//settings%list(i)%name%text
-    end do
-    call add_error(diagnostics, word, "no SET or VARY card defines '"//word%text//"'"//suggestion(word%text, candidates)// &
-      joined_unit(word%text(2:), settings))
+    hint = joined_unit(word%text(2:), settings)
+    nearest = nearest_word(word%text(2:), settings%names%name)
+    if (len(hint) == 0 .and. nearest > 0) hint = " (did you mean '$"//settings%list(nearest)%name%text//"'?)"
+    call add_error(diagnostics, word, "no SET or VARY card defines '"//word%text//"'"//hint)
   end subroutine look_up_setting
 
-  !> What to say if a name is a known one with something behind it, such as a unit.
+  !> What to say if a name is a known one with a unit behind it.
   pure function joined_unit(name, settings) result(hint)
     character(len=*), intent(in) :: name
     type(settings_t), intent(in) :: settings
     character(len=:), allocatable :: hint
 
-    integer :: i, length
+    type(unit_t) :: measure
+    character(len=:), allocatable :: problem
+    integer :: length
 
     hint = ""
     do length = len(name) - 1, 1, -1
-      i = find_name(settings%names, name(:length))
-      if (i == 0) cycle
-      hint = "; '$"//name(:length)//"' is a whole value, and its unit stands in the value, as in SET "//name(:length)//" 100mm"
+      if (find_name(settings%names, name(:length)) == 0) cycle
+      call read_unit(name(length + 1:), dimension_none, measure, problem)
+      if (len(problem) > 0) cycle
+      hint = "; '$"//name(:length)//"' is a whole value, and its unit stands in the value, as in SET "//name(:length)// &
+        " 100"//name(length + 1:)
       return
     end do
   end function joined_unit
 
-  !> A name that nothing uses is a slip as a rule.
+  !> A name that nothing uses is a slip as a rule; where a `$name` is wrong, that is the slip.
   pure subroutine warn_of_unused_settings(settings, diagnostics)
     type(settings_t), intent(in) :: settings
     type(diagnostics_t), intent(inout) :: diagnostics
 
     integer :: i
 
+    if (has_errors(diagnostics)) return
     do i = 1, size(settings%list)
       if (settings%list(i)%is_used .or. settings%list(i)%is_varied) cycle
       if (find_name(settings%names, settings%list(i)%name%text) /= i) cycle

@@ -37,7 +37,9 @@ contains
     count = 0
     do i = 1, size(cards)
       first = 1
-      if (same_word(cards(i)%keyword%text, "TITLE") .or. same_word(cards(i)%keyword%text, "SET")) cycle
+      ! No value in the sense of `$name` stands there, or it has been dealt with.
+      if (same_word(cards(i)%keyword%text, "TITLE") .or. same_word(cards(i)%keyword%text, "INCLUDE") .or. &
+        same_word(cards(i)%keyword%text, "SET")) cycle
       if (same_word(cards(i)%keyword%text, "VARY")) first = 2
       do k = first, size(cards(i)%words)
         if (index(cards(i)%words(k)%text, "$") == 0) cycle

@@ -19,7 +19,7 @@ module variants
     type(card_t), allocatable :: written(:)          !! as they stand in the files
     type(settings_t) :: settings
     type(variation_t), allocatable :: variations(:)  !! in the order of the deck; the last one varies fastest
-    type(card_t), allocatable, private :: fixed(:)   !! with the values of SET in place; not allocated where that changes nothing
+    type(card_t), allocatable, private :: fixed(:)   !! with the values of SET in place
     type(slot_t), allocatable, private :: slots(:)   !! where the values of VARY go
     integer, allocatable, private :: source_of(:)    !! (slots) the number in `variations`
   end type deck_cards_t
@@ -39,57 +39,34 @@ contains
     call move_alloc(cards, deck%written)
     allocate (deck%variations(0), deck%slots(0), deck%source_of(0))
     call read_settings(deck%written, options, source, diagnostics, deck%settings)
-    if (.not. uses_settings(deck%written)) then
-      call warn_of_unused_settings(deck%settings, diagnostics)
-      call read_variations(deck, deck%written, diagnostics)
-      return
-    end if
     deck%fixed = deck%written
     call substitute(deck%fixed, deck%settings, diagnostics, deck%slots)
     call warn_of_unused_settings(deck%settings, diagnostics)
-    call read_variations(deck, deck%fixed, diagnostics)
+    call read_variations(deck, diagnostics)
   end subroutine read_deck_cards
 
-  !> Whether any `$` stands in a value.
-  pure function uses_settings(cards) result(uses)
-    type(card_t), intent(in) :: cards(:)
-    logical :: uses
-
-    integer :: i, k
-
-    uses = .true.
-    do i = 1, size(cards)
-      do k = 1, size(cards(i)%words)
-        if (index(cards(i)%words(k)%text, "$") > 0) return
-      end do
-      do k = 1, size(cards(i)%entries)
-        if (index(cards(i)%entries(k)%value%text, "$") > 0) return
-      end do
-    end do
-    uses = .false.
-  end function uses_settings
-
   !> Reads the VARY cards that the command line leaves, and joins them to the places where their values go.
-  pure subroutine read_variations(deck, cards, diagnostics)
+  pure subroutine read_variations(deck, diagnostics)
     type(deck_cards_t), intent(inout) :: deck
-    type(card_t), intent(in) :: cards(:) !! with the values of SET in place
     type(diagnostics_t), intent(inout) :: diagnostics
 
     type(variation_t), allocatable :: list(:)
     integer(long) :: variants
     integer :: i, k, count
+    logical :: all_found !! so far, of what `$name`s mean
 
-    call refuse_varied_variations(deck, cards, diagnostics)
+    all_found = .not. has_errors(diagnostics)
+    call refuse_varied_variations(deck, diagnostics)
     allocate (list(size(deck%settings%list)))
     deck%source_of = spread(0, 1, size(deck%slots))
     count = 0
     variants = 1
     do i = 1, size(list)
       associate (setting => deck%settings%list(i))
-        if (.not. setting%is_varied .or. size(cards(setting%card)%words) < 2) cycle
+        if (.not. setting%is_varied .or. size(deck%fixed(setting%card)%words) < 2) cycle
         count = count + 1
-        call read_variation(cards(setting%card), i, diagnostics, list(count))
-        if (.not. any(deck%slots%setting == i) .and. .not. has_errors(diagnostics)) then
+        call read_variation(deck%fixed(setting%card), i, diagnostics, list(count))
+        if (.not. any(deck%slots%setting == i) .and. all_found) then
           call add_error(diagnostics, setting%name, "no card uses '$"//setting%name%text//"': all variants would be the same")
         end if
         where (deck%slots%setting == i) deck%source_of = count
@@ -99,6 +76,9 @@ contains
         end if
       end associate
     end do
+    do k = 1, size(deck%slots)
+      if (deck%source_of(k) == 0) call mark_unknown(deck%fixed, deck%slots(k))
+    end do
     deallocate (deck%variations)
     allocate (deck%variations(count))
     do k = 1, count
@@ -107,18 +87,18 @@ contains
   end subroutine read_variations
 
   !> The values of a VARY card are known before there are variants.
-  pure subroutine refuse_varied_variations(deck, cards, diagnostics)
-    type(deck_cards_t), intent(in) :: deck
-    type(card_t), intent(in) :: cards(:)
+  pure subroutine refuse_varied_variations(deck, diagnostics)
+    type(deck_cards_t), intent(inout) :: deck
     type(diagnostics_t), intent(inout) :: diagnostics
 
     integer :: k
 
     do k = 1, size(deck%slots)
       associate (slot => deck%slots(k))
-        if (.not. same_word(cards(slot%card)%keyword%text, "VARY")) cycle
-        call add_error(diagnostics, cards(slot%card)%words(slot%word), "the values of a VARY cannot vary themselves", &
+        if (.not. same_word(deck%fixed(slot%card)%keyword%text, "VARY")) cycle
+        call add_error(diagnostics, deck%fixed(slot%card)%words(slot%word), "the values of a VARY cannot vary themselves", &
           deck%settings%list(slot%setting)%name, "this one does")
+        call mark_unknown(deck%fixed, slot)
       end associate
     end do
   end subroutine refuse_varied_variations
@@ -146,13 +126,7 @@ contains
 
     integer :: choice(size(deck%variations)), k
 
-    if (.not. allocated(cards)) then
-      if (allocated(deck%fixed)) then
-        cards = deck%fixed
-      else
-        cards = deck%written
-      end if
-    end if
+    if (.not. allocated(cards)) cards = deck%fixed
     choice = choices(deck, number)
     do k = 1, size(deck%slots)
       if (deck%source_of(k) == 0) cycle

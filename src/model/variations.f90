@@ -84,7 +84,7 @@ contains
       end if
       words(i) = token_part(words(i), 1, length)
       if (at_end .and. len(mine%text) == 0) cycle
-      if (i == 1) then
+      if (i == 1 .and. .not. at_end) then
         first = mine
         unit = mine%text
       end if
