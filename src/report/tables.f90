@@ -1,6 +1,6 @@
 !> Tables: plain text, one row that stands alone, all the digits of a double; beside it, if asked for, the same rows as CSV.
 module tables
-  use csv_text, only: csv_field, csv_line, csv_quoted
+  use csv_text, only: csv_field, csv_line_end, csv_quoted, csv_record
   use errors, only: error_t
   use kinds, only: long, wp
   use number_text, only: scientific
@@ -112,6 +112,15 @@ contains
     has = column%unit /= no_unit
   end function has_unit
 
+  !> `crank [deg]`
+  pure function name_with_unit(column) result(name)
+    type(column_t), intent(in) :: column
+    character(len=:), allocatable :: name
+
+    name = column%name
+    if (has_unit(column)) name = column%name//" ["//column%unit//"]"
+  end function name_with_unit
+
   !> Writes the `#` lines: title, notes, names of the columns, their units; in CSV the names of the columns alone.
   subroutine write_header(table, title, notes, columns)
     type(table_t), intent(inout) :: table
@@ -119,8 +128,7 @@ contains
     type(string_t), intent(in) :: notes(:)
     type(column_t), intent(in) :: columns(:)
 
-    character(len=:), allocatable :: names, units
-    type(string_t) :: fields(size(columns) + 1)
+    character(len=:), allocatable :: names, units, fields
     integer :: i
 
     table%columns = columns
@@ -130,17 +138,15 @@ contains
     end do
     names = ""
     units = ""
+    fields = ""
     do i = 1, size(columns)
       names = names//name_cell(columns(i)%name, columns(i)%width)
       units = units//name_cell(columns(i)%unit, columns(i)%width)
-      fields(i)%text = columns(i)%name
-      if (has_unit(columns(i))) fields(i)%text = columns(i)%name//" ["//columns(i)%unit//"]"
-      fields(i)%text = csv_field(fields(i)%text)
+      fields = fields//csv_field(name_with_unit(columns(i)))//","
     end do
     ! The mark takes the place of a blank that every first column begins with.
     call append_output(table%plain, "#"//names(2:)//line_feed//"#"//units(2:)//line_feed)
-    fields(size(fields))%text = "failure"
-    if (table%has_csv) call append_output(table%csv, csv_line("", fields))
+    if (table%has_csv) call append_output(table%csv, fields//"failure"//csv_line_end)
   end subroutine write_header
 
   !> A table has a first line whether or not its deck has a title.
@@ -160,7 +166,7 @@ contains
     table%gap_due = .false.
     call append_output(table%plain, cells//line_feed)
     table%rows = table%rows + 1
-    if (table%has_csv) call append_output(table%csv, csv_line(cells, [string_t("")]))
+    if (table%has_csv) call append_output(table%csv, csv_record(cells)//","//csv_line_end)
   end subroutine write_row
 
   !> Empty lines: one where a curve breaks, two between blocks. CSV has none: the columns tell.
@@ -180,7 +186,6 @@ contains
     real(wp), intent(in) :: place(:) !! what the first columns hold: speed, crank angle
     character(len=*), intent(in) :: reason
 
-    type(string_t) :: missing(size(table%columns) - size(place) + 1)
     integer :: i
 
     call append_output(table%plain, "# failed")
@@ -191,11 +196,8 @@ contains
     table%gap_due = .true.
     table%failed_rows = table%failed_rows + 1
     if (.not. table%has_csv) return
-    do i = 1, size(missing)
-      missing(i)%text = ""
-    end do
-    missing(size(missing))%text = csv_quoted(reason)
-    call append_output(table%csv, csv_line(real_cells(place), missing))
+    call append_output(table%csv, csv_record(real_cells(place))//repeat(",", size(table%columns) - size(place) + 1)// &
+      csv_quoted(reason)//csv_line_end)
   end subroutine write_failure
 
   !> Numbers with 17 digits. Zero has no sign: -0 would make equal tables differ.
