@@ -54,6 +54,12 @@ module deck_runs
     type(error_t), allocatable :: error
   end type part_t
 
+  !> What a thread keeps from variant to variant.
+  type :: worker_t
+    type(card_t), allocatable :: cards(:)
+    type(link_store_t) :: store
+  end type worker_t
+
   !> What a deck's variants have in common while they are computed.
   type :: session_t
     type(outputs_t) :: outputs
@@ -195,14 +201,14 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     type(part_t), allocatable :: parts(:)
-    type(link_store_t), allocatable :: stores(:) !! (threads)
+    type(worker_t), allocatable :: workers(:) !! (threads)
     integer :: first, last, at_a_time, outer, i
 
     at_a_time = max(1, min(most_at_a_time, rows_at_a_time/(size(deck%model%crank%value)*size(deck%model%speed%value))))
     outer = options%threads
     ! ARPACK serves one thread at a time.
     if (size(deck%model%crank%value) > many_positions .or. deck%model%solver == solver_band) outer = 1
-    allocate (stores(0:outer - 1))
+    allocate (workers(0:outer - 1))
     do first = 2, variant_count(deck%cards), at_a_time*outer
       last = min(first + at_a_time*outer - 1, variant_count(deck%cards))
       allocate (parts(first:last))
@@ -210,7 +216,7 @@ contains
       do i = first, last
         if (was_interrupted()) cycle
         call run_part(deck, i, merge(options%threads, 1, outer == 1), session%parameters, session%outputs, session%journal, &
-          stores(omp_get_thread_num()), parts(i))
+          workers(omp_get_thread_num()), parts(i))
       end do
       !$omp end parallel do
       if (was_interrupted()) return
@@ -229,23 +235,22 @@ contains
   end subroutine run_other_variants
 
   !> Computes one variant and writes its rows to sheets. That it is sound has been checked.
-  subroutine run_part(deck, number, threads, parameters, outputs, journal, store, part)
+  subroutine run_part(deck, number, threads, parameters, outputs, journal, worker, part)
     type(deck_t), intent(in) :: deck
     integer, intent(in) :: number
     integer, intent(in) :: threads
     type(column_t), intent(in) :: parameters(:)
     type(outputs_t), intent(in) :: outputs
     type(journal_t), intent(inout) :: journal
-    type(link_store_t), intent(inout) :: store
+    type(worker_t), intent(inout) :: worker
     type(part_t), intent(inout) :: part
 
-    type(card_t), allocatable :: cards(:)
     type(diagnostics_t) :: diagnostics
     type(variant_run_t) :: run
     type(progress_t) :: silent
 
-    call read_variant(deck%cards, number, cards, diagnostics, run%model)
-    call run_variant(number, threads, silent, journal, store, run, part%error)
+    call read_variant(deck%cards, number, worker%cards, diagnostics, run%model)
+    call run_variant(number, threads, silent, journal, worker%store, run, part%error)
     if (allocated(part%error) .or. was_interrupted()) return
     call write_sheets(outputs, parameters, run, part%sheets)
     part%findings = run%findings

@@ -1,24 +1,22 @@
 !> Comma-separated values (RFC 4180).
 module csv_text
-  use text, only: string_t
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   implicit none (type, external)
   private
 
-  public :: csv_line, csv_field, csv_quoted
+  public :: csv_record, csv_field, csv_quoted, csv_line_end
 
-  character(len=*), parameter :: line_end = achar(13)//achar(10)
+  character(len=*), parameter :: csv_line_end = achar(13)//achar(10)
 
 contains
 
-  !> One record with its end: cells separated by blanks, such as the rows of a table, then fields that are ready as they are.
-  pure function csv_line(cells, fields) result(line)
+  !> Cells separated by blanks, such as a row of a table, as fields separated by commas.
+  pure function csv_record(cells) result(record)
     character(len=*), intent(in) :: cells
-    type(string_t), intent(in) :: fields(:)
-    character(len=:), allocatable :: line
+    character(len=:), allocatable :: record
 
     type(text_buffer_t) :: buffer
-    integer :: first, last, i
+    integer :: first, last
 
     last = 0
     do
@@ -30,13 +28,8 @@ contains
       if (buffer%length > 0) call append_text(buffer, ",")
       call append_text(buffer, csv_field(cells(first:last)))
     end do
-    do i = 1, size(fields)
-      if (i > 1 .or. buffer%length > 0) call append_text(buffer, ",")
-      call append_text(buffer, fields(i)%text)
-    end do
-    call append_text(buffer, line_end)
-    line = buffer_text(buffer)
-  end function csv_line
+    record = buffer_text(buffer)
+  end function csv_record
 
   !> A text as a field: in quotes only if it has to be.
   pure function csv_field(text) result(field)
@@ -44,7 +37,7 @@ contains
     character(len=:), allocatable :: field
 
     field = text
-    if (scan(text, '",'//line_end) > 0) field = csv_quoted(text)
+    if (scan(text, '",'//csv_line_end) > 0) field = csv_quoted(text)
   end function csv_field
 
   !> A text in quotes, those inside doubled.

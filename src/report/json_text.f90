@@ -1,5 +1,6 @@
 !> Values as JSON (RFC 8259).
 module json_text
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use kinds, only: long, wp
   use numbers, only: read_real
   use text, only: is_continuation_byte, to_string
@@ -89,7 +90,7 @@ contains
     integer :: digits
 
     value = json_null
-    if (.not. abs(number) <= huge(number)) return
+    if (.not. ieee_is_finite(number)) return
     do digits = precision(number), precision(number) + 2
       value = to_string(number, digits)
       call read_real(value, back, problem)

@@ -1,6 +1,6 @@
 !> Tables: plain text, one row that stands alone, all the digits of a double; beside it, if asked for, the same rows as CSV.
 module tables
-  use csv_text, only: csv_field, csv_line, csv_quoted
+  use csv_text, only: csv_field, csv_line_end, csv_quoted, csv_record
   use errors, only: error_t
   use kinds, only: long, wp
   use number_text, only: scientific
@@ -152,6 +152,15 @@ contains
     has = column%unit /= no_unit
   end function has_unit
 
+  !> `crank [deg]`
+  pure function name_with_unit(column) result(name)
+    type(column_t), intent(in) :: column
+    character(len=:), allocatable :: name
+
+    name = column%name
+    if (has_unit(column)) name = column%name//" ["//column%unit//"]"
+  end function name_with_unit
+
   !> Writes the `#` lines: title, notes, names of the columns, their units; in CSV the names of the columns alone. Where there is a
   !! header already, another variant begins: empty lines, and those notes that the header does not have.
   subroutine write_header(table, title, notes, columns)
@@ -160,8 +169,7 @@ contains
     type(string_t), intent(in) :: notes(:)
     type(column_t), intent(in) :: columns(:)
 
-    character(len=:), allocatable :: names, units
-    type(string_t), allocatable :: fields(:)
+    character(len=:), allocatable :: names, units, fields
     integer :: i
 
     if (allocated(table%columns)) then
@@ -180,20 +188,17 @@ contains
     end do
     names = ""
     units = ""
-    allocate (fields(size(table%columns) + 1))
+    fields = ""
     do i = 1, size(table%columns)
       associate (column => table%columns(i))
         names = names//name_cell(column%name, column%width)
         units = units//name_cell(column%unit, column%width)
-        fields(i)%text = column%name
-        if (has_unit(column)) fields(i)%text = column%name//" ["//column%unit//"]"
-        fields(i)%text = csv_field(fields(i)%text)
+        fields = fields//csv_field(name_with_unit(column))//","
       end associate
     end do
     ! The mark takes the place of a blank that every first column begins with.
     call append_output(table%plain, "#"//names(2:)//line_feed//"#"//units(2:)//line_feed)
-    fields(size(fields))%text = "failure"
-    if (table%has_csv) call append_output(table%csv, csv_line("", fields))
+    if (table%has_csv) call append_output(table%csv, fields//"failure"//csv_line_end)
   end subroutine write_header
 
   pure function any_same(list, text) result(any_is)
@@ -228,7 +233,7 @@ contains
     call append_output(table%plain, cells)
     call append_output(table%plain, line_feed)
     table%rows = table%rows + 1
-    if (table%has_csv) call append_output(table%csv, csv_line(table%first_cells//cells, [string_t("")]))
+    if (table%has_csv) call append_output(table%csv, csv_record(table%first_cells//cells)//","//csv_line_end)
   end subroutine write_row
 
   !> Empty lines: one where a curve breaks, two between blocks. CSV has none: the columns tell.
@@ -248,12 +253,10 @@ contains
     real(wp), intent(in) :: place(:) !! what the first columns hold behind those of what varies: speed, crank angle
     character(len=*), intent(in) :: reason
 
-    type(string_t), allocatable :: missing(:)
     real(wp), allocatable :: known(:)
     integer :: i
 
     known = [table%parameter_values, place]
-    allocate (missing(size(table%columns) - size(known) + 1))
     call append_output(table%plain, "# failed")
     do i = 1, size(known)
       call append_output(table%plain, " "//table%columns(i)%name//"="//to_string(known(i), 12))
@@ -262,11 +265,8 @@ contains
     table%gap_due = .true.
     table%failed_rows = table%failed_rows + 1
     if (.not. table%has_csv) return
-    do i = 1, size(missing)
-      missing(i)%text = ""
-    end do
-    missing(size(missing))%text = csv_quoted(reason)
-    call append_output(table%csv, csv_line(real_cells(known), missing))
+    call append_output(table%csv, csv_record(real_cells(known))//repeat(",", size(table%columns) - size(known) + 1)// &
+      csv_quoted(reason)//csv_line_end)
   end subroutine write_failure
 
   !> Numbers with 17 digits. Zero has no sign: -0 would make equal tables differ.

@@ -48,7 +48,7 @@ zeros() {
 standard_input() {
   motion_deck >"$scratch/four.deck"
   "$program" --out "$out" - <"$scratch/four.deck" >"$scratch/stdout" 2>"$scratch/stderr" && silent &&
-    run 0 --out "$out" "$scratch/four.deck" && same "$out/stdin" "$out/four"
+    run 0 --out "$out" "$scratch/four.deck" && same_but_names "$out/stdin" "$out/four"
 }
 
 standard_input_refused() {
@@ -62,7 +62,7 @@ line_ends() {
   { printf '\357\273\277'; awk '{ printf "%s\r\n", $0 }' "$scratch/four.deck"; } >"$scratch/dos.deck"
   printf '%s' "$(cat "$scratch/four.deck")" >"$scratch/no_end.deck"
   run 0 --out "$out" "$scratch/four.deck" "$scratch/dos.deck" "$scratch/no_end.deck" && silent &&
-    same "$out/four" "$out/dos" && same "$out/four" "$out/no_end"
+    same_but_names "$out/four" "$out/dos" && same_but_names "$out/four" "$out/no_end"
 }
 
 : >"$scratch/empty.deck"

@@ -25,6 +25,13 @@ new_folder() {
   run 2 --out "$disk/deep" "$scratch/new.deck" && says "$full" && absent "$disk/deep"
 }
 
+# Plain tables alone would have room.
+with_csv() {
+  beam_deck "CRANK 0 to 360 step 1" "REPORT frequencies" >"$deck"
+  run 0 --out "$disk/plain" "$deck" && rm -r "$disk/plain" || return 1
+  run 2 --out "$disk" --format csv "$deck" && says "$full" && same "$disk" "$scratch/before"
+}
+
 # The last byte counts: fill the disk but for less than the log and the echo need.
 no_room_at_all() {
   beam_deck "CRANK 0" "REPORT frequencies" "REPORT kinematics" >"$deck"
@@ -34,4 +41,5 @@ no_room_at_all() {
 
 check "a disk that fills up leaves the earlier results" earlier_results
 check "a disk that fills up leaves no new folder" new_folder
+check "a disk with no room for CSV" with_csv
 check "a full disk" no_room_at_all

@@ -57,9 +57,14 @@ same() {
   diff -rq "$1" "$2"
 }
 
+# same_but_names FOLDER FOLDER: likewise, but for the summary, which names its deck.
+same_but_names() {
+  diff -rq -x summary.json "$1" "$2"
+}
+
 # same_tables FOLDER FOLDER: likewise, but for the log and the echo, which name lines of their deck.
 same_tables() {
-  diff -rq -x run.log -x echo.deck "$1" "$2"
+  diff -rq -x run.log -x echo.deck -x summary.json "$1" "$2"
 }
 
 # A four-bar for what needs no beams.

@@ -14,7 +14,7 @@ beam_deck "CRANK 0 to 360 step 0.002" "MODES 8" "SPEED 0 to 20 step 1" "REPORT f
 interrupted() {
   cat >"$scratch/job.sh" <<'END_OF_JOB'
 set -m
-"$1" --out "$2" "$3" 2>"$4" &
+"$1" --format csv --out "$2" "$3" 2>"$4" &
 sleep 1
 kill -s "$5" $!
 wait $!

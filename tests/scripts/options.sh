@@ -8,7 +8,7 @@ motion_deck >"$deck"
 
 help() {
   run 0 --help && silent || return 1
-  for option in --check --out --set --threads --quiet --stats --version --help; do
+  for option in --check --out --set --threads --format --resume --quiet --stats --json --version --help; do
     grep -q -e "^ *$option" "$scratch/stdout" || { echo "$option is not explained"; return 1; }
   done
 }
@@ -33,6 +33,16 @@ unknown_option() {
 value_missing() {
   run 2 "$deck" --out && says "option --out needs a value" &&
     run 2 --out= "$deck" && says "option --out needs a value"
+}
+
+value_twice() {
+  run 2 --out "$out" --threads=2 --threads 3 "$deck" && says "option --threads is given twice" && absent "$out" &&
+    run 2 --format csv --format csv "$deck" && says "option --format is given twice"
+}
+
+format_unknown() {
+  run 2 --out "$out" --format cvs "$deck" && says "unknown format 'cvs' (did you mean 'csv'?)" && absent "$out" &&
+    run 2 --out "$out" --format=xml "$deck" && says "unknown format 'xml'; --format is plain or csv" && absent "$out"
 }
 
 threads_refused() {
@@ -104,6 +114,8 @@ check "--check of a bad deck" check_refuses
 check "an unknown option" unknown_option
 check "no deck" eval 'run 2 && says "no deck given" && run 2 --check && says "no deck given"'
 check "an option without its value" value_missing
+check "an option with two values" value_twice
+check "an unknown format" format_unknown
 check "--threads with no number" threads_refused
 check "--out and --out=, folders that are not there" out_twice
 check "outputs/ is the default" default_folder
