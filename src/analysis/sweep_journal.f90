@@ -17,10 +17,10 @@ module sweep_journal
   character(len=*), parameter :: journal_name = "resume.part"
 
   !> A run that takes less than this is not worth a journal [s].
-  real(wp), parameter :: least_time = 1.0_wp
+  real(wp), parameter :: least_time = 0.25_wp
 
   !> Bytes are handed to the system after so much time: that much of a killed run is lost [s].
-  real(wp), parameter :: flush_time = 1.0_wp
+  real(wp), parameter :: flush_time = 0.25_wp
 
   !> A mark before and after every block: its variant, its number, its length in bytes.
   integer, parameter :: mark_bytes = 3*storage_size(1)/8
