@@ -18,6 +18,7 @@ module beam_mesh
   type :: beam_t
     real(wp) :: axial_stiffness = 0.0_wp   !! EA [N]
     real(wp) :: bending_stiffness = 0.0_wp !! EI [N m²]
+    real(wp) :: shear_stiffness = 0.0_wp   !! kGA [N]; 0: rigid in shear
   end type beam_t
 
   type :: beam_mesh_t
