@@ -83,7 +83,7 @@ contains
     type(mechanism_t) :: other
 
     other = mechanism
-    other%mesh = new_beam_mesh(mechanism%linkage, elements, mechanism%mesh%order)
+    other%mesh = new_beam_mesh(mechanism%linkage, elements, mechanism%mesh%order, mechanism%mesh%sheared)
   end function mesh_with
 
   pure function has_beams(mechanism) result(has)
