@@ -7,7 +7,7 @@ module card_echo
   implicit none (type, external)
   private
 
-  public :: echo_line_t, echo_card
+  public :: echo_line_t, echo_card, append_default
 
   type :: echo_line_t
     character(len=:), allocatable :: text   !! the card
@@ -44,6 +44,7 @@ contains
     end select
   end function echo_card
 
+  !> Adds what a card leaves out.
   pure subroutine append_default(line, entry)
     type(echo_line_t), intent(inout) :: line
     character(len=*), intent(in) :: entry

@@ -1,20 +1,22 @@
 !> Cards → model.
 module model_reader
   use card_reader, only: check_form, read_choice
-  use card_echo, only: echo_card
+  use card_echo, only: append_default, echo_card, echo_line_t
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t, has_errors
+  use effect_cards, only: effect_words, effects_axial, effects_static, effects_t, read_effects
   use kinds, only: wp
   use linkage_cards, only: read_ground, read_link, read_mesh, read_pin_mass, set_default_mesh
   use materials, only: read_material
   use loop_finder, only: find_loop
   use mesh_checks, only: check_meshes
-  use models, only: effects_axial, effects_static, is_moving, model_t, needs_mesh
+  use models, only: is_moving, model_t, needs_mesh
   use name_checks, only: check_names
   use numbers, only: read_integer
   use request_checks, only: card_names, check_required, check_requests
   use requests, only: read_crank, read_report, read_speed
   use sections, only: read_section
+  use shear, only: check_shear
   use spelling, only: suggestion
   use text, only: lower_case, same_word, string_t, to_string, word_list
   use tokens, only: token_t
@@ -38,6 +40,7 @@ contains
 
     model%title = ""
     model%drive = token_t("", 0, 0)
+    model%shear_word = token_t("", 0, 0)
     model%modes_word = token_t("", 0, 0)
     model%inertia_word = token_t("", 0, 0)
     model%solver_word = token_t("", 0, 0)
@@ -64,9 +67,28 @@ contains
     call check_names(diagnostics, model)
     call find_loop(diagnostics, model)
     call check_requests(cards, diagnostics, model)
+    call check_shear(diagnostics, model)
     call check_meshes(cards, diagnostics, model)
-    if (.not. has_errors(diagnostics)) model%echo = [(echo_card(cards(i)), i=1, size(cards))]
+    if (has_errors(diagnostics)) return
+    model%echo = [(echo_card(cards(i)), i=1, size(cards))]
+    do i = 1, size(cards)
+      if (same_word(cards(i)%keyword%text, "EFFECTS")) call complete_effects(cards(i), model%effects, model%echo(i))
+    end do
   end subroutine read_model
+
+  !> Writes out what an EFFECTS card leaves to the speeds.
+  pure subroutine complete_effects(card, loads, line)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: loads
+    type(echo_line_t), intent(inout) :: line
+
+    integer :: i
+
+    do i = 1, size(card%words)
+      if (same_word(card%words(i)%text, "static") .or. same_word(card%words(i)%text, "axial")) return
+    end do
+    call append_default(line, effect_words(loads, .false., .false.))
+  end subroutine complete_effects
 
   pure function number_of(cards, keyword) result(number)
     type(card_t), intent(in) :: cards(:)
@@ -217,9 +239,10 @@ contains
     type(model_t), intent(inout) :: model
 
     integer :: i
-    logical :: fine, effects_given
+    type(effects_t) :: effects
+    logical :: fine
 
-    effects_given = .false.
+    effects%shear_word = token_t("", 0, 0)
     do i = 1, size(cards)
       select case (lower_case(cards(i)%keyword%text))
       case ("title")
@@ -246,8 +269,7 @@ contains
       case ("inertia")
         call read_option(cards(i), "INERTIA lumped|distributed", "lumped distributed", model%inertia, model%inertia_word)
       case ("effects")
-        call read_option(cards(i), "EFFECTS static|axial", "static axial", model%effects)
-        effects_given = .true.
+        call read_effects(cards(i), diagnostics, effects)
       case ("solver")
         call read_option(cards(i), "SOLVER auto|deformation|dense|band", "auto deformation dense band", model%solver, &
           model%solver_word)
@@ -255,7 +277,11 @@ contains
         call read_modes(cards(i), diagnostics, model)
       end select
     end do
-    if (.not. effects_given) model%effects = merge(effects_axial, effects_static, is_moving(model))
+    model%effects = effects%loads
+    if (effects%loads == 0) model%effects = merge(effects_axial, effects_static, is_moving(model))
+    model%rotary = effects%rotary
+    model%shear = effects%shear
+    model%shear_word = effects%shear_word
 
   contains
 
