@@ -7,7 +7,7 @@ module order_choice
   use errors, only: error_t
   use kinds, only: wp
   use ledger, only: ledger_t
-  use linkages, only: linkage_t
+  use linkages, only: body_t, linkage_t
   use pin_displacements, only: chords_t
   use positions, only: positions_t
   use reduced_modes, only: new_reduced_work, order_error, reduced_work_t, solve_reduced
@@ -63,8 +63,8 @@ contains
     if (allocated(error) .or. size(chosen) == 0) return
     call try_samples(linkage, model, positions, chosen, factor, modes, link_error, highest, counts)
     do b = 1, size(beams)
-      order(b) = guessed_order(linkage%bodies(b)%length*(linkage%bodies(b)%line_density*highest/ &
-        beams(b)%bending_stiffness)**0.25_wp, share*bound, order(b), highest_order, modes)
+      order(b) = guessed_order(linkage%bodies(b)%length*wave_number(linkage%bodies(b), beams(b), highest), share*bound, order(b), &
+        highest_order, modes)
     end do
     do
       call new_deformation_model(linkage, beams, one_element, order, continuous, model, error)
@@ -93,6 +93,29 @@ contains
     number = min(samples, count)
     chosen = [(sound(1 + ((i - 1)*(count - 1))/max(1, number - 1)), i=1, number)]
   end function sample_states
+
+  !> k of the shortest waves of a frequency in a link.
+  !!
+  !! `EI k⁴ − (ρI + EI μ/kGA) ω² k² − μω² (1 − ρI ω²/kGA) = 0`
+  pure function wave_number(body, beam, lambda) result(k)
+    type(body_t), intent(in) :: body
+    type(beam_t), intent(in) :: beam
+    real(wp), intent(in) :: lambda !! ω² [1/s²]
+    real(wp) :: k                  !! [1/m]
+
+    real(wp) :: slender, added
+
+    slender = body%line_density*lambda/beam%bending_stiffness
+    k = slender**0.25_wp
+    if (body%rotary_inertia <= 0.0_wp .and. beam%shear_stiffness <= 0.0_wp) return
+    added = body%rotary_inertia/beam%bending_stiffness
+    if (beam%shear_stiffness > 0.0_wp) then
+      added = added + body%line_density/beam%shear_stiffness
+      slender = slender*(1.0_wp - body%rotary_inertia*lambda/beam%shear_stiffness)
+    end if
+    added = 0.5_wp*added*lambda
+    k = sqrt(added + sqrt(max(0.0_wp, added**2 + slender)))
+  end function wave_number
 
   !> Order for a wave number times length, a bound of the error, and no fewer unknowns than a first model had for all modes.
   pure function guessed_order(wave, bound, first, highest, modes) result(order)
