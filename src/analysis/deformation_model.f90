@@ -48,7 +48,8 @@ contains
     model%layout = reduced_layout(linkage, model%links)
   end subroutine new_deformation_model
 
-  !> One link. A single element knows the next two orders as well, to tell its own error.
+  !> One link. A single element knows the next orders as well, to tell its own error: two across, and four along, where orders are so
+  !! low that the next one of either symmetry may not be enough.
   !!
   !! With shear and without rotary inertia some deformations move no mass: θ + γ = 0 everywhere. They meet nothing in M and K_G, and
   !! are left out. What is left are the continuous displacements of their degree that vanish at both ends.
@@ -73,7 +74,7 @@ contains
       bending = bending_shapes(body%length, body%line_density, beam%bending_stiffness, elements, order + more, &
         beam%shear_stiffness, body%rotary_inertia)
       axial = axial_shapes(body%length, body%line_density, beam%axial_stiffness, elements, &
-        merge(axial_degree(order + 2) + 1, degree, elements == 1))
+        merge(degree + 4, degree, elements == 1))
     end associate
     kept = elements*bending_unknowns(order, sheared)
     axial_kept = elements*degree - 1

@@ -12,7 +12,7 @@ module beam_mesh
   implicit none (type, external)
   private
 
-  public :: beam_t, beam_mesh_t, new_beam_mesh, element_count, element_length
+  public :: beam_t, beam_mesh_t, new_beam_mesh, element_count, element_length, moving_unknowns
 
   !> What a body is made of, as a beam.
   type :: beam_t
@@ -129,6 +129,20 @@ contains
 
     count = size(mesh%unknown, 2)
   end function element_count
+
+  !> How many modes of a finite frequency a mesh has.
+  !!
+  !! With shear and without rotary inertia cross-sections that turn, the axis at rest, move no mass: θ = −γ, continuous along a link
+  !! and of degree p − 2 in its elements, zero at the clamp.
+  pure function moving_unknowns(mesh, linkage) result(number)
+    type(beam_mesh_t), intent(in) :: mesh
+    type(linkage_t), intent(in) :: linkage
+    integer :: number
+
+    number = mesh%unknowns
+    if (.not. mesh%sheared .or. any(linkage%bodies%rotary_inertia > 0.0_wp)) return
+    number = number - sum(mesh%elements*(mesh%order - 2) + 1) + 1
+  end function moving_unknowns
 
   !> Length of the elements of a body [m].
   pure function element_length(mesh, linkage, body) result(length)
