@@ -67,7 +67,7 @@ contains
     end if
     call read_variant(deck%cards, 1, cards, deck%diagnostics, deck%model)
     if (.not. has_errors(deck%diagnostics)) then
-      deck%model%echo = echo_cards(deck%cards, cards, deck%source)
+      deck%model%echo = echo_cards(deck%cards, cards, deck%model%effects, deck%source)
       call check_variants(deck%cards, cards, deck%model, deck%diagnostics)
     end if
     deck%errors = render_errors(deck%diagnostics, deck%source)
@@ -111,6 +111,9 @@ contains
       call read_variant(deck_cards, number, cards, mine, model)
       if (.not. has_errors(mine) .and. model%modes /= first%modes) then
         call add_error(mine, model%modes_word, "all variants must have as many modes: they are columns of one table")
+      else if (.not. has_errors(mine) .and. model%effects /= first%effects) then
+        call add_error(mine, deck_cards%variations(1)%name, "of this variant and the first one, one stands still and one "// &
+          "moves: EFFECTS must say whether axial forces act")
       end if
       call take_warnings(mine, variant_text(deck_cards, number), diagnostics)
       if (.not. has_errors(mine)) cycle

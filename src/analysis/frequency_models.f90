@@ -1,8 +1,10 @@
 !> What a run needs to find frequencies at any position: made once.
 module frequency_models
   use beam_element, only: axial_degree
+  use beam_mesh, only: beam_t
   use deformation_chain, only: deformation_chain_t, new_deformation_chain
   use deformation_model, only: deformation_model_t, new_deformation_model
+  use deformation_shapes, only: bending_unknowns
   use errors, only: error_t
   use kinds, only: wp
   use ledger, only: ledger_t
@@ -62,11 +64,12 @@ contains
   end function load_factors
 
   !> Whether a link has too many unknowns to be taken apart; a single element never has.
-  elemental function is_long_link(elements, order) result(is)
+  elemental function is_long_link(elements, order, beam) result(is)
     integer, intent(in) :: elements, order
+    type(beam_t), intent(in) :: beam
     logical :: is
 
-    is = elements > 1 .and. elements*(order - 1) > most_link_unknowns
+    is = elements > 1 .and. elements*bending_unknowns(order, beam%shear_stiffness > 0.0_wp) > most_link_unknowns
   end function is_long_link
 
   !> Errors: the own modes of a link could not be found.
@@ -89,7 +92,7 @@ contains
     if (allocated(error)) return
     if (request%method /= by_link_modes .and. request%method /= by_long_mesh) return
     associate (mesh => mechanism%mesh)
-      is_long = is_long_link(mesh%elements, mesh%order)
+      is_long = is_long_link(mesh%elements, mesh%order, mechanism%beams)
       call new_deformation_model(mechanism%linkage, mechanism%beams, merge(1, mesh%elements, is_long), &
         merge(models%continuum%order, mesh%order, is_long), request%lumped .and. request%axial .and. .not. is_long, models%mesh, &
         error, store)

@@ -130,14 +130,23 @@ contains
     type(model_t), intent(in) :: model
     type(string_t), allocatable :: notes(:)
 
-    notes = [string_t("static frequencies of the instantaneous structure; they do not depend on the speed")]
-    if (model%effects == effects_static) return
-    notes = [string_t("frequencies of the instantaneous structure at rest: no axial forces")]
-    if (.not. needs_loads(model)) return
-    notes = [string_t("frequencies of the instantaneous structure with the axial forces of its motion; "// &
-      trim(merge("lumped     ", "distributed", model%inertia == inertia_lumped))//" inertia"), &
-      string_t("angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2"), &
-      string_t("a negative frequency stands for sqrt(-lambda)/(2 pi) of a negative eigenvalue: static divergence")]
+    if (model%effects == effects_static) then
+      notes = [string_t("static frequencies of the instantaneous structure; they do not depend on the speed")]
+    else if (.not. needs_loads(model)) then
+      notes = [string_t("frequencies of the instantaneous structure at rest: no axial forces")]
+    else
+      notes = [string_t("frequencies of the instantaneous structure with the axial forces of its motion; "// &
+        trim(merge("lumped     ", "distributed", model%inertia == inertia_lumped))//" inertia"), &
+        string_t("angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2"), &
+        string_t("a negative frequency stands for sqrt(-lambda)/(2 pi) of a negative eigenvalue: static divergence")]
+    end if
+    if (model%rotary .and. model%shear) then
+      notes = [notes, string_t("links with rotary inertia and shear (Timoshenko)")]
+    else if (model%rotary) then
+      notes = [notes, string_t("links with rotary inertia (Rayleigh)")]
+    else if (model%shear) then
+      notes = [notes, string_t("links with shear")]
+    end if
   end function effects_notes
 
   !> Rows along every link of every mode; an empty line between links, two between modes.

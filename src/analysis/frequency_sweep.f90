@@ -167,7 +167,7 @@ contains
       request%method = by_dense
     else if (model%solver == solver_band) then
       request%method = by_band
-    else if (.not. any(is_long_link(mechanism%mesh%elements, mechanism%mesh%order))) then
+    else if (.not. any(is_long_link(mechanism%mesh%elements, mechanism%mesh%order, mechanism%beams))) then
       request%method = by_link_modes
     else
       request%method = by_long_mesh

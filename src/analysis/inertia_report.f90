@@ -112,8 +112,9 @@ contains
         else
           masses = [this%line_density*this%length]
           stations = [0.5_wp*this%length]
-          ! (2.46) with I_G = m L²/12
+          ! (2.46) with I_G = m L²/12, and ρI L where rotary inertia is asked for
           moment = -masses*this%length**2/12.0_wp*field%angular(body)
+          if (this%rotary_inertia > 0.0_wp) moment = moment - this%rotary_inertia*this%length*field%angular(body)
         end if
         do i = 1, size(masses)
           number = number + 1

@@ -14,7 +14,7 @@ module units
     to_si, from_si
   public :: dimension_none, dimension_length, dimension_mass, dimension_time, dimension_angle, dimension_rate
   public :: dimension_angular_acceleration, dimension_velocity, dimension_acceleration, dimension_force, dimension_moment
-  public :: dimension_stress, dimension_density, dimension_area, dimension_second_moment
+  public :: dimension_stress, dimension_density, dimension_area, dimension_second_moment, dimension_rotary_inertia
 
   !> Exponents of length, mass, time and angle. An angle counts as a dimension here, so that rpm and 1/s stay apart.
   integer, parameter :: dimension_none(4) = [0, 0, 0, 0]
@@ -30,6 +30,7 @@ module units
   integer, parameter :: dimension_moment(4) = [2, 1, -2, 0]
   integer, parameter :: dimension_stress(4) = [-1, 1, -2, 0]
   integer, parameter :: dimension_density(4) = [-3, 1, 0, 0]
+  integer, parameter :: dimension_rotary_inertia(4) = [1, 1, 0, 0] !! per length of a link
   integer, parameter :: dimension_area(4) = [2, 0, 0, 0]
   integer, parameter :: dimension_second_moment(4) = [4, 0, 0, 0]
 
