@@ -6,7 +6,7 @@ module bench_cases
   implicit none (type, external)
   private
 
-  public :: bench_case_t, plan_t, new_case, add_case, solver_names, per_turn, median_of, per_position, is_nodal
+  public :: bench_case_t, plan_t, new_case, add_case, solver_names, per_turn, median_of, per_position, each_of, is_nodal
   public :: with_dsygv, with_dsygvx, with_band, with_deformation, with_sweep, with_accuracy
   public :: table_work_precision, table_elements, table_positions, table_modes, table_threads, table_names
 
@@ -29,6 +29,7 @@ module bench_cases
     integer :: unknowns = 0
     integer :: states = 0              !! different positions
     integer, allocatable :: timed(:)   !! those that are solved when it is timed: all, or some where all would take too long
+    logical :: is_long = .false.       !! so that it is repeated less often
     real(wp) :: error = 0.0_wp         !! largest of the first three frequencies, relative, against exact values
     character(len=:), allocatable :: failure !! why it is not timed; empty if it is
     !> One a repetition [s].
@@ -93,8 +94,8 @@ contains
     plan%cases(plan%count) = new
   end subroutine add_case
 
-  !> The time of a whole run, every repetition [s]. Positions that were left out cost what the others do: only nodal solvers leave some
-  !! out, and these know nothing of neighbours.
+  !> The time of a whole run, every repetition [s]. Positions that were left out cost what the others do: only solvers that know nothing
+  !! of neighbours leave some out.
   pure function per_turn(this) result(seconds)
     type(bench_case_t), intent(in) :: this
     real(wp), allocatable :: seconds(:)
@@ -109,6 +110,14 @@ contains
 
     seconds = per_turn(this)/this%states
   end function per_position
+
+  !> What every further position takes [s].
+  pure function each_of(this) result(seconds)
+    type(bench_case_t), intent(in) :: this
+    real(wp), allocatable :: seconds(:)
+
+    seconds = this%rest/size(this%timed)
+  end function each_of
 
   !> The middle value, or the mean of the two middle ones.
   pure function median_of(values) result(median)

@@ -100,15 +100,17 @@ contains
     end do
   end subroutine plan_positions
 
+  !> Fewer positions where each takes long.
   pure subroutine plan_modes(plan, modes, positions, step)
     type(plan_t), intent(inout) :: plan
     integer, intent(in) :: modes(:), positions
     real(wp), intent(in) :: step !! [deg]
 
+    integer, parameter :: fewer_positions = 31
     integer :: i
 
     do i = 1, size(modes)
-      call add_solvers(plan, table_modes, positions, step, modes(i), 1)
+      call add_solvers(plan, table_modes, merge(positions, fewer_positions, modes(i) <= 20), step, modes(i), 1)
     end do
   end subroutine plan_modes
 

@@ -21,9 +21,13 @@ module bench_runs
 
   public :: prepare_case, time_case, seconds_since
 
-  !> Nodal solvers are timed at as many positions as fit into this, three at least, and not at all where one takes longer [s].
+  !> Solvers that know nothing of neighbours are timed at as many positions as fit into this, three at least, and not at all where one
+  !! takes longer [s].
   real(wp), parameter :: most_seconds = 0.1_wp, most_of_one = 0.3_wp
   integer, parameter :: fewest = 3
+
+  !> A case that took longer than this to prepare is repeated less often [s].
+  real(wp), parameter :: is_long = 1.0_wp
 
 contains
 
@@ -47,10 +51,12 @@ contains
     type(mechanism_t) :: mechanism
     type(positions_t) :: positions
     real(wp), allocatable :: lambda(:, :)
+    integer(long) :: start
     integer :: i
 
     model = model_of(base, this)
     allocate (this%setup(0), this%rest(0))
+    call system_clock(start)
     if (is_refused(model)) then
       this%failure = "the program refuses this mesh: round-off of the assembled stiffness"
       return
@@ -67,6 +73,7 @@ contains
     else
       call prepare_sweep(model, mechanism, positions, this, lambda)
     end if
+    this%is_long = .not. is_nodal(this%solver) .and. seconds_since(start) > is_long
     if (len(this%failure) > 0) return
     this%error = largest_error(exact, positions, speed_of(this), lambda)
   end subroutine prepare_case
@@ -80,9 +87,9 @@ contains
     real(wp), intent(inout) :: lambda(:, :)
 
     type(error_t), allocatable :: error
+    integer, allocatable :: numbers(:)
     integer(long) :: start
     real(wp) :: one
-    integer :: i, number
 
     call system_clock(start)
     call solve_nodal_states(mechanism, positions%states, [1], speed_of(this), this%modes, this%solver, 1, lambda, error)
@@ -91,15 +98,28 @@ contains
       this%failure = "one position takes more than "//to_string(most_of_one)//" s"
       return
     end if
-    if (.not. allocated(error)) call solve_nodal_states(mechanism, positions%states, &
-      exact_states(exact, positions, speed_of(this)), speed_of(this), this%modes, this%solver, 1, lambda, error)
+    numbers = exact_states(exact, positions, speed_of(this))
+    call system_clock(start)
+    if (.not. allocated(error)) call solve_nodal_states(mechanism, positions%states, numbers, speed_of(this), this%modes, &
+      this%solver, 1, lambda, error)
+    one = seconds_since(start)/size(numbers)
     if (allocated(error)) then
       this%failure = error%message
       return
     end if
-    number = min(this%states, max(fewest, int(most_seconds*this%threads/one)))
-    this%timed = [(1 + ((i - 1)*this%states)/number, i=1, number)]
+    this%timed = spread_states(this%states, int(most_seconds*this%threads/one))
   end subroutine prepare_nodal
+
+  !> As many states as wanted, or `fewest`, spread over all of them.
+  pure function spread_states(states, wanted) result(numbers)
+    integer, intent(in) :: states, wanted
+    integer, allocatable :: numbers(:)
+
+    integer :: i, number
+
+    number = min(states, max(fewest, wanted))
+    numbers = [(1 + ((i - 1)*states)/number, i=1, number)]
+  end function spread_states
 
   !> Solves all positions as the program does.
   subroutine prepare_sweep(model, mechanism, positions, this, lambda)
@@ -112,9 +132,12 @@ contains
     type(sweep_t) :: sweep
     type(progress_t) :: progress
     type(error_t), allocatable :: error
+    integer(long) :: start
     integer :: i
 
+    call system_clock(start)
     call run_sweep(model, mechanism, positions, this%threads, progress, sweep, error)
+    if (this%solver == with_deformation) this%timed = spread_states(this%states, int(most_seconds*this%states/seconds_since(start)))
     if (allocated(error)) then
       this%failure = error%message
       return
@@ -201,7 +224,7 @@ contains
     call system_clock(start)
     mechanism = new_mechanism(model)
     positions = find_positions(mechanism%linkage, model%crank%value)
-    rest = seconds_since(start)
+    rest = seconds_since(start)*(real(size(this%timed), wp)/this%states)
     call system_clock(start)
     call new_frequency_models(mechanism, positions, by_crank_angle(positions), this%request, this%request%accuracy, models, &
       counts, error)
@@ -209,10 +232,10 @@ contains
     if (allocated(error)) return
     call system_clock(start)
     work = new_position_work(models, this%request)
-    do i = 1, size(positions%states)
+    do i = 1, size(this%timed)
       work%continuum%tracks%length = 0
       if (allocated(work%mesh%tracks)) work%mesh%tracks%length = 0
-      call solve_position(mechanism, models, positions%states(i), this%request, [.false.], work, result)
+      call solve_position(mechanism, models, positions%states(this%timed(i)), this%request, [.false.], work, result)
     end do
     rest = rest + seconds_since(start)
   end subroutine time_each_alone

@@ -1,7 +1,7 @@
 !> Writes what was timed as tables like the program's own.
 module bench_tables
-  use bench_cases, only: bench_case_t, median_of, per_position, per_turn, plan_t, solver_names, table_elements, table_names, &
-    table_work_precision, with_accuracy, with_sweep
+  use bench_cases, only: bench_case_t, each_of, median_of, per_position, per_turn, plan_t, solver_names, table_elements, &
+    table_names, table_threads, table_work_precision, with_accuracy, with_sweep
   use errors, only: error_t
   use kinds, only: wp
   use output_files, only: finish_output, open_output, output_file_t, publish_output
@@ -36,8 +36,9 @@ contains
     if (allocated(error)) return
     columns = columns_of(plan)
     call write_header(file, "first mechanism of Ulker (2010): run times", [notes, &
-      string_t("median and minimum: of a whole run; setup: the part of it that comes once; "// &
-      "timed: different positions that were solved for it, the others count alike"), &
+      string_t("median and minimum: of a whole run; setup: the part of it that comes once; each: every position without it; "// &
+      "timed: different"), &
+      string_t("positions that were solved for it, the others count alike; per_position: the run divided by its positions"), &
       string_t("error: largest of f1 to f3, relative, at the positions with exact values; "// &
       "ratio: to the sweep on the same mesh or with orders of its own"), &
       string_t("equal_error: median divided by that of the cheapest accuracy= with no larger error (0: not compared)")], columns)
@@ -66,7 +67,7 @@ contains
       meshes(i)%text = three(plan%cases(i)%elements)
       orders(i)%text = three(plan%cases(i)%order)
     end do
-    allocate (columns(20))
+    allocate (columns(21))
     columns(1) = name_column("load", [string_t("static"), string_t("axial")])
     columns(2) = name_column("solver", solver_names())
     columns(3) = name_column("family", [string_t("accuracy")])
@@ -84,9 +85,10 @@ contains
     columns(15) = real_column("minimum", "s")
     columns(16) = real_column("setup", "s")
     columns(17) = real_column("per_position", "s")
-    columns(18) = real_column("error", "-")
-    columns(19) = real_column("ratio", "-")
-    columns(20) = real_column("equal_error", "-")
+    columns(18) = real_column("each", "s")
+    columns(19) = real_column("error", "-")
+    columns(20) = real_column("ratio", "-")
+    columns(21) = real_column("equal_error", "-")
   end function columns_of
 
   function row_of(plan, this, columns) result(cells)
@@ -109,7 +111,7 @@ contains
       integer_cell(this%positions, "positions")//integer_cell(this%threads, "threads")// &
       integer_cell(this%unknowns, "unknowns")//integer_cell(size(this%timed), "timed")// &
       integer_cell(size(this%rest), "repetitions")//real_cells([turn, minval(per_turn(this)), median_of(this%setup), &
-      median_of(per_position(this)), this%error, median_of(per_position(this))/reference_of(plan, this), &
+      median_of(per_position(this)), median_of(each_of(this)), this%error, median_of(per_position(this))/reference_of(plan, this), &
       equal_error])
   end function row_of
 
@@ -144,8 +146,8 @@ contains
         if (that%table /= this%table .or. that%solver /= reference .or. (that%moving .neqv. this%moving)) cycle
         if (len(that%failure) > 0 .or. any(that%elements /= this%elements) .or. that%modes /= this%modes) cycle
         if (reference == with_sweep .and. any(that%order /= this%order)) cycle
-        if (this%table /= table_work_precision .and. that%threads /= this%threads) cycle
-        if (that%positions /= this%positions .and. that%threads == 1) cycle
+        if (that%threads /= this%threads) cycle
+        if (that%positions /= this%positions .and. this%table /= table_threads) cycle
         seconds = median_of(per_position(that))
       end associate
     end do
