@@ -6,7 +6,7 @@
 program bench
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
   use bench_cases, only: plan_t, table_names, with_accuracy
-  use bench_models, only: read_base
+  use bench_models, only: base_t, read_base
   use bench_plans, only: plan_cases
   use bench_runs, only: prepare_case, seconds_since, time_case
   use bench_tables, only: write_plan, write_times
@@ -15,7 +15,6 @@ program bench
   use file_system, only: make_directories
   use kinds, only: long, wp
   use machine, only: machine_notes
-  use models, only: model_t
   use omp_lib, only: omp_get_num_procs
   use text, only: string_t, to_string, word_list
   implicit none (type, external)
@@ -23,7 +22,7 @@ program bench
   integer, parameter :: repetitions = 7, of_long = 3, short_repetitions = 1
   character(len=*), parameter :: job_list = "--version inputs/mechanism1.deck inputs/exact.deck tests/bench/typical.deck"
   type(plan_t) :: plan
-  type(model_t) :: base
+  type(base_t) :: base
   type(exact_values_t) :: exact
   type(error_t), allocatable :: error
   type(string_t), allocatable :: words(:), notes(:), jobs(:), made(:)

@@ -3,7 +3,8 @@ module bench_models
   use bench_cases, only: bench_case_t, with_band, with_dsygv, with_dsygvx
   use deck_checks, only: check_mechanics
   use deck_runs, only: deck_t, read_deck
-  use diagnostics, only: diagnostics_t, has_errors
+  use deck_source, only: source_t
+  use diagnostics, only: diagnostics_t, has_errors, render_errors
   use errors, only: error_t, set_error
   use exact_values, only: bench_speed
   use kinds, only: wp
@@ -13,14 +14,20 @@ module bench_models
   implicit none (type, external)
   private
 
-  public :: read_base, model_of, is_refused
+  public :: base_t, read_base, model_of, refusal
+
+  !> The deck that all cases are made from.
+  type :: base_t
+    type(model_t) :: model
+    type(source_t) :: source
+  end type base_t
 
 contains
 
   !> The model of a deck, with frequencies as its only report. Errors: those of the deck.
   subroutine read_base(path, base, error)
     character(len=*), intent(in) :: path
-    type(model_t), intent(out) :: base
+    type(base_t), intent(out) :: base
     type(error_t), allocatable, intent(out) :: error
 
     type(deck_t) :: deck
@@ -33,28 +40,31 @@ contains
       call set_error(error, deck%errors)
       return
     end if
-    base = deck%model
-    allocate (reports(1))
-    reports(1) = base%reports(report_number(base, report_frequencies))
-    call move_alloc(reports, base%reports)
-    ! A mesh for every link.
-    allocate (meshes(size(base%links)))
-    do i = 1, size(meshes)
-      meshes(i) = base%meshes(base%links(i)%mesh)
-      base%links(i)%mesh = i
-    end do
-    call move_alloc(meshes, base%meshes)
+    base%model = deck%model
+    base%source = deck%source
+    associate (model => base%model)
+      allocate (reports(1))
+      reports(1) = model%reports(report_number(model, report_frequencies))
+      call move_alloc(reports, model%reports)
+      ! A mesh for every link.
+      allocate (meshes(size(model%links)))
+      do i = 1, size(meshes)
+        meshes(i) = model%meshes(model%links(i)%mesh)
+        model%links(i)%mesh = i
+      end do
+      call move_alloc(meshes, model%meshes)
+    end associate
   end subroutine read_base
 
   !> The model that a deck of a case would give.
   pure function model_of(base, this) result(model)
-    type(model_t), intent(in) :: base
+    type(base_t), intent(in) :: base
     type(bench_case_t), intent(in) :: this
     type(model_t) :: model
 
     integer :: i
 
-    model = base
+    model = base%model
     model%modes = this%modes
     model%crank%value = [((i - 1)*this%step, i=1, this%positions)]
     model%crank%word = [(1, i=1, this%positions)]
@@ -73,15 +83,20 @@ contains
     end do
   end function model_of
 
-  !> Whether the program refuses such a deck.
-  function is_refused(model) result(is)
+  !> What the program says first where it refuses such a deck; empty if it does not.
+  function refusal(base, model) result(message)
+    type(base_t), intent(in) :: base
     type(model_t), intent(in) :: model
-    logical :: is
+    character(len=:), allocatable :: message
 
+    character(len=*), parameter :: mark = ": error: "
     type(diagnostics_t) :: diagnostics
 
+    message = ""
     call check_mechanics(model, diagnostics)
-    is = has_errors(diagnostics)
-  end function is_refused
+    if (.not. has_errors(diagnostics)) return
+    message = render_errors(diagnostics, base%source)
+    message = message(index(message, mark) + len(mark):index(message, achar(10)) - 1)
+  end function refusal
 
 end module bench_models

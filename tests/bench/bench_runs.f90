@@ -1,7 +1,7 @@
 !> Runs one case: once to find out what it gives, and then again and again for its time.
 module bench_runs
   use bench_cases, only: bench_case_t, is_nodal, with_deformation
-  use bench_models, only: is_refused, model_of
+  use bench_models, only: base_t, model_of, refusal
   use errors, only: error_t
   use exact_values, only: bench_speed, exact_states, exact_values_t, largest_error
   use frequency_models, only: by_orders, frequency_models_t, new_frequency_models
@@ -43,7 +43,7 @@ contains
 
   !> Solves a case once: its unknowns, its error, whether and at which positions it can be timed.
   subroutine prepare_case(base, exact, this)
-    type(model_t), intent(in) :: base
+    type(base_t), intent(in) :: base
     type(exact_values_t), intent(in) :: exact
     type(bench_case_t), intent(inout) :: this
 
@@ -57,10 +57,8 @@ contains
     model = model_of(base, this)
     allocate (this%setup(0), this%rest(0))
     call system_clock(start)
-    if (is_refused(model)) then
-      this%failure = "the program refuses this mesh: round-off of the assembled stiffness"
-      return
-    end if
+    this%failure = refusal(base, model)
+    if (len(this%failure) > 0) return
     mechanism = new_mechanism(model)
     positions = find_positions(mechanism%linkage, model%crank%value)
     this%states = size(positions%states)
@@ -163,7 +161,7 @@ contains
 
   !> One more repetition. What it finds was found before; `error` is for what cannot happen then.
   subroutine time_case(base, this, error)
-    type(model_t), intent(in) :: base
+    type(base_t), intent(in) :: base
     type(bench_case_t), intent(inout) :: this
     type(error_t), allocatable, intent(out) :: error
 
