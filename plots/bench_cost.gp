@@ -9,11 +9,10 @@ headline = argument(5); note = argument(7); remark = argument(8)
 eval answer(table, "facts")
 deck_title = machine_of(table)
 rows_of(solver) = rows_where(table, where_is("solver", solver))
-shown_count = 0
-do for [solver in solvers] { shown_count = shown_count + (count_where(table, where_is("solver", solver)) > 0) }
-here(k) = count_where(table, where_is("solver", word(solvers, k))) > 0
+drawn = ""                                          # the solvers that the table has, by number
+do for [k=1:words(solvers)] { if (count_where(table, where_is("solver", word(solvers, k))) > 0) { drawn = drawn." ".k } }
 
-eval legend_page(1000, shown_count)
+eval legend_page(1000, words(drawn))
 eval heading
 set logscale y
 set format y "10^{%T}"
@@ -31,6 +30,6 @@ set bmargin at screen up(foot(lines_of_notes(note, remark)))
 set xlabel argument(6)
 set ylabel "time of a position [µs]"
 
-plot for [k=1:6] (here(k) ? rows_of(word(solvers, k)) : "/dev/null") using (field(name)):(1e6*field(cost)) with linespoints \
-    lt line_of(k) lw width_of(k) pt mark_of(k) ps 1.7 title here(k) ? heading_of(k) : ""
+plot for [k in drawn] rows_of(word(solvers, k + 0)) using (field(name)):(1e6*field(cost)) with linespoints \
+    lt line_of(k) lw width_of(k) pt mark_of(k) ps 1.7 title heading_of(k)
 eval close

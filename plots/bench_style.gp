@@ -1,13 +1,10 @@
 # What the figures of `make bench` share: every solver has one line in all of them. Loaded after style.gp.
 
 solvers = "dsygv dsygvx band deformation sweep accuracy"
-told(k) = word("'dsygv' 'dsygvx' 'band' 'deformation' 'sweep' 'accuracy='", k)
-line_of(k) = int(word("7 3 4 5 2 1", k))
-width_of(k) = k == 6 ? 5 : 3
-mark_of(k) = int(word("10 4 12 6 9 7", k))
-heading_of(k) = word("dsygv dsygvx band deformation sweep accuracy=", k)
-explained = "'dsygv: LAPACK, all modes' 'dsygvx: LAPACK, lowest modes' 'band: ARPACK' 'deformation: each position alone' ".\
-    "'sweep: from position to position' 'accuracy=: the sweep, orders chosen'"
+heading_of(k) = word("dsygv dsygvx band deformation sweep accuracy=", k + 0)
+line_of(k) = int(word("7 3 4 5 2 1", k + 0))
+width_of(k) = k + 0 == 6 ? 5 : 3
+mark_of(k) = int(word("10 4 12 6 9 7", k + 0))
 
 # The rows of a table that have these values in these columns.
 where_is(name, wanted) = sprintf("$%d == %s", value("col_".name), "\"".wanted."\"")

@@ -8,6 +8,7 @@ program bench
   use bench_cases, only: plan_t, table_names, with_accuracy
   use bench_models, only: base_t, read_base
   use bench_plans, only: plan_cases
+  use bench_ratios, only: write_ratios
   use bench_runs, only: prepare_case, seconds_since, time_case
   use bench_tables, only: write_plan, write_times
   use errors, only: error_t
@@ -76,6 +77,8 @@ program bench
     call write_plan(words(2)%text, i, notes, plan, error)
     call give_up_on(error)
   end do
+  call write_ratios(words(2)%text, notes, plan, error)
+  call give_up_on(error)
   call write_times(words(2)%text, "processes.dat", notes, jobs, times, error)
   call give_up_on(error)
 
