@@ -44,18 +44,18 @@ contains
     real(wp), intent(in) :: step !! [deg]
 
     type(bench_case_t) :: this
+    integer, dimension(3, 1 + size(elements) + size(orders)) :: mesh, order
     integer :: solver, load, i
 
+    mesh(:, 1) = [1, 4, 4]
+    mesh(:, 2:size(elements) + 1) = spread(elements, 1, 3)
+    mesh(:, size(elements) + 2:) = 1
+    order(:, :size(elements) + 1) = 3
+    order(:, size(elements) + 2:) = spread(orders, 1, 3)
     do load = 1, 2
       do solver = with_dsygv, with_sweep
-        do i = 0, size(elements) + size(orders)
-          if (i == 0) then
-            this = new_case(table_work_precision, solver, load == 2, [1, 4, 4], [3, 3, 3])
-          else if (i <= size(elements)) then
-            this = new_case(table_work_precision, solver, load == 2, spread(elements(i), 1, 3), [3, 3, 3])
-          else
-            this = new_case(table_work_precision, solver, load == 2, [1, 1, 1], spread(orders(i - size(elements)), 1, 3))
-          end if
+        do i = 1, size(mesh, 2)
+          this = new_case(table_work_precision, solver, load == 2, mesh(:, i), order(:, i))
           this%positions = positions
           this%step = step
           call add_case(plan, this)
