@@ -21,7 +21,7 @@ unit_tests = $(if $(PFUNIT_DIR),pfunit,funit)/unit_tests
 
 ifndef kind
 # ---------------------------------------------------------------------------------------------- what a person types
-.PHONY: all debug thesis run figures check golden install setup clean help
+.PHONY: all debug thesis run figures check bench bench-pictures golden install setup clean help
 
 all: setup
 	$(stage) kind=release $(program)
@@ -55,9 +55,19 @@ figures: all
 
 check: setup
 	@rm -f build/check.count
-	$(stage) kind=release $(program) build/release/$(unit_tests)
-	$(stage) kind=debug build/debug/flexmech build/debug/$(unit_tests)
+	$(stage) kind=release $(program) build/release/$(unit_tests) build/release/bench/bench
+	$(stage) kind=debug build/debug/flexmech build/debug/$(unit_tests) build/debug/bench/bench
 	@python3 -B $(support)/check.py $(unit_tests)
+
+bench: all
+	$(stage) kind=release build/release/bench/bench
+	build/release/bench/bench $(program) outputs/bench $(BLAS)
+	@sh plots/draw_bench.sh outputs/bench
+
+# The pictures of docs/performance.md, from the last `make bench`.
+bench-pictures:
+	@test -f outputs/bench/ratios.dat || { echo "make: nothing was timed yet; say: make bench" >&2; exit 2; }
+	cp outputs/bench/*.png docs/pictures/
 
 golden: all
 	$(need_case)
@@ -85,6 +95,8 @@ help:
 	@echo "make figures DECK=FILE  run one deck and draw what its tables allow"
 	@echo "make check              all tests, in the release and in the debug build"
 	@echo "make check PFUNIT_DIR=D the same, with the unit tests run by the pFUnit 4 installed in the folder D"
+	@echo "make bench              time every solver in turn, tables and figures in outputs/bench/; four minutes"
+	@echo "make bench-pictures     copy these figures to docs/pictures/"
 	@echo "make golden CASE=NAME   make tests/golden/NAME/ anew from inputs/NAME.deck"
 	@echo "make install PREFIX=DIR copy the program to DIR/bin, the plots to DIR/share/flexmech (DESTDIR is honoured)"
 	@echo "make setup              only install what is missing"
@@ -144,6 +156,15 @@ $(build)/%.o: %.f90 $(build)/command
 $(build)/flexmech: $(modules) $(build)/main.o
 	@echo "link $@"
 	$(compile) $^ $(libraries) -o $@
+
+# ------------------------------------------------------------- the program that times solvers; sources in the order of use
+bench_sources = $(patsubst %,tests/bench/%.f90,bench_cases exact_values nodal_runs bench_models bench_runs bench_plans machine \
+                                               bench_tables bench_ratios bench)
+
+$(build)/bench/bench: $(bench_sources) $(modules)
+	@echo "link $@"
+	mkdir -p $(@D)
+	$(compile) -ffree-line-length-132 $(warnings_$(kind)) -J$(@D) -I$(build) $^ $(libraries) -o $@
 
 # ------------------------------------------------------------------------------ unit tests with the bundled support
 tests := $(patsubst tests/unit/%.pf,%,$(wildcard tests/unit/test_*.pf))
