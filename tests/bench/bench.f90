@@ -22,6 +22,7 @@ program bench
 
   integer, parameter :: repetitions = 7, of_long = 3, short_repetitions = 1
   character(len=*), parameter :: job_list = "--version inputs/mechanism1.deck inputs/exact.deck tests/bench/typical.deck"
+  character(len=*), parameter :: long_job_list = " tests/bench/positions.deck tests/bench/variants.deck"
   type(plan_t) :: plan
   type(base_t) :: base
   type(exact_values_t) :: exact
@@ -57,7 +58,8 @@ program bench
   write (output_unit, "(a)") "bench: "//to_string(plan%count)//" cases solved once, "//to_string(seconds_since(start), 3)//" s"
 
   ! In turn: a slow minute of the machine then comes to all.
-  jobs = word_list(job_list)
+  jobs = word_list(job_list//long_job_list)
+  if (short) jobs = word_list(job_list)
   allocate (times(size(jobs), rounds))
   do k = 1, rounds
     do i = 1, plan%count
@@ -79,7 +81,7 @@ program bench
   end do
   call write_ratios(words(2)%text, notes, plan, error)
   call give_up_on(error)
-  call write_times(words(2)%text, "processes.dat", notes, jobs, times, error)
+  call write_times(words(2)%text, "processes", notes, jobs, times, error)
   call give_up_on(error)
 
 contains

@@ -2,7 +2,7 @@
 module bench_models
   use bench_cases, only: bench_case_t, with_band, with_dsygv, with_dsygvx
   use deck_checks, only: check_mechanics
-  use deck_runs, only: deck_t, read_deck
+  use deck_readings, only: deck_t, read_deck
   use deck_source, only: source_t
   use diagnostics, only: diagnostics_t, has_errors, render_errors
   use errors, only: error_t, set_error

@@ -3,8 +3,8 @@ module bench_ratios
   use bench_cases, only: median_of, per_turn, plan_t, solver_names, table_work_precision, with_accuracy, with_dsygv, with_sweep
   use errors, only: error_t
   use kinds, only: wp
-  use output_files, only: finish_output, open_output, output_file_t, publish_output
-  use tables, only: column_t, name_cell, name_column, real_cells, real_column, write_failure, write_header, write_row
+  use tables, only: column_t, finish_table, name_cell, name_column, open_table, publish_table, real_cells, real_column, &
+    table_t, write_failure, write_header, write_row
   use text, only: string_t, to_string
   implicit none (type, external)
   private
@@ -23,14 +23,14 @@ contains
     type(plan_t), intent(in) :: plan
     type(error_t), allocatable, intent(out) :: error
 
-    type(output_file_t) :: file
+    type(table_t) :: file
     type(column_t) :: columns(5)
     type(string_t), allocatable :: solvers(:)
     real(wp) :: ours, theirs
     integer :: load, i, solver
 
     solvers = solver_names()
-    call open_output(folder, "ratios.dat", file, error)
+    call open_table(folder, "ratios", .false., file, error)
     if (allocated(error)) return
     columns(1) = name_column("load", [string_t("static"), string_t("axial")])
     columns(2) = name_column("solver", solvers)
@@ -48,14 +48,14 @@ contains
             call write_row(file, name_cell(trim(merge("axial ", "static", load == 2)), columns(1)%width)// &
               name_cell(solvers(solver)%text, columns(2)%width)//real_cells([wanted(i), theirs, theirs/ours]))
           else
-            call write_failure(file, "load="//trim(merge("axial ", "static", load == 2))//" solver="//solvers(solver)%text// &
-              " wanted="//to_string(wanted(i)), "no run came below that error")
+            call write_failure(file, [real(wp) ::], "load="//trim(merge("axial ", "static", load == 2))//" solver="// &
+              solvers(solver)%text//" wanted="//to_string(wanted(i))//": no run came below that error")
           end if
         end do
       end do
     end do
-    call finish_output(file, error)
-    if (.not. allocated(error)) call publish_output(file, error)
+    call finish_table(file, error)
+    if (.not. allocated(error)) call publish_table(file, error)
   end subroutine write_ratios
 
   !> Time of the cheapest run that keeps an error; huge if none does [s].

@@ -8,6 +8,7 @@ module bench_runs
   use frequency_sweep, only: run_sweep, sweep_t
   use kinds, only: long, wp
   use ledger, only: ledger_t
+  use link_store, only: link_store_t
   use mechanisms, only: mechanism_t, new_mechanism
   use models, only: model_t
   use nodal_runs, only: solve_nodal_states
@@ -15,6 +16,7 @@ module bench_runs
   use position_results, only: position_result_t, position_work_t
   use positions, only: by_crank_angle, find_positions, positions_t
   use progress, only: progress_t
+  use sweep_journal, only: journal_t
   use text, only: to_string
   implicit none (type, external)
   private
@@ -129,12 +131,14 @@ contains
 
     type(sweep_t) :: sweep
     type(progress_t) :: progress
+    type(journal_t) :: journal
+    type(link_store_t) :: store
     type(error_t), allocatable :: error
     integer(long) :: start
     integer :: i
 
     call system_clock(start)
-    call run_sweep(model, mechanism, positions, this%threads, progress, sweep, error)
+    call run_sweep(model, mechanism, positions, this%threads, progress, journal, 1, store, sweep, error)
     if (this%solver == with_deformation) this%timed = spread_states(this%states, int(most_seconds*this%states/seconds_since(start)))
     if (allocated(error)) then
       this%failure = error%message
@@ -216,6 +220,7 @@ contains
     type(position_work_t) :: work
     type(position_result_t) :: result
     type(ledger_t) :: counts
+    type(link_store_t) :: store
     integer(long) :: start
     integer :: i
 
@@ -224,8 +229,8 @@ contains
     positions = find_positions(mechanism%linkage, model%crank%value)
     rest = seconds_since(start)*(real(size(this%timed), wp)/this%states)
     call system_clock(start)
-    call new_frequency_models(mechanism, positions, by_crank_angle(positions), this%request, this%request%accuracy, models, &
-      counts, error)
+    call new_frequency_models(mechanism, positions, by_crank_angle(positions), this%request, this%request%accuracy, store, &
+      models, counts, error)
     setup = seconds_since(start)
     if (allocated(error)) return
     call system_clock(start)
@@ -250,6 +255,8 @@ contains
     type(frequency_models_t) :: models
     type(sweep_t) :: sweep
     type(progress_t) :: progress
+    type(journal_t) :: journal
+    type(link_store_t) :: store
     type(ledger_t) :: counts
     integer(long) :: start
     real(wp) :: total
@@ -257,14 +264,14 @@ contains
     call system_clock(start)
     mechanism = new_mechanism(model)
     positions = find_positions(mechanism%linkage, model%crank%value)
-    call run_sweep(model, mechanism, positions, this%threads, progress, sweep, error)
+    call run_sweep(model, mechanism, positions, this%threads, progress, journal, 1, store, sweep, error)
     total = seconds_since(start)
     setup = 0.0_wp
     rest = total
     if (allocated(error)) return
     call system_clock(start)
-    call new_frequency_models(mechanism, positions, by_crank_angle(positions), this%request, this%request%accuracy, models, &
-      counts, error)
+    call new_frequency_models(mechanism, positions, by_crank_angle(positions), this%request, this%request%accuracy, store, &
+      models, counts, error)
     setup = min(total, seconds_since(start))
     rest = total - setup
   end subroutine time_sweep

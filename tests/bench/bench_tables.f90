@@ -4,9 +4,8 @@ module bench_tables
     table_names, table_threads, table_work_precision, with_accuracy, with_sweep
   use errors, only: error_t
   use kinds, only: wp
-  use output_files, only: finish_output, open_output, output_file_t, publish_output
-  use tables, only: column_t, integer_cell, integer_column, name_cell, name_column, real_cells, real_column, write_failure, &
-    write_header, write_row
+  use tables, only: column_t, finish_table, integer_cell, integer_column, name_cell, name_column, open_table, publish_table, &
+    real_cells, real_column, table_t, write_failure, write_header, write_row
   use text, only: string_t, to_string
   implicit none (type, external)
   private
@@ -26,13 +25,13 @@ contains
     type(plan_t), intent(in) :: plan
     type(error_t), allocatable, intent(out) :: error
 
-    type(output_file_t) :: file
+    type(table_t) :: file
     type(string_t), allocatable :: names(:)
     type(column_t), allocatable :: columns(:)
     integer :: i
 
     names = table_names()
-    call open_output(folder, names(table)%text//".dat", file, error)
+    call open_table(folder, names(table)%text, .false., file, error)
     if (allocated(error)) return
     columns = columns_of(plan)
     call write_header(file, "first mechanism of Ulker (2010): run times", [notes, &
@@ -46,14 +45,14 @@ contains
       associate (this => plan%cases(i))
         if (this%table /= table) cycle
         if (len(this%failure) > 0) then
-          call write_failure(file, place_of(this), this%failure)
+          call write_failure(file, [real(wp) ::], place_of(this)//": "//this%failure)
         else
           call write_row(file, row_of(plan, this, columns))
         end if
       end associate
     end do
-    call finish_output(file, error)
-    if (.not. allocated(error)) call publish_output(file, error)
+    call finish_table(file, error)
+    if (.not. allocated(error)) call publish_table(file, error)
   end subroutine write_plan
 
   pure function columns_of(plan) result(columns)
@@ -199,11 +198,11 @@ contains
     real(wp), intent(in) :: times(:, :) !! (jobs, repetitions) [s]
     type(error_t), allocatable, intent(out) :: error
 
-    type(output_file_t) :: file
+    type(table_t) :: file
     type(column_t) :: columns(4)
     integer :: i
 
-    call open_output(folder, name, file, error)
+    call open_table(folder, name, .false., file, error)
     if (allocated(error)) return
     columns(1) = name_column("job", jobs)
     columns(2) = integer_column("repetitions")
@@ -214,8 +213,8 @@ contains
       call write_row(file, name_cell(jobs(i)%text, columns(1)%width)//integer_cell(size(times, 2), "repetitions")// &
         real_cells([median_of(times(i, :)), minval(times(i, :))]))
     end do
-    call finish_output(file, error)
-    if (.not. allocated(error)) call publish_output(file, error)
+    call finish_table(file, error)
+    if (.not. allocated(error)) call publish_table(file, error)
   end subroutine write_times
 
 end module bench_tables
