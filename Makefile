@@ -98,6 +98,8 @@ build = build/$(kind)
 # No -ffast-math and no -march=native: the same deck must give the same bytes on every machine of a kind.
 flags_release    = -O3
 flags_debug      = -Og -g -fbacktrace -fcheck=all -fcheck=no-array-temps -ffpe-trap=invalid,zero,overflow -finit-real=snan -finit-derived
+# For `make memory`: addresses, leaks and undefined behaviour. One byte off in any module stops the program.
+flags_sanitize   = -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined,leak -fno-sanitize-recover=all
 warnings_release =
 # Array temporaries are no mistake, and a note of each would stand between the program's own messages (no-array-temps).
 # gfortran 12 suspects every allocatable that a function returns (no-uninitialized); the debug build fills what nobody
