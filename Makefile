@@ -21,7 +21,7 @@ unit_tests = $(if $(PFUNIT_DIR),pfunit,funit)/unit_tests
 
 ifndef kind
 # ---------------------------------------------------------------------------------------------- what a person types
-.PHONY: all debug thesis run figures check golden install setup clean help
+.PHONY: all debug thesis run figures check fuzz memory golden install setup clean help
 
 all: setup
 	$(stage) kind=release $(program)
@@ -59,6 +59,17 @@ check: setup
 	$(stage) kind=debug build/debug/flexmech build/debug/$(unit_tests)
 	@python3 -B $(support)/check.py $(unit_tests)
 
+# The same SEED makes the same decks.
+FUZZ ?= 10000
+SEED ?= 1
+fuzz: debug
+	@python3 -B $(support)/fuzz.py $(FUZZ) $(SEED)
+
+memory:
+	@SANITIZERS=yes sh $(support)/setup.sh
+	$(stage) kind=sanitize build/sanitize/flexmech
+	@python3 -B $(support)/check_memory.py
+
 golden: all
 	$(need_case)
 	@rm -rf "build/golden/$(CASE)"
@@ -85,6 +96,8 @@ help:
 	@echo "make figures DECK=FILE  run one deck and draw what its tables allow"
 	@echo "make check              all tests, in the release and in the debug build"
 	@echo "make check PFUNIT_DIR=D the same, with the unit tests run by the pFUnit 4 installed in the folder D"
+	@echo "make fuzz               10,000 odd decks under the debug build; FUZZ=500 SEED=7 for fewer, and for others"
+	@echo "make memory             every deck of inputs/ under the sanitizers of addresses, leaks and undefined behaviour"
 	@echo "make golden CASE=NAME   make tests/golden/NAME/ anew from inputs/NAME.deck"
 	@echo "make install PREFIX=DIR copy the program to DIR/bin, the plots to DIR/share/flexmech (DESTDIR is honoured)"
 	@echo "make setup              only install what is missing"

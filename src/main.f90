@@ -30,7 +30,7 @@ program main
   allocate (decks(size(command%decks)))
   refused = .false.
   do i = 1, size(decks)
-    call read_deck(command%decks(i)%text, decks(i))
+    call read_deck(command%decks(i)%text, command%run%threads, decks(i))
     if (.not. command%run%quiet) call say(decks(i)%warnings)
     call say(decks(i)%errors)
     refused = refused .or. len(decks(i)%errors) > 0

@@ -1,5 +1,6 @@
 !> One deck: read and checked, then computed and written.
 module deck_runs
+  use available_memory, only: find_available_memory
   use branch_tracking, only: branches_t, follow_branches
   use cards, only: card_t, read_cards
   use deck_checks, only: check_mechanics
@@ -10,6 +11,7 @@ module deck_runs
   use file_system, only: base_name, joined_path
   use frequency_sweep, only: run_sweep, sweep_t
   use interruption, only: was_interrupted
+  use memory_needs, only: check_memory
   use mechanisms, only: mechanism_t, new_mechanism
   use model_reader, only: read_model
   use models, only: model_t, needs_frequencies
@@ -53,8 +55,9 @@ module deck_runs
 contains
 
   !> Reads and checks a deck; the path `-` is standard input.
-  subroutine read_deck(path, deck)
+  subroutine read_deck(path, threads, deck)
     character(len=*), intent(in) :: path
+    integer, intent(in) :: threads   !! that will compute it
     type(deck_t), intent(out) :: deck
 
     type(card_t), allocatable :: cards(:)
@@ -76,6 +79,7 @@ contains
     end if
     call read_cards(deck%source, cards, diagnostics)
     call read_model(cards, diagnostics, deck%model)
+    if (.not. has_errors(diagnostics)) call check_memory(deck%model, threads, find_available_memory(threads), diagnostics)
     if (.not. has_errors(diagnostics)) call check_mechanics(deck%model, diagnostics)
     deck%errors = render_errors(diagnostics, deck%source)
     deck%warnings = render_warnings(diagnostics, deck%source)

@@ -7,12 +7,13 @@ module frequency_models
   use kinds, only: wp
   use ledger, only: ledger_t
   use mechanisms, only: mechanism_t
+  use models, only: solver_band, solver_dense
   use order_choice, only: choose_orders
   use positions, only: positions_t
   implicit none (type, external)
   private
 
-  public :: mode_request_t, frequency_models_t, new_frequency_models, load_factors
+  public :: mode_request_t, frequency_models_t, new_frequency_models, load_factors, chosen_method
   public :: is_long_link, by_orders, by_link_modes, by_long_mesh, by_dense, by_band
 
   !> How the frequencies that are written are found: with orders that the program chooses; on the mesh of the deck in deformation
@@ -59,6 +60,26 @@ contains
     factor(1, :) = request%speed**2
     factor(2, :) = request%acceleration
   end function load_factors
+
+  !> How frequencies are found on a mesh.
+  pure function chosen_method(solver, accurate, elements, order) result(method)
+    integer, intent(in) :: solver                !! of the deck
+    logical, intent(in) :: accurate              !! the mesh is left to the program
+    integer, intent(in) :: elements(:), order(:) !! (bodies)
+    integer :: method
+
+    if (accurate) then
+      method = by_orders
+    else if (solver == solver_dense) then
+      method = by_dense
+    else if (solver == solver_band) then
+      method = by_band
+    else if (any(is_long_link(elements, order))) then
+      method = by_long_mesh
+    else
+      method = by_link_modes
+    end if
+  end function chosen_method
 
   !> Whether a link has too many unknowns to be taken apart; a single element never has.
   elemental function is_long_link(elements, order) result(is)

@@ -81,7 +81,7 @@ def fault_of_message(words, stderr):
             return f"no caret below: {line}"
     if not any(re.match(r"flexmech: error: .", line) or re.match(r".*: error: .", line) for line in lines):
         return f"no error is told: {stderr[:200]}"
-    if "DECK" in words and not any("d.deck" in line for line in lines) and not stderr.startswith("flexmech: error: "):
+    if "DECK" in words and not re.search(r"^(?:d\.deck|missing\.deck|flexmech): ?", stderr.replace("d.deck:", "d.deck: "), re.MULTILINE):
         return "the deck is not named"
     return None
 
@@ -142,7 +142,7 @@ def fault_of_run(words, run, deck):
         return f"a runtime error: {stderr[-400:]}"
     if run.returncode == 2:
         return fault_of_message(words, stderr)
-    if run.returncode == 1 and not re.search(r"^d\.deck: error: speed \S+ rad/s, crank \S+ deg: .", stderr, re.MULTILINE):
+    if run.returncode == 1 and not re.search(r"^d\.deck: error: .*crank \S+ deg: .", stderr, re.MULTILINE):
         return f"status 1, but no failure is told: {stderr[-400:]}"
     return None
 
