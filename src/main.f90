@@ -57,6 +57,7 @@ program main
     if (command%stats) call say(result%statistics)
     failed = failed .or. result%failed
   end do
+  deallocate (decks)
   if (failed) stop 1, quiet=.true.
 
 contains

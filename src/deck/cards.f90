@@ -140,6 +140,7 @@ contains
     logical, intent(out) :: found
 
     type(token_t), allocatable :: first(:)
+    type(token_t) :: title
     integer :: start
 
     found = .false.
@@ -154,7 +155,10 @@ contains
     words = first(:1)
     if (verify(text(start:), " "//achar(9)) == 0) return
     start = start - 1 + verify(text(start:), " "//achar(9))
-    words = [words, token_t(text(start:verify(text, " "//achar(9), back=.true.)), line, 1 + character_count(text(:start - 1)))]
+    title%text = text(start:verify(text, " "//achar(9), back=.true.))
+    title%line = line
+    title%column = 1 + character_count(text(:start - 1))
+    words = [words, title]
   end subroutine read_title
 
   !> Tells words from entries: what stands before an equals sign is a key, what stands behind it its value.

@@ -65,7 +65,12 @@ contains
     call find_loop(diagnostics, model)
     call check_requests(cards, diagnostics, model)
     call check_meshes(cards, diagnostics, model)
-    if (.not. has_errors(diagnostics)) model%echo = [(echo_card(cards(i)), i=1, size(cards))]
+    if (has_errors(diagnostics)) return
+    ! Not an array constructor, in which gfortran 12 would lose the memory of every line.
+    allocate (model%echo(size(cards)))
+    do i = 1, size(cards)
+      model%echo(i) = echo_card(cards(i))
+    end do
   end subroutine read_model
 
   pure function number_of(cards, keyword) result(number)

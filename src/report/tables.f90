@@ -3,11 +3,12 @@ module tables
   use kinds, only: wp
   use number_text, only: scientific
   use output_files, only: append_output, output_file_t
-  use text, only: string_t
+  use text, only: string_t, word_list
   implicit none (type, external)
   private
 
-  public :: column_t, real_column, integer_column, name_column, write_header, write_row, write_gap, write_failure
+  public :: column_t, real_column, integer_column, name_column, append_column, append_real_columns
+  public :: write_header, write_row, write_gap, write_failure
   public :: real_cells, integer_cell, name_cell
 
   type :: column_t
@@ -49,6 +50,39 @@ contains
       column%width = max(column%width, len(entries(i)%text) + 1)
     end do
   end function name_column
+
+  !> Lengthens a table by a column: an array constructor of function results would lose their memory in gfortran 12.
+  pure subroutine append_column(columns, column)
+    type(column_t), allocatable, intent(inout) :: columns(:) !! not allocated is as good as empty
+    type(column_t), intent(in) :: column
+
+    type(column_t), allocatable :: wider(:)
+    integer :: i, n
+
+    n = 0
+    if (allocated(columns)) n = size(columns)
+    allocate (wider(n + 1))
+    do i = 1, n
+      wider(i) = columns(i)
+    end do
+    wider(n + 1) = column
+    call move_alloc(wider, columns)
+  end subroutine append_column
+
+  !> Lengthens a table by columns of numbers of one unit.
+  pure subroutine append_real_columns(columns, names, unit)
+    type(column_t), allocatable, intent(inout) :: columns(:)
+    character(len=*), intent(in) :: names !! separated by single blanks
+    character(len=*), intent(in) :: unit  !! of all
+
+    type(string_t), allocatable :: words(:)
+    integer :: i
+
+    words = word_list(names)
+    do i = 1, size(words)
+      call append_column(columns, real_column(words(i)%text, unit))
+    end do
+  end subroutine append_real_columns
 
   !> Writes the `#` lines: title, notes, names of the columns, their units.
   subroutine write_header(file, title, notes, columns)
