@@ -91,9 +91,10 @@ def meshes(dice, names):
     kind = dice.random()
     if kind < 0.4:
         return [f"MESH * accuracy={dice.choice(['1e-2', '1e-4', '1e-8', '1e-10', '1e-12', '1e-13'])}"]
-    cards = [f"MESH * elements={dice.choice([1, 1, 2, 2, 3, 4, 6, 8, 12, 45 if dice.chance(0.15) else 2])}"]
-    if dice.chance(0.4):
-        cards[0] += f" order={dice.choice([3, 4, 5, 7, 12, 30])}"
+    elements = dice.choice([1, 1, 2, 2, 3, 4, 6, 8, 12, 45 if dice.chance(0.15) else 2])
+    cards = [f"MESH * elements={elements}"]
+    if dice.chance(0.4) and elements < 10:
+        cards[0] += f" order={dice.choice([3, 4, 5, 7, 12, 30 if elements < 3 else 6])}"
     if dice.chance(0.4):
         cards.append(f"MESH {dice.choice(names)} elements={dice.choice([1, 2, 4])}")
     return cards
@@ -272,7 +273,9 @@ def tame(text):
         return lambda match: match[1] + (str(limit).encode() if limit < int(match[2]) < 500000 else match[2])
 
     text = RANGE.sub(fewer, text)
-    text = re.sub(rb"(?i)(elements\s*=\s*)(\d+)(?![.\d])", at_most(MOST_ELEMENTS), text)
+    # Full matrices, and elements with many unknowns, cost more.
+    costly = re.search(rb"(?i)dense|order\s*=\s*\d\d", text)
+    text = re.sub(rb"(?i)(elements\s*=\s*)(\d+)(?![.\d])", at_most(MOST_ELEMENTS//(8 if costly else 1)), text)
     text = re.sub(rb"(?i)(points\s*=\s*)(\d+)(?![.\d])", at_most(MOST_POINTS), text)
     return re.sub(rb"(?i)(modes\s+)(\d+)(?![.\d])", at_most(MOST_MODES), text)
 
