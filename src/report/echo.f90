@@ -56,6 +56,7 @@ contains
     type(model_t), intent(in) :: model
     character(len=*), intent(in) :: keyword, value
 
+    type(echo_line_t) :: line
     integer :: i
 
     do i = 1, size(model%echo)
@@ -63,7 +64,9 @@ contains
         if (same_word(text(:index(text//" ", " ") - 1), keyword)) return
       end associate
     end do
-    call append_card(buffer, echo_line_t(keyword//" "//value, "default"))
+    line%text = keyword//" "//value
+    line%origin = "default"
+    call append_card(buffer, line)
   end subroutine append_default
 
   !> What the program made of the cards, in the deck's units.

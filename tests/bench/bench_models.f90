@@ -35,7 +35,7 @@ contains
     type(mesh_t), allocatable :: meshes(:)
     integer :: i
 
-    call read_deck(path, deck)
+    call read_deck(path, 1, deck)
     if (len(deck%errors) > 0) then
       call set_error(error, deck%errors)
       return
