@@ -52,7 +52,8 @@ contains
         string_t("masses at pins in rows of their own"), acceleration_note(model)], columns)
     else
       call write_header(file, model%title, [string_t("distributed inertia: a row a link at its mass centre, F = -m a, "// &
-        "moment = -I alpha about the mass centre"), string_t("masses at pins in rows of their own"), acceleration_note(model)], &
+        "moment = -I alpha about the mass centre"//trim(merge(", with rotary inertia", "                     ", model%rotary))), &
+        string_t("masses at pins in rows of their own"), acceleration_note(model)], &
         [columns, real_column("moment", measures%moment%name)])
     end if
     do k = 1, size(model%speed%value)
