@@ -1,14 +1,15 @@
 !> EFFECTS: what the frequencies feel.
 module effect_cards
+  use card_echo, only: append_default, echo_line_t
   use card_reader, only: check_form, read_choice
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
-  use text, only: lower_case
+  use text, only: lower_case, same_word
   use tokens, only: token_t
   implicit none (type, external)
   private
 
-  public :: effects_t, read_effects, effect_words, effects_static, effects_axial
+  public :: effects_t, read_effects, complete_effects, effect_words, effects_static, effects_axial
 
   integer, parameter :: effects_static = 1, effects_axial = 2
 
@@ -56,6 +57,20 @@ contains
     effects%shear = first(4) > 0
     if (effects%shear) effects%shear_word = card%words(first(4))
   end subroutine read_effects
+
+  !> Writes out what an EFFECTS card leaves to the speeds.
+  pure subroutine complete_effects(card, loads, line)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: loads
+    type(echo_line_t), intent(inout) :: line
+
+    integer :: i
+
+    do i = 1, size(card%words)
+      if (same_word(card%words(i)%text, "static") .or. same_word(card%words(i)%text, "axial")) return
+    end do
+    call append_default(line, effect_words(loads, .false., .false.))
+  end subroutine complete_effects
 
   !> The words of an EFFECTS card.
   pure function effect_words(loads, rotary, shear) result(text)

@@ -1,10 +1,10 @@
 !> Cards → model.
 module model_reader
   use card_reader, only: check_form, read_choice
-  use card_echo, only: append_default, echo_card, echo_line_t
+  use card_echo, only: echo_card
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t, has_errors
-  use effect_cards, only: effect_words, effects_axial, effects_static, effects_t, read_effects
+  use effect_cards, only: complete_effects, effects_axial, effects_static, effects_t, read_effects
   use kinds, only: wp
   use linkage_cards, only: read_ground, read_link, read_mesh, read_pin_mass, set_default_mesh
   use materials, only: read_material
@@ -75,20 +75,6 @@ contains
       if (same_word(cards(i)%keyword%text, "EFFECTS")) call complete_effects(cards(i), model%effects, model%echo(i))
     end do
   end subroutine read_model
-
-  !> Writes out what an EFFECTS card leaves to the speeds.
-  pure subroutine complete_effects(card, loads, line)
-    type(card_t), intent(in) :: card
-    integer, intent(in) :: loads
-    type(echo_line_t), intent(inout) :: line
-
-    integer :: i
-
-    do i = 1, size(card%words)
-      if (same_word(card%words(i)%text, "static") .or. same_word(card%words(i)%text, "axial")) return
-    end do
-    call append_default(line, effect_words(loads, .false., .false.))
-  end subroutine complete_effects
 
   pure function number_of(cards, keyword) result(number)
     type(card_t), intent(in) :: cards(:)
