@@ -57,8 +57,8 @@ contains
     model%layout = reduced_layout(linkage, model%links)
   end subroutine new_deformation_model
 
-  !> One link. A single element knows the next orders as well, to tell its own error: two across, and four along, where orders are so
-  !! low that the next one of either symmetry may not be enough.
+  !> One link. A single element knows the next orders as well, to tell its own error: two across, and four along, where orders are
+  !! so low that the next one of either symmetry may not be enough.
   !!
   !! With shear and without rotary inertia some deformations move no mass: θ + γ = 0 everywhere. They meet nothing in M and K_G, and
   !! are left out. What is left are the continuous displacements of their degree that vanish at both ends.

@@ -54,7 +54,7 @@ contains
       call append_string(notes, "lumped inertia: masses on the mesh nodes, F = -m a")
     else
       call append_string(notes, "distributed inertia: a row a link at its mass centre, F = -m a, "// &
-        "moment = -I alpha about the mass centre")
+        "moment = -I alpha about the mass centre"//trim(merge(", with rotary inertia", "                     ", model%rotary)))
       call append_column(table_columns, real_column("moment", measures%moment%name))
     end if
     call append_string(notes, "masses at pins in rows of their own")

@@ -251,8 +251,8 @@ contains
     scaled(:, [3, n]) = scaled(:, [3, n])*length
   end function with_lengths
 
-  !> Displacement inside the element: along it, across it, and the rotation of its cross-section. Equation (2.71), bubbles, and with
-  !! shear what its strains do.
+  !> Displacement inside the element: along it, across it, and the rotation of its cross-section. Equation (2.71), bubbles, and
+  !! with shear what its strains do.
   !!
   !! Bubbles are differences of polynomials that are equal at the ends to the last bit, so that the nodes are met exactly.
   pure function interpolate(order, local, length, xi) result(displacement)

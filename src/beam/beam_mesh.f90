@@ -27,8 +27,8 @@ module beam_mesh
     logical :: sheared = .false.              !! elements have shear strains
     integer, allocatable :: first_element(:)  !! (bodies) number of its first element
     integer, allocatable :: first_node(:)     !! (bodies) number of its first node; its element i joins nodes i and i + 1 from here
-    !> (largest element, elements) of u1 v1 θ1, bubbles and shear strains, u2 v2 θ2 as in the element, nodal displacements in global axes; 0: held.
-    !! An element has as many as its order asks for, and zeros beyond.
+    !> (largest element, elements) of u1 v1 θ1, bubbles, shear strains, u2 v2 θ2 as in the element, nodal displacements in global
+    !! axes; 0: held. An element has as many as its order asks for, and zeros beyond.
     integer, allocatable :: unknown(:, :)
     integer, allocatable :: pin_unknown(:, :) !! (2, pins) of the displacements of pins; 0: held
     type(reference_element_t), allocatable :: reference(:) !! (bodies) what its elements have in common

@@ -13,8 +13,8 @@ module deformation_shapes
   public :: deformation_shapes_t, bending_shapes, axial_shapes, bending_unknowns, shear_scale, curve, once_integrated
 
   !> What every unknown does. A function of the place is held as its Legendre coefficients in every element, one after the other,
-  !! each coefficient times √(μ h/(2j+1)): then `∫ μ f g dx` is the scalar product. With rotary inertia those of its rotation follow,
-  !! times √(ρI h/(2j+1)), and the scalar product is `∫ μ f g + ρI θ_f θ_g dx`.
+  !! each coefficient times √(μ h/(2j+1)): then `∫ μ f g dx` is the scalar product. With rotary inertia those of its rotation
+  !! follow, times √(ρI h/(2j+1)), and the scalar product is `∫ μ f g + ρI θ_f θ_g dx`.
   type :: deformation_shapes_t
     real(wp) :: length = 0.0_wp                  !! of the link [m]
     real(wp) :: shear_stiffness = 0.0_wp         !! kGA [N]; 0: rigid in shear

@@ -37,7 +37,8 @@ module link_modes
     real(wp) :: elongation = 0.0_wp                   !! √(L/EA): of a unit unknown [m/√J]
     real(wp) :: end_rotation = 0.0_wp                 !! √(L/3EI + 1/(kGA L)): of a unit unknown of the clamped end [rad/√J]
     real(wp), allocatable :: square(:)                !! (modes) 1/ω² of the link with its ends held, descending [s²]
-    real(wp), allocatable :: participation(:, :)      !! (3, modes) `∫ μ f w + ρI θ_f θ_w dx` with 1 − ξ, ξ and the curve of the clamped end
+    !> (3, modes) `∫ μ f w + ρI θ_f θ_w dx` with 1 − ξ, ξ and the curve of the clamped end
+    real(wp), allocatable :: participation(:, :)
     real(wp) :: linear(3, 3) = 0.0_wp                 !! the same between these three
     real(wp) :: axial_linear(2, 2) = 0.0_wp           !! `∫ μ f g dx` of 1 − ξ and ξ along the link, which turn nothing
     real(wp), allocatable :: axial_square(:)          !! (axial modes) [s²]

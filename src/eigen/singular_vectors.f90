@@ -23,8 +23,8 @@ contains
   !! vibrations of a link are as exact as the low ones. LAPACK's dgesvj does the same, but raises the floating-point exceptions that
   !! the debug build stops at.
   !!
-  !! Columns that depend on others end as zero but for rounding. In a space of fewer dimensions they can never be perpendicular: they
-  !! are left alone then, and so their vectors out. Errors: no convergence.
+  !! Columns that depend on others end as zero but for rounding. In a space of fewer dimensions they can never be perpendicular:
+  !! they are left alone then, and their vectors left out. Errors: no convergence.
   pure subroutine find_right_singular_vectors(matrix, vectors, error, rank)
     real(wp), intent(in) :: matrix(:, :)                !! no fewer rows than independent columns
     real(wp), allocatable, intent(out) :: vectors(:, :) !! (columns, independent columns)

@@ -60,8 +60,9 @@ contains
     end do
   end function lumped_load
 
-  !> Load of a link with uniform mass, `f(s) = −μ (a_first + s slope)`: force (2.45), moment about the first pin. With rotary inertia
-  !! a moment −ρI α acts along it.
+  !> Load of a link with uniform mass, `f(s) = −μ (a_first + s slope)`: force (2.45), moment about the first pin.
+  !!
+  !! With rotary inertia a moment −ρI α acts along it.
   pure function distributed_load(body, number, pose, field) result(load)
     type(body_t), intent(in) :: body
     integer, intent(in) :: number
