@@ -21,7 +21,7 @@ unit_tests = $(if $(PFUNIT_DIR),pfunit,funit)/unit_tests
 
 ifndef kind
 # ---------------------------------------------------------------------------------------------- what a person types
-.PHONY: all debug thesis run figures check golden install setup clean help
+.PHONY: all debug thesis run figures check bench bench-pictures fuzz memory golden install setup clean help
 
 all: setup
 	$(stage) kind=release $(program)
@@ -55,9 +55,30 @@ figures: all
 
 check: setup
 	@rm -f build/check.count
-	$(stage) kind=release $(program) build/release/$(unit_tests)
-	$(stage) kind=debug build/debug/flexmech build/debug/$(unit_tests)
+	$(stage) kind=release $(program) build/release/$(unit_tests) build/release/bench/bench
+	$(stage) kind=debug build/debug/flexmech build/debug/$(unit_tests) build/debug/bench/bench
 	@python3 -B $(support)/check.py $(unit_tests)
+
+bench: all
+	$(stage) kind=release build/release/bench/bench
+	build/release/bench/bench $(program) outputs/bench $(BLAS)
+	@sh plots/draw_bench.sh outputs/bench
+
+# The pictures of docs/performance.md, from the last `make bench`.
+bench-pictures:
+	@test -f outputs/bench/ratios.dat || { echo "make: nothing was timed yet; say: make bench" >&2; exit 2; }
+	cp outputs/bench/*.png docs/pictures/
+
+# The same SEED makes the same decks.
+FUZZ ?= 10000
+SEED ?= 1
+fuzz: debug
+	@python3 -B $(support)/fuzz.py $(FUZZ) $(SEED)
+
+memory:
+	@SANITIZERS=yes sh $(support)/setup.sh
+	$(stage) kind=sanitize build/sanitize/flexmech
+	@python3 -B $(support)/check_memory.py
 
 golden: all
 	$(need_case)
@@ -85,6 +106,10 @@ help:
 	@echo "make figures DECK=FILE  run one deck and draw what its tables allow"
 	@echo "make check              all tests, in the release and in the debug build"
 	@echo "make check PFUNIT_DIR=D the same, with the unit tests run by the pFUnit 4 installed in the folder D"
+	@echo "make bench              time every solver in turn, tables and figures in outputs/bench/; four minutes"
+	@echo "make bench-pictures     copy these figures to docs/pictures/"
+	@echo "make fuzz               10,000 odd decks under the debug build; FUZZ=500 SEED=7 for fewer, and for others"
+	@echo "make memory             every deck of inputs/ under the sanitizers of addresses, leaks and undefined behaviour"
 	@echo "make golden CASE=NAME   make tests/golden/NAME/ anew from inputs/NAME.deck"
 	@echo "make install PREFIX=DIR copy the program to DIR/bin, the plots to DIR/share/flexmech (DESTDIR is honoured)"
 	@echo "make setup              only install what is missing"
@@ -98,6 +123,8 @@ build = build/$(kind)
 # No -ffast-math and no -march=native: the same deck must give the same bytes on every machine of a kind.
 flags_release    = -O3
 flags_debug      = -Og -g -fbacktrace -fcheck=all -fcheck=no-array-temps -ffpe-trap=invalid,zero,overflow -finit-real=snan -finit-derived
+# For `make memory`: addresses, leaks and undefined behaviour. One byte off in any module stops the program.
+flags_sanitize   = -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined,leak -fno-sanitize-recover=all
 warnings_release =
 # Array temporaries are no mistake, and a note of each would stand between the program's own messages (no-array-temps).
 # gfortran 12 suspects every allocatable that a function returns (no-uninitialized); the debug build fills what nobody
@@ -144,6 +171,15 @@ $(build)/%.o: %.f90 $(build)/command
 $(build)/flexmech: $(modules) $(build)/main.o
 	@echo "link $@"
 	$(compile) $^ $(libraries) -o $@
+
+# ------------------------------------------------------------- the program that times solvers; sources in the order of use
+bench_sources = $(patsubst %,tests/bench/%.f90,bench_cases exact_values nodal_runs bench_models bench_runs bench_plans machine \
+                                               bench_tables bench_ratios bench)
+
+$(build)/bench/bench: $(bench_sources) $(modules)
+	@echo "link $@"
+	mkdir -p $(@D)
+	$(compile) -ffree-line-length-132 $(warnings_$(kind)) -J$(@D) -I$(build) $^ $(libraries) -o $@
 
 # ------------------------------------------------------------------------------ unit tests with the bundled support
 tests := $(patsubst tests/unit/%.pf,%,$(wildcard tests/unit/test_*.pf))

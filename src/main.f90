@@ -34,7 +34,7 @@ program main
   allocate (decks(size(command%decks)), outcomes(size(command%decks)))
   refused = .false.
   do i = 1, size(decks)
-    call read_deck(command%decks(i)%text, decks(i), command%settings)
+    call read_deck(command%decks(i)%text, command%run%threads, decks(i), command%settings)
     if (.not. command%run%quiet) call say(decks(i)%warnings)
     call say(decks(i)%errors)
     if (len(decks(i)%errors) > 0) outcomes(i)%exit_status = 2

@@ -6,9 +6,9 @@ module branch_report
   use models, only: model_t
   use positions, only: positions_t
   use sorting, only: ascending_order
-  use tables, only: column_t, integer_cell, integer_column, name_cell, real_cells, real_column, table_t, write_failure, &
-    write_gap, write_header, write_row
-  use text, only: string_t, to_string
+  use tables, only: append_column, column_t, integer_cell, integer_column, name_cell, real_cells, real_column, table_t, &
+    write_failure, write_gap, write_header, write_row
+  use text, only: append_string, string_t, to_string
   implicit none (type, external)
   private
 
@@ -26,14 +26,28 @@ contains
     type(sweep_t), intent(in) :: sweep
     type(branches_t), intent(in) :: branches
 
+    type(column_t), allocatable :: columns(:)
+    type(column_t) :: event_column
+    type(string_t), allocatable :: notes(:)
     integer :: branch, k
     logical :: first
 
-    call write_header(table, model%title, [effects_notes(model), string_t("modes followed by their shapes; mac: likeness to "// &
-      "the row before, in the mass inner product, from 0 to 1"), string_t("event: - or start, crossing:BRANCH, "// &
-      "veering:BRANCH, ambiguous (shapes do not tell which branch goes on: a new one begins)")], &
-      [real_column("speed", "rad/s"), real_column("crank", "deg"), integer_column("branch"), integer_column("mode"), &
-      real_column("frequency", "Hz"), real_column("mac", "-"), column_t("event", "-", event_width)])
+    notes = effects_notes(model)
+    call append_string(notes, "modes followed by their shapes; mac: likeness to the row before, in the mass inner product, "// &
+      "from 0 to 1")
+    call append_string(notes, "event: - or start, crossing:BRANCH, veering:BRANCH, ambiguous (shapes do not tell which branch "// &
+      "goes on: a new one begins)")
+    event_column%name = "event"
+    event_column%unit = "-"
+    event_column%width = event_width
+    call append_column(columns, real_column("speed", "rad/s"))
+    call append_column(columns, real_column("crank", "deg"))
+    call append_column(columns, integer_column("branch"))
+    call append_column(columns, integer_column("mode"))
+    call append_column(columns, real_column("frequency", "Hz"))
+    call append_column(columns, real_column("mac", "-"))
+    call append_column(columns, event_column)
+    call write_header(table, model%title, notes, columns)
     do k = 1, size(sweep%request%speed)
       if (k > 1) call write_gap(table, 2)
       call write_failures(table, positions, sweep, k)

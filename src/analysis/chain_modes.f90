@@ -6,11 +6,12 @@
 module chain_modes
   use bordered_matrix, only: bordered_matrix_t
   use bordered_modes, only: bordered_modes_t, find_bordered_modes, new_start
-  use deformation_chain, only: deformation_chain_t, project_modes
+  use deformation_chain, only: deformation_chain_t
   use deformation_model, only: deformation_model_t
   use errors, only: error_t, set_error
   use kinds, only: wp
   use mode_count, only: count_limit, is_complete
+  use mode_projection, only: project_modes
   use reduced_assembly, only: first_axial
   use reduced_modes, only: reduced_work_t
   use subspace_modes, only: find_subspace_modes, subspace_modes_t
@@ -73,16 +74,16 @@ contains
     type(deformation_chain_t), intent(in) :: chain
     real(wp), intent(out) :: vectors(:, :)
 
-    real(wp), allocatable :: curvature(:, :, :), strain(:, :, :), own(:), own_strain(:)
-    integer :: b, i, first, j, longest
+    real(wp), allocatable :: bending(:, :, :), strain(:, :, :), own(:), own_strain(:)
+    integer :: b, i, first, j, kinds, longest
 
     longest = 1
     do b = 1, size(near%links)
       longest = max(longest, near%links(b)%bending_shapes%unknowns, near%links(b)%axial_shapes%unknowns + 1)
     end do
-    allocate (curvature(longest, size(vectors, 2), size(near%links)))
-    allocate (strain, mold=curvature)
-    curvature = 0.0_wp
+    allocate (bending(longest, size(vectors, 2), size(near%links)))
+    allocate (strain, mold=bending)
+    bending = 0.0_wp
     strain = 0.0_wp
     do b = 1, size(near%links)
       do i = 1, size(vectors, 2)
@@ -95,17 +96,18 @@ contains
           if (near%elements(b) == 1) then
             ! The elongation of the link as a whole is a uniform strain.
             own_strain = [mode(1 + b), own_strain]
-            own = [(sqrt(2*j - 1.0_wp)*own(j), j=1, size(own))]
+            kinds = merge(2, 1, link%bending_shapes%shear_stiffness > 0.0_wp)
+            own = [(sqrt(2*((j - 1)/kinds) + 1.0_wp)*own(j), j=1, size(own))]
             own_strain = [(sqrt(2*j - 1.0_wp)*own_strain(j), j=1, size(own_strain))]
           else
             own_strain = element_strains(near%elements(b), mode(1 + b), own_strain)
           end if
-          curvature(:size(own), i, b) = own
+          bending(:size(own), i, b) = own
           strain(:size(own_strain), i, b) = own_strain
         end associate
       end do
     end do
-    call project_modes(chain, near%elements == 1, curvature, strain, vectors)
+    call project_modes(chain, near%elements == 1, bending, strain, vectors)
   end subroutine find_starts
 
   !> Strains element by element, from the elongation of the link and the unknowns of `axial_shapes`.

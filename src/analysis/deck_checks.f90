@@ -1,5 +1,6 @@
 !> Checks of a model that need mechanics, with complaints that point at the deck.
 module deck_checks
+  use beam_mesh, only: moving_unknowns
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use four_bar_limits, only: can_reach, crank_reach, reach_t
   use kinds, only: wp
@@ -189,12 +190,14 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
 
     type(token_t) :: place
+    integer :: most
 
+    most = moving_unknowns(mechanism%mesh, mechanism%linkage)
     place = model%modes_word
     if (place%line == 0) place = model%meshes(1)%keyword
-    if (model%modes > mechanism%mesh%unknowns) then
+    if (model%modes > most) then
       call add_error(diagnostics, place, plural(model%modes, "mode")//" asked for, but the mesh has only "// &
-        plural(mechanism%mesh%unknowns, "unknown"))
+        plural(most, trim(merge("unknown       ", "moving unknown", most == mechanism%mesh%unknowns))))
     else if (model%modes > mechanism%mesh%unknowns - 2 .and. model%solver == solver_band) then
       call add_error(diagnostics, place, "SOLVER band finds at most "//plural(mechanism%mesh%unknowns - 2, "mode")// &
         " of this mesh (two fewer than its unknowns), not "//to_string(model%modes))

@@ -1,5 +1,6 @@
 !> Decks read and checked, with everything that varies.
 module deck_readings
+  use available_memory, only: available_memory_t, find_available_memory
   use card_echo, only: echo_cards
   use cards, only: card_t
   use deck_checks, only: check_mechanics
@@ -9,6 +10,7 @@ module deck_readings
   use errors, only: error_t, set_error
   use file_system, only: base_name
   use includes, only: read_all_cards
+  use memory_needs, only: check_memory
   use model_reader, only: read_model
   use models, only: model_t
   use text, only: string_t, to_string
@@ -34,12 +36,14 @@ module deck_readings
 contains
 
   !> Reads and checks a deck, all its variants if it has a VARY card; the path `-` is standard input.
-  subroutine read_deck(path, deck, settings)
+  subroutine read_deck(path, threads, deck, settings)
     character(len=*), intent(in) :: path
+    integer, intent(in) :: threads                      !! that will compute it
     type(deck_t), intent(out) :: deck
     type(string_t), intent(in), optional :: settings(:) !! of the command line, each `name=value`
 
     type(card_t), allocatable :: cards(:)
+    type(available_memory_t) :: available
     type(string_t) :: none(0)
     type(error_t), allocatable :: error
 
@@ -65,17 +69,19 @@ contains
     else
       call read_deck_cards(cards, none, deck%source, deck%diagnostics, deck%cards)
     end if
+    available = find_available_memory(threads)
     call read_variant(deck%cards, 1, cards, deck%diagnostics, deck%model)
+    call check_variant(deck%model, threads, available, deck%diagnostics)
     if (.not. has_errors(deck%diagnostics)) then
-      deck%model%echo = echo_cards(deck%cards, cards, deck%source)
-      call check_variants(deck%cards, cards, deck%model, deck%diagnostics)
+      deck%model%echo = echo_cards(deck%cards, cards, deck%model%effects, deck%source)
+      call check_variants(deck%cards, cards, deck%model, threads, available, deck%diagnostics)
     end if
     deck%errors = render_errors(deck%diagnostics, deck%source)
     deck%warnings = render_warnings(deck%diagnostics, deck%source)
     deck%warning_lines = warning_texts(deck%diagnostics, deck%source)
   end subroutine read_deck
 
-  !> Turns the cards of one variant into a model and checks it; nothing is read again. A deck without VARY has one variant.
+  !> Turns the cards of one variant into a model; nothing is read again. A deck without VARY has one variant.
   subroutine read_variant(deck_cards, number, cards, diagnostics, model)
     type(deck_cards_t), intent(in) :: deck_cards
     integer, intent(in) :: number                        !! of the variant, from 1
@@ -88,16 +94,28 @@ contains
     if (has_errors(diagnostics)) return
     model%variant = variant_text(deck_cards, number)
     model%varied = variant_values(deck_cards, number)
-    call check_mechanics(model, diagnostics)
   end subroutine read_variant
+
+  !> Whether there is memory for a model, and then whether mechanics can do with it.
+  subroutine check_variant(model, threads, available, diagnostics)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: threads
+    type(available_memory_t), intent(in) :: available
+    type(diagnostics_t), intent(inout) :: diagnostics !! of the model; what has errors is not looked at
+
+    if (.not. has_errors(diagnostics)) call check_memory(model, threads, available, diagnostics)
+    if (.not. has_errors(diagnostics)) call check_mechanics(model, diagnostics)
+  end subroutine check_variant
 
   !> Checks every variant but the first, of which all is known: nothing is computed before the last one is known to be sound.
   !!
   !! The first variant that is refused is told in full, the others are counted. A warning is told once for a place.
-  subroutine check_variants(deck_cards, cards, first, diagnostics)
+  subroutine check_variants(deck_cards, cards, first, threads, available, diagnostics)
     type(deck_cards_t), intent(in) :: deck_cards
     type(card_t), allocatable, intent(inout) :: cards(:) !! of the first variant
     type(model_t), intent(in) :: first
+    integer, intent(in) :: threads
+    type(available_memory_t), intent(in) :: available
     type(diagnostics_t), intent(inout) :: diagnostics
 
     type(diagnostics_t) :: mine
@@ -109,8 +127,12 @@ contains
     do number = 2, variant_count(deck_cards)
       call clear(mine)
       call read_variant(deck_cards, number, cards, mine, model)
+      call check_variant(model, threads, available, mine)
       if (.not. has_errors(mine) .and. model%modes /= first%modes) then
         call add_error(mine, model%modes_word, "all variants must have as many modes: they are columns of one table")
+      else if (.not. has_errors(mine) .and. model%effects /= first%effects) then
+        call add_error(mine, deck_cards%variations(1)%name, "of this variant and the first one, one stands still and one "// &
+          "moves: EFFECTS must say whether axial forces act")
       end if
       call take_warnings(mine, variant_text(deck_cards, number), diagnostics)
       if (.not. has_errors(mine)) cycle

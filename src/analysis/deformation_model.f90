@@ -3,7 +3,7 @@ module deformation_model
   use beam_element, only: axial_degree
   use beam_mesh, only: beam_t
   use bordered_matrix, only: layout_t
-  use deformation_shapes, only: axial_shapes, bending_shapes, deformation_shapes_t
+  use deformation_shapes, only: axial_shapes, bending_shapes, bending_unknowns, deformation_shapes_t
   use errors, only: error_t
   use kinds, only: wp
   use link_modes, only: held_shapes, link_modes_t, new_link_modes
@@ -57,7 +57,11 @@ contains
     model%layout = reduced_layout(linkage, model%links)
   end subroutine new_deformation_model
 
-  !> One link. A single element knows the next two orders as well, to tell its own error.
+  !> One link. A single element knows the next orders as well, to tell its own error: two across, and four along, where orders are
+  !! so low that the next one of either symmetry may not be enough.
+  !!
+  !! With shear and without rotary inertia some deformations move no mass: θ + γ = 0 everywhere. They meet nothing in M and K_G, and
+  !! are left out. What is left are the continuous displacements of their degree that vanish at both ends.
   subroutine find_own_modes(linkage, beam, b, elements, order, lumped, link, error)
     type(linkage_t), intent(in) :: linkage
     type(beam_t), intent(in) :: beam
@@ -68,21 +72,25 @@ contains
 
     type(deformation_shapes_t) :: bending, axial
     real(wp), allocatable :: basis(:, :), axial_basis(:, :), displacement(:, :), own(:, :), axial_own(:, :)
-    integer :: more, degree, kept, axial_kept
-    logical :: clamped
+    integer :: more, degree, kept, axial_kept, independent
+    logical :: clamped, sheared
 
     clamped = b == 1
+    sheared = beam%shear_stiffness > 0.0_wp
     more = merge(2, 0, elements == 1)
     degree = axial_degree(order)
     associate (body => linkage%bodies(b))
-      bending = bending_shapes(body%length, body%line_density, beam%bending_stiffness, elements, order + more)
+      bending = bending_shapes(body%length, body%line_density, beam%bending_stiffness, elements, order + more, &
+        beam%shear_stiffness, body%rotary_inertia)
       axial = axial_shapes(body%length, body%line_density, beam%axial_stiffness, elements, &
-        merge(axial_degree(order + 2) + 1, degree, elements == 1))
+        merge(degree + 4, degree, elements == 1))
     end associate
-    kept = elements*(order - 1)
+    kept = elements*bending_unknowns(order, sheared)
     axial_kept = elements*degree - 1
     call held_shapes(bending, kept, clamped, basis, displacement)
-    call find_right_singular_vectors(displacement, own, error)
+    independent = size(basis, 2)
+    if (sheared .and. linkage%bodies(b)%rotary_inertia <= 0.0_wp) independent = elements*order - 1
+    call find_right_singular_vectors(displacement, own, error, independent)
     if (allocated(error)) return
     call held_shapes(axial, axial_kept, .false., axial_basis, displacement)
     call find_right_singular_vectors(displacement, axial_own, error)

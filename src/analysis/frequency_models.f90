@@ -3,17 +3,19 @@ module frequency_models
   use beam_element, only: axial_degree
   use deformation_chain, only: deformation_chain_t, new_deformation_chain
   use deformation_model, only: deformation_model_t, new_deformation_model
+  use deformation_shapes, only: bending_unknowns
   use errors, only: error_t
   use kinds, only: wp
   use ledger, only: ledger_t
   use link_store, only: link_store_t
   use mechanisms, only: mechanism_t
+  use models, only: solver_band, solver_dense
   use order_choice, only: choose_orders
   use positions, only: positions_t
   implicit none (type, external)
   private
 
-  public :: mode_request_t, frequency_models_t, new_frequency_models, load_factors
+  public :: mode_request_t, frequency_models_t, new_frequency_models, load_factors, chosen_method
   public :: is_long_link, by_orders, by_link_modes, by_long_mesh, by_dense, by_band
 
   !> How the frequencies that are written are found: with orders that the program chooses; on the mesh of the deck in deformation
@@ -61,12 +63,34 @@ contains
     factor(2, :) = request%acceleration
   end function load_factors
 
+  !> How frequencies are found on a mesh.
+  pure function chosen_method(solver, accurate, elements, order, sheared) result(method)
+    integer, intent(in) :: solver                !! of the deck
+    logical, intent(in) :: accurate              !! the mesh is left to the program
+    integer, intent(in) :: elements(:), order(:) !! (bodies)
+    logical, intent(in) :: sheared               !! elements have shear strains
+    integer :: method
+
+    if (accurate) then
+      method = by_orders
+    else if (solver == solver_dense) then
+      method = by_dense
+    else if (solver == solver_band) then
+      method = by_band
+    else if (any(is_long_link(elements, order, sheared))) then
+      method = by_long_mesh
+    else
+      method = by_link_modes
+    end if
+  end function chosen_method
+
   !> Whether a link has too many unknowns to be taken apart; a single element never has.
-  elemental function is_long_link(elements, order) result(is)
+  elemental function is_long_link(elements, order, sheared) result(is)
     integer, intent(in) :: elements, order
+    logical, intent(in) :: sheared
     logical :: is
 
-    is = elements > 1 .and. elements*(order - 1) > most_link_unknowns
+    is = elements > 1 .and. elements*bending_unknowns(order, sheared) > most_link_unknowns
   end function is_long_link
 
   !> Errors: the own modes of a link could not be found.
@@ -89,7 +113,7 @@ contains
     if (allocated(error)) return
     if (request%method /= by_link_modes .and. request%method /= by_long_mesh) return
     associate (mesh => mechanism%mesh)
-      is_long = is_long_link(mesh%elements, mesh%order)
+      is_long = is_long_link(mesh%elements, mesh%order, mesh%sheared)
       call new_deformation_model(mechanism%linkage, mechanism%beams, merge(1, mesh%elements, is_long), &
         merge(models%continuum%order, mesh%order, is_long), request%lumped .and. request%axial .and. .not. is_long, models%mesh, &
         error, store)

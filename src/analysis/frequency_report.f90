@@ -8,9 +8,9 @@ module frequency_report
   use poses, only: pose_t
   use positions, only: positions_t
   use requests, only: report_shapes
-  use tables, only: column_t, integer_cell, integer_column, name_cell, name_column, real_cells, real_column, table_t, &
-    write_failure, write_gap, write_header, write_row
-  use text, only: string_t, to_string
+  use tables, only: append_column, append_real_columns, column_t, integer_cell, integer_column, name_cell, name_column, &
+    real_cells, real_column, table_t, write_failure, write_gap, write_header, write_row
+  use text, only: append_string, string_t, to_string
   use units, only: coherent_unit, dimension_length, dimension_mass, from_si, to_si, unit_t
   implicit none (type, external)
   private
@@ -53,6 +53,7 @@ contains
     integer, intent(in) :: threads
 
     type(column_t), allocatable :: columns(:)
+    type(string_t), allocatable :: notes(:)
     integer :: i, k
 
     allocate (columns(2*model%modes + 2))
@@ -62,8 +63,9 @@ contains
       columns(2 + i) = real_column("f"//to_string(i), "Hz")
       columns(2 + model%modes + i) = real_column("error"//to_string(i), "-")
     end do
-    call write_header(table, model%title, [effects_notes(model), string_t("error1 and so on: how far off each frequency may "// &
-      "be, of itself: mesh and rounding")], columns)
+    notes = effects_notes(model)
+    call append_string(notes, "error1 and so on: how far off each frequency may be, of itself: mesh and rounding")
+    call write_header(table, model%title, notes, columns)
     do k = 1, size(sweep%request%speed)
       if (k > 1) call write_gap(table, 2)
       call write_block(table, positions, sweep, k, threads, sum(columns%width))
@@ -130,14 +132,23 @@ contains
     type(model_t), intent(in) :: model
     type(string_t), allocatable :: notes(:)
 
-    notes = [string_t("static frequencies of the instantaneous structure; they do not depend on the speed")]
-    if (model%effects == effects_static) return
-    notes = [string_t("frequencies of the instantaneous structure at rest: no axial forces")]
-    if (.not. needs_loads(model)) return
-    notes = [string_t("frequencies of the instantaneous structure with the axial forces of its motion; "// &
-      trim(merge("lumped     ", "distributed", model%inertia == inertia_lumped))//" inertia"), &
-      string_t("angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2"), &
-      string_t("a negative frequency stands for sqrt(-lambda)/(2 pi) of a negative eigenvalue: static divergence")]
+    if (model%effects == effects_static) then
+      call append_string(notes, "static frequencies of the instantaneous structure; they do not depend on the speed")
+    else if (.not. needs_loads(model)) then
+      call append_string(notes, "frequencies of the instantaneous structure at rest: no axial forces")
+    else
+      call append_string(notes, "frequencies of the instantaneous structure with the axial forces of its motion; "// &
+        trim(merge("lumped     ", "distributed", model%inertia == inertia_lumped))//" inertia")
+      call append_string(notes, "angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2")
+      call append_string(notes, "a negative frequency stands for sqrt(-lambda)/(2 pi) of a negative eigenvalue: static divergence")
+    end if
+    if (model%rotary .and. model%shear) then
+      call append_string(notes, "links with rotary inertia and shear (Timoshenko)")
+    else if (model%rotary) then
+      call append_string(notes, "links with rotary inertia (Rayleigh)")
+    else if (model%shear) then
+      call append_string(notes, "links with shear")
+    end if
   end function effects_notes
 
   !> Rows along every link of every mode; an empty line between links, two between modes.
@@ -149,6 +160,7 @@ contains
     type(sweep_t), intent(in) :: sweep
 
     type(column_t), allocatable :: columns(:)
+    type(string_t), allocatable :: notes(:)
     type(unit_t) :: length, mass
     character(len=:), allocatable :: reason
     integer :: i, k, mode
@@ -156,12 +168,18 @@ contains
 
     length = coherent_unit(model%units, dimension_length)
     mass = coherent_unit(model%units, dimension_mass)
-    columns = [real_column("speed", "rad/s"), real_column("crank", "deg"), integer_column("mode"), real_column("frequency", "Hz"), &
-      name_column("link", mechanism%names), real_column("s", length%name), real_column("x", length%name), &
-      real_column("y", length%name), real_column("ux", mass%name//"^-0.5"), real_column("uy", mass%name//"^-0.5"), &
-      real_column("rotation", "rad."//mass%name//"^-0.5."//length%name//"^-1")]
-    call write_header(table, model%title, [effects_notes(model), string_t("shapes are normalised: phi' M phi = 1; s runs "// &
-      "along each link round the loop from "//mechanism%pin_names(1)%text//" to "//mechanism%pin_names(4)%text)], columns)
+    call append_column(columns, real_column("speed", "rad/s"))
+    call append_column(columns, real_column("crank", "deg"))
+    call append_column(columns, integer_column("mode"))
+    call append_column(columns, real_column("frequency", "Hz"))
+    call append_column(columns, name_column("link", mechanism%names))
+    call append_real_columns(columns, "s x y", length%name)
+    call append_real_columns(columns, "ux uy", mass%name//"^-0.5")
+    call append_column(columns, real_column("rotation", "rad."//mass%name//"^-0.5."//length%name//"^-1"))
+    notes = effects_notes(model)
+    call append_string(notes, "shapes are normalised: phi' M phi = 1; s runs along each link round the loop from "// &
+      mechanism%pin_names(1)%text//" to "//mechanism%pin_names(4)%text)
+    call write_header(table, model%title, notes, columns)
     first = .true.
     associate (report => model%reports(report_number(model, report_shapes)))
       do k = 1, size(sweep%request%speed)

@@ -1,14 +1,13 @@
 !> Frequencies at every position and speed.
 module frequency_sweep
   use errors, only: error_t
-  use frequency_models, only: by_band, by_dense, by_link_modes, by_long_mesh, by_orders, frequency_models_t, mode_request_t, &
-    is_long_link, new_frequency_models
+  use frequency_models, only: by_band, chosen_method, frequency_models_t, mode_request_t, new_frequency_models
   use interruption, only: was_interrupted
   use kinds, only: wp
   use ledger, only: add_ledger, ledger_t
   use link_store, only: link_store_t
   use mechanisms, only: mechanism_t
-  use models, only: effects_static, inertia_lumped, model_t, needs_loads, report_number, solver_band, solver_dense
+  use models, only: effects_static, inertia_lumped, model_t, needs_loads, report_number
   use position_modes, only: new_position_work, solve_position
   use position_results, only: position_result_t, position_work_t
   use positions, only: by_crank_angle, positions_t
@@ -160,18 +159,9 @@ contains
     request%modes = model%modes
     request%axial = needs_loads(model)
     request%lumped = model%inertia == inertia_lumped
-    if (mechanism%accuracy > 0.0_wp) then
-      request%method = by_orders
-      request%accuracy = mechanism%accuracy
-    else if (model%solver == solver_dense) then
-      request%method = by_dense
-    else if (model%solver == solver_band) then
-      request%method = by_band
-    else if (.not. any(is_long_link(mechanism%mesh%elements, mechanism%mesh%order))) then
-      request%method = by_link_modes
-    else
-      request%method = by_long_mesh
-    end if
+    request%method = chosen_method(model%solver, mechanism%accuracy > 0.0_wp, mechanism%mesh%elements, mechanism%mesh%order, &
+      mechanism%mesh%sheared)
+    if (mechanism%accuracy > 0.0_wp) request%accuracy = mechanism%accuracy
     request%follow = report_number(model, report_branches) > 0
     number = report_number(model, report_shapes)
     if (number > 0) request%points = model%reports(number)%points

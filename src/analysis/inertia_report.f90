@@ -7,9 +7,9 @@ module inertia_report
   use motions, only: acceleration_field_t, point_acceleration, scaled_sum, unit_fields
   use poses, only: pose_t
   use positions, only: positions_t
-  use tables, only: column_t, integer_cell, integer_column, name_cell, name_column, real_cells, real_column, table_t, &
-    write_failure, write_gap, write_header, write_row
-  use text, only: string_t, to_string
+  use tables, only: append_column, append_real_columns, column_t, integer_cell, integer_column, name_cell, name_column, &
+    real_cells, real_column, table_t, write_failure, write_gap, write_header, write_row
+  use text, only: append_string, string_t, to_string
   use units, only: coherent_unit, dimension_acceleration, dimension_force, dimension_length, dimension_mass, dimension_moment, &
     from_si, unit_system_t, unit_t
   implicit none (type, external)
@@ -32,8 +32,8 @@ contains
     type(positions_t), intent(in) :: positions
 
     type(measures_t) :: measures
-    type(column_t), allocatable :: columns(:)
-    type(string_t), allocatable :: owners(:)
+    type(column_t), allocatable :: columns(:), table_columns(:)
+    type(string_t), allocatable :: owners(:), notes(:)
     integer :: i, k
 
     measures = measures_of(model%units)
@@ -41,18 +41,25 @@ contains
     do i = size(mechanism%names) + 1, size(owners)
       owners(i)%text = "pin:"//owners(i)%text
     end do
-    columns = [real_column("speed", "rad/s"), real_column("crank", "deg"), integer_column("mass"), name_column("link", owners), &
-      real_column("x", measures%length%name), real_column("y", measures%length%name), &
-      real_column("ax", measures%acceleration%name), real_column("ay", measures%acceleration%name), &
-      real_column("Fx", measures%force%name), real_column("Fy", measures%force%name), real_column("m", measures%mass%name)]
+    call append_column(columns, real_column("speed", "rad/s"))
+    call append_column(columns, real_column("crank", "deg"))
+    call append_column(columns, integer_column("mass"))
+    call append_column(columns, name_column("link", owners))
+    call append_real_columns(columns, "x y", measures%length%name)
+    call append_real_columns(columns, "ax ay", measures%acceleration%name)
+    call append_real_columns(columns, "Fx Fy", measures%force%name)
+    call append_column(columns, real_column("m", measures%mass%name))
+    table_columns = columns
     if (model%inertia == inertia_lumped) then
-      call write_header(table, model%title, [string_t("lumped inertia: masses on the mesh nodes, F = -m a"), &
-        string_t("masses at pins in rows of their own"), acceleration_note(model)], columns)
+      call append_string(notes, "lumped inertia: masses on the mesh nodes, F = -m a")
     else
-      call write_header(table, model%title, [string_t("distributed inertia: a row a link at its mass centre, F = -m a, "// &
-        "moment = -I alpha about the mass centre"), string_t("masses at pins in rows of their own"), acceleration_note(model)], &
-        [columns, real_column("moment", measures%moment%name)])
+      call append_string(notes, "distributed inertia: a row a link at its mass centre, F = -m a, "// &
+        "moment = -I alpha about the mass centre"//trim(merge(", with rotary inertia", "                     ", model%rotary)))
+      call append_column(table_columns, real_column("moment", measures%moment%name))
     end if
+    call append_string(notes, "masses at pins in rows of their own")
+    call append_string(notes, "angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2")
+    call write_header(table, model%title, notes, table_columns)
     do k = 1, size(model%speed%value)
       if (k > 1) call write_gap(table, 2)
       do i = 1, size(positions%crank)
@@ -80,13 +87,6 @@ contains
     measures%moment = coherent_unit(system, dimension_moment)
   end function measures_of
 
-  pure function acceleration_note(model) result(note)
-    type(model_t), intent(in) :: model
-    type(string_t) :: note
-
-    note%text = "angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2"
-  end function acceleration_note
-
   !> All masses at one position and speed.
   subroutine write_position(table, mechanism, measures, columns, pose, field, place, lumped)
     type(table_t), intent(inout) :: table
@@ -112,8 +112,9 @@ contains
         else
           masses = [this%line_density*this%length]
           stations = [0.5_wp*this%length]
-          ! (2.46) with I_G = m L²/12
+          ! (2.46) with I_G = m L²/12, and ρI L where rotary inertia is asked for
           moment = -masses*this%length**2/12.0_wp*field%angular(body)
+          if (this%rotary_inertia > 0.0_wp) moment = moment - this%rotary_inertia*this%length*field%angular(body)
         end if
         do i = 1, size(masses)
           number = number + 1

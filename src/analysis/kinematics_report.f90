@@ -7,8 +7,9 @@ module kinematics_report
   use motions, only: angular_acceleration, angular_velocity, motion_t
   use poses, only: body_angle, pose_t, transmission_angle
   use positions, only: positions_t
-  use tables, only: column_t, real_cells, real_column, table_t, write_failure, write_gap, write_header, write_row
-  use text, only: string_t, to_string
+  use tables, only: append_column, append_real_columns, column_t, real_cells, real_column, table_t, write_failure, write_gap, &
+    write_header, write_row
+  use text, only: append_string, string_t, to_string
   use units, only: coherent_unit, dimension_length, from_si, unit_t
   implicit none (type, external)
   private
@@ -26,15 +27,17 @@ contains
     type(string_t), intent(in) :: notes(:) !! on the linkage as a whole
 
     type(unit_t) :: length
+    type(string_t), allocatable :: remarks(:)
     integer :: i, k
 
     length = coherent_unit(model%units, dimension_length)
-    call write_header(table, model%title, [notes, &
-      string_t("3: link "//mechanism%names(2)%text//", angle from "//mechanism%pin_names(2)%text//" to "// &
-        mechanism%pin_names(3)%text//"; 4: link "//mechanism%names(3)%text//", angle from "//mechanism%pin_names(4)%text// &
-        " to "//mechanism%pin_names(3)%text), &
-      string_t("A: pin "//mechanism%pin_names(2)%text//"; B: pin "//mechanism%pin_names(3)%text), &
-      string_t("angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2")], columns(length))
+    remarks = notes
+    call append_string(remarks, "3: link "//mechanism%names(2)%text//", angle from "//mechanism%pin_names(2)%text//" to "// &
+      mechanism%pin_names(3)%text//"; 4: link "//mechanism%names(3)%text//", angle from "//mechanism%pin_names(4)%text// &
+      " to "//mechanism%pin_names(3)%text)
+    call append_string(remarks, "A: pin "//mechanism%pin_names(2)%text//"; B: pin "//mechanism%pin_names(3)%text)
+    call append_string(remarks, "angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2")
+    call write_header(table, model%title, remarks, columns(length))
     do k = 1, size(model%speed%value)
       if (k > 1) call write_gap(table, 2)
       do i = 1, size(positions%crank)
@@ -54,11 +57,12 @@ contains
     type(unit_t), intent(in) :: length
     type(column_t), allocatable :: list(:)
 
-    list = [real_column("speed", "rad/s"), real_column("crank", "deg"), real_column("theta3", "deg"), &
-      real_column("theta4", "deg"), real_column("omega3", "rad/s"), real_column("omega4", "rad/s"), &
-      real_column("alpha3", "rad/s2"), real_column("alpha4", "rad/s2"), real_column("Ax", length%name), &
-      real_column("Ay", length%name), real_column("Bx", length%name), real_column("By", length%name), &
-      real_column("transmission_angle", "deg")]
+    call append_column(list, real_column("speed", "rad/s"))
+    call append_real_columns(list, "crank theta3 theta4", "deg")
+    call append_real_columns(list, "omega3 omega4", "rad/s")
+    call append_real_columns(list, "alpha3 alpha4", "rad/s2")
+    call append_real_columns(list, "Ax Ay Bx By", length%name)
+    call append_column(list, real_column("transmission_angle", "deg"))
   end function columns
 
   pure function row_of(mechanism, pose, motion, speed, acceleration, length) result(row)

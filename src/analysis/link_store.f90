@@ -17,7 +17,9 @@ module link_store
 
   !> All that a link's own modes depend on.
   type :: link_key_t
-    real(wp) :: length = 0.0_wp, line_density = 0.0_wp !! [m, kg/m]
+    real(wp) :: length = 0.0_wp         !! [m]
+    real(wp) :: line_density = 0.0_wp   !! [kg/m]
+    real(wp) :: rotary_inertia = 0.0_wp !! ρI [kg m]
     type(beam_t) :: beam
     integer :: elements = 0, order = 0
     logical :: clamped = .false., lumped = .false.
@@ -39,7 +41,7 @@ contains
     logical, intent(in) :: clamped, lumped
     type(link_key_t) :: key
 
-    key = link_key_t(body%length, body%line_density, beam, elements, order, clamped, lumped)
+    key = link_key_t(body%length, body%line_density, body%rotary_inertia, beam, elements, order, clamped, lumped)
   end function new_link_key
 
   !> Copies the link of a key, if it is there.
@@ -85,9 +87,10 @@ contains
 
   pure function numbers_of(key) result(numbers)
     type(link_key_t), intent(in) :: key
-    real(wp) :: numbers(4)
+    real(wp) :: numbers(6)
 
-    numbers = [key%length, key%line_density, key%beam%axial_stiffness, key%beam%bending_stiffness]
+    numbers = [key%length, key%line_density, key%rotary_inertia, key%beam%axial_stiffness, key%beam%bending_stiffness, &
+      key%beam%shear_stiffness]
   end function numbers_of
 
 end module link_store

@@ -5,6 +5,7 @@ module mechanisms
   use linkages, only: linkage_t, new_four_bar
   use linkage_cards, only: link_t
   use models, only: branch_crossed, model_t
+  use shear, only: link_rotary_inertia, link_shear_stiffness
   use text, only: same_word, string_t
   use tokens, only: token_texts
   implicit none (type, external)
@@ -53,8 +54,13 @@ contains
         model%sections(links%section)%second_moment
     end if
     mechanism%linkage = new_four_bar(ground, length, line_density, pin_mass, model%branch == branch_crossed)
+    if (beams) then
+      mechanism%linkage%bodies%rotary_inertia = [(link_rotary_inertia(model, model%loop(i)), i=1, 3)]
+      mechanism%beams%shear_stiffness = [(link_shear_stiffness(model, model%loop(i)), i=1, 3)]
+    end if
     if (meshed) then
-      mechanism%mesh = new_beam_mesh(mechanism%linkage, model%meshes(links%mesh)%elements, model%meshes(links%mesh)%order)
+      mechanism%mesh = new_beam_mesh(mechanism%linkage, model%meshes(links%mesh)%elements, model%meshes(links%mesh)%order, &
+        any(mechanism%beams%shear_stiffness > 0.0_wp))
       mechanism%accuracy = maxval(model%meshes(links%mesh)%accuracy)
     end if
     mechanism%names = token_texts(links%name)
@@ -83,7 +89,7 @@ contains
     type(mechanism_t) :: other
 
     other = mechanism
-    other%mesh = new_beam_mesh(mechanism%linkage, elements, mechanism%mesh%order)
+    other%mesh = new_beam_mesh(mechanism%linkage, elements, mechanism%mesh%order, mechanism%mesh%sheared)
   end function mesh_with
 
   pure function has_beams(mechanism) result(has)

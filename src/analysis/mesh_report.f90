@@ -6,9 +6,9 @@ module mesh_report
   use models, only: model_t
   use poses, only: pose_t
   use positions, only: positions_t
-  use tables, only: column_t, integer_cell, integer_column, name_cell, name_column, real_cells, real_column, table_t, &
-    write_failure, write_gap, write_header, write_row
-  use text, only: string_t
+  use tables, only: append_column, append_real_columns, column_t, integer_cell, integer_column, name_cell, name_column, &
+    real_cells, real_column, table_t, write_failure, write_gap, write_header, write_row
+  use text, only: append_string, string_t, to_string
   use units, only: coherent_unit, dimension_length, dimension_mass, from_si, unit_t
   implicit none (type, external)
   private
@@ -25,18 +25,22 @@ contains
     type(positions_t), intent(in) :: positions
 
     type(column_t), allocatable :: columns(:)
+    type(string_t), allocatable :: notes(:)
     type(unit_t) :: length, mass
     integer :: i
 
     length = coherent_unit(model%units, dimension_length)
     mass = coherent_unit(model%units, dimension_mass)
-    columns = [real_column("crank", "deg"), name_column("link", mechanism%names), integer_column("element"), &
-      integer_column("node_a"), integer_column("node_b"), real_column("xa", length%name), real_column("ya", length%name), &
-      real_column("xb", length%name), real_column("yb", length%name), real_column("mass_a", mass%name), &
-      real_column("mass_b", mass%name)]
-    call write_header(table, model%title, [ &
-      string_t("mass_a and mass_b: what the element brings to the lumped masses of its nodes"), &
-      string_t("both links at a pin have a node of their own there")], columns)
+    call append_column(columns, real_column("crank", "deg"))
+    call append_column(columns, name_column("link", mechanism%names))
+    call append_column(columns, integer_column("element"))
+    call append_column(columns, integer_column("node_a"))
+    call append_column(columns, integer_column("node_b"))
+    call append_real_columns(columns, "xa ya xb yb", length%name)
+    call append_real_columns(columns, "mass_a mass_b", mass%name)
+    call append_string(notes, "mass_a and mass_b: what the element brings to the lumped masses of its nodes")
+    call append_string(notes, "both links at a pin have a node of their own there")
+    call write_header(table, model%title, notes, columns)
     do i = 1, size(positions%crank)
       associate (state => positions%states(positions%state(i)))
         if (allocated(state%error)) then

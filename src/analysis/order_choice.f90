@@ -8,7 +8,7 @@ module order_choice
   use kinds, only: wp
   use ledger, only: ledger_t
   use link_store, only: link_store_t
-  use linkages, only: linkage_t
+  use linkages, only: body_t, linkage_t
   use pin_displacements, only: chords_t
   use positions, only: positions_t
   use reduced_modes, only: new_reduced_work, order_error, reduced_work_t, solve_reduced
@@ -66,16 +66,18 @@ contains
     call try_samples(linkage, model, positions, chosen(size(chosen)/2 + 1:size(chosen)/2 + 1), factor, modes, link_error, highest, &
       counts)
     do b = 1, size(beams)
-      order(b) = guessed_order(wave_of(linkage, beams, b, highest), share*bound, order(b), highest_order, modes)
+      order(b) = guessed_order(linkage%bodies(b)%length*wave_number(linkage%bodies(b), beams(b), highest), share*bound, order(b), &
+        highest_order, modes)
     end do
     do
       call new_deformation_model(linkage, beams, one_element, order, continuous, model, error, store)
-        if (allocated(error)) return
+      if (allocated(error)) return
       call try_samples(linkage, model, positions, chosen, factor, modes, link_error, highest, counts)
       if (all(link_error <= share*bound .or. order >= highest_order)) exit
       do b = 1, size(beams)
-        if (link_error(b) > share*bound) order(b) = raised_order(wave_of(linkage, beams, b, highest), share*bound/link_error(b), &
-          order(b), highest_order)
+        if (link_error(b) <= share*bound) cycle
+        order(b) = raised_order(linkage%bodies(b)%length*wave_number(linkage%bodies(b), beams(b), highest), &
+          share*bound/link_error(b), order(b), highest_order)
       end do
     end do
   end subroutine choose_orders
@@ -97,6 +99,29 @@ contains
     number = min(max(least_samples, min(count/positions_a_sample, most_samples)), count)
     chosen = [(sound(1 + ((i - 1)*(count - 1))/max(1, number - 1)), i=1, number)]
   end function sample_states
+
+  !> k of the shortest waves of a frequency in a link.
+  !!
+  !! `EI k⁴ − (ρI + EI μ/kGA) ω² k² − μω² (1 − ρI ω²/kGA) = 0`
+  pure function wave_number(body, beam, lambda) result(k)
+    type(body_t), intent(in) :: body
+    type(beam_t), intent(in) :: beam
+    real(wp), intent(in) :: lambda !! ω² [1/s²]
+    real(wp) :: k                  !! [1/m]
+
+    real(wp) :: slender, added
+
+    slender = body%line_density*lambda/beam%bending_stiffness
+    k = slender**0.25_wp
+    if (body%rotary_inertia <= 0.0_wp .and. beam%shear_stiffness <= 0.0_wp) return
+    added = body%rotary_inertia/beam%bending_stiffness
+    if (beam%shear_stiffness > 0.0_wp) then
+      added = added + body%line_density/beam%shear_stiffness
+      slender = slender*(1.0_wp - body%rotary_inertia*lambda/beam%shear_stiffness)
+    end if
+    added = 0.5_wp*added*lambda
+    k = sqrt(added + sqrt(max(0.0_wp, added**2 + slender)))
+  end function wave_number
 
   !> Order for a wave number times length, a bound of the error, and no fewer unknowns than a first model had for all modes.
   pure function guessed_order(wave, bound, first, highest, modes) result(order)
@@ -136,17 +161,6 @@ contains
     end do
     raised = min(order + most_raised, highest)
   end function raised_order
-
-  !> kL of a body at an eigenvalue.
-  pure function wave_of(linkage, beams, body, lambda) result(wave)
-    type(linkage_t), intent(in) :: linkage
-    type(beam_t), intent(in) :: beams(:)
-    integer, intent(in) :: body
-    real(wp), intent(in) :: lambda !! [1/s²]
-    real(wp) :: wave
-
-    wave = linkage%bodies(body)%length*(linkage%bodies(body)%line_density*lambda/beams(body)%bending_stiffness)**0.25_wp
-  end function wave_of
 
   !> The largest error of any mode by link, and the largest eigenvalue, over the samples at the least and the greatest speed.
   subroutine try_samples(linkage, model, positions, chosen, factor, modes, link_error, highest, counts)

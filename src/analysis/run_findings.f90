@@ -11,7 +11,7 @@ module run_findings
   use poses, only: transmission_angle
   use positions, only: positions_t
   use sorting, only: ascending_order
-  use text, only: plural, string_t, to_string
+  use text, only: append_string, plural, string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   implicit none (type, external)
   private
@@ -165,14 +165,23 @@ contains
     type(sweep_t), intent(in) :: sweep
     type(findings_t), intent(inout) :: findings
 
+    type(string_t), allocatable :: more(:)
     integer :: k
 
+    ! Function results by themselves: as arguments gfortran 12 would lose their memory.
     if (.not. needs_frequencies(model)) return
     do k = 1, size(sweep%request%speed)
-      call add_warnings(findings, model%variant, divergences(positions, sweep, k))
+      more = divergences(positions, sweep, k)
+      call add_warnings(findings, model%variant, more)
     end do
-    if (sweep%request%axial) call add_warnings(findings, model%variant, deflections(mechanism, positions, sweep))
-    if (sweep%request%method == by_orders) call add_warnings(findings, model%variant, missed_accuracy(positions, sweep))
+    if (sweep%request%axial) then
+      more = deflections(mechanism, positions, sweep)
+      call add_warnings(findings, model%variant, more)
+    end if
+    if (sweep%request%method == by_orders) then
+      more = missed_accuracy(positions, sweep)
+      call add_warnings(findings, model%variant, more)
+    end if
   end subroutine find_warnings
 
   !> The crank angles at which an eigenvalue is negative at one speed, neighbours of the deck's list drawn together.
@@ -200,8 +209,8 @@ contains
       first = 0
     end do
     if (len(ranges) == 0) return
-    warning = [string_t("static divergence at speed "//to_string(sweep%request%speed(speed), 10)//" rad/s, crank "//ranges// &
-      " deg: an eigenvalue is negative, and so the frequency written")]
+    call append_string(warning, "static divergence at speed "//to_string(sweep%request%speed(speed), 10)//" rad/s, crank "// &
+      ranges//" deg: an eigenvalue is negative, and so the frequency written")
 
   end function divergences
 
@@ -248,9 +257,9 @@ contains
       end do
     end do
     if (largest <= most_deflection) return
-    warning = [string_t("the inertia loads at "//at(positions%crank(at_position), sweep%request%speed(at_speed))// &
+    call append_string(warning, "the inertia loads at "//at(positions%crank(at_position), sweep%request%speed(at_speed))// &
       " deflect link '"//mechanism%names(at_body)%text//"' by "//to_string(100.0_wp*largest, 3)//" % of its length: above "// &
-      to_string(100.0_wp*most_deflection)//" % the axial frequencies begin to mislead")]
+      to_string(100.0_wp*most_deflection)//" % the axial frequencies begin to mislead")
   end function deflections
 
   !> Where a frequency is not as accurate as the deck asks for, mostly because of rounding.
@@ -283,9 +292,9 @@ contains
       end associate
     end do
     if (rows == 0) return
-    warning = [string_t("the accuracy "//to_string(sweep%request%accuracy)//" is not reached in "//plural(rows, "row")// &
+    call append_string(warning, "the accuracy "//to_string(sweep%request%accuracy)//" is not reached in "//plural(rows, "row")// &
       ": the error is up to "//to_string(worst, 2)//", at "//at(positions%crank(at_position), sweep%request%speed(at_speed))// &
-      " (near a dead point or a divergence digits are lost; the error columns tell how many)")]
+      " (near a dead point or a divergence digits are lost; the error columns tell how many)")
   end function missed_accuracy
 
   !> `speed 20 rad/s, crank 45 deg`
@@ -353,7 +362,7 @@ contains
 
     associate (ground => mechanism%linkage%ground_position(:, [1, 4]), length => mechanism%linkage%bodies%length)
       reach = crank_reach(ground, length)
-      notes = [string_t(grashof_class(norm2(ground(:, 2) - ground(:, 1)), length))]
+      call append_string(notes, grashof_class(norm2(ground(:, 2) - ground(:, 1)), length))
     end associate
     at_limits = modulo(limit_angles(reach), 360.0_wp)
     at_limits = at_limits(ascending_order(at_limits))
@@ -363,7 +372,7 @@ contains
       limits = limits//" "//to_string(at_limits(i), 9)
     end do
     if (size(at_limits) > 0) limits = limits//" deg"
-    notes = [notes, string_t(limits)]
+    call append_string(notes, limits)
 
     least = huge(least)
     most = -1.0_wp
@@ -380,9 +389,9 @@ contains
       most = max(most, angle)
     end do
     if (at_least == 0) return
-    notes = [notes, string_t("transmission angle: "//to_string(least)//" deg at crank "// &
+    call append_string(notes, "transmission angle: "//to_string(least)//" deg at crank "// &
       to_string(positions%crank(at_least), 10)//" to "//to_string(most)//" deg at crank "// &
-      to_string(positions%crank(at_most), 10))]
+      to_string(positions%crank(at_most), 10))
   end function linkage_notes
 
 end module run_findings

@@ -4,7 +4,7 @@ module run_statistics
   use frequency_models, only: by_band, by_dense, by_link_modes, by_long_mesh, by_orders
   use frequency_sweep, only: sweep_t
   use kinds, only: long, wp
-  use text, only: plural, string_t, to_string
+  use text, only: append_string, plural, string_t, to_string
   use variant_runs, only: run_totals_t
   implicit none (type, external)
   private
@@ -34,7 +34,7 @@ contains
     integer(long) :: now, rate
 
     call system_clock(now, rate)
-    watch%stages = [watch%stages, string_t(name//" "//to_string(1000.0_wp*real(now - watch%last, wp)/real(rate, wp), 3)//" ms")]
+    call append_string(watch%stages, name//" "//to_string(1000.0_wp*real(now - watch%last, wp)/real(rate, wp), 3)//" ms")
     watch%last = now
   end subroutine stop_stage
 

@@ -5,7 +5,7 @@ module text
   private
 
   public :: string_t, to_string, word_list, joined, plural, lower_case, upper_case, same_word
-  public :: character_count, is_continuation_byte
+  public :: append_string, character_count, is_continuation_byte
 
   !> A line, a word, a name: what an array of texts of different lengths is made of.
   type :: string_t
@@ -20,6 +20,25 @@ module text
   end interface to_string
 
 contains
+
+  !> Lengthens a list by one text. The constructor `[list, string_t(text)]` does the same, but gfortran 12 loses the memory of what
+  !! function results and structure constructors leave in an array constructor.
+  pure subroutine append_string(list, text)
+    type(string_t), allocatable, intent(inout) :: list(:) !! not allocated is as good as empty
+    character(len=*), intent(in) :: text
+
+    type(string_t), allocatable :: longer(:)
+    integer :: i, n
+
+    n = 0
+    if (allocated(list)) n = size(list)
+    allocate (longer(n + 1))
+    do i = 1, n
+      call move_alloc(list(i)%text, longer(i)%text)
+    end do
+    longer(n + 1)%text = text
+    call move_alloc(longer, list)
+  end subroutine append_string
 
   pure function integer_to_string(value) result(string)
     integer, intent(in) :: value

@@ -14,7 +14,7 @@ module units
     to_si, from_si
   public :: dimension_none, dimension_length, dimension_mass, dimension_time, dimension_angle, dimension_rate
   public :: dimension_angular_acceleration, dimension_velocity, dimension_acceleration, dimension_force, dimension_moment
-  public :: dimension_stress, dimension_density, dimension_area, dimension_second_moment
+  public :: dimension_stress, dimension_density, dimension_area, dimension_second_moment, dimension_rotary_inertia
 
   !> Exponents of length, mass, time and angle. An angle counts as a dimension here, so that rpm and 1/s stay apart.
   integer, parameter :: dimension_none(4) = [0, 0, 0, 0]
@@ -30,6 +30,7 @@ module units
   integer, parameter :: dimension_moment(4) = [2, 1, -2, 0]
   integer, parameter :: dimension_stress(4) = [-1, 1, -2, 0]
   integer, parameter :: dimension_density(4) = [-3, 1, 0, 0]
+  integer, parameter :: dimension_rotary_inertia(4) = [1, 1, 0, 0] !! per length of a link
   integer, parameter :: dimension_area(4) = [2, 0, 0, 0]
   integer, parameter :: dimension_second_moment(4) = [4, 0, 0, 0]
 
@@ -57,23 +58,33 @@ contains
   pure function named_units() result(list)
     type(unit_t), allocatable :: list(:)
 
-    list = [ &
-      unit("m", dimension_length, 1.0_wp, 1.0_wp), unit("mm", dimension_length, 1.0_wp, 1000.0_wp), &
-      unit("cm", dimension_length, 1.0_wp, 100.0_wp), unit("in", dimension_length, 254.0_wp, 10000.0_wp), &
-      unit("ft", dimension_length, 3048.0_wp, 10000.0_wp), &
-      unit("kg", dimension_mass, 1.0_wp, 1.0_wp), unit("g", dimension_mass, 1.0_wp, 1000.0_wp), &
-      unit("tonne", dimension_mass, 1000.0_wp, 1.0_wp), unit("lbm", dimension_mass, lbm(1), lbm(2)), &
-      unit("slug", dimension_mass, lbm(1)/1.0e4_wp*gravity(1), lbm(2)/1.0e4_wp*gravity(2)*0.3048_wp), &
-      unit("slinch", dimension_mass, lbm(1)/1.0e4_wp*gravity(1), lbm(2)/1.0e4_wp*gravity(2)*0.0254_wp), &
-      unit("s", dimension_time, 1.0_wp, 1.0_wp), unit("ms", dimension_time, 1.0_wp, 1000.0_wp), &
-      unit("N", dimension_force, 1.0_wp, 1.0_wp), unit("kN", dimension_force, 1000.0_wp, 1.0_wp), &
-      unit("lbf", dimension_force, lbm(1)/1.0e4_wp*gravity(1), lbm(2)/1.0e4_wp*gravity(2)), &
-      unit("Pa", dimension_stress, 1.0_wp, 1.0_wp), unit("kPa", dimension_stress, 1.0e3_wp, 1.0_wp), &
-      unit("MPa", dimension_stress, 1.0e6_wp, 1.0_wp), unit("GPa", dimension_stress, 1.0e9_wp, 1.0_wp), &
-      unit("psi", dimension_stress, lbm(1)/1.0e4_wp*gravity(1), lbm(2)/1.0e4_wp*gravity(2)*0.00064516_wp), &
-      unit("ksi", dimension_stress, lbm(1)/1.0e1_wp*gravity(1), lbm(2)/1.0e4_wp*gravity(2)*0.00064516_wp), &
-      unit("rad", dimension_angle, 1.0_wp, 1.0_wp), unit("deg", dimension_angle, pi, 180.0_wp), &
-      unit("rpm", dimension_rate, pi, 30.0_wp)]
+    ! Not an array constructor, in which gfortran 12 would lose the memory of every name.
+    allocate (list(25))
+    list(1) = unit("m", dimension_length, 1.0_wp, 1.0_wp)
+    list(2) = unit("mm", dimension_length, 1.0_wp, 1000.0_wp)
+    list(3) = unit("cm", dimension_length, 1.0_wp, 100.0_wp)
+    list(4) = unit("in", dimension_length, 254.0_wp, 10000.0_wp)
+    list(5) = unit("ft", dimension_length, 3048.0_wp, 10000.0_wp)
+    list(6) = unit("kg", dimension_mass, 1.0_wp, 1.0_wp)
+    list(7) = unit("g", dimension_mass, 1.0_wp, 1000.0_wp)
+    list(8) = unit("tonne", dimension_mass, 1000.0_wp, 1.0_wp)
+    list(9) = unit("lbm", dimension_mass, lbm(1), lbm(2))
+    list(10) = unit("slug", dimension_mass, lbm(1)/1.0e4_wp*gravity(1), lbm(2)/1.0e4_wp*gravity(2)*0.3048_wp)
+    list(11) = unit("slinch", dimension_mass, lbm(1)/1.0e4_wp*gravity(1), lbm(2)/1.0e4_wp*gravity(2)*0.0254_wp)
+    list(12) = unit("s", dimension_time, 1.0_wp, 1.0_wp)
+    list(13) = unit("ms", dimension_time, 1.0_wp, 1000.0_wp)
+    list(14) = unit("N", dimension_force, 1.0_wp, 1.0_wp)
+    list(15) = unit("kN", dimension_force, 1000.0_wp, 1.0_wp)
+    list(16) = unit("lbf", dimension_force, lbm(1)/1.0e4_wp*gravity(1), lbm(2)/1.0e4_wp*gravity(2))
+    list(17) = unit("Pa", dimension_stress, 1.0_wp, 1.0_wp)
+    list(18) = unit("kPa", dimension_stress, 1.0e3_wp, 1.0_wp)
+    list(19) = unit("MPa", dimension_stress, 1.0e6_wp, 1.0_wp)
+    list(20) = unit("GPa", dimension_stress, 1.0e9_wp, 1.0_wp)
+    list(21) = unit("psi", dimension_stress, lbm(1)/1.0e4_wp*gravity(1), lbm(2)/1.0e4_wp*gravity(2)*0.00064516_wp)
+    list(22) = unit("ksi", dimension_stress, lbm(1)/1.0e1_wp*gravity(1), lbm(2)/1.0e4_wp*gravity(2)*0.00064516_wp)
+    list(23) = unit("rad", dimension_angle, 1.0_wp, 1.0_wp)
+    list(24) = unit("deg", dimension_angle, pi, 180.0_wp)
+    list(25) = unit("rpm", dimension_rate, pi, 30.0_wp)
   end function named_units
 
   pure function unit(name, dimension, numerator, denominator)

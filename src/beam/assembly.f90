@@ -1,8 +1,9 @@
 !> Matrices of the whole linkage.
 module assembly
   use band_matrix, only: add_to_band, band_matrix_t, new_band_matrix
-  use beam_element, only: element_geometric_stiffness, element_mass, element_stiffness, turned_to_global
+  use beam_element, only: element_geometric_stiffness, element_mass, element_stiffness
   use beam_mesh, only: beam_mesh_t, beam_t, element_length
+  use element_axes, only: turned_to_global
   use kinds, only: wp
   use linkages, only: linkage_t
   use poses, only: pose_t
@@ -27,7 +28,7 @@ contains
     stiffness = new_band_matrix(mesh%unknowns, mesh%half_bandwidth)
     do body = 1, size(linkage%bodies)
       element = turned_to_global(element_stiffness(mesh%reference(body), beams(body)%axial_stiffness, &
-        beams(body)%bending_stiffness, element_length(mesh, linkage, body)), pose%direction(:, body))
+        beams(body)%bending_stiffness, element_length(mesh, linkage, body), beams(body)%shear_stiffness), pose%direction(:, body))
       do i = mesh%first_element(body), mesh%first_element(body) + mesh%elements(body) - 1
         call add_to_band(stiffness, element, mesh%unknown(:size(element, 1), i))
       end do
@@ -47,7 +48,7 @@ contains
     mass = new_band_matrix(mesh%unknowns, mesh%half_bandwidth)
     do body = 1, size(linkage%bodies)
       element = turned_to_global(element_mass(mesh%reference(body), linkage%bodies(body)%line_density, &
-        element_length(mesh, linkage, body)), pose%direction(:, body))
+        element_length(mesh, linkage, body), linkage%bodies(body)%rotary_inertia), pose%direction(:, body))
       do i = mesh%first_element(body), mesh%first_element(body) + mesh%elements(body) - 1
         call add_to_band(mass, element, mesh%unknown(:size(element, 1), i))
       end do

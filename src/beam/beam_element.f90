@@ -5,6 +5,11 @@
 !! on that interval: those across have `d²v/dξ² = P_j` for j = 2 … p−2 and neither value nor slope at the ends, those along have
 !! `du/dξ = P_j` for j = 1 … q−1. So no stiffness couples a bubble with another unknown. Bubbles are lengths [m].
 !!
+!! With shear, θ is the rotation of cross-sections, the unknowns above bend without shear strain (θ = v'), and p − 1 others follow the
+!! bubbles along: shear strains `γ = v' − θ = P_j/length`, j = 0 … p−2. For j ≥ 1 they turn nothing and v vanishes at the nodes; the
+!! uniform one comes with the curvature `6 P_1/length²` that brings v and θ back to zero there. As the shear stiffness grows these
+!! unknowns stiffen like axial ones, and the slender element remains: nothing locks.
+!!
 !! Matrices are made of the Legendre coefficients of the shapes: integrals are then sums over orthogonal polynomials, exact but for
 !! rounding whatever the order. Values come from the recurrence. Powers of ξ would lose all digits at high orders.
 module beam_element
@@ -14,14 +19,17 @@ module beam_element
   private
 
   public :: reference_element_t, new_reference_element, axial_degree, element_unknowns
-  public :: element_mass, element_stiffness, element_geometric_stiffness, turned_to_global, to_local, interpolate
+  public :: element_mass, element_stiffness, element_geometric_stiffness, interpolate
 
   !> Everything about an element that depends on its order only: length 1, rotations multiplied by the length.
   type :: reference_element_t
     integer :: order = 0                          !! p
+    logical :: sheared = .false.
     real(wp), allocatable :: mass(:, :)           !! (unknowns, unknowns) ∫ u² + v² dξ
     real(wp), allocatable :: axial(:, :)          !! (unknowns, unknowns) ∫ (du/dξ)² dξ
     real(wp), allocatable :: bending(:, :)        !! (unknowns, unknowns) ∫ (d²v/dξ²)² dξ
+    real(wp), allocatable :: rotary(:, :)         !! (unknowns, unknowns) ∫ θ² dξ
+    real(wp), allocatable :: shear(:, :)          !! (unknowns, unknowns) ∫ γ² dξ; not allocated without shear
     real(wp), allocatable :: geometric(:, :, :)   !! (unknowns, unknowns, 0:2) ∫ ξⁱ (dv/dξ)² dξ
   end type reference_element_t
 
@@ -38,35 +46,49 @@ contains
     degree = merge(1, order/3 + 1, order == 3)
   end function axial_degree
 
-  !> Six at the nodes, p − 3 bubbles across and q − 1 along.
-  elemental function element_unknowns(order) result(unknowns)
+  !> Six at the nodes, p − 3 bubbles across and q − 1 along; with shear p − 1 more.
+  elemental function element_unknowns(order, sheared) result(unknowns)
     integer, intent(in) :: order
+    logical, intent(in), optional :: sheared !! absent: no
     integer :: unknowns
 
     unknowns = order + axial_degree(order) + 2
+    if (.not. present(sheared)) return
+    if (sheared) unknowns = unknowns + order - 1
   end function element_unknowns
 
-  !> Makes the matrices of an order. Shapes are integrated from their strains, with 1 added where u, v or v' begins with 1.
-  pure function new_reference_element(order) result(element)
+  !> Makes the matrices of an order. Shapes are integrated from their strains, with 1 added where u, v or θ begins with 1.
+  pure function new_reference_element(order, sheared) result(element)
     integer, intent(in) :: order !! p, at least 3
+    logical, intent(in), optional :: sheared !! absent: no
     type(reference_element_t) :: element
 
-    real(wp), dimension(0:order, element_unknowns(order)) :: strain, curvature, along, across, slope, slope_xi
+    real(wp), dimension(:, :), allocatable :: strain, curvature, shear, along, across, turn, slope, slope_xi !! (0:p, unknowns)
     integer :: n
 
-    n = element_unknowns(order)
-    strain = strain_coefficients(order)
+    element%order = order
+    if (present(sheared)) element%sheared = sheared
+    n = element_unknowns(order, element%sheared)
+    ! On assignment alone they would begin with 1.
+    allocate (strain(0:order, n), curvature(0:order, n), along(0:order, n), across(0:order, n), turn(0:order, n), slope(0:order, n))
+    strain = strain_coefficients(order, n)
     along = integrated(strain)
     along(0, 1) = along(0, 1) + 1.0_wp
-    curvature = curvature_coefficients(order)
-    slope = integrated(curvature)
-    slope(0, 3) = slope(0, 3) + 1.0_wp
+    curvature = curvature_coefficients(order, n)
+    turn = integrated(curvature)
+    turn(0, 3) = turn(0, 3) + 1.0_wp
+    slope = turn
+    if (element%sheared) then
+      shear = shear_coefficients(order, n)
+      element%shear = products(shear, shear)
+      slope = slope + shear
+    end if
     across = integrated(slope)
     across(0, 2) = across(0, 2) + 1.0_wp
     slope_xi = times_xi(slope)
 
-    element%order = order
     element%mass = products(along, along) + products(across, across)
+    element%rotary = products(turn, turn)
     element%axial = products(strain, strain)
     element%bending = products(curvature, curvature)
     allocate (element%geometric(n, n, 0:2))
@@ -76,36 +98,57 @@ contains
   end function new_reference_element
 
   !> Legendre coefficients of du/dξ for each unknown.
-  pure function strain_coefficients(order) result(strain)
-    integer, intent(in) :: order
-    real(wp) :: strain(0:order, element_unknowns(order))
+  pure function strain_coefficients(order, unknowns) result(strain)
+    integer, intent(in) :: order, unknowns
+    real(wp) :: strain(0:order, unknowns)
 
     integer :: j
 
     strain = 0.0_wp
     strain(0, 1) = -1.0_wp
-    strain(0, element_unknowns(order) - 2) = 1.0_wp
+    strain(0, unknowns - 2) = 1.0_wp
     do j = 1, axial_degree(order) - 1
       strain(j, order + j) = 1.0_wp
     end do
   end function strain_coefficients
 
-  !> Legendre coefficients of d²v/dξ² for each unknown; the nodal ones are those of (2.71): 6(2ξ − 1), −1 + 3(2ξ − 1), …
-  pure function curvature_coefficients(order) result(curvature)
-    integer, intent(in) :: order
-    real(wp) :: curvature(0:order, element_unknowns(order))
+  !> Legendre coefficients of dθ/dξ for each unknown; the nodal ones are those of (2.71): 6(2ξ − 1), −1 + 3(2ξ − 1), …
+  pure function curvature_coefficients(order, unknowns) result(curvature)
+    integer, intent(in) :: order, unknowns
+    real(wp) :: curvature(0:order, unknowns)
 
-    integer :: j, n
+    integer :: j
 
-    n = element_unknowns(order)
     curvature = 0.0_wp
-    curvature(1, [2, n - 1]) = [6.0_wp, -6.0_wp]
-    curvature(0, [3, n]) = [-1.0_wp, 1.0_wp]
-    curvature(1, [3, n]) = 3.0_wp
+    curvature(1, [2, unknowns - 1]) = [6.0_wp, -6.0_wp]
+    curvature(0, [3, unknowns]) = [-1.0_wp, 1.0_wp]
+    curvature(1, [3, unknowns]) = 3.0_wp
     do j = 2, order - 2
       curvature(j, j + 2) = 1.0_wp
     end do
+    if (unknowns > element_unknowns(order)) curvature(1, first_shear(order)) = 6.0_wp
   end function curvature_coefficients
+
+  !> Legendre coefficients of the shear strain for each unknown.
+  pure function shear_coefficients(order, unknowns) result(shear)
+    integer, intent(in) :: order, unknowns
+    real(wp) :: shear(0:order, unknowns)
+
+    integer :: j
+
+    shear = 0.0_wp
+    do j = 0, order - 2
+      shear(j, first_shear(order) + j) = 1.0_wp
+    end do
+  end function shear_coefficients
+
+  !> Number of the uniform shear strain among the unknowns, where there is one.
+  elemental function first_shear(order) result(first)
+    integer, intent(in) :: order
+    integer :: first
+
+    first = element_unknowns(order) - 2
+  end function first_shear
 
   !> Coefficients of `∫ f dξ` from 0: `∫ P_j = (P_{j+1} − P_{j−1})/(2(2j + 1))` and `∫ P_0 = (P_0 + P_1)/2`.
   pure function integrated(coefficients) result(integral)
@@ -155,24 +198,30 @@ contains
   end function products
 
   !> Consistent mass matrix; Ulker 2010 (2.78) for order 3.
-  pure function element_mass(reference, line_density, length) result(mass)
+  pure function element_mass(reference, line_density, length, rotary_inertia) result(mass)
     type(reference_element_t), intent(in) :: reference
     real(wp), intent(in) :: line_density !! ρA [kg/m]
     real(wp), intent(in) :: length       !! [m]
+    real(wp), intent(in), optional :: rotary_inertia !! ρI [kg m]; absent: none
     real(wp) :: mass(size(reference%mass, 1), size(reference%mass, 2)) !! [kg, kg m, kg m²]
 
     mass = line_density*length*with_lengths(reference%mass, length)
+    if (.not. present(rotary_inertia)) return
+    if (rotary_inertia > 0.0_wp) mass = mass + rotary_inertia/length*with_lengths(reference%rotary, length)
   end function element_mass
 
   !> Stiffness matrix; Ulker 2010 (2.79) with entry (3, 6) = +2EI/L for order 3.
-  pure function element_stiffness(reference, axial, bending, length) result(stiffness)
+  pure function element_stiffness(reference, axial, bending, length, shear) result(stiffness)
     type(reference_element_t), intent(in) :: reference
     real(wp), intent(in) :: axial        !! EA [N]
     real(wp), intent(in) :: bending      !! EI [N m²]
     real(wp), intent(in) :: length       !! [m]
+    real(wp), intent(in), optional :: shear !! kGA of an element with shear [N]
     real(wp) :: stiffness(size(reference%axial, 1), size(reference%axial, 2)) !! [N/m, N, N m]
 
-    stiffness = with_lengths(axial/length*reference%axial + bending/length**3*reference%bending, length)
+    stiffness = axial/length*reference%axial + bending/length**3*reference%bending
+    if (reference%sheared .and. present(shear)) stiffness = stiffness + shear/length*reference%shear
+    stiffness = with_lengths(stiffness, length)
   end function element_stiffness
 
   !> Geometric stiffness `∫ N v'² dx` of an axial force `N(ξ) = n0 + n1 ξ + n2 ξ²`, ξ from 0 to 1 along the element.
@@ -202,57 +251,8 @@ contains
     scaled(:, [3, n]) = scaled(:, [3, n])*length
   end function with_lengths
 
-  !> An element matrix in the global axes: `Tᵀ A T`, T made of the transpose of (2.75) at either node. Bubbles do not turn.
-  pure function turned_to_global(matrix, direction) result(turned)
-    real(wp), intent(in) :: matrix(:, :)
-    real(wp), intent(in) :: direction(2) !! unit vector along the element
-    real(wp) :: turned(size(matrix, 1), size(matrix, 2))
-
-    real(wp) :: t(2, 2)
-    integer :: first(2), k
-
-    t = rotation(direction)
-    first = first_of_nodes(size(matrix, 1))
-    turned = matrix
-    do k = 1, 2
-      turned(:, first(k):first(k) + 1) = matmul(turned(:, first(k):first(k) + 1), t)
-    end do
-    do k = 1, 2
-      turned(first(k):first(k) + 1, :) = matmul(transpose(t), turned(first(k):first(k) + 1, :))
-    end do
-  end function turned_to_global
-
-  !> Unknowns of an element with nodal displacements in global axes, seen in the element's own.
-  pure function to_local(displacement, direction) result(local)
-    real(wp), intent(in) :: displacement(:)
-    real(wp), intent(in) :: direction(2)
-    real(wp) :: local(size(displacement))
-
-    integer :: first(2), k
-
-    first = first_of_nodes(size(displacement))
-    local = displacement
-    do k = 1, 2
-      local(first(k):first(k) + 1) = matmul(rotation(direction), displacement(first(k):first(k) + 1))
-    end do
-  end function to_local
-
-  !> Where the displacements of either node stand among the unknowns of an element.
-  pure function first_of_nodes(unknowns) result(first)
-    integer, intent(in) :: unknowns
-    integer :: first(2)
-
-    first = [1, unknowns - 2]
-  end function first_of_nodes
-
-  pure function rotation(direction) result(t)
-    real(wp), intent(in) :: direction(2)
-    real(wp) :: t(2, 2)
-
-    t = reshape([direction(1), -direction(2), direction(2), direction(1)], [2, 2])
-  end function rotation
-
-  !> Displacement inside the element: along it, across it, and the rotation v'. Equation (2.71), and the bubbles.
+  !> Displacement inside the element: along it, across it, and the rotation of its cross-section. Equation (2.71), bubbles, and
+  !! with shear what its strains do.
   !!
   !! Bubbles are differences of polynomials that are equal at the ends to the last bit, so that the nodes are met exactly.
   pure function interpolate(order, local, length, xi) result(displacement)
@@ -263,9 +263,10 @@ contains
     real(wp) :: displacement(3)
 
     real(wp) :: shape(4), slope(4), p(0:order), once(1:order - 1), twice(2:order - 2)
-    integer :: j, n
+    integer :: j, n, first
 
     n = size(local)
+    first = first_shear(order)
     shape = [(1.0_wp - xi)**2*(1.0_wp + 2.0_wp*xi), length*xi*(1.0_wp - xi)**2, &
       xi**2*(3.0_wp - 2.0_wp*xi), length*xi**2*(xi - 1.0_wp)]
     slope = [-6.0_wp*xi*(1.0_wp - xi)/length, (1.0_wp - xi)*(1.0_wp - 3.0_wp*xi), 6.0_wp*xi*(1.0_wp - xi)/length, &
@@ -273,9 +274,13 @@ contains
     p = legendre_values(order, 2.0_wp*xi - 1.0_wp)
     once = [((p(j + 1) - p(j - 1))/(2*(2*j + 1)), j=1, order - 1)]
     twice = [((once(j + 1) - once(j - 1))/(2*(2*j + 1)), j=2, order - 2)]
-    displacement(1) = (1.0_wp - xi)*local(1) + xi*local(n - 2) + dot_product(once(:n - 3 - order), local(order + 1:n - 3))
+    displacement(1) = (1.0_wp - xi)*local(1) + xi*local(n - 2) + dot_product(once(:first - 1 - order), local(order + 1:first - 1))
     displacement(2) = dot_product(shape, local([2, 3, n - 1, n])) + dot_product(twice, local(4:order))
     displacement(3) = dot_product(slope, local([2, 3, n - 1, n])) + dot_product(once(2:order - 2), local(4:order))/length
+    if (n == element_unknowns(order)) return
+    displacement(2) = displacement(2) + xi*(1.0_wp - xi)*(1.0_wp - 2.0_wp*xi)*local(first) + &
+      dot_product(once(:order - 2), local(first + 1:n - 3))
+    displacement(3) = displacement(3) - 6.0_wp*xi*(1.0_wp - xi)*local(first)/length
   end function interpolate
 
 end module beam_element

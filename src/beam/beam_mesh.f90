@@ -2,7 +2,7 @@
 !!
 !! Nodes are numbered round the loop as in the thesis: every body has its own nodes, so that a pin between two bodies is two
 !! nodes in one place. Unknowns are numbered along the same way; at a pin the rotation of the body that ends comes before the
-!! displacements that both share, and these before the rotation of the body that begins. Bubbles come
+!! displacements that both share, and these before the rotation of the body that begins. Bubbles and shear strains come
 !! between the nodes of their element. So the half bandwidth of a chain of bodies is one less than the unknowns of its largest
 !! element, 5 for order 3, whatever the number of elements.
 module beam_mesh
@@ -12,21 +12,23 @@ module beam_mesh
   implicit none (type, external)
   private
 
-  public :: beam_t, beam_mesh_t, new_beam_mesh, element_count, element_length
+  public :: beam_t, beam_mesh_t, new_beam_mesh, element_count, element_length, moving_unknowns
 
   !> What a body is made of, as a beam.
   type :: beam_t
     real(wp) :: axial_stiffness = 0.0_wp   !! EA [N]
     real(wp) :: bending_stiffness = 0.0_wp !! EI [N m²]
+    real(wp) :: shear_stiffness = 0.0_wp   !! kGA [N]; 0: rigid in shear
   end type beam_t
 
   type :: beam_mesh_t
     integer, allocatable :: elements(:)       !! (bodies) elements of each body, all of one length
     integer, allocatable :: order(:)          !! (bodies) of its elements
+    logical :: sheared = .false.              !! elements have shear strains
     integer, allocatable :: first_element(:)  !! (bodies) number of its first element
     integer, allocatable :: first_node(:)     !! (bodies) number of its first node; its element i joins nodes i and i + 1 from here
-    !> (largest element, elements) of u1 v1 θ1, bubbles, u2 v2 θ2 as in the element, nodal displacements in global axes; 0: held.
-    !! An element has as many as its order asks for, and zeros beyond.
+    !> (largest element, elements) of u1 v1 θ1, bubbles, shear strains, u2 v2 θ2 as in the element, nodal displacements in global
+    !! axes; 0: held. An element has as many as its order asks for, and zeros beyond.
     integer, allocatable :: unknown(:, :)
     integer, allocatable :: pin_unknown(:, :) !! (2, pins) of the displacements of pins; 0: held
     type(reference_element_t), allocatable :: reference(:) !! (bodies) what its elements have in common
@@ -37,10 +39,11 @@ module beam_mesh
 contains
 
   !> Numbers nodes and unknowns. The driven body is clamped at its first pin, the other grounds hold their pin (thesis, 3.2.2).
-  pure function new_beam_mesh(linkage, elements, orders) result(mesh)
+  pure function new_beam_mesh(linkage, elements, orders, sheared) result(mesh)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: elements(:) !! (bodies)
     integer, intent(in) :: orders(:)   !! (bodies) at least 3
+    logical, intent(in), optional :: sheared !! absent: no
     type(beam_mesh_t) :: mesh
 
     integer :: body, i
@@ -48,15 +51,17 @@ contains
 
     mesh%elements = elements
     mesh%order = orders
+    if (present(sheared)) mesh%sheared = sheared
     mesh%first_element = [(1 + sum(elements(:body - 1)), body=1, size(elements))]
     mesh%first_node = [(body + sum(elements(:body - 1)), body=1, size(elements))]
-    allocate (mesh%unknown(maxval(element_unknowns(orders)), sum(elements)), mesh%pin_unknown(2, size(linkage%is_ground)))
+    allocate (mesh%unknown(maxval(element_unknowns(orders, mesh%sheared)), sum(elements)))
+    allocate (mesh%pin_unknown(2, size(linkage%is_ground)))
     allocate (mesh%reference(size(elements)))
     mesh%unknown = 0
     mesh%pin_unknown = 0
     placed = linkage%is_ground
     do body = 1, size(elements)
-      mesh%reference(body) = new_reference_element(orders(body))
+      mesh%reference(body) = new_reference_element(orders(body), mesh%sheared)
       call number_body(mesh, linkage, body, placed)
     end do
     mesh%half_bandwidth = 0
@@ -74,7 +79,7 @@ contains
     integer, intent(in) :: body
     logical, intent(inout) :: placed(:) !! (pins)
 
-    integer :: i, n, node(3), last_node(3), bubble(element_unknowns(mesh%order(body)) - 6)
+    integer :: i, n, node(3), last_node(3), bubble(element_unknowns(mesh%order(body), mesh%sheared) - 6)
 
     n = size(bubble) + 6
     associate (first => linkage%bodies(body)%first_pin, last => linkage%bodies(body)%last_pin)
@@ -124,6 +129,20 @@ contains
 
     count = size(mesh%unknown, 2)
   end function element_count
+
+  !> How many modes of a finite frequency a mesh has.
+  !!
+  !! With shear and without rotary inertia cross-sections that turn, the axis at rest, move no mass: θ = −γ, continuous along a link
+  !! and of degree p − 2 in its elements, zero at the clamp.
+  pure function moving_unknowns(mesh, linkage) result(number)
+    type(beam_mesh_t), intent(in) :: mesh
+    type(linkage_t), intent(in) :: linkage
+    integer :: number
+
+    number = mesh%unknowns
+    if (.not. mesh%sheared .or. any(linkage%bodies%rotary_inertia > 0.0_wp)) return
+    number = number - sum(mesh%elements*(mesh%order - 2) + 1) + 1
+  end function moving_unknowns
 
   !> Length of the elements of a body [m].
   pure function element_length(mesh, linkage, body) result(length)

@@ -1,7 +1,8 @@
 !> Displacements along the links, from the unknowns of their elements.
 module deflected_shape
-  use beam_element, only: element_unknowns, interpolate, to_local
+  use beam_element, only: element_unknowns, interpolate
   use beam_mesh, only: beam_mesh_t, element_length
+  use element_axes, only: to_local
   use kinds, only: wp
   use linkages, only: linkage_t, normal_to
   use poses, only: pose_t
@@ -39,7 +40,7 @@ contains
     type(beam_mesh_t), intent(in) :: mesh
     real(wp), intent(in) :: vector(:)
     integer, intent(in) :: body, i
-    real(wp) :: values(element_unknowns(mesh%order(body)))
+    real(wp) :: values(element_unknowns(mesh%order(body), mesh%sheared))
 
     integer :: k
 

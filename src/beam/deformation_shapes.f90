@@ -1,7 +1,8 @@
-!> A link's own deformations as unknowns: Legendre coefficients of its curvature and strain, element by element.
+!> A link's own deformations as unknowns: Legendre coefficients of its curvature, shear strain and axial strain, element by element.
 !!
 !! Scaled as here, these unknowns have the elastic energy `½ yᵀy`: the stiffness matrix is the unit matrix, exact and the same at
-!! every position. In an element of length h the curvature is `v'' = Σ y_j √((2j+1)/(EI h)) P_j`, and the strain likewise with EA.
+!! every position. In an element of length h the curvature is `θ' = Σ y_j √((2j+1)/(EI h)) P_j`, the shear strain `v' − θ` likewise
+!! with kGA, the axial strain with EA. θ is the rotation of cross-sections; without shear it is v'.
 !! Displacements are counted from the chord: they vanish at both ends of the link.
 module deformation_shapes
   use kinds, only: wp
@@ -9,19 +10,23 @@ module deformation_shapes
   implicit none (type, external)
   private
 
-  public :: deformation_shapes_t, bending_shapes, axial_shapes, displacement_row, slope_row, curve, once_integrated
+  public :: deformation_shapes_t, bending_shapes, axial_shapes, bending_unknowns, shear_scale, curve, once_integrated
 
   !> What every unknown does. A function of the place is held as its Legendre coefficients in every element, one after the other,
-  !! each coefficient times √(μ h/(2j+1)): then `∫ μ f g dx` is the scalar product.
+  !! each coefficient times √(μ h/(2j+1)): then `∫ μ f g dx` is the scalar product. With rotary inertia those of its rotation
+  !! follow, times √(ρI h/(2j+1)), and the scalar product is `∫ μ f g + ρI θ_f θ_g dx`.
   type :: deformation_shapes_t
     real(wp) :: length = 0.0_wp                  !! of the link [m]
+    real(wp) :: shear_stiffness = 0.0_wp         !! kGA [N]; 0: rigid in shear
     integer :: elements = 0
     integer :: coefficients = 0                  !! of the displacement in an element
+    integer :: rotations = 0                     !! coefficients of the rotation in an element; none without rotary inertia
     integer :: unknowns = 0
-    real(wp), allocatable :: displacement(:, :)  !! (coefficients × elements, unknowns) scaled
-    real(wp), allocatable :: linear(:, :)        !! (coefficients × elements, 2) the functions 1 − ξ and ξ, scaled
+    real(wp), allocatable :: displacement(:, :)  !! (coefficients × elements, then rotations × elements; unknowns) scaled
+    real(wp), allocatable :: linear(:, :)        !! (as displacement, 2) the functions 1 − ξ and ξ, scaled
     real(wp), allocatable :: weight(:)           !! (coefficients) the scale √(μ h/(2j+1))
-    real(wp), allocatable :: start_slope(:)      !! (unknowns) v' at the link's first end; bending only
+    real(wp), allocatable :: rotation_weight(:)  !! (rotations) the scale √(ρI h/(2j+1))
+    real(wp), allocatable :: start_slope(:)      !! (unknowns) θ at the link's first end; bending only
     real(wp), allocatable :: slope(:, :)         !! (Gauss points, unknowns) v' times √(Gauss weight); bending only
     real(wp), allocatable :: place(:)            !! (Gauss points) ξ, from 0 to 1 along the link
     real(wp), allocatable :: root(:)             !! (Gauss points) √(Gauss weight) [√m]
@@ -29,45 +34,97 @@ module deformation_shapes
 
 contains
 
-  !> Unknowns of the transverse displacement of polynomial degree `order` in every element: `order − 1` an element.
-  pure function bending_shapes(length, line_density, bending_stiffness, elements, order) result(shapes)
+  !> Unknowns of an element whose transverse displacement is of degree `order`: curvatures of degree 0 to order − 2, and with shear
+  !! as many shear strains, each after the curvature of its degree.
+  elemental function bending_unknowns(order, sheared) result(unknowns)
+    integer, intent(in) :: order
+    logical, intent(in) :: sheared
+    integer :: unknowns
+
+    unknowns = merge(2, 1, sheared)*(order - 1)
+  end function bending_unknowns
+
+  !> `√((2j+1)/(kGA h))`: shear strain P_j of a unit unknown [1/√J].
+  elemental function shear_scale(j, shear_stiffness, h) result(scale)
+    integer, intent(in) :: j
+    real(wp), intent(in) :: shear_stiffness !! kGA [N]
+    real(wp), intent(in) :: h               !! [m]
+    real(wp) :: scale
+
+    scale = sqrt((2*j + 1)/(shear_stiffness*h))
+  end function shear_scale
+
+  !> Unknowns of the transverse displacement of polynomial degree `order` in every element.
+  !!
+  !! As kGA grows, what the shear strains do vanishes like 1/√kGA, and slender beams remain: nothing locks.
+  pure function bending_shapes(length, line_density, bending_stiffness, elements, order, shear_stiffness, rotary_inertia) &
+      result(shapes)
     real(wp), intent(in) :: length            !! [m]
     real(wp), intent(in) :: line_density      !! μ [kg/m]
     real(wp), intent(in) :: bending_stiffness !! EI [N m²]
     integer, intent(in) :: elements
     integer, intent(in) :: order              !! at least 3
+    real(wp), intent(in), optional :: shear_stiffness !! kGA [N]; absent or 0: rigid in shear
+    real(wp), intent(in), optional :: rotary_inertia  !! ρI [kg m]; absent or 0: none
     type(deformation_shapes_t) :: shapes
 
-    real(wp) :: h, scale, end_value, end_slope, chord, coefficient(0:order), slope_coefficient(0:order), line(0:1)
-    integer :: e, j, k, column
+    real(wp) :: h, scale, coefficient(0:order), slope_coefficient(0:order)
+    integer :: e, j, column
+    logical :: sheared
 
-    shapes = empty_shapes(length, line_density, elements, order + 1, elements*(order - 1))
+    sheared = .false.
+    if (present(shear_stiffness)) sheared = shear_stiffness > 0.0_wp
+    shapes = empty_shapes(length, line_density, elements, order + 1, elements*bending_unknowns(order, sheared), rotary_inertia)
+    if (sheared) shapes%shear_stiffness = shear_stiffness
     h = length/elements
     allocate (shapes%start_slope(shapes%unknowns))
     call place_gauss_points(shapes, order + 1)
     allocate (shapes%slope(size(shapes%place), shapes%unknowns))
+    column = 0
     do e = 1, elements
       do j = 0, order - 2
-        column = (e - 1)*(order - 1) + j + 1
+        column = column + 1
         scale = 0.5_wp*h*sqrt((2*j + 1)/(bending_stiffness*h))
         slope_coefficient = 0.0_wp
         slope_coefficient(:j + 1) = scale*once_integrated(j)
         coefficient = 0.0_wp
         coefficient(:j + 2) = 0.5_wp*h*scale*curve(j)
         ! Beyond its element a curvature P_0 has turned the link, and P_0 and P_1 have moved it; the chord takes both back.
-        end_slope = merge(2.0_wp*scale, 0.0_wp, j == 0)
-        end_value = 0.5_wp*h*scale*merge(2.0_wp - 8.0_wp/3.0_wp*j, 0.0_wp, j < 2)
-        chord = (end_value + end_slope*h*(elements - e))/length
-        shapes%start_slope(column) = -chord
-        do k = 1, elements
-          line = -chord*h*[k - 0.5_wp, 0.5_wp]
-          if (k > e) line = line + [end_value + end_slope*h*(k - e - 0.5_wp), 0.5_wp*h*end_slope]
-          call set_element(shapes, k, column, line, slope=-chord + merge(end_slope, 0.0_wp, k > e))
-        end do
-        call add_in_element(shapes, e, column, coefficient, slope_coefficient)
+        call add_unknown(shapes, e, column, 0.5_wp*h*scale*merge(2.0_wp - 8.0_wp/3.0_wp*j, 0.0_wp, j < 2), &
+          merge(2.0_wp*scale, 0.0_wp, j == 0), coefficient, slope_coefficient, .true.)
+        if (.not. sheared) cycle
+        column = column + 1
+        scale = shear_scale(j, shear_stiffness, h)
+        slope_coefficient = 0.0_wp
+        slope_coefficient(j) = scale
+        coefficient = 0.0_wp
+        coefficient(:j + 1) = 0.5_wp*h*scale*once_integrated(j)
+        call add_unknown(shapes, e, column, merge(h*scale, 0.0_wp, j == 0), 0.0_wp, coefficient, slope_coefficient, .false.)
       end do
     end do
   end function bending_shapes
+
+  !> What one unknown does along the link: in its element, beyond it, and to the chord.
+  pure subroutine add_unknown(shapes, e, column, end_value, end_slope, coefficient, slope_coefficient, turns)
+    type(deformation_shapes_t), intent(inout) :: shapes
+    integer, intent(in) :: e, column
+    real(wp), intent(in) :: end_value, end_slope   !! displacement and slope at the end of its element, grown in it
+    real(wp), intent(in) :: coefficient(0:), slope_coefficient(0:) !! Legendre coefficients of both in it
+    logical, intent(in) :: turns                   !! cross-sections follow the slope
+
+    real(wp) :: h, chord, line(0:1)
+    integer :: k
+
+    h = shapes%length/shapes%elements
+    chord = (end_value + end_slope*h*(shapes%elements - e))/shapes%length
+    shapes%start_slope(column) = -chord
+    do k = 1, shapes%elements
+      line = -chord*h*[k - 0.5_wp, 0.5_wp]
+      if (k > e) line = line + [end_value + end_slope*h*(k - e - 0.5_wp), 0.5_wp*h*end_slope]
+      call set_element(shapes, k, column, line, slope=-chord + merge(end_slope, 0.0_wp, k > e))
+    end do
+    call add_in_element(shapes, e, column, coefficient, slope_coefficient, turns)
+  end subroutine add_unknown
 
   !> Unknowns of the axial displacement of polynomial degree `degree` in every element. The elongation of the link as a whole is not
   !! among them: the uniform strain is taken out, and the displacement vanishes at both ends.
@@ -103,9 +160,10 @@ contains
     end do
   end function axial_shapes
 
-  pure function empty_shapes(length, line_density, elements, coefficients, unknowns) result(shapes)
+  pure function empty_shapes(length, line_density, elements, coefficients, unknowns, rotary_inertia) result(shapes)
     real(wp), intent(in) :: length, line_density
     integer, intent(in) :: elements, coefficients, unknowns
+    real(wp), intent(in), optional :: rotary_inertia
     type(deformation_shapes_t) :: shapes
 
     real(wp) :: h
@@ -117,7 +175,15 @@ contains
     shapes%unknowns = unknowns
     h = length/elements
     shapes%weight = [(sqrt(line_density*h/(2*j + 1)), j=0, coefficients - 1)]
-    allocate (shapes%displacement(coefficients*elements, unknowns), shapes%linear(coefficients*elements, 2))
+    allocate (shapes%rotation_weight(0))
+    if (present(rotary_inertia)) then
+      if (rotary_inertia > 0.0_wp) then
+        shapes%rotations = coefficients - 1
+        shapes%rotation_weight = [(sqrt(rotary_inertia*h/(2*j + 1)), j=0, shapes%rotations - 1)]
+      end if
+    end if
+    allocate (shapes%displacement((coefficients + shapes%rotations)*elements, unknowns))
+    allocate (shapes%linear(size(shapes%displacement, 1), 2))
     shapes%displacement = 0.0_wp
     shapes%linear = 0.0_wp
     do k = 1, elements
@@ -125,8 +191,19 @@ contains
         shapes%linear(row + 1:row + 2, 1) = shapes%weight(1:2)*[1.0_wp - (k - 0.5_wp)/elements, -0.5_wp/elements]
         shapes%linear(row + 1:row + 2, 2) = shapes%weight(1:2)*[(k - 0.5_wp)/elements, 0.5_wp/elements]
       end associate
+      if (shapes%rotations == 0) cycle
+      shapes%linear(first_rotation(shapes, k), :) = shapes%rotation_weight(1)/length*[-1.0_wp, 1.0_wp]
     end do
   end function empty_shapes
+
+  !> Row in `displacement` of the first coefficient of the rotation in an element.
+  pure function first_rotation(shapes, element) result(row)
+    type(deformation_shapes_t), intent(in) :: shapes
+    integer, intent(in) :: element
+    integer :: row
+
+    row = shapes%coefficients*shapes%elements + (element - 1)*shapes%rotations + 1
+  end function first_rotation
 
   !> Gauss points of all elements, enough for `∫ N v'²` with a quadratic N.
   pure subroutine place_gauss_points(shapes, points)
@@ -144,7 +221,7 @@ contains
     end do
   end subroutine place_gauss_points
 
-  !> Gives an unknown a linear displacement in an element, `line(0) + line(1) ζ`, and its slope.
+  !> Gives an unknown a linear displacement in an element, `line(0) + line(1) ζ`, and its slope, which cross-sections share.
   pure subroutine set_element(shapes, element, column, line, slope)
     type(deformation_shapes_t), intent(inout) :: shapes
     integer, intent(in) :: element, column
@@ -156,6 +233,7 @@ contains
     row = (element - 1)*shapes%coefficients
     shapes%displacement(row + 1:row + 2, column) = shapes%weight(1:2)*line
     if (.not. present(slope)) return
+    if (shapes%rotations > 0) shapes%displacement(first_rotation(shapes, element), column) = shapes%rotation_weight(1)*slope
     points = size(shapes%place)/shapes%elements
     associate (here => (element - 1)*points)
       shapes%slope(here + 1:here + points, column) = slope*shapes%root(here + 1:here + points)
@@ -163,11 +241,12 @@ contains
   end subroutine set_element
 
   !> Adds what an unknown does in its own element.
-  pure subroutine add_in_element(shapes, element, column, coefficient, slope_coefficient)
+  pure subroutine add_in_element(shapes, element, column, coefficient, slope_coefficient, turns)
     type(deformation_shapes_t), intent(inout) :: shapes
     integer, intent(in) :: element, column
     real(wp), intent(in) :: coefficient(0:)
     real(wp), intent(in), optional :: slope_coefficient(0:)
+    logical, intent(in), optional :: turns !! cross-sections have the slope as well; with `slope_coefficient`
 
     real(wp) :: zeta
     integer :: row, points, i
@@ -177,6 +256,13 @@ contains
       entry = entry + shapes%weight(:size(coefficient))*coefficient
     end associate
     if (.not. present(slope_coefficient)) return
+    if (turns .and. shapes%rotations > 0) then
+      ! Of the slope of a curvature the last coefficient is zero.
+      row = first_rotation(shapes, element)
+      associate (entry => shapes%displacement(row:row + shapes%rotations - 1, column))
+        entry = entry + shapes%rotation_weight*slope_coefficient(:shapes%rotations - 1)
+      end associate
+    end if
     points = size(shapes%place)/shapes%elements
     do i = (element - 1)*points + 1, element*points
       zeta = 2.0_wp*(shapes%place(i)*shapes%elements - (element - 0.5_wp))
@@ -211,52 +297,5 @@ contains
       coefficient(j - 2:j + 2:2) = twice_integrated(j)
     end select
   end function curve
-
-  !> Displacement that a unit of every unknown gives a place.
-  pure function displacement_row(shapes, xi) result(row)
-    type(deformation_shapes_t), intent(in) :: shapes
-    real(wp), intent(in) :: xi !! from 0 to 1 along the link
-    real(wp) :: row(shapes%unknowns)
-
-    real(wp) :: zeta
-    integer :: first
-
-    call find_element(shapes, xi, first, zeta)
-    row = matmul(legendre_values(shapes%coefficients - 1, zeta)/shapes%weight, &
-      shapes%displacement(first:first + shapes%coefficients - 1, :))
-  end function displacement_row
-
-  !> Slope v' that a unit of every unknown gives a place.
-  pure function slope_row(shapes, xi) result(row)
-    type(deformation_shapes_t), intent(in) :: shapes
-    real(wp), intent(in) :: xi !! from 0 to 1 along the link
-    real(wp) :: row(shapes%unknowns)
-
-    real(wp) :: zeta, derivative(0:shapes%coefficients - 1), p(0:shapes%coefficients - 1)
-    integer :: first, j
-
-    call find_element(shapes, xi, first, zeta)
-    p = legendre_values(shapes%coefficients - 1, zeta)
-    derivative(:1) = [0.0_wp, 1.0_wp]
-    do j = 2, shapes%coefficients - 1
-      derivative(j) = derivative(j - 2) + (2*j - 1)*p(j - 1)
-    end do
-    row = matmul(derivative/shapes%weight*(2.0_wp*shapes%elements/shapes%length), &
-      shapes%displacement(first:first + shapes%coefficients - 1, :))
-  end function slope_row
-
-  !> The element of a place: its first row in `displacement`, and the place in it from −1 to 1.
-  pure subroutine find_element(shapes, xi, first, zeta)
-    type(deformation_shapes_t), intent(in) :: shapes
-    real(wp), intent(in) :: xi
-    integer, intent(out) :: first
-    real(wp), intent(out) :: zeta
-
-    integer :: element
-
-    element = max(1, min(shapes%elements, 1 + int(xi*shapes%elements)))
-    first = (element - 1)*shapes%coefficients + 1
-    zeta = 2.0_wp*(xi*shapes%elements - (element - 0.5_wp))
-  end subroutine find_element
 
 end module deformation_shapes

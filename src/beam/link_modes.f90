@@ -6,12 +6,13 @@
 !! depend on the position. A position enters only through what the pins do (Craig and Bampton, AIAA J. 6 (1968) 1313, with all
 !! modes kept, so that nothing is left out).
 module link_modes
-  use deformation_shapes, only: deformation_shapes_t, displacement_row, slope_row
+  use deformation_places, only: displacement_row, slope_row
+  use deformation_shapes, only: deformation_shapes_t
   use kinds, only: wp
   implicit none (type, external)
   private
 
-  public :: link_modes_t, next_order_t, held_shapes, new_link_modes, rigid, clamp, stations
+  public :: link_modes_t, next_order_t, held_shapes, new_link_modes, end_rotation, rigid, clamp, stations
 
   !> Numbers of the first two rows of slopes: the chord's, and the curve of the clamped end; own modes follow.
   integer, parameter :: rigid = 1, clamp = 2
@@ -34,10 +35,12 @@ module link_modes
     logical :: clamped = .false.
     real(wp) :: length = 0.0_wp                       !! [m]
     real(wp) :: elongation = 0.0_wp                   !! √(L/EA): of a unit unknown [m/√J]
-    real(wp) :: end_rotation = 0.0_wp                 !! √(L/3EI): of a unit unknown of the clamped end [rad/√J]
+    real(wp) :: end_rotation = 0.0_wp                 !! √(L/3EI + 1/(kGA L)): of a unit unknown of the clamped end [rad/√J]
     real(wp), allocatable :: square(:)                !! (modes) 1/ω² of the link with its ends held, descending [s²]
-    real(wp), allocatable :: participation(:, :)      !! (3, modes) `∫ μ f w dx` with 1 − ξ, ξ and the curve of the clamped end
+    !> (3, modes) `∫ μ f w + ρI θ_f θ_w dx` with 1 − ξ, ξ and the curve of the clamped end
+    real(wp), allocatable :: participation(:, :)
     real(wp) :: linear(3, 3) = 0.0_wp                 !! the same between these three
+    real(wp) :: axial_linear(2, 2) = 0.0_wp           !! `∫ μ f g dx` of 1 − ξ and ξ along the link, which turn nothing
     real(wp), allocatable :: axial_square(:)          !! (axial modes) [s²]
     real(wp), allocatable :: axial_participation(:, :) !! (2, axial modes)
     real(wp), allocatable :: geometric(:, :, :)       !! (2 + modes, 2 + modes, force functions) `∫ b v' v' dx`
@@ -97,7 +100,7 @@ contains
     type(deformation_shapes_t), intent(in) :: bending, axial
     integer, intent(in) :: kept, axial_kept !! unknowns in use, the first of all
     logical, intent(in) :: clamped
-    real(wp), intent(in) :: stiffness(2)    !! EA and EI [N, N m²]
+    real(wp), intent(in) :: stiffness(2)    !! EA and EI [N, N m²]; `bending` knows kGA
     logical, intent(in) :: lumped           !! axial forces are constant in each element; else 1, ξ, ξ² along the link
     real(wp), intent(in) :: own(:, :)       !! (kept, modes) right singular vectors of the held shapes, in the unknowns
     real(wp), intent(in) :: axial_own(:, :) !! (axial kept, axial modes)
@@ -111,7 +114,7 @@ contains
     link%clamped = clamped
     link%length = bending%length
     link%elongation = sqrt(bending%length/stiffness(1))
-    link%end_rotation = sqrt(bending%length/(3.0_wp*stiffness(2)))
+    link%end_rotation = end_rotation(bending%length, stiffness(2), bending%shear_stiffness)
     link%bending_shapes = bending
     link%axial_shapes = axial
     allocate (link%bending(kept, 0:link%modes))
@@ -128,6 +131,9 @@ contains
     link%participation(1:2, :) = matmul(transpose(bending%linear), shape(:, 2:))
     link%participation(3, :) = matmul(shape(:, 1), shape(:, 2:))
     link%linear(1:2, 1:2) = matmul(transpose(bending%linear), bending%linear)
+    associate (line => bending%linear(:bending%coefficients*bending%elements, :))
+      link%axial_linear = matmul(transpose(line), line)
+    end associate
     link%linear(1:2, 3) = matmul(transpose(bending%linear), shape(:, 1))
     link%linear(3, 1:2) = link%linear(1:2, 3)
     link%linear(3, 3) = dot_product(shape(:, 1), shape(:, 1))
@@ -145,6 +151,20 @@ contains
     end if
     call add_next_order(bending, kept, shape, slope, next_slope, lumped, link)
   end subroutine new_link_modes
+
+  !> Rotation of a link's end under a moment there that does unit work, the other end hinged: the norm of the start slopes.
+  elemental function end_rotation(length, bending_stiffness, shear_stiffness) result(rotation)
+    real(wp), intent(in) :: length            !! [m]
+    real(wp), intent(in) :: bending_stiffness !! EI [N m²]
+    real(wp), intent(in) :: shear_stiffness   !! kGA [N]; 0: rigid in shear
+    real(wp) :: rotation                      !! √(L/3EI + 1/(kGA L)) [rad/√J]
+
+    real(wp) :: squared
+
+    squared = length/(3.0_wp*bending_stiffness)
+    if (shear_stiffness > 0.0_wp) squared = squared + 1.0_wp/(shear_stiffness*length)
+    rotation = sqrt(squared)
+  end function end_rotation
 
   !> Gives every own mode a positive slope at the last end: the same mode has the same sign in models of any order.
   pure subroutine turn_last_end_up(link)

@@ -51,7 +51,7 @@ contains
       across = chords%across(:, :, b)
       along = chords%along(:, :, b)
       mass%border = mass%border + matmul(transpose(across), matmul(links(b)%linear, across)) + &
-        matmul(transpose(along), matmul(links(b)%linear(1:2, 1:2), along))
+        matmul(transpose(along), matmul(links(b)%axial_linear, along))
       first = layout%first(b) - 1
       do k = 1, links(b)%modes
         mass%diagonal(first + k) = links(b)%square(k)
@@ -180,7 +180,7 @@ contains
         across(i, b) = dot_product(normal_to(pose%direction(:, b)), at_ends(:, i))
       end do
       border = border - matmul(transpose(chords%across(:, :, b)), matmul(links(b)%linear(:, 1:2), across(:, b))) - &
-        matmul(transpose(chords%along(:, :, b)), matmul(links(b)%linear(1:2, 1:2), along))
+        matmul(transpose(chords%along(:, :, b)), matmul(links(b)%axial_linear, along))
     end do
     do k = 1, size(linkage%pin_mass)
       border = border - linkage%pin_mass(k)*matmul(field%at_pin(:, k), chords%pin(:, k, :))

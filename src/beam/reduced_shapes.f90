@@ -1,7 +1,7 @@
 !> Displacements along the links, from a mode in the links' own deformations.
 module reduced_shapes
   use bordered_matrix, only: layout_t
-  use deformation_shapes, only: displacement_row, slope_row
+  use deformation_places, only: displacement_row, rotation_row
   use kinds, only: wp
   use link_modes, only: link_modes_t
   use linkages, only: normal_to
@@ -43,7 +43,7 @@ contains
       across = (1.0_wp - xi)*ends(1) + xi*ends(2)
       row = displacement_row(link%bending_shapes, xi)
       if (inside) across = across + dot_product(row(:size(unknown)), unknown)
-      row = slope_row(link%bending_shapes, xi)
+      row = rotation_row(link%bending_shapes, xi)
       displacement(3) = dot_product(chords%turn(:, body), border) + dot_product(row(:size(unknown)), unknown)
       if (link%clamped .and. xi <= 0.0_wp) displacement(3) = 0.0_wp
       first = first_axial(layout, links, body)

@@ -14,7 +14,8 @@ contains
   !!
   !! Element stiffnesses grow without bound as elements shrink, and in a smooth mode nearly all of them cancels. A solver in nodal
   !! unknowns cannot undo it, and residuals and counts of the same matrices do not show it. The order of an element does not matter:
-  !! its nodal stiffness is that of order 3, and bubbles stand alone on the diagonal, so that nothing of theirs can cancel.
+  !! its nodal stiffness is that of order 3, and bubbles stand alone on the diagonal, so that nothing of theirs can cancel. So do
+  !! shear strains but the uniform one, whose share of the bending stiffness, 12EI/h³, is below that of a node.
   pure function round_off_error(linkage, beams, mesh, body) result(error)
     type(linkage_t), intent(in) :: linkage
     type(beam_t), intent(in) :: beams(:) !! (bodies)

@@ -153,6 +153,7 @@ contains
     logical, intent(out) :: found
 
     type(token_t), allocatable :: first(:)
+    type(token_t) :: title
     integer :: start
 
     found = .false.
@@ -167,7 +168,10 @@ contains
     words = first(:1)
     if (verify(text(start:), " "//achar(9)) == 0) return
     start = start - 1 + verify(text(start:), " "//achar(9))
-    words = [words, token_t(text(start:verify(text, " "//achar(9), back=.true.)), line, 1 + character_count(text(:start - 1)))]
+    title%text = text(start:verify(text, " "//achar(9), back=.true.))
+    title%line = line
+    title%column = 1 + character_count(text(:start - 1))
+    words = [words, title]
   end subroutine read_title
 
   !> An INCLUDE whose file name is in quotes: the name may hold blanks and all other characters. The quotes stay in its word.

@@ -15,8 +15,12 @@ module mode_prints
     real(wp), allocatable :: mass_times(:, :) !! (unknowns kept, modes) of M y
   end type mode_prints_t
 
+  !> Less of its mass than this in the unknowns that are kept, and a mode cannot be recognised by them.
+  real(wp), parameter :: least_kept = 1.0e-3_wp
+
 contains
 
+  !> The print of a mode of which too little is kept (links that buckle many times over) is zero: it is like no other.
   pure function new_mode_prints(layout, found, modes) result(prints)
     type(layout_t), intent(in) :: layout
     type(bordered_modes_t), intent(in) :: found
@@ -40,9 +44,14 @@ contains
       first = first + layout%group(i)
     end do
     do i = 1, modes
-      kept = sqrt(max(dot_product(prints%vector(:, i), prints%mass_times(:, i)), tiny(kept)))
-      prints%vector(:, i) = prints%vector(:, i)/kept
-      prints%mass_times(:, i) = prints%mass_times(:, i)/kept
+      kept = dot_product(prints%vector(:, i), prints%mass_times(:, i))
+      if (kept >= least_kept) then
+        prints%vector(:, i) = prints%vector(:, i)/sqrt(kept)
+        prints%mass_times(:, i) = prints%mass_times(:, i)/sqrt(kept)
+      else
+        prints%vector(:, i) = 0.0_wp
+        prints%mass_times(:, i) = 0.0_wp
+      end if
     end do
   end function new_mode_prints
 

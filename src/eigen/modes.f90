@@ -44,7 +44,7 @@ contains
   !! Errors: a solver fails, or a check does; the message gives the numbers.
   subroutine find_modes(stiffness, mass, modes, dense, definite, roundoff, want_vectors, found, error)
     type(band_matrix_t), intent(in) :: stiffness !! K, with the geometric stiffness if there is any
-    type(band_matrix_t), intent(in) :: mass      !! M, positive definite
+    type(band_matrix_t), intent(in) :: mass      !! M, positive definite but for directions that K and K_G leave stiff
     integer, intent(in) :: modes                 !! how many
     logical, intent(in) :: dense                 !! full matrices and LAPACK, or band matrices and ARPACK
     logical, intent(in) :: definite              !! K is known to be positive definite

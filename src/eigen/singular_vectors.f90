@@ -11,6 +11,9 @@ module singular_vectors
 
   integer, parameter :: most_sweeps = 60
 
+  !> Where columns depend on others, one this small beside the whole matrix is nothing but rounding [ε].
+  real(wp), parameter :: no_column = 64.0_wp
+
 contains
 
   !> Right singular vectors of a matrix, those of the largest values first, by one-sided Jacobi rotations.
@@ -18,13 +21,17 @@ contains
   !! Pairs of columns are turned until all are perpendicular. Unlike methods that first reduce the matrix to two diagonals, this
   !! keeps the relative accuracy of small singular values (Demmel and Veselić, SIAM J. Matrix Anal. Appl. 13 (1992) 1204): the high
   !! vibrations of a link are as exact as the low ones. LAPACK's dgesvj does the same, but raises the floating-point exceptions that
-  !! the debug build stops at. Errors: no convergence.
-  pure subroutine find_right_singular_vectors(matrix, vectors, error)
-    real(wp), intent(in) :: matrix(:, :)                !! no fewer rows than columns
-    real(wp), allocatable, intent(out) :: vectors(:, :) !! (columns, columns)
+  !! the debug build stops at.
+  !!
+  !! Columns that depend on others end as zero but for rounding. In a space of fewer dimensions they can never be perpendicular:
+  !! they are left alone then, and their vectors left out. Errors: no convergence.
+  pure subroutine find_right_singular_vectors(matrix, vectors, error, rank)
+    real(wp), intent(in) :: matrix(:, :)                !! no fewer rows than independent columns
+    real(wp), allocatable, intent(out) :: vectors(:, :) !! (columns, independent columns)
     type(error_t), allocatable, intent(out) :: error
+    integer, intent(in), optional :: rank               !! independent columns, if not all of them are
 
-    real(wp) :: a(size(matrix, 1), size(matrix, 2)), squared(size(matrix, 2))
+    real(wp) :: a(size(matrix, 1), size(matrix, 2)), squared(size(matrix, 2)), least
     integer :: i, j, sweep, n
     logical :: turned
 
@@ -35,11 +42,15 @@ contains
       vectors(i, i) = 1.0_wp
     end do
     a = matrix
+    least = -1.0_wp
+    if (present(rank)) then
+      if (rank < n) least = (no_column*epsilon(1.0_wp))**2*sum(matrix**2)
+    end if
     do sweep = 1, most_sweeps
       turned = .false.
       do i = 1, n - 1
         do j = i + 1, n
-          call make_perpendicular(a(:, i), a(:, j), vectors(:, i), vectors(:, j), turned)
+          call make_perpendicular(a(:, i), a(:, j), vectors(:, i), vectors(:, j), least, turned)
         end do
       end do
       if (.not. turned) exit
@@ -54,16 +65,19 @@ contains
     do i = 1, n
       vectors(:, i) = vectors(:, i)/norm2(vectors(:, i))
     end do
+    if (present(rank)) vectors = vectors(:, :rank)
   end subroutine find_right_singular_vectors
 
   !> Turns two columns, and with them the vectors, so that they are perpendicular to rounding.
-  pure subroutine make_perpendicular(first, second, first_vector, second_vector, turned)
+  pure subroutine make_perpendicular(first, second, first_vector, second_vector, least, turned)
     real(wp), intent(inout) :: first(:), second(:), first_vector(:), second_vector(:)
+    real(wp), intent(in) :: least !! square of the length up to which a column is none
     logical, intent(inout) :: turned
 
     real(wp) :: length(2), product, slope, tangent, cosine, column(size(first)), vector(size(first_vector))
 
     length = [dot_product(first, first), dot_product(second, second)]
+    if (minval(length) <= least) return
     product = dot_product(first, second)
     if (abs(product) <= 4.0_wp*epsilon(1.0_wp)*sqrt(length(1))*sqrt(length(2))) return
     turned = .true.

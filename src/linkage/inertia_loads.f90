@@ -61,6 +61,8 @@ contains
   end function lumped_load
 
   !> Load of a link with uniform mass, `f(s) = −μ (a_first + s slope)`: force (2.45), moment about the first pin.
+  !!
+  !! With rotary inertia a moment −ρI α acts along it.
   pure function distributed_load(body, number, pose, field) result(load)
     type(body_t), intent(in) :: body
     integer, intent(in) :: number
@@ -74,6 +76,7 @@ contains
     load%force = -mass*(field%at_first(:, number) + 0.5_wp*body%length*field%slope(:, number))
     load%moment = -mass*body%length*cross(pose%direction(:, number), &
       0.5_wp*field%at_first(:, number) + body%length/3.0_wp*field%slope(:, number))
+    if (body%rotary_inertia > 0.0_wp) load%moment = load%moment - body%rotary_inertia*body%length*field%angular(number)
   end function distributed_load
 
   !> Forces of the pins' own masses [N].

@@ -16,6 +16,7 @@ module linkages
     real(wp) :: length = 0.0_wp        !! [m]
     real(wp) :: line_density = 0.0_wp  !! mass per length [kg/m]
     real(wp) :: sense = 1.0_wp         !! +1: its angle is that of first → last pin, −1: that of last → first
+    real(wp) :: rotary_inertia = 0.0_wp !! ρI of its cross-sections per length [kg m]; 0 where it is left out
   end type body_t
 
   !> Two bodies that meet in a pin; each hangs on a pin that is placed before.

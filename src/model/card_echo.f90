@@ -3,6 +3,7 @@ module card_echo
   use cards, only: card_t
   use card_reader, only: entry_number
   use deck_source, only: line_origin, source_t
+  use effect_cards, only: effect_words
   use settings, only: setting_t
   use text, only: lower_case, same_word, upper_case
   use text_buffer, only: append_text, buffer_text, text_buffer_t
@@ -21,9 +22,10 @@ contains
 
   !> The cards in the order of the deck. A `$name` stays as it is, with its SET or VARY card; what the command line says is a SET
   !! card, so that the echo needs nothing but itself.
-  pure function echo_cards(deck, cards, source) result(lines)
+  pure function echo_cards(deck, cards, loads, source) result(lines)
     type(deck_cards_t), intent(in) :: deck
     type(card_t), intent(in) :: cards(:) !! of one of its variants
+    integer, intent(in) :: loads         !! `effects_static` or `effects_axial`: what EFFECTS is, said or not
     type(source_t), intent(in) :: source !! that the cards are from
     type(echo_line_t) :: lines(size(cards))
 
@@ -31,6 +33,7 @@ contains
 
     do i = 1, size(cards)
       lines(i) = echo_card(deck%written(i), cards(i), source)
+      if (same_word(cards(i)%keyword%text, "EFFECTS")) call complete_effects(cards(i), loads, lines(i))
     end do
     do i = 1, size(deck%settings%list)
       associate (setting => deck%settings%list(i))
@@ -93,6 +96,21 @@ contains
     text = buffer_text(buffer)
   end function card_text
 
+  !> Writes out what an EFFECTS card leaves to the speeds.
+  pure subroutine complete_effects(card, loads, line)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: loads
+    type(echo_line_t), intent(inout) :: line
+
+    integer :: i
+
+    do i = 1, size(card%words)
+      if (same_word(card%words(i)%text, "static") .or. same_word(card%words(i)%text, "axial")) return
+    end do
+    call append_default(line, effect_words(loads, .false., .false.))
+  end subroutine complete_effects
+
+  !> Adds what a card leaves out.
   pure subroutine append_default(line, entry)
     type(echo_line_t), intent(inout) :: line
     character(len=*), intent(in) :: entry

@@ -1,6 +1,6 @@
 !> MATERIAL: what a link is made of.
 module materials
-  use card_reader, only: check_form, entry_number, read_entry_quantity, read_name, require_positive
+  use card_reader, only: check_form, entry_number, has_key, read_entry_quantity, read_name, require_positive
   use cards, only: card_t
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use kinds, only: wp
@@ -16,6 +16,8 @@ module materials
     type(token_t) :: name
     real(wp) :: youngs_modulus = 0.0_wp !! [Pa]
     real(wp) :: density = 0.0_wp        !! [kg/m³]
+    real(wp) :: poissons_ratio = 0.0_wp !! where the deck gives it
+    logical :: has_ratio = .false.
   end type material_t
 
   !> Longitudinal waves run at 1200 m/s in lead, 5100 in steel, 17,000 in diamond, 300 in cork; links are made of
@@ -32,8 +34,8 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(material_t), intent(out) :: material
 
-    logical :: fine, known_keys, has_modulus, has_density, has_ratio
-    real(wp) :: poissons_ratio, wave_speed
+    logical :: fine, known_keys, has_modulus, has_density
+    real(wp) :: wave_speed
 
     call check_form(card, 1, 1, "E density nu", "MATERIAL name E= density= [nu=]", diagnostics, fine, known_keys)
     material%name = card%keyword
@@ -45,10 +47,11 @@ contains
     if (has_modulus) call require_positive(card, "E", material%youngs_modulus, diagnostics)
     call read_entry_quantity(card, "density", dimension_density, system, known_keys, diagnostics, material%density, has_density)
     if (has_density) call require_positive(card, "density", material%density, diagnostics)
-    call read_entry_quantity(card, "nu", dimension_none, system, .false., diagnostics, poissons_ratio, has_ratio)
-    if (has_ratio .and. (poissons_ratio <= -1.0_wp .or. poissons_ratio >= 0.5_wp)) then
+    call read_entry_quantity(card, "nu", dimension_none, system, .false., diagnostics, material%poissons_ratio, fine)
+    material%has_ratio = has_key(card, "nu")
+    if (fine .and. (material%poissons_ratio <= -1.0_wp .or. material%poissons_ratio > 0.5_wp)) then
       call add_error(diagnostics, card%entries(entry_number(card, "nu"))%value, &
-        "'nu=' must lie between -1 and 0.5, not "//card%entries(entry_number(card, "nu"))%value%text)
+        "'nu=' must be above -1 and at most 0.5, not "//card%entries(entry_number(card, "nu"))%value%text)
     end if
 
     if (.not. (has_modulus .and. has_density)) return

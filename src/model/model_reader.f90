@@ -3,17 +3,19 @@ module model_reader
   use card_reader, only: check_form, read_choice
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
+  use effect_cards, only: effects_axial, effects_static, effects_t, read_effects
   use kinds, only: wp
   use linkage_cards, only: read_ground, read_link, read_mesh, read_pin_mass, set_default_mesh
   use materials, only: read_material
   use loop_finder, only: find_loop
   use mesh_checks, only: check_meshes
-  use models, only: effects_axial, effects_static, is_moving, model_t, needs_mesh
+  use models, only: is_moving, model_t, needs_mesh
   use name_checks, only: check_names
   use numbers, only: read_integer
   use request_checks, only: card_names, check_required, check_requests
   use requests, only: read_crank, read_report, read_speed
   use sections, only: read_section
+  use shear, only: check_shear
   use spelling, only: suggestion
   use text, only: lower_case, same_word, string_t, to_string, word_list
   use tokens, only: token_t
@@ -37,6 +39,7 @@ contains
     model%variant = ""
     allocate (model%varied(0))
     model%drive = token_t("", 0, 0)
+    model%shear_word = token_t("", 0, 0)
     model%modes_word = token_t("", 0, 0)
     model%inertia_word = token_t("", 0, 0)
     model%solver_word = token_t("", 0, 0)
@@ -63,6 +66,7 @@ contains
     call check_names(diagnostics, model)
     call find_loop(diagnostics, model)
     call check_requests(cards, diagnostics, model)
+    call check_shear(diagnostics, model)
     call check_meshes(cards, diagnostics, model)
   end subroutine read_model
 
@@ -215,9 +219,10 @@ contains
     type(model_t), intent(inout) :: model
 
     integer :: i
-    logical :: fine, effects_given
+    type(effects_t) :: effects
+    logical :: fine
 
-    effects_given = .false.
+    effects%shear_word = token_t("", 0, 0)
     do i = 1, size(cards)
       select case (lower_case(cards(i)%keyword%text))
       case ("title")
@@ -244,8 +249,7 @@ contains
       case ("inertia")
         call read_option(cards(i), "INERTIA lumped|distributed", "lumped distributed", model%inertia, model%inertia_word)
       case ("effects")
-        call read_option(cards(i), "EFFECTS static|axial", "static axial", model%effects)
-        effects_given = .true.
+        call read_effects(cards(i), diagnostics, effects)
       case ("solver")
         call read_option(cards(i), "SOLVER auto|deformation|dense|band", "auto deformation dense band", model%solver, &
           model%solver_word)
@@ -253,7 +257,11 @@ contains
         call read_modes(cards(i), diagnostics, model)
       end select
     end do
-    if (.not. effects_given) model%effects = merge(effects_axial, effects_static, is_moving(model))
+    model%effects = effects%loads
+    if (effects%loads == 0) model%effects = merge(effects_axial, effects_static, is_moving(model))
+    model%rotary = effects%rotary
+    model%shear = effects%shear
+    model%shear_word = effects%shear_word
 
   contains
 

@@ -1,6 +1,7 @@
 !> The model: everything that a deck says, in SI, each part with the word it came from.
 module models
   use card_echo, only: echo_line_t
+  use effect_cards, only: effects_axial, effects_static
   use kinds, only: wp
   use linkage_cards, only: ground_t, link_t, mesh_t, pin_mass_t
   use materials, only: material_t
@@ -17,7 +18,6 @@ module models
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
   integer, parameter :: inertia_none = 0, inertia_lumped = 1, inertia_distributed = 2
-  integer, parameter :: effects_static = 1, effects_axial = 2
   integer, parameter :: solver_auto = 1, solver_deformation = 2, solver_dense = 3, solver_band = 4
   integer, parameter :: branch_open = 1, branch_crossed = 2
 
@@ -39,7 +39,10 @@ module models
     real(wp) :: acceleration = 0.0_wp           !! of the crank, at every speed [rad/s²]
     integer :: inertia = inertia_none
     type(token_t) :: inertia_word               !! without a line if the deck does not say
-    integer :: effects = effects_static
+    integer :: effects = effects_static         !! effects_static or effects_axial
+    logical :: rotary = .false.                 !! cross-sections have rotary inertia
+    logical :: shear = .false.                  !! and turn against the slope
+    type(token_t) :: shear_word                 !! where the deck asks for shear
     integer :: solver = solver_auto
     type(token_t) :: solver_word                !! without a line if the deck does not say
     integer :: modes = 3

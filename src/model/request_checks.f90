@@ -19,7 +19,7 @@ module request_checks
     "TITLE UNITS INCLUDE SET VARY MATERIAL SECTION GROUND LINK DRIVE BRANCH PINMASS MESH CRANK SPEED INERTIA EFFECTS SOLVER "// &
     "MODES REPORT"
 
-  !> A link stockier than this is no beam: shear and rotary inertia, which the theory leaves out, decide.
+  !> A link stockier than this is no slender beam: shear and rotary inertia decide.
   real(wp), parameter :: least_slenderness = 10.0_wp
 
   integer, parameter :: most_modes = 100
@@ -190,14 +190,15 @@ contains
 
     integer :: i
 
-    if (.not. needs_frequencies(model)) return
+    if (.not. needs_frequencies(model) .or. (model%rotary .and. model%shear)) return
     do i = 1, size(model%links)
       associate (link => model%links(i))
         if (link%section == 0 .or. link%length <= 0.0_wp) cycle
         associate (depth => model%sections(link%section)%depth)
           if (depth <= 0.0_wp .or. link%length >= least_slenderness*depth) cycle
           call add_warning(diagnostics, link%length_word, "link '"//link%name%text//"' is only "// &
-            to_string(link%length/depth, 3)//" times as long as thick; slender-beam theory wants 10 or more")
+            to_string(link%length/depth, 3)//" times as long as thick; slender-beam theory wants 10 or "// &
+            "more, or EFFECTS rotary shear")
         end associate
       end associate
     end do

@@ -3,9 +3,11 @@ module echo
   use card_echo, only: echo_line_t
   use kinds, only: wp
   use models, only: effects_axial, link_mass, model_t
+  use shear, only: link_rotary_inertia, link_shear_stiffness, shear_coefficient
   use text, only: character_count, same_word, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
-  use units, only: coherent_unit, dimension_area, dimension_mass, dimension_second_moment, from_si, unit_t
+  use units, only: coherent_unit, dimension_area, dimension_force, dimension_mass, dimension_rotary_inertia, &
+    dimension_second_moment, from_si, unit_t
   implicit none (type, external)
   private
 
@@ -54,6 +56,7 @@ contains
     type(model_t), intent(in) :: model
     character(len=*), intent(in) :: keyword, value
 
+    type(echo_line_t) :: line
     integer :: i
 
     do i = 1, size(model%echo)
@@ -61,7 +64,9 @@ contains
         if (same_word(text(:index(text//" ", " ") - 1), keyword)) return
       end associate
     end do
-    call append_card(buffer, echo_line_t(keyword//" "//value, "default"))
+    line%text = keyword//" "//value
+    line%origin = "default"
+    call append_card(buffer, line)
   end subroutine append_default
 
   !> What the program made of the cards, in the deck's units.
@@ -88,7 +93,35 @@ contains
       if (link_mass(model, i) <= 0.0_wp) cycle
       call append_text(buffer, derived//" link "//model%links(i)%name%text//": mass = "// &
         to_string(from_si(link_mass(model, i), mass), 15)//" "//mass%name//achar(10))
+      call append_thickness(buffer, model, i)
     end do
   end subroutine append_derived
+
+  !> Rotary inertia and shear stiffness of a link, where they are asked for.
+  pure subroutine append_thickness(buffer, model, link)
+    type(text_buffer_t), intent(inout) :: buffer
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: link
+
+    type(unit_t) :: measure
+    character(len=:), allocatable :: origin
+
+    associate (this => model%links(link))
+      if (link_rotary_inertia(model, link) > 0.0_wp) then
+        measure = coherent_unit(model%units, dimension_rotary_inertia)
+        call append_text(buffer, "! derived: link "//this%name%text//": rotary inertia rho I = "// &
+          to_string(from_si(link_rotary_inertia(model, link), measure), 15)//" "//measure%name//achar(10))
+      end if
+      if (link_shear_stiffness(model, link) <= 0.0_wp) return
+      measure = coherent_unit(model%units, dimension_force)
+      associate (section => model%sections(this%section), nu => model%materials(this%material)%poissons_ratio)
+        origin = "Cowper"
+        if (section%shear_word%line > 0) origin = "line "//to_string(section%shear_word%line)
+        call append_text(buffer, "! derived: link "//this%name%text//": shear coefficient k = "// &
+          to_string(shear_coefficient(section, nu), 15)//" ("//origin//"), k G A = "// &
+          to_string(from_si(link_shear_stiffness(model, link), measure), 15)//" "//measure%name//achar(10))
+      end associate
+    end associate
+  end subroutine append_thickness
 
 end module echo

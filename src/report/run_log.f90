@@ -1,7 +1,8 @@
 !> The first part of `run.log`: what the deck describes.
 module run_log
+  use effect_cards, only: effect_words
   use kinds, only: wp
-  use models, only: branch_crossed, effects_axial, inertia_distributed, inertia_lumped, link_mass, model_t, needs_frequencies
+  use models, only: branch_crossed, inertia_distributed, inertia_lumped, link_mass, model_t, needs_frequencies
   use text, only: plural, to_string
   use units, only: coherent_unit, dimension_mass, dimension_length, from_si, unit_t
   implicit none (type, external)
@@ -47,7 +48,7 @@ contains
     if (model%inertia == inertia_lumped) text = text//"inertia loads: lumped"//line_feed
     if (model%inertia == inertia_distributed) text = text//"inertia loads: distributed"//line_feed
     if (needs_frequencies(model)) then
-      text = text//"effects: "//trim(merge("axial ", "static", model%effects == effects_axial))//line_feed
+      text = text//"effects: "//effect_words(model%effects, model%rotary, model%shear)//line_feed
     end if
     text = text//plural(size(model%crank%value), "crank angle")//", "//plural(size(model%speed%value), "speed")//line_feed
   end function model_summary

@@ -5,12 +5,13 @@ module tables
   use kinds, only: long, wp
   use number_text, only: scientific
   use output_files, only: append_held, append_output, discard_output, finish_output, open_output, output_file_t, publish_output
-  use text, only: string_t, to_string
+  use text, only: string_t, to_string, word_list
   implicit none (type, external)
   private
 
   public :: table_t, open_table, new_sheet, append_sheet, begin_variant, finish_table, publish_table, discard_table
-  public :: column_t, real_column, integer_column, name_column, write_header, write_row, write_gap, write_failure
+  public :: column_t, real_column, integer_column, name_column, append_column, append_real_columns
+  public :: write_header, write_row, write_gap, write_failure
   public :: real_cells, integer_cell, name_cell, has_unit
 
   type :: column_t
@@ -160,6 +161,39 @@ contains
     name = column%name
     if (has_unit(column)) name = column%name//" ["//column%unit//"]"
   end function name_with_unit
+
+  !> Lengthens a table by a column: an array constructor of function results would lose their memory in gfortran 12.
+  pure subroutine append_column(columns, column)
+    type(column_t), allocatable, intent(inout) :: columns(:) !! not allocated is as good as empty
+    type(column_t), intent(in) :: column
+
+    type(column_t), allocatable :: wider(:)
+    integer :: i, n
+
+    n = 0
+    if (allocated(columns)) n = size(columns)
+    allocate (wider(n + 1))
+    do i = 1, n
+      wider(i) = columns(i)
+    end do
+    wider(n + 1) = column
+    call move_alloc(wider, columns)
+  end subroutine append_column
+
+  !> Lengthens a table by columns of numbers of one unit.
+  pure subroutine append_real_columns(columns, names, unit)
+    type(column_t), allocatable, intent(inout) :: columns(:)
+    character(len=*), intent(in) :: names !! separated by single blanks
+    character(len=*), intent(in) :: unit  !! of all
+
+    type(string_t), allocatable :: words(:)
+    integer :: i
+
+    words = word_list(names)
+    do i = 1, size(words)
+      call append_column(columns, real_column(words(i)%text, unit))
+    end do
+  end subroutine append_real_columns
 
   !> Writes the `#` lines: title, notes, names of the columns, their units; in CSV the names of the columns alone. Where there is a
   !! header already, another variant begins: empty lines, and those notes that the header does not have.

@@ -17,6 +17,14 @@ stocky() {
     warned stocky "link 'crank' is only 5 times as long as thick"
 }
 
+# Thick beams are what rotary inertia and shear are for; one of them alone does not do.
+stocky_as_thick_beams() {
+  beam_deck "CRANK 0" "REPORT frequencies" | sed 's/thickness=1.6/thickness=20/; s/7.8e-9/7.8e-9 nu=0.3/' >"$scratch/thick.deck"
+  echo "EFFECTS shear" | cat "$scratch/thick.deck" - | warned thick_shear "link 'crank' is only 5 times as long as thick" || return 1
+  echo "EFFECTS shear rotary" >>"$scratch/thick.deck"
+  run 0 --out "$scratch/out" "$scratch/thick.deck" && silent
+}
+
 wave_speed() {
   beam_deck "CRANK 0" "REPORT frequencies" | sed 's/7.8e-9/7800/' | warned wave_speed "sound would run through 'steel' at"
 }
@@ -45,6 +53,7 @@ divergence() {
 }
 
 check "a stocky link" stocky
+check "no stocky link with rotary inertia and shear" stocky_as_thick_beams
 check "a speed of sound of no solid" wave_speed
 check "a deflection above 1 %" deflection
 check "static frequencies and speeds" static_speeds

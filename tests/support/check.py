@@ -15,11 +15,13 @@ import sys
 from glob import glob
 
 import compare_tables
+import fuzz
 
 SCRATCH = os.path.join("build", "check")
 COUNT = os.path.join("build", "check.count")
 BUILDS = ("release", "debug")
 LONGEST = 600  # seconds; a test that takes longer hangs
+FUZZED = 500   # decks; `make fuzz` runs more
 
 
 class Group:
@@ -219,6 +221,16 @@ def scripts(build):
     group.end()
 
 
+def fuzzed_decks():
+    group = Group("fuzzed decks, debug")
+    faults = []
+    fuzz.fuzz(FUZZED, 1, faults.append)
+    for fault in faults:
+        group.result(*fault.split(": ", 1))
+    group.passed = FUZZED - len(faults)
+    group.end()
+
+
 def main(tests):
     for build in BUILDS:
         unit_tests(build, tests)
@@ -233,6 +245,7 @@ def main(tests):
     repeated_runs()
     for build in BUILDS:
         scripts(build)
+    fuzzed_decks()
 
     total = f"{Group.passed} passed, {Group.failed} failed"
     with open(COUNT, "w", encoding="utf-8") as count:

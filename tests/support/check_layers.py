@@ -58,7 +58,7 @@ def statements(path):
 
 
 def faults(path, folder_of, layer):
-    """What is wrong with one file. `layer` is its folder in src/, None for main.f90, "tests" for a unit test."""
+    """What is wrong with one file. `layer` is its folder in src/, None for main.f90, "tests" for a module of the tests."""
     name = os.path.splitext(os.path.basename(path))[0]
     modules, implicit_none = 0, False
     for number, text in statements(path):
@@ -99,8 +99,9 @@ def main(root):
     sources = sorted(glob("src/*/*.f90"))
     folder_of = {os.path.splitext(os.path.basename(path))[0]: path.split(os.sep)[1] for path in sources}
     wrong = False
-    for path in sources + sorted(glob("src/*.f90")) + sorted(glob("tests/unit/*.pf")):
-        layer = "tests" if path.endswith(".pf") else path.split(os.sep)[1]
+    modules_of_tests = set(glob("tests/unit/*.pf") + glob("tests/bench/*.f90")) - {os.path.join("tests", "bench", "bench.f90")}
+    for path in sources + sorted(glob("src/*.f90")) + sorted(modules_of_tests):
+        layer = "tests" if path in modules_of_tests else path.split(os.sep)[1]
         if path == os.path.join("src", "main.f90"):
             layer = None
         elif layer not in LAYERS and layer != "tests":

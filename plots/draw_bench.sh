@@ -1,0 +1,35 @@
+#!/bin/sh
+# Draws the figures of `make bench` beside its tables.
+#   draw_bench.sh outputs/bench
+
+set -u
+[ $# -eq 1 ] && [ -d "$1" ] || { echo 'usage: draw_bench.sh FOLDER   (with the tables of make bench)' >&2; exit 2; }
+command -v gnuplot > /dev/null || { echo 'draw_bench.sh: gnuplot is not installed' >&2; exit 1; }
+LC_ALL=C.UTF-8
+export LC_ALL
+plots=$(CDPATH='' cd "$(dirname "$0")" && pwd) || exit 1
+cd "$1" || exit 1
+
+# draw SCRIPT TABLE FIGURE ARGUMENT...
+draw() {
+    script=$1 table=$2 figure=$3
+    shift 3
+    gnuplot -c "$plots/$script" "$table.dat" "$figure" "$@" || exit 1
+    printf '%s\n' "$figure.png"
+}
+
+for load in static axial; do
+    draw bench_work_precision.gp work_precision "work_precision_$load" $load
+done
+draw bench_cost.gp cost_elements cost_elements elements each \
+    'A position against the elements of a link (order 3, at 20 rad/s, 3 modes)' 'elements on every link' \
+    'without what comes once a run; a curve ends where its solver is refused or takes too long'
+draw bench_cost.gp cost_positions cost_positions positions per_position \
+    'A position against their number in a turn (3 modes at 20 rad/s, 1e-8)' 'positions in a turn' \
+    'with what comes once a run; dsygv, dsygvx and band on the elements that the program chose'
+draw bench_cost.gp cost_modes cost_modes modes each \
+    'A position against the number of modes (at 20 rad/s, 1e-8)' 'modes' \
+    'without what comes once a run; dsygv, dsygvx and band on the elements that the program chose'
+draw bench_cost.gp cost_threads cost_threads threads per_position \
+    'A position against threads (3 modes at 20 rad/s, 1e-8)' 'threads' \
+    'with what comes once a run; ARPACK serves one thread at a time'

@@ -1,0 +1,94 @@
+!> What links resist to shear, and whether a deck that asks for it says all that it takes.
+!!
+!! The shear stiffness is kGA with G = E/(2(1 + ν)). The shear coefficient k is the deck's own, or that of G. R. Cowper, The shear
+!! coefficient in Timoshenko's beam theory, J. Appl. Mech. 33 (1966) 335.
+module shear
+  use diagnostics, only: add_error, diagnostics_t
+  use kinds, only: wp
+  use models, only: model_t, needs_frequencies
+  use sections, only: section_t, shape_circle, shape_general, shape_rectangle, shape_tube
+  implicit none (type, external)
+  private
+
+  public :: shear_coefficient, link_shear_stiffness, link_rotary_inertia, check_shear
+
+contains
+
+  !> k of a section in a material.
+  elemental function shear_coefficient(section, nu) result(k)
+    type(section_t), intent(in) :: section
+    real(wp), intent(in) :: nu !! Poisson's ratio, above −1
+    real(wp) :: k              !! 0 for a general section that has none of its own
+
+    real(wp) :: m_squared
+
+    k = section%shear_coefficient
+    if (k > 0.0_wp) return
+    select case (section%shape)
+    case (shape_rectangle)
+      k = 10.0_wp*(1.0_wp + nu)/(12.0_wp + 11.0_wp*nu)
+    case (shape_circle)
+      k = 6.0_wp*(1.0_wp + nu)/(7.0_wp + 6.0_wp*nu)
+    case (shape_tube)
+      m_squared = section%inner_share**2
+      k = 6.0_wp*(1.0_wp + nu)*(1.0_wp + m_squared)**2/((7.0_wp + 6.0_wp*nu)*(1.0_wp + m_squared)**2 + &
+        (20.0_wp + 12.0_wp*nu)*m_squared)
+    end select
+  end function shear_coefficient
+
+  !> kGA of a link of the deck; 0 where shear is not asked for or the link is no beam [N].
+  pure function link_shear_stiffness(model, link) result(stiffness)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: link
+    real(wp) :: stiffness
+
+    stiffness = 0.0_wp
+    associate (this => model%links(link))
+      if (.not. model%shear .or. this%material == 0 .or. this%section == 0) return
+      associate (material => model%materials(this%material), section => model%sections(this%section))
+        if (.not. material%has_ratio) return
+        stiffness = shear_coefficient(section, material%poissons_ratio)*material%youngs_modulus/ &
+          (2.0_wp*(1.0_wp + material%poissons_ratio))*section%area
+      end associate
+    end associate
+  end function link_shear_stiffness
+
+  !> ρI of a link of the deck; 0 where rotary inertia is not asked for or the link is no beam [kg m].
+  pure function link_rotary_inertia(model, link) result(inertia)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: link
+    real(wp) :: inertia
+
+    inertia = 0.0_wp
+    associate (this => model%links(link))
+      if (.not. model%rotary .or. this%material == 0 .or. this%section == 0) return
+      inertia = model%materials(this%material)%density*model%sections(this%section)%second_moment
+    end associate
+  end function link_rotary_inertia
+
+  !> Shear needs Poisson's ratio of every material in use, and a shear coefficient of every general section.
+  pure subroutine check_shear(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model !! whose links have their materials and sections
+
+    integer :: i
+
+    if (.not. model%shear .or. .not. needs_frequencies(model)) return
+    do i = 1, size(model%materials)
+      associate (material => model%materials(i))
+        if (material%has_ratio .or. .not. any(model%links%material == i)) cycle
+        call add_error(diagnostics, material%name, "material '"//material%name%text//"' has no 'nu=', and the shear modulus "// &
+          "E/(2(1 + nu)) needs it", model%shear_word, "shear is asked for here")
+      end associate
+    end do
+    do i = 1, size(model%sections)
+      associate (section => model%sections(i))
+        if (section%shape /= shape_general .or. section%shear_word%line > 0) cycle
+        if (.not. any(model%links%section == i)) cycle
+        call add_error(diagnostics, section%name, "section '"//section%name%text//"' is general, and its shear coefficient "// &
+          "cannot be derived: expected 'shear_coefficient='", model%shear_word, "shear is asked for here")
+      end associate
+    end do
+  end subroutine check_shear
+
+end module shear

@@ -1,0 +1,129 @@
+!> Times the program's solvers and the usual ones, in turn, and writes tables.
+!!
+!!     bench PROGRAM FOLDER LIBRARIES [short]
+!!
+!! PROGRAM is also timed as a whole; tables go to FOLDER; LIBRARIES names the BLAS that was linked. Run in the root of the repository.
+program bench
+  use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+  use bench_cases, only: plan_t, table_names, with_accuracy
+  use bench_models, only: base_t, read_base
+  use bench_plans, only: plan_cases
+  use bench_ratios, only: write_ratios
+  use bench_runs, only: prepare_case, seconds_since, time_case
+  use bench_tables, only: write_plan, write_times
+  use errors, only: error_t
+  use exact_values, only: exact_values_t, read_exact_values
+  use file_system, only: make_directories
+  use kinds, only: long, wp
+  use machine, only: machine_notes
+  use omp_lib, only: omp_get_num_procs
+  use text, only: string_t, to_string, word_list
+  implicit none (type, external)
+
+  integer, parameter :: repetitions = 7, of_long = 3, short_repetitions = 1
+  character(len=*), parameter :: job_list = "--version inputs/mechanism1.deck inputs/exact.deck tests/bench/typical.deck"
+  character(len=*), parameter :: long_job_list = " tests/bench/positions.deck tests/bench/variants.deck"
+  type(plan_t) :: plan
+  type(base_t) :: base
+  type(exact_values_t) :: exact
+  type(error_t), allocatable :: error
+  type(string_t), allocatable :: words(:), notes(:), jobs(:), made(:)
+  real(wp), allocatable :: times(:, :)
+  integer(long) :: start
+  integer :: i, k, order(3), rounds
+  logical :: short, done
+
+  words = arguments()
+  if (size(words) < 3 .or. size(words) > 4) call give_up("usage: bench PROGRAM FOLDER LIBRARIES [short]")
+  short = size(words) == 4
+  rounds = merge(short_repetitions, repetitions, short)
+  call make_directories(words(2)%text, done, made)
+  if (.not. done) call give_up(words(2)%text//": this folder cannot be made")
+  call read_base("inputs/exact.deck", base, error)
+  call give_up_on(error)
+  call read_exact_values("tests/exact/mechanism1.dat", exact, error)
+  call give_up_on(error)
+
+  call system_clock(start)
+  plan = plan_cases(omp_get_num_procs(), short)
+  order = 3
+  do i = 1, plan%count
+    associate (this => plan%cases(i))
+      ! Nodal solvers get the orders that the program chose just before.
+      if (this%order(1) == 0) this%order = order
+      call prepare_case(base, exact, this)
+      if (this%solver == with_accuracy) order = this%order
+    end associate
+  end do
+  write (output_unit, "(a)") "bench: "//to_string(plan%count)//" cases solved once, "//to_string(seconds_since(start), 3)//" s"
+
+  ! In turn: a slow minute of the machine then comes to all.
+  jobs = word_list(job_list//long_job_list)
+  if (short) jobs = word_list(job_list)
+  allocate (times(size(jobs), rounds))
+  do k = 1, rounds
+    do i = 1, plan%count
+      if (len(plan%cases(i)%failure) > 0 .or. (plan%cases(i)%is_long .and. k > of_long)) cycle
+      call time_case(base, plan%cases(i), error)
+      call give_up_on(error)
+    end do
+    do i = 1, size(jobs)
+      times(i, k) = time_of_process(words(1)%text, words(2)%text, jobs(i)%text)
+    end do
+    write (output_unit, "(a)") "bench: "//to_string(k)//" of "//to_string(rounds)//" rounds, "// &
+      to_string(seconds_since(start), 3)//" s"
+  end do
+
+  notes = machine_notes(words(3)%text)
+  do i = 1, size(table_names())
+    call write_plan(words(2)%text, i, notes, plan, error)
+    call give_up_on(error)
+  end do
+  call write_ratios(words(2)%text, notes, plan, error)
+  call give_up_on(error)
+  call write_times(words(2)%text, "processes", notes, jobs, times, error)
+  call give_up_on(error)
+
+contains
+
+  function arguments() result(list)
+    type(string_t), allocatable :: list(:)
+
+    integer :: n, length
+
+    allocate (list(command_argument_count()))
+    do n = 1, size(list)
+      call get_command_argument(n, length=length)
+      allocate (character(len=length) :: list(n)%text)
+      call get_command_argument(n, list(n)%text)
+    end do
+  end function arguments
+
+  !> From the start of a shell to the end of the program [s].
+  function time_of_process(executable, folder, job) result(seconds)
+    character(len=*), intent(in) :: executable, folder, job !! a deck, or an option
+    real(wp) :: seconds
+
+    integer(long) :: begun
+    integer :: status
+
+    call system_clock(begun)
+    call execute_command_line(executable//" --quiet --out "//folder//"/runs "//job//" > /dev/null", exitstat=status)
+    seconds = seconds_since(begun)
+    if (status /= 0) call give_up(executable//" "//job//" ended with status "//to_string(status))
+  end function time_of_process
+
+  subroutine give_up_on(failure)
+    type(error_t), allocatable, intent(in) :: failure
+
+    if (allocated(failure)) call give_up(failure%message)
+  end subroutine give_up_on
+
+  subroutine give_up(message)
+    character(len=*), intent(in) :: message
+
+    write (error_unit, "(a)") "bench: "//message
+    stop 2, quiet=.true.
+  end subroutine give_up
+
+end program bench

@@ -1,0 +1,251 @@
+#!/usr/bin/env python3
+"""Runs the debug build on thousands of odd decks, and looks at how it ends and at what it leaves behind.
+
+    fuzz.py [COUNT [SEED]]     10,000 decks of seed 1 unless told otherwise
+
+The same seed makes the same decks on any machine. A deck that fails is kept in build/fuzz/ with the reason beside it.
+Exit status 1 when one has failed.
+"""
+
+import functools
+import multiprocessing
+import os
+import re
+import resource
+import shutil
+import subprocess
+import sys
+from collections import Counter
+
+import fuzz_decks
+from fuzz_decks import Dice
+
+FAILED = os.path.join("build", "fuzz")
+PROGRAM = os.path.join("build", "debug", "flexmech")
+MOST_SECONDS = 100            # of processor time; a deck takes 20 ms as a rule, and the machine may be slow
+MOST_MEMORY = 4*2**30         # of a run; more is a request that the program should have refused
+ECHO_EVERY = 12               # decks that come through: run the echo, and with two threads, of one in so many
+
+# The command line. Each entry: its words, and whether a sound deck is still run to its tables; DECK is the deck's path.
+OPTIONS = [
+    (["--quiet", "DECK"], True), (["--stats", "DECK"], True), (["--threads", "2", "DECK"], True), (["--threads=3", "DECK"], True),
+    (["DECK", "--quiet", "--stats"], True), (["--", "DECK"], True), (["--check", "DECK"], False), (["--help", "DECK"], False),
+    (["--version"], False), (["DECK", "DECK"], False), (["DECK", "missing.deck"], False), (["--threads", "0", "DECK"], False),
+    (["--threads", "DECK"], False), (["--threads=1e99", "DECK"], False), (["--theads", "2", "DECK"], False), (["--out"], False),
+    (["--out=", "DECK"], False), ([], False), ([""], False), (["."], False), (["-", "-"], False), (["--quiet=1", "DECK"], False),
+]
+
+RUN_TIME = re.compile(r"Fortran runtime|Backtrace|SIG[A-Z]{3}|At line \d+ of file|Sanitizer|free\(\)|malloc|double free|stack smash")
+NOT_A_NUMBER = re.compile(r"\b(?:NaN|[-+]?Inf(?:inity)?)\b|\*{4,}|is not a number$")
+REAL = re.compile(r"-?\d\.\d+E[-+]\d{3}$")
+PLACE = re.compile(r"(?P<deck>.*?):(?P<line>\d+):(?P<column>\d+): (?:error|warning|note): .")
+TABLES = {"kinematics.dat", "inertia.dat", "mesh.dat", "frequencies.dat", "shapes.dat", "branches.dat"}
+
+
+def limits():
+    resource.setrlimit(resource.RLIMIT_CPU, (MOST_SECONDS, MOST_SECONDS + 5))
+    resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def execute(program, words, folder):
+    return subprocess.run([program] + words, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, preexec_fn=limits, check=False)
+
+
+def tree(folder):
+    """Everything below a folder, with the contents of the files."""
+    found = {}
+    for path, folders, files in os.walk(folder):
+        for name in folders:
+            found[os.path.relpath(os.path.join(path, name), folder)] = None
+        for name in files:
+            with open(os.path.join(path, name), "rb") as file:
+                found[os.path.relpath(os.path.join(path, name), folder)] = file.read()
+    return found
+
+
+def fault_of_message(words, stderr):
+    """What is wrong with what a refusal says."""
+    if not stderr.strip():
+        return "refused without a word"
+    lines = stderr.split("\n")
+    for i, line in enumerate(lines):
+        place = PLACE.match(line)
+        if not place or "is no part of a text" in line:
+            continue
+        missing = i + 1 == len(lines) or " | " not in lines[i + 1]
+        # Something missing from the deck has no word to point at.
+        if missing and place["column"] != "1":
+            return f"no text of the deck below: {line}"
+        if not missing and not re.match(r" *\| *\^+$", lines[i + 2] if i + 2 < len(lines) else ""):
+            return f"no caret below: {line}"
+    if not any(re.match(r"flexmech: error: .", line) or re.match(r".*: error: .", line) for line in lines):
+        return f"no error is told: {stderr[:200]}"
+    if "DECK" in words and not re.search(r"^(?:d\.deck|missing\.deck|flexmech): ?", stderr.replace("d.deck:", "d.deck: "), re.MULTILINE):
+        return "the deck is not named"
+    return None
+
+
+def fault_of_table(name, text):
+    """Rows of as many cells as there are columns, every number a number."""
+    lines = text.split("\n")
+    head = [line for line in lines if line.startswith("#") and not line.startswith("# failed")]
+    names, units = head[-2][1:].split(), head[-1][1:].split()
+    if len(names) != len(units):
+        return f"{name}: {len(names)} columns and {len(units)} units"
+    for line in lines:
+        if line.startswith("# failed") and NOT_A_NUMBER.search(line):
+            return f"{name}: {line}"
+        if line.startswith("#") or not line:
+            continue
+        cells = line.split()
+        if len(cells) != len(names):
+            return f"{name}: {len(names)} columns, and a row of {len(cells)}: {line}"
+        for column, cell in zip(names, cells):
+            if column in ("link", "event"):
+                continue
+            if not REAL.match(cell) and not re.match(r"\d+$", cell):
+                return f"{name}: {column} is {cell}"
+    return None
+
+
+def fault_of_files(files, deck):
+    """What is wrong with the files of a run that came through."""
+    lacking = {"echo.deck", "run.log"} - set(files)
+    if lacking:
+        return f"there is no {' '.join(sorted(lacking))}"
+    strange = set(files) - TABLES - {"echo.deck", "run.log"}
+    if strange or not TABLES & set(files):
+        return f"the files are {' '.join(sorted(files))}"
+    for name, content in files.items():
+        text = content.decode("utf-8", "replace")
+        if name in TABLES:
+            fault = fault_of_table(name, text)
+            if fault:
+                return fault
+        else:
+            for line in text.split("\n"):
+                odd = NOT_A_NUMBER.search(line)
+                if odd and odd[0] not in deck:
+                    return f"{name}: {line}"
+    return None
+
+
+def fault_of_run(words, run, deck):
+    """What is wrong with how a run ended."""
+    stderr = run.stderr.decode("utf-8", "replace")
+    if run.returncode not in (0, 1, 2):
+        return f"ended with status {run.returncode}: {stderr[-400:]}"
+    told = "\n".join(line for line in stderr.split("\n") if " | " not in line)
+    trouble = RUN_TIME.search(told)
+    if trouble and trouble[0] not in deck:
+        return f"a runtime error: {stderr[-400:]}"
+    if run.returncode == 2:
+        return fault_of_message(words, stderr)
+    if run.returncode == 1 and not re.search(r"^d\.deck: error: .*crank \S+ deg: .", stderr, re.MULTILINE):
+        return f"status 1, but no failure is told: {stderr[-400:]}"
+    return None
+
+
+def fault_of_again(program, folder, status, files):
+    """The echo of a deck, and two threads, give the same tables."""
+    with open(os.path.join(folder, "echo.deck"), "wb") as echo:
+        echo.write(files["echo.deck"])
+    for words, out in ((["--quiet", "--out", "echoed", "echo.deck"], "echoed/echo"),
+                       (["--quiet", "--threads", "2", "--out", "threads", "d.deck"], "threads/d")):
+        run = execute(program, words, folder)
+        if run.returncode != status:
+            return f"{' '.join(words)} ended with status {run.returncode}, not {status}: {run.stderr[-400:].decode('utf-8', 'replace')}"
+        again = tree(os.path.join(folder, out))
+        for name in sorted(set(files) | set(again)):
+            if name in TABLES and files.get(name) != again.get(name):
+                return f"{' '.join(words)} gives another {name}"
+    return None
+
+
+def fault_of_deck(program, folder, words, sound_words, text, again):
+    """Runs one deck in an empty folder; its status and what is wrong."""
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    with open(os.path.join(folder, "d.deck"), "wb") as deck:
+        deck.write(text)
+    if len(text) % 2:  # results of an earlier run
+        os.makedirs(os.path.join(folder, "outputs", "d"))
+        for name in ("mesh.dat", "notes.txt"):
+            with open(os.path.join(folder, "outputs", "d", name), "w", encoding="ascii") as earlier:
+                earlier.write("mine\n")
+    before = tree(folder)
+    deck = text.decode("utf-8", "replace")
+    run = execute(program, [word.replace("DECK", "d.deck") for word in words], folder)
+    fault = fault_of_run(words, run, deck)
+    after = tree(folder)
+    if not fault and (run.returncode == 2 or not sound_words) and after != before:
+        fault = f"nothing was to be written, but now there are {' '.join(sorted(set(after) - set(before)))} (or changes)"
+    elif not fault and sound_words and run.returncode < 2:
+        if after.pop(os.path.join("outputs", "d", "notes.txt"), b"mine\n") != b"mine\n":
+            fault = "a file of somebody else was changed"
+        folder_of = os.path.join("outputs", "d") + os.sep
+        files = {name[len(folder_of):]: content for name, content in after.items() if name.startswith(folder_of)}
+        fault = fault or fault_of_files(files, deck)
+        if not fault and again:
+            fault = fault_of_again(program, folder, run.returncode, files)
+    return run.returncode, fault
+
+
+def one(number, seed, program, decks, scratch):
+    """Makes and runs deck number so and so."""
+    dice = Dice(seed*1000003 + number)
+    kind, text = fuzz_decks.made_deck(dice, decks)
+    words, sound_words = ["DECK"], True
+    if dice.chance(0.12):
+        words, sound_words = dice.choice(OPTIONS)
+    folder = os.path.join(scratch, str(os.getpid()))
+    status, fault = fault_of_deck(program, folder, words, sound_words, text, number % ECHO_EVERY == 0)
+    if fault:
+        name = f"seed_{seed}_{number}"
+        os.makedirs(FAILED, exist_ok=True)
+        with open(os.path.join(FAILED, name + ".deck"), "wb") as deck:
+            deck.write(text)
+        fault = f"{FAILED}/{name}.deck ({kind}; flexmech {' '.join(words)}): {fault}"
+        with open(os.path.join(FAILED, name + ".txt"), "w", encoding="utf-8") as reason:
+            reason.write(fault + "\n")
+    return kind, status, fault
+
+
+def fuzz(count, seed, told):
+    """Runs so many decks; `told` hears of every fault. The number of decks by kind and exit status."""
+    shutil.rmtree(FAILED, ignore_errors=True)
+    scratch = os.path.abspath(os.path.join(FAILED, "scratch"))
+    os.makedirs(scratch)
+    work = functools.partial(one, seed=seed, program=os.path.abspath(PROGRAM), decks=fuzz_decks.sources(), scratch=scratch)
+    counts = Counter()
+    with multiprocessing.Pool() as pool:
+        for kind, status, fault in pool.imap_unordered(work, range(1, count + 1), chunksize=8):
+            counts[kind, status] += 1
+            if fault:
+                told(fault)
+    shutil.rmtree(scratch)
+    return counts
+
+
+def main(words):
+    count, seed = (int(word) for word in (words + ["10000", "1"][len(words):])[:2])
+    faults = []
+
+    def told(fault):
+        faults.append(fault)
+        print(f"not ok {fault}", flush=True)
+
+    counts = fuzz(count, seed, told)
+    kinds = sorted({kind for kind, _ in counts})
+    print(f"{'decks of seed ' + str(seed):<20}{'done':>8}{'rows failed':>13}{'refused':>9}")
+    for kind in kinds + ["all"]:
+        of_kind = [sum(number for (its, status), number in counts.items() if status == wanted and kind in (its, "all"))
+                   for wanted in (0, 1, 2)]
+        print(f"{kind:<20}{of_kind[0]:8d}{of_kind[1]:13d}{of_kind[2]:9d}")
+    print(f"{count - len(faults)} passed, {len(faults)} failed")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,305 @@
+"""Decks for fuzz.py: sound ones made up, those of the repository, and what mutations make of both.
+
+All choices come from `Dice`, which uses nothing of Python's generator but random(): its numbers for a seed are promised to
+stay the same on any machine and in any later version.
+"""
+
+import os
+import random
+import re
+from glob import glob
+
+NUMBER = re.compile(rb"(?<![A-Za-z_0-9.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?")
+WORD = re.compile(rb"[A-Za-z][A-Za-z_0-9.'*-]*")
+RANGE = re.compile(rb"([-+0-9.eEdD]+)[a-z/]*(\s+to\s+)([-+0-9.eEdD]+)[a-z/]*(\s+step\s+)([-+0-9.eEdD]+)", re.IGNORECASE)
+
+EXTREMES = ["0", "-0", "0.0", "1", "-1", "1e-300", "1e-320", "1e-41", "1e-39", "1e29", "1e30", "1e31", "1e39", "1e308", "1e309",
+            "-1e308", "4e-324", "2147483647", "2147483648", "-2147483649", "99999999999999999999", "1e", "1e+", "+", "-", ".", "nan",
+            "inf", "0x10", "1,5", "2*3", "1/2", "1d9", "1.2.3", "1e-9", "1e9", "360", "180", "89.99999999999999", "1e-15"]
+UNITS = ["m", "mm", "cm", "in", "ft", "kg", "g", "tonne", "lbm", "slug", "slinch", "s", "ms", "N", "kN", "lbf", "Pa", "kPa", "MPa",
+         "GPa", "psi", "ksi", "kg/m3", "g/cm^3", "lbm/in3", "mm2", "in4", "mm^4", "deg", "rad", "rad/s", "rpm", "rad/s2", "N/mm2"]
+KEYWORDS = ["TITLE", "UNITS", "MATERIAL", "SECTION", "GROUND", "LINK", "DRIVE", "BRANCH", "PINMASS", "MESH", "CRANK", "SPEED",
+            "INERTIA", "EFFECTS", "SOLVER", "MODES", "REPORT", "END", "INCLUDE", "SET", "VARY"]
+KEYS = ["E", "density", "nu", "thickness", "width", "diameter", "outer", "inner", "A", "I", "depth", "length", "material", "section",
+        "elements", "order", "accuracy", "alpha", "crank", "speed", "points"]
+WORDS = ["rectangle", "circle", "tube", "general", "open", "crossed", "lumped", "distributed", "static", "axial", "rotary", "shear",
+         "auto", "deformation", "dense", "band", "kinematics", "inertia", "mesh", "frequencies", "shapes", "branches", "to", "step", "*"]
+PIECES = [b"\0", b"\t", b"\r", b"\n", b"\r\n", b"&", b" & \n", b"!", b"#", b"=", b"==", b",", b",,", b"$", b"$x", b'"', b"'", b"\\",
+          b"\xc3\xb6", b"\xef\xbb\xbf", b"\xe2\x82\xac", b"\xff\xfe", b"\x80", b"\x1b[31m", b"\x7f", b"\xf0\x9f\x94\xa7", b" "*300,
+          b"x"*5000, b"\n"*50, b"&\n"*20, b"%s%n", b"{", b"()", b"END\n", b"NaN", b"*****"]
+REPORTS = ["kinematics", "inertia", "mesh", "frequencies", "shapes", "branches"]
+LENGTHS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "in": 0.0254, "ft": 0.3048}
+MASSES = {"kg": 1.0, "g": 1e-3, "tonne": 1e3, "lbm": 0.45359237, "slug": 14.593903, "slinch": 175.126835}
+TIMES = {"s": 1.0, "ms": 1e-3}
+
+# A run should end soon: so many positions and elements at most, where the mutations leave the text readable.
+MOST_STEPS, MOST_ELEMENTS, MOST_POINTS, MOST_MODES = 24, 120, 60, 12
+
+
+class Dice:
+    """Random choices that are the same everywhere."""
+
+    def __init__(self, seed):
+        self.random = random.Random(seed).random
+
+    def below(self, number):
+        return int(self.random()*number)
+
+    def choice(self, values):
+        return values[self.below(len(values))]
+
+    def chance(self, probability):
+        return self.random() < probability
+
+    def between(self, low, high):
+        return low + (high - low)*self.random()
+
+    def factor(self, decades):
+        """Anything from 10^-decades to 10^decades."""
+        return 10.0**self.between(-decades, decades)
+
+    def shuffle(self, values):
+        for i in range(len(values) - 1, 0, -1):
+            j = self.below(i + 1)
+            values[i], values[j] = values[j], values[i]
+
+
+def number(dice, value):
+    return dice.choice(["{:.6g}", "{:.12g}", "{:.4e}", "{:.3f}" if abs(value) > 1 else "{:.9g}"]).format(value)
+
+
+def quantity(dice, value, bare, units):
+    """A number in SI, written in the deck's unit or in one of its own."""
+    if not units or dice.chance(0.6):
+        return number(dice, value/bare)
+    unit = dice.choice(sorted(units))
+    return number(dice, value/units[unit]) + unit
+
+
+def link_lengths(dice):
+    """Crank, coupler and follower for a ground of length 1: crank-rockers for the most part, then anything, then special forms."""
+    kind = dice.random()
+    if kind < 0.7:
+        return [dice.between(0.15, 0.45), dice.between(0.8, 1.2), dice.between(0.8, 1.2)]
+    if kind < 0.9:
+        return [dice.between(0.05, 2.0), dice.between(0.2, 2.5), dice.between(0.2, 2.5)]
+    return dice.choice([[1.0, 1.0, 1.0], [0.5, 1.0, 0.5], [0.4, 1.0, 0.4], [0.5, 0.5, 1.0], [0.25, 1.0, 0.25], [2.0, 2.0, 1.0],
+                        [0.3, 0.3, 0.4], [0.5, 1.5, 1.0], [0.4, 0.8, 0.6]])
+
+
+def meshes(dice, names):
+    kind = dice.random()
+    if kind < 0.4:
+        return [f"MESH * accuracy={dice.choice(['1e-2', '1e-4', '1e-8', '1e-10', '1e-12', '1e-13'])}"]
+    elements = dice.choice([1, 1, 2, 2, 3, 4, 6, 8, 12, 45 if dice.chance(0.15) else 2])
+    cards = [f"MESH * elements={elements}"]
+    if dice.chance(0.4) and elements < 10:
+        cards[0] += f" order={dice.choice([3, 4, 5, 7, 12, 30 if elements < 3 else 6])}"
+    if dice.chance(0.4):
+        cards.append(f"MESH {dice.choice(names)} elements={dice.choice([1, 2, 4])}")
+    return cards
+
+
+def requests(dice, by_accuracy, own_speed):
+    """What is asked for; nearly always what goes together. Speeds are told apart by the links' own first vibration [rad/s]."""
+    cards = [dice.choice([f"CRANK 0 to 360 step {dice.choice([30, 45, 72, 90])}", "CRANK 0 120 240", f"CRANK {dice.between(-400, 400):.6g}",
+                          f"CRANK {dice.between(-180, 180):.4f} to {dice.between(200, 300):.3f} step 37.5", "CRANK 0 180",
+                          "CRANK 0 0.001 0.01 0.1 1", "CRANK 1rad 2rad 180deg", "CRANK 90 to -90 step -15"])]
+    if dice.chance(0.6):
+        speed = own_speed*10**dice.between(-2.5, -0.3 if dice.chance(0.95) else 1.0)
+        cards.append("SPEED " + dice.choice([f"0 {speed:.4g} rad/s", f"{speed:.5g}rad/s", f"{9.5*speed:.4f}rpm", f"{-speed:.3g} rad/s",
+                                             f"0 to {speed:.6g} step {speed/2:.6g} rad/s", "0"]))
+        if dice.chance(0.3):
+            cards[-1] += f" alpha={dice.choice([0.0, 1.0, -10.0])*speed**2:.3g}rad/s2"
+    careless = dice.chance(0.1)
+    if dice.chance(0.9):
+        cards.append("INERTIA " + ("distributed" if by_accuracy and not careless else dice.choice(["lumped", "distributed"])))
+    for probability, card in ((0.4, "EFFECTS " + dice.choice(["static", "axial"])), (0.3, "BRANCH " + dice.choice(["open", "crossed"])),
+                              (0.5, f"MODES {dice.choice([1, 2, 3, 4, 6, 10])}")):
+        if dice.chance(probability):
+            cards.append(card)
+    if dice.chance(0.5):
+        cards.append("SOLVER " + dice.choice(["auto", "deformation"] if by_accuracy and not careless else ["dense", "band"]))
+    for kind in [kind for kind in REPORTS if dice.chance(0.4)] or ["frequencies"]:
+        if kind == "inertia" and not any(card.startswith("INERTIA") for card in cards) and not careless:
+            continue
+        more = f" points={dice.choice([2, 3, 7, 40])}" if kind == "shapes" and dice.chance(0.3) else ""
+        cards.append(f"REPORT {kind}{more}")
+    if not any(card.startswith("REPORT") for card in cards):
+        cards.append("REPORT kinematics")
+    return cards
+
+
+def sound_deck(dice):
+    """A deck that says something sensible, nearly always: other lengths, units, beams, speeds, orders, solvers, reports."""
+    length, mass, time = (dice.choice(sorted(units)) for units in (LENGTHS, MASSES, TIMES))
+    if dice.chance(0.5):
+        length, mass, time = dice.choice([("mm", "tonne", "s"), ("m", "kg", "s"), ("in", "slinch", "s")])
+    bare_length, bare_mass, bare_time = LENGTHS[length], MASSES[mass], TIMES[time]
+    stress = bare_mass/(bare_length*bare_time**2)
+    scale = 0.3*dice.factor(3 if dice.chance(0.2) else 0.5)
+    names = dice.choice([["crank", "coupler", "follower"], ["a", "b", "c"], ["L-1", "L'2", "l_3.x"]])
+    pins = dice.choice([["O2", "A", "B", "O4"], ["1", "2", "3", "4"]])
+    turn = dice.choice([(1.0, 0.0), (1.0, 0.0), (0.6, 0.8), (-1.0, 0.0)])
+    cards = [f"UNITS {length} {mass} {time}", f"GROUND {pins[0]} 0 0",
+             f"GROUND {pins[3]} {quantity(dice, scale*turn[0], bare_length, LENGTHS)} {quantity(dice, scale*turn[1], bare_length, LENGTHS)}"]
+    if dice.chance(0.7):
+        cards.append("TITLE " + dice.choice(["A four-bar", "! # & = \"all\"", "Grösse ½ µm", "x"*200, "*** NaN Infinity"]))
+    density = dice.between(500, 9000)*dice.factor(4 if dice.chance(0.1) else 0.1)
+    modulus = 10**dice.between(9, 11.5)*dice.factor(6 if dice.chance(0.1) else 0.1)
+    cards.append(f"MATERIAL steel E={quantity(dice, modulus, stress, {'GPa': 1e9, 'MPa': 1e6, 'psi': 6894.757})} "
+                 f"density={quantity(dice, density, bare_mass/bare_length**3, {'kg/m3': 1.0, 'g/cm3': 1e3})} nu=0.3")
+    depth = scale*10**dice.between(-3.5, -1.0)
+    side = [quantity(dice, depth*ratio, bare_length, LENGTHS) for ratio in (1.0, dice.between(0.5, 9.0), 0.7)]
+    cards.append("SECTION s " + dice.choice([f"rectangle thickness={side[0]} width={side[1]}", f"circle diameter={side[0]}",
+                                             f"tube outer={side[0]} inner={number(dice, 0.7*depth/bare_length)}",
+                                             f"general A={number(dice, depth**2/bare_length**2)} "
+                                             f"I={number(dice, depth**4/(12*bare_length**4))} depth={side[2]}"]))
+    ends = [pins[:2], pins[1:3], [pins[3], pins[2]]]
+    for name, end, value in zip(names, ends, link_lengths(dice)):
+        if dice.chance(0.3):
+            end = end[::-1]
+        cards.append(f"LINK {name} {end[0]} {end[1]} length={quantity(dice, scale*value, bare_length, LENGTHS)} material=steel section=s")
+    cards.append(f"DRIVE {names[0]}")
+    if dice.chance(0.2):
+        cards.append(f"PINMASS {dice.choice(pins)} {quantity(dice, density*depth**2*scale*dice.factor(3), bare_mass, MASSES)}")
+    mesh = meshes(dice, names) if dice.chance(0.95) else []
+    cards += mesh + requests(dice, not mesh or "accuracy" in mesh[0], 3.0*(modulus/density)**0.5*depth/scale**2)
+    if dice.chance(0.5):
+        dice.shuffle(cards)
+    if dice.chance(0.2):
+        cards.append("END")
+    return ("\n".join(cards) + "\n").encode()
+
+
+def change_number(dice, text):
+    places = list(NUMBER.finditer(text))
+    if not places:
+        return text
+    place = dice.choice(places)
+    new = dice.choice(EXTREMES)
+    try:
+        value = float(place[0].replace(b"d", b"e").replace(b"D", b"E"))
+        new = dice.choice([new, f"{value*dice.factor(0.3):.9g}", f"{value*dice.factor(0.3):.9g}", f"{value*dice.factor(9):.9g}",
+                           f"{-value:.9g}", f"{int(min(abs(value), 1e9)) + 1}", f"{value:.17e}"])
+    except ValueError:
+        pass
+    return text[:place.start()] + new.encode() + text[place.end():]
+
+
+def change_unit(dice, text):
+    places = [m for m in re.finditer(rb"(?<=[0-9. ])[A-Za-z/]+[234]?(?![\w=.'-])", text) if m[0].decode() in UNITS]
+    if not places:
+        return text
+    place = dice.choice(places)
+    return text[:place.start()] + dice.choice(UNITS).encode() + text[place.end():]
+
+
+def change_word(dice, text):
+    """Another word in place of one: of this deck, of the language, or nearly the same."""
+    places = list(WORD.finditer(text))
+    if not places:
+        return text
+    place = dice.choice(places)
+    old = place[0].decode("latin-1")
+    new = dice.choice([dice.choice(places)[0].decode("latin-1"), dice.choice(KEYWORDS), dice.choice(KEYS), dice.choice(WORDS), old.swapcase(),
+                       old[1:], old + old[-1], old[::-1], ""])
+    return text[:place.start()] + new.encode("latin-1") + text[place.end():]
+
+
+def change_lines(dice, text, other):
+    """Deletes, doubles, swaps, joins, splits or brings in lines."""
+    lines, others = text.split(b"\n"), other.split(b"\n")
+    i, j = dice.below(len(lines)), dice.below(len(lines))
+    kind = dice.below(8)
+    if kind == 0:
+        del lines[i]
+    elif kind == 1:
+        lines.insert(j, lines[i])
+    elif kind == 2:
+        lines[i], lines[j] = lines[j], lines[i]
+    elif kind == 3:
+        lines[i:i + 2] = [b" ".join(lines[i:i + 2])]
+    elif kind == 4:
+        lines.insert(i, dice.choice(others))
+    elif kind == 5:
+        dice.shuffle(lines)
+    elif kind == 6:
+        lines[i] = lines[i].replace(b" ", dice.choice([b" &\n", b"\t", b" & ! more\n", b"   "]), 1 + dice.below(3))
+    else:
+        lines = lines[:i] + others[dice.below(len(others)):]
+    return b"\n".join(lines)
+
+
+def change_bytes(dice, text):
+    at = dice.below(len(text) + 1)
+    kind = dice.below(8)
+    if kind == 0:
+        return text[:at]
+    if kind == 1:
+        return text[:at] + bytes([dice.below(256)]) + text[at + 1:]
+    if kind == 2:
+        return text[:at] + text[at + 1 + dice.below(4):]
+    if kind == 3:
+        return text.replace(b"\n", b"\r\n")
+    if kind == 4:
+        return text.replace(b" ", b"\t")
+    if kind == 5:
+        return dice.choice([text.upper(), text.lower(), b"\xef\xbb\xbf" + text, text.rstrip(b"\n"), text + text, b""])
+    return text[:at] + dice.choice(PIECES) + text[at:]
+
+
+def mutated(dice, text, other):
+    """Some changes of a text; `other` is another deck to take lines from."""
+    for _ in range(dice.choice([1, 1, 1, 2, 2, 3, 6])):
+        text = dice.choice([lambda: change_number(dice, text), lambda: change_number(dice, text), lambda: change_unit(dice, text),
+                            lambda: change_word(dice, text), lambda: change_lines(dice, text, other),
+                            lambda: change_bytes(dice, text)])()
+    return text
+
+
+def tame(text):
+    """The same with fewer positions, elements, points and modes where there are many: a fuzzed deck should end soon."""
+    def fewer(match):
+        try:
+            first, last, step = (float(part.lower().replace(b"d", b"e")) for part in match.group(1, 3, 5))
+        except ValueError:
+            return match[0]
+        if step == 0 or not MOST_STEPS < (last - first)/step < 900000:  # beyond: refused at once
+            return match[0]
+        return match[0][:match.start(5) - match.start()] + f"{(last - first)/MOST_STEPS:.6g}".encode()
+
+    def at_most(limit):
+        return lambda match: match[1] + (str(limit).encode() if limit < int(match[2]) < 500000 else match[2])
+
+    text = RANGE.sub(fewer, text)
+    # Full matrices, and elements with many unknowns, cost more.
+    costly = re.search(rb"(?i)dense|order\s*=\s*\d\d", text)
+    text = re.sub(rb"(?i)(elements\s*=\s*)(\d+)(?![.\d])", at_most(MOST_ELEMENTS//(8 if costly else 1)), text)
+    text = re.sub(rb"(?i)(points\s*=\s*)(\d+)(?![.\d])", at_most(MOST_POINTS), text)
+    return re.sub(rb"(?i)(modes\s+)(\d+)(?![.\d])", at_most(MOST_MODES), text)
+
+
+def sources():
+    """The decks of the repository, in the order of their names."""
+    found = []
+    for path in sorted(glob(os.path.join("inputs", "*.deck"))) + sorted(glob(os.path.join("tests", "decks", "*.deck"))):
+        with open(path, "rb") as deck:
+            found.append((os.path.dirname(path), deck.read()))
+    return found
+
+
+def made_deck(dice, decks):
+    """One deck and what kind it is: sound, or a mutation of a sound one, of one in inputs/, of one that is refused."""
+    inputs = [text for folder, text in decks if folder == "inputs"]
+    refused = [text for folder, text in decks if folder != "inputs"]
+    kind, share = "sound", dice.random()
+    if share < 0.4:
+        text = sound_deck(dice)
+    elif share < 0.7:
+        kind, text = "sound, mutated", mutated(dice, sound_deck(dice), dice.choice(inputs))
+    elif share < 0.9:
+        kind, text = "inputs, mutated", mutated(dice, dice.choice(inputs), sound_deck(dice))
+    else:
+        kind, text = "refused, mutated", mutated(dice, dice.choice(refused), dice.choice(inputs))
+    return kind, tame(text)
