@@ -28,7 +28,10 @@ set bmargin at screen up(foot(lines_of_notes(note, remark)))
 set offsets graph 0, 0, 0.03, 0.03
 set style fill transparent solid 0.25 noborder
 if (lowest < 0) { eval zero_line }
-set xlabel parameter.unit(parameter) noenhanced
+set xlabel parameter.(value("unit_".parameter) eq "-" ? "" : unit(parameter)) noenhanced
+x = value("low_".parameter)
+# A single value has a band without width: its ends are drawn as points.
+if (value("high_".parameter) == x) { set xrange [x - (x == 0 ? 1 : 0.01*abs(x)) : x + (x == 0 ? 1 : 0.01*abs(x))] }
 set ylabel "natural frequency".unit("f1")
 
 plot for [k=1:modes] $bands using 1:(column(2*k)):(column(2*k + 1)) with filledcurves lt k notitle, \
