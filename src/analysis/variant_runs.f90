@@ -55,7 +55,7 @@ contains
     run%positions = find_positions(run%mechanism%linkage, run%model%crank%value)
     if (needs_frequencies(run%model)) then
       call run_sweep(run%model, run%mechanism, run%positions, threads, progress, journal, number, store, run%sweep, error)
-      if (allocated(error)) return
+      if (allocated(error) .or. was_interrupted()) return
       if (run%sweep%request%follow) call follow_branches(run%mechanism, run%positions, run%sweep, run%branches)
     end if
     if (was_interrupted()) return

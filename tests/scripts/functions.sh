@@ -52,6 +52,29 @@ absent() {
   return 0
 }
 
+# interrupted SIGNAL OUT DECK OPTION...: a run that is sent a signal after a second, and is told to have taken it. A shell without
+# job control starts its background jobs deaf to SIGINT, so one with it does.
+interrupted() {
+  cat >"$scratch/job.sh" <<'END_OF_JOB'
+set -m
+signal=$1
+told=$2
+shift 2
+"$@" 2>"$told" &
+sleep 1
+kill -s "$signal" $!
+wait $!
+END_OF_JOB
+  signal=$1
+  out_folder=$2
+  interrupted_deck=$3
+  shift 3
+  sh "$scratch/job.sh" "$signal" "$scratch/stderr" "$program" "$@" --out "$out_folder" "$interrupted_deck" 2>"$scratch/job.told"
+  found=$?
+  [ "$signal" = KILL ] && wanted=137 || wanted=130
+  [ $found -eq $wanted ] || { echo "status $found, not $wanted"; return 1; }
+}
+
 # same FOLDER FOLDER: the same files with the same bytes.
 same() {
   diff -rq "$1" "$2"

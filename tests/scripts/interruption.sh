@@ -1,5 +1,5 @@
 #!/bin/sh
-# A run that is interrupted leaves the earlier results, byte for byte, and nothing half done.
+# A run that is interrupted leaves the earlier results, byte for byte, and nothing half done but what --resume goes on from.
 . tests/scripts/functions.sh
 
 out=$scratch/out
@@ -10,21 +10,27 @@ cp -r "$out" "$scratch/before"
 # Long enough to be interrupted on any machine.
 beam_deck "CRANK 0 to 360 step 0.002" "MODES 8" "SPEED 0 to 20 step 1" "REPORT frequencies" "REPORT mesh" >"$deck"
 
-# interrupted SIGNAL OUT: a shell without job control starts its background jobs deaf to SIGINT, so one with it does.
-interrupted() {
-  cat >"$scratch/job.sh" <<'END_OF_JOB'
-set -m
-"$1" --format csv --out "$2" "$3" 2>"$4" &
-sleep 1
-kill -s "$5" $!
-wait $!
-END_OF_JOB
-  sh "$scratch/job.sh" "$program" "$2" "$deck" "$scratch/stderr" "$1"
-  found=$?
-  [ $found -eq 130 ] || { echo "status $found, not 130"; return 1; }
-  says "beam.deck: interrupted; its earlier results are untouched"
+# stopped SIGNAL OUT: the message names what was kept for --resume.
+stopped() {
+  interrupted "$1" "$2" "$deck" --format csv || return 1
+  says "beam.deck: interrupted; its earlier results are untouched; --resume goes on from what it has computed" || return 1
+  [ -s "$2/beam/resume.part" ] || { echo "no resume.part"; return 1; }
+  rm "$2/beam/resume.part"
 }
 
-check "Ctrl-C leaves the earlier results" eval 'interrupted INT "$out" && same "$out" "$scratch/before"'
-check "a request to end likewise" eval 'interrupted TERM "$out" && same "$out" "$scratch/before"'
-check "no new folder is left" eval 'interrupted INT "$scratch/new" && absent "$scratch/new"'
+check "Ctrl-C leaves the earlier results" eval 'stopped INT "$out" && same "$out" "$scratch/before"'
+check "a request to end likewise" eval 'stopped TERM "$out" && same "$out" "$scratch/before"'
+check "a new folder holds nothing else" eval 'stopped INT "$scratch/new" && rmdir "$scratch/new/beam" "$scratch/new"'
+
+# Nothing is kept of a run without frequencies: motion is found in no time, and only its tables take long.
+{
+  motion_deck "0 to 360 step 0.0004"
+  printf '%s\n' "INERTIA distributed" "SPEED 0 to 20 step 1"
+} >"$scratch/motion.deck"
+long_motion() {
+  interrupted INT "$scratch/new" "$scratch/motion.deck" || return 1
+  says "motion.deck: interrupted; its earlier results are untouched" || return 1
+  ! says "--resume" >/dev/null || { echo "it speaks of --resume"; return 1; }
+  absent "$scratch/new"
+}
+check "no new folder is left where nothing was computed that takes time" long_motion

@@ -1,0 +1,145 @@
+#!/bin/sh
+# --resume: a run that was killed goes on, and ends with the bytes of an undisturbed one.
+. tests/scripts/functions.sh
+
+# killed SIGNAL OUT DECK OPTION...: a run that is sent a signal when its journal has grown for a while.
+killed() {
+  cat >"$scratch/kill.sh" <<'END_OF_JOB'
+set -m
+signal=$1
+journal=$2
+told=$3
+shift 3
+"$@" 2>"$told" &
+tries=0
+while [ ! -s "$journal" ] && [ $tries -lt 1000 ]; do
+  sleep 0.02
+  tries=$((tries + 1))
+done
+sleep 0.4
+kill -s "$signal" $!
+wait $!
+END_OF_JOB
+  signal=$1
+  folder=$2
+  deck=$3
+  shift 3
+  name=${deck##*/}
+  sh "$scratch/kill.sh" "$signal" "$folder/${name%.deck}/resume.part" "$scratch/stderr" "$program" "$@" --out "$folder" "$deck" \
+    2>"$scratch/kill.told"
+  found=$?
+  [ "$signal" = KILL ] && wanted=137 || wanted=130
+  [ $found -eq $wanted ] || { echo "status $found, not $wanted"; return 1; }
+}
+
+sweep_deck() {
+  beam_deck "CRANK 0 to 360 step $1" "SPEED 0 20" "REPORT frequencies" "REPORT shapes crank=0" "REPORT branches"
+}
+
+vary_deck() {
+  beam_deck "VARY b 270 to 290 step $1" "CRANK 0 to 350 step 10" "SPEED 0 20" "REPORT frequencies" "REPORT kinematics" |
+    sed 's/length=279.4/length=$b/'
+}
+
+# step_for MAKER STEP: the step with which a deck takes about two seconds on this machine; with STEP it takes a tenth or so of it.
+step_for() {
+  "$1" "$2" >"$scratch/probe.deck"
+  begin=$(date +%s%N)
+  run 0 --out "$scratch/probe" "$scratch/probe.deck"
+  awk -v step="$2" -v took=$((($(date +%s%N) - begin)/1000000)) 'BEGIN {
+    step *= (took < 1 ? 1 : took)/2000
+    printf "%.6f\n", step < 0.0004 ? 0.0004 : step
+  }'
+}
+
+sweep_deck "$(step_for sweep_deck 0.25)" >"$scratch/sweep.deck"
+vary_deck "$(step_for vary_deck 0.5)" >"$scratch/vary.deck"
+for name in sweep vary; do
+  run 0 --out "$scratch/whole" --format csv "$scratch/$name.deck"
+done
+
+# complete OUT NAME: the files of a run that nobody disturbed, and no journal.
+complete() {
+  same "$1/$2" "$scratch/whole/$2"
+}
+
+# resumed NAME OUT OPTION...
+resumed() {
+  name=$1
+  folder=$2
+  shift 2
+  run 0 --out "$folder" --format csv --resume "$@" "$scratch/$name.deck" || return 1
+  says "$name.deck: went on from " && says " of positions that an earlier run had computed" && complete "$folder" "$name"
+}
+
+killed_and_resumed() {
+  killed KILL "$scratch/killed" "$scratch/$1.deck" --format csv "$2" "$3" || return 1
+  rm -rf "$scratch/again"
+  cp -r "$scratch/killed" "$scratch/again"
+  resumed "$1" "$scratch/again" "$4" "$5"
+}
+check "a killed sweep goes on" killed_and_resumed sweep --threads 1 --threads 2
+check "killed variants go on" killed_and_resumed vary --threads 2 --threads 1
+
+# from_journal NAME COMMAND...: goes on with what a command makes of the journal of the killed run.
+from_journal() {
+  name=$1
+  shift
+  rm -rf "$scratch/again"
+  cp -r "$scratch/killed" "$scratch/again"
+  "$@" "$scratch/again/$name/resume.part"
+  resumed "$name" "$scratch/again"
+}
+torn() {
+  truncate -s -7 "$1"
+}
+garbage() {
+  head -c 5000 "$program" >>"$1"
+}
+check "a journal that was cut off" from_journal sweep torn
+check "a journal with something behind it" from_journal vary garbage
+
+blocks_told() {
+  sed -n 's/.*went on from \([0-9]*\) block.*/\1/p' "$scratch/stderr"
+}
+interrupted_and_resumed() {
+  killed INT "$scratch/interrupted" "$scratch/vary.deck" --format csv && says "; --resume goes on from what it has computed" || return 1
+  resumed vary "$scratch/interrupted" && [ "$(blocks_told)" -gt 0 ]
+}
+check "an interrupted run goes on" interrupted_and_resumed
+
+# Killed, killed again while it goes on, and done at the third time, which knows at least the blocks that the second one did.
+twice() {
+  rm -rf "$scratch/again"
+  cp -r "$scratch/killed" "$scratch/again"
+  first=$(wc -c <"$scratch/again/sweep/resume.part")
+  killed INT "$scratch/again" "$scratch/sweep.deck" --format csv --resume || return 1
+  [ "$(wc -c <"$scratch/again/sweep/resume.part")" -ge "$first" ] || { echo "the journal has become shorter"; return 1; }
+  resumed sweep "$scratch/again"
+}
+check "twice disturbed" twice
+
+changed() {
+  rm -rf "$scratch/again"
+  cp -r "$scratch/killed" "$scratch/again"
+  beam_deck "CRANK 0" "REPORT frequencies" >"$scratch/changed/sweep.deck"
+  run 0 --out "$scratch/again" --resume "$scratch/changed/sweep.deck" || return 1
+  says "sweep.deck: the earlier run was of another deck, or by another program; this one has begun anew" || return 1
+  absent "$scratch/again/sweep/resume.part"
+}
+mkdir "$scratch/changed"
+check "the journal of another deck is not used" changed
+
+no_journal() {
+  run 0 --out "$scratch/fresh" --resume "$scratch/changed/sweep.deck" || return 1
+  says "sweep.deck: no earlier run has left anything to go on from; this one has begun anew" || return 1
+  absent "$scratch/fresh/sweep/resume.part"
+}
+check "no journal to go on from" no_journal
+
+not_asked() {
+  rm -rf "$scratch/again"
+  cp -r "$scratch/killed" "$scratch/again"
+  run 0 --out "$scratch/again" "$scratch/changed/sweep.deck" && silent && absent "$scratch/again/sweep/resume.part"
+}
+check "without --resume the journal goes" not_asked

@@ -1,0 +1,147 @@
+#!/bin/sh
+# VARY: one table of all variants, whose rows are those of plain decks with the values in place.
+. tests/scripts/functions.sh
+
+out=$scratch/out
+
+# varied CARD...: a deck whose coupler and follower lengths are $b and $c.
+varied() {
+  beam_deck "$@" | sed 's/length=279.4/length=$b/; s/length=266.7/length=$c/'
+}
+
+all_reports() {
+  printf '%s\n' "CRANK 0 to 360 step 90" "SPEED 0 12" "REPORT kinematics" "REPORT inertia" "REPORT mesh" "REPORT frequencies" \
+    "REPORT shapes crank=0,90 points=3" "REPORT branches"
+}
+
+{ varied "VARY b 270 280.5" "VARY c 260 to 280 step 10" && all_reports; } >"$scratch/grid.deck"
+mkdir "$scratch/plain"
+for b in 270 280.5; do
+  for c in 260 270 280; do
+    { varied "SET b $b" "SET c $c" && all_reports; } >"$scratch/plain/${b}_$c.deck"
+  done
+done
+run 0 --out "$out" --threads 2 --format csv "$scratch/grid.deck"
+run 0 --out "$scratch/plain" --format csv "$scratch"/plain/*.deck
+
+# composed: the tables of the grid are the header with two more columns, and the rows of the plain tables after their values;
+# two empty lines between variants. Likewise in CSV.
+composed() {
+  python3 -B - "$out/grid" "$scratch/plain" <<'END_OF_PYTHON'
+import glob, os, sys
+
+grid, plain = sys.argv[1:]
+variants = [(b, c) for b in ("270", "280.5") for c in ("260", "270", "280")]  # the last varies fastest
+tables = sorted(os.path.basename(path) for path in glob.glob(os.path.join(grid, "*.dat")))
+assert len(tables) == 6, tables
+
+def read(*path):
+    with open(os.path.join(*path), encoding="utf-8", newline="") as file:
+        return file.read()
+
+def cell(word):
+    mantissa, exponent = f"{float(word):25.16E}".split("E")
+    return f"{mantissa[1:]}E{exponent[0]}{int(exponent[1:]):03d}"
+
+for table in tables:
+    # Remarks of the variants (angles, limits) may differ: the rows are compared, and the names and units.
+    def parts(text):
+        lines = text.split("\n")
+        head = max(i for i in range(len(lines)) if lines[i].startswith("#") and all(l.startswith("#") for l in lines[:i]))
+        return lines[head - 1:head + 1], lines[head + 1:-1]
+    expected = []
+    for b, c in variants:
+        names, rows = parts(read(plain, f"{b}_{c}", table))
+        if expected:
+            expected += ["", ""]
+        expected += [cell(b) + cell(c) + row if row and not row.startswith("#") else row for row in rows]
+    found_names, found = parts(read(grid, table))
+    found = [row for row in found if not row.startswith("# ") or row.startswith("# failed")]
+    assert found_names[0].split() == ["#", "b", "c"] + names[0][1:].split(), f"{table}: {found_names[0]}"
+    assert found_names[1].split() == ["#", "-", "-"] + names[1][1:].split(), f"{table}: {found_names[1]}"
+    assert len(found) == len(expected), f"{table}: {len(found)} rows, not {len(expected)}"
+    for line, (a, b) in enumerate(zip(found, expected)):
+        assert a == b, f"{table}, row {line}: '{a}' is not '{b}'"
+    csv = table[:-4] + ".csv"
+    expected = []
+    for b, c in variants:
+        head, *rows = read(plain, f"{b}_{c}", csv).split("\r\n")[:-1]
+        expected = expected or ["b,c," + head]
+        expected += [f"{cell(b).strip()},{cell(c).strip()},{row}" for row in rows]
+    assert read(grid, csv).split("\r\n")[:-1] == expected, csv
+END_OF_PYTHON
+}
+check "every variant has the rows of a plain deck, in all tables and in CSV" composed
+
+threads_change_nothing() {
+  for threads in 1 7; do
+    run 0 --out "$scratch/threads" --threads $threads --format csv "$scratch/grid.deck" && silent || return 1
+    same "$out/grid" "$scratch/threads/grid" || return 1
+  done
+}
+check "threads change nothing" threads_change_nothing
+
+# echo_again FOLDER NAME: the echo of a deck gives its tables.
+echo_again() {
+  cp "$1/echo.deck" "$scratch/$2.deck"
+  run 0 --out "$scratch/again" --format csv "$scratch/$2.deck" && same_tables "$1" "$scratch/again/$2"
+}
+check "the echo gives the same tables" echo_again "$out/grid" grid
+
+set_one() {
+  run 0 --out "$scratch/set" --format csv --set b=280.5 --set c=270 "$scratch/grid.deck" && silent &&
+    same_tables "$scratch/plain/280.5_270" "$scratch/set/grid"
+}
+check "--set in place of all that varies makes a plain deck" set_one
+set_half() {
+  run 0 --out "$scratch/half" --set c=270 "$scratch/grid.deck" && silent || return 1
+  grep -q '^# *b  *speed  *crank  *f1' "$scratch/half/grid/frequencies.dat" || { echo "columns"; return 1; }
+  [ "$(grep -cv -e '^#' -e '^$' "$scratch/half/grid/frequencies.dat")" -eq 20 ]
+}
+check "--set in place of one leaves the other" set_half
+
+summary_counts() {
+  python3 -B - "$out/grid/summary.json" <<'END_OF_PYTHON'
+import json, sys
+with open(sys.argv[1], encoding="utf-8") as file:
+    summary = json.load(file)
+assert summary["counts"]["variants"] == 6, summary["counts"]
+assert summary["counts"]["positions"] == 30 and summary["counts"]["speeds"] == 2, summary["counts"]
+assert [column["name"] for column in summary["tables"][0]["columns"][:3]] == ["b", "c", "speed"]
+END_OF_PYTHON
+}
+check "the summary counts variants" summary_counts
+check "the log names the first variant and the last" \
+  eval 'grep -q "^first of 6 variants, b=270 c=260:$" "$out/grid/run.log" && grep -q "the last one with b=280.5 c=280:$" "$out/grid/run.log"'
+
+# A parallelogram has dead points at 0 and 180 degrees: one variant of three.
+varied "SET b 254" "VARY c 105 100 110" "CRANK 0 90" "REPORT frequencies" >"$scratch/dead.deck"
+failed_rows() {
+  run 1 --out "$out" --format csv "$scratch/dead.deck" || return 1
+  says "dead.deck: error: c=100, crank 0 deg" || return 1
+  grep -q '^# failed c=100 speed=0 crank=0 : ' "$out/dead/frequencies.dat" || { echo "no failed row"; return 1; }
+  python3 -B - "$out/dead/summary.json" <<'END_OF_PYTHON'
+import json, sys
+with open(sys.argv[1], encoding="utf-8") as file:
+    summary = json.load(file)
+failure, = summary["failures"]
+assert failure["parameters"] == {"c": 100}, failure
+assert failure["crank"] == 0 and summary["exit_status"] == 1, failure
+END_OF_PYTHON
+}
+check "failed rows name what varies" failed_rows
+
+refused() {
+  varied "SET c 266.7" "VARY b 280 900 1000 270" "CRANK 0 90" "REPORT kinematics" >"$scratch/refused.deck"
+  run 2 --out "$scratch/nothing" "$scratch/refused.deck" && says "error: with b=900: " &&
+    says "error: 2 of 4 variants are refused, the last one with b=1000" && absent "$scratch/nothing"
+}
+check "refused variants: nothing is written" refused
+
+many() {
+  varied "SET c 266.7" "VARY b 270 to 280 step 0.01" "CRANK 0 90" "REPORT frequencies" >"$scratch/many.deck"
+  run 0 --out "$out" --threads 1 "$scratch/many.deck" && run 0 --out "$scratch/again" --threads 3 "$scratch/many.deck" &&
+    same "$out/many" "$scratch/again/many" || return 1
+  [ "$(grep -cv -e '^#' -e '^$' "$out/many/frequencies.dat")" -eq 2002 ]
+}
+check "a thousand variants in their order" many
