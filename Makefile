@@ -21,13 +21,16 @@ unit_tests = $(if $(PFUNIT_DIR),pfunit,funit)/unit_tests
 
 ifndef kind
 # ---------------------------------------------------------------------------------------------- what a person types
-.PHONY: all debug thesis run figures check golden install setup clean help
+.PHONY: all debug quad thesis run figures check stress references golden install setup clean help
 
 all: setup
 	$(stage) kind=release $(program)
 
 debug: setup
 	$(stage) kind=debug build/debug/flexmech
+
+quad: setup
+	$(stage) kind=quad build/quad/flexmech
 
 # Installs what is missing; silent and instant when everything is there.
 setup:
@@ -58,6 +61,13 @@ check: setup
 	$(stage) kind=release $(program) build/release/$(unit_tests)
 	$(stage) kind=debug build/debug/flexmech build/debug/$(unit_tests)
 	@python3 -B $(support)/check.py $(unit_tests)
+
+stress: all
+	@python3 -B tests/stress/run_stress.py $(program)
+
+# Quadruple precision for every case of `make stress`: some minutes.
+references: all quad
+	@python3 -B tests/stress/make_references.py build/quad/flexmech
 
 golden: all
 	$(need_case)
@@ -97,8 +107,10 @@ build = build/$(kind)
 
 # No -ffast-math and no -march=native: the same deck must give the same bytes on every machine of a kind.
 flags_release    = -O3
+flags_quad       = -O2
 flags_debug      = -Og -g -fbacktrace -fcheck=all -fcheck=no-array-temps -ffpe-trap=invalid,zero,overflow -finit-real=snan -finit-derived
 warnings_release =
+warnings_quad    =
 # Array temporaries are no mistake, and a note of each would stand between the program's own messages (no-array-temps).
 # gfortran 12 suspects every allocatable that a function returns (no-uninitialized); the debug build fills what nobody
 # has set with NaN that traps, which finds the real ones.
@@ -115,11 +127,17 @@ libraries := $(call archive,libarpack.a) -lopenblas
 else
 libraries := $(call archive,libarpack.a) $(call archive,lapack/liblapack.a liblapack.a) $(call archive,blas/libblas.a libblas.a)
 endif
+# Quadruple precision: the same sources, but for the modules that tests/quad/ has instead, among them the part of LAPACK in use.
+ifeq ($(kind),quad)
+libraries :=
+instead   := $(wildcard tests/quad/*.f90)
+endif
 
 # File = module, so the objects of all layers can lie in one folder.
-sources := $(wildcard src/*/*.f90) src/main.f90
-modules := $(patsubst %.f90,$(build)/%.o,$(notdir $(wildcard src/*/*.f90)))
-vpath %.f90 $(sort $(dir $(sources)))
+sources := $(filter-out $(addprefix %/,$(notdir $(instead))),$(wildcard src/*/*.f90)) $(instead) src/main.f90
+modules := $(patsubst %.f90,$(build)/%.o,$(filter-out main.f90,$(notdir $(sources))))
+# Of two files of one name the first is meant.
+vpath %.f90 $(sort $(dir $(instead))) $(sort $(dir $(sources))) tests/quad
 
 # Found anew at every call (it takes milliseconds), so that dependencies are never older than the sources.
 $(shell mkdir -p $(build)/funit $(build)/pfunit && makedepf90 -b '$$(build)' $(sources) > $(build)/dependencies.mk)

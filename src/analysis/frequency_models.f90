@@ -4,7 +4,7 @@ module frequency_models
   use deformation_chain, only: deformation_chain_t, new_deformation_chain
   use deformation_model, only: deformation_model_t, new_deformation_model
   use errors, only: error_t
-  use kinds, only: wp
+  use kinds, only: fineness, wp
   use ledger, only: ledger_t
   use mechanisms, only: mechanism_t
   use order_choice, only: choose_orders
@@ -26,7 +26,7 @@ module frequency_models
   integer, parameter :: long_mesh_guards = 8
 
   !> Accuracy of the model by which the error of a mesh is told.
-  real(wp), parameter :: judging_accuracy = 1.0e-13_wp
+  real(wp), parameter :: judging_accuracy = 1.0e-13_wp*fineness
 
   !> What is wanted at every position.
   type :: mode_request_t

@@ -1,7 +1,7 @@
 !> Tables: plain text, one row that stands alone, all the digits of a double.
 module tables
   use kinds, only: wp
-  use number_text, only: scientific
+  use number_text, only: number_width, scientific
   use output_files, only: append_output, output_file_t
   use text, only: string_t
   implicit none (type, external)
@@ -16,7 +16,6 @@ module tables
     integer :: width = 0
   end type column_t
 
-  integer, parameter :: number_width = 25 !! sign, 17 digits, point, exponent of three digits, and a blank
   integer, parameter :: integer_width = 9
   character(len=*), parameter :: line_feed = achar(10)
 
