@@ -67,7 +67,7 @@ stress: all
 
 # Quadruple precision for every case of `make stress`: some minutes.
 references: all quad
-	@python3 -B tests/stress/make_references.py build/quad/flexmech
+	@python3 -B tests/stress/make_references.py $(program) build/quad/flexmech
 
 golden: all
 	$(need_case)

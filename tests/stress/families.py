@@ -73,12 +73,12 @@ def lengths():
     shapes = {
         "crank": lambda s: (254, 279*s, 290, 280),
         "ground": lambda s: (254*s, 280, 290, 285),
-        "coupler": lambda s: (254, 253, 290*s, 254),
+        "coupler": lambda s: (254, 254, 290*s, 254),
         "crank+follower": lambda s: (280, 200*s, 280, 250*s),
         "ground+follower": lambda s: (280*s, 260, 260, 250*s),
         "coupler+follower": lambda s: (254, 254, 200*s, 250*s),
     }
-    angles = {"coupler": lambda s: 20*s, "coupler+follower": lambda s: 30*s, "ground+follower": lambda s: Decimal(150)}
+    angles = {"coupler": lambda s: 60, "coupler+follower": lambda s: 30*s, "ground+follower": lambda s: 90}
     for k in range(0, 7):
         s = TEN**-(k // 2) * (1 if k % 2 == 0 else Decimal("0.3"))
         for name, shape in shapes.items():
@@ -113,11 +113,15 @@ def dead_points():
         for name, (linkage, angle, sense) in linkages.items():
             crank = round(angle + sense*offset*RADIAN, 30)
             yield Case("dead_points", offset, f"{name}-rest", linkage, (crank,))
+            # At one speed the loads grow without bound towards a dead point; in step with the offset they do not.
             yield Case("dead_points", offset, f"{name}-load", linkage, (crank,), (2,))
+            yield Case("dead_points", offset, f"{name}-step", linkage, (crank,), (20*offset,))
         linkage = linkages["stretched"][0]
         crank = round(90 - offset*RADIAN, 30)
-        yield Case("dead_points", offset, "stretched-mesh", linkage, (crank,), (0, 2), "MESH * elements=8", "deformation")
-        yield Case("dead_points", offset, "stretched-dense", linkage, (crank,), (0, 2), "MESH * elements=8", "dense")
+        for speed in (0, 20*offset):
+            for solver in ("deformation", "dense"):
+                yield Case("dead_points", offset, f"{solver}-{'step' if speed else 'rest'}", linkage, (crank,), (speed,),
+                           "MESH * elements=8", solver)
 
 
 def speeds():

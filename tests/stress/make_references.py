@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Computes every reference of the stress test anew with the quadruple build.
 
-    make_references.py PROGRAM [--missing] [FAMILY ...]
+    make_references.py RELEASE QUADRUPLE [--missing] [FAMILY ...]
 
-With --missing only what tests/stress/references/ does not have yet.
+With --missing only what tests/stress/references/ does not have yet. What the release build refuses, or has only failed rows
+for, needs no reference.
 """
 
-import sys
+import argparse
 import time
 from concurrent.futures import ThreadPoolExecutor
 
@@ -18,43 +19,64 @@ from program import run_deck
 SCRATCH = "build/stress/references"
 
 
-def reference(program, deck, name):
-    """The rows of a deck, and what is wrong with them if anything is."""
-    status, message, rows = run_deck(program, deck, SCRATCH, name)
-    bad = [row.failure for row in rows if row.failure]
-    if status == 2 or bad:
-        return [], (bad or message.splitlines())[0]
-    told = max(max(row.errors) for row in rows)
-    if told > references.MOST_ERROR:
-        return [], f"only exact to {told:.1e}"
-    return [row.frequencies for row in rows], ""
+class Wanted:
+    """A deck whose frequencies are wanted, and the cases that ask for it."""
+
+    def __init__(self, deck):
+        self.deck, self.cases = deck, []
 
 
-def decks_of(family):
+def wanted_decks(family):
     decks = {}
     for case in FAMILIES[family]():
         for deck in [case.continuous()] + ([case.on_the_mesh()] if case.same_mesh else []):
-            decks[key(deck)] = (deck, f"{case.family} {case.parameter} {case.variant}")
+            decks.setdefault(key(deck), Wanted(deck)).cases.append(case)
     return decks
 
 
-def main(program, words):
-    families = [word for word in words if not word.startswith("-")] or list(FAMILIES)
-    kept = references.load() if "--missing" in words else {}
-    for family in families:
+def is_answered(release, name, wanted):
+    """Whether the release build gives a frequency for any of the cases."""
+    return any(not row.failure for case in wanted.cases for row in run_deck(release, case.deck(), SCRATCH, name)[2])
+
+
+def reference(words, name, wanted):
+    """The rows of a deck, and what is wrong with them if anything is."""
+    if not is_answered(words.release, name, wanted):
+        return [], ""
+    status, message, rows = run_deck(words.quadruple, wanted.deck, SCRATCH, name)
+    if status not in (0, 1):
+        return [], message.splitlines()[0]
+    found, fault = [], ""
+    for row in rows:
+        told = max(row.errors, default=0)
+        if row.failure or told > references.MOST_ERROR:
+            fault = row.failure or f"only exact to {told:.1e}"
+        found.append([] if fault else row.frequencies)
+    return found, fault
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("release")
+    parser.add_argument("quadruple")
+    parser.add_argument("--missing", action="store_true")
+    parser.add_argument("families", nargs="*")
+    words = parser.parse_intermixed_args()
+    kept = references.load() if words.missing else {}
+    for family in words.families or FAMILIES:
         begun = time.time()
-        decks = decks_of(family)
+        decks = wanted_decks(family)
         found = {name: kept[name] for name in decks if name in kept}
+        missing = [name for name in decks if name not in found]
         with ThreadPoolExecutor(2) as pool:
-            wanted = [name for name in decks if name not in found]
-            for name, (rows, fault) in zip(wanted, pool.map(lambda name: reference(program, decks[name][0], name), wanted)):
+            for name, (rows, fault) in zip(missing, pool.map(lambda name: reference(words, name, decks[name]), missing)):
                 if fault:
-                    print(f"no reference for {decks[name][1]}: {fault}", flush=True)
-                else:
-                    found[name] = rows
+                    case = decks[name].cases[0]
+                    print(f"{family} {case.parameter} {case.variant}: {fault}", flush=True)
+                found[name] = rows
         references.save(family, {name: found[name] for name in decks if name in found})
-        print(f"{family}: {len(found)} of {len(decks)} references, {time.time() - begun:.0f} s", flush=True)
+        print(f"{family}: {len(decks)} decks, {len(missing)} of them new, {time.time() - begun:.0f} s", flush=True)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], sys.argv[2:])
+    main()

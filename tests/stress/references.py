@@ -1,4 +1,4 @@
-"""The frequencies in quadruple precision that are kept: one line a row of a deck, 22 digits."""
+"""The frequencies in quadruple precision that are kept: one line a row of a deck, 22 digits; without any if there are none."""
 
 import glob
 import os
@@ -26,5 +26,5 @@ def save(family, entries):
     with open(os.path.join(FOLDER, family + ".dat"), "w", encoding="utf-8") as file:
         file.write("# Frequencies [Hz] in quadruple precision, by `make references`: key of the deck, f1, f2 …; a line a row\n")
         for key, rows in entries.items():
-            for row in rows:
+            for row in rows or [[]]:
                 file.write(" ".join([key] + [f"{value:.21e}" for value in row]) + "\n")

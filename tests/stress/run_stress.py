@@ -67,7 +67,7 @@ def main():
     parser.add_argument("--out", default=os.path.join("outputs", "stress"))
     parser.add_argument("--every", type=int, default=1)
     parser.add_argument("families", nargs="*")
-    words = parser.parse_args()
+    words = parser.parse_intermixed_args()
     shutil.rmtree(words.out, ignore_errors=True)
     os.makedirs(words.out)
     kept = references.load()

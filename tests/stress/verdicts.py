@@ -17,7 +17,7 @@ class Result:
     def line(self):
         def number(value):
             return "-" if value is None else f"{value:.3e}"
-        return " ".join([f"{Decimal(self.case.parameter):.6g}", self.case.variant, *(f"{p}" for p in self.place), str(self.mode),
+        return " ".join([f"{float(self.case.parameter):.6g}", self.case.variant, *(f"{p}" for p in self.place), str(self.mode),
                          number(self.error), number(self.told), number(self.rounding), self.verdict, self.reason])
 
 
@@ -30,10 +30,10 @@ def relative_error(found, exact):
 
 def judge_row(case, row, exact, on_mesh):
     """The mode whose error comes nearest to what is told of it, or passes it."""
-    place = tuple(f"{Decimal(value):.8g}" for value in row.place)
+    place = tuple(f"{float(value):.8g}" for value in row.place)
     if row.failure:
         return Result(case, place, verdict=FAILED, reason=row.failure)
-    if exact is None:
+    if not exact:
         return Result(case, place, verdict=DEFECT, reason="there is no reference; say: make references")
     worst = None
     for mode, (found, told) in enumerate(zip(row.frequencies, row.errors)):
@@ -56,4 +56,5 @@ def judge(case, status, message, rows, exact, on_mesh):
         return [Result(case, verdict=DEFECT, reason=f"exit status {status}: {message.strip()[:200]}")]
     if (status == 1) != any(row.failure for row in rows):
         return [Result(case, verdict=DEFECT, reason=f"exit status {status} does not go with the rows")]
-    return [judge_row(case, row, exact[i] if exact else None, on_mesh[i] if on_mesh else None) for i, row in enumerate(rows)]
+    exact, on_mesh = ((kept or []) + [[]]*len(rows) for kept in (exact, on_mesh))
+    return [judge_row(case, row, exact[i], on_mesh[i]) for i, row in enumerate(rows)]
