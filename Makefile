@@ -136,6 +136,8 @@ endif
 # File = module, so the objects of all layers can lie in one folder.
 sources := $(filter-out $(addprefix %/,$(notdir $(instead))),$(wildcard src/*/*.f90)) $(instead) src/main.f90
 modules := $(patsubst %.f90,$(build)/%.o,$(filter-out main.f90,$(notdir $(sources))))
+# What only tests use; it is one of the modules of the quadruple build.
+test_modules := $(filter-out $(modules),$(build)/symmetric_eigensolver.o)
 # Of two files of one name the first is meant.
 vpath %.f90 $(sort $(dir $(instead))) $(sort $(dir $(sources))) tests/quad
 
@@ -144,7 +146,7 @@ $(shell mkdir -p $(build)/funit $(build)/pfunit && makedepf90 -b '$$(build)' $(s
 include $(build)/dependencies.mk
 
 # A .mod whose source was removed or renamed would hide a missing module.
-stale := $(filter-out $(modules:.o=.mod),$(wildcard $(build)/*.mod))
+stale := $(filter-out $(modules:.o=.mod) $(test_modules:.o=.mod),$(wildcard $(build)/*.mod))
 ifneq ($(stale),)
 $(shell rm -f $(stale))
 endif
@@ -158,6 +160,8 @@ $(build)/command: ;
 $(build)/%.o: %.f90 $(build)/command
 	@echo "$(FC) ($(kind)) $<"
 	$(compile) $(options) -c $< -o $@
+
+$(test_modules): $(build)/kinds.o
 
 $(build)/flexmech: $(modules) $(build)/main.o
 	@echo "link $@"
@@ -189,14 +193,14 @@ $(build)/funit/funit.o: $(support)/funit.f90 $(build)/command
 	$(compile) $(test_options) -c $< -o $@
 
 # makedepf90 does not read .pf, but what a test uses stands at the head of its lines.
-uses = $(filter $(modules),$(patsubst %,$(build)/%.o,$(shell sed -n 's/^ *use  *\([a-z0-9_]*\).*/\1/p' tests/unit/$(1).pf)))
+uses = $(filter $(modules) $(test_modules),$(patsubst %,$(build)/%.o,$(shell sed -n 's/^ *use  *\([a-z0-9_]*\).*/\1/p' tests/unit/$(1).pf)))
 $(foreach test,$(tests),$(eval $(build)/funit/$(test).o $(build)/pfunit/$(test).o: $(call uses,$(test))))
 
 $(build)/funit/test_%.o: $(build)/funit/test_%.F90 $(build)/funit/funit.o $(build)/command
 	@echo "$(FC) ($(kind)) test_$*"
 	$(compile) $(test_options) -c $< -o $@
 
-$(build)/funit/unit_tests: $(build)/funit/driver.f90 $(tests:%=$(build)/funit/%.o) $(build)/funit/funit.o $(modules) \
+$(build)/funit/unit_tests: $(build)/funit/driver.f90 $(tests:%=$(build)/funit/%.o) $(build)/funit/funit.o $(modules) $(test_modules) \
                            | $(build)/funit/must_fail
 	@echo "link $@"
 	$(compile) $(test_options) $^ $(libraries) -o $@
@@ -243,7 +247,7 @@ $(build)/pfunit/%_driver.o: $(PFUNIT_INCLUDE_DIR)/driver.F90 $(build)/pfunit/%.i
 	mkdir -p $(build)/pfunit/$*_modules
 	$(pfunit_compile) -J$(build)/pfunit/$*_modules -D_TEST_SUITES='"$(build)/pfunit/$*.inc"' -c $< -o $@
 
-$(build)/pfunit/unit_tests: $(build)/pfunit/unit_tests_driver.o $(tests:%=$(build)/pfunit/%.o) $(modules) \
+$(build)/pfunit/unit_tests: $(build)/pfunit/unit_tests_driver.o $(tests:%=$(build)/pfunit/%.o) $(modules) $(test_modules) \
                             | $(build)/pfunit/must_fail
 	@echo "link $@"
 	$(pfunit_compile) $^ $(PFUNIT_LIBRARIES) $(libraries) -o $@
