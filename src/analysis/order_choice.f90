@@ -5,7 +5,7 @@ module order_choice
   use bordered_modes, only: bordered_modes_t
   use deformation_model, only: deformation_model_t, new_deformation_model
   use errors, only: error_t
-  use kinds, only: wp
+  use kinds, only: fineness, wp
   use ledger, only: ledger_t
   use linkages, only: linkage_t
   use pin_displacements, only: chords_t
@@ -20,6 +20,9 @@ module order_choice
   !> Orders are raised up to this number, 56, plus two thirds of the number of modes: more than any accuracy needs that the
   !! precision can give, but under loads that buckle a link many times over (as beside a dead point).
   integer, parameter :: spare_orders = digits(1.0_wp) + 3
+
+  !> Orders go up by one or two at a time; in finer precision, where every try takes long, by eight times that.
+  integer, parameter :: stride = merge(1, 8, fineness >= 1.0_wp)
 
   !> Positions at which orders are tried; every row of the sweep tells its own error afterwards.
   integer, parameter :: samples = 6
@@ -72,7 +75,7 @@ contains
       if (allocated(error)) return
       call try_samples(linkage, model, positions, chosen, factor, modes, link_error, highest, counts)
       if (all(link_error <= share*bound .or. order >= highest_order)) exit
-      where (link_error > share*bound) order = min(highest_order, order + merge(2, 1, link_error > 100.0_wp*share*bound))
+      where (link_error > share*bound) order = min(highest_order, order + stride*merge(2, 1, link_error > 100.0_wp*share*bound))
     end do
   end subroutine choose_orders
 

@@ -6,7 +6,7 @@ from decimal import Decimal, getcontext
 getcontext().prec = 50
 
 RADIAN = Decimal("57.295779513082320876798154814105170332405472466564")  # in degrees
-CONTINUOUS = "MESH * accuracy=1e-28"  # the quadruple build takes it; the release refuses it
+CONTINUOUS = "MESH * accuracy=1e-21"  # the quadruple build takes it; the release refuses it
 
 
 def digits(value):

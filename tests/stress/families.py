@@ -21,22 +21,26 @@ def ladder(first, last, step=1):
 
 def elements():
     """Cubic elements a link, at rest and at 20 rad/s."""
-    for n in (1, 2, 3, 5, 8, 10, 20, 30, 50, 100, 200, 300, 500, 1000, 2000, 3000, 5000, 10000, 20000, 30000):
+    for n in (1, 2, 3, 5, 8, 10, 20, 30, 50, 100, 200, 300, 1000, 3000, 10000, 30000):
         for solver in SOLVERS:
-            few = n > 5000 or solver == "dense" and n > 50
+            few = n > 500 or solver == "dense" and n > 50
             yield Case("elements", n, solver, FIRST, (60,) if few else (0, 60, 240), (0, 20), f"MESH * elements={n}", solver,
                        same_mesh=True)
-    for n in (1, 3, 10, 30, 100, 300, 1000, 3000, 10000):
+    for n in (1, 3, 10, 30, 100, 300, 1000, 3000):
         yield Case("elements", n, "lumped", FIRST, (60,), (20,), f"MESH * elements={n}", "deformation", "lumped", same_mesh=True)
 
 
 def orders():
-    """One element a link, and four, of orders 3 to 16; and the orders that the program chooses."""
+    """One element a link, and four, of orders 3 to 16."""
     for order in range(3, 17):
         for n in (1, 4):
             for solver in SOLVERS:
                 yield Case("orders", order, f"{solver}-{n}", FIRST, (0, 60, 240), (0, 20), f"MESH * elements={n} order={order}",
                            solver, modes=5, same_mesh=True)
+
+
+def accuracy():
+    """The orders that the program chooses for an accuracy."""
     for k in range(2, 14):
         yield Case("accuracy", TEN**-k, "auto", FIRST, (0, 60, 240), (0, 20), f"MESH * accuracy=1e-{k}", modes=5)
 
@@ -92,13 +96,14 @@ def lengths():
 
 def pin_masses():
     """Masses at both moving pins, in units of the mass of the coupler."""
-    for ratio in [Decimal(0)] + ladder(-2, 7):
+    for ratio in [Decimal(0)] + ladder(-2, 6):
         mass = ratio*LINK_MASS
+        speed = round(2/max(Decimal(1), ratio).sqrt(), 20) # so that the loads stay what they are
         linkage = Linkage(254, FIRST.lengths, pins=(mass, mass))
         for label, mesh, solver in ways(1, 12):
-            yield Case("pin_masses", ratio, label, linkage, (0, 60, 240), (0, 2), mesh, solver)
-        yield Case("pin_masses", ratio, "long", linkage, (0, 60, 240), (0, 2), "MESH * elements=200", "deformation")
-        yield Case("pin_masses", ratio, "20modes", linkage, (0, 60, 240), (0, 2), modes=20)
+            yield Case("pin_masses", ratio, label, linkage, (0, 60, 240), (0, speed), mesh, solver)
+        yield Case("pin_masses", ratio, "long", linkage, (0, 60, 240), (0, speed), "MESH * elements=200", "deformation")
+        yield Case("pin_masses", ratio, "20modes", linkage, (0, 60, 240), (0, speed), modes=20)
 
 
 def dead_points():
@@ -114,7 +119,8 @@ def dead_points():
             crank = round(angle + sense*offset*RADIAN, 30)
             yield Case("dead_points", offset, f"{name}-rest", linkage, (crank,))
             # At one speed the loads grow without bound towards a dead point; in step with the offset they do not.
-            yield Case("dead_points", offset, f"{name}-load", linkage, (crank,), (2,))
+            if offset >= Decimal("1e-3") or offset <= Decimal("1e-7"):
+                yield Case("dead_points", offset, f"{name}-load", linkage, (crank,), (2,))
             yield Case("dead_points", offset, f"{name}-step", linkage, (crank,), (20*offset,))
         linkage = linkages["stretched"][0]
         crank = round(90 - offset*RADIAN, 30)
@@ -126,11 +132,11 @@ def dead_points():
 
 def speeds():
     """The first mechanism up to its divergence and far past it."""
-    for speed in (1, 2, 5, 10, 20, 50, 100, 150, 200, 300, 500, 700, 1000, 1500, 2000, 3000, 4000, 5000, 7000, 10000, 14000,
-                  20000, 30000, 50000, 100000):
+    for speed in (1, 3, 10, 20, 50, 100, 150, 200, 300, 500, 700, 1000, 1500, 2000, 3000, 5000):
+        crank = (0, 60, 240) if speed <= 300 else (60,)
         for label, mesh, solver in ways(8):
-            yield Case("speeds", speed, label, FIRST, (0, 60, 240), (speed,), mesh, solver)
-        yield Case("speeds", speed, "long", FIRST, (0, 60, 240), (speed,), "MESH * elements=100", "deformation")
+            yield Case("speeds", speed, label, FIRST, crank, (speed,), mesh, solver)
+        yield Case("speeds", speed, "long", FIRST, crank, (speed,), "MESH * elements=100", "deformation")
 
 
 def divergence():
@@ -164,5 +170,5 @@ def units():
 
 
 FAMILIES = {function.__name__: function for function in (
-    elements, orders, thickness, stiffness, lengths, pin_masses, dead_points, speeds, divergence, near_equal, units)}
+    elements, orders, accuracy, thickness, stiffness, lengths, pin_masses, dead_points, speeds, divergence, near_equal, units)}
 FAMILIES["random"] = random_cases

@@ -54,11 +54,22 @@ def summary(family, results):
         f"  {worst:9.1e} {told:9.1e} {ratio:7.2f}"
 
 
-def draw(folder):
-    """Every figure whose table is there."""
-    for script in sorted(os.listdir("plots")):
-        if script.startswith("stress_") and script.endswith(".gp"):
-            subprocess.run(["gnuplot", "-e", f"plots='plots/'; folder='{folder}/'", os.path.join("plots", script)], check=False)
+# What a family is drawn against.
+AXES = {
+    "elements": "elements a link", "orders": "order of an element", "accuracy": "accuracy= of the deck",
+    "thickness": "thickness of the links, of the crank's length", "stiffness": "axial stiffness, multiples",
+    "lengths": "short lengths, of the others", "pin_masses": "mass of each moving pin, of that of the coupler",
+    "dead_points": "distance of the crank from a dead point [rad]", "speeds": "crank speed [rad/s]",
+    "divergence": "distance of the speed from that of divergence, of itself", "near_equal": "difference of the two links",
+    "units": "unit, multiples", "random": "number of the linkage",
+}
+
+
+def draw(folder, families):
+    for family in families:
+        call = ["gnuplot", "-c", os.path.join("plots", "stress.gp"), os.path.join(folder, family + ".dat"),
+                os.path.join(folder, "stress_" + family), AXES[family], "Stress test: " + family.replace("_", " ")]
+        subprocess.run(call, check=True, env={**os.environ, "LC_ALL": "C.UTF-8"})
 
 
 def main():
@@ -84,8 +95,8 @@ def main():
                 print(f"defect: {family} {result.line()}", flush=True)
         total = {verdict: total[verdict] + count[verdict] for verdict in total}
     shutil.rmtree(os.path.join(words.out, "runs"), ignore_errors=True)
-    if words.every == 1 and not words.families and shutil.which("gnuplot"):
-        draw(words.out)
+    if words.every == 1:
+        draw(words.out, words.families or FAMILIES)
     print(f"{total[BOUNDED]} bounded, {total[REFUSED]} refused, {total[FAILED]} failed rows with a reason, {total[DEFECT]} defects")
     return 1 if total[DEFECT] else 0
 
