@@ -7,10 +7,10 @@ table = ARG1; out = ARG2; axis = ARG3; headline = ARG4; figure = argument(5); re
 
 deck_title = ""
 note = "filled: true error against quadruple precision; hollow: the error that the table tells"
-variants = system("awk '!/^#/ && $9 == \"bounded\" && !seen[$2]++ { print $2 }' ".table)
+variants = system("awk '!/^#/ && $10 == \"bounded\" && !seen[$2]++ { print $2 }' ".table)
 n = words(variants)
 bottom = 1e-17
-of(k) = strcol(2) eq word(variants, k) && strcol(9) eq "bounded"
+of(k) = strcol(2) eq word(variants, k) && strcol(10) eq "bounded"
 side(k) = abs(column(1))*(1 + 0.035*(k - 0.5*(n + 1)))     # side by side where points would hide each other
 
 eval legend_page(1000, n)

@@ -12,7 +12,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 
 import references
-from decks import key
+from decks import CONTINUOUS, key
 from families import FAMILIES
 from program import run_deck
 
@@ -48,7 +48,8 @@ def reference(words, name, wanted):
         return [], message.splitlines()[0]
     found, fault = [], ""
     for row in rows:
-        told = max(row.errors, default=0)
+        # On a mesh of its own the table tells mostly what the mesh does.
+        told = max(row.errors, default=0) if CONTINUOUS in wanted.deck else 0
         if row.failure or told > references.MOST_ERROR:
             fault = row.failure or f"only exact to {told:.1e}"
         found.append([] if fault else row.frequencies)

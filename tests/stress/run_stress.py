@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The stress test: runs every case, compares it with its reference, and writes a table a family.
 
-    run_stress.py PROGRAM [--out FOLDER] [--every N] [FAMILY ...]
+    run_stress.py PROGRAM [--out FOLDER] [--every N] [--no-figures] [FAMILY ...]
 
 Tables and figures come into outputs/stress/ unless told otherwise; --every N takes one case in N. The last line printed is the
 count; exit status 1 if any row is neither bounded by what the program tells of its error, nor refused, nor a named failed row.
@@ -37,7 +37,7 @@ def run_family(program, cases, kept, folder):
 def write_table(path, family, results):
     with open(path, "w", encoding="utf-8") as file:
         file.write(f"# {family}: {FAMILIES[family].__doc__}\n")
-        file.write("# a row is the mode of a position and speed whose error comes nearest to what is told of it\n")
+        file.write("# a row is a position and speed: its mode with the largest error; ratio: the largest of error/told over all modes\n")
         file.write("# " + " ".join(COLUMNS) + "\n")
         for result in results:
             file.write(result.line() + "\n")
@@ -49,7 +49,7 @@ def summary(family, results):
     bounded = [result for result in results if result.verdict == BOUNDED]
     worst = max((result.error for result in bounded), default=0)
     told = max((result.told for result in bounded), default=0)
-    ratio = max((result.error/result.told for result in bounded), default=0)
+    ratio = max((result.ratio for result in bounded), default=0)
     return count, f"{family:<12}" + "".join(f"{count[verdict]:8d}" for verdict in count) + \
         f"  {worst:9.1e} {told:9.1e} {ratio:7.2f}"
 
@@ -60,7 +60,7 @@ AXES = {
     "thickness": "thickness of the links, of the crank's length", "stiffness": "axial stiffness, multiples",
     "lengths": "short lengths, of the others", "pin_masses": "mass of each moving pin, of that of the coupler",
     "dead_points": "distance of the crank from a dead point [rad]", "speeds": "crank speed [rad/s]",
-    "divergence": "distance of the speed from that of divergence, of itself", "near_equal": "difference of the two links",
+    "divergence": "distance of the speed from that of divergence, of itself", "near_equal": "link mass over pin mass; -I: difference of stiffness",
     "units": "unit, multiples", "random": "number of the linkage",
 }
 
@@ -77,6 +77,7 @@ def main():
     parser.add_argument("program")
     parser.add_argument("--out", default=os.path.join("outputs", "stress"))
     parser.add_argument("--every", type=int, default=1)
+    parser.add_argument("--no-figures", action="store_true")
     parser.add_argument("families", nargs="*")
     words = parser.parse_intermixed_args()
     shutil.rmtree(words.out, ignore_errors=True)
@@ -95,7 +96,7 @@ def main():
                 print(f"defect: {family} {result.line()}", flush=True)
         total = {verdict: total[verdict] + count[verdict] for verdict in total}
     shutil.rmtree(os.path.join(words.out, "runs"), ignore_errors=True)
-    if words.every == 1:
+    if not words.no_figures:
         draw(words.out, words.families or FAMILIES)
     print(f"{total[BOUNDED]} bounded, {total[REFUSED]} refused, {total[FAILED]} failed rows with a reason, {total[DEFECT]} defects")
     return 1 if total[DEFECT] else 0
