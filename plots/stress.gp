@@ -13,7 +13,10 @@ bottom = 1e-17
 of(k) = strcol(2) eq word(variants, k) && strcol(10) eq "bounded"
 side(k) = abs(column(1))*(1 + 0.035*(k - 0.5*(n + 1)))     # side by side where points would hide each other
 
-eval legend_page(1000, n)
+hollow(k) = word("6 8 4 12 10", (k - 1) % 5 + 1) + 0
+filled(k) = hollow(k) + 1
+
+eval legend_page(1000, n > 6 ? 2*legend_rows : n)
 eval heading
 set logscale xy
 set format x "10^{%T}"
@@ -26,7 +29,8 @@ set bmargin at screen up(foot(lines_of_notes(note, remark)))
 set xlabel axis
 set ylabel "relative error of a frequency"
 
-plot for [k=1:n] table using (of(k) ? side(k) : NaN):(column(7)) with points lt k pt 6 ps 1.3 lw 1.5 notitle, \
-    for [k=1:n] table using (of(k) ? side(k) : NaN):(column(6) > bottom ? column(6) : bottom) with points lt k pt 7 ps 0.7 notitle, \
-    for [k=1:n] keyentry with points lt k pt 7 ps 1.3 title word(variants, k)
+plot for [k=1:n] table using (of(k) ? side(k) : NaN):(column(7)) with points lt k pt hollow(k) ps 1.4 lw 1.5 notitle, \
+    for [k=1:n] table using (of(k) ? side(k) : NaN):(column(6) > bottom ? column(6) : bottom) \
+        with points lt k pt filled(k) ps 0.8 notitle, \
+    for [k=1:n] keyentry with points lt k pt filled(k) ps 1.3 title word(variants, k)
 eval close

@@ -37,7 +37,7 @@ def run_family(program, cases, kept, folder):
 def write_table(path, family, results):
     with open(path, "w", encoding="utf-8") as file:
         file.write(f"# {family}: {FAMILIES[family].__doc__}\n")
-        file.write("# a row is a position and speed: its mode with the largest error; ratio: the largest of error/told over all modes\n")
+        file.write("# a row is a position and speed: its mode with the largest error; ratio: largest error/told of its modes\n")
         file.write("# " + " ".join(COLUMNS) + "\n")
         for result in results:
             file.write(result.line() + "\n")
@@ -60,7 +60,8 @@ AXES = {
     "thickness": "thickness of the links, of the crank's length", "stiffness": "axial stiffness, multiples",
     "lengths": "short lengths, of the others", "pin_masses": "mass of each moving pin, of that of the coupler",
     "dead_points": "distance of the crank from a dead point [rad]", "speeds": "crank speed [rad/s]",
-    "divergence": "distance of the speed from that of divergence, of itself", "near_equal": "link mass over pin mass; -I: difference of stiffness",
+    "divergence": "distance of the speed from that of divergence, of itself",
+    "near_equal": "link mass over pin mass; -I: difference of stiffness",
     "units": "unit, multiples", "random": "number of the linkage",
 }
 

@@ -19,7 +19,7 @@ class Result:
         def number(value):
             return "-" if value is None else f"{value:.3e}"
         return " ".join([f"{float(self.case.parameter):.6g}", self.case.variant, *(f"{p}" for p in self.place), str(self.mode),
-                         number(self.error), number(self.told), number(self.ratio), number(self.rounding), self.verdict, self.reason])
+                         *map(number, (self.error, self.told, self.ratio, self.rounding)), self.verdict, self.reason])
 
 
 def relative_error(found, exact):
