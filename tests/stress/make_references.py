@@ -45,7 +45,7 @@ def reference(words, name, wanted):
         return [], ""
     status, message, rows = run_deck(words.quadruple, wanted.deck, SCRATCH, name)
     if status not in (0, 1):
-        return [], message.splitlines()[0]
+        return [], (message.splitlines() or [f"exit status {status}"])[0]
     found, fault = [], ""
     for row in rows:
         # On a mesh of its own the table tells mostly what the mesh does.

@@ -4,7 +4,8 @@ import math
 
 from decks import Case, Linkage
 
-NUMBER = 1000
+NUMBER = 1002
+SKIPPED = (523, 766)  # pulled so hard that quadruple precision takes hours
 
 
 class Generator:
@@ -87,4 +88,6 @@ def random_cases():
     """Lengths within a factor of 20 of each other, sections, materials, pin masses, speeds, branches, meshes and solvers."""
     draw = Generator(20101107)
     for number in range(1, NUMBER + 1):
-        yield random_case(draw, number)
+        case = random_case(draw, number)
+        if number not in SKIPPED:
+            yield case
