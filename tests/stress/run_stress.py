@@ -84,6 +84,7 @@ def main():
     shutil.rmtree(words.out, ignore_errors=True)
     os.makedirs(words.out)
     kept = references.load()
+    drawable = []
     total = dict.fromkeys((BOUNDED, REFUSED, FAILED, DEFECT), 0)
     print(f"{'family':<12}{'bounded':>8}{'refused':>8}{'failed':>8}{'defects':>8}  {'error':>9} {'told':>9} {'ratio':>7}")
     for family in words.families or FAMILIES:
@@ -95,10 +96,12 @@ def main():
         for result in results:
             if result.verdict == DEFECT:
                 print(f"defect: {family} {result.line()}", flush=True)
+        if count[BOUNDED]:
+            drawable.append(family)
         total = {verdict: total[verdict] + count[verdict] for verdict in total}
     shutil.rmtree(os.path.join(words.out, "runs"), ignore_errors=True)
     if not words.no_figures:
-        draw(words.out, words.families or FAMILIES)
+        draw(words.out, drawable)
     print(f"{total[BOUNDED]} bounded, {total[REFUSED]} refused, {total[FAILED]} failed rows with a reason, {total[DEFECT]} defects")
     return 1 if total[DEFECT] else 0
 
