@@ -26,7 +26,7 @@ module pose_rounding
   real(wp), parameter :: near_sine = 0.15_wp, loaded_near_sine = 0.4_wp
 
   !> Longest over shortest length up to which the sine alone tells how sure a position is.
-  real(wp), parameter :: usual_spread = 8.0_wp
+  real(wp), parameter :: usual_spread = 2.0_wp
 
   !> Change of a length, of itself and times sin², by which they are worked out.
   real(wp), parameter :: small_change = 1.0e-3_wp
@@ -48,13 +48,17 @@ contains
     integer, intent(in) :: modes
     real(wp), intent(out) :: error(:)  !! (modes) of eigenvalues
 
-    real(wp) :: sine, energy, rest(modes), changed(modes)
+    real(wp) :: sine, least_sine, spread, energy, rest(modes), changed(modes)
     type(linkage_t) :: other
     integer :: b, i, side
     logical :: reached
 
-    sine = minval(abs(state%pose%sine))/max(1.0_wp, length_spread(linkage, state%pose)/usual_spread)
-    if (sine >= merge(loaded_near_sine, near_sine, any(abs(factor) > 0.0_wp))) then
+    spread = max(1.0_wp, length_spread(linkage, state%pose)/usual_spread)
+    sine = minval(abs(state%pose%sine))/spread
+    least_sine = near_sine
+    ! Loads have the accelerations of short links in them as well: of lengths unlike each other no multiple is known.
+    if (any(abs(factor) > 0.0_wp)) least_sine = merge(loaded_near_sine, 1.0_wp, spread <= 1.0_wp)
+    if (sine >= least_sine) then
       do i = 1, modes
         energy = dot_product(found%vector(:, i), found%vector(:, i))
         error(i) = 2.0_wp*far_multiple*epsilon(1.0_wp)/sine**2*(1.0_wp + energy/max(abs(found%lambda(i)), tiny(energy)))
