@@ -4,8 +4,8 @@ import math
 
 from decks import Case, Linkage
 
-NUMBER = 1002
-SKIPPED = (523, 766)  # pulled so hard that quadruple precision takes hours
+NUMBER = 1003
+SKIPPED = (465, 523, 766)  # pulled so hard that quadruple precision takes hours
 
 
 class Generator:
