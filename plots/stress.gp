@@ -21,6 +21,8 @@ eval heading
 set logscale xy
 set format x "10^{%T}"
 set format y "10^{%T}"
+# Cases that are only numbered lie side by side.
+if (strstrt(axis, "number") == 1) { unset logscale x; set format x "%h"; side(k) = column(1) }
 set yrange [bottom:*]
 set ytics 100
 set mytics 1
