@@ -108,24 +108,29 @@ plan_kinematics() {
         add kinematics_accelerations kinematics.gp kinematics.dat accelerations
 }
 
-# A deck with VARY: its rows belong to many mechanisms, and its frequencies are drawn against what was varied.
+# A deck with VARY: its rows belong to many mechanisms, and only its frequencies are drawn, against what was varied.
 varied=
-if [ -f frequencies.dat ]; then varied=$(ask varied frequencies.dat); fi
+for table in frequencies kinematics inertia mesh shapes branches; do
+    [ -z "$varied" ] && [ -f $table.dat ] && varied=$(ask varied $table.dat)
+done
 
 : > "$new/plan"
 if [ -n "$varied" ]; then
+    [ -f frequencies.dat ] ||
+        fail "$outdir has nothing to draw: of a deck with VARY only frequencies.dat is drawn (REPORT frequencies)"
     if have frequencies.dat; then
         for parameter in $varied; do
             add "frequencies_by_$parameter" varied.gp frequencies.dat "$parameter"
         done
     fi
 else
-have inertia.dat && plan_mechanism
-have mesh.dat && add finite_element_model finite_element_model.gp mesh.dat "$(telling_crank mesh.dat)"
-have frequencies.dat && plan_frequencies
-have branches.dat && plan_speeds branches branches.dat
-have shapes.dat && plan_modes
-have kinematics.dat && plan_kinematics
+    have inertia.dat && plan_mechanism
+    have mesh.dat && add finite_element_model finite_element_model.gp mesh.dat "$(telling_crank mesh.dat)"
+    have frequencies.dat && plan_frequencies
+    have branches.dat && plan_speeds branches branches.dat
+    have shapes.dat && plan_modes
+    have kinematics.dat && plan_kinematics
+fi
 [ -s "$new/plan" ] || fail "$outdir has no table that a figure can be drawn from"
 
 # The plan becomes calls of the scripts, dealt out to two runs of gnuplot (starting one for each figure takes longer).

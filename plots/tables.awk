@@ -13,7 +13,7 @@
 #                                  ends, frequency
 #   want="branches 20"             the branches of branches.dat at speed 20, an index a branch, an empty line where rows
 #                                  have failed: crank, frequency, branch, 1 on its first row, 1 where a mark is drawn
-#   want="varied"                  the columns of varied parameters: those before speed
+#   want="varied"                  the columns of varied parameters: those before speed and crank
 #   want="band L"                  where the other parameters and the speed are those of the first row: L, then the least and the
 #                                  greatest value over all positions of f1, of f2, …
 #   want="events 20"               what befalls them: 1 crossing, 2 veering, 3 ambiguous; crank; the lower and the higher
@@ -135,7 +135,7 @@ END {
     if (asked[1] == "events") print_events()
     if (asked[1] == "shape") print_link()
     if (asked[1] == "change") print_change()
-    if (asked[1] == "varied") for (i = 1; i < at["speed"]; i++) print name[i]
+    if (asked[1] == "varied") for (i = 1; i <= n_columns && name[i] != "speed" && name[i] != "crank"; i++) print name[i]
     if (asked[1] == "band") print_bands()
     if (asked[1] == "nodes" || asked[1] == "masses") print_nodes()
     if (datablock) print "EOD"
