@@ -21,13 +21,17 @@ unit_tests = $(if $(PFUNIT_DIR),pfunit,funit)/unit_tests
 
 ifndef kind
 # ---------------------------------------------------------------------------------------------- what a person types
-.PHONY: all debug thesis run figures check bench bench-pictures fuzz memory golden install setup clean help
+.PHONY: all debug quad thesis run figures check bench bench-pictures stress references fuzz memory golden install setup \
+        clean help
 
 all: setup
 	$(stage) kind=release $(program)
 
 debug: setup
 	$(stage) kind=debug build/debug/flexmech
+
+quad: setup
+	$(stage) kind=quad build/quad/flexmech
 
 # Installs what is missing; silent and instant when everything is there.
 setup:
@@ -80,6 +84,13 @@ memory:
 	$(stage) kind=sanitize build/sanitize/flexmech
 	@python3 -B $(support)/check_memory.py
 
+stress: all
+	@python3 -B tests/stress/run_stress.py $(program)
+
+# Quadruple precision for every case of `make stress`: some minutes.
+references: all quad
+	@python3 -B tests/stress/make_references.py $(program) build/quad/flexmech
+
 golden: all
 	$(need_case)
 	@rm -rf "build/golden/$(CASE)"
@@ -110,6 +121,9 @@ help:
 	@echo "make bench-pictures     copy these figures to docs/pictures/"
 	@echo "make fuzz               10,000 odd decks under the debug build; FUZZ=500 SEED=7 for fewer, and for others"
 	@echo "make memory             every deck of inputs/ under the sanitizers of addresses, leaks and undefined behaviour"
+	@echo "make stress             errors told against errors made, in all corners, with figures, in outputs/stress/"
+	@echo "make references         make the quadruple-precision values of make stress anew (hours)"
+	@echo "make quad               build build/quad/flexmech, the program in quadruple precision (slow)"
 	@echo "make golden CASE=NAME   make tests/golden/NAME/ anew from inputs/NAME.deck"
 	@echo "make install PREFIX=DIR copy the program to DIR/bin, the plots to DIR/share/flexmech (DESTDIR is honoured)"
 	@echo "make setup              only install what is missing"
@@ -122,10 +136,12 @@ build = build/$(kind)
 
 # No -ffast-math and no -march=native: the same deck must give the same bytes on every machine of a kind.
 flags_release    = -O3
+flags_quad       = -O2
 flags_debug      = -Og -g -fbacktrace -fcheck=all -fcheck=no-array-temps -ffpe-trap=invalid,zero,overflow -finit-real=snan -finit-derived
 # For `make memory`: addresses, leaks and undefined behaviour. One byte off in any module stops the program.
 flags_sanitize   = -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined,leak -fno-sanitize-recover=all
 warnings_release =
+warnings_quad    =
 # Array temporaries are no mistake, and a note of each would stand between the program's own messages (no-array-temps).
 # gfortran 12 suspects every allocatable that a function returns (no-uninitialized); the debug build fills what nobody
 # has set with NaN that traps, which finds the real ones.
@@ -142,18 +158,26 @@ libraries := $(call archive,libarpack.a) -lopenblas
 else
 libraries := $(call archive,libarpack.a) $(call archive,lapack/liblapack.a liblapack.a) $(call archive,blas/libblas.a libblas.a)
 endif
+# Quadruple precision: the same sources, but for the modules that tests/quad/ has instead, among them the part of LAPACK in use.
+ifeq ($(kind),quad)
+libraries :=
+instead   := $(wildcard tests/quad/*.f90)
+endif
 
 # File = module, so the objects of all layers can lie in one folder.
-sources := $(wildcard src/*/*.f90) src/main.f90
-modules := $(patsubst %.f90,$(build)/%.o,$(notdir $(wildcard src/*/*.f90)))
-vpath %.f90 $(sort $(dir $(sources)))
+sources := $(filter-out $(addprefix %/,$(notdir $(instead))),$(wildcard src/*/*.f90)) $(instead) src/main.f90
+modules := $(patsubst %.f90,$(build)/%.o,$(filter-out main.f90,$(notdir $(sources))))
+# What only tests use; it is one of the modules of the quadruple build.
+test_modules := $(filter-out $(modules),$(build)/symmetric_eigensolver.o)
+# Of two files of one name the first is meant.
+vpath %.f90 $(sort $(dir $(instead))) $(sort $(dir $(sources))) tests/quad
 
 # Found anew at every call (it takes milliseconds), so that dependencies are never older than the sources.
 $(shell mkdir -p $(build)/funit $(build)/pfunit && makedepf90 -b '$$(build)' $(sources) > $(build)/dependencies.mk)
 include $(build)/dependencies.mk
 
 # A .mod whose source was removed or renamed would hide a missing module.
-stale := $(filter-out $(modules:.o=.mod),$(wildcard $(build)/*.mod))
+stale := $(filter-out $(modules:.o=.mod) $(test_modules:.o=.mod),$(wildcard $(build)/*.mod))
 ifneq ($(stale),)
 $(shell rm -f $(stale))
 endif
@@ -167,6 +191,8 @@ $(build)/command: ;
 $(build)/%.o: %.f90 $(build)/command
 	@echo "$(FC) ($(kind)) $<"
 	$(compile) $(options) -c $< -o $@
+
+$(test_modules): $(build)/kinds.o
 
 $(build)/flexmech: $(modules) $(build)/main.o
 	@echo "link $@"
@@ -207,14 +233,14 @@ $(build)/funit/funit.o: $(support)/funit.f90 $(build)/command
 	$(compile) $(test_options) -c $< -o $@
 
 # makedepf90 does not read .pf, but what a test uses stands at the head of its lines.
-uses = $(filter $(modules),$(patsubst %,$(build)/%.o,$(shell sed -n 's/^ *use  *\([a-z0-9_]*\).*/\1/p' tests/unit/$(1).pf)))
+uses = $(filter $(modules) $(test_modules),$(patsubst %,$(build)/%.o,$(shell sed -n 's/^ *use  *\([a-z0-9_]*\).*/\1/p' tests/unit/$(1).pf)))
 $(foreach test,$(tests),$(eval $(build)/funit/$(test).o $(build)/pfunit/$(test).o: $(call uses,$(test))))
 
 $(build)/funit/test_%.o: $(build)/funit/test_%.F90 $(build)/funit/funit.o $(build)/command
 	@echo "$(FC) ($(kind)) test_$*"
 	$(compile) $(test_options) -c $< -o $@
 
-$(build)/funit/unit_tests: $(build)/funit/driver.f90 $(tests:%=$(build)/funit/%.o) $(build)/funit/funit.o $(modules) \
+$(build)/funit/unit_tests: $(build)/funit/driver.f90 $(tests:%=$(build)/funit/%.o) $(build)/funit/funit.o $(modules) $(test_modules) \
                            | $(build)/funit/must_fail
 	@echo "link $@"
 	$(compile) $(test_options) $^ $(libraries) -o $@
@@ -261,7 +287,7 @@ $(build)/pfunit/%_driver.o: $(PFUNIT_INCLUDE_DIR)/driver.F90 $(build)/pfunit/%.i
 	mkdir -p $(build)/pfunit/$*_modules
 	$(pfunit_compile) -J$(build)/pfunit/$*_modules -D_TEST_SUITES='"$(build)/pfunit/$*.inc"' -c $< -o $@
 
-$(build)/pfunit/unit_tests: $(build)/pfunit/unit_tests_driver.o $(tests:%=$(build)/pfunit/%.o) $(modules) \
+$(build)/pfunit/unit_tests: $(build)/pfunit/unit_tests_driver.o $(tests:%=$(build)/pfunit/%.o) $(modules) $(test_modules) \
                             | $(build)/pfunit/must_fail
 	@echo "link $@"
 	$(pfunit_compile) $^ $(PFUNIT_LIBRARIES) $(libraries) -o $@

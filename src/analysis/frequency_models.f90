@@ -5,7 +5,7 @@ module frequency_models
   use deformation_model, only: deformation_model_t, new_deformation_model
   use deformation_shapes, only: bending_unknowns
   use errors, only: error_t
-  use kinds, only: wp
+  use kinds, only: fineness, wp
   use ledger, only: ledger_t
   use link_store, only: link_store_t
   use mechanisms, only: mechanism_t
@@ -29,7 +29,7 @@ module frequency_models
   integer, parameter :: long_mesh_guards = 8
 
   !> Accuracy of the model by which the error of a mesh is told.
-  real(wp), parameter :: judging_accuracy = 1.0e-13_wp
+  real(wp), parameter :: judging_accuracy = 1.0e-13_wp*fineness
 
   !> What is wanted at every position.
   type :: mode_request_t

@@ -18,9 +18,9 @@ module order_choice
 
   public :: choose_orders
 
-  !> Orders are raised up to the first number plus two thirds of the number of modes: more than any accuracy needs that double
+  !> Orders are raised up to this number, 56, plus two thirds of the number of modes: more than any accuracy needs that the
   !! precision can give, but under loads that buckle a link many times over (as beside a dead point).
-  integer, parameter :: spare_orders = 56
+  integer, parameter :: spare_orders = digits(1.0_wp) + 3
 
   !> Positions at which orders are tried: one in so many, within these limits. Every row of the sweep tells its own error afterwards.
   integer, parameter :: positions_a_sample = 9, least_samples = 2, most_samples = 6

@@ -25,6 +25,9 @@ module pose_rounding
   !> Nearer than this, in |sin(θ4 − θ3)|, sensitivities are worked out: at rest, and under loads, which grow with 1/sin themselves.
   real(wp), parameter :: near_sine = 0.15_wp, loaded_near_sine = 0.4_wp
 
+  !> Longest over shortest length up to which the sine alone tells how sure a position is.
+  real(wp), parameter :: usual_spread = 2.0_wp
+
   !> Change of a length, of itself and times sin², by which they are worked out.
   real(wp), parameter :: small_change = 1.0e-3_wp
 
@@ -32,7 +35,8 @@ contains
 
   !> Relative error of every eigenvalue: ε times the change of the eigenvalue with the lengths of the links.
   !!
-  !! Where dead points are far, `ε/sin²(θ4 − θ3)` bounds it, more where terms cancel in λ. Near them, modes differ: some soften
+  !! A sine counts for less where a link of a dyad is short beside the distances that place it: its angle takes up all of their
+  !! rounding. Where dead points are far, `ε/sin²(θ4 − θ3)` bounds it, more where terms cancel in λ. Near them, modes differ: some soften
   !! with the sine, others do not feel it, loads grow like its powers. There each length is changed a little, and `yᵀ(ΔG − λΔM)y` is
   !! what that does.
   subroutine pose_error(linkage, model, state, factor, found, modes, error)
@@ -44,13 +48,17 @@ contains
     integer, intent(in) :: modes
     real(wp), intent(out) :: error(:)  !! (modes) of eigenvalues
 
-    real(wp) :: sine, energy, rest(modes), changed(modes)
+    real(wp) :: sine, least_sine, spread, energy, rest(modes), changed(modes)
     type(linkage_t) :: other
     integer :: b, i, side
     logical :: reached
 
-    sine = minval(abs(state%pose%sine))
-    if (sine >= merge(loaded_near_sine, near_sine, any(abs(factor) > 0.0_wp))) then
+    spread = max(1.0_wp, length_spread(linkage, state%pose)/usual_spread)
+    sine = minval(abs(state%pose%sine))/spread
+    least_sine = near_sine
+    ! Loads have the accelerations of short links in them as well: of lengths unlike each other no multiple is known.
+    if (any(abs(factor) > 0.0_wp)) least_sine = merge(loaded_near_sine, 1.0_wp, spread <= 1.0_wp)
+    if (sine >= least_sine) then
       do i = 1, modes
         energy = dot_product(found%vector(:, i), found%vector(:, i))
         error(i) = 2.0_wp*far_multiple*epsilon(1.0_wp)/sine**2*(1.0_wp + energy/max(abs(found%lambda(i)), tiny(energy)))
@@ -75,6 +83,26 @@ contains
     end do
     error = 2.0_wp*error
   end subroutine pose_error
+
+  !> The largest of all lengths, and of the distances between the bases of dyads, beside the shortest link of a dyad.
+  pure function length_spread(linkage, pose) result(spread)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    real(wp) :: spread
+
+    real(wp) :: largest, shortest
+    integer :: i
+
+    largest = maxval(linkage%bodies%length)
+    shortest = huge(shortest)
+    do i = 1, size(linkage%dyads)
+      associate (dyad => linkage%dyads(i))
+        largest = max(largest, norm2(pose%pin(:, dyad%base(2)) - pose%pin(:, dyad%base(1))))
+        shortest = min(shortest, minval(linkage%bodies(dyad%body)%length))
+      end associate
+    end do
+    spread = largest/shortest
+  end function length_spread
 
   !> `yᵀ(I + G − λM)y` of all modes in a linkage whose lengths may differ from those of the modes.
   subroutine rayleigh_quotients(linkage, model, crank, factor, found, quotient, reached)

@@ -24,6 +24,10 @@ module reduced_modes
   !! orders may be far from enough (a link pressed so hard that it buckles many times over), and more is left.
   real(wp), parameter :: order_margin = 1.5_wp, rough_margin = 16.0_wp, rough_change = 1.0e-5_wp
 
+  !> Where a link is pulled so hard that it bends at its ends only, the change falls slowly from order to order: what is left is the sum
+  !! of a geometric series, times this; and the ratio of two pairs of orders is not taken for more than the second number.
+  real(wp), parameter :: series_margin = 1.25_wp, most_ratio = 0.95_wp
+
   !> Matrices, made once and filled at every position, and what is remembered of the last positions.
   type :: reduced_work_t
     type(bordered_matrix_t) :: mass, unit(2), geometric
@@ -119,13 +123,44 @@ contains
     integer, intent(in) :: modes
     real(wp) :: error(size(model%links), modes)
 
-    integer :: i
+    real(wp) :: change(size(model%links)), ratio
+    integer :: b, i
 
     do i = 1, modes
-      error(:, i) = next_order_change(model%links, model%layout, chords, force, found%vector(:, i), found%lambda(i))/ &
-        max(abs(found%lambda(i)), tiny(1.0_wp))
-      error(:, i) = merge(order_margin, rough_margin, sum(error(:, i)) < rough_change)*error(:, i)
+      change = next_order_change(model%links, model%layout, chords, force, found%vector(:, i), found%lambda(i))
+      error(:, i) = change/max(abs(found%lambda(i)), tiny(1.0_wp))
+      if (sum(error(:, i)) >= rough_change) then
+        error(:, i) = rough_margin*error(:, i)
+        cycle
+      end if
+      do b = 1, size(change)
+        ratio = change(b)/max(last_order_energy(model, chords, found%vector(:, i), b), tiny(ratio))
+        error(b, i) = max(order_margin, series_margin/(1.0_wp - min(ratio, most_ratio)))*error(b, i)
+      end do
     end do
   end function order_error
+
+  !> Elastic energy that a mode has in the last two orders of a link, doubled: what the change by the next two is compared with.
+  pure function last_order_energy(model, chords, vector, b) result(energy)
+    type(deformation_model_t), intent(in) :: model
+    type(chords_t), intent(in) :: chords
+    real(wp), intent(in) :: vector(:) !! (unknowns) mode with yᵀMy = 1
+    integer, intent(in) :: b          !! number of the body
+    real(wp) :: energy                !! [1/s²]
+
+    integer :: first, k, n, kinds
+
+    associate (link => model%links(b))
+      first = model%layout%first(b)
+      n = size(link%bending, 1)
+      ! With shear every order has a curvature and a shear strain.
+      kinds = merge(2, 1, link%bending_shapes%shear_stiffness > 0.0_wp)
+      energy = 0.0_wp
+      do k = max(1, n + 1 - 2*kinds), n
+        energy = energy + (dot_product(chords%across(3, :, b), vector(:model%layout%border))*link%bending(k, 0) + &
+          dot_product(link%bending(k, 1:), vector(first:first + link%modes - 1)))**2
+      end do
+    end associate
+  end function last_order_energy
 
 end module reduced_modes

@@ -5,7 +5,7 @@ module number_text
   implicit none (type, external)
   private
 
-  public :: scientific
+  public :: scientific, number_width
 
   interface
     !> `snprintf` for one double (ISO/IEC TS 18661-1, in the C library): three times as fast as a formatted write, which is most of
@@ -20,6 +20,7 @@ module number_text
     end function c_strfromd
   end interface
 
+  integer, parameter :: number_width = 25 !! sign, 17 digits, point, exponent of three digits, and a blank
   integer, parameter :: longest = 32
 
 contains

@@ -1,7 +1,7 @@
 !> `(K − μ M) x = b` for a stiffness `K = I + G` and bordered matrices G and M: the step of every inverse iteration.
 module bordered_solver
   use bordered_matrix, only: bordered_matrix_t, layout_t
-  use kinds, only: wp
+  use kinds, only: fineness, wp
   implicit none (type, external)
   private
 
@@ -132,7 +132,7 @@ contains
     real(wp), intent(in) :: pivot
     real(wp) :: moved
 
-    real(wp), parameter :: least_pivot = 1.0e-14_wp
+    real(wp), parameter :: least_pivot = 1.0e-14_wp*fineness
 
     moved = pivot
     if (abs(moved) < least_pivot) moved = sign(least_pivot, pivot)

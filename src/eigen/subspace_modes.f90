@@ -4,7 +4,7 @@ module subspace_modes
   use dense_modes, only: solve_dense
   use eigenvalue_gaps, only: relative_gap
   use errors, only: error_t, set_error
-  use kinds, only: wp
+  use kinds, only: fineness, wp
   use long_sums, only: long_dot
   use modes, only: find_definite_shift
   use sturm_count, only: shifted
@@ -79,7 +79,7 @@ contains
       do i = 1, modes
         residual = found%stiffness_times(:, i) - found%lambda(i)*found%mass_times(:, i)
         squared(i) = long_dot(residual, residual)/long_dot(found%vector(:, i), found%vector(:, i))
-        converged(i) = squared(i) <= merge(1.0e-24_wp, 1.0e-17_wp*gap(found%lambda, i), accurate_vectors)
+        converged(i) = squared(i) <= merge(1.0e-24_wp, 1.0e-17_wp*fineness*gap(found%lambda, i), accurate_vectors)
         if (.not. converged(i)) call extend(pencil, residual, basis, mass_times, stiffness_times, number, found%products)
       end do
       if (all(converged)) exit

@@ -30,7 +30,7 @@ contains
     type(effects_t), intent(inout) :: effects
 
     logical :: fine
-    integer :: first(4), choice, i !! `first`: where each word stands
+    integer :: first(4), choice, other, i !! `first`: where each word stands
 
     call check_form(card, 1, size(first), "", "EFFECTS [static|axial] [rotary] [shear]", diagnostics, fine)
     first = 0
@@ -44,9 +44,10 @@ contains
       end if
       first(choice) = i
       if (choice <= effects_axial) then
-        if (effects%loads > 0) then
+        other = effects_static + effects_axial - choice
+        if (first(other) > 0) then
           call add_error(diagnostics, card%words(i), "frequencies are either static or axial, not both", &
-            card%words(first(effects%loads)), "the other word is here")
+            card%words(first(other)), "the other word is here")
         else
           effects%loads = choice
         end if

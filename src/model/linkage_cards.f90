@@ -4,7 +4,7 @@ module linkage_cards
     read_quantity, require_positive
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
-  use kinds, only: wp
+  use kinds, only: fineness, wp
   use text, only: same_word, to_string
   use tokens, only: token_t
   use units, only: dimension_length, dimension_mass, dimension_none, unit_system_t
@@ -57,7 +57,7 @@ module linkage_cards
   !> Round-off forbids far fewer cubic elements; this only keeps sums and memory within reason.
   integer, parameter :: most_elements = 1000000
 
-  real(wp), parameter :: finest_accuracy = 1.0e-13_wp, coarsest_accuracy = 1.0e-2_wp, default_accuracy = 1.0e-8_wp
+  real(wp), parameter :: finest_accuracy = 1.0e-13_wp*fineness, coarsest_accuracy = 1.0e-2_wp, default_accuracy = 1.0e-8_wp
 
 contains
 

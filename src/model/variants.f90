@@ -96,6 +96,8 @@ contains
     do k = 1, size(deck%slots)
       associate (slot => deck%slots(k))
         if (.not. same_word(deck%fixed(slot%card)%keyword%text, "VARY")) cycle
+        ! A key on the card is complained of as such.
+        if (slot%word == 0) cycle
         call add_error(diagnostics, deck%fixed(slot%card)%words(slot%word), "the values of a VARY cannot vary themselves", &
           deck%settings%list(slot%setting)%name, "this one does")
         call mark_unknown(deck%fixed, slot)

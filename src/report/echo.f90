@@ -93,15 +93,16 @@ contains
       if (link_mass(model, i) <= 0.0_wp) cycle
       call append_text(buffer, derived//" link "//model%links(i)%name%text//": mass = "// &
         to_string(from_si(link_mass(model, i), mass), 15)//" "//mass%name//achar(10))
-      call append_thickness(buffer, model, i)
+      call append_thickness(buffer, model, i, derived)
     end do
   end subroutine append_derived
 
   !> Rotary inertia and shear stiffness of a link, where they are asked for.
-  pure subroutine append_thickness(buffer, model, link)
+  pure subroutine append_thickness(buffer, model, link, derived)
     type(text_buffer_t), intent(inout) :: buffer
     type(model_t), intent(in) :: model
     integer, intent(in) :: link
+    character(len=*), intent(in) :: derived !! that begins the line
 
     type(unit_t) :: measure
     character(len=:), allocatable :: origin
@@ -109,15 +110,15 @@ contains
     associate (this => model%links(link))
       if (link_rotary_inertia(model, link) > 0.0_wp) then
         measure = coherent_unit(model%units, dimension_rotary_inertia)
-        call append_text(buffer, "! derived: link "//this%name%text//": rotary inertia rho I = "// &
+        call append_text(buffer, derived//" link "//this%name%text//": rotary inertia rho I = "// &
           to_string(from_si(link_rotary_inertia(model, link), measure), 15)//" "//measure%name//achar(10))
       end if
       if (link_shear_stiffness(model, link) <= 0.0_wp) return
       measure = coherent_unit(model%units, dimension_force)
       associate (section => model%sections(this%section), nu => model%materials(this%material)%poissons_ratio)
         origin = "Cowper"
-        if (section%shear_word%line > 0) origin = "line "//to_string(section%shear_word%line)
-        call append_text(buffer, "! derived: link "//this%name%text//": shear coefficient k = "// &
+        if (section%shear_word%line > 0) origin = "as its section has it"
+        call append_text(buffer, derived//" link "//this%name%text//": shear coefficient k = "// &
           to_string(shear_coefficient(section, nu), 15)//" ("//origin//"), k G A = "// &
           to_string(from_si(link_shear_stiffness(model, link), measure), 15)//" "//measure%name//achar(10))
       end associate

@@ -3,7 +3,7 @@ module tables
   use csv_text, only: csv_field, csv_line_end, csv_quoted, csv_record
   use errors, only: error_t
   use kinds, only: long, wp
-  use number_text, only: scientific
+  use number_text, only: number_width, scientific
   use output_files, only: append_held, append_output, discard_output, finish_output, open_output, output_file_t, publish_output
   use text, only: string_t, to_string, word_list
   implicit none (type, external)
@@ -34,7 +34,6 @@ module tables
     character(len=:), allocatable, private :: first_cells  !! the same, as every row begins
   end type table_t
 
-  integer, parameter :: number_width = 25 !! sign, 17 digits, point, exponent of three digits, and a blank
   integer, parameter :: integer_width = 9
   character(len=*), parameter :: no_unit = "-"
   character(len=*), parameter :: line_feed = achar(10)

@@ -7,7 +7,11 @@ The same seed makes the same decks on any machine. A deck that fails is kept in 
 Exit status 1 when one has failed.
 """
 
+import csv
 import functools
+import io
+import itertools
+import json
 import multiprocessing
 import os
 import re
@@ -33,6 +37,8 @@ OPTIONS = [
     (["--version"], False), (["DECK", "DECK"], False), (["DECK", "missing.deck"], False), (["--threads", "0", "DECK"], False),
     (["--threads", "DECK"], False), (["--threads=1e99", "DECK"], False), (["--theads", "2", "DECK"], False), (["--out"], False),
     (["--out=", "DECK"], False), ([], False), ([""], False), (["."], False), (["-", "-"], False), (["--quiet=1", "DECK"], False),
+    (["--format", "csv", "DECK"], True), (["--format=csv", "--json", "DECK"], True), (["--format", "cvs", "DECK"], False),
+    (["--resume", "DECK"], True), (["--json", "DECK"], True), (["--set", "nobody=1", "DECK"], False), (["--set", "=", "DECK"], False),
 ]
 
 RUN_TIME = re.compile(r"Fortran runtime|Backtrace|SIG[A-Z]{3}|At line \d+ of file|Sanitizer|free\(\)|malloc|double free|stack smash")
@@ -40,6 +46,9 @@ NOT_A_NUMBER = re.compile(r"\b(?:NaN|[-+]?Inf(?:inity)?)\b|\*{4,}|is not a numbe
 REAL = re.compile(r"-?\d\.\d+E[-+]\d{3}$")
 PLACE = re.compile(r"(?P<deck>.*?):(?P<line>\d+):(?P<column>\d+): (?:error|warning|note): .")
 TABLES = {"kinematics.dat", "inertia.dat", "mesh.dat", "frequencies.dat", "shapes.dat", "branches.dat"}
+OTHERS = {"echo.deck", "run.log", "summary.json"}
+# What a deck may include.
+PART = b"MATERIAL brass E=100e9Pa density=8500kg/m3 nu=0.35\nSET half 0.5\n"
 
 
 def limits():
@@ -81,7 +90,7 @@ def fault_of_message(words, stderr):
             return f"no caret below: {line}"
     if not any(re.match(r"flexmech: error: .", line) or re.match(r".*: error: .", line) for line in lines):
         return f"no error is told: {stderr[:200]}"
-    if "DECK" in words and not re.search(r"^(?:d\.deck|missing\.deck|flexmech): ?", stderr.replace("d.deck:", "d.deck: "), re.MULTILINE):
+    if "DECK" in words and not re.search(r"^(?:d\.deck|part\.deck|missing\.deck|<command line>|flexmech):", stderr, re.MULTILINE):
         return "the deck is not named"
     return None
 
@@ -89,7 +98,7 @@ def fault_of_message(words, stderr):
 def fault_of_table(name, text):
     """Rows of as many cells as there are columns, every number a number."""
     lines = text.split("\n")
-    head = [line for line in lines if line.startswith("#") and not line.startswith("# failed")]
+    head = list(itertools.takewhile(lambda line: line.startswith("#") and not line.startswith("# failed"), lines))
     names, units = head[-2][1:].split(), head[-1][1:].split()
     if len(names) != len(units):
         return f"{name}: {len(names)} columns and {len(units)} units"
@@ -111,11 +120,12 @@ def fault_of_table(name, text):
 
 def fault_of_files(files, deck):
     """What is wrong with the files of a run that came through."""
-    lacking = {"echo.deck", "run.log"} - set(files)
+    lacking = OTHERS - set(files)
     if lacking:
         return f"there is no {' '.join(sorted(lacking))}"
-    strange = set(files) - TABLES - {"echo.deck", "run.log"}
-    if strange or not TABLES & set(files):
+    as_csv = {name[:-4] + ".dat" for name in files if name.endswith(".csv")}
+    strange = {name for name in set(files) - TABLES - OTHERS if not name.endswith(".csv")}
+    if strange or not TABLES & set(files) or as_csv - set(files):
         return f"the files are {' '.join(sorted(files))}"
     for name, content in files.items():
         text = content.decode("utf-8", "replace")
@@ -123,6 +133,12 @@ def fault_of_files(files, deck):
             fault = fault_of_table(name, text)
             if fault:
                 return fault
+        elif name == "summary.json":
+            json.loads(text, parse_constant=int)  # NaN and Infinity are no integers either
+        elif name.endswith(".csv"):
+            rows = list(csv.reader(io.StringIO(text, newline="")))
+            if any(len(row) != len(rows[0]) for row in rows):
+                return f"{name}: rows of different lengths"
         else:
             for line in text.split("\n"):
                 odd = NOT_A_NUMBER.search(line)
@@ -167,8 +183,9 @@ def fault_of_deck(program, folder, words, sound_words, text, again):
     """Runs one deck in an empty folder; its status and what is wrong."""
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
-    with open(os.path.join(folder, "d.deck"), "wb") as deck:
-        deck.write(text)
+    for name, content in (("d.deck", text), ("part.deck", PART)):
+        with open(os.path.join(folder, name), "wb") as deck:
+            deck.write(content)
     if len(text) % 2:  # results of an earlier run
         os.makedirs(os.path.join(folder, "outputs", "d"))
         for name in ("mesh.dat", "notes.txt"):

@@ -21,12 +21,12 @@ UNITS = ["m", "mm", "cm", "in", "ft", "kg", "g", "tonne", "lbm", "slug", "slinch
 KEYWORDS = ["TITLE", "UNITS", "MATERIAL", "SECTION", "GROUND", "LINK", "DRIVE", "BRANCH", "PINMASS", "MESH", "CRANK", "SPEED",
             "INERTIA", "EFFECTS", "SOLVER", "MODES", "REPORT", "END", "INCLUDE", "SET", "VARY"]
 KEYS = ["E", "density", "nu", "thickness", "width", "diameter", "outer", "inner", "A", "I", "depth", "length", "material", "section",
-        "elements", "order", "accuracy", "alpha", "crank", "speed", "points"]
+        "elements", "order", "accuracy", "alpha", "crank", "speed", "points", "shear_coefficient"]
 WORDS = ["rectangle", "circle", "tube", "general", "open", "crossed", "lumped", "distributed", "static", "axial", "rotary", "shear",
          "auto", "deformation", "dense", "band", "kinematics", "inertia", "mesh", "frequencies", "shapes", "branches", "to", "step", "*"]
 PIECES = [b"\0", b"\t", b"\r", b"\n", b"\r\n", b"&", b" & \n", b"!", b"#", b"=", b"==", b",", b",,", b"$", b"$x", b'"', b"'", b"\\",
           b"\xc3\xb6", b"\xef\xbb\xbf", b"\xe2\x82\xac", b"\xff\xfe", b"\x80", b"\x1b[31m", b"\x7f", b"\xf0\x9f\x94\xa7", b" "*300,
-          b"x"*5000, b"\n"*50, b"&\n"*20, b"%s%n", b"{", b"()", b"END\n", b"NaN", b"*****"]
+          b"x"*5000, b"\n"*50, b"\nINCLUDE part.deck\n", b"\nINCLUDE d.deck\n", b"\nSET x 1\n", b"\nVARY x 1 2\n", b"$half", b"&\n"*20, b"%s%n", b"{", b"()", b"END\n", b"NaN", b"*****"]
 REPORTS = ["kinematics", "inertia", "mesh", "frequencies", "shapes", "branches"]
 LENGTHS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "in": 0.0254, "ft": 0.3048}
 MASSES = {"kg": 1.0, "g": 1e-3, "tonne": 1e3, "lbm": 0.45359237, "slug": 14.593903, "slinch": 175.126835}
@@ -114,7 +114,7 @@ def requests(dice, by_accuracy, own_speed):
     careless = dice.chance(0.1)
     if dice.chance(0.9):
         cards.append("INERTIA " + ("distributed" if by_accuracy and not careless else dice.choice(["lumped", "distributed"])))
-    for probability, card in ((0.4, "EFFECTS " + dice.choice(["static", "axial"])), (0.3, "BRANCH " + dice.choice(["open", "crossed"])),
+    for probability, card in ((0.5, "EFFECTS " + dice.choice(["static", "axial", "rotary", "shear", "rotary shear", "shear axial rotary"])), (0.3, "BRANCH " + dice.choice(["open", "crossed"])),
                               (0.5, f"MODES {dice.choice([1, 2, 3, 4, 6, 10])}")):
         if dice.chance(probability):
             cards.append(card)
@@ -154,7 +154,7 @@ def sound_deck(dice):
     cards.append("SECTION s " + dice.choice([f"rectangle thickness={side[0]} width={side[1]}", f"circle diameter={side[0]}",
                                              f"tube outer={side[0]} inner={number(dice, 0.7*depth/bare_length)}",
                                              f"general A={number(dice, depth**2/bare_length**2)} "
-                                             f"I={number(dice, depth**4/(12*bare_length**4))} depth={side[2]}"]))
+                                             f"I={number(dice, depth**4/(12*bare_length**4))} depth={side[2]} shear_coefficient=0.8"]))
     ends = [pins[:2], pins[1:3], [pins[3], pins[2]]]
     for name, end, value in zip(names, ends, link_lengths(dice)):
         if dice.chance(0.3):
@@ -165,11 +165,31 @@ def sound_deck(dice):
         cards.append(f"PINMASS {dice.choice(pins)} {quantity(dice, density*depth**2*scale*dice.factor(3), bare_mass, MASSES)}")
     mesh = meshes(dice, names) if dice.chance(0.95) else []
     cards += mesh + requests(dice, not mesh or "accuracy" in mesh[0], 3.0*(modulus/density)**0.5*depth/scale**2)
+    if dice.chance(0.3):
+        with_names(dice, cards)
     if dice.chance(0.5):
         dice.shuffle(cards)
     if dice.chance(0.2):
         cards.append("END")
     return ("\n".join(cards) + "\n").encode()
+
+
+def with_names(dice, cards):
+    """Puts `$name`s in place of values, with SET and VARY cards that give them."""
+    places = [i for i, card in enumerate(cards) if "=" in card and not card.startswith("TITLE")]
+    for name in ("x", "L-2", "w_3")[:1 + dice.below(3)]:
+        i = dice.choice(places)
+        entries = re.findall(r"(?<==)[^ $]+", cards[i])
+        if not entries:
+            continue
+        value = dice.choice(entries)
+        cards[i] = cards[i].replace("=" + value, "=$" + name, 1)
+        found = re.match(NUMBER.pattern.decode(), value)
+        if found and dice.chance(0.4):
+            unit = value[found.end():]
+            cards.append(f"VARY {name} " + " ".join(f"{float(found[0])*factor:.9g}{unit}" for factor in (1.0, 1.01, 0.98)[:1 + dice.below(3)]))
+        else:
+            cards.append(f"SET {name} {value}")
 
 
 def change_number(dice, text):
