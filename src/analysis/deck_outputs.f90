@@ -12,14 +12,13 @@ module deck_outputs
   use requests, only: report_branches, report_frequencies, report_inertia, report_kind_count, report_kinematics, report_mesh, &
     report_shapes
   use run_findings, only: linkage_notes
-  use tables, only: append_sheet, begin_variant, column_t, discard_table, finish_table, new_sheet, open_table, &
-    publish_table, table_t
+  use tables, only: begin_variant, column_t, discard_table, finish_table, open_table, publish_table, table_t
   use text, only: string_t
   use variant_runs, only: variant_run_t
   implicit none (type, external)
   private
 
-  public :: outputs_t, open_outputs, write_variant, write_sheets, append_sheets, write_texts, publish_outputs, discard_outputs
+  public :: outputs_t, open_outputs, write_variant, write_texts, publish_outputs, discard_outputs
 
   type :: outputs_t
     character(len=:), allocatable :: folder
@@ -108,49 +107,13 @@ contains
     type(variant_run_t), intent(in) :: run
     integer, intent(in) :: threads
 
-    call write_reports(outputs%kind, parameters, run, threads, outputs%tables)
-  end subroutine write_variant
-
-  !> Writes the rows of a variant to sheets, which other threads may do at the same time for other variants. The tables have headers.
-  subroutine write_sheets(outputs, parameters, run, sheets)
-    type(outputs_t), intent(in) :: outputs
-    type(column_t), intent(in) :: parameters(:)
-    type(variant_run_t), intent(in) :: run
-    type(table_t), allocatable, intent(out) :: sheets(:)
-
     integer :: i
 
-    allocate (sheets(size(outputs%tables)))
-    do i = 1, size(sheets)
-      sheets(i) = new_sheet(outputs%tables(i))
-    end do
-    call write_reports(outputs%kind, parameters, run, 1, sheets)
-  end subroutine write_sheets
-
-  subroutine append_sheets(outputs, sheets)
-    type(outputs_t), intent(inout) :: outputs
-    type(table_t), intent(in) :: sheets(:) !! as the tables
-
-    integer :: i
-
-    do i = 1, size(sheets)
-      call append_sheet(outputs%tables(i), sheets(i))
-    end do
-  end subroutine append_sheets
-
-  subroutine write_reports(kind, parameters, run, threads, tables)
-    integer, intent(in) :: kind(:)
-    type(column_t), intent(in) :: parameters(:)
-    type(variant_run_t), intent(in) :: run
-    integer, intent(in) :: threads
-    type(table_t), intent(inout) :: tables(:) !! (as kind)
-
-    integer :: i
-
-    do i = 1, size(kind)
-      associate (table => tables(i), model => run%model, mechanism => run%mechanism, positions => run%positions, sweep => run%sweep)
+    do i = 1, size(outputs%kind)
+      associate (table => outputs%tables(i), model => run%model, mechanism => run%mechanism, positions => run%positions, &
+          sweep => run%sweep)
         call begin_variant(table, parameters, model%varied)
-        select case (kind(i))
+        select case (outputs%kind(i))
         case (report_kinematics)
           call write_kinematics(table, model, mechanism, positions, linkage_notes(mechanism, positions))
         case (report_inertia)
@@ -166,7 +129,7 @@ contains
         end select
       end associate
     end do
-  end subroutine write_reports
+  end subroutine write_variant
 
   !> Writes what comes after the tables, and tells what is in them.
   subroutine write_texts(outputs, echo, log, summary)

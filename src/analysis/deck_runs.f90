@@ -2,8 +2,7 @@
 module deck_runs
   use, intrinsic :: iso_fortran_env, only: compiler_version
   use cards, only: card_t
-  use deck_outputs, only: append_sheets, discard_outputs, open_outputs, outputs_t, publish_outputs, write_sheets, write_texts, &
-    write_variant
+  use deck_outputs, only: discard_outputs, open_outputs, outputs_t, publish_outputs, write_texts, write_variant
   use deck_readings, only: deck_t, read_variant
   use deck_summary, only: summary_text
   use diagnostics, only: diagnostics_t
@@ -20,9 +19,10 @@ module deck_runs
   use run_log, only: model_summary
   use run_statistics, only: accuracy_summary, start_stopwatch, statistics_text, stop_stage, stopwatch_t, sweep_summary
   use sweep_journal, only: close_journal, journal_t, open_journal, remove_journal
-  use tables, only: column_t, real_column, table_t
+  use tables, only: column_t, real_column
   use text, only: plural, string_t, to_string
-  use variant_runs, only: add_totals, run_totals_t, run_variant, totals_of, variant_run_t
+  use variant_runs, only: add_totals, finish_variant, prepare_variant, run_totals_t, run_variant, solve_variant, totals_of, &
+    variant_run_t
   use variants, only: parameter_names, variant_count, variant_text
   implicit none (type, external)
   private
@@ -46,19 +46,10 @@ module deck_runs
     type(findings_t) :: findings                !! what the messages tell
   end type run_result_t
 
-  !> A variant that another thread has computed.
-  type :: part_t
-    type(table_t), allocatable :: sheets(:)
-    type(findings_t) :: findings
-    type(run_totals_t) :: totals
+  !> Why a variant could not be computed, if it could not.
+  type :: problem_t
     type(error_t), allocatable :: error
-  end type part_t
-
-  !> What a thread keeps from variant to variant.
-  type :: worker_t
-    type(card_t), allocatable :: cards(:)
-    type(link_store_t) :: store
-  end type worker_t
+  end type problem_t
 
   !> What a deck's variants have in common while they are computed.
   type :: session_t
@@ -193,69 +184,55 @@ contains
     if (allocated(run%sweep%results)) session%method = run%sweep%request%method
   end subroutine run_first_variant
 
-  !> Computes all other variants, many at a time, and writes their rows in order.
+  !> Computes all other variants, many at a time, and writes their rows in order. That they are sound has been checked.
   subroutine run_other_variants(deck, options, session, error)
     type(deck_t), intent(in) :: deck
     type(run_options_t), intent(in) :: options
     type(session_t), intent(inout) :: session
     type(error_t), allocatable, intent(out) :: error
 
-    type(part_t), allocatable :: parts(:)
-    type(worker_t), allocatable :: workers(:) !! (threads)
+    type(card_t), allocatable :: cards(:)
+    type(diagnostics_t) :: diagnostics
+    type(variant_run_t), allocatable :: runs(:)
+    type(problem_t), allocatable :: problems(:)  !! (as runs)
+    type(link_store_t), allocatable :: stores(:) !! (threads)
+    type(progress_t) :: silent
     integer :: first, last, at_a_time, outer, i
 
     at_a_time = max(1, min(most_at_a_time, rows_at_a_time/(size(deck%model%crank%value)*size(deck%model%speed%value))))
     outer = options%threads
     ! ARPACK serves one thread at a time.
     if (size(deck%model%crank%value) > many_positions .or. deck%model%solver == solver_band) outer = 1
-    allocate (workers(0:outer - 1))
+    allocate (stores(0:outer - 1))
     do first = 2, variant_count(deck%cards), at_a_time*outer
       last = min(first + at_a_time*outer - 1, variant_count(deck%cards))
-      allocate (parts(first:last))
+      allocate (runs(first:last), problems(first:last))
+      do i = first, last
+        call read_variant(deck%cards, i, cards, diagnostics, runs(i)%model)
+        call prepare_variant(runs(i))
+      end do
       !$omp parallel do schedule(dynamic) num_threads(outer) default(shared) private(i)
       do i = first, last
         if (was_interrupted()) cycle
-        call run_part(deck, i, merge(options%threads, 1, outer == 1), session%parameters, session%outputs, session%journal, &
-          workers(omp_get_thread_num()), parts(i))
+        call solve_variant(i, merge(options%threads, 1, outer == 1), silent, session%journal, stores(omp_get_thread_num()), &
+          runs(i), problems(i)%error)
       end do
       !$omp end parallel do
-      if (was_interrupted()) return
       do i = first, last
-        if (allocated(parts(i)%error)) then
-          call move_alloc(parts(i)%error, error)
+        if (was_interrupted()) return
+        if (allocated(problems(i)%error)) then
+          call move_alloc(problems(i)%error, error)
           return
         end if
-        call append_sheets(session%outputs, parts(i)%sheets)
-        call add_findings(session%findings, parts(i)%findings)
-        call add_totals(session%totals, parts(i)%totals)
+        call finish_variant(runs(i))
+        call write_variant(session%outputs, session%parameters, runs(i), 1)
+        call add_findings(session%findings, runs(i)%findings)
+        call add_totals(session%totals, totals_of(runs(i)))
       end do
-      deallocate (parts)
+      deallocate (runs, problems)
       call show_progress(session%progress, last, variant_count(deck%cards))
     end do
   end subroutine run_other_variants
-
-  !> Computes one variant and writes its rows to sheets. That it is sound has been checked.
-  subroutine run_part(deck, number, threads, parameters, outputs, journal, worker, part)
-    type(deck_t), intent(in) :: deck
-    integer, intent(in) :: number
-    integer, intent(in) :: threads
-    type(column_t), intent(in) :: parameters(:)
-    type(outputs_t), intent(in) :: outputs
-    type(journal_t), intent(inout) :: journal
-    type(worker_t), intent(inout) :: worker
-    type(part_t), intent(inout) :: part
-
-    type(diagnostics_t) :: diagnostics
-    type(variant_run_t) :: run
-    type(progress_t) :: silent
-
-    call read_variant(deck%cards, number, worker%cards, diagnostics, run%model)
-    call run_variant(number, threads, silent, journal, worker%store, run, part%error)
-    if (allocated(part%error) .or. was_interrupted()) return
-    call write_sheets(outputs, parameters, run, part%sheets)
-    part%findings = run%findings
-    part%totals = totals_of(run)
-  end subroutine run_part
 
   !> Writes what comes after the tables, and puts all files in place. Errors: the run was interrupted, or a file is not complete.
   subroutine publish(deck, session, error)

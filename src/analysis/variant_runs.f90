@@ -16,7 +16,7 @@ module variant_runs
   implicit none (type, external)
   private
 
-  public :: variant_run_t, run_totals_t, run_variant, totals_of, add_totals
+  public :: variant_run_t, run_totals_t, run_variant, prepare_variant, solve_variant, finish_variant, totals_of, add_totals
 
   !> What was computed. Empty parts were not asked for.
   type :: variant_run_t
@@ -51,17 +51,44 @@ contains
     type(variant_run_t), intent(inout) :: run !! with its model
     type(error_t), allocatable, intent(out) :: error
 
+    call prepare_variant(run)
+    call solve_variant(number, threads, progress, journal, store, run, error)
+    if (.not. allocated(error) .and. .not. was_interrupted()) call finish_variant(run)
+  end subroutine run_variant
+
+  !> Mechanism and motion.
+  subroutine prepare_variant(run)
+    type(variant_run_t), intent(inout) :: run !! with its model
+
     run%mechanism = new_mechanism(run%model)
     run%positions = find_positions(run%mechanism%linkage, run%model%crank%value)
+  end subroutine prepare_variant
+
+  !> Frequencies, nearly all of the work. Variants may be solved at the same time: here are no texts, which gfortran 12 gives lengths
+  !> that all threads share. Errors: as above.
+  subroutine solve_variant(number, threads, progress, journal, store, run, error)
+    integer, intent(in) :: number !! of the variant, from 1
+    integer, intent(in) :: threads
+    type(progress_t), intent(inout) :: progress
+    type(journal_t), intent(inout) :: journal
+    type(link_store_t), intent(inout) :: store
+    type(variant_run_t), intent(inout) :: run !! prepared
+    type(error_t), allocatable, intent(out) :: error
+
+    if (.not. needs_frequencies(run%model)) return
+    call run_sweep(run%model, run%mechanism, run%positions, threads, progress, journal, number, store, run%sweep, error)
+  end subroutine solve_variant
+
+  !> Branches, failed rows and warnings.
+  subroutine finish_variant(run)
+    type(variant_run_t), intent(inout) :: run !! solved
+
     if (needs_frequencies(run%model)) then
-      call run_sweep(run%model, run%mechanism, run%positions, threads, progress, journal, number, store, run%sweep, error)
-      if (allocated(error) .or. was_interrupted()) return
       if (run%sweep%request%follow) call follow_branches(run%mechanism, run%positions, run%sweep, run%branches)
     end if
-    if (was_interrupted()) return
     call find_failures(run%model, run%positions, run%sweep, run%findings)
     call find_warnings(run%model, run%mechanism, run%positions, run%sweep, run%findings)
-  end subroutine run_variant
+  end subroutine finish_variant
 
   pure function totals_of(run) result(totals)
     type(variant_run_t), intent(in) :: run

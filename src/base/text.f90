@@ -17,7 +17,11 @@ module text
     module procedure :: integer_to_string
     module procedure :: long_to_string
     module procedure :: real_to_string
+    module procedure :: rounded_to_string
   end interface to_string
+
+  !> Significant digits where nobody asks for a number of them; characters that a real number takes at most.
+  integer, parameter :: usual_digits = 6, longest_real = 56
 
 contains
 
@@ -40,89 +44,126 @@ contains
     call move_alloc(longer, list)
   end subroutine append_string
 
+  ! Lengths are worked out before the texts: gfortran 12 keeps the length of a function result of deferred length in one place for all
+  ! threads, so that such a function must not be called where several threads may (a failed position is told from inside a sweep).
+
   pure function integer_to_string(value) result(string)
     integer, intent(in) :: value
-    character(len=:), allocatable :: string
+    character(len=digit_count(int(value, long))) :: string
 
-    string = long_to_string(int(value, long))
+    write (string, "(i0)") value
   end function integer_to_string
 
   pure function long_to_string(value) result(string)
     integer(long), intent(in) :: value
-    character(len=:), allocatable :: string
+    character(len=digit_count(value)) :: string
+
+    write (string, "(i0)") value
+  end function long_to_string
+
+  !> Characters of a whole number.
+  pure function digit_count(value) result(count)
+    integer(long), intent(in) :: value
+    integer :: count
 
     character(len=24) :: buffer
 
     write (buffer, "(i0)") value
-    string = trim(buffer)
-  end function long_to_string
+    count = len_trim(buffer)
+  end function digit_count
 
-  !> `value` with `digits` significant digits (six if absent), trailing zeros dropped.
-  pure function real_to_string(value, digits) result(string)
+  !> `value` with six significant digits, trailing zeros dropped.
+  pure function real_to_string(value) result(string)
     real(wp), intent(in) :: value
-    integer, intent(in), optional :: digits
-    character(len=:), allocatable :: string
+    character(len=real_length(value, usual_digits)) :: string
 
-    character(len=48) :: buffer
-    character(len=16) :: form
-    integer :: significant, decimals, power
+    character(len=longest_real) :: buffer
+    integer :: length
 
-    significant = 6
-    if (present(digits)) significant = digits
-    if (abs(value) <= 0.0_wp) then
-      string = "0"
-      return
-    else if (.not. abs(value) <= huge(value)) then
-      string = "not a number"
-      return
-    end if
-    write (form, "(a,i0,a)") "(es40.", significant - 1, "e3)"
-    write (buffer, form) value
-    power = exponent_of(buffer)
-    if (power >= -4 .and. power < max(significant, 6)) then
-      decimals = max(significant - 1 - power, 0)
-      write (form, "(a,i0,a)") "(f0.", decimals, ")"
-      write (buffer, form) value
-      string = without_trailing_zeros(with_leading_zero(trim(buffer)))
-    else
-      buffer = adjustl(buffer)
-      string = without_trailing_zeros(buffer(:index(buffer, "E") - 1))//"e"//to_string(exponent_of(buffer))
-    end if
+    call write_real(value, usual_digits, buffer, length)
+    string = buffer(:length)
   end function real_to_string
 
-  !> The decimal exponent in a number written as `1.5E-007`.
-  pure function exponent_of(buffer) result(power)
-    character(len=*), intent(in) :: buffer
+  !> `value` with `digits` significant digits, trailing zeros dropped.
+  pure function rounded_to_string(value, digits) result(string)
+    real(wp), intent(in) :: value
+    integer, intent(in) :: digits
+    character(len=real_length(value, digits)) :: string
+
+    character(len=longest_real) :: buffer
+    integer :: length
+
+    call write_real(value, digits, buffer, length)
+    string = buffer(:length)
+  end function rounded_to_string
+
+  !> Characters of a real number.
+  pure function real_length(value, digits) result(length)
+    real(wp), intent(in) :: value
+    integer, intent(in) :: digits
+    integer :: length
+
+    character(len=longest_real) :: buffer
+
+    call write_real(value, digits, buffer, length)
+  end function real_length
+
+  !> Writes a real number into the first `length` characters of a buffer.
+  pure subroutine write_real(value, digits, buffer, length)
+    real(wp), intent(in) :: value
+    integer, intent(in) :: digits
+    character(len=*), intent(out) :: buffer
+    integer, intent(out) :: length
+
+    character(len=16) :: form
+    character(len=8) :: exponent
     integer :: power
 
-    read (buffer(index(buffer, "E") + 1:), *) power
-  end function exponent_of
+    if (abs(value) <= 0.0_wp) then
+      buffer = "0"
+    else if (.not. abs(value) <= huge(value)) then
+      buffer = "not a number"
+    else
+      write (form, "(a,i0,a)") "(es44.", digits - 1, "e4)"
+      write (buffer, form) value
+      read (buffer(index(buffer, "E") + 1:), *) power
+      if (power >= -4 .and. power < max(digits, usual_digits)) then
+        write (form, "(a,i0,a)") "(f0.", max(digits - 1 - power, 0), ")"
+        write (buffer, form) value
+        call put_leading_zero(buffer)
+        call drop_trailing_zeros(buffer)
+      else
+        buffer = adjustl(buffer)
+        buffer(index(buffer, "E"):) = ""
+        call drop_trailing_zeros(buffer)
+        write (exponent, "(i0)") power
+        buffer = trim(buffer)//"e"//exponent
+      end if
+    end if
+    length = len_trim(buffer)
+  end subroutine write_real
 
   !> `-.5` as `-0.5`: compilers leave the zero out under `f0`.
-  pure function with_leading_zero(number) result(string)
-    character(len=*), intent(in) :: number
-    character(len=:), allocatable :: string
+  pure subroutine put_leading_zero(number)
+    character(len=*), intent(inout) :: number
 
     integer :: point
 
     point = index(number, ".")
-    string = number
-    if (point == 1) string = "0"//number
-    if (point == 2 .and. number(1:1) == "-") string = "-0"//number(2:)
-  end function with_leading_zero
+    if (point == 1) number = "0"//number
+    if (point == 2 .and. number(1:1) == "-") number = "-0"//number(2:)
+  end subroutine put_leading_zero
 
-  pure function without_trailing_zeros(number) result(string)
-    character(len=*), intent(in) :: number
-    character(len=:), allocatable :: string
+  pure subroutine drop_trailing_zeros(number)
+    character(len=*), intent(inout) :: number
 
     integer :: last
 
-    string = number
     if (index(number, ".") == 0) return
-    last = verify(number, "0", back=.true.)
+    last = verify(trim(number), "0", back=.true.)
     if (number(last:last) == ".") last = last - 1
-    string = number(:last)
-  end function without_trailing_zeros
+    number(last + 1:) = ""
+  end subroutine drop_trailing_zeros
 
   pure function lower_case(string) result(lower)
     character(len=*), intent(in) :: string

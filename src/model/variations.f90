@@ -43,6 +43,8 @@ contains
     allocate (variation%value(0), variation%word(0))
     words = card%words(2:)
     errors = error_count(diagnostics)
+    if (is_column(variation%name%text)) call add_error(diagnostics, variation%name, "'"//variation%name%text// &
+      "' is a column of the tables; what varies needs a name of its own, for it becomes a column, too")
     call take_unit(words, diagnostics, variation%unit, fine)
     if (.not. fine) return
     call read_values(words, dimension_none, si_units(), "value", diagnostics, list)
@@ -55,6 +57,20 @@ contains
       variation%word(i)%text = shortest_text(list%value(i))//variation%unit
     end do
   end subroutine read_variation
+
+  !> Whether a name stands at the head of a column of some table.
+  pure function is_column(name) result(is)
+    character(len=*), intent(in) :: name
+    logical :: is
+
+    character(len=*), parameter :: columns = " speed crank theta3 theta4 omega3 omega4 alpha3 alpha4 Ax Ay Bx By "// &
+      "transmission_angle mass link x y ax ay Fx Fy m moment element node_a node_b xa ya xb yb mass_a mass_b mode frequency s "// &
+      "ux uy rotation branch mac event failure "
+
+    is = index(columns, " "//name//" ") > 0
+    if (len(name) > 1 .and. name(:1) == "f") is = is .or. verify(name(2:), "0123456789") == 0
+    if (len(name) > 5 .and. index(name, "error") == 1) is = is .or. verify(name(6:), "0123456789") == 0
+  end function is_column
 
   !> Takes the unit off the numbers: all have the same one, or none has, or it stands behind them all.
   pure subroutine take_unit(words, diagnostics, unit, fine)

@@ -10,7 +10,7 @@ module output_files
   implicit none (type, external)
   private
 
-  public :: output_file_t, open_output, append_output, append_held, finish_output, publish_output, remove_output, discard_output
+  public :: output_file_t, open_output, append_output, finish_output, publish_output, remove_output, discard_output
 
   type :: output_file_t
     character(len=:), allocatable :: path
@@ -40,22 +40,14 @@ contains
     if (status /= 0) call set_error(error, file%path//temporary//": error: this file cannot be written")
   end subroutine open_output
 
-  !> Appends text as it is. A file that was never opened holds it, for another one.
+  !> Appends text as it is.
   subroutine append_output(file, text)
     type(output_file_t), intent(inout) :: file
     character(len=*), intent(in) :: text
 
     call append_text(file%buffer, text)
-    if (file%is_open .and. file%buffer%length > buffer_size) call write_buffer(file)
+    if (file%buffer%length > buffer_size) call write_buffer(file)
   end subroutine append_output
-
-  !> Appends what a file that was never opened holds.
-  subroutine append_held(file, other)
-    type(output_file_t), intent(inout) :: file
-    type(output_file_t), intent(in) :: other
-
-    if (other%buffer%length > 0) call append_output(file, other%buffer%storage(:other%buffer%length))
-  end subroutine append_held
 
   subroutine write_buffer(file)
     type(output_file_t), intent(inout) :: file

@@ -4,12 +4,12 @@ module tables
   use errors, only: error_t
   use kinds, only: long, wp
   use number_text, only: number_width, scientific
-  use output_files, only: append_held, append_output, discard_output, finish_output, open_output, output_file_t, publish_output
+  use output_files, only: append_output, discard_output, finish_output, open_output, output_file_t, publish_output
   use text, only: string_t, to_string, word_list
   implicit none (type, external)
   private
 
-  public :: table_t, open_table, new_sheet, append_sheet, begin_variant, finish_table, publish_table, discard_table
+  public :: table_t, open_table, begin_variant, finish_table, publish_table, discard_table
   public :: column_t, real_column, integer_column, name_column, append_column, append_real_columns
   public :: write_header, write_row, write_gap, write_failure
   public :: real_cells, integer_cell, name_cell, has_unit
@@ -65,29 +65,6 @@ contains
     table%parameter_values = values
     table%first_cells = real_cells(values)
   end subroutine begin_variant
-
-  !> A sheet for the rows of a variant, to be appended to a table that has its header.
-  pure function new_sheet(table) result(sheet)
-    type(table_t), intent(in) :: table
-    type(table_t) :: sheet
-
-    sheet%name = table%name
-    sheet%has_csv = table%has_csv
-    sheet%columns = table%columns
-    sheet%notes = table%notes
-  end function new_sheet
-
-  subroutine append_sheet(table, sheet)
-    type(table_t), intent(inout) :: table
-    type(table_t), intent(in) :: sheet
-
-    call append_held(table%plain, sheet%plain)
-    call append_held(table%csv, sheet%csv)
-    ! The sheet begins with empty lines.
-    table%gap_due = sheet%gap_due
-    table%rows = table%rows + sheet%rows
-    table%failed_rows = table%failed_rows + sheet%failed_rows
-  end subroutine append_sheet
 
   !> Writes what is left and checks that everything is on the disk. Errors: it is not.
   subroutine finish_table(table, error)

@@ -177,7 +177,7 @@ def sound_deck(dice):
 def with_names(dice, cards):
     """Puts `$name`s in place of values, with SET and VARY cards that give them."""
     places = [i for i, card in enumerate(cards) if "=" in card and not card.startswith("TITLE")]
-    for name in ("x", "L-2", "w_3")[:1 + dice.below(3)]:
+    for name in ("v", "L-2", "w_3")[:1 + dice.below(3)]:
         i = dice.choice(places)
         entries = re.findall(r"(?<==)[^ $]+", cards[i])
         if not entries:
