@@ -62,6 +62,11 @@ told=$2
 shift 2
 "$@" 2>"$told" &
 sleep 1
+# Where the run is to leave a journal, not before there is one.
+for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
+  [ -z "$awaited" ] || [ -s "$awaited" ] && break
+  sleep 1
+done
 kill -s "$signal" $!
 wait $!
 END_OF_JOB

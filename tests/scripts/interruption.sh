@@ -12,7 +12,10 @@ beam_deck "CRANK 0 to 360 step 0.002" "MODES 8" "SPEED 0 to 20 step 1" "REPORT f
 
 # stopped SIGNAL OUT: the message names what was kept for --resume.
 stopped() {
+  awaited=$2/beam/resume.part
+  export awaited
   interrupted "$1" "$2" "$deck" --format csv || return 1
+  unset awaited
   says "beam.deck: interrupted; its earlier results are untouched; --resume goes on from what it has computed" || return 1
   [ -s "$2/beam/resume.part" ] || { echo "no resume.part"; return 1; }
   rm "$2/beam/resume.part"
