@@ -195,8 +195,10 @@ contains
     if (finish > len(text)) return
     if (scan(text(finish:finish), """'") == 0) return
     found = .true.
-    words = [token_t(text(start:start + len("INCLUDE") - 1), line, start), &
-      token_t(text(finish:), line, 1 + character_count(text(:finish - 1)))]
+    deallocate (words)
+    allocate (words(2))
+    words(1) = token_t(text(start:start + len("INCLUDE") - 1), line, start)
+    words(2) = token_t(text(finish:), line, 1 + character_count(text(:finish - 1)))
     i = index(text(finish + 1:), text(finish:finish))
     if (i == 0) then
       words(2)%set_line = -1

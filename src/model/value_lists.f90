@@ -42,7 +42,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(value_list_t), intent(out) :: list
 
-    type(token_t), allocatable :: words(:)
+    type(token_t), allocatable :: words(:), more(:)
     integer :: i
 
     list = empty_list()
@@ -51,7 +51,9 @@ contains
       if (allocated(entry%items)) then
         allocate (words(0))
         do i = 1, size(entry%items)
-          words = [words, list_items(entry%items(i))]
+          ! By itself: inside of an array constructor gfortran 12 would lose its memory.
+          more = list_items(entry%items(i))
+          words = [words, more]
         end do
       else
         words = list_items(entry%value)
