@@ -204,7 +204,7 @@ contains
     integer, intent(inout) :: factorizations
     logical, intent(out) :: converged
 
-    real(wp) :: residual, scale, error, previous
+    real(wp) :: residual, square, scale, error, previous
     integer :: i, j, pass
 
     lambda = estimate
@@ -229,7 +229,13 @@ contains
         call bordered_times_vector(layout, geometric, vector, stiffness_times)
         stiffness_times = stiffness_times + vector
       end if
-      scale = 1.0_wp/sqrt(dot_product(vector, mass_times))
+      square = dot_product(vector, mass_times)
+      if (.not. square > 0.0_wp) then ! nothing but rounding is left of M
+        converged = .false.
+        residual = 0.0_wp
+        exit
+      end if
+      scale = 1.0_wp/sqrt(square)
       vector = scale*vector
       mass_times = scale*mass_times
       stiffness_times = scale*stiffness_times
