@@ -180,8 +180,11 @@ contains
     if (.not. found) return
     call match(linkage, models, request, first, place, middle, middle_place, halvings - 1, work, counts, &
       to_middle, to_middle_clear)
-    call match(linkage, models, request, middle, middle_place, second, target_place, halvings - 1, work, counts, &
-      from_middle, from_middle_clear)
+    ! Where no mode that is in doubt comes as far as the middle, the rest of the way decides nothing.
+    if (any(to_middle > 0 .and. .not. clear)) then
+      call match(linkage, models, request, middle, middle_place, second, target_place, halvings - 1, work, counts, &
+        from_middle, from_middle_clear)
+    end if
     do i = 1, size(next)
       if (clear(i)) cycle
       clear(i) = to_middle_clear(i)

@@ -204,16 +204,25 @@ contains
     integer, intent(inout) :: factorizations
     logical, intent(out) :: converged
 
-    real(wp) :: residual, square, scale, error, previous
+    !> Beyond it squares overflow, or are zero.
+    integer, parameter :: most_exponent = maxexponent(1.0_wp)/2 - digits(1.0_wp)
+    real(wp) :: residual, square, scale, error, previous, largest
     integer :: i, j, pass
 
     lambda = estimate
     mass_times = direction
     previous = huge(previous)
+    ! As it stays where rounding has left nothing of M, or of the direction.
+    converged = .false.
+    residual = 0.0_wp
+    stiffness_times = 0.0_wp
     do i = 1, most_iterations
       call solve_shifted(layout, mass, geometric, loaded, lambda, mass_times, vector)
       factorizations = factorizations + 1
       ! Normalised before the products, so that nothing overflows.
+      largest = maxval(abs(vector))
+      if (.not. (largest > 0.0_wp .and. largest <= huge(largest))) exit
+      if (abs(exponent(largest)) > most_exponent) vector = vector/largest
       vector = vector/sqrt(dot_product(vector, vector))
       ! Twice: what a first pass loses to rounding the second one restores.
       do pass = 1, 2
@@ -230,11 +239,7 @@ contains
         stiffness_times = stiffness_times + vector
       end if
       square = dot_product(vector, mass_times)
-      if (.not. square > 0.0_wp) then ! nothing but rounding is left of M
-        converged = .false.
-        residual = 0.0_wp
-        exit
-      end if
+      if (.not. square > 0.0_wp) exit
       scale = 1.0_wp/sqrt(square)
       vector = scale*vector
       mass_times = scale*mass_times

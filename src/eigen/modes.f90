@@ -96,7 +96,8 @@ contains
       small**2*maxval(abs(stiffness%entry))/maxval(mass%entry(1, :)))
     do
       factorizations = factorizations + 1
-      if (count_below(stiffness, mass, -shift) == 0) exit
+      ! A mass matrix that rounding has made indefinite has no such shift; who factors the sum will see.
+      if (count_below(stiffness, mass, -shift) == 0 .or. shift > sqrt(huge(shift))) exit
       shift = 4.0_wp*shift
     end do
     ! One step more, so that the lowest shifted eigenvalue is not near zero by chance.
