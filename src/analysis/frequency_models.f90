@@ -16,7 +16,7 @@ module frequency_models
   private
 
   public :: mode_request_t, frequency_models_t, new_frequency_models, load_factors, chosen_method
-  public :: is_long_link, by_orders, by_link_modes, by_long_mesh, by_dense, by_band
+  public :: by_orders, by_link_modes, by_long_mesh, by_dense, by_band
 
   !> How the frequencies that are written are found: with orders that the program chooses; on the mesh of the deck in deformation
   !! coordinates, taken apart link by link, or with running sums; on it in nodal unknowns, with full or with band matrices.

@@ -8,7 +8,7 @@ module mesh_report
   use positions, only: positions_t
   use tables, only: append_column, append_real_columns, column_t, integer_cell, integer_column, name_cell, name_column, &
     real_cells, real_column, table_t, write_failure, write_gap, write_header, write_row
-  use text, only: append_string, string_t, to_string
+  use text, only: append_string, string_t
   use units, only: coherent_unit, dimension_length, dimension_mass, from_si, unit_t
   implicit none (type, external)
   private

@@ -5,7 +5,6 @@ module includes
   use diagnostics, only: add_error, diagnostics_t
   use file_system, only: real_path
   use text, only: same_word, string_t, to_string
-  use tokens, only: token_t
   implicit none (type, external)
   private
 

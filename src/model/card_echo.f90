@@ -11,7 +11,7 @@ module card_echo
   implicit none (type, external)
   private
 
-  public :: echo_line_t, echo_cards, echo_card
+  public :: echo_line_t, echo_cards
 
   type :: echo_line_t
     character(len=:), allocatable :: text   !! the card

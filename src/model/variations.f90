@@ -4,7 +4,7 @@ module variations
   use diagnostics, only: add_error, diagnostics_t, error_count
   use kinds, only: wp
   use numbers, only: number_length, shortest_text
-  use text, only: same_word, string_t
+  use text, only: same_word
   use tokens, only: token_part, token_t
   use units, only: dimension_length, dimension_mass, dimension_none, dimension_time, new_unit_system, read_unit, unit_system_t, &
     unit_t
