@@ -1,7 +1,7 @@
 !> Inertia loads of moving links: the forces that their masses exert on the linkage.
 module inertia_loads
   use kinds, only: wp
-  use linkages, only: body_t, cross, linkage_t
+  use linkages, only: body_t, cross, linkage_t, normal_to
   use motions, only: acceleration_field_t, point_acceleration
   use poses, only: pose_t
   implicit none (type, external)
@@ -58,6 +58,7 @@ contains
       load%force = load%force + force
       load%moment = load%moment + stations(i)*cross(pose%direction(:, number), force)
     end do
+    call add_lumps(body, number, pose, field, load)
   end function lumped_load
 
   !> Load of a link with uniform mass, `f(s) = −μ (a_first + s slope)`: force (2.45), moment about the first pin.
@@ -77,7 +78,30 @@ contains
     load%moment = -mass*body%length*cross(pose%direction(:, number), &
       0.5_wp*field%at_first(:, number) + body%length/3.0_wp*field%slope(:, number))
     if (body%rotary_inertia > 0.0_wp) load%moment = load%moment - body%rotary_inertia*body%length*field%angular(number)
+    call add_lumps(body, number, pose, field, load)
   end function distributed_load
+
+  !> Adds `F = −m a` (2.45) and `M = −I α` (2.46) of the lumps of a body.
+  pure subroutine add_lumps(body, number, pose, field, load)
+    type(body_t), intent(in) :: body
+    integer, intent(in) :: number
+    type(pose_t), intent(in) :: pose
+    type(acceleration_field_t), intent(in) :: field
+    type(load_t), intent(inout) :: load
+
+    real(wp) :: arm(2), force(2)
+    integer :: i
+
+    if (.not. allocated(body%lumps)) return
+    do i = 1, size(body%lumps)
+      associate (lump => body%lumps(i), axis => pose%direction(:, number))
+        arm = lump%place(1)*axis + lump%place(2)*normal_to(axis)
+        force = -lump%mass*point_acceleration(field, number, lump%place(1), lump%place(2))
+        load%force = load%force + force
+        load%moment = load%moment + cross(arm, force) - lump%inertia*field%angular(number)
+      end associate
+    end do
+  end subroutine add_lumps
 
   !> Forces of the pins' own masses [N].
   pure function pin_load(linkage, field) result(force)

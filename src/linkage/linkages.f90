@@ -7,9 +7,17 @@ module linkages
   implicit none (type, external)
   private
 
-  public :: linkage_t, body_t, dyad_t, new_four_bar, cross, normal_to
+  public :: linkage_t, body_t, lump_t, dyad_t, new_four_bar, cross, normal_to
 
-  !> A uniform straight link. Along it runs a coordinate from its first pin to its last, round the loop.
+  !> A mass fixed to a body, where its own axes say: x along it, y to the left of the way from its first pin to its last.
+  type :: lump_t
+    real(wp) :: mass = 0.0_wp      !! [kg]
+    real(wp) :: place(2) = 0.0_wp  !! of its mass centre, from the first pin, in the axes of the body [m]
+    real(wp) :: inertia = 0.0_wp   !! moment of inertia about its own mass centre [kg m²]
+  end type lump_t
+
+  !> A straight link: uniform, with lumps, or a rigid shape of any kind, which is a lump alone. Along it runs a coordinate from its
+  !! first pin to its last, round the loop.
   type :: body_t
     integer :: first_pin = 0           !! where the way round the loop enters it
     integer :: last_pin = 0            !! where it leaves it
@@ -17,6 +25,8 @@ module linkages
     real(wp) :: line_density = 0.0_wp  !! mass per length [kg/m]
     real(wp) :: sense = 1.0_wp         !! +1: its angle is that of first → last pin, −1: that of last → first
     real(wp) :: rotary_inertia = 0.0_wp !! ρI of its cross-sections per length [kg m]; 0 where it is left out
+    logical :: bends = .true.          !! as a beam; else it is rigid
+    type(lump_t), allocatable :: lumps(:)
   end type body_t
 
   !> Two bodies that meet in a pin; each hangs on a pin that is placed before.
@@ -31,6 +41,9 @@ module linkages
     logical, allocatable :: is_ground(:)          !! (pins)
     real(wp), allocatable :: ground_position(:, :) !! (2, pins) [m]; zero for moving pins
     real(wp), allocatable :: pin_mass(:)          !! (pins) [kg]
+    real(wp) :: gravity(2) = 0.0_wp               !! [m/s²]
+    real(wp), allocatable :: pin_force(:, :)      !! (2, pins) constant forces on the pins from outside [N]
+    real(wp), allocatable :: couple(:)            !! (bodies) constant torques on the bodies from outside [N m]
     type(body_t), allocatable :: bodies(:)        !! in the order round the loop; the first is driven about its first pin
     type(dyad_t), allocatable :: dyads(:)         !! in the order in which they are placed
   end type linkage_t
@@ -49,12 +62,24 @@ contains
     integer :: i
 
     linkage%is_ground = [.true., .false., .false., .true.]
+    allocate (linkage%pin_force(2, 4), linkage%couple(3))
+    linkage%pin_force = 0.0_wp
+    linkage%couple = 0.0_wp
     allocate (linkage%ground_position(2, 4))
     linkage%ground_position = 0.0_wp
     linkage%ground_position(:, 1) = ground(:, 1)
     linkage%ground_position(:, 4) = ground(:, 2)
     linkage%pin_mass = [0.0_wp, pin_mass, 0.0_wp]
-    linkage%bodies = [(body_t(i, i + 1, length(i), line_density(i), merge(-1.0_wp, 1.0_wp, i == 3)), i=1, 3)]
+    ! Not an array constructor, in which gfortran 12 would lose the memory of the lumps.
+    allocate (linkage%bodies(3))
+    do i = 1, 3
+      linkage%bodies(i)%first_pin = i
+      linkage%bodies(i)%last_pin = i + 1
+      linkage%bodies(i)%length = length(i)
+      linkage%bodies(i)%line_density = line_density(i)
+      if (i == 3) linkage%bodies(i)%sense = -1.0_wp
+      allocate (linkage%bodies(i)%lumps(0))
+    end do
     linkage%dyads = [dyad_t([2, 4], [2, 3], 3, merge(-1.0_wp, 1.0_wp, crossed))]
   end function new_four_bar
 

@@ -145,14 +145,17 @@ contains
     total%angular = speed**2*fields(1)%angular + acceleration*fields(2)%angular
   end function scaled_sum
 
-  !> Acceleration of the point of a body at distance `s` from its first pin [m/s²].
-  pure function point_acceleration(field, body, s) result(acceleration)
+  !> Acceleration of the point of a body at distance `s` from its first pin, `offset` to the left of it [m/s²].
+  pure function point_acceleration(field, body, s, offset) result(acceleration)
     type(acceleration_field_t), intent(in) :: field
     integer, intent(in) :: body
-    real(wp), intent(in) :: s !! [m]
+    real(wp), intent(in) :: s                !! [m]
+    real(wp), intent(in), optional :: offset !! [m]
     real(wp) :: acceleration(2)
 
     acceleration = field%at_first(:, body) + s*field%slope(:, body)
+    ! What is across the link moves as what is along it, a quarter turn ahead.
+    if (present(offset)) acceleration = acceleration + offset*normal_to(field%slope(:, body))
   end function point_acceleration
 
 end module motions

@@ -1,0 +1,83 @@
+!> The three loads of which every load of a moving linkage is made: `constant + ω2² of turning + α2 of speeding up`.
+module load_cases
+  use inertia_loads, only: distributed_load, load_t, lumped_load, pin_load
+  use kinds, only: wp
+  use linkages, only: linkage_t
+  use motions, only: acceleration_field_t, motion_t, unit_fields
+  use poses, only: pose_t
+  implicit none (type, external)
+  private
+
+  public :: load_case_t, case_count, constant_case, unit_cases, has_constant_loads, find_case_loads
+
+  !> Numbers of the cases: for ω2² = 1, for α2 = 1, and of gravity and the forces and torques from outside.
+  integer, parameter :: case_count = 3, constant_case = 3
+
+  !> Inertia loads are those of an acceleration field; gravity g is the field −g.
+  type :: load_case_t
+    type(acceleration_field_t) :: field
+    real(wp), allocatable :: pin_force(:, :) !! (2, pins) from outside [N]
+    real(wp), allocatable :: couple(:)       !! (bodies) from outside [N m]
+  end type load_case_t
+
+contains
+
+  !> Whether anything but its motion loads a linkage.
+  pure function has_constant_loads(linkage) result(has)
+    type(linkage_t), intent(in) :: linkage
+    logical :: has
+
+    has = any(abs(linkage%gravity) > 0.0_wp) .or. any(abs(linkage%pin_force) > 0.0_wp) .or. any(abs(linkage%couple) > 0.0_wp)
+  end function has_constant_loads
+
+  !> The three cases at a pose.
+  pure function unit_cases(linkage, pose, motion) result(cases)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(motion_t), intent(in) :: motion
+    type(load_case_t) :: cases(case_count)
+
+    type(acceleration_field_t) :: fields(2)
+    integer :: i
+
+    fields = unit_fields(linkage, pose, motion)
+    do i = 1, 2
+      cases(i)%field = fields(i)
+      allocate (cases(i)%pin_force, mold=linkage%pin_force)
+      allocate (cases(i)%couple, mold=linkage%couple)
+      cases(i)%pin_force = 0.0_wp
+      cases(i)%couple = 0.0_wp
+    end do
+    associate (constant => cases(constant_case))
+      constant%field%at_pin = -spread(linkage%gravity, 2, size(linkage%pin_mass))
+      constant%field%at_first = -spread(linkage%gravity, 2, size(linkage%bodies))
+      constant%field%slope = 0.0_wp*fields(1)%slope
+      constant%field%angular = 0.0_wp*fields(1)%angular
+      constant%pin_force = linkage%pin_force
+      constant%couple = linkage%couple
+    end associate
+  end function unit_cases
+
+  !> Loads on bodies and pins in one case.
+  pure subroutine find_case_loads(linkage, elements, pose, case, body_loads, pin_loads)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: elements(:)         !! (bodies) on whose nodes their masses sit; 0: distributed
+    type(pose_t), intent(in) :: pose
+    type(load_case_t), intent(in) :: case
+    type(load_t), intent(out) :: body_loads(:) !! (bodies)
+    real(wp), intent(out) :: pin_loads(:, :)   !! (2, pins) [N]
+
+    integer :: b
+
+    do b = 1, size(linkage%bodies)
+      if (elements(b) > 0) then
+        body_loads(b) = lumped_load(linkage%bodies(b), b, elements(b), pose, case%field)
+      else
+        body_loads(b) = distributed_load(linkage%bodies(b), b, pose, case%field)
+      end if
+      body_loads(b)%moment = body_loads(b)%moment + case%couple(b)
+    end do
+    pin_loads = pin_load(linkage, case%field) + case%pin_force
+  end subroutine find_case_loads
+
+end module load_cases
