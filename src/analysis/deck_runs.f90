@@ -1,6 +1,5 @@
 !> One deck: computed variant by variant, and written.
 module deck_runs
-  use body_notes, only: body_notes_of
   use, intrinsic :: iso_fortran_env, only: compiler_version
   use cards, only: card_t
   use deck_outputs, only: discard_outputs, open_outputs, outputs_t, publish_outputs, write_texts, write_variant
@@ -277,10 +276,6 @@ contains
     integer :: i
 
     text = model_summary(run%model)
-    notes = body_notes_of(run%model, run%mechanism)
-    do i = 1, size(notes)
-      text = text//notes(i)%text//line_feed
-    end do
     notes = linkage_notes(run%mechanism, run%positions)
     do i = 1, size(notes)
       text = text//notes(i)%text//line_feed
