@@ -6,7 +6,7 @@ module adaptive_integration
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_funptr, c_int, c_loc, c_null_funptr, &
     c_null_ptr, c_ptr, c_size_t
   use errors, only: error_t, set_error
-  use kinds, only: wp
+  use kinds, only: long, wp
   implicit none (type, external)
   private
 
@@ -31,8 +31,8 @@ module adaptive_integration
 
   !> What the library keeps between steps. To be closed after use, and never copied.
   type :: integrator_t
-    integer :: steps = 0                  !! accepted so far
-    integer :: evaluations = 0            !! of rates so far
+    integer(long) :: steps = 0_long       !! accepted so far
+    integer(long) :: evaluations = 0_long !! of rates so far
     real(wp) :: step = 0.0_wp             !! length of the next step that the error allows
     integer, private :: unknowns = 0
     type(c_ptr), private :: stepper = c_null_ptr, control = c_null_ptr, evolution = c_null_ptr
@@ -45,7 +45,7 @@ module adaptive_integration
     integer :: evaluations = 0
   end type request_t
 
-  !> gsl_odeiv2_system
+  !> gsl_odeiv2_system. Handed on by its address: what the library changes behind it, a compiler must not take for unchanged.
   type, bind(c) :: library_system_t
     type(c_funptr) :: rates = c_null_funptr
     type(c_funptr) :: jacobian = c_null_funptr
@@ -88,9 +88,8 @@ module adaptive_integration
     end function gsl_odeiv2_evolve_alloc
 
     function gsl_odeiv2_evolve_apply(evolution, control, stepper, system, time, limit, step, state) bind(c) result(status)
-      import :: c_double, c_int, c_ptr, library_system_t
-      type(c_ptr), value :: evolution, control, stepper
-      type(library_system_t), intent(in) :: system
+      import :: c_double, c_int, c_ptr
+      type(c_ptr), value :: evolution, control, stepper, system
       real(c_double), intent(inout) :: time
       real(c_double), value :: limit
       real(c_double), intent(inout) :: step, state(*)
@@ -110,11 +109,10 @@ module adaptive_integration
     end function gsl_odeiv2_step_reset
 
     function gsl_odeiv2_step_apply(stepper, time, step, state, error, rates_before, rates_after, system) bind(c) result(status)
-      import :: c_double, c_int, c_ptr, library_system_t
-      type(c_ptr), value :: stepper, rates_before, rates_after
+      import :: c_double, c_int, c_ptr
+      type(c_ptr), value :: stepper, rates_before, rates_after, system
       real(c_double), value :: time, step
       real(c_double), intent(inout) :: state(*), error(*)
-      type(library_system_t), intent(in) :: system
       integer(c_int) :: status
     end function gsl_odeiv2_step_apply
 
@@ -203,24 +201,27 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     type(request_t), target :: request
+    type(library_system_t), target :: library_system
     real(c_double) :: library_time, step, library_state(integrator%unknowns)
     integer(c_int) :: status
 
     request%system => system
     request%unknowns = integrator%unknowns
+    library_system = library_system_t(c_funloc(rates_for_library), c_null_funptr, int(integrator%unknowns, c_size_t), &
+      c_loc(request))
     library_time = real(time, c_double)
     step = real(integrator%step, c_double)
     library_state = real(state, c_double)
     ! What the library remembers of the last state may not be this one.
     status = gsl_odeiv2_evolve_reset(integrator%evolution)
-    status = gsl_odeiv2_evolve_apply(integrator%evolution, integrator%control, integrator%stepper, library_call(request), &
+    status = gsl_odeiv2_evolve_apply(integrator%evolution, integrator%control, integrator%stepper, c_loc(library_system), &
       library_time, real(limit, c_double), step, library_state)
     integrator%evaluations = integrator%evaluations + request%evaluations
     if (status /= success) then
       call set_error(error, "the steps of the integration shrink to nothing")
       return
     end if
-    integrator%steps = integrator%steps + 1
+    integrator%steps = integrator%steps + 1_long
     integrator%step = real(step, wp)
     time = real(library_time, wp)
     ! Both were rounded to the precision of the library.
@@ -240,15 +241,18 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     type(request_t), target :: request
+    type(library_system_t), target :: library_system
     real(c_double) :: library_state(integrator%unknowns), estimate(integrator%unknowns)
     integer(c_int) :: status
 
     request%system => system
     request%unknowns = integrator%unknowns
+    library_system = library_system_t(c_funloc(rates_for_library), c_null_funptr, int(integrator%unknowns, c_size_t), &
+      c_loc(request))
     library_state = real(state, c_double)
     status = gsl_odeiv2_step_reset(integrator%stepper)
     status = gsl_odeiv2_step_apply(integrator%stepper, real(time, c_double), real(step, c_double), library_state, estimate, &
-      c_null_ptr, c_null_ptr, library_call(request))
+      c_null_ptr, c_null_ptr, c_loc(library_system))
     integrator%evaluations = integrator%evaluations + request%evaluations
     if (status /= success) then
       call set_error(error, "a step of the integration fails")
@@ -256,16 +260,6 @@ contains
     end if
     state = real(library_state, wp)
   end subroutine step_by
-
-  !> The system as the library wants it.
-  function library_call(request) result(library)
-    type(request_t), intent(in), target :: request
-    type(library_system_t) :: library
-
-    library%rates = c_funloc(rates_for_library)
-    library%unknowns = int(request%unknowns, c_size_t)
-    library%parameters = c_loc(request)
-  end function library_call
 
   !> What the library calls for rates.
   function rates_for_library(time, state, rates, parameters) bind(c) result(status)
