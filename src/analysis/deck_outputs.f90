@@ -8,6 +8,7 @@ module deck_outputs
   use kinematics_report, only: write_kinematics
   use mesh_report, only: write_mesh
   use models, only: model_t, report_number
+  use motion_report, only: write_motion
   use output_files, only: append_output, discard_output, finish_output, open_output, output_file_t, publish_output, remove_output
   use requests, only: report_balance, report_branches, report_frequencies, report_inertia, report_kind_count, report_kinematics, &
     report_lagrange, report_linkage, report_mesh, report_motion, report_points, report_reactions, report_shapes
@@ -138,6 +139,8 @@ contains
           call write_shapes(table, model, mechanism, positions, sweep)
         case (report_branches)
           call write_branches(table, model, positions, sweep, run%branches)
+        case (report_motion)
+          call write_motion(table, model, mechanism, run%motion)
         end select
       end associate
     end do

@@ -52,7 +52,7 @@ module forward_motions
   !> A place where the crank turns back and the linkage goes over to its other branch.
   type :: turning_point_t
     real(wp) :: time = 0.0_wp    !! [s]
-    real(wp) :: crank = 0.0_wp   !! with all whole turns [rad]
+    real(wp) :: crank = 0.0_wp   !! with all whole turns [deg]
     logical :: to_open = .false. !! else to the crossed branch
   end type turning_point_t
 
@@ -232,7 +232,7 @@ contains
       if (next < low .or. next > high) next = 0.5_wp*(low + high)
       step = next
     end do
-    call append_turning_point(motion, turning_point_t(time + step, state(1) + two_pi*motion%system%turns(1), &
+    call append_turning_point(motion, turning_point_t(time + step, state(1)/degree + 360.0_wp*motion%system%turns(1), &
       is_open(motion%state)))
   end subroutine note_turning_point
 
