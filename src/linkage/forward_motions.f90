@@ -31,8 +31,9 @@ module forward_motions
   !! mechanics, before it overflows [rad/s].
   real(wp), parameter :: most_angle = 9.0_wp, most_rate = 1.0e100_wp
 
-  !> M is the difference of much larger terms, or zero, where it is below this share of the inertia of all links.
-  real(wp), parameter :: least_inertia = 1.0e-13_wp
+  !> Shares of the inertia of all links: where M is below the first there are no rates; where it is below the second, that is what
+  !! makes the steps shrink to nothing.
+  real(wp), parameter :: least_inertia = 1.0e-13_wp, little_inertia = 1.0e-10_wp
 
   !> Unknowns: the angles [rad], ṡ [rad/s], work [J].
   integer, parameter :: rate = 4, work = 5, unknowns = 5
@@ -182,6 +183,7 @@ contains
       call advance(motion%integrator, motion%system, motion%time, time, motion%state, error)
       if (allocated(error)) then
         motion%stop = merge(motion%system%stop, stop_steps, motion%system%stop /= no_stop)
+        if (motion%stop == stop_steps .and. inertia_of(motion) < little_inertia) motion%stop = stop_no_inertia
         return
       end if
       if (is_open(motion%state) .neqv. is_open(before)) call note_turning_point(motion, time_before, before)
@@ -189,6 +191,20 @@ contains
       call reduce(motion%state(1:3), motion%system%turns)
     end do
   end subroutine move_until
+
+  !> M at the present point, as a share of the inertia of all links.
+  pure function inertia_of(motion) result(inertia)
+    type(forward_motion_t), intent(in) :: motion
+    real(wp) :: inertia
+
+    type(curve_point_t) :: point
+    real(wp) :: slope
+    logical :: is_smooth
+
+    call find_point(motion%system%curve, motion%state(1:3), point, is_smooth)
+    call find_inertia(motion%system%dynamics, point, inertia, slope)
+    inertia = inertia/sum(motion%system%dynamics%inertia)
+  end function inertia_of
 
   !> Whether B lies to the left of A → O4: `sin(θ4 − θ3) > 0`.
   pure function is_open(state)
