@@ -9,6 +9,7 @@ module deck_outputs
   use lagrange_report, only: write_lagrange
   use mesh_report, only: write_mesh
   use models, only: model_t, report_number
+  use motion_report, only: write_motion
   use output_files, only: append_output, discard_output, finish_output, open_output, output_file_t, publish_output, remove_output
   use points_report, only: write_points
   use reactions_report, only: write_reactions
@@ -147,6 +148,8 @@ contains
           call write_points(table, model, mechanism, positions)
         case (report_lagrange)
           call write_lagrange(table, model, mechanism, positions)
+        case (report_motion)
+          call write_motion(table, model, mechanism, run%motion)
         end select
       end associate
     end do
