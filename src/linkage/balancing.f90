@@ -102,7 +102,7 @@ contains
     mass = sum(rigid%mass) + sum(linkage%pin_mass, mask=.not. linkage%is_ground)
   end function total_mass
 
-  !> Place of the mass centre of a linkage that has mass [m].
+  !> Place of the mass centre of a linkage; of one without mass the place of its driven body's pivot [m].
   pure function linkage_mass_centre(linkage, elements, pose) result(centre)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: elements(:) !! (bodies) as above
@@ -110,8 +110,12 @@ contains
     real(wp) :: centre(2)
 
     type(rigid_body_t) :: rigid(size(linkage%bodies))
+    real(wp) :: mass
     integer :: i
 
+    mass = total_mass(linkage, elements)
+    centre = pose%pin(:, linkage%bodies(1)%first_pin)
+    if (mass <= 0.0_wp) return
     rigid = rigid_bodies_of(linkage, elements)
     centre = 0.0_wp
     do i = 1, size(rigid)
@@ -123,7 +127,7 @@ contains
     do i = 1, size(linkage%pin_mass)
       if (.not. linkage%is_ground(i)) centre = centre + linkage%pin_mass(i)*pose%pin(:, i)
     end do
-    centre = centre/total_mass(linkage, elements)
+    centre = centre/mass
   end function linkage_mass_centre
 
 end module balancing

@@ -202,4 +202,3 @@ contains
   end function value_at
 
 end module crank_cycle
-  use balancing, only: total_mass
