@@ -199,7 +199,7 @@ contains
     type(progress_t) :: silent
     integer :: first, last, at_a_time, outer, i
 
-    at_a_time = max(1, min(most_at_a_time, rows_at_a_time/(size(deck%model%crank%value)*size(deck%model%speed%value))))
+    at_a_time = max(1, min(most_at_a_time, rows_at_a_time/max(1, size(deck%model%crank%value)*size(deck%model%speed%value))))
     outer = options%threads
     ! ARPACK serves one thread at a time.
     if (size(deck%model%crank%value) > many_positions .or. deck%model%solver == solver_band) outer = 1
