@@ -1,7 +1,7 @@
 !> Frequencies of the deck's own mesh at one position, in one of three ways.
 module mesh_modes
   use assembly, only: assemble_geometric_stiffness, assemble_mass, assemble_stiffness
-  use axial_forces, only: distributed_axial_forces, link_axial_force, lumped_axial_forces, total_force
+  use axial_forces, only: distributed_axial_forces, link_axial_force, lumped_axial_forces, mean_axial_force, total_force
   use band_matrix, only: band_matrix_t
   use bordered_matrix, only: bordered_matrix_t
   use bordered_modes, only: bordered_modes_t
@@ -237,7 +237,7 @@ contains
     end do
   end subroutine find_mesh_forces
 
-  !> Axial forces in all elements under one of the unit loads.
+  !> Axial forces in all elements under one of the unit loads; of a link that does not bend the mean, in its first element.
   pure subroutine find_axial_forces(mechanism, state, case, lumped, in_element, joints)
     type(mechanism_t), intent(in) :: mechanism
     type(state_t), intent(in) :: state
@@ -248,15 +248,23 @@ contains
 
     type(load_t) :: loads(size(mechanism%linkage%bodies))
     real(wp) :: pin_loads(2, size(mechanism%linkage%pin_mass))
+    integer :: elements(size(loads)), b
 
     associate (linkage => mechanism%linkage, mesh => mechanism%mesh)
-      call find_case_loads(linkage, merge(mesh%elements, 0, lumped), state%pose, case, loads, pin_loads)
+      elements = 0
+      if (lumped) elements = mechanism%load_elements
+      call find_case_loads(linkage, elements, state%pose, case, loads, pin_loads)
       joints = find_joint_forces(linkage, state%pose, loads, pin_loads)
       if (lumped) then
         in_element = lumped_axial_forces(linkage, mesh, state%pose, case%field, joints)
       else
         in_element = distributed_axial_forces(linkage, mesh, state%pose, case%field, joints)
       end if
+      do b = 1, size(loads)
+        if (linkage%bodies(b)%bends) cycle
+        in_element(:, mesh%first_element(b)) = [mean_axial_force(linkage, b, elements(b), state%pose, case%field, joints), 0.0_wp, &
+          0.0_wp]
+      end do
     end associate
   end subroutine find_axial_forces
 

@@ -35,11 +35,6 @@ contains
     allocate (force(0:2, element_count(mesh)))
     force = 0.0_wp
     do body = 1, size(linkage%bodies)
-      if (.not. linkage%bodies(body)%bends) then
-        force(0, mesh%first_element(body):mesh%first_element(body) + mesh%elements(body) - 1) = &
-          mean_axial_force(linkage, body, mesh%elements(body), pose, field, joints)
-        cycle
-      end if
       masses = lumped_masses(linkage%bodies(body), mesh%elements(body))
       stations = lumped_stations(linkage%bodies(body), mesh%elements(body))
       beyond = dot_product(pose%direction(:, body), joints%on_last(:, body))
@@ -64,12 +59,6 @@ contains
 
     allocate (force(0:2, element_count(mesh)))
     do body = 1, size(linkage%bodies)
-      if (.not. linkage%bodies(body)%bends) then
-        do i = mesh%first_element(body), mesh%first_element(body) + mesh%elements(body) - 1
-          force(:, i) = [mean_axial_force(linkage, body, 0, pose, field, joints), 0.0_wp, 0.0_wp]
-        end do
-        cycle
-      end if
       associate (e => pose%direction(:, body), this => linkage%bodies(body))
         mu = this%line_density
         along = dot_product(e, field%at_first(:, body))
