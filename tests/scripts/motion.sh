@@ -48,7 +48,7 @@ swing() {
 check "a double rocker swings through its limit positions" swing
 same_again() {
   run 0 --out "$scratch/again" --threads 2 "$scratch/swing.deck" && same "$out/swing" "$scratch/again/swing" || return 1
-  sed 's/END$//' "$out/swing/echo.deck" >"$scratch/echoed.deck" && run 0 --out "$scratch/again" "$scratch/echoed.deck" &&
+  cp "$out/swing/echo.deck" "$scratch/echoed.deck" && run 0 --out "$scratch/again" "$scratch/echoed.deck" &&
     same_tables "$out/swing" "$scratch/again/echoed"
 }
 check "the same from its echo and with two threads" same_again
