@@ -76,7 +76,7 @@ contains
     needs(of_results)%what = "the results at "//plural(size(model%crank%value), "position")
     needs(of_results)%bytes = size(model%crank%value)*of_pose
     call add_motion(model, needs(of_motion))
-    if (all(model%links%mesh > 0)) call add_mesh(model, threads, needs)
+    if (any(model%links%mesh > 0) .and. all(model%links%mesh > 0 .or. model%links%rigid)) call add_mesh(model, threads, needs)
     if (.not. needs_frequencies(model)) return
     needs(of_results)%what = needs(of_results)%what//" and "//plural(speeds, "speed")
     needs(of_results)%bytes = needs(of_results)%bytes + size(model%crank%value)*of_position + rows*(of_speed + 2*model%modes*number)
@@ -89,7 +89,7 @@ contains
     type(model_t), intent(in) :: model
     type(memory_need_t), intent(inout) :: need
 
-    integer, parameter :: numbers = 15
+    integer, parameter :: numbers = 16
     integer :: report
 
     report = report_number(model, report_motion)
@@ -145,18 +145,21 @@ contains
 
     !> Copies of the numbers of unknowns, each of four bytes; numbers with every element (forces, masses).
     real(wp), parameter :: copies = 3.0_wp, of_element = 20.0_wp
-    integer :: elements(size(model%links)), order(size(model%links)), finest
+    integer, allocatable :: links(:), elements(:), order(:)
+    integer :: finest, i
     real(wp) :: unknowns
 
-    elements = model%meshes(model%links%mesh)%elements
-    order = model%meshes(model%links%mesh)%order
+    ! Rigid links have no mesh.
+    links = pack([(i, i=1, size(model%links))], model%links%mesh > 0)
+    elements = model%meshes(model%links(links)%mesh)%elements
+    order = model%meshes(model%links(links)%mesh)%order
     finest = maxloc(elements*bending_unknowns(order, model%shear), dim=1)
-    needs(of_mesh)%place = model%meshes(model%links(finest)%mesh)%keyword
+    needs(of_mesh)%place = model%meshes(model%links(links(finest))%mesh)%keyword
     needs(of_matrices)%place = needs(of_mesh)%place
     needs(of_mesh)%what = plural(sum(elements), "element")
     needs(of_mesh)%bytes = sum(real(elements, wp))*(copies*4*maxval(element_unknowns(order, model%shear)) + of_element*number)
     if (.not. needs_frequencies(model)) return
-    select case (chosen_method(model%solver, any(model%meshes(model%links%mesh)%accuracy > 0.0_wp), elements, order, &
+    select case (chosen_method(model%solver, any(model%meshes(model%links(links)%mesh)%accuracy > 0.0_wp), elements, order, &
       model%shear))
     case (by_dense)
       unknowns = nodal_unknowns(elements, order, model%shear)
