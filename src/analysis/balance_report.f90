@@ -182,6 +182,8 @@ contains
     type(string_t), allocatable :: remarks(:)
     type(linkage_t) :: linkages(2)
     type(cycle_t) :: turns(2)
+    ! More than this is not what rounding does.
+    real(wp), parameter :: unsettled = 1.0e-10_wp
     real(wp) :: change
     integer :: k
 
@@ -202,6 +204,7 @@ contains
       ", phases in deg; a phase is 0 where its h is only rounding")
     call append_string(remarks, "samples: "//to_string(size(turns(1)%part, 3))//"; every second of them gives the same to "// &
       to_string(change, 2)//" of the largest value")
+    if (change > unsettled) call append_string(remarks, "harmonics have not settled: the crank passes next to a dead point")
     call write_header(table, model%title, remarks, columns)
     do k = 1, size(model%speed%value)
       if (k > 1) call write_gap(table, 2)

@@ -7,10 +7,13 @@ module deck_outputs
   use frequency_report, only: write_frequencies, write_shapes
   use inertia_report, only: write_inertia
   use kinematics_report, only: write_kinematics
+  use lagrange_report, only: write_lagrange
   use linkage_report, only: write_linkage
   use mesh_report, only: write_mesh
   use models, only: model_t, report_number
   use output_files, only: append_output, discard_output, finish_output, open_output, output_file_t, publish_output, remove_output
+  use points_report, only: write_points
+  use reactions_report, only: write_reactions
   use requests, only: report_balance, report_branches, report_frequencies, report_inertia, report_kind_count, report_kinematics, &
     report_lagrange, report_linkage, report_mesh, report_motion, report_points, report_reactions, report_shapes
   use run_findings, only: linkage_notes
@@ -161,6 +164,12 @@ contains
           call write_balance(table, model, mechanism, positions)
         case (table_harmonics)
           call write_harmonics(table, model, mechanism)
+        case (report_reactions)
+          call write_reactions(table, model, mechanism, positions)
+        case (report_points)
+          call write_points(table, model, mechanism, positions)
+        case (report_lagrange)
+          call write_lagrange(table, model, mechanism, positions)
         end select
       end associate
     end do
