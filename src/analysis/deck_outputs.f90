@@ -6,11 +6,14 @@ module deck_outputs
   use frequency_report, only: write_frequencies, write_shapes
   use inertia_report, only: write_inertia
   use kinematics_report, only: write_kinematics
+  use lagrange_report, only: write_lagrange
   use mesh_report, only: write_mesh
   use models, only: model_t, report_number
   use output_files, only: append_output, discard_output, finish_output, open_output, output_file_t, publish_output, remove_output
-  use requests, only: report_branches, report_frequencies, report_inertia, report_kind_count, report_kinematics, report_mesh, &
-    report_shapes
+  use points_report, only: write_points
+  use reactions_report, only: write_reactions
+  use requests, only: report_balance, report_branches, report_frequencies, report_inertia, report_kind_count, report_kinematics, &
+    report_lagrange, report_linkage, report_mesh, report_motion, report_points, report_reactions, report_shapes
   use run_findings, only: linkage_notes
   use tables, only: begin_variant, column_t, discard_table, finish_table, open_table, publish_table, table_t
   use text, only: string_t
@@ -97,6 +100,18 @@ contains
       name = "shapes"
     case (report_branches)
       name = "branches"
+    case (report_reactions)
+      name = "reactions"
+    case (report_points)
+      name = "points"
+    case (report_lagrange)
+      name = "lagrange"
+    case (report_linkage)
+      name = "linkage"
+    case (report_balance)
+      name = "balance"
+    case (report_motion)
+      name = "motion"
     end select
   end function table_name
 
@@ -126,6 +141,12 @@ contains
           call write_shapes(table, model, mechanism, positions, sweep)
         case (report_branches)
           call write_branches(table, model, positions, sweep, run%branches)
+        case (report_reactions)
+          call write_reactions(table, model, mechanism, positions)
+        case (report_points)
+          call write_points(table, model, mechanism, positions)
+        case (report_lagrange)
+          call write_lagrange(table, model, mechanism, positions)
         end select
       end associate
     end do

@@ -1,5 +1,6 @@
 !> One deck: computed variant by variant, and written.
 module deck_runs
+  use body_notes, only: body_notes_of
   use, intrinsic :: iso_fortran_env, only: compiler_version
   use cards, only: card_t
   use deck_outputs, only: discard_outputs, open_outputs, outputs_t, publish_outputs, write_texts, write_variant
@@ -199,7 +200,7 @@ contains
     type(progress_t) :: silent
     integer :: first, last, at_a_time, outer, i
 
-    at_a_time = max(1, min(most_at_a_time, rows_at_a_time/(size(deck%model%crank%value)*size(deck%model%speed%value))))
+    at_a_time = max(1, min(most_at_a_time, rows_at_a_time/max(1, size(deck%model%crank%value)*size(deck%model%speed%value))))
     outer = options%threads
     ! ARPACK serves one thread at a time.
     if (size(deck%model%crank%value) > many_positions .or. deck%model%solver == solver_band) outer = 1
@@ -276,6 +277,10 @@ contains
     integer :: i
 
     text = model_summary(run%model)
+    notes = body_notes_of(run%model, run%mechanism)
+    do i = 1, size(notes)
+      text = text//notes(i)%text//line_feed
+    end do
     notes = linkage_notes(run%mechanism, run%positions)
     do i = 1, size(notes)
       text = text//notes(i)%text//line_feed

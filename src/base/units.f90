@@ -11,10 +11,11 @@ module units
   private
 
   public :: unit_t, unit_system_t, dimension_name, wrong_unit, read_unit, new_unit_system, coherent_unit, coherent_factor, &
-    to_si, from_si
+    to_si, from_si, serves_for
   public :: dimension_none, dimension_length, dimension_mass, dimension_time, dimension_angle, dimension_rate
   public :: dimension_angular_acceleration, dimension_velocity, dimension_acceleration, dimension_force, dimension_moment
   public :: dimension_stress, dimension_density, dimension_area, dimension_second_moment, dimension_rotary_inertia
+  public :: dimension_inertia, dimension_damping
 
   !> Exponents of length, mass, time and angle. An angle counts as a dimension here, so that rpm and 1/s stay apart.
   integer, parameter :: dimension_none(4) = [0, 0, 0, 0]
@@ -31,6 +32,8 @@ module units
   integer, parameter :: dimension_stress(4) = [-1, 1, -2, 0]
   integer, parameter :: dimension_density(4) = [-3, 1, 0, 0]
   integer, parameter :: dimension_rotary_inertia(4) = [1, 1, 0, 0] !! per length of a link
+  integer, parameter :: dimension_inertia(4) = [2, 1, 0, 0]
+  integer, parameter :: dimension_damping(4) = [2, 1, -1, 0]       !! moment per angular velocity, the angle left out
   integer, parameter :: dimension_area(4) = [2, 0, 0, 0]
   integer, parameter :: dimension_second_moment(4) = [4, 0, 0, 0]
 
@@ -323,6 +326,8 @@ contains
     if (all(dimension == dimension_density)) noun = "density"
     if (all(dimension == dimension_area)) noun = "area"
     if (all(dimension == dimension_second_moment)) noun = "second moment of area"
+    if (all(dimension == dimension_inertia)) noun = "moment of inertia"
+    if (all(dimension == dimension_damping)) noun = "moment per angular velocity"
   end function dimension_noun
 
   !> `a length`, `an area`: what a value should have been.
@@ -339,6 +344,16 @@ contains
       name = "a "//name
     end if
   end function dimension_name
+
+  !> Whether a unit measures what is wanted. Damping may be written with its angle, `N*m*s/rad`, or without, `N*m*s`.
+  pure function serves_for(measure, wanted) result(serves)
+    type(unit_t), intent(in) :: measure
+    integer, intent(in) :: wanted(4) !! dimension
+    logical :: serves
+
+    serves = all(measure%dimension == wanted)
+    if (all(wanted == dimension_damping)) serves = serves .or. all(measure%dimension == wanted - dimension_angle)
+  end function serves_for
 
   !> Why a unit does not serve where another dimension is wanted.
   pure function wrong_unit(measure, wanted) result(problem)

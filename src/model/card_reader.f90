@@ -7,11 +7,11 @@ module card_reader
   use spelling, only: suggestion
   use text, only: joined, same_word, string_t, to_string, word_list
   use tokens, only: name_problem, token_part, token_t
-  use units, only: coherent_factor, dimension_name, read_unit, to_si, unit_system_t, unit_t, wrong_unit
+  use units, only: coherent_factor, dimension_name, read_unit, serves_for, to_si, unit_system_t, unit_t, wrong_unit
   implicit none (type, external)
   private
 
-  public :: check_form, has_key, entry_number, read_name, read_quantity, read_measure, require_positive
+  public :: check_form, has_key, entry_number, read_name, read_quantity, read_measure, require_positive, refuse_negative
   public :: read_entry_quantity, read_entry_count, read_choice
 
 contains
@@ -130,7 +130,7 @@ contains
         problem = "'"//word%text//"' is not a number; expected "//dimension_name(dimension)
       else
         call read_unit(word%text(length + 1:), dimension, measure, problem)
-        if (len(problem) == 0 .and. any(measure%dimension /= dimension)) problem = wrong_unit(measure, dimension)
+        if (len(problem) == 0 .and. .not. serves_for(measure, dimension)) problem = wrong_unit(measure, dimension)
         place = token_part(word, length + 1, len(word%text))
       end if
     end if
@@ -233,6 +233,16 @@ contains
     call add_error(diagnostics, card%entries(i)%value, &
       "'"//key//"=' must be greater than 0, not "//card%entries(i)%value%text)
   end subroutine require_positive
+
+  !> Complains about a value that is less than zero.
+  pure subroutine refuse_negative(word, value, noun, diagnostics)
+    type(token_t), intent(in) :: word
+    real(wp), intent(in) :: value
+    character(len=*), intent(in) :: noun !! what it is: `a mass`
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    if (value < 0.0_wp) call add_error(diagnostics, word, noun//" must not be negative, as "//word%text//" is")
+  end subroutine refuse_negative
 
   !> Reads the whole number of a key, no less than `least`.
   pure subroutine read_entry_count(card, key, least, diagnostics, value, fine)

@@ -1,7 +1,7 @@
-!> GROUND, LINK, PINMASS and MESH: what the mechanism consists of, as read; names are not yet looked up.
+!> GROUND, PINMASS and MESH: what the links hang on, what they carry and how they are divided, as read; names are not yet looked up.
 module linkage_cards
-  use card_reader, only: check_form, entry_number, has_key, read_entry_count, read_entry_quantity, read_name, &
-    read_quantity, require_positive
+  use card_reader, only: check_form, entry_number, has_key, read_entry_count, read_entry_quantity, read_name, read_quantity, &
+    refuse_negative
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: fineness, wp
@@ -11,27 +11,14 @@ module linkage_cards
   implicit none (type, external)
   private
 
-  public :: ground_t, link_t, pin_mass_t, mesh_t
-  public :: read_ground, read_link, read_pin_mass, read_mesh, set_default_mesh
+  public :: ground_t, pin_mass_t, mesh_t
+  public :: read_ground, read_pin_mass, read_mesh, set_default_mesh
 
   !> A fixed pivot.
   type :: ground_t
     type(token_t) :: pin             !! without a line if it cannot be read
     real(wp) :: position(2) = 0.0_wp !! [m]
   end type ground_t
-
-  !> A link between two pins.
-  type :: link_t
-    type(token_t) :: name
-    type(token_t) :: pin(2)           !! at its ends, in the order of the card; without a line if they cannot be read
-    type(token_t) :: length_word      !! where the length is given
-    real(wp) :: length = 0.0_wp       !! [m]
-    type(token_t) :: material_name    !! without a line if the card names none
-    type(token_t) :: section_name
-    integer :: material = 0           !! number in the model's list, 0 for none
-    integer :: section = 0
-    integer :: mesh = 0
-  end type link_t
 
   !> A concentrated mass at a pin.
   type :: pin_mass_t
@@ -81,46 +68,6 @@ contains
     call read_quantity(card%words(3), dimension_length, system, diagnostics, ground%position(2), fine)
   end subroutine read_ground
 
-  !> Reads `LINK name pin pin length= [material= section=]`.
-  pure subroutine read_link(card, system, diagnostics, link)
-    type(card_t), intent(in) :: card
-    type(unit_system_t), intent(in) :: system
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(link_t), intent(out) :: link
-
-    type(token_t) :: nowhere
-    logical :: fine, known_keys
-
-    call check_form(card, 3, 3, "length material section", "LINK name pin pin length= [material= section=]", diagnostics, fine, &
-      known_keys)
-    link%name = card%keyword
-    nowhere = token_t("", 0, 0)
-    link%pin(:) = nowhere
-    link%material_name = nowhere
-    link%section_name = nowhere
-    link%length_word = card%keyword
-    if (size(card%words) > 0) then
-      link%name = card%words(1)
-      call read_name(link%name, diagnostics)
-    end if
-    if (fine) then
-      link%pin = card%words(2:3)
-      call read_name(link%pin(1), diagnostics)
-      call read_name(link%pin(2), diagnostics)
-      if (same_word(link%pin(1)%text, link%pin(2)%text)) then
-        call add_error(diagnostics, link%pin(2), "link '"//link%name%text//"' has the same pin at both ends")
-        link%pin(:) = nowhere
-      end if
-    end if
-    call read_entry_quantity(card, "length", dimension_length, system, known_keys, diagnostics, link%length, fine)
-    if (fine) then
-      call require_positive(card, "length", link%length, diagnostics)
-      link%length_word = card%entries(entry_number(card, "length"))%value
-    end if
-    if (entry_number(card, "material") > 0) link%material_name = card%entries(entry_number(card, "material"))%value
-    if (entry_number(card, "section") > 0) link%section_name = card%entries(entry_number(card, "section"))%value
-  end subroutine read_link
-
   !> Reads `PINMASS pin mass`.
   pure subroutine read_pin_mass(card, system, diagnostics, pin_mass)
     type(card_t), intent(in) :: card
@@ -135,9 +82,7 @@ contains
     if (size(card%words) > 0) pin_mass%pin = card%words(1)
     if (.not. fine) return
     call read_quantity(card%words(2), dimension_mass, system, diagnostics, pin_mass%mass, fine)
-    if (fine .and. pin_mass%mass < 0.0_wp) then
-      call add_error(diagnostics, card%words(2), "a mass must not be negative, as "//card%words(2)%text//" is")
-    end if
+    call refuse_negative(card%words(2), pin_mass%mass, "a mass", diagnostics)
   end subroutine read_pin_mass
 
   !> Reads `MESH link … elements= [order=3]` or `MESH link … accuracy=`; `*` stands for every link without a card of its own.

@@ -1,7 +1,7 @@
 !> The way round the loop of a four-bar: driven link, coupler, follower.
 module loop_finder
   use diagnostics, only: add_error, diagnostics_t, has_errors
-  use linkage_cards, only: link_t
+  use link_cards, only: link_t
   use models, only: model_t
   use name_checks, only: look_up
   use name_index, only: find_name, name_index_t, new_name_index

@@ -1,20 +1,20 @@
 !> Cards → model.
 module model_reader
+  use body_checks, only: check_bodies
   use card_reader, only: check_form, read_choice
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use effect_cards, only: effects_axial, effects_static, effects_t, read_effects
   use kinds, only: wp
-  use linkage_cards, only: read_ground, read_link, read_mesh, read_pin_mass, set_default_mesh
-  use materials, only: read_material
+  use linkage_cards, only: set_default_mesh
   use loop_finder, only: find_loop
   use mesh_checks, only: check_meshes
   use models, only: is_moving, model_t, needs_mesh
   use name_checks, only: check_names
   use numbers, only: read_integer
+  use part_reader, only: read_parts
   use request_checks, only: card_names, check_required, check_requests
-  use requests, only: read_crank, read_report, read_speed
-  use sections, only: read_section
+  use requests, only: read_crank, read_speed
   use shear, only: check_shear
   use spelling, only: suggestion
   use text, only: lower_case, same_word, string_t, to_string, word_list
@@ -43,14 +43,12 @@ contains
     model%modes_word = token_t("", 0, 0)
     model%inertia_word = token_t("", 0, 0)
     model%solver_word = token_t("", 0, 0)
+    model%gravity_word = token_t("", 0, 0)
+    model%motor%keyword = token_t("", 0, 0)
     allocate (model%crank%value(0), model%crank%word(0), model%crank%words(0))
     model%speed%value = [0.0_wp]
     model%speed%word = [0]
     allocate (model%speed%words(0))
-    allocate (model%materials(number_of(cards, "MATERIAL")), model%sections(number_of(cards, "SECTION")), &
-      model%grounds(number_of(cards, "GROUND")), model%links(number_of(cards, "LINK")), &
-      model%pin_masses(number_of(cards, "PINMASS")), model%meshes(number_of(cards, "MESH")), &
-      model%reports(number_of(cards, "REPORT")))
 
     call check_keywords(cards, diagnostics)
     call refuse_second_cards(cards, diagnostics)
@@ -62,26 +60,14 @@ contains
       allocate (model%meshes(1))
       call set_default_mesh(model%meshes(1))
     end if
-    call check_required(cards, diagnostics)
+    call check_required(cards, diagnostics, model)
     call check_names(diagnostics, model)
+    call check_bodies(diagnostics, model)
     call find_loop(diagnostics, model)
     call check_requests(cards, diagnostics, model)
     call check_shear(diagnostics, model)
     call check_meshes(cards, diagnostics, model)
   end subroutine read_model
-
-  pure function number_of(cards, keyword) result(number)
-    type(card_t), intent(in) :: cards(:)
-    character(len=*), intent(in) :: keyword
-    integer :: number
-
-    integer :: i
-
-    number = 0
-    do i = 1, size(cards)
-      if (same_word(cards(i)%keyword%text, keyword)) number = number + 1
-    end do
-  end function number_of
 
   !> Complains about every card that does not exist.
   pure subroutine check_keywords(cards, diagnostics)
@@ -105,7 +91,7 @@ contains
     type(card_t), intent(in) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
 
-    character(len=*), parameter :: single = "TITLE UNITS BRANCH CRANK SPEED INERTIA EFFECTS SOLVER MODES"
+    character(len=*), parameter :: single = "TITLE UNITS GRAVITY MOTOR BRANCH CRANK SPEED INERTIA EFFECTS SOLVER MODES"
     type(string_t), allocatable :: names(:)
     integer :: i, k, first
 
@@ -169,48 +155,6 @@ contains
     end subroutine read_one
 
   end subroutine read_units
-
-  !> Reads the cards of which there may be many.
-  pure subroutine read_parts(cards, diagnostics, model)
-    type(card_t), intent(in) :: cards(:)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(inout) :: model
-
-    integer :: i, material, section, ground, link, pin_mass, mesh, report
-
-    material = 0
-    section = 0
-    ground = 0
-    link = 0
-    pin_mass = 0
-    mesh = 0
-    report = 0
-    do i = 1, size(cards)
-      select case (lower_case(cards(i)%keyword%text))
-      case ("material")
-        material = material + 1
-        call read_material(cards(i), model%units, diagnostics, model%materials(material))
-      case ("section")
-        section = section + 1
-        call read_section(cards(i), model%units, diagnostics, model%sections(section))
-      case ("ground")
-        ground = ground + 1
-        call read_ground(cards(i), model%units, diagnostics, model%grounds(ground))
-      case ("link")
-        link = link + 1
-        call read_link(cards(i), model%units, diagnostics, model%links(link))
-      case ("pinmass")
-        pin_mass = pin_mass + 1
-        call read_pin_mass(cards(i), model%units, diagnostics, model%pin_masses(pin_mass))
-      case ("mesh")
-        mesh = mesh + 1
-        call read_mesh(cards(i), model%units, diagnostics, model%meshes(mesh))
-      case ("report")
-        report = report + 1
-        call read_report(cards(i), model%units, diagnostics, model%reports(report))
-      end select
-    end do
-  end subroutine read_parts
 
   !> Reads the cards that say what to compute, and settles what follows from what they leave out.
   subroutine read_requests(cards, diagnostics, model)

@@ -1,11 +1,16 @@
 !> The model: everything that a deck says, in SI, each part with the word it came from.
 module models
+  use body_cards, only: mass_card_t, point_t
   use card_echo, only: echo_line_t
   use effect_cards, only: effects_axial, effects_static
   use kinds, only: wp
-  use linkage_cards, only: ground_t, link_t, mesh_t, pin_mass_t
+  use link_cards, only: link_t
+  use linkage_cards, only: ground_t, mesh_t, pin_mass_t
+  use load_cards, only: force_card_t, torque_card_t
   use materials, only: material_t
-  use requests, only: report_branches, report_frequencies, report_inertia, report_mesh, report_shapes, report_t
+  use motor_cards, only: motor_t, resistance_t
+  use requests, only: report_branches, report_frequencies, report_inertia, report_linkage, report_mesh, report_motion, &
+    report_shapes, report_t
   use sections, only: section_t
   use tokens, only: token_t
   use units, only: unit_system_t
@@ -13,7 +18,7 @@ module models
   implicit none (type, external)
   private
 
-  public :: model_t, report_number, is_moving, needs_loads, needs_frequencies, needs_beams, needs_mesh, link_mass
+  public :: model_t, report_number, needs_positions, is_moving, needs_loads, needs_frequencies, needs_beams, needs_mesh, link_mass
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
@@ -30,6 +35,14 @@ module models
     type(link_t), allocatable :: links(:)       !! in the order of the deck
     type(pin_mass_t), allocatable :: pin_masses(:)
     type(mesh_t), allocatable :: meshes(:)
+    type(mass_card_t), allocatable :: masses(:)
+    type(point_t), allocatable :: points(:)
+    real(wp) :: gravity(2) = 0.0_wp             !! in global axes [m/s²]
+    type(token_t) :: gravity_word               !! without a line if the deck does not say
+    type(force_card_t), allocatable :: forces(:)
+    type(torque_card_t), allocatable :: torques(:)
+    type(motor_t) :: motor
+    type(resistance_t), allocatable :: resistances(:)
     integer, allocatable :: loop(:)             !! links round the loop from the driven ground: numbers in `links`
     type(token_t), allocatable :: loop_pins(:)  !! pins round the loop, from the driven ground to the other one
     type(token_t) :: drive                      !! name of the driven link
@@ -68,6 +81,16 @@ contains
       if (model%reports(i)%kind == kind) number = i
     end do
   end function report_number
+
+  !> Whether a report is asked for that has a row for every crank angle. A report that cannot be read may have none.
+  pure function needs_positions(model) result(needs)
+    type(model_t), intent(in) :: model
+    logical :: needs
+
+    associate (kind => model%reports%kind)
+      needs = size(kind) == 0 .or. any(kind /= 0 .and. kind /= report_linkage .and. kind /= report_motion)
+    end associate
+  end function needs_positions
 
   !> Whether any speed or the acceleration is not zero.
   pure function is_moving(model) result(is)
@@ -110,7 +133,7 @@ contains
     needs = needs_frequencies(model) .and. model%effects == effects_axial .and. is_moving(model)
   end function needs_loads
 
-  !> Mass of a link of the deck; 0 if it has no material or no section [kg].
+  !> Mass of a link of the deck, its own or that of material and section; 0 if it has neither [kg].
   pure function link_mass(model, link) result(mass)
     type(model_t), intent(in) :: model
     integer, intent(in) :: link
@@ -118,7 +141,9 @@ contains
 
     mass = 0.0_wp
     associate (this => model%links(link))
-      if (this%material > 0 .and. this%section > 0) then
+      if (this%has_mass) then
+        mass = this%mass
+      else if (this%material > 0 .and. this%section > 0) then
         mass = model%materials(this%material)%density*model%sections(this%section)%area*this%length
       end if
     end associate

@@ -1,7 +1,7 @@
 !> Names across cards: who is defined twice, who refers to whom.
 module name_checks
   use diagnostics, only: add_error, add_warning, diagnostics_t
-  use linkage_cards, only: link_t
+  use link_cards, only: link_t
   use models, only: model_t
   use name_index, only: find_name, name_index_t, new_name_index
   use requests, only: report_kind_count
@@ -11,7 +11,7 @@ module name_checks
   implicit none (type, external)
   private
 
-  public :: check_names, look_up
+  public :: check_names, look_up, link_ends
 
 contains
 
@@ -27,7 +27,8 @@ contains
     call check_pin_masses(diagnostics, model)
   end subroutine check_names
 
-  !> Two parts of one kind with the same name, two masses at one pin, two reports of one kind.
+  !> Two parts of one kind with the same name, two masses or forces at one pin, two torques or loads on one link, two reports of one
+  !! kind.
   subroutine refuse_same_names(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
@@ -39,6 +40,10 @@ contains
     call refuse_same(model%grounds%pin, "ground pivot")
     call refuse_same(model%links%name, "link")
     call refuse_same(model%pin_masses%pin, "mass at pin")
+    call refuse_same(model%points%name, "point")
+    call refuse_same(model%forces%pin, "force at pin")
+    call refuse_same(model%torques%link_name, "torque on link")
+    call refuse_same(model%resistances%link_name, "load on link")
     do i = 2, size(model%reports)
       do j = 1, min(i - 1, report_kind_count + 1)
         if (model%reports(i)%kind == 0 .or. model%reports(i)%kind /= model%reports(j)%kind) cycle
@@ -113,12 +118,16 @@ contains
             cycle
           end if
           place(link) = word
-          if (link > 0) model%links(link)%mesh = i
+          if (link > 0) then
+            model%links(link)%mesh = i
+            if (model%links(link)%rigid) call add_error(diagnostics, word, "link '"//word%text//"' is rigid: it is not divided", &
+              model%links(link)%rigid_word, "it is rigid by this word")
+          end if
           if (link == 0) for_all = i
         end associate
       end do
     end do
-    where (model%links%mesh == 0) model%links%mesh = merge(for_all, misnamed, for_all > 0)
+    where (model%links%mesh == 0 .and. .not. model%links%rigid) model%links%mesh = merge(for_all, misnamed, for_all > 0)
   end subroutine find_meshes
 
   !> Finds a name in a list, or complains and offers the nearest.

@@ -4,7 +4,7 @@ module request_checks
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use kinds, only: wp
   use models, only: effects_static, inertia_none, is_moving, model_t, needs_beams, needs_frequencies, needs_loads, needs_mesh, &
-    report_number
+    needs_positions, report_number
   use requests, only: report_branches, report_frequencies, report_inertia, report_kinds, report_shapes
   use spelling, only: nearest_word
   use text, only: joined, same_word, string_t, to_string, word_list
@@ -16,8 +16,8 @@ module request_checks
   public :: check_required, check_requests, has_card, card_names
 
   character(len=*), parameter :: card_names = &
-    "TITLE UNITS INCLUDE SET VARY MATERIAL SECTION GROUND LINK DRIVE BRANCH PINMASS MESH CRANK SPEED INERTIA EFFECTS SOLVER "// &
-    "MODES REPORT"
+    "TITLE UNITS INCLUDE SET VARY MATERIAL SECTION GROUND LINK DRIVE BRANCH PINMASS MESH MASS POINT GRAVITY FORCE TORQUE "// &
+    "MOTOR LOAD CRANK SPEED INERTIA EFFECTS SOLVER MODES REPORT"
 
   !> A link stockier than this is no slender beam: shear and rotary inertia decide.
   real(wp), parameter :: least_slenderness = 10.0_wp
@@ -27,9 +27,10 @@ module request_checks
 contains
 
   !> Cards that no deck can do without.
-  subroutine check_required(cards, diagnostics)
+  subroutine check_required(cards, diagnostics, model)
     type(card_t), intent(in) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model !! with its reports
 
     if (.not. has_card(cards, "UNITS")) call missing("there is no UNITS card; expected: UNITS length mass time")
     ! What a file holds that cannot be included is not missing from the deck.
@@ -39,7 +40,9 @@ contains
         " cards: no linkage is described")
     end if
     if (.not. has_card(cards, "DRIVE")) call missing("the linkage is not driven; expected: DRIVE link")
-    if (.not. has_card(cards, "CRANK")) call missing("there is no CRANK card; expected: CRANK a to b step s, or a list of angles")
+    if (needs_positions(model) .and. .not. has_card(cards, "CRANK")) then
+      call missing("there is no CRANK card; expected: CRANK a to b step s, or a list of angles")
+    end if
     if (.not. has_card(cards, "REPORT")) then
       call missing("there is no REPORT card; expected REPORT and one of: "//joined(word_list(report_kinds)))
     end if

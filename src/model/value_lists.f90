@@ -1,6 +1,6 @@
 !> Lists of numbers on cards: single ones, ranges `a to b step s`, one unit for all.
 module value_lists
-  use card_reader, only: entry_number, read_measure
+  use card_reader, only: entry_number, read_measure, read_quantity
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
@@ -12,7 +12,7 @@ module value_lists
   implicit none (type, external)
   private
 
-  public :: value_list_t, empty_list, read_values, read_entry_list, value_number
+  public :: value_list_t, empty_list, read_values, read_entry_list, read_entry_pair, value_number
 
   !> Numbers that a card lists, each with the word it came from.
   type :: value_list_t
@@ -42,11 +42,58 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(value_list_t), intent(out) :: list
 
-    type(token_t), allocatable :: words(:), more(:)
-    integer :: i
+    type(token_t), allocatable :: words(:)
+    logical :: fine
 
     list = empty_list()
     if (entry_number(card, key) == 0) return
+    call find_items(card, key, diagnostics, words, fine)
+    if (fine) call read_values(words, dimension, system, key//" value", diagnostics, list)
+  end subroutine read_entry_list
+
+  !> Reads the two values of a key, which may be equal [SI].
+  pure subroutine read_entry_pair(card, key, names, dimension, system, diagnostics, pair, fine)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: key
+    character(len=*), intent(in) :: names !! of the two, for messages: `along,offset`
+    integer, intent(in) :: dimension(4)
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    real(wp), intent(out) :: pair(2)
+    logical, intent(out) :: fine          !! whether the key is there and its values right
+
+    type(token_t), allocatable :: words(:)
+    logical :: both(2)
+    integer :: i
+
+    pair = 0.0_wp
+    fine = .false.
+    if (entry_number(card, key) == 0) return
+    call find_items(card, key, diagnostics, words, fine)
+    if (.not. fine) return
+    if (size(words) /= 2) then
+      call add_error(diagnostics, words(min(3, size(words))), "'"//key//"=' takes two values: "//key//"="//names)
+      fine = .false.
+      return
+    end if
+    do i = 1, 2
+      call read_quantity(words(i), dimension, system, diagnostics, pair(i), both(i))
+    end do
+    fine = all(both)
+  end subroutine read_entry_pair
+
+  !> The items of a list behind a key that is there; one that is empty is an error.
+  pure subroutine find_items(card, key, diagnostics, words, fine)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: key
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(token_t), allocatable, intent(out) :: words(:)
+    logical, intent(out) :: fine
+
+    type(token_t), allocatable :: more(:)
+    integer :: i
+
+    fine = .true.
     associate (entry => card%entries(entry_number(card, key)))
       if (allocated(entry%items)) then
         allocate (words(0))
@@ -63,10 +110,10 @@ contains
       if (len(words(i)%text) > 0) cycle
       words(i)%text = ","
       call add_error(diagnostics, words(i), "a value is missing in this list")
+      fine = .false.
       return
     end do
-    call read_values(words, dimension, system, key//" value", diagnostics, list)
-  end subroutine read_entry_list
+  end subroutine find_items
 
   !> Reads a list of numbers and ranges. Angles are returned in degrees, everything else in SI.
   pure subroutine read_values(words, dimension, system, noun, diagnostics, list)

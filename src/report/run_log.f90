@@ -34,6 +34,7 @@ contains
         if (link_mass(model, model%loop(i)) > 0.0_wp) then
           text = text//", mass "//to_string(from_si(link_mass(model, model%loop(i)), mass), 12)//" "//mass%name
         end if
+        if (link%rigid) text = text//", rigid"
         text = text//line_feed
       end associate
     end do
@@ -53,7 +54,7 @@ contains
     text = text//plural(size(model%crank%value), "crank angle")//", "//plural(size(model%speed%value), "speed")//line_feed
   end function model_summary
 
-  !> Mass of all links and pins that the deck gives a mass [kg].
+  !> Mass of all links, of what is fixed to them, and of pins [kg].
   pure function total_mass(model) result(mass)
     type(model_t), intent(in) :: model
     real(wp) :: mass
@@ -64,7 +65,7 @@ contains
     do i = 1, size(model%links)
       mass = mass + link_mass(model, i)
     end do
-    if (size(model%pin_masses) > 0) mass = mass + sum(model%pin_masses%mass)
+    mass = mass + sum(model%masses%mass) + sum(model%pin_masses%mass)
   end function total_mass
 
 end module run_log
