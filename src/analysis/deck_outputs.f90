@@ -1,5 +1,6 @@
 !> The files of a run: opened together, put in place together.
 module deck_outputs
+  use balance_report, only: write_balance, write_harmonics
   use branch_report, only: write_branches
   use errors, only: error_t, set_error
   use file_system, only: is_directory, joined_path, make_directories, remove_empty_directory
@@ -7,6 +8,7 @@ module deck_outputs
   use inertia_report, only: write_inertia
   use kinematics_report, only: write_kinematics
   use lagrange_report, only: write_lagrange
+  use linkage_report, only: write_linkage
   use mesh_report, only: write_mesh
   use models, only: model_t, report_number
   use output_files, only: append_output, discard_output, finish_output, open_output, output_file_t, publish_output, remove_output
@@ -27,10 +29,14 @@ module deck_outputs
     character(len=:), allocatable :: folder
     logical, private :: csv = .false.
     type(string_t), allocatable, private :: is_new(:)        !! folders that were not there before, outermost first
-    integer, allocatable, private :: kind(:)                 !! of each table: its report
+    integer, allocatable, private :: kind(:)                 !! of each table
     type(table_t), allocatable :: tables(:)
     type(output_file_t), private :: echo, log, summary
   end type outputs_t
+
+  !> A report has the table of its own number; those with two have another one behind all these.
+  integer, parameter :: table_harmonics = report_kind_count + 1
+  integer, parameter :: table_kind_count = table_harmonics
 
   character(len=*), parameter :: echo_name = "echo.deck", log_name = "run.log", summary_name = "summary.json"
 
@@ -49,7 +55,7 @@ contains
 
     outputs%folder = folder
     outputs%csv = csv
-    outputs%kind = pack([(i, i=1, report_kind_count)], [(report_number(model, i) > 0, i=1, report_kind_count)])
+    outputs%kind = pack([(i, i=1, table_kind_count)], [(report_number(model, report_of(i)) > 0, i=1, table_kind_count)])
     allocate (outputs%tables(size(outputs%kind)))
     call make_directories(folder, made, outputs%is_new)
     if (.not. made) then
@@ -81,7 +87,16 @@ contains
     if (is_directory(path)) call set_error(error, path//": error: this is a folder, and a file is to be written there")
   end subroutine refuse_folder
 
-  !> The name of a report's table, without `.dat` and `.csv`.
+  !> The report that a table belongs to.
+  pure function report_of(table) result(report)
+    integer, intent(in) :: table !! its kind
+    integer :: report
+
+    report = table
+    if (table == table_harmonics) report = report_balance
+  end function report_of
+
+  !> The name of a table, without `.dat` and `.csv`.
   pure function table_name(kind) result(name)
     integer, intent(in) :: kind
     character(len=:), allocatable :: name
@@ -110,6 +125,8 @@ contains
       name = "linkage"
     case (report_balance)
       name = "balance"
+    case (table_harmonics)
+      name = "harmonics"
     case (report_motion)
       name = "motion"
     end select
@@ -147,6 +164,12 @@ contains
           call write_points(table, model, mechanism, positions)
         case (report_lagrange)
           call write_lagrange(table, model, mechanism, positions)
+        case (report_linkage)
+          call write_linkage(table, model, mechanism)
+        case (report_balance)
+          call write_balance(table, model, mechanism, positions)
+        case (table_harmonics)
+          call write_harmonics(table, model, mechanism)
         end select
       end associate
     end do
@@ -191,7 +214,7 @@ contains
     if (allocated(error)) return
     call publish_output(outputs%summary, error)
     if (allocated(error)) return
-    do i = 1, report_kind_count
+    do i = 1, table_kind_count
       if (all(outputs%kind /= i)) call remove_output(outputs%folder, table_name(i)//".dat")
       if (all(outputs%kind /= i) .or. .not. outputs%csv) call remove_output(outputs%folder, table_name(i)//".csv")
     end do
