@@ -164,9 +164,11 @@ libraries := $(call archive,libarpack.a) -lopenblas
 else
 libraries := $(call archive,libarpack.a) $(call archive,lapack/liblapack.a liblapack.a) $(call archive,blas/libblas.a libblas.a)
 endif
+integration := $(call archive,libgsl.a) -lm
+libraries += $(integration)
 # Quadruple precision: the same sources, but for the modules that tests/quad/ has instead, among them the part of LAPACK in use.
 ifeq ($(kind),quad)
-libraries :=
+libraries := $(integration)
 instead   := $(wildcard tests/quad/*.f90)
 endif
 

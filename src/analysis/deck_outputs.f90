@@ -11,6 +11,7 @@ module deck_outputs
   use linkage_report, only: write_linkage
   use mesh_report, only: write_mesh
   use models, only: model_t, report_number
+  use motion_report, only: write_motion
   use output_files, only: append_output, discard_output, finish_output, open_output, output_file_t, publish_output, remove_output
   use points_report, only: write_points
   use reactions_report, only: write_reactions
@@ -170,6 +171,8 @@ contains
           call write_balance(table, model, mechanism, positions)
         case (table_harmonics)
           call write_harmonics(table, model, mechanism)
+        case (report_motion)
+          call write_motion(table, model, mechanism, run%motion)
         end select
       end associate
     end do

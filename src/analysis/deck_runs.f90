@@ -13,6 +13,8 @@ module deck_runs
   use interruption, only: was_interrupted
   use link_store, only: link_store_t
   use models, only: solver_band
+  use motion_report, only: motion_log
+  use motion_runs, only: has_motion
   use omp_lib, only: omp_get_thread_num
   use program_version, only: version_number
   use progress, only: end_progress, progress_t, show_progress, start_progress
@@ -285,6 +287,7 @@ contains
     do i = 1, size(notes)
       text = text//notes(i)%text//line_feed
     end do
+    if (has_motion(run%motion)) text = text//motion_log(run%motion)
     if (allocated(run%sweep%results)) text = text//sweep_summary(run%sweep, run%mechanism%mesh)
   end function first_log
 

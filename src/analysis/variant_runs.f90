@@ -9,9 +9,10 @@ module variant_runs
   use mechanisms, only: mechanism_t, new_mechanism
   use models, only: model_t, needs_frequencies
   use kinds, only: long, wp
+  use motion_runs, only: has_motion, motion_run_t, run_motion
   use positions, only: find_positions, positions_t
   use progress, only: progress_t
-  use run_findings, only: find_failures, find_warnings, findings_t
+  use run_findings, only: find_failures, find_motion_failure, find_warnings, findings_t
   use sweep_journal, only: journal_t
   implicit none (type, external)
   private
@@ -25,6 +26,7 @@ module variant_runs
     type(positions_t) :: positions
     type(sweep_t) :: sweep
     type(branches_t) :: branches
+    type(motion_run_t) :: motion
     type(findings_t) :: findings
   end type variant_run_t
 
@@ -64,7 +66,7 @@ contains
     run%positions = find_positions(run%mechanism%linkage, run%model%crank%value)
   end subroutine prepare_variant
 
-  !> Frequencies, nearly all of the work. Variants may be solved at the same time: here are no texts, which gfortran 12 gives lengths
+  !> Forward motion and frequencies, nearly all of the work. Variants may be solved at the same time: here are no texts, which gfortran 12 gives lengths
   !> that all threads share. Errors: as above.
   subroutine solve_variant(number, threads, progress, journal, store, run, error)
     integer, intent(in) :: number !! of the variant, from 1
@@ -75,6 +77,7 @@ contains
     type(variant_run_t), intent(inout) :: run !! prepared
     type(error_t), allocatable, intent(out) :: error
 
+    call run_motion(run%model, run%mechanism, progress, run%motion)
     if (.not. needs_frequencies(run%model)) return
     call run_sweep(run%model, run%mechanism, run%positions, threads, progress, journal, number, store, run%sweep, error)
   end subroutine solve_variant
@@ -87,6 +90,7 @@ contains
       if (run%sweep%request%follow) call follow_branches(run%mechanism, run%positions, run%sweep, run%branches)
     end if
     call find_failures(run%model, run%positions, run%sweep, run%findings)
+    if (has_motion(run%motion)) call find_motion_failure(run%model, run%motion, run%findings)
     call find_warnings(run%model, run%mechanism, run%positions, run%sweep, run%findings)
   end subroutine finish_variant
 
