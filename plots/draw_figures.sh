@@ -111,6 +111,26 @@ plan_kinematics() {
         add kinematics_accelerations kinematics.gp kinematics.dat accelerations
 }
 
+# Paths need the pivots, which more than one position of kinematics.dat tells; the shaking force is drawn once.
+plan_rigid_dynamics() {
+    balance=
+    have balance.dat && balance=balance.dat
+    if have points.dat; then
+        plan_speeds point_rates points.dat
+        if [ -f kinematics.dat ] && [ "$(ask 'distinct crank' kinematics.dat | wc -l)" -gt 1 ]; then
+            add coupler_curve coupler_curve.gp points.dat kinematics.dat "$(telling_crank points.dat)" "$balance"
+        else
+            echo 'draw_figures.sh: paths of points are drawn only with kinematics.dat of several positions (REPORT kinematics)' >&2
+        fi
+    fi
+    have reactions.dat && plan_speeds reactions reactions.dat
+    [ -n "$balance" ] || ! have reactions.dat || plan_speeds shaking_force reactions.dat
+    [ -z "$balance" ] || { plan_speeds shaking_force balance.dat; plan_speeds balance balance.dat; }
+    have harmonics.dat && plan_speeds harmonics harmonics.dat
+    have lagrange.dat && plan_speeds lagrange lagrange.dat
+    have motion.dat && add motion motion.gp motion.dat
+}
+
 # Modes swing; a linkage turns, and moves as its motor makes it. Its pivots are known from kinematics.dat.
 plan_animations() {
     case " $(LC_ALL=C.UTF-8 gnuplot -e 'set print "-"; print GPVAL_TERMINALS') " in
@@ -154,6 +174,7 @@ else
     have branches.dat && plan_speeds branches branches.dat
     have shapes.dat && plan_modes
     have kinematics.dat && plan_kinematics
+    plan_rigid_dynamics
 fi
 if [ ! -s "$new/plan" ]; then
     [ $figures = figures ] || fail "$outdir has nothing to animate: that takes REPORT kinematics (the linkage as it moves) or shapes"

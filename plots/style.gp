@@ -79,7 +79,8 @@ keep(block, table, want) = "< awk -v datablock=".block.ask(table, want)[4 : *]  
 same(a, b) = abs(a - b) <= 1e-9 * (1 + abs(b))
 argument(k) = exists("ARG".k) ? value("ARG".k) : ""     # of the script; one not given is empty
 field(name) = column(value("col_".name))            # this row's value in a column, after `eval answer(table, "facts")`
-unit(name) = " [".squared(value("unit_".name))."]"
+unit(name) = " [".typeset(value("unit_".name))."]"
+typeset(text) = squared(strstrt(text, ".") == 0 ? text : text[1 : strstrt(text, ".") - 1]."·".text[strstrt(text, ".") + 1 : *])
 squared(text) = text[strlen(text) : *] eq "2" ? text[1 : strlen(text) - 1]."²" : text
 
 # ---- Words ----------------------------------------------------------------------------------------------------

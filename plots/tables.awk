@@ -34,7 +34,7 @@ BEGIN {
 header && /^#/ && (NR == 1 || !/^# *failed /) {
     sub(/^# */, "")
     if (NR == 1) title = $0
-    if (/^(link +)?3[: ]/) link_note = $0
+    if (/^(link +)?[23][: ]/) link_note = $0
     name_line = unit_line
     unit_line = $0
     next
