@@ -118,7 +118,7 @@ contains
     list = quantity_remarks(model, mechanism)
     call append_string(list, "G: mass centre of the moving masses, without counterweights")
     call append_string(list, "total mass: "// &
-      exact_text(from_si(total_mass(mechanism%linkage, mechanism%load_elements), measures%mass))//" "//measures%mass%name)
+      to_string(from_si(total_mass(mechanism%linkage, mechanism%load_elements), measures%mass), 12)//" "//measures%mass%name)
     do i = 1, size(weights)
       call add_counterweight(model, mechanism, weights(i), measures, list)
     end do

@@ -79,6 +79,7 @@ contains
 
     longest = 1
     do b = 1, size(near%links)
+      if (.not. near%links(b)%bends) cycle
       longest = max(longest, near%links(b)%bending_shapes%unknowns, near%links(b)%axial_shapes%unknowns + 1)
     end do
     allocate (bending(longest, size(vectors, 2), size(near%links)))
@@ -86,6 +87,7 @@ contains
     bending = 0.0_wp
     strain = 0.0_wp
     do b = 1, size(near%links)
+      if (.not. near%links(b)%bends) cycle
       do i = 1, size(vectors, 2)
         associate (link => near%links(b), mode => modes%vector(:, i))
           first = near%layout%first(b)
@@ -95,12 +97,12 @@ contains
           own_strain = matmul(link%axial, mode(first:first + link%axial_modes - 1))
           if (near%elements(b) == 1) then
             ! The elongation of the link as a whole is a uniform strain.
-            own_strain = [mode(1 + b), own_strain]
+            own_strain = [mode(chain%number(b)), own_strain]
             kinds = merge(2, 1, link%bending_shapes%shear_stiffness > 0.0_wp)
             own = [(sqrt(2*((j - 1)/kinds) + 1.0_wp)*own(j), j=1, size(own))]
             own_strain = [(sqrt(2*j - 1.0_wp)*own_strain(j), j=1, size(own_strain))]
           else
-            own_strain = element_strains(near%elements(b), mode(1 + b), own_strain)
+            own_strain = element_strains(near%elements(b), mode(chain%number(b)), own_strain)
           end if
           bending(:size(own), i, b) = own
           strain(:size(own_strain), i, b) = own_strain

@@ -165,14 +165,14 @@ contains
           call write_points(table, model, mechanism, positions)
         case (report_lagrange)
           call write_lagrange(table, model, mechanism, positions)
+        case (report_motion)
+          call write_motion(table, model, mechanism, run%motion)
         case (report_linkage)
           call write_linkage(table, model, mechanism)
         case (report_balance)
           call write_balance(table, model, mechanism, positions)
         case (table_harmonics)
           call write_harmonics(table, model, mechanism)
-        case (report_motion)
-          call write_motion(table, model, mechanism, run%motion)
         end select
       end associate
     end do

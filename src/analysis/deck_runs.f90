@@ -1,6 +1,5 @@
 !> One deck: computed variant by variant, and written.
 module deck_runs
-  use body_notes, only: body_notes_of
   use, intrinsic :: iso_fortran_env, only: compiler_version
   use cards, only: card_t
   use deck_outputs, only: discard_outputs, open_outputs, outputs_t, publish_outputs, write_texts, write_variant
@@ -14,7 +13,7 @@ module deck_runs
   use link_store, only: link_store_t
   use models, only: solver_band
   use motion_report, only: motion_log
-  use motion_runs, only: has_motion
+  use motion_runs, only: has_motion, motion_rows_of
   use omp_lib, only: omp_get_thread_num
   use program_version, only: version_number
   use progress, only: end_progress, progress_t, show_progress, start_progress
@@ -202,7 +201,8 @@ contains
     type(progress_t) :: silent
     integer :: first, last, at_a_time, outer, i
 
-    at_a_time = max(1, min(most_at_a_time, rows_at_a_time/max(1, size(deck%model%crank%value)*size(deck%model%speed%value))))
+    at_a_time = max(1, min(most_at_a_time, rows_at_a_time/max(1, size(deck%model%crank%value)*size(deck%model%speed%value) + &
+      motion_rows_of(deck%model))))
     outer = options%threads
     ! ARPACK serves one thread at a time.
     if (size(deck%model%crank%value) > many_positions .or. deck%model%solver == solver_band) outer = 1
@@ -279,10 +279,6 @@ contains
     integer :: i
 
     text = model_summary(run%model)
-    notes = body_notes_of(run%model, run%mechanism)
-    do i = 1, size(notes)
-      text = text//notes(i)%text//line_feed
-    end do
     notes = linkage_notes(run%mechanism, run%positions)
     do i = 1, size(notes)
       text = text//notes(i)%text//line_feed

@@ -10,6 +10,7 @@ module deformation_model
   use link_store, only: find_link, keep_link, link_key_t, link_store_t, new_link_key
   use linkages, only: linkage_t
   use reduced_assembly, only: reduced_layout
+  use rigid_links, only: new_rigid_link
   use singular_vectors, only: find_right_singular_vectors
   implicit none (type, external)
   private
@@ -46,6 +47,10 @@ contains
     model%lumped = lumped
     allocate (model%links(size(beams)))
     do b = 1, size(beams)
+      if (.not. linkage%bodies(b)%bends) then
+        model%links(b) = new_rigid_link(linkage%bodies(b), b == 1)
+        cycle
+      end if
       key = new_link_key(linkage%bodies(b), beams(b), elements(b), order(b), b == 1, lumped(b))
       known = .false.
       if (present(store)) call find_link(store, key, model%links(b), known)

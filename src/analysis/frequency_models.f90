@@ -8,6 +8,7 @@ module frequency_models
   use kinds, only: fineness, wp
   use ledger, only: ledger_t
   use link_store, only: link_store_t
+  use load_cases, only: case_count, constant_case
   use mechanisms, only: mechanism_t
   use models, only: solver_band, solver_dense
   use order_choice, only: choose_orders
@@ -41,7 +42,8 @@ module frequency_models
     integer :: points = 0              !! along each link, where shapes are wanted
     real(wp), allocatable :: speed(:)  !! [rad/s]; static: one value, which has no effect
     real(wp) :: acceleration = 0.0_wp  !! [rad/s²]
-    logical :: axial = .false.         !! with the geometric stiffness of the inertia loads
+    logical :: axial = .false.         !! with the geometric stiffness of the loads
+    logical :: constant = .false.      !! gravity, or forces and torques from outside, are among them
   end type mode_request_t
 
   type :: frequency_models_t
@@ -52,15 +54,16 @@ module frequency_models
 
 contains
 
-  !> ω2² and α2 at every speed; zero without axial effects.
+  !> Factors of the unit loads at every speed, ω2², α2, and 1 for the constant ones; zero without axial effects.
   pure function load_factors(request) result(factor)
     type(mode_request_t), intent(in) :: request
-    real(wp) :: factor(2, size(request%speed))
+    real(wp) :: factor(case_count, size(request%speed))
 
     factor = 0.0_wp
     if (.not. request%axial) return
     factor(1, :) = request%speed**2
     factor(2, :) = request%acceleration
+    if (request%constant) factor(constant_case, :) = 1.0_wp
   end function load_factors
 
   !> How frequencies are found on a mesh.

@@ -9,7 +9,7 @@ module load_notes
   implicit none (type, external)
   private
 
-  public :: append_load_notes, append_motion_notes, gravity_words, outside_loads
+  public :: append_load_notes, append_motion_notes
 
 contains
 

@@ -82,7 +82,7 @@ contains
           section => model%sections(links(i)%section))
         beam%axial_stiffness = material%youngs_modulus*section%area
         beam%bending_stiffness = material%youngs_modulus*section%second_moment
-        if (.not. links(i)%rigid) beam%shear_stiffness = link_shear_stiffness(model, model%loop(i))
+        beam%shear_stiffness = link_shear_stiffness(model, model%loop(i))
       end associate
     end do
   end subroutine add_beams
@@ -132,6 +132,7 @@ contains
 
     other = mechanism
     other%mesh = new_beam_mesh(mechanism%linkage, elements, mechanism%mesh%order, mechanism%mesh%sheared)
+    where (mechanism%load_elements > 0) other%load_elements = elements
   end function mesh_with
 
   pure function has_beams(mechanism) result(has)

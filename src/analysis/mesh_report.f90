@@ -66,8 +66,8 @@ contains
     integer :: body, i
 
     do body = 1, size(mechanism%names)
+      if (.not. mechanism%linkage%bodies(body)%bends) cycle
       associate (this => mechanism%linkage%bodies(body), mesh => mechanism%mesh)
-        if (.not. this%bends) cycle
         length = element_length(mesh, mechanism%linkage, body)
         half_mass = 0.5_wp*this%line_density*length
         do i = 1, mesh%elements(body)

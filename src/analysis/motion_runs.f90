@@ -15,7 +15,7 @@ module motion_runs
   implicit none (type, external)
   private
 
-  public :: motion_run_t, run_motion, has_motion, motion_rows, motion_failed, motion_failure
+  public :: motion_run_t, run_motion, has_motion, motion_rows, motion_rows_of, motion_failed, motion_failure
 
   !> The end of a motion is one of its instants when it is hit within this share of a step.
   real(wp), parameter :: hit = 1.0e-9_wp
@@ -75,6 +75,18 @@ contains
 
     rows = 1 + int(asked%end_time/asked%time_step + hit)
   end function motion_rows
+
+  !> The same for what a model asks for, which may be no motion.
+  pure function motion_rows_of(model) result(rows)
+    type(model_t), intent(in) :: model
+    integer :: rows
+
+    integer :: number
+
+    rows = 0
+    number = report_number(model, report_motion)
+    if (number > 0) rows = motion_rows(model%reports(number))
+  end function motion_rows_of
 
   !> An instant by its number, from 1 [s].
   pure function instant(asked, number) result(time)

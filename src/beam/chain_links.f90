@@ -12,8 +12,9 @@ module chain_links
 
   public :: chain_t, new_chain, slope_at_start, add_from_start, at_end, add_back_at_end, add_back, at_place
 
-  !> One link.
+  !> One link; one that does not bend has no unknowns, and what follows of them is empty.
   type :: chain_t
+    logical :: bends = .true.
     integer :: elements = 0
     integer :: bendings = 0     !! transverse unknowns of an element: curvatures, and with shear as many strains in turn with them
     integer :: at_end = 0       !! the first of them, which alone leave anything at its end
@@ -48,12 +49,17 @@ contains
     h = body%length/elements
     coefficients = max(order, axial_degree) + 1
     link%elements = elements
+    link%length = body%length
+    link%bends = body%bends
+    if (.not. body%bends) then
+      allocate (link%start_slope(0))
+      return
+    end if
     link%sheared = beam%shear_stiffness > 0.0_wp
     link%bendings = bending_unknowns(order, link%sheared)
     ! Curvatures of degree 0 and 1, and a uniform shear strain between them.
     link%at_end = merge(3, 2, link%sheared)
     link%strains = axial_degree
-    link%length = body%length
     link%end_rotation = end_rotation(body%length, beam%bending_stiffness, beam%shear_stiffness)
     call fill_bending(link, beam, order, coefficients)
     allocate (link%stretch(coefficients, axial_degree))

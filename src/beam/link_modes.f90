@@ -33,7 +33,10 @@ module link_modes
     integer :: modes = 0        !! transverse
     integer :: axial_modes = 0
     logical :: clamped = .false.
+    logical :: bends = .true.                         !! else all that follows is zero or empty but for the next two
     real(wp) :: length = 0.0_wp                       !! [m]
+    !> Mass of a rigid link: between the displacements of its first pin, along it and across it, and its rotation [kg, kg m, kg m²]
+    real(wp) :: rigid_mass(3, 3) = 0.0_wp
     real(wp) :: elongation = 0.0_wp                   !! √(L/EA): of a unit unknown [m/√J]
     real(wp) :: end_rotation = 0.0_wp                 !! √(L/3EI + 1/(kGA L)): of a unit unknown of the clamped end [rad/√J]
     real(wp), allocatable :: square(:)                !! (modes) 1/ω² of the link with its ends held, descending [s²]

@@ -22,6 +22,7 @@ contains
     integer :: b, i, kinds
 
     do b = 1, size(pencil%links)
+      if (.not. pencil%links(b)%bends) cycle
       associate (link => pencil%links(b), number => pencil%links(b)%elements)
         if (continuous(b)) then
           kinds = merge(2, 1, link%sheared)

@@ -183,7 +183,9 @@ contains
       call advance(motion%integrator, motion%system, motion%time, time, motion%state, error)
       if (allocated(error)) then
         motion%stop = merge(motion%system%stop, stop_steps, motion%system%stop /= no_stop)
-        if (motion%stop == stop_steps .and. inertia_of(motion) < little_inertia) motion%stop = stop_no_inertia
+        if (motion%stop == stop_steps) then
+          if (inertia_of(motion) < little_inertia) motion%stop = stop_no_inertia
+        end if
         return
       end if
       if (is_open(motion%state) .neqv. is_open(before)) call note_turning_point(motion, time_before, before)
