@@ -204,7 +204,8 @@ contains
       ", phases in deg; a phase is 0 where its h is only rounding")
     call append_string(remarks, "samples: "//to_string(size(turns(1)%part, 3))//"; every second of them gives the same to "// &
       to_string(change, 2)//" of the largest value")
-    if (change > unsettled) call append_string(remarks, "harmonics have not settled: the crank passes next to a dead point")
+    if (change > unsettled) call append_string(remarks, "harmonics have not settled: the crank passes next to a dead point, "// &
+      "or the shaking force through zero")
     call write_header(table, model%title, remarks, columns)
     do k = 1, size(model%speed%value)
       if (k > 1) call write_gap(table, 2)
