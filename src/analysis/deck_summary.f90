@@ -81,11 +81,9 @@ contains
     end if
     call add_member(object, "rows", json_value(table%rows))
     call add_member(object, "failed_rows", json_value(table%failed_rows))
-    if (allocated(table%columns)) then
-      do i = 1, size(table%columns)
-        call add_item(list, column_object(table%columns(i)))
-      end do
-    end if
+    do i = 1, size(table%columns)
+      call add_item(list, column_object(table%columns(i)))
+    end do
     call add_member(object, "columns", json_array(list))
     value = json_object(object)
   end function table_object
