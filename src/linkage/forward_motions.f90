@@ -35,6 +35,9 @@ module forward_motions
   !! makes the steps shrink to nothing.
   real(wp), parameter :: least_inertia = 1.0e-13_wp, little_inertia = 1.0e-10_wp
 
+  !> Nearer than this to where the crank turns back rounding may say that it is on either side: |sin(θ4 − θ3)|.
+  real(wp), parameter :: undecided_sine = 1.0e-12_wp
+
   !> Unknowns: the angles [rad], ṡ [rad/s], work [J].
   integer, parameter :: rate = 4, work = 5, unknowns = 5
 
@@ -62,6 +65,7 @@ module forward_motions
     real(wp) :: time = 0.0_wp         !! [s]
     real(wp) :: energy = 0.0_wp       !! kinetic and potential, at the start [J]
     integer :: stop = no_stop         !! why it does not go on
+    logical :: is_open = .true.       !! branch; else crossed
     integer :: turning_count = 0
     type(turning_point_t), allocatable :: turnings(:) !! (at least turning_count)
     type(integrator_t) :: integrator
@@ -114,6 +118,7 @@ contains
     if (allocated(error)) return
     motion%system%turns(1) = anint((crank_degrees*degree - motion%state(1))/two_pi)
     call find_point(motion%system%curve, motion%state(1:3), point, is_smooth)
+    motion%is_open = point%sine > 0.0_wp
     motion%state(rate) = speed/point%tangent(1)
     call find_inertia(motion%system%dynamics, point, inertia, slope)
     first = sample_motion(motion)
@@ -188,8 +193,8 @@ contains
         end if
         return
       end if
-      if (is_open(motion%state) .neqv. is_open(before)) call note_turning_point(motion, time_before, before)
       call project(motion%system%curve, motion%state(1:3))
+      if (has_changed_branch(motion)) call note_turning_point(motion, time_before, before)
       call reduce(motion%state(1:3), motion%system%turns)
     end do
   end subroutine move_until
@@ -208,16 +213,19 @@ contains
     inertia = inertia/sum(motion%system%dynamics%inertia)
   end function inertia_of
 
-  !> Whether B lies to the left of A → O4: `sin(θ4 − θ3) > 0`.
-  pure function is_open(state)
-    real(wp), intent(in) :: state(:)
-    logical :: is_open
+  !> Whether `sin(θ4 − θ3)`, positive where B lies to the left of A → O4, says that the branch is another one than before.
+  pure function has_changed_branch(motion) result(has)
+    type(forward_motion_t), intent(in) :: motion
+    logical :: has
 
-    is_open = sin(state(3) - state(2)) > 0.0_wp
-  end function is_open
+    real(wp) :: sine
 
-  !> Finds where in the last step `sin(θ4 − θ3)` went through zero: Newton's method within a shrinking interval, each trial one step
-  !! from where the last one began.
+    sine = sin(motion%state(3) - motion%state(2))
+    has = abs(sine) > undecided_sine .and. (sine > 0.0_wp .neqv. motion%is_open)
+  end function has_changed_branch
+
+  !> Notes the change of branch, and where in the last step `sin(θ4 − θ3)` went through zero: Newton's method within a shrinking
+  !! interval, each trial one step from where the last one began. A step that began with nothing but rounding is where it went.
   subroutine note_turning_point(motion, time, before)
     type(forward_motion_t), intent(inout) :: motion
     real(wp), intent(in) :: time              !! at which the step began [s]
@@ -225,33 +233,39 @@ contains
 
     integer, parameter :: most_trials = 60
     type(error_t), allocatable :: error
-    real(wp) :: state(unknowns), rates(unknowns), low, high, step, next, value, start_value
+    real(wp) :: state(unknowns), rates(unknowns), low, high, step, next, value, start_value, slope
     integer :: trial
     logical :: found
 
+    motion%is_open = .not. motion%is_open
     low = 0.0_wp
     high = motion%time - time
     start_value = sin(before(3) - before(2))
     value = sin(motion%state(3) - motion%state(2))
-    step = high*start_value/(start_value - value)
-    do trial = 1, most_trials
+    step = 0.0_wp
+    if (value*start_value < 0.0_wp) step = high*start_value/(start_value - value)
+    state = before
+    do trial = 1, merge(most_trials, 0, value*start_value < 0.0_wp)
       state = before
       call step_by(motion%integrator, motion%system, time, step, state, error)
+      found = .false.
       if (.not. allocated(error)) call motion%system%find_rates(time + step, state, rates, found)
-      if (allocated(error) .or. .not. found) return
+      if (.not. found) exit
       value = sin(state(3) - state(2))
       if (value*start_value > 0.0_wp) then
         low = step
       else
         high = step
       end if
-      next = step - value/(cos(state(3) - state(2))*(rates(3) - rates(2)))
+      slope = cos(state(3) - state(2))*(rates(3) - rates(2))
+      next = -1.0_wp
+      if (abs(slope) > tiny(slope)) next = step - value/slope
       if (abs(next - step) <= 2.0_wp*epsilon(1.0_wp)*(time + step)) exit
-      if (next < low .or. next > high) next = 0.5_wp*(low + high)
+      if (.not. (next >= low .and. next <= high)) next = 0.5_wp*(low + high)
       step = next
     end do
     call append_turning_point(motion, turning_point_t(time + step, state(1)/degree + 360.0_wp*motion%system%turns(1), &
-      is_open(motion%state)))
+      motion%is_open))
   end subroutine note_turning_point
 
   pure subroutine append_turning_point(motion, turning)
@@ -290,7 +304,7 @@ contains
       sample%work = motion%state(work)
       sample%energy_error = sample%kinetic + sample%potential - sample%work - motion%energy
       sample%closure = closure_error(system%curve, angle)
-      sample%is_open = point%sine > 0.0_wp
+      sample%is_open = motion%is_open
     end associate
   end function sample_motion
 
