@@ -10,7 +10,7 @@ module forward_motions
   use drives, only: drive_t, resistances_t
   use errors, only: error_t
   use interruption, only: was_interrupted
-  use kinds, only: wp
+  use kinds, only: long, wp
   use linkages, only: linkage_t
   use loop_curves, only: closure_error, curve_point_t, find_point, find_start, loop_curve_t, new_loop_curve, project, reduce
   use rigid_bodies, only: rigid_body_t
@@ -18,14 +18,15 @@ module forward_motions
   private
 
   public :: forward_motion_t, motion_sample_t, turning_point_t, start_motion, move_until, sample_motion, end_motion
-  public :: motion_tolerance, no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps
+  public :: motion_tolerance, no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps, stop_many_steps
 
   !> Estimated error of a step, of the angles in radians and of the rate relative to itself: some forty roundings. The estimate is of
   !! order 7, and the step of order 8 is better than it by two or three digits, so rounding is what is left.
   real(wp), parameter :: motion_tolerance = 1.0e-14_wp
 
   !> Why a motion does not go on.
-  integer, parameter :: no_stop = 0, stop_change_point = 1, stop_no_inertia = 2, stop_too_fast = 3, stop_steps = 4
+  integer, parameter :: no_stop = 0, stop_change_point = 1, stop_no_inertia = 2, stop_too_fast = 3, stop_steps = 4, &
+    stop_many_steps = 5
 
   !> A trial step that turns a link by more than a turn is too long, whatever its error seems to be [rad]; a rate beyond all
   !! mechanics, before it overflows [rad/s].
@@ -66,6 +67,7 @@ module forward_motions
     real(wp) :: energy = 0.0_wp       !! kinetic and potential, at the start [J]
     integer :: stop = no_stop         !! why it does not go on
     logical :: is_open = .true.       !! branch; else crossed
+    integer(long) :: most_steps = 1000000_long !! from one instant to the next: some 6,000 turns, and some seconds
     integer :: turning_count = 0
     type(turning_point_t), allocatable :: turnings(:) !! (at least turning_count)
     type(integrator_t) :: integrator
@@ -172,16 +174,23 @@ contains
     rates(work) = driving*state(rate)
   end subroutine four_bar_rates
 
-  !> Follows the motion up to an instant, which is met exactly unless the motion stops or the run is interrupted.
+  !> Follows the motion up to an instant, which is met exactly unless the motion stops or the run is interrupted. A motion that takes
+  !! too many steps on the way is stopped: it would seem to last for ever, for it is asked for too late, or is too fast.
   subroutine move_until(motion, time)
     type(forward_motion_t), intent(inout) :: motion
     real(wp), intent(in) :: time !! [s]
 
     type(error_t), allocatable :: error
     real(wp) :: before(unknowns), time_before
+    integer(long) :: last_step
 
+    last_step = motion%integrator%steps + motion%most_steps
     do while (motion%time < time .and. motion%stop == no_stop)
       if (was_interrupted()) return
+      if (motion%integrator%steps >= last_step) then
+        motion%stop = stop_many_steps
+        return
+      end if
       before = motion%state
       time_before = motion%time
       motion%system%stop = no_stop
