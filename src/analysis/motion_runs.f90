@@ -3,7 +3,7 @@ module motion_runs
   use drives, only: motor_drive_t, resistances_t
   use errors, only: error_t
   use forward_motions, only: end_motion, forward_motion_t, motion_sample_t, move_until, no_stop, sample_motion, start_motion, &
-    stop_change_point, stop_no_inertia, stop_too_fast, turning_point_t
+    stop_change_point, stop_many_steps, stop_no_inertia, stop_too_fast, turning_point_t
   use interruption, only: was_interrupted
   use kinds, only: long, wp
   use loop_curves, only: change_point_message
@@ -109,7 +109,7 @@ contains
     end associate
   end function drive_of
 
-  !> All LOAD cards together.
+  !> What the LOAD cards, at most one a link, take from the bodies.
   pure function resistances_of(model) result(resistances)
     type(model_t), intent(in) :: model
     type(resistances_t) :: resistances
@@ -119,8 +119,8 @@ contains
     do i = 1, size(model%resistances)
       associate (resistance => model%resistances(i))
         body = findloc(model%loop, resistance%link, dim=1)
-        resistances%taken(body) = resistances%taken(body) + resistance%torque
-        resistances%damping(body) = resistances%damping(body) + resistance%damping
+        resistances%taken(body) = resistance%torque
+        resistances%damping(body) = resistance%damping
       end associate
     end do
   end function resistances_of
@@ -160,6 +160,8 @@ contains
       reason = "nothing that has a mass moves here with the linkage: there is no inertia"
     case (stop_too_fast)
       reason = "the links turn too fast to be followed"
+    case (stop_many_steps)
+      reason = "there are too many turns from one row to the next; 'step=' or 'end=' is too long for this motion"
     case default
       reason = "the steps of the integration shrink to nothing"
     end select

@@ -10,7 +10,7 @@ module forward_motions
   use drives, only: drive_t, resistances_t
   use errors, only: error_t
   use interruption, only: was_interrupted
-  use kinds, only: wp
+  use kinds, only: long, wp
   use linkages, only: linkage_t
   use loop_curves, only: closure_error, curve_point_t, find_point, find_start, loop_curve_t, new_loop_curve, project, reduce
   use rigid_bodies, only: rigid_body_t
@@ -18,14 +18,15 @@ module forward_motions
   private
 
   public :: forward_motion_t, motion_sample_t, turning_point_t, start_motion, move_until, sample_motion, end_motion
-  public :: motion_tolerance, no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps
+  public :: motion_tolerance, no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps, stop_many_steps
 
   !> Estimated error of a step, of the angles in radians and of the rate relative to itself: some forty roundings. The estimate is of
   !! order 7, and the step of order 8 is better than it by two or three digits, so rounding is what is left.
   real(wp), parameter :: motion_tolerance = 1.0e-14_wp
 
   !> Why a motion does not go on.
-  integer, parameter :: no_stop = 0, stop_change_point = 1, stop_no_inertia = 2, stop_too_fast = 3, stop_steps = 4
+  integer, parameter :: no_stop = 0, stop_change_point = 1, stop_no_inertia = 2, stop_too_fast = 3, stop_steps = 4, &
+    stop_many_steps = 5
 
   !> A trial step that turns a link by more than a turn is too long, whatever its error seems to be [rad]; a rate beyond all
   !! mechanics, before it overflows [rad/s].
@@ -34,6 +35,9 @@ module forward_motions
   !> Shares of the inertia of all links: where M is below the first there are no rates; where it is below the second, that is what
   !! makes the steps shrink to nothing.
   real(wp), parameter :: least_inertia = 1.0e-13_wp, little_inertia = 1.0e-10_wp
+
+  !> Nearer than this to where the crank turns back rounding may say that it is on either side: |sin(θ4 − θ3)|.
+  real(wp), parameter :: undecided_sine = 1.0e-12_wp
 
   !> Unknowns: the angles [rad], ṡ [rad/s], work [J].
   integer, parameter :: rate = 4, work = 5, unknowns = 5
@@ -62,6 +66,8 @@ module forward_motions
     real(wp) :: time = 0.0_wp         !! [s]
     real(wp) :: energy = 0.0_wp       !! kinetic and potential, at the start [J]
     integer :: stop = no_stop         !! why it does not go on
+    logical :: is_open = .true.       !! branch; else crossed
+    integer(long) :: most_steps = 1000000_long !! from one instant to the next: some 6,000 turns, and some seconds
     integer :: turning_count = 0
     type(turning_point_t), allocatable :: turnings(:) !! (at least turning_count)
     type(integrator_t) :: integrator
@@ -114,6 +120,7 @@ contains
     if (allocated(error)) return
     motion%system%turns(1) = anint((crank_degrees*degree - motion%state(1))/two_pi)
     call find_point(motion%system%curve, motion%state(1:3), point, is_smooth)
+    motion%is_open = point%sine > 0.0_wp
     motion%state(rate) = speed/point%tangent(1)
     call find_inertia(motion%system%dynamics, point, inertia, slope)
     first = sample_motion(motion)
@@ -167,16 +174,23 @@ contains
     rates(work) = driving*state(rate)
   end subroutine four_bar_rates
 
-  !> Follows the motion up to an instant, which is met exactly unless the motion stops or the run is interrupted.
+  !> Follows the motion up to an instant, which is met exactly unless the motion stops or the run is interrupted. A motion that takes
+  !! too many steps on the way is stopped: it would seem to last for ever, for it is asked for too late, or is too fast.
   subroutine move_until(motion, time)
     type(forward_motion_t), intent(inout) :: motion
     real(wp), intent(in) :: time !! [s]
 
     type(error_t), allocatable :: error
     real(wp) :: before(unknowns), time_before
+    integer(long) :: last_step
 
+    last_step = motion%integrator%steps + motion%most_steps
     do while (motion%time < time .and. motion%stop == no_stop)
       if (was_interrupted()) return
+      if (motion%integrator%steps >= last_step) then
+        motion%stop = stop_many_steps
+        return
+      end if
       before = motion%state
       time_before = motion%time
       motion%system%stop = no_stop
@@ -188,8 +202,8 @@ contains
         end if
         return
       end if
-      if (is_open(motion%state) .neqv. is_open(before)) call note_turning_point(motion, time_before, before)
       call project(motion%system%curve, motion%state(1:3))
+      if (has_changed_branch(motion)) call note_turning_point(motion, time_before, before)
       call reduce(motion%state(1:3), motion%system%turns)
     end do
   end subroutine move_until
@@ -208,16 +222,19 @@ contains
     inertia = inertia/sum(motion%system%dynamics%inertia)
   end function inertia_of
 
-  !> Whether B lies to the left of A → O4: `sin(θ4 − θ3) > 0`.
-  pure function is_open(state)
-    real(wp), intent(in) :: state(:)
-    logical :: is_open
+  !> Whether `sin(θ4 − θ3)`, positive where B lies to the left of A → O4, says that the branch is another one than before.
+  pure function has_changed_branch(motion) result(has)
+    type(forward_motion_t), intent(in) :: motion
+    logical :: has
 
-    is_open = sin(state(3) - state(2)) > 0.0_wp
-  end function is_open
+    real(wp) :: sine
 
-  !> Finds where in the last step `sin(θ4 − θ3)` went through zero: Newton's method within a shrinking interval, each trial one step
-  !! from where the last one began.
+    sine = sin(motion%state(3) - motion%state(2))
+    has = abs(sine) > undecided_sine .and. (sine > 0.0_wp .neqv. motion%is_open)
+  end function has_changed_branch
+
+  !> Notes the change of branch, and where in the last step `sin(θ4 − θ3)` went through zero: Newton's method within a shrinking
+  !! interval, each trial one step from where the last one began. A step that began with nothing but rounding is where it went.
   subroutine note_turning_point(motion, time, before)
     type(forward_motion_t), intent(inout) :: motion
     real(wp), intent(in) :: time              !! at which the step began [s]
@@ -225,33 +242,39 @@ contains
 
     integer, parameter :: most_trials = 60
     type(error_t), allocatable :: error
-    real(wp) :: state(unknowns), rates(unknowns), low, high, step, next, value, start_value
+    real(wp) :: state(unknowns), rates(unknowns), low, high, step, next, value, start_value, slope
     integer :: trial
     logical :: found
 
+    motion%is_open = .not. motion%is_open
     low = 0.0_wp
     high = motion%time - time
     start_value = sin(before(3) - before(2))
     value = sin(motion%state(3) - motion%state(2))
-    step = high*start_value/(start_value - value)
-    do trial = 1, most_trials
+    step = 0.0_wp
+    if (value*start_value < 0.0_wp) step = high*start_value/(start_value - value)
+    state = before
+    do trial = 1, merge(most_trials, 0, value*start_value < 0.0_wp)
       state = before
       call step_by(motion%integrator, motion%system, time, step, state, error)
+      found = .false.
       if (.not. allocated(error)) call motion%system%find_rates(time + step, state, rates, found)
-      if (allocated(error) .or. .not. found) return
+      if (.not. found) exit
       value = sin(state(3) - state(2))
       if (value*start_value > 0.0_wp) then
         low = step
       else
         high = step
       end if
-      next = step - value/(cos(state(3) - state(2))*(rates(3) - rates(2)))
+      slope = cos(state(3) - state(2))*(rates(3) - rates(2))
+      next = -1.0_wp
+      if (abs(slope) > tiny(slope)) next = step - value/slope
       if (abs(next - step) <= 2.0_wp*epsilon(1.0_wp)*(time + step)) exit
-      if (next < low .or. next > high) next = 0.5_wp*(low + high)
+      if (.not. (next >= low .and. next <= high)) next = 0.5_wp*(low + high)
       step = next
     end do
     call append_turning_point(motion, turning_point_t(time + step, state(1)/degree + 360.0_wp*motion%system%turns(1), &
-      is_open(motion%state)))
+      motion%is_open))
   end subroutine note_turning_point
 
   pure subroutine append_turning_point(motion, turning)
@@ -290,7 +313,7 @@ contains
       sample%work = motion%state(work)
       sample%energy_error = sample%kinetic + sample%potential - sample%work - motion%energy
       sample%closure = closure_error(system%curve, angle)
-      sample%is_open = point%sine > 0.0_wp
+      sample%is_open = motion%is_open
     end associate
   end function sample_motion
 

@@ -12,6 +12,7 @@ from glob import glob
 NUMBER = re.compile(rb"(?<![A-Za-z_0-9.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?")
 WORD = re.compile(rb"[A-Za-z][A-Za-z_0-9.'*-]*")
 RANGE = re.compile(rb"([-+0-9.eEdD]+)[a-z/]*(\s+to\s+)([-+0-9.eEdD]+)[a-z/]*(\s+step\s+)([-+0-9.eEdD]+)", re.IGNORECASE)
+MOTION = re.compile(rb"end\s*=\s*([-+0-9.eEdD]+)([a-z]*)(\s+)step\s*=\s*([-+0-9.eEdD]+)([a-z]*)", re.IGNORECASE)
 
 EXTREMES = ["0", "-0", "0.0", "1", "-1", "1e-300", "1e-320", "1e-41", "1e-39", "1e29", "1e30", "1e31", "1e39", "1e308", "1e309",
             "-1e308", "4e-324", "2147483647", "2147483648", "-2147483649", "99999999999999999999", "1e", "1e+", "+", "-", ".", "nan",
@@ -292,7 +293,15 @@ def tame(text):
     def at_most(limit):
         return lambda match: match[1] + (str(limit).encode() if limit < int(match[2]) < 500000 else match[2])
 
+    def briefer(match):
+        try:
+            end, step = (float(part.lower().replace(b"d", b"e")) for part in match.group(1, 4))
+        except ValueError:
+            return match[0]
+        return b"end=%.6g%s%sstep=%s%s" % (2*step, match[5], match[3], match[4], match[5]) if end > 2*step > 0 else match[0]
+
     text = RANGE.sub(fewer, text)
+    text = MOTION.sub(briefer, text)
     # Full matrices, and elements with many unknowns, cost more.
     costly = re.search(rb"(?i)dense|order\s*=\s*\d\d", text)
     text = re.sub(rb"(?i)(elements\s*=\s*)(\d+)(?![.\d])", at_most(MOST_ELEMENTS//(8 if costly else 1)), text)
