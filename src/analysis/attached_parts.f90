@@ -1,10 +1,10 @@
 !> Model → what the bodies of the linkage carry and what loads them, in the axes of mechanics.
 module attached_parts
   use kinds, only: wp
+  use link_bodies, only: link_center, link_inertia
   use link_cards, only: has_own_mass, link_t
   use linkages, only: linkage_t, lump_t
   use models, only: link_mass, model_t
-  use shear, only: link_rotary_inertia
   use text, only: same_word
   implicit none (type, external)
   private
@@ -63,23 +63,15 @@ contains
     end do
   end subroutine add_lumps
 
-  !> A link whose card says what its mass is: what it does not say is that of material and section.
+  !> A link whose card says what its mass is.
   pure function own_lump(model, body) result(lump)
     type(model_t), intent(in) :: model
     integer, intent(in) :: body
     type(lump_t) :: lump
 
-    associate (link => model%links(model%loop(body)))
-      lump%mass = link_mass(model, model%loop(body))
-      lump%place = [0.5_wp*link%length, 0.0_wp]
-      if (link%has_center) lump%place = place_on_body(model, body, link%center)
-      if (link%has_inertia) then
-        lump%inertia = link%inertia
-      else if (is_solid(link)) then
-        lump%inertia = line_density_of(model, link)*link%length**3/12.0_wp + &
-          link_rotary_inertia(model, model%loop(body))*link%length
-      end if
-    end associate
+    lump%mass = link_mass(model, model%loop(body))
+    lump%place = place_on_body(model, body, link_center(model, model%loop(body)))
+    lump%inertia = link_inertia(model, model%loop(body))
   end function own_lump
 
   !> A place on a link in the axes of its body, which may run against the card.

@@ -7,6 +7,7 @@ module deck_checks
   use mechanisms, only: has_beams, has_mesh, mechanism_t, mesh_with, new_mechanism
   use models, only: model_t, needs_frequencies, solver_band, solver_dense
   use modes, only: most_round_off
+  use motion_checks, only: check_motion
   use rest_eigenvalues, only: lowest_rest_eigenvalues
   use round_off, only: round_off_error
   use sorting, only: ascending_order
@@ -52,6 +53,7 @@ contains
       return
     end if
     call check_reach(model, reach, diagnostics)
+    call check_motion(model, mechanism, reach, reachable(reach), diagnostics)
     if (.not. needs_frequencies(model) .or. .not. has_mesh(mechanism) .or. .not. has_beams(mechanism)) return
     ! Where the program chooses orders there are unknowns enough; in deformation coordinates no digits are lost.
     if (mechanism%accuracy > 0.0_wp) return

@@ -131,8 +131,8 @@ contains
       if (.not. has_errors(mine) .and. model%modes /= first%modes) then
         call add_error(mine, model%modes_word, "all variants must have as many modes: they are columns of one table")
       else if (.not. has_errors(mine) .and. model%effects /= first%effects) then
-        call add_error(mine, deck_cards%variations(1)%name, "of this variant and the first one, one stands still and one "// &
-          "moves: EFFECTS must say whether axial forces act")
+        call add_error(mine, deck_cards%variations(1)%name, "of this variant and the first one, one stands still without "// &
+          "loads and one does not: EFFECTS must say whether axial forces act")
       end if
       call take_warnings(mine, variant_text(deck_cards, number), diagnostics)
       if (.not. has_errors(mine)) cycle

@@ -82,7 +82,7 @@ contains
           section => model%sections(links(i)%section))
         beam%axial_stiffness = material%youngs_modulus*section%area
         beam%bending_stiffness = material%youngs_modulus*section%second_moment
-        if (.not. links(i)%rigid) beam%shear_stiffness = link_shear_stiffness(model, model%loop(i))
+        beam%shear_stiffness = link_shear_stiffness(model, model%loop(i))
       end associate
     end do
   end subroutine add_beams

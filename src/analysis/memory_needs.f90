@@ -69,10 +69,11 @@ contains
     speeds = size(model%speed%value)
     if (model%effects == effects_static) speeds = 1
     rows = real(size(model%crank%value), wp)*speeds
-    needs(of_results)%place = model%crank%words(1)
+    needs(of_results)%place = model%reports(1)%keyword
+    if (size(model%crank%words) > 0) needs(of_results)%place = model%crank%words(1)
     needs(of_results)%what = "the results at "//plural(size(model%crank%value), "position")
     needs(of_results)%bytes = size(model%crank%value)*of_pose
-    if (all(model%links%mesh > 0)) call add_mesh(model, threads, needs)
+    if (any(model%links%mesh > 0) .and. all(model%links%mesh > 0 .or. model%links%rigid)) call add_mesh(model, threads, needs)
     if (.not. needs_frequencies(model)) return
     needs(of_results)%what = needs(of_results)%what//" and "//plural(speeds, "speed")
     needs(of_results)%bytes = needs(of_results)%bytes + size(model%crank%value)*of_position + rows*(of_speed + 2*model%modes*number)
@@ -126,18 +127,21 @@ contains
 
     !> Copies of the numbers of unknowns, each of four bytes; numbers with every element (forces, masses).
     real(wp), parameter :: copies = 3.0_wp, of_element = 20.0_wp
-    integer :: elements(size(model%links)), order(size(model%links)), finest
+    integer, allocatable :: links(:), elements(:), order(:)
+    integer :: finest, i
     real(wp) :: unknowns
 
-    elements = model%meshes(model%links%mesh)%elements
-    order = model%meshes(model%links%mesh)%order
+    ! Rigid links have no mesh.
+    links = pack([(i, i=1, size(model%links))], model%links%mesh > 0)
+    elements = model%meshes(model%links(links)%mesh)%elements
+    order = model%meshes(model%links(links)%mesh)%order
     finest = maxloc(elements*bending_unknowns(order, model%shear), dim=1)
-    needs(of_mesh)%place = model%meshes(model%links(finest)%mesh)%keyword
+    needs(of_mesh)%place = model%meshes(model%links(links(finest))%mesh)%keyword
     needs(of_matrices)%place = needs(of_mesh)%place
     needs(of_mesh)%what = plural(sum(elements), "element")
     needs(of_mesh)%bytes = sum(real(elements, wp))*(copies*4*maxval(element_unknowns(order, model%shear)) + of_element*number)
     if (.not. needs_frequencies(model)) return
-    select case (chosen_method(model%solver, any(model%meshes(model%links%mesh)%accuracy > 0.0_wp), elements, order, &
+    select case (chosen_method(model%solver, any(model%meshes(model%links(links)%mesh)%accuracy > 0.0_wp), elements, order, &
       model%shear))
     case (by_dense)
       unknowns = nodal_unknowns(elements, order, model%shear)

@@ -65,6 +65,7 @@ contains
     integer :: body, i
 
     do body = 1, size(mechanism%names)
+      if (.not. mechanism%linkage%bodies(body)%bends) cycle
       associate (this => mechanism%linkage%bodies(body), mesh => mechanism%mesh)
         length = element_length(mesh, mechanism%linkage, body)
         half_mass = 0.5_wp*this%line_density*length

@@ -72,9 +72,11 @@ contains
       line%origin = ""
     case ("mesh")
       if (entry_number(card, "order") == 0 .and. entry_number(card, "accuracy") == 0) call append_default(line, "order=3")
+    case ("mass", "point")
+      if (entry_number(card, "offset") == 0) call append_default(line, "offset=0")
     case ("report")
-      if (.not. same_word(card%words(1)%text, "shapes")) return
-      if (entry_number(card, "points") == 0) call append_default(line, "points=21")
+      if (same_word(card%words(1)%text, "shapes") .and. entry_number(card, "points") == 0) call append_default(line, "points=21")
+      if (same_word(card%words(1)%text, "motion") .and. entry_number(card, "speed") == 0) call append_default(line, "speed=0")
     end select
   end function echo_card
 

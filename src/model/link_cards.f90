@@ -1,6 +1,6 @@
 !> LINK: a beam of a material and a section, or a rigid body of any shape.
 module link_cards
-  use card_reader, only: check_form, entry_number, read_entry_quantity, read_name, refuse_negative, require_positive
+  use card_reader, only: check_form, entry_number, has_key, read_entry_quantity, read_name, refuse_negative, require_positive
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
@@ -113,15 +113,20 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(link_t), intent(inout) :: link
 
+    logical :: fine
     integer :: i
 
-    call read_entry_quantity(card, "mass", dimension_mass, system, .false., diagnostics, link%mass, link%has_mass)
-    if (link%has_mass) call refuse_negative(card%entries(entry_number(card, "mass"))%value, link%mass, "a mass", diagnostics)
-    call read_entry_quantity(card, "inertia", dimension_inertia, system, .false., diagnostics, link%inertia, link%has_inertia)
-    if (link%has_inertia) then
+    ! A key whose value is wrong is there all the same: nothing else is told to be missing.
+    link%has_mass = has_key(card, "mass")
+    link%has_inertia = has_key(card, "inertia")
+    link%has_center = has_key(card, "center")
+    call read_entry_quantity(card, "mass", dimension_mass, system, .false., diagnostics, link%mass, fine)
+    if (fine) call refuse_negative(card%entries(entry_number(card, "mass"))%value, link%mass, "a mass", diagnostics)
+    call read_entry_quantity(card, "inertia", dimension_inertia, system, .false., diagnostics, link%inertia, fine)
+    if (fine) then
       call refuse_negative(card%entries(entry_number(card, "inertia"))%value, link%inertia, "a moment of inertia", diagnostics)
     end if
-    call read_entry_pair(card, "center", "along,offset", dimension_length, system, diagnostics, link%center, link%has_center)
+    call read_entry_pair(card, "center", "along,offset", dimension_length, system, diagnostics, link%center, fine)
     do i = size(card%entries), 1, -1
       associate (key => card%entries(i)%key)
         if (same_word(key%text, "mass") .or. same_word(key%text, "inertia") .or. same_word(key%text, "center")) link%body_word = key

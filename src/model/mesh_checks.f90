@@ -3,9 +3,8 @@ module mesh_checks
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
-  use models, only: inertia_lumped, model_t, needs_loads, report_number, solver_band, solver_dense
+  use models, only: inertia_lumped, model_t, needs_inertia, solver_band, solver_dense
   use request_checks, only: has_card
-  use requests, only: report_inertia
   use text, only: lower_case
   implicit none (type, external)
   private
@@ -84,7 +83,7 @@ contains
     integer, intent(in) :: accurate
 
     if (model%inertia /= inertia_lumped) return
-    if (report_number(model, report_inertia) == 0 .and. .not. needs_loads(model)) return
+    if (.not. needs_inertia(model)) return
     associate (mesh => model%meshes(accurate))
       if (mesh%keyword%line == 0) then
         call add_error(diagnostics, model%inertia_word, "there is no MESH card, and lumped inertia needs one with 'elements='; "// &

@@ -9,7 +9,7 @@ module model_reader
   use linkage_cards, only: set_default_mesh
   use loop_finder, only: find_loop
   use mesh_checks, only: check_meshes
-  use models, only: is_moving, model_t, needs_mesh
+  use models, only: is_loaded, is_moving, model_t, needs_mesh
   use name_checks, only: check_names
   use numbers, only: read_integer
   use part_reader, only: read_parts
@@ -202,7 +202,7 @@ contains
       end select
     end do
     model%effects = effects%loads
-    if (effects%loads == 0) model%effects = merge(effects_axial, effects_static, is_moving(model))
+    if (effects%loads == 0) model%effects = merge(effects_axial, effects_static, is_moving(model) .or. is_loaded(model))
     model%rotary = effects%rotary
     model%shear = effects%shear
     model%shear_word = effects%shear_word

@@ -4,13 +4,13 @@ module models
   use card_echo, only: echo_line_t
   use effect_cards, only: effects_axial, effects_static
   use kinds, only: wp
-  use link_cards, only: link_t
+  use link_cards, only: has_own_mass, link_t
   use linkage_cards, only: ground_t, mesh_t, pin_mass_t
   use load_cards, only: force_card_t, torque_card_t
   use materials, only: material_t
   use motor_cards, only: motor_t, resistance_t
-  use requests, only: report_branches, report_frequencies, report_inertia, report_linkage, report_mesh, report_motion, &
-    report_shapes, report_t
+  use requests, only: report_balance, report_branches, report_frequencies, report_inertia, report_lagrange, &
+    report_linkage, report_mesh, report_motion, report_reactions, report_shapes, report_t
   use sections, only: section_t
   use tokens, only: token_t
   use units, only: unit_system_t
@@ -18,7 +18,8 @@ module models
   implicit none (type, external)
   private
 
-  public :: model_t, report_number, needs_positions, is_moving, needs_loads, needs_frequencies, needs_beams, needs_mesh, link_mass
+  public :: model_t, report_number, needs_positions, is_moving, is_loaded, needs_loads, needs_inertia, needs_frequencies, &
+    needs_beams, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
@@ -100,6 +101,20 @@ contains
     is = any(abs(model%speed%value) > 0.0_wp) .or. abs(model%acceleration) > 0.0_wp
   end function is_moving
 
+  !> Whether anything but motion loads the linkage: gravity, forces on pins, torques on links.
+  pure function is_loaded(model) result(is)
+    type(model_t), intent(in) :: model
+    logical :: is
+
+    integer :: i
+
+    is = any(abs(model%gravity) > 0.0_wp)
+    do i = 1, size(model%forces)
+      is = is .or. any(abs(model%forces(i)%force) > 0.0_wp)
+    end do
+    is = is .or. any(abs(model%torques%torque) > 0.0_wp)
+  end function is_loaded
+
   !> Whether frequencies are asked for, by themselves, with their shapes or along their branches.
   pure function needs_frequencies(model) result(needs)
     type(model_t), intent(in) :: model
@@ -117,21 +132,61 @@ contains
     needs = needs_frequencies(model) .or. report_number(model, report_mesh) > 0
   end function needs_beams
 
+  !> Number of the first report that is about masses and their loads; 0 if none is asked for.
+  pure function report_of_masses(model) result(number)
+    type(model_t), intent(in) :: model
+    integer :: number
+
+    do number = 1, size(model%reports)
+      select case (model%reports(number)%kind)
+      case (report_inertia, report_reactions, report_lagrange, report_balance, report_motion)
+        return
+      end select
+    end do
+    number = 0
+  end function report_of_masses
+
+  pure function needs_masses(model) result(needs)
+    type(model_t), intent(in) :: model
+    logical :: needs
+
+    needs = report_of_masses(model) > 0
+  end function needs_masses
+
+  !> Whether lumped masses of a link sit on nodes: a link that is rigid or has a mass of its own has no nodes.
+  elemental function bears_lumped_masses(link) result(bears)
+    type(link_t), intent(in) :: link
+    logical :: bears
+
+    bears = .not. (link%rigid .or. has_own_mass(link))
+  end function bears_lumped_masses
+
   !> Whether the links are divided: for beams, and for lumped masses, which sit on nodes.
   pure function needs_mesh(model) result(needs)
     type(model_t), intent(in) :: model
     logical :: needs
 
-    needs = needs_beams(model) .or. (model%inertia == inertia_lumped .and. report_number(model, report_inertia) > 0)
+    needs = needs_beams(model)
+    if (model%inertia == inertia_lumped .and. needs_masses(model)) needs = needs .or. any(bears_lumped_masses(model%links))
   end function needs_mesh
 
-  !> Whether the frequencies asked for feel the loads of the motion.
+  !> Whether the frequencies asked for feel loads, of the motion or constant ones.
   pure function needs_loads(model) result(needs)
     type(model_t), intent(in) :: model
     logical :: needs
 
-    needs = needs_frequencies(model) .and. model%effects == effects_axial .and. is_moving(model)
+    needs = needs_frequencies(model) .and. model%effects == effects_axial .and. (is_moving(model) .or. is_loaded(model))
   end function needs_loads
+
+  !> Whether it matters how the mass of links makes loads, which INERTIA says.
+  pure function needs_inertia(model) result(needs)
+    type(model_t), intent(in) :: model
+    logical :: needs
+
+    needs = needs_frequencies(model) .and. model%effects == effects_axial .and. &
+      (is_moving(model) .or. any(abs(model%gravity) > 0.0_wp))
+    needs = (needs .or. needs_masses(model)) .and. any(bears_lumped_masses(model%links))
+  end function needs_inertia
 
   !> Mass of a link of the deck, its own or that of material and section; 0 if it has neither [kg].
   pure function link_mass(model, link) result(mass)

@@ -3,13 +3,14 @@ module request_checks
   use cards, only: card_t
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use kinds, only: wp
-  use models, only: effects_static, inertia_none, is_moving, model_t, needs_beams, needs_frequencies, needs_loads, needs_mesh, &
-    needs_positions, report_number
-  use requests, only: report_branches, report_frequencies, report_inertia, report_kinds, report_shapes
+  use models, only: effects_static, is_loaded, is_moving, model_t, needs_frequencies, needs_positions, report_number
+  use report_needs, only: check_report_needs
+  use requests, only: report_kinds, report_motion, report_shapes
   use spelling, only: nearest_word
-  use text, only: joined, same_word, string_t, to_string, word_list
+  use text, only: joined, same_word, string_t, to_string, upper_case, word_list
   use tokens, only: token_t
   use value_lists, only: value_list_t, value_number
+  use vibration_checks, only: check_vibrations
   implicit none (type, external)
   private
 
@@ -39,7 +40,11 @@ contains
       call missing("there are no "//trim(merge("GROUND", "LINK  ", .not. has_card(cards, "GROUND")))// &
         " cards: no linkage is described")
     end if
-    if (.not. has_card(cards, "DRIVE")) call missing("the linkage is not driven; expected: DRIVE link")
+    if (.not. has_card(cards, "DRIVE") .and. model%motor%keyword%line > 0) then
+      call add_error(diagnostics, model%motor%keyword, "a motor needs a driven link; expected: DRIVE link")
+    else if (.not. has_card(cards, "DRIVE")) then
+      call missing("the linkage is not driven; expected: DRIVE link")
+    end if
     if (needs_positions(model) .and. .not. has_card(cards, "CRANK")) then
       call missing("there is no CRANK card; expected: CRANK a to b step s, or a list of angles")
     end if
@@ -100,49 +105,14 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
-    call check_what_reports_need(diagnostics, model)
+    call check_report_needs(diagnostics, model)
+    call check_vibrations(diagnostics, model)
     call check_modes(diagnostics, model)
     call check_shapes(diagnostics, model)
     call warn_of_stocky_links(diagnostics, model)
-    call warn_of_static_speeds(cards, diagnostics, model)
+    call warn_of_static_loads(cards, diagnostics, model)
+    call warn_of_idle_motors(diagnostics, model)
   end subroutine check_requests
-
-  !> Beams need material, section and mesh; loads need INERTIA.
-  pure subroutine check_what_reports_need(diagnostics, model)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(in) :: model
-
-    character(len=:), allocatable :: lacking
-    integer :: i, inertia
-    logical :: mass, mesh !! whether a report needs them
-
-    inertia = report_number(model, report_inertia)
-    mass = needs_beams(model) .or. inertia > 0
-    mesh = needs_mesh(model)
-    do i = 1, size(model%links)
-      associate (link => model%links(i))
-        lacking = ""
-        if (mass .and. link%material_name%line == 0) lacking = lacking//" material"
-        if (mass .and. link%section_name%line == 0) lacking = lacking//" section"
-        if (mesh .and. link%mesh == 0) lacking = lacking//" mesh"
-        if (len(lacking) > 0) then
-          call add_error(diagnostics, link%name, "link '"//link%name%text//"' has no "// &
-            joined(word_list(lacking(2:)), ", no ")//"; the reports asked for need "// &
-            trim(merge("it  ", "them", index(lacking(2:), " ") == 0)))
-        end if
-      end associate
-    end do
-    if (model%inertia /= inertia_none) return
-    if (inertia > 0) then
-      call add_error(diagnostics, model%reports(inertia)%keyword, &
-        "this report uses inertia loads, and there is no INERTIA card; expected: INERTIA lumped or INERTIA distributed")
-    else if (needs_loads(model)) then
-      call add_error(diagnostics, model%reports(max(report_number(model, report_frequencies), &
-        report_number(model, report_shapes), report_number(model, report_branches)))%keyword, &
-        "frequencies under the loads of the motion are asked for, and there is no INERTIA card; "// &
-        "expected: INERTIA lumped or INERTIA distributed")
-    end if
-  end subroutine check_what_reports_need
 
   pure subroutine check_modes(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
@@ -196,7 +166,7 @@ contains
     if (.not. needs_frequencies(model) .or. (model%rotary .and. model%shear)) return
     do i = 1, size(model%links)
       associate (link => model%links(i))
-        if (link%section == 0 .or. link%length <= 0.0_wp) cycle
+        if (link%section == 0 .or. link%length <= 0.0_wp .or. link%rigid) cycle
         associate (depth => model%sections(link%section)%depth)
           if (depth <= 0.0_wp .or. link%length >= least_slenderness*depth) cycle
           call add_warning(diagnostics, link%length_word, "link '"//link%name%text//"' is only "// &
@@ -207,19 +177,53 @@ contains
     end do
   end subroutine warn_of_stocky_links
 
-  pure subroutine warn_of_static_speeds(cards, diagnostics, model)
+  pure subroutine warn_of_static_loads(cards, diagnostics, model)
     type(card_t), intent(in) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
     integer :: i
 
-    if (model%effects /= effects_static .or. .not. is_moving(model) .or. .not. needs_frequencies(model)) return
+    character(len=:), allocatable :: what, cards_at_fault
+
+    if (model%effects /= effects_static .or. .not. needs_frequencies(model)) return
+    if (.not. is_moving(model) .and. .not. is_loaded(model)) return
+    if (.not. is_loaded(model)) then
+      what = "the speed"
+      cards_at_fault = "SPEED says"
+    else if (.not. is_moving(model)) then
+      what = "loads"
+      cards_at_fault = "GRAVITY, FORCE and TORQUE say"
+    else
+      what = "speed and loads"
+      cards_at_fault = "SPEED, GRAVITY, FORCE and TORQUE say"
+    end if
     do i = 1, size(cards)
       if (.not. same_word(cards(i)%keyword%text, "EFFECTS")) cycle
-      call add_warning(diagnostics, cards(i)%keyword, &
-        "static frequencies do not depend on the speed: they are computed once, whatever SPEED says")
+      call add_warning(diagnostics, cards(i)%keyword, "static frequencies do not depend on "//what// &
+        ": they are computed once, whatever "//cards_at_fault)
     end do
-  end subroutine warn_of_static_speeds
+  end subroutine warn_of_static_loads
+
+  !> What drives a motion and what resists it says nothing where the crank angle is prescribed.
+  pure subroutine warn_of_idle_motors(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: i
+
+    if (report_number(model, report_motion) > 0) return
+    if (model%motor%keyword%line > 0) call warn_of_idle_card(diagnostics, model%motor%keyword)
+    do i = 1, size(model%resistances)
+      call warn_of_idle_card(diagnostics, model%resistances(i)%keyword)
+    end do
+  end subroutine warn_of_idle_motors
+
+  pure subroutine warn_of_idle_card(diagnostics, keyword)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(token_t), intent(in) :: keyword
+
+    call add_warning(diagnostics, keyword, upper_case(keyword%text)//" serves REPORT motion only, which is not asked for")
+  end subroutine warn_of_idle_card
 
 end module request_checks

@@ -36,7 +36,7 @@ contains
     end select
   end function shear_coefficient
 
-  !> kGA of a link of the deck; 0 where shear is not asked for or the link is no beam [N].
+  !> kGA of a link of the deck; 0 where shear is not asked for or the link does not bend [N].
   pure function link_shear_stiffness(model, link) result(stiffness)
     type(model_t), intent(in) :: model
     integer, intent(in) :: link
@@ -44,7 +44,7 @@ contains
 
     stiffness = 0.0_wp
     associate (this => model%links(link))
-      if (.not. model%shear .or. this%material == 0 .or. this%section == 0) return
+      if (.not. model%shear .or. this%rigid .or. this%material == 0 .or. this%section == 0) return
       associate (material => model%materials(this%material), section => model%sections(this%section))
         if (.not. material%has_ratio) return
         stiffness = shear_coefficient(section, material%poissons_ratio)*material%youngs_modulus/ &
@@ -53,7 +53,7 @@ contains
     end associate
   end function link_shear_stiffness
 
-  !> ρI of a link of the deck; 0 where rotary inertia is not asked for or the link is no beam [kg m].
+  !> ρI of a link of the deck; 0 where rotary inertia is not asked for or the link has no section [kg m].
   pure function link_rotary_inertia(model, link) result(inertia)
     type(model_t), intent(in) :: model
     integer, intent(in) :: link
@@ -76,7 +76,7 @@ contains
     if (.not. model%shear .or. .not. needs_frequencies(model)) return
     do i = 1, size(model%materials)
       associate (material => model%materials(i))
-        if (material%has_ratio .or. .not. any(model%links%material == i)) cycle
+        if (material%has_ratio .or. .not. any(model%links%material == i .and. .not. model%links%rigid)) cycle
         call add_error(diagnostics, material%name, "material '"//material%name%text//"' has no 'nu=', and the shear modulus "// &
           "E/(2(1 + nu)) needs it", model%shear_word, "shear is asked for here")
       end associate
@@ -84,7 +84,7 @@ contains
     do i = 1, size(model%sections)
       associate (section => model%sections(i))
         if (section%shape /= shape_general .or. section%shear_word%line > 0) cycle
-        if (.not. any(model%links%section == i)) cycle
+        if (.not. any(model%links%section == i .and. .not. model%links%rigid)) cycle
         call add_error(diagnostics, section%name, "section '"//section%name%text//"' is general, and its shear coefficient "// &
           "cannot be derived: expected 'shear_coefficient='", model%shear_word, "shear is asked for here")
       end associate

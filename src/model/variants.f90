@@ -65,7 +65,7 @@ contains
       associate (setting => deck%settings%list(i))
         if (.not. setting%is_varied .or. size(deck%fixed(setting%card)%words) < 2) cycle
         count = count + 1
-        call read_variation(deck%fixed(setting%card), i, diagnostics, list(count))
+        call read_variation(deck%fixed(setting%card), i, deck%fixed, diagnostics, list(count))
         if (.not. any(deck%slots%setting == i) .and. all_found) then
           call add_error(diagnostics, setting%name, "no card uses '$"//setting%name%text//"': all variants would be the same")
         end if

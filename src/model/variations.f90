@@ -4,7 +4,7 @@ module variations
   use diagnostics, only: add_error, diagnostics_t, error_count
   use kinds, only: wp
   use numbers, only: number_length, shortest_text
-  use text, only: same_word
+  use text, only: lower_case, same_word
   use tokens, only: token_part, token_t
   use units, only: dimension_length, dimension_mass, dimension_none, dimension_time, new_unit_system, read_unit, unit_system_t, &
     unit_t
@@ -26,9 +26,10 @@ module variations
 contains
 
   !> Reads `VARY name a to b step s` and lists of numbers, as on the CRANK card. There are no values if the card is wrong.
-  pure subroutine read_variation(card, setting, diagnostics, variation)
+  pure subroutine read_variation(card, setting, cards, diagnostics, variation)
     type(card_t), intent(in) :: card !! of two words at least, with values in place of `$name`
     integer, intent(in) :: setting
+    type(card_t), intent(in) :: cards(:) !! of the deck
     type(diagnostics_t), intent(inout) :: diagnostics
     type(variation_t), intent(out) :: variation
 
@@ -43,7 +44,7 @@ contains
     allocate (variation%value(0), variation%word(0))
     words = card%words(2:)
     errors = error_count(diagnostics)
-    if (is_column(variation%name%text)) call add_error(diagnostics, variation%name, "'"//variation%name%text// &
+    if (is_column(variation%name%text, cards)) call add_error(diagnostics, variation%name, "'"//variation%name%text// &
       "' is a column of the tables; what varies needs a name of its own, for it becomes a column, too")
     call take_unit(words, diagnostics, variation%unit, fine)
     if (.not. fine) return
@@ -58,19 +59,55 @@ contains
     end do
   end subroutine read_variation
 
-  !> Whether a name stands at the head of a column of some table.
-  pure function is_column(name) result(is)
+  !> Whether a name stands at the head of a column of some table. That of the newer reports is told only where they are asked for:
+  !! `M`, `load` or `time` may vary elsewhere.
+  pure function is_column(name, cards) result(is)
     character(len=*), intent(in) :: name
+    type(card_t), intent(in) :: cards(:) !! of the deck
     logical :: is
 
     character(len=*), parameter :: columns = " speed crank theta3 theta4 omega3 omega4 alpha3 alpha4 Ax Ay Bx By "// &
       "transmission_angle mass link x y ax ay Fx Fy m moment element node_a node_b xa ya xb yb mass_a mass_b mode frequency s "// &
       "ux uy rotation branch mac event failure "
+    integer :: i
 
-    is = index(columns, " "//name//" ") > 0
-    if (len(name) > 1 .and. name(:1) == "f") is = is .or. verify(name(2:), "0123456789") == 0
-    if (len(name) > 5 .and. index(name, "error") == 1) is = is .or. verify(name(6:), "0123456789") == 0
+    is = index(columns, " "//name//" ") > 0 .or. is_numbered(name, "f") .or. is_numbered(name, "error")
+    do i = 1, size(cards)
+      if (.not. same_word(cards(i)%keyword%text, "REPORT") .or. size(cards(i)%words) == 0) cycle
+      is = is .or. index(columns_of(lower_case(cards(i)%words(1)%text)), " "//name//" ") > 0
+      if (same_word(cards(i)%words(1)%text, "balance")) is = is .or. is_numbered(name, "h") .or. is_numbered(name, "phase")
+    end do
   end function is_column
+
+  !> Columns of the tables of rigid dynamics.
+  pure function columns_of(report) result(columns)
+    character(len=*), intent(in) :: report
+    character(len=:), allocatable :: columns
+
+    columns = ""
+    select case (report)
+    case ("reactions")
+      columns = " O2x O2y A2x A2y A3x A3y B3x B3y B4x B4y O4x O4y torque shaking_x shaking_y shaking_moment "
+    case ("points")
+      columns = " point vx vy "
+    case ("lagrange")
+      columns = " M dM V gravity load torque kinetic potential "
+    case ("balance")
+      columns = " xG yG shaking_x shaking_y shaking_moment torque balanced_x balanced_y balanced_moment balanced_torque "// &
+        "linkage quantity largest rms mean "
+    case ("motion")
+      columns = " time omega2 torque kinetic potential work energy_error closure "
+    end select
+  end function columns_of
+
+  !> Whether a name is a word with a number behind it.
+  pure function is_numbered(name, word) result(is)
+    character(len=*), intent(in) :: name, word
+    logical :: is
+
+    is = .false.
+    if (len(name) > len(word) .and. index(name, word) == 1) is = verify(name(len(word) + 1:), "0123456789") == 0
+  end function is_numbered
 
   !> Takes the unit off the numbers: all have the same one, or none has, or it stands behind them all.
   pure subroutine take_unit(words, diagnostics, unit, fine)

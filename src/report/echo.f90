@@ -2,12 +2,14 @@
 module echo
   use card_echo, only: echo_line_t
   use kinds, only: wp
+  use link_bodies, only: link_center, link_inertia
+  use link_cards, only: has_own_mass
   use models, only: effects_axial, link_mass, model_t
   use shear, only: link_rotary_inertia, link_shear_stiffness, shear_coefficient
   use text, only: character_count, same_word, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
-  use units, only: coherent_unit, dimension_area, dimension_force, dimension_mass, dimension_rotary_inertia, &
-    dimension_second_moment, from_si, unit_t
+  use units, only: coherent_unit, dimension_area, dimension_force, dimension_inertia, dimension_length, dimension_mass, &
+    dimension_rotary_inertia, dimension_second_moment, from_si, unit_t
   implicit none (type, external)
   private
 
@@ -90,12 +92,33 @@ contains
       end associate
     end do
     do i = 1, size(model%links)
-      if (link_mass(model, i) <= 0.0_wp) cycle
+      if (has_own_mass(model%links(i))) call append_body(buffer, model, i, derived)
+      if (link_mass(model, i) <= 0.0_wp .or. has_own_mass(model%links(i))) cycle
       call append_text(buffer, derived//" link "//model%links(i)%name%text//": mass = "// &
         to_string(from_si(link_mass(model, i), mass), 15)//" "//mass%name//achar(10))
       call append_thickness(buffer, model, i, derived)
     end do
   end subroutine append_derived
+
+  !> What a link with a mass of its own is as a rigid body.
+  pure subroutine append_body(buffer, model, link, derived)
+    type(text_buffer_t), intent(inout) :: buffer
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: link
+    character(len=*), intent(in) :: derived !! that begins the line
+
+    type(unit_t) :: length, mass, inertia
+    real(wp) :: center(2)
+
+    length = coherent_unit(model%units, dimension_length)
+    mass = coherent_unit(model%units, dimension_mass)
+    inertia = coherent_unit(model%units, dimension_inertia)
+    center = from_si(link_center(model, link), length)
+    call append_text(buffer, derived//" link "//model%links(link)%name%text//": mass = "// &
+      to_string(from_si(link_mass(model, link), mass), 15)//" "//mass%name//", moment of inertia = "// &
+      to_string(from_si(link_inertia(model, link), inertia), 15)//" "//inertia%name//" about its mass centre, "// &
+      to_string(center(1), 15)//" along and "//to_string(center(2), 15)//" "//length%name//" beside it"//achar(10))
+  end subroutine append_body
 
   !> Rotary inertia and shear stiffness of a link, where they are asked for.
   pure subroutine append_thickness(buffer, model, link, derived)

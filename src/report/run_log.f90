@@ -4,11 +4,14 @@ module run_log
   use kinds, only: wp
   use models, only: branch_crossed, inertia_distributed, inertia_lumped, link_mass, model_t, needs_frequencies
   use text, only: plural, to_string
-  use units, only: coherent_unit, dimension_mass, dimension_length, from_si, unit_t
+  use units, only: coherent_unit, dimension_acceleration, dimension_force, dimension_length, dimension_mass, dimension_moment, &
+    from_si, unit_t
   implicit none (type, external)
   private
 
   public :: model_summary
+
+  character(len=*), parameter :: line_feed = achar(10)
 
 contains
 
@@ -17,7 +20,6 @@ contains
     type(model_t), intent(in) :: model
     character(len=:), allocatable :: text
 
-    character(len=*), parameter :: line_feed = achar(10)
     character(len=:), allocatable :: where_to
     type(unit_t) :: length, mass
     integer :: i
@@ -34,11 +36,16 @@ contains
         if (link_mass(model, model%loop(i)) > 0.0_wp) then
           text = text//", mass "//to_string(from_si(link_mass(model, model%loop(i)), mass), 12)//" "//mass%name
         end if
+        if (link%rigid) text = text//", rigid"
         text = text//line_feed
       end associate
     end do
     do i = 1, size(model%pin_masses)
       text = text//"mass at pin "//model%pin_masses(i)%pin%text//": "//to_string(from_si(model%pin_masses(i)%mass, mass), 12)// &
+        " "//mass%name//line_feed
+    end do
+    do i = 1, size(model%masses)
+      text = text//"mass on link "//model%masses(i)%link_name%text//": "//to_string(from_si(model%masses(i)%mass, mass), 12)// &
         " "//mass%name//line_feed
     end do
     if (total_mass(model) > 0.0_wp) then
@@ -47,13 +54,45 @@ contains
     text = text//"branch: "//trim(merge("crossed", "open   ", model%branch == branch_crossed))//line_feed
     if (model%inertia == inertia_lumped) text = text//"inertia loads: lumped"//line_feed
     if (model%inertia == inertia_distributed) text = text//"inertia loads: distributed"//line_feed
+    text = text//load_lines(model)
     if (needs_frequencies(model)) then
       text = text//"effects: "//effect_words(model%effects, model%rotary, model%shear)//line_feed
     end if
     text = text//plural(size(model%crank%value), "crank angle")//", "//plural(size(model%speed%value), "speed")//line_feed
   end function model_summary
 
-  !> Mass of all links and pins that the deck gives a mass [kg].
+  !> Constant loads, a line each.
+  pure function load_lines(model) result(text)
+    type(model_t), intent(in) :: model
+    character(len=:), allocatable :: text
+
+    type(unit_t) :: acceleration, force, moment
+    integer :: i
+
+    acceleration = coherent_unit(model%units, dimension_acceleration)
+    force = coherent_unit(model%units, dimension_force)
+    moment = coherent_unit(model%units, dimension_moment)
+    text = ""
+    if (model%gravity_word%line > 0) text = "gravity: "//pair_text(model%gravity, acceleration)//line_feed
+    do i = 1, size(model%forces)
+      text = text//"force at pin "//model%forces(i)%pin%text//": "//pair_text(model%forces(i)%force, force)//line_feed
+    end do
+    do i = 1, size(model%torques)
+      text = text//"torque on link "//model%torques(i)%link_name%text//": "// &
+        to_string(from_si(model%torques(i)%torque, moment), 12)//" "//moment%name//line_feed
+    end do
+  end function load_lines
+
+  !> `0, -9810 mm/s2`
+  pure function pair_text(pair, measure) result(text)
+    real(wp), intent(in) :: pair(2) !! [SI]
+    type(unit_t), intent(in) :: measure
+    character(len=:), allocatable :: text
+
+    text = to_string(from_si(pair(1), measure), 12)//", "//to_string(from_si(pair(2), measure), 12)//" "//measure%name
+  end function pair_text
+
+  !> Mass of all links and pins that the deck gives a mass, and of what sits on links [kg].
   pure function total_mass(model) result(mass)
     type(model_t), intent(in) :: model
     real(wp) :: mass
@@ -65,6 +104,7 @@ contains
       mass = mass + link_mass(model, i)
     end do
     if (size(model%pin_masses) > 0) mass = mass + sum(model%pin_masses%mass)
+    if (size(model%masses) > 0) mass = mass + sum(model%masses%mass)
   end function total_mass
 
 end module run_log
