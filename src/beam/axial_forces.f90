@@ -3,8 +3,8 @@
 !! At a mass along the link the force jumps. Jumps are told apart from the rest, which is smooth: a force from the first pin up to
 !! the mass.
 !!
-!! Of a link that does not bend one number counts, its mean: turned by ψ, its dead loads F at places r do the work `−½ ψ² Σ F·r`, and
-!! `Σ F·r`, which is `∫ N dx` of a slender link, is L times that mean.
+!! Of a link that does not bend one number counts, its mean: turned by ψ, its dead loads F at places r do the work `−½ ψ² Σ F·r`,
+!! and `Σ F·r`, which is `∫ N dx` of a slender link, is L times that mean.
 module axial_forces
   use beam_mesh, only: beam_mesh_t, element_count, element_length
   use inertia_loads, only: load_t, lumped_masses, lumped_stations
