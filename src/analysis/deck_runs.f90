@@ -12,6 +12,8 @@ module deck_runs
   use interruption, only: was_interrupted
   use link_store, only: link_store_t
   use models, only: solver_band
+  use motion_report, only: motion_log
+  use motion_runs, only: has_motion, motion_rows_of
   use omp_lib, only: omp_get_thread_num
   use program_version, only: version_number
   use progress, only: end_progress, progress_t, show_progress, start_progress
@@ -199,7 +201,8 @@ contains
     type(progress_t) :: silent
     integer :: first, last, at_a_time, outer, i
 
-    at_a_time = max(1, min(most_at_a_time, rows_at_a_time/max(1, size(deck%model%crank%value)*size(deck%model%speed%value))))
+    at_a_time = max(1, min(most_at_a_time, rows_at_a_time/max(1, size(deck%model%crank%value)*size(deck%model%speed%value) + &
+      motion_rows_of(deck%model))))
     outer = options%threads
     ! ARPACK serves one thread at a time.
     if (size(deck%model%crank%value) > many_positions .or. deck%model%solver == solver_band) outer = 1
@@ -280,6 +283,7 @@ contains
     do i = 1, size(notes)
       text = text//notes(i)%text//line_feed
     end do
+    if (has_motion(run%motion)) text = text//motion_log(run%motion)
     if (allocated(run%sweep%results)) text = text//sweep_summary(run%sweep, run%mechanism%mesh)
   end function first_log
 

@@ -215,7 +215,7 @@ contains
     value = json_object(object)
   end function second_place
 
-  !> Positions without a pose, for which the speed is null, and positions × speeds without modes.
+  !> Positions without a pose, for which the speed is null, positions × speeds without modes, and motions that ended too soon.
   pure function failure_array(findings, parameters) result(value)
     type(findings_t), intent(in) :: findings
     type(string_t), intent(in) :: parameters(:) !! names of what varies
@@ -242,7 +242,10 @@ contains
       call add_member(varied, parameters(i)%text, json_value(failure%varied(i)))
     end do
     call add_member(object, "parameters", json_object(varied))
-    if (failure%at_every_speed) then
+    if (failure%of_motion) then
+      call add_member(object, "stage", json_value("motion"))
+      call add_member(object, "speed", json_null)
+    else if (failure%at_every_speed) then
       call add_member(object, "stage", json_value("position"))
       call add_member(object, "speed", json_null)
     else
@@ -250,6 +253,11 @@ contains
       call add_member(object, "speed", json_value(failure%speed))
     end if
     call add_member(object, "crank", json_value(failure%crank))
+    if (failure%of_motion) then
+      call add_member(object, "time", json_value(failure%time))
+    else
+      call add_member(object, "time", json_null)
+    end if
     call add_member(object, "reason", json_value(failure%reason))
     value = json_object(object)
   end function failure_object

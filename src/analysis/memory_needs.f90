@@ -9,7 +9,8 @@ module memory_needs
   use frequency_models, only: by_band, by_dense, by_long_mesh, chosen_method
   use kinds, only: wp
   use models, only: effects_static, model_t, needs_frequencies, report_number
-  use requests, only: report_branches, report_shapes
+  use motion_runs, only: motion_rows_of
+  use requests, only: report_branches, report_motion, report_shapes
   use text, only: plural, to_string
   use tokens, only: token_t
   implicit none (type, external)
@@ -25,7 +26,8 @@ module memory_needs
   end type memory_need_t
 
   !> What the parts of the memory belong to.
-  integer, parameter :: of_results = 1, of_shapes = 2, of_branches = 3, of_mesh = 4, of_matrices = 5, parts = 5
+  integer, parameter :: of_results = 1, of_shapes = 2, of_branches = 3, of_mesh = 4, of_matrices = 5, of_motion = 6, &
+    parts = 6
 
   !> Bytes of a number; of a pose with its motion; of the results at a position, and at one of its speeds, besides their numbers.
   real(wp), parameter :: number = 8.0_wp, of_pose = 1050.0_wp, of_position = 600.0_wp, of_speed = 230.0_wp
@@ -73,6 +75,7 @@ contains
     if (size(model%crank%words) > 0) needs(of_results)%place = model%crank%words(1)
     needs(of_results)%what = "the results at "//plural(size(model%crank%value), "position")
     needs(of_results)%bytes = size(model%crank%value)*of_pose
+    call add_motion(model, needs(of_motion))
     if (any(model%links%mesh > 0) .and. all(model%links%mesh > 0 .or. model%links%rigid)) call add_mesh(model, threads, needs)
     if (.not. needs_frequencies(model)) return
     needs(of_results)%what = needs(of_results)%what//" and "//plural(speeds, "speed")
@@ -80,6 +83,21 @@ contains
     call add_shapes(model, speeds, needs(of_shapes))
     call add_branches(model, rows, needs(of_branches))
   end subroutine memory_of_run
+
+  !> Every instant of a motion, kept until it is written.
+  pure subroutine add_motion(model, need)
+    type(model_t), intent(in) :: model
+    type(memory_need_t), intent(inout) :: need
+
+    integer, parameter :: numbers = 16
+    integer :: report
+
+    report = report_number(model, report_motion)
+    if (report == 0) return
+    need%place = model%reports(report)%keyword
+    need%what = "the "//plural(motion_rows_of(model), "instant")//" of the motion"
+    need%bytes = numbers*number*motion_rows_of(model)
+  end subroutine add_motion
 
   !> Displacements at the points of all links in every mode, kept until they are written.
   pure subroutine add_shapes(model, speeds, need)

@@ -8,6 +8,7 @@ module run_findings
   use kinds, only: wp
   use mechanisms, only: mechanism_t
   use models, only: model_t, needs_frequencies
+  use motion_runs, only: motion_failed, motion_failure, motion_run_t
   use poses, only: transmission_angle
   use positions, only: positions_t
   use sorting, only: ascending_order
@@ -16,13 +17,16 @@ module run_findings
   implicit none (type, external)
   private
 
-  public :: findings_t, failure_t, find_failures, find_warnings, add_findings, linkage_notes, findings_messages, findings_log
+  public :: findings_t, failure_t, find_failures, find_motion_failure, find_warnings, add_findings, linkage_notes
+  public :: findings_messages, findings_log
 
   !> A position without a result.
   type :: failure_t
     real(wp) :: crank = 0.0_wp     !! [deg]
     logical :: at_every_speed = .true. !! there is no pose
     real(wp) :: speed = 0.0_wp     !! where there is a pose, but there are no modes [rad/s]
+    logical :: of_motion = .false. !! where REPORT motion comes to its end too soon
+    real(wp) :: time = 0.0_wp      !! when [s]
     character(len=:), allocatable :: reason
     character(len=:), allocatable :: variant !! `L=90mm`, of a deck with VARY; else empty
     real(wp), allocatable :: varied(:)       !! the values of what varies
@@ -67,6 +71,18 @@ contains
     end do
 
   end subroutine find_failures
+
+  !> Notes that a motion comes to its end too soon, if it does.
+  pure subroutine find_motion_failure(model, motion, findings)
+    type(model_t), intent(in) :: model
+    type(motion_run_t), intent(in) :: motion
+    type(findings_t), intent(inout) :: findings
+
+    if (.not. motion_failed(motion)) return
+    call add_failure(findings, model, motion_failure(motion), motion%last%angle(1))
+    findings%failed(findings%failures)%of_motion = .true.
+    findings%failed(findings%failures)%time = motion%last%time
+  end subroutine find_motion_failure
 
   pure subroutine add_failure(findings, model, reason, crank, speed)
     type(findings_t), intent(inout) :: findings
@@ -144,12 +160,14 @@ contains
     end do
   end subroutine add_findings
 
-  !> `speed 20 rad/s, crank 45 deg: reason`
+  !> `speed 20 rad/s, crank 45 deg: reason`, or `motion, time 2.5 s, crank 45 deg: reason`
   pure function failure_line(failure) result(line)
     type(failure_t), intent(in) :: failure
     character(len=:), allocatable :: line
 
-    if (failure%at_every_speed) then
+    if (failure%of_motion) then
+      line = "motion, time "//to_string(failure%time, 12)//" s, "//at(failure%crank)//": "//failure%reason//line_feed
+    else if (failure%at_every_speed) then
       line = at(failure%crank)//": "//failure%reason//line_feed
     else
       line = at(failure%crank, failure%speed)//": "//failure%reason//line_feed

@@ -9,9 +9,10 @@ module variant_runs
   use mechanisms, only: mechanism_t, new_mechanism
   use models, only: model_t, needs_frequencies
   use kinds, only: long, wp
+  use motion_runs, only: has_motion, motion_run_t, run_motion
   use positions, only: find_positions, positions_t
   use progress, only: progress_t
-  use run_findings, only: find_failures, find_warnings, findings_t
+  use run_findings, only: find_failures, find_motion_failure, find_warnings, findings_t
   use sweep_journal, only: journal_t
   implicit none (type, external)
   private
@@ -25,6 +26,7 @@ module variant_runs
     type(positions_t) :: positions
     type(sweep_t) :: sweep
     type(branches_t) :: branches
+    type(motion_run_t) :: motion
     type(findings_t) :: findings
   end type variant_run_t
 
@@ -34,6 +36,7 @@ module variant_runs
     integer(long) :: rows = 0_long      !! positions as the decks list them
     integer(long) :: positions = 0_long !! different ones
     integer :: speeds = 0               !! of the first variant
+    integer(long) :: motion_steps = 0_long !! of forward motions
     logical :: has_frequencies = .false.
     type(ledger_t) :: counts
     real(wp) :: largest_error = -1.0_wp !! relative, of any frequency found; below 0 there is none
@@ -64,7 +67,7 @@ contains
     run%positions = find_positions(run%mechanism%linkage, run%model%crank%value)
   end subroutine prepare_variant
 
-  !> Frequencies, nearly all of the work. Variants may be solved at the same time: here are no texts, which gfortran 12 gives lengths
+  !> Forward motion and frequencies, nearly all of the work. Variants may be solved at the same time: here are no texts, which gfortran 12 gives lengths
   !> that all threads share. Errors: as above.
   subroutine solve_variant(number, threads, progress, journal, store, run, error)
     integer, intent(in) :: number !! of the variant, from 1
@@ -75,6 +78,7 @@ contains
     type(variant_run_t), intent(inout) :: run !! prepared
     type(error_t), allocatable, intent(out) :: error
 
+    call run_motion(run%model, run%mechanism, progress, run%motion)
     if (.not. needs_frequencies(run%model)) return
     call run_sweep(run%model, run%mechanism, run%positions, threads, progress, journal, number, store, run%sweep, error)
   end subroutine solve_variant
@@ -87,6 +91,7 @@ contains
       if (run%sweep%request%follow) call follow_branches(run%mechanism, run%positions, run%sweep, run%branches)
     end if
     call find_failures(run%model, run%positions, run%sweep, run%findings)
+    if (has_motion(run%motion)) call find_motion_failure(run%model, run%motion, run%findings)
     call find_warnings(run%model, run%mechanism, run%positions, run%sweep, run%findings)
   end subroutine finish_variant
 
@@ -99,6 +104,7 @@ contains
     totals%variants = 1
     totals%rows = size(run%positions%crank)
     totals%positions = size(run%positions%states)
+    totals%motion_steps = run%motion%steps
     totals%has_frequencies = allocated(run%sweep%results)
     if (.not. totals%has_frequencies) return
     totals%speeds = size(run%sweep%request%speed)
@@ -122,6 +128,7 @@ contains
     totals%variants = totals%variants + more%variants
     totals%rows = totals%rows + more%rows
     totals%positions = totals%positions + more%positions
+    totals%motion_steps = totals%motion_steps + more%motion_steps
     totals%has_frequencies = totals%has_frequencies .or. more%has_frequencies
     call add_ledger(totals%counts, more%counts)
     totals%largest_error = max(totals%largest_error, more%largest_error)

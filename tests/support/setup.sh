@@ -26,6 +26,7 @@ need_command makedepf90 makedepf90
 need_command gnuplot gnuplot-nox # its libraries bring a font along, so text appears in the figures
 need_command numdiff numdiff
 need_library libarpack2-dev libarpack.a
+need_library libgsl-dev libgsl.a
 if test -n "$SANITIZERS"; then
   need_library "libgcc-$("$compiler" -dumpversion 2> /dev/null | sed 's/\..*//')-dev" libasan.so libasan.a
   need_library "libgcc-$("$compiler" -dumpversion 2> /dev/null | sed 's/\..*//')-dev" libubsan.so libubsan.a
