@@ -111,8 +111,8 @@ contains
     call project_modes(chain, near%links, bending, strain, vectors)
   end subroutine find_starts
 
-  !> Strains of all elements, scaled to energy, from the elongation of the link and the unknowns of `axial_shapes`, in their order but
-  !! for the uniform ones: these come with those of their degree, or element.
+  !> Strains of all elements, scaled to energy, from the elongation of the link and the unknowns of `axial_shapes`, in their order
+  !! but for the uniform ones: these come with those of their degree, or element.
   pure function element_strains(shapes, elongation, own) result(strain)
     type(deformation_shapes_t), intent(in) :: shapes
     real(wp), intent(in) :: elongation

@@ -4,7 +4,7 @@ module frequency_report
   use frequency_sweep, only: is_drawn, sweep_t
   use kinds, only: wp
   use mechanisms, only: mechanism_t
-  use models, only: effects_static, inertia_lumped, model_t, needs_loads, report_number
+  use models, only: effects_static, inertia_distributed, inertia_lumped, is_loaded, is_moving, model_t, needs_loads, report_number
   use poses, only: pose_t
   use positions, only: positions_t
   use requests, only: report_shapes
@@ -137,8 +137,7 @@ contains
     else if (.not. needs_loads(model)) then
       call append_string(notes, "frequencies of the instantaneous structure at rest: no axial forces")
     else
-      call append_string(notes, "frequencies of the instantaneous structure with the axial forces of its motion; "// &
-        trim(merge("lumped     ", "distributed", model%inertia == inertia_lumped))//" inertia")
+      call append_string(notes, "frequencies of the instantaneous structure with the axial forces of its "//loads_in_words(model))
       call append_string(notes, "angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2")
       call append_string(notes, "a negative frequency stands for sqrt(-lambda)/(2 pi) of a negative eigenvalue: static divergence")
     end if
@@ -150,6 +149,18 @@ contains
       call append_string(notes, "links with shear")
     end if
   end function effects_notes
+
+  !> `motion; lumped inertia`
+  pure function loads_in_words(model) result(words)
+    type(model_t), intent(in) :: model
+    character(len=:), allocatable :: words
+
+    words = "motion"
+    if (is_loaded(model)) words = "motion and of constant loads"
+    if (.not. is_moving(model)) words = "constant loads"
+    if (model%inertia == inertia_lumped) words = words//"; lumped inertia"
+    if (model%inertia == inertia_distributed) words = words//"; distributed inertia"
+  end function loads_in_words
 
   !> Rows along every link of every mode; an empty line between links, two between modes.
   subroutine write_shapes(table, model, mechanism, positions, sweep)

@@ -245,7 +245,7 @@ contains
     force = 0.0_wp
     in_element = 0.0_wp
     if (.not. any(occurs)) return
-    cases = unit_cases(mechanism%linkage, state%pose, state%motion)
+    cases = unit_cases(mechanism%linkage, state%pose, state%motion, occurs)
     do i = 1, case_count
       if (.not. occurs(i)) cycle
       call find_axial_forces(mechanism, state, cases(i), lumped, in_element(:, :, i), joints)

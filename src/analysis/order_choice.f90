@@ -7,6 +7,7 @@ module order_choice
   use errors, only: error_t
   use kinds, only: wp
   use ledger, only: ledger_t
+  use link_lumps, only: pieces_of
   use link_store, only: link_store_t
   use linkages, only: body_t, linkage_t
   use pin_displacements, only: chords_t
@@ -22,6 +23,9 @@ module order_choice
   !! accuracy needs that the precision can give, but under loads that buckle a link many times over (as beside a dead point).
   integer, parameter :: spare_orders = digits(1.0_wp) + 3
 
+  !> No order is lower.
+  integer, parameter :: least_order = 4
+
   !> Positions at which orders are tried: one in so many, within these limits. Every row of the sweep tells its own error afterwards.
   integer, parameter :: positions_a_sample = 9, least_samples = 2, most_samples = 6
 
@@ -31,11 +35,11 @@ module order_choice
 contains
 
   !> Finds a model that keeps the error of every eigenvalue below a bound, at samples of the positions, at the least and the
-  !! greatest speed; each link has one element of the least order that does. One element is enough for any accuracy: links are uniform and
-  !! loads smooth along them.
+  !! greatest speed; each link has one element, or one between its masses, of the least order that does. That is enough for any
+  !! accuracy: links are uniform and loads smooth between masses.
   !!
-  !! The error of order p is about `((kL/4)^{p−1}/(p−1)!)²` for a wave number k; this gives a first guess, which the error told by
-  !! the model itself then raises. Errors: those of the model; none for a bound that is not reached at the highest order.
+  !! The error of order p is about `((kL/4)^{p−1}/(p−1)!)²` for a wave number k and the length L of the element; this gives a first
+  !! guess, which the error told by the model itself then raises. Errors: those of the model; none for a bound that is not reached at the highest order.
   subroutine choose_orders(linkage, beams, positions, states, factor, modes, bound, store, model, counts, error)
     type(linkage_t), intent(in) :: linkage
     type(beam_t), intent(in) :: beams(:)
@@ -50,7 +54,7 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     real(wp) :: link_error(size(beams)), highest
-    integer :: order(size(beams)), b, bending, highest_order
+    integer :: order(size(beams)), b, bending, highest_order, pieces
     integer, allocatable :: chosen(:)
     integer :: between_masses(size(beams))
     logical :: continuous(size(beams))
@@ -58,7 +62,10 @@ contains
     chosen = sample_states(positions, states)
     bending = count(linkage%bodies%bends)
     highest_order = spare_orders + (2*modes)/bending
-    order = max(8, (3*modes)/(2*bending) + 6)
+    do b = 1, size(beams)
+      pieces = size(pieces_of(linkage%bodies(b))) - 1
+      order(b) = max(least_order, (max(8, (3*modes)/(2*bending) + 6) + pieces - 1)/pieces)
+    end do
     between_masses = 0
     continuous = .false. ! no masses on nodes
     call new_deformation_model(linkage, beams, between_masses, order, continuous, model, error, store)
@@ -68,8 +75,8 @@ contains
       counts)
     do b = 1, size(beams)
       if (.not. linkage%bodies(b)%bends) cycle
-      order(b) = guessed_order(linkage%bodies(b)%length*wave_number(linkage%bodies(b), beams(b), highest), share*bound, order(b), &
-        highest_order, modes, bending)
+      order(b) = guessed_order(longest_piece(linkage%bodies(b))*wave_number(linkage%bodies(b), beams(b), highest), share*bound, &
+        order(b), highest_order, modes, bending)
     end do
     do
       call new_deformation_model(linkage, beams, between_masses, order, continuous, model, error, store)
@@ -78,7 +85,7 @@ contains
       if (all(link_error <= share*bound .or. order >= highest_order)) exit
       do b = 1, size(beams)
         if (link_error(b) <= share*bound) cycle
-        order(b) = raised_order(linkage%bodies(b)%length*wave_number(linkage%bodies(b), beams(b), highest), &
+        order(b) = raised_order(longest_piece(linkage%bodies(b))*wave_number(linkage%bodies(b), beams(b), highest), &
           share*bound/link_error(b), order(b), highest_order)
       end do
     end do
@@ -101,6 +108,17 @@ contains
     number = min(max(least_samples, min(count/positions_a_sample, most_samples)), count)
     chosen = [(sound(1 + ((i - 1)*(count - 1))/max(1, number - 1)), i=1, number)]
   end function sample_states
+
+  !> Length of the longest part of a link without masses [m].
+  pure function longest_piece(body) result(length)
+    type(body_t), intent(in) :: body
+    real(wp) :: length
+
+    real(wp), allocatable :: ends(:)
+
+    ends = pieces_of(body)
+    length = body%length*maxval(ends(2:) - ends(:size(ends) - 1))
+  end function longest_piece
 
   !> k of the shortest waves of a frequency in a link.
   !!
@@ -125,7 +143,7 @@ contains
     k = sqrt(added + sqrt(max(0.0_wp, added**2 + slender)))
   end function wave_number
 
-  !> Order for a wave number times length, a bound of the error, and no fewer unknowns than a first model had for all modes.
+  !> Order for a wave number times length of element, a bound of the error, and no fewer unknowns than a first model had for all modes.
   pure function guessed_order(wave, bound, first, highest, modes, bending) result(order)
     real(wp), intent(in) :: wave     !! kL
     real(wp), intent(in) :: bound
@@ -136,7 +154,7 @@ contains
     real(wp) :: term
     integer :: least
 
-    least = 4
+    least = least_order
     if (2*modes > bending*least) least = first
     term = 1.0_wp
     do order = 2, highest

@@ -112,12 +112,14 @@ contains
 
     type(load_case_t) :: cases(case_count)
     real(wp) :: unit(2, stations, size(linkage%bodies), case_count), displacement(2), squared
+    logical :: occurs(case_count)
     integer :: b, i, j, k
 
-    cases = unit_cases(linkage, state%pose, state%motion)
+    occurs = any(abs(factor) > 0.0_wp, dim=2)
+    cases = unit_cases(linkage, state%pose, state%motion, occurs)
     unit = 0.0_wp
     do i = 1, case_count
-      if (all(abs(factor(i, :)) <= 0.0_wp)) cycle
+      if (.not. occurs(i)) cycle
       call reduced_deflection(linkage, model%links, model%layout, chords, state%pose, cases(i), unit(:, :, :, i))
     end do
     do k = 1, size(factor, 2)

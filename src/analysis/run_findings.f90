@@ -246,7 +246,7 @@ contains
     end associate
   end function diverges
 
-  !> The largest static deflection under the inertia loads, if it is too large for the theory.
+  !> The largest static deflection under the loads, if it is too large for the theory.
   pure function deflections(mechanism, positions, sweep) result(warning)
     type(mechanism_t), intent(in) :: mechanism
     type(positions_t), intent(in) :: positions
@@ -275,7 +275,8 @@ contains
       end do
     end do
     if (largest <= most_deflection) return
-    call append_string(warning, "the inertia loads at "//at(positions%crank(at_position), sweep%request%speed(at_speed))// &
+    call append_string(warning, "the "//trim(merge("loads        ", "inertia loads", sweep%request%constant))//" at "// &
+      at(positions%crank(at_position), sweep%request%speed(at_speed))// &
       " deflect link '"//mechanism%names(at_body)%text//"' by "//to_string(100.0_wp*largest, 3)//" % of its length: above "// &
       to_string(100.0_wp*most_deflection)//" % the axial frequencies begin to mislead")
   end function deflections

@@ -1,6 +1,7 @@
 !> What a run computed, and how long its stages took.
 module run_statistics
   use beam_mesh, only: beam_mesh_t
+  use deformation_model, only: deformation_model_t
   use frequency_models, only: by_band, by_dense, by_link_modes, by_long_mesh, by_orders
   use frequency_sweep, only: sweep_t
   use kinds, only: long, wp
@@ -107,13 +108,20 @@ contains
     character(len=:), allocatable :: text
 
     character(len=*), parameter :: line_feed = achar(10)
+    integer :: unknowns
 
+    unknowns = mesh%unknowns
+    if (.not. all(sweep%models%continuum%links%bends)) then
+      if (sweep%request%method == by_link_modes) unknowns = sweep%models%mesh%layout%unknowns
+      if (sweep%request%method == by_long_mesh) unknowns = sweep%models%chain%unknowns
+    end if
     select case (sweep%request%method)
     case (by_orders)
-      text = "orders chosen by the program, one element a link: "//listed(sweep%models%continuum%order)// &
-        ", solved in deformation coordinates: "//to_string(sweep%models%continuum%layout%unknowns)//" unknowns"
+      text = "orders chosen by the program, one element a link"//between_masses(sweep%models%continuum)//": "// &
+        orders_of(sweep%models%continuum)//", solved in deformation coordinates: "// &
+        to_string(sweep%models%continuum%layout%unknowns)//" unknowns"
     case (by_link_modes, by_long_mesh)
-      text = "mesh of the deck, solved in deformation coordinates: "//to_string(mesh%unknowns)//" unknowns"
+      text = "mesh of the deck, solved in deformation coordinates: "//to_string(unknowns)//" unknowns"
     case (by_dense)
       text = "mesh of the deck, solved in nodal displacements by dsygvx (LAPACK): "//to_string(mesh%unknowns)//" unknowns"
     case default
@@ -121,7 +129,7 @@ contains
         to_string(mesh%unknowns)//" unknowns, half bandwidth "//to_string(mesh%half_bandwidth)
     end select
     if (sweep%request%method /= by_orders) then
-      text = text//line_feed//"errors told by continuous links of orders "//listed(sweep%models%continuum%order)//": "// &
+      text = text//line_feed//"errors told by continuous links of orders "//orders_of(sweep%models%continuum)//": "// &
         to_string(sweep%models%continuum%layout%unknowns)//" unknowns"
     end if
     text = text//line_feed
@@ -149,16 +157,31 @@ contains
     end if
   end function accuracy_summary
 
-  pure function listed(numbers) result(text)
-    integer, intent(in) :: numbers(:)
+  !> Links with masses along them have more elements than one.
+  pure function between_masses(model) result(text)
+    type(deformation_model_t), intent(in) :: model
+    character(len=:), allocatable :: text
+
+    text = ""
+    if (any(model%links%bending_shapes%elements > 1)) text = ", or between masses"
+  end function between_masses
+
+  !> `10, 12, rigid`
+  pure function orders_of(model) result(text)
+    type(deformation_model_t), intent(in) :: model
     character(len=:), allocatable :: text
 
     integer :: i
 
-    text = to_string(numbers(1))
-    do i = 2, size(numbers)
-      text = text//", "//to_string(numbers(i))
+    text = ""
+    do i = 1, size(model%order)
+      if (i > 1) text = text//", "
+      if (model%links(i)%bends) then
+        text = text//to_string(model%order(i))
+      else
+        text = text//"rigid"
+      end if
     end do
-  end function listed
+  end function orders_of
 
 end module run_statistics

@@ -3,14 +3,14 @@
 !! At a mass along the link the force jumps. Jumps are told apart from the rest, which is smooth: a force from the first pin up to
 !! the mass.
 !!
-!! Of a link that does not bend one number counts, its mean: turned by ψ, its dead loads F at places r do the work `−½ ψ² Σ F·r`, and
-!! `Σ F·r`, which is `∫ N dx` of a slender link, is L times that mean.
+!! Of a link that does not bend one number counts, its mean: turned by ψ, its dead loads F at places r do the work `−½ ψ² Σ F·r`,
+!! and `Σ F·r`, which is `∫ N dx` of a slender link, is L times that mean.
 module axial_forces
   use beam_mesh, only: beam_mesh_t, element_count, element_length
   use inertia_loads, only: load_t, lumped_masses, lumped_stations
   use joint_forces, only: find_joint_forces, joint_forces_t
   use kinds, only: wp
-  use link_lumps, only: lump_masses
+  use link_lumps, only: lump_count
   use linkages, only: linkage_t, normal_to
   use load_cases, only: case_count, find_case_loads, load_case_t, unit_cases
   use motions, only: acceleration_field_t, motion_t, point_acceleration
@@ -111,7 +111,7 @@ contains
     integer :: i
 
     associate (this => linkage%bodies(body))
-      allocate (jump(size(lump_masses(this))))
+      allocate (jump(lump_count(this)))
       do i = 1, size(jump)
         jump(i) = -this%lumps(i)%mass*dot_product(pose%direction(:, body), point_acceleration(field, body, this%lumps(i)%place(1)))
       end do
@@ -174,7 +174,7 @@ contains
     allocate (force(merge(3 + most_jumps(linkage), 0, any(occurs)), size(linkage%bodies), case_count))
     if (.not. any(occurs)) return
     force = 0.0_wp
-    cases = unit_cases(linkage, pose, motion)
+    cases = unit_cases(linkage, pose, motion, occurs)
     do i = 1, case_count
       if (.not. occurs(i)) cycle
       call find_case_loads(linkage, spread(0, 1, size(loads)), pose, cases(i), loads, pin_loads)
@@ -182,6 +182,7 @@ contains
       do b = 1, size(linkage%bodies)
         if (linkage%bodies(b)%bends) then
           force(:3, b, i) = link_axial_force(linkage, b, pose, cases(i)%field, joints)
+          if (lump_count(linkage%bodies(b)) == 0) cycle
           jump = axial_jumps(linkage, b, pose, cases(i)%field)
           force(4:3 + size(jump), b, i) = jump
         else
@@ -200,7 +201,7 @@ contains
 
     most = 0
     do b = 1, size(linkage%bodies)
-      if (linkage%bodies(b)%bends) most = max(most, size(lump_masses(linkage%bodies(b))))
+      if (linkage%bodies(b)%bends) most = max(most, lump_count(linkage%bodies(b)))
     end do
   end function most_jumps
 

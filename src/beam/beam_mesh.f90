@@ -132,8 +132,8 @@ contains
 
   !> How many modes of a finite frequency a mesh has.
   !!
-  !! A link that does not bend has none: every other one brings the unknowns of its elements but those of one node each. With shear and
-  !! without rotary inertia cross-sections that turn, the axis at rest, move no mass: θ = −γ, continuous along a link and of degree
+  !! A link that does not bend has none: every other one brings the unknowns of its elements but those of one node each. With shear
+  !! and without rotary inertia cross-sections that turn, the axis at rest, move no mass: θ = −γ, continuous along a link and of degree
   !! p − 2 in its elements, zero at the clamp.
   pure function moving_unknowns(mesh, linkage) result(number)
     type(beam_mesh_t), intent(in) :: mesh

@@ -34,7 +34,8 @@ module chain_links
     real(wp), allocatable :: lump(:)        !! masses along the link [kg]
     integer, allocatable :: lump_element(:) !! (lumps) the element of each
     real(wp), allocatable :: lump_value(:, :) !! (coefficients, lumps) P_j where it is in its element
-    real(wp), allocatable :: before(:, :, :) !! (coefficients − 1, coefficients − 1, lumps) `h ∫ P_i P_j dξ` from the element's start to it
+    !> (coefficients − 1, coefficients − 1, lumps) `h ∫ P_i P_j dξ` from the start of its element to it
+    real(wp), allocatable :: before(:, :, :)
     real(wp), allocatable :: start_slope(:) !! (bendings × elements) rotation at the first end, the chord at rest
     real(wp) :: end_rotation = 0.0_wp       !! the norm of `start_slope`
   end type chain_t

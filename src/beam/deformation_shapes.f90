@@ -3,7 +3,8 @@
 !! Scaled as here, these unknowns have the elastic energy `½ yᵀy`: the stiffness matrix is the unit matrix, exact and the same at
 !! every position. In an element of length h the curvature is `θ' = Σ y_j √((2j+1)/(EI h)) P_j`, the shear strain `v' − θ` likewise
 !! with kGA, the axial strain with EA. θ is the rotation of cross-sections; without shear it is v'.
-!! Displacements are counted from the chord: they vanish at both ends of the link. Elements are equal, or end where they are told to.
+!! Displacements are counted from the chord: they vanish at both ends of the link. Elements are equal, or end where they are told
+!! to.
 module deformation_shapes
   use kinds, only: wp
   use legendre, only: gauss_rule, legendre_values, twice_integrated

@@ -10,12 +10,21 @@ module link_lumps
   implicit none (type, external)
   private
 
-  public :: lump_masses, lump_places, pieces_of, add_lumps, element_of_lump
+  public :: lump_count, lump_masses, lump_places, pieces_of, add_lumps, element_of_lump
 
   !> Masses nearer to each other than this share of the length, or to an end, have no element between them.
   real(wp), parameter :: least_piece = 1.0e-9_wp
 
 contains
+
+  !> How many lumps a body has.
+  pure function lump_count(body) result(number)
+    type(body_t), intent(in) :: body
+    integer :: number
+
+    number = 0
+    if (allocated(body%lumps)) number = size(body%lumps)
+  end function lump_count
 
   !> Masses of the lumps of a body [kg].
   pure function lump_masses(body) result(mass)

@@ -16,9 +16,9 @@ contains
   pure subroutine project_modes(pencil, near, bending, strain, vectors)
     type(deformation_chain_t), intent(in) :: pencil
     type(link_modes_t), intent(in) :: near(:)  !! (links) of that model
-    real(wp), intent(in) :: bending(:, :, :)   !! (unknowns, modes, links) of a continuous link Legendre coefficients along its elements,
-                                               !! scaled to energy, degree by degree, of curvature and shear strain in turn; else the
-                                               !! unknowns of the mesh
+    !> (unknowns, modes, links) of a continuous link Legendre coefficients along its elements, scaled to energy, degree by degree, of
+    !! curvature and shear strain in turn; else the unknowns of the mesh
+    real(wp), intent(in) :: bending(:, :, :)
     real(wp), intent(in) :: strain(:, :, :)
     real(wp), intent(out) :: vectors(:, :)     !! (unknowns, modes)
 

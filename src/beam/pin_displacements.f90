@@ -1,8 +1,8 @@
 !> How the links' elongations and the rotation of the clamped end move the pins.
 !!
 !! With its driven link clamped, a linkage of mobility one is statically determinate: its links' own deformations are free, and the
-!! pins follow. A link moves its pins by its elongation only, and the driven one by the rotation of its chord against the clamp. A link
-!! that does not bend moves none.
+!! pins follow. A link moves its pins by its elongation only, and the driven one by the rotation of its chord against the clamp. A
+!! link that does not bend moves none.
 module pin_displacements
   use kinds, only: wp
   use link_modes, only: link_modes_t
@@ -13,7 +13,8 @@ module pin_displacements
 
   public :: chords_t, find_chords, border_numbers, body_motion
 
-  !> What the border unknowns (the clamped end's rotation, then the elongation of every link that bends) do to the chords of all links.
+  !> What the border unknowns (the clamped end's rotation, then the elongation of every link that bends) do to the chords of all
+  !! links.
   type :: chords_t
     real(wp), allocatable :: across(:, :, :) !! (3, border, bodies) transverse, at the first and last pin, and the clamped end's curve
     real(wp), allocatable :: along(:, :, :)  !! (2, border, bodies) axial, at the first and last pin

@@ -163,8 +163,8 @@ contains
     end do
   end function next_order_change
 
-  !> Static displacements, at the stations of every link and across it, under the loads of a case. Inertia loads are linear along the
-  !! links; torques on links are carried by their pins. The stiffness is the unit matrix: every unknown is the work of the loads on
+  !> Static displacements, at the stations of every link and across it, under the loads of a case. Inertia loads are linear along
+  !! the links; torques on links are carried by their pins. The stiffness is the unit matrix: every unknown is the work of the loads on
   !! its own shape.
   pure subroutine reduced_deflection(linkage, links, layout, chords, pose, case, displacement)
     type(linkage_t), intent(in) :: linkage

@@ -30,24 +30,30 @@ contains
     has = any(abs(linkage%gravity) > 0.0_wp) .or. any(abs(linkage%pin_force) > 0.0_wp) .or. any(abs(linkage%couple) > 0.0_wp)
   end function has_constant_loads
 
-  !> The three cases at a pose.
-  pure function unit_cases(linkage, pose, motion) result(cases)
+  !> The three cases at a pose, or those of them that occur: the others are left empty.
+  pure function unit_cases(linkage, pose, motion, occurs) result(cases)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
     type(motion_t), intent(in) :: motion
+    logical, intent(in), optional :: occurs(case_count) !! absent: all
     type(load_case_t) :: cases(case_count)
 
     type(acceleration_field_t) :: fields(2)
+    logical :: wanted(case_count)
     integer :: i
 
+    wanted = .true.
+    if (present(occurs)) wanted = occurs
     fields = unit_fields(linkage, pose, motion)
     do i = 1, 2
+      if (.not. wanted(i)) cycle
       cases(i)%field = fields(i)
       allocate (cases(i)%pin_force, mold=linkage%pin_force)
       allocate (cases(i)%couple, mold=linkage%couple)
       cases(i)%pin_force = 0.0_wp
       cases(i)%couple = 0.0_wp
     end do
+    if (.not. wanted(constant_case)) return
     associate (constant => cases(constant_case))
       constant%field%at_pin = -spread(linkage%gravity, 2, size(linkage%pin_mass))
       constant%field%at_first = -spread(linkage%gravity, 2, size(linkage%bodies))
