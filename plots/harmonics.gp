@@ -56,7 +56,7 @@ do for [panel=1:panels] {
     set key at screen across(1305), up(base + panel_height)
     if (panel > 1) { do for [label=901:904] { unset label label }; unset key }
     if (panel < panels) { set format x "" } else { set format x "%h"; set xlabel "harmonic k" }
-    top = most[panel] > 0 ? 1.1*most[panel] : 1
+    top = most[panel] > 0 ? 1.1*most[panel] : 1.0
     set yrange [0:top]
     set ytics nice(top/5)
     set ylabel named(word(quantities, panel)) noenhanced

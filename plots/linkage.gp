@@ -43,11 +43,12 @@ if (points > 0) {
         spread = 1e300
         of_point(value) = strcol(col_point) eq word(point_names, p) ? value : NaN
         do for [link=2:4] {
-            stats ARG2 using (of_point(real(row_place(link)))):(imag(row_place(link))) name "place" nooutput
-            if (place_stddev_x + place_stddev_y < spread) {
-                spread = place_stddev_x + place_stddev_y
+            stats ARG2 using (of_point(real(row_place(link)))) name "along_it" nooutput
+            stats ARG2 using (of_point(imag(row_place(link)))) name "left_of_it" nooutput
+            if (along_it_stddev + left_of_it_stddev < spread) {
+                spread = along_it_stddev + left_of_it_stddev
                 point_link[p] = link
-                point_place[p] = place_mean_x + I*place_mean_y
+                point_place[p] = along_it_mean + I*left_of_it_mean
             }
         }
     }
