@@ -29,7 +29,7 @@ turns_fully = abs(O4 - O2) + r2 <= r3 + r4 + slack && abs(abs(O4 - O2) - r2) >= 
 
 # ---- Points: each belongs to the link on which its place does not change ---------------------------------------
 
-point_names = ARG2 eq "" ? "" : answer(ARG2, "distinct point")
+point_names = ARG2 eq "" ? "" : names_in(ARG2, "point")
 points = words(point_names)
 array point_link[points + 1]
 array point_place[points + 1]                       # from the link's first pin, along it and to the left of it

@@ -16,7 +16,7 @@ do for [panel=1:panels] {
     set tmargin at screen up(base + panel_height)
     set key at screen across(1305), up(base + panel_height)
     if (panel > 1) { do for [label=901:904] { unset label label } }
-    set ylabel axis_of[panel]
+    set ylabel axis_of[panel] font strlen(axis_of[panel]) > 26 ? ",17" : ",20"
 
     n = words(curves_of[panel])
     set xrange [*:*]                                # stats would leave out what lies beyond
@@ -36,7 +36,7 @@ do for [panel=1:panels] {
             drawn_rows <= 150 ? 0.4 : 0.1)
         parts = parts.sprintf("source_of(%d) every %d::%d using (%s):%s with points lt %d notitle, ", \
             k, mark_step(drawn_rows), mark_first(k, n, drawn_rows), x, expression, k)
-        keys = keys.sprintf(", keyentry with linespoints lt %d title \"%s\"", k, word(titles_of[panel], k))
+        keys = keys.sprintf(", keyentry with linespoints lt %d title word(titles_of[panel], %d)", k, k)
     }
     eval x_axis
     if (panel < panels) { set format x ""; set xlabel "" } else { set format x "%h" }
