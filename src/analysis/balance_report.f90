@@ -10,6 +10,7 @@ module balance_report
   use linkages, only: linkage_t, lump_t
   use mechanisms, only: mechanism_t
   use models, only: model_t
+  use numbers, only: shortest_text
   use positions, only: positions_t, state_t
   use reactions, only: find_unit_reactions, reactions_at, reactions_t
   use settled_cycles, only: find_settled_cycles, least_share
@@ -158,32 +159,17 @@ contains
       from = mechanism%pin_names(merge(body%first_pin, body%last_pin, body%sense > 0.0_wp))%text
       to = mechanism%pin_names(merge(body%last_pin, body%first_pin, body%sense > 0.0_wp))%text
       call append_string(list, "counterweight of link "//name//": mass x radius "// &
-        exact_text(from_si(norm2(weight%first_moment), measures%first_moment))//" "//measures%first_moment%name//", at "// &
-        exact_text(atan2(weight%first_moment(2), weight%first_moment(1))/degree)//" deg from "//from//" -> "//to)
+        shortest_text(from_si(norm2(weight%first_moment), measures%first_moment))//" "//measures%first_moment%name//", at "// &
+        shortest_text(atan2(weight%first_moment(2), weight%first_moment(1))/degree)//" deg from "//from//" -> "//to)
       lump = counterweight_lump(weight, body, body%length)
       ! Going from card to body and back is the same.
       place = from_si(place_on_body(model, weight%body, lump%place), measures%length) + 0.0_wp
       call append_string(list, "card, with the link's length for a radius (the shaking force depends on mass x radius only, "// &
         "moment and torque on the radius too):")
-      call append_string(list, "MASS "//name//" at="//exact_text(place(1))//" offset="// &
-        exact_text(place(2))//" "//exact_text(from_si(lump%mass, measures%mass))//measures%mass%name)
+      call append_string(list, "MASS "//name//" at="//shortest_text(place(1))//" offset="// &
+        shortest_text(place(2))//" "//shortest_text(from_si(lump%mass, measures%mass))//measures%mass%name)
     end associate
   end subroutine add_counterweight
-
-  !> A number with as few digits as give it back when they are read.
-  pure function exact_text(value) result(text)
-    real(wp), intent(in) :: value
-    character(len=:), allocatable :: text
-
-    real(wp) :: read_back
-    integer :: digits
-
-    do digits = 6, 17
-      text = to_string(value, digits)
-      read (text, *) read_back
-      if (abs(read_back - value) <= 0.0_wp) return
-    end do
-  end function exact_text
 
   !> One row a quantity of a linkage, one block a speed; none where there is no whole turn.
   subroutine write_harmonics(table, model, mechanism)
@@ -196,6 +182,8 @@ contains
     type(string_t), allocatable :: remarks(:)
     type(linkage_t) :: linkages(2)
     type(cycle_t) :: turns(2)
+    ! More than this is not what rounding does.
+    real(wp), parameter :: unsettled = 1.0e-10_wp
     real(wp) :: change
     integer :: k
 
@@ -216,6 +204,7 @@ contains
       ", phases in deg; a phase is 0 where its h is only rounding")
     call append_string(remarks, "samples: "//to_string(size(turns(1)%part, 3))//"; every second of them gives the same to "// &
       to_string(change, 2)//" of the largest value")
+    if (change > unsettled) call append_string(remarks, "harmonics have not settled: the crank passes next to a dead point")
     call write_header(table, model%title, remarks, columns)
     do k = 1, size(model%speed%value)
       if (k > 1) call write_gap(table, 2)

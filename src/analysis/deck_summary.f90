@@ -244,7 +244,6 @@ contains
     call add_member(object, "parameters", json_object(varied))
     if (failure%of_motion) then
       call add_member(object, "stage", json_value("motion"))
-      call add_member(object, "time", json_value(failure%time))
       call add_member(object, "speed", json_null)
     else if (failure%at_every_speed) then
       call add_member(object, "stage", json_value("position"))
@@ -254,6 +253,11 @@ contains
       call add_member(object, "speed", json_value(failure%speed))
     end if
     call add_member(object, "crank", json_value(failure%crank))
+    if (failure%of_motion) then
+      call add_member(object, "time", json_value(failure%time))
+    else
+      call add_member(object, "time", json_null)
+    end if
     call add_member(object, "reason", json_value(failure%reason))
     value = json_object(object)
   end function failure_object

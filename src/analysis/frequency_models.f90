@@ -47,7 +47,7 @@ module frequency_models
   end type mode_request_t
 
   type :: frequency_models_t
-    type(deformation_model_t) :: continuum !! one element a link, of the orders that the accuracy needs
+    type(deformation_model_t) :: continuum !! one element a link or between masses, of the orders that the accuracy needs
     type(deformation_model_t) :: mesh      !! that of the deck; for `by_long_mesh` with continuous links in place of the long ones
     type(deformation_chain_t) :: chain     !! that of the deck for `by_long_mesh`
   end type frequency_models_t
@@ -117,7 +117,7 @@ contains
     if (request%method /= by_link_modes .and. request%method /= by_long_mesh) return
     associate (mesh => mechanism%mesh)
       is_long = is_long_link(mesh%elements, mesh%order, mesh%sheared)
-      call new_deformation_model(mechanism%linkage, mechanism%beams, merge(1, mesh%elements, is_long), &
+      call new_deformation_model(mechanism%linkage, mechanism%beams, merge(0, mesh%elements, is_long), &
         merge(models%continuum%order, mesh%order, is_long), request%lumped .and. request%axial .and. .not. is_long, models%mesh, &
         error, store)
       if (request%method == by_long_mesh) models%chain = new_deformation_chain(mechanism%linkage, mechanism%beams, &

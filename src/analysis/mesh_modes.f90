@@ -1,11 +1,13 @@
 !> Frequencies of the deck's own mesh at one position, in one of three ways.
 module mesh_modes
-  use assembly, only: assemble_geometric_stiffness, assemble_mass, assemble_stiffness
-  use axial_forces, only: distributed_axial_forces, link_axial_force, lumped_axial_forces, mean_axial_force, total_force
+  use assembly, only: add_axial_jumps, assemble_geometric_stiffness, assemble_mass, assemble_stiffness
+  use axial_forces, only: axial_jumps, distributed_axial_forces, link_axial_force, lumped_axial_forces, mean_axial_force, &
+    most_jumps, total_force
   use band_matrix, only: band_matrix_t
   use bordered_matrix, only: bordered_matrix_t
   use bordered_modes, only: bordered_modes_t
   use chain_modes, only: find_chain_modes
+  use deformation_chain, only: deformation_chain_t
   use deformation_model, only: deformation_model_t
   use errors, only: error_t
   use frequency_models, only: by_dense, mode_request_t
@@ -86,6 +88,7 @@ contains
       loaded = any(abs(factor(:, k)) > 0.0_wp)
       elements = merge(size(in_element, 2), 0, loaded)
       work%chain%axial_force = total_force(in_element(:, :elements, :), factor(:, k))
+      if (loaded) call take_jumps(near, total_force(unit_force, factor(:, k)), work%chain)
       least_geometric = work%mesh%geometric
       if (loaded) then
         call combine(work%mesh, factor(:, k))
@@ -107,6 +110,23 @@ contains
       result%counts%shapes = result%counts%shapes + request%modes
     end do
   end subroutine solve_long_mesh
+
+  !> Gives a long mesh the jumps of its axial forces, which are those of the near model.
+  pure subroutine take_jumps(near, force, chain)
+    type(deformation_model_t), intent(in) :: near
+    real(wp), intent(in) :: force(:, :) !! (force functions, bodies) [N]
+    type(deformation_chain_t), intent(inout) :: chain
+
+    integer :: b, n
+
+    do b = 1, size(near%links)
+      if (.not. near%links(b)%bends) cycle
+      n = size(chain%links(b)%lump)
+      associate (smooth => smooth_functions(near, b))
+        chain%jump(:n, b) = force(smooth + 1:smooth + n, b)
+      end associate
+    end do
+  end subroutine take_jumps
 
   !> Lowers the axial force of continuous links until it is nowhere above that of the mesh.
   pure subroutine lower_to_mesh(mechanism, near, in_element, force)
@@ -152,7 +172,7 @@ contains
     type(joint_forces_t) :: joints
     type(error_t), allocatable :: error
     real(wp) :: in_element(3, sum(mechanism%mesh%elements))
-    integer :: i, k
+    integer :: b, i, k
 
     stiffness = assemble_stiffness(mechanism%linkage, mechanism%beams, mechanism%mesh, state%pose)
     mass = assemble_mass(mechanism%linkage, mechanism%mesh, state%pose)
@@ -163,6 +183,10 @@ contains
       if (all(abs(factor(i, :)) <= 0.0_wp)) cycle
       call find_axial_forces(mechanism, state, cases(i), request%lumped, in_element, joints)
       unit_stiffness(i) = assemble_geometric_stiffness(mechanism%linkage, mechanism%mesh, state%pose, in_element)
+      do b = 1, size(mechanism%beams)
+        call add_axial_jumps(mechanism%linkage, mechanism%mesh, state%pose, b, &
+          axial_jumps(mechanism%linkage, b, state%pose, cases(i)%field), unit_stiffness(i))
+      end do
       result%counts%geometric_matrices = result%counts%geometric_matrices + 1
     end do
     do k = 1, size(factor, 2)
@@ -206,15 +230,16 @@ contains
     type(state_t), intent(in) :: state
     logical, intent(in) :: lumped                              !! masses on the nodes of the mesh, or along the links
     logical, intent(in) :: occurs(case_count)                  !! unit loads that there are; without any no functions, no elements
-    real(wp), allocatable, intent(out) :: force(:, :, :)       !! (force functions, bodies, cases) [N]
+    real(wp), allocatable, intent(out) :: force(:, :, :)       !! (force functions with jumps, bodies, cases) [N]
     real(wp), allocatable, intent(out) :: in_element(:, :, :)  !! (1, ξ, ξ²; elements; cases) [N]
 
     type(load_case_t) :: cases(case_count)
     type(joint_forces_t) :: joints
-    integer :: b, i, first, functions
+    real(wp), allocatable :: jump(:)
+    integer :: b, i, first, functions, smooth
 
     functions = 0
-    if (any(occurs)) functions = max(3, maxval(model%elements, mask=model%lumped))
+    if (any(occurs)) functions = max(3, maxval(model%elements, mask=model%lumped)) + most_jumps(mechanism%linkage)
     allocate (force(functions, size(model%links), case_count))
     allocate (in_element(3, merge(sum(mechanism%mesh%elements), 0, any(occurs)), case_count))
     force = 0.0_wp
@@ -228,14 +253,28 @@ contains
         first = mechanism%mesh%first_element(b)
         if (.not. model%links(b)%bends) then
           force(1, b, i) = in_element(1, first, i)
-        else if (model%lumped(b)) then
-          force(:model%elements(b), b, i) = in_element(1, first:first + model%elements(b) - 1, i)
-        else
-          force(:3, b, i) = link_axial_force(mechanism%linkage, b, state%pose, cases(i)%field, joints)
+          cycle
         end if
+        smooth = smooth_functions(model, b)
+        if (model%lumped(b)) then
+          force(:smooth, b, i) = in_element(1, first:first + smooth - 1, i)
+        else
+          force(:smooth, b, i) = link_axial_force(mechanism%linkage, b, state%pose, cases(i)%field, joints)
+        end if
+        jump = axial_jumps(mechanism%linkage, b, state%pose, cases(i)%field)
+        force(smooth + 1:smooth + size(jump), b, i) = jump
       end do
     end do
   end subroutine find_mesh_forces
+
+  !> Force functions of a body without the jumps, which follow them.
+  pure function smooth_functions(model, body) result(number)
+    type(deformation_model_t), intent(in) :: model
+    integer, intent(in) :: body
+    integer :: number
+
+    number = merge(model%elements(body), 3, model%lumped(body))
+  end function smooth_functions
 
   !> Axial forces in all elements under one of the unit loads; of a link that does not bend the mean, in its first element.
   pure subroutine find_axial_forces(mechanism, state, case, lumped, in_element, joints)

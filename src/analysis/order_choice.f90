@@ -52,16 +52,16 @@ contains
     real(wp) :: link_error(size(beams)), highest
     integer :: order(size(beams)), b, bending, highest_order
     integer, allocatable :: chosen(:)
-    integer :: one_element(size(beams))
+    integer :: between_masses(size(beams))
     logical :: continuous(size(beams))
 
     chosen = sample_states(positions, states)
     bending = count(linkage%bodies%bends)
     highest_order = spare_orders + (2*modes)/bending
     order = max(8, (3*modes)/(2*bending) + 6)
-    one_element = 1
+    between_masses = 0
     continuous = .false. ! no masses on nodes
-    call new_deformation_model(linkage, beams, one_element, order, continuous, model, error, store)
+    call new_deformation_model(linkage, beams, between_masses, order, continuous, model, error, store)
     if (allocated(error) .or. size(chosen) == 0) return
     ! One position tells how short the waves are.
     call try_samples(linkage, model, positions, chosen(size(chosen)/2 + 1:size(chosen)/2 + 1), factor, modes, link_error, highest, &
@@ -72,7 +72,7 @@ contains
         highest_order, modes, bending)
     end do
     do
-      call new_deformation_model(linkage, beams, one_element, order, continuous, model, error, store)
+      call new_deformation_model(linkage, beams, between_masses, order, continuous, model, error, store)
       if (allocated(error)) return
       call try_samples(linkage, model, positions, chosen, factor, modes, link_error, highest, counts)
       if (all(link_error <= share*bound .or. order >= highest_order)) exit

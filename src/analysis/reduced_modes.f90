@@ -152,15 +152,15 @@ contains
     integer, intent(in) :: b          !! number of the body
     real(wp) :: energy                !! [1/s²]
 
-    integer :: first, k, n, kinds
+    integer :: first, k, n, last
 
     associate (link => model%links(b))
       first = model%layout%first(b)
       n = size(link%bending, 1)
-      ! With shear every order has a curvature and a shear strain.
-      kinds = merge(2, 1, link%bending_shapes%shear_stiffness > 0.0_wp)
+      ! With shear every order has a curvature and a shear strain, in every element.
+      last = merge(4, 2, link%bending_shapes%shear_stiffness > 0.0_wp)*link%bending_shapes%elements
       energy = 0.0_wp
-      do k = max(1, n + 1 - 2*kinds), n
+      do k = max(1, n + 1 - last), n
         energy = energy + (dot_product(chords%across(3, :, b), vector(:model%layout%border))*link%bending(k, 0) + &
           dot_product(link%bending(k, 1:), vector(first:first + link%modes - 1)))**2
       end do

@@ -52,6 +52,9 @@ contains
     if (totals%variants > 1) text = text//" variants "//to_string(totals%variants)//","
     text = text//" rows "//to_string(totals%rows)//", positions "//to_string(totals%positions)//", kinematic solutions "// &
       to_string(totals%positions)//line_feed
+    if (totals%motion_steps > 0) then
+      text = text//name//": steps of forward motion "//to_string(totals%motion_steps)//line_feed
+    end if
     if (totals%has_frequencies) then
       text = text//frequency_lines(name, totals)
     else

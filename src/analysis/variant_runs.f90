@@ -36,6 +36,7 @@ module variant_runs
     integer(long) :: rows = 0_long      !! positions as the decks list them
     integer(long) :: positions = 0_long !! different ones
     integer :: speeds = 0               !! of the first variant
+    integer(long) :: motion_steps = 0_long !! of forward motions
     logical :: has_frequencies = .false.
     type(ledger_t) :: counts
     real(wp) :: largest_error = -1.0_wp !! relative, of any frequency found; below 0 there is none
@@ -103,6 +104,7 @@ contains
     totals%variants = 1
     totals%rows = size(run%positions%crank)
     totals%positions = size(run%positions%states)
+    totals%motion_steps = run%motion%steps
     totals%has_frequencies = allocated(run%sweep%results)
     if (.not. totals%has_frequencies) return
     totals%speeds = size(run%sweep%request%speed)
@@ -126,6 +128,7 @@ contains
     totals%variants = totals%variants + more%variants
     totals%rows = totals%rows + more%rows
     totals%positions = totals%positions + more%positions
+    totals%motion_steps = totals%motion_steps + more%motion_steps
     totals%has_frequencies = totals%has_frequencies .or. more%has_frequencies
     call add_ledger(totals%counts, more%counts)
     totals%largest_error = max(totals%largest_error, more%largest_error)

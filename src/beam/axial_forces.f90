@@ -1,5 +1,8 @@
 !> Axial force in every element, by equilibrium of the part of the link beyond it.
 !!
+!! At a mass along the link the force jumps. Jumps are told apart from the rest, which is smooth: a force from the first pin up to
+!! the mass.
+!!
 !! Of a link that does not bend one number counts, its mean: turned by ψ, its dead loads F at places r do the work `−½ ψ² Σ F·r`, and
 !! `Σ F·r`, which is `∫ N dx` of a slender link, is L times that mean.
 module axial_forces
@@ -7,6 +10,7 @@ module axial_forces
   use inertia_loads, only: load_t, lumped_masses, lumped_stations
   use joint_forces, only: find_joint_forces, joint_forces_t
   use kinds, only: wp
+  use link_lumps, only: lump_masses
   use linkages, only: linkage_t, normal_to
   use load_cases, only: case_count, find_case_loads, load_case_t, unit_cases
   use motions, only: acceleration_field_t, motion_t, point_acceleration
@@ -15,11 +19,12 @@ module axial_forces
   implicit none (type, external)
   private
 
-  public :: lumped_axial_forces, distributed_axial_forces, link_axial_force, mean_axial_force, distributed_unit_forces, total_force
+  public :: lumped_axial_forces, distributed_axial_forces, link_axial_force, axial_jumps, mean_axial_force
+  public :: distributed_unit_forces, most_jumps, total_force
 
 contains
 
-  !> With all mass on the nodes the force is constant in each element.
+  !> With all mass on the nodes the force is constant in each element, but for jumps.
   pure function lumped_axial_forces(linkage, mesh, pose, field, joints) result(force)
     type(linkage_t), intent(in) :: linkage
     type(beam_mesh_t), intent(in) :: mesh
@@ -45,7 +50,8 @@ contains
     end do
   end function lumped_axial_forces
 
-  !> With uniform mass `N(s) = e·F_last − μ ∫ e·a ds` from s to the last pin: quadratic along the link, so in each element too.
+  !> With uniform mass `N(s) = e·F_last − μ ∫ e·a ds` from s to the last pin: quadratic along the link, so in each element too, but
+  !! for jumps.
   pure function distributed_axial_forces(linkage, mesh, pose, field, joints) result(force)
     type(linkage_t), intent(in) :: linkage
     type(beam_mesh_t), intent(in) :: mesh
@@ -75,7 +81,7 @@ contains
     end do
   end function distributed_axial_forces
 
-  !> The same for a link as a whole: `N(ξ) = n0 + n1 ξ + n2 ξ²`, ξ from 0 to 1 along it.
+  !> The same for a link as a whole: `N(ξ) = n0 + n1 ξ + n2 ξ²`, ξ from 0 to 1 along it, but for jumps.
   pure function link_axial_force(linkage, body, pose, field, joints) result(force)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: body
@@ -93,6 +99,24 @@ contains
       force = [dot_product(e, joints%on_last(:, body)) - mass*(along + growth), mass*along, mass*growth]
     end associate
   end function link_axial_force
+
+  !> What the inertia load of every mass along a link adds to the axial force before it, tension positive [N].
+  pure function axial_jumps(linkage, body, pose, field) result(jump)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: body
+    type(pose_t), intent(in) :: pose
+    type(acceleration_field_t), intent(in) :: field
+    real(wp), allocatable :: jump(:) !! (lumps)
+
+    integer :: i
+
+    associate (this => linkage%bodies(body))
+      allocate (jump(size(lump_masses(this))))
+      do i = 1, size(jump)
+        jump(i) = -this%lumps(i)%mass*dot_product(pose%direction(:, body), point_acceleration(field, body, this%lumps(i)%place(1)))
+      end do
+    end associate
+  end function axial_jumps
 
   !> Mean over the length of the axial force of a link that does not bend, tension positive [N]: `Σ F·r/L`, r from its first pin.
   !!
@@ -138,15 +162,16 @@ contains
     type(pose_t), intent(in) :: pose
     type(motion_t), intent(in) :: motion
     logical, intent(in) :: occurs(case_count)   !! cases that are wanted; the forces of others are zero
-    real(wp), allocatable :: force(:, :, :)     !! (1, ξ, ξ²; bodies; cases) [N]
+    real(wp), allocatable :: force(:, :, :)     !! (1, ξ, ξ², jumps; bodies; cases) [N]
 
     type(load_case_t) :: cases(case_count)
     type(load_t) :: loads(size(linkage%bodies))
     type(joint_forces_t) :: joints
+    real(wp), allocatable :: jump(:)
     real(wp) :: pin_loads(2, size(linkage%pin_mass))
     integer :: b, i
 
-    allocate (force(merge(3, 0, any(occurs)), size(linkage%bodies), case_count))
+    allocate (force(merge(3 + most_jumps(linkage), 0, any(occurs)), size(linkage%bodies), case_count))
     if (.not. any(occurs)) return
     force = 0.0_wp
     cases = unit_cases(linkage, pose, motion)
@@ -156,12 +181,27 @@ contains
       joints = find_joint_forces(linkage, pose, loads, pin_loads)
       do b = 1, size(linkage%bodies)
         if (linkage%bodies(b)%bends) then
-          force(:, b, i) = link_axial_force(linkage, b, pose, cases(i)%field, joints)
+          force(:3, b, i) = link_axial_force(linkage, b, pose, cases(i)%field, joints)
+          jump = axial_jumps(linkage, b, pose, cases(i)%field)
+          force(4:3 + size(jump), b, i) = jump
         else
           force(1, b, i) = mean_axial_force(linkage, b, 0, pose, cases(i)%field, joints)
         end if
       end do
     end do
   end function distributed_unit_forces
+
+  !> Jumps of the axial force in the link that bends and carries most masses.
+  pure function most_jumps(linkage) result(most)
+    type(linkage_t), intent(in) :: linkage
+    integer :: most
+
+    integer :: b
+
+    most = 0
+    do b = 1, size(linkage%bodies)
+      if (linkage%bodies(b)%bends) most = max(most, size(lump_masses(linkage%bodies(b))))
+    end do
+  end function most_jumps
 
 end module axial_forces

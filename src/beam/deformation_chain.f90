@@ -4,8 +4,10 @@
 !! is the unit matrix. Nothing is assembled: work and memory grow with the number of elements, and no digits are lost to it, for
 !! the deformations of an element are small numbers themselves and not differences of displacements.
 module deformation_chain
+  use axial_forces, only: most_jumps
   use beam_mesh, only: beam_t
-  use chain_links, only: add_back, add_back_at_end, add_from_start, at_end, at_place, chain_t, new_chain, slope_at_start
+  use chain_links, only: add_back, add_back_at_end, add_from_start, add_lump_forces, at_end, at_place, chain_t, new_chain, &
+    slope_at_start
   use kinds, only: wp
   use link_modes, only: link_modes_t
   use linkages, only: linkage_t
@@ -26,6 +28,7 @@ module deformation_chain
     real(wp), allocatable :: rigid_mass(:, :, :) !! (3, 3, links) of links that do not bend, as in `link_modes_t`
     real(wp), allocatable :: pin_mass(:)
     real(wp), allocatable :: axial_force(:, :) !! (3, elements) coefficients of 1, ξ, ξ² in every element [N]; no elements: no loads
+    real(wp), allocatable :: jump(:, :)        !! (lumps, links) forces from the first pin up to the masses along the links [N]
   contains
     procedure :: multiply
   end type deformation_chain_t
@@ -47,7 +50,8 @@ contains
     chain%border = maxval(chain%number)
     chain%rigid_mass = 0.0_wp
     chain%pin_mass = linkage%pin_mass
-    allocate (chain%axial_force(3, 0), chain%links(size(beams)))
+    allocate (chain%axial_force(3, 0), chain%links(size(beams)), chain%jump(most_jumps(linkage), size(beams)))
+    chain%jump = 0.0_wp
     number = 0
     do b = 1, size(beams)
       chain%links(b) = new_chain(linkage%bodies(b), beams(b), elements(b), order(b), axial_degree(b))
@@ -93,7 +97,7 @@ contains
       call add_stretching(pencil%links(b), pencil%chords%along(:, :, b), border, vector, mass_times, on_border)
       if (size(pencil%axial_force, 2) > 0) then
         call add_geometric(pencil%links(b), pencil%axial_force(:, first_element:first_element + pencil%links(b)%elements - 1), &
-          pencil%chords%turn(:, b), border, vector, stiffness_times, turned)
+          pencil%jump(:, b), pencil%chords%turn(:, b), border, vector, stiffness_times, turned)
       end if
       first_element = first_element + pencil%links(b)%elements
     end do
@@ -190,6 +194,7 @@ contains
     do e = link%elements, 1, -1
       i = link%first_bending + (e - 1)*link%bendings
       force = link%weight*coefficient(:, e)
+      call add_lump_forces(link, e, coefficient(:, e), force)
       call add_back(link%bend, force, mass_times(i + 1:i + link%bendings))
       call add_back_at_end(link%bend, link%at_end, sum(value), mass_times(i + 1:i + link%bendings))
       call add_back_at_end(link%rotate, link%at_end, sum(slope), mass_times(i + 1:i + link%bendings))
@@ -229,6 +234,7 @@ contains
     do e = link%elements, 1, -1
       i = link%first_strain + (e - 1)*link%strains
       force = link%weight*coefficient(:, e)
+      call add_lump_forces(link, e, coefficient(:, e), force)
       call add_back(link%stretch, force, mass_times(i + 1:i + link%strains))
       call add_back_at_end(link%stretch, min(2, link%strains), sum(value), mass_times(i + 1:i + link%strains))
       call add_exactly(value, force(1))
@@ -237,9 +243,10 @@ contains
   end subroutine add_stretching
 
   !> `K_G = ∫ N v'²` of a link.
-  pure subroutine add_geometric(link, axial_force, turn, border, vector, stiffness_times, on_border)
+  pure subroutine add_geometric(link, axial_force, jump, turn, border, vector, stiffness_times, on_border)
     type(chain_t), intent(in) :: link
     real(wp), intent(in) :: axial_force(:, :) !! (3, elements)
+    real(wp), intent(in) :: jump(:)           !! (lumps, and perhaps more)
     real(wp), intent(in) :: turn(:)
     real(wp), intent(in) :: border(:), vector(:)
     real(wp), intent(inout) :: stiffness_times(:), on_border(:)
@@ -256,6 +263,10 @@ contains
       moment(:, e) = 0.0_wp
       do k = 1, 3
         moment(:, e) = moment(:, e) + axial_force(k, e)*matmul(link%force(:, :, k), coefficient)
+      end do
+      do k = 1, size(link%lump)
+        if (e < link%lump_element(k)) moment(:, e) = moment(:, e) + jump(k)*matmul(link%force(:, :, 1), coefficient)
+        if (e == link%lump_element(k)) moment(:, e) = moment(:, e) + jump(k)*matmul(link%before(:, :, k), coefficient)
       end do
       call add_exactly(slope, at_end(link%rotate, link%at_end, vector(i + 1:i + link%bendings)))
     end do
