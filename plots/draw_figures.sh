@@ -181,7 +181,8 @@ else
     plan_rigid_dynamics
 fi
 if [ ! -s "$new/plan" ]; then
-    [ $figures = figures ] || fail "$outdir has nothing to animate: that takes REPORT kinematics (the linkage as it moves) or shapes"
+    [ $figures = figures ] ||
+        fail "$outdir has nothing to animate: that takes REPORT kinematics (the linkage as it moves) or shapes"
     fail "$outdir has no table that a figure can be drawn from"
 fi
 

@@ -11,7 +11,8 @@ panels = words(quantities)
 harmonics = 0
 do for [name in columns] { if (name eq sprintf("h%d", harmonics + 1)) { harmonics = harmonics + 1 } }
 named(name) = name eq "shaking_x" ? "shaking force x" : name eq "shaking_y" ? "shaking force y" \
-    : name eq "shaking_moment" ? "shaking moment" : name eq "shaking_force" ? "shaking force" : name eq "torque" ? "driving torque" : name
+    : name eq "shaking_force" ? "shaking force" : name eq "shaking_moment" ? "shaking moment" \
+    : name eq "torque" ? "driving torque" : name
 
 # A block of rows: harmonic, then its amplitude for each of the linkages; a panel each.
 array most[panels]

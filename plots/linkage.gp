@@ -73,4 +73,5 @@ extent = "x_min = real(O2); x_max = x_min; y_min = imag(O2); y_max = y_min; ".\
     "span = x_max - x_min > y_max - y_min ? x_max - x_min : y_max - y_min"
 
 # Where there are no points, the middle of the coupler is one.
-middle_of_coupler = "if (points == 0) { points = 1; array point_link[1]; array point_place[1]; point_link[1] = 3; point_place[1] = r3/2 }"
+middle_of_coupler = "if (points == 0) { points = 1; ".\
+    "array point_link[1]; array point_place[1]; point_link[1] = 3; point_place[1] = r3/2 }"

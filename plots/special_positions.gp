@@ -38,7 +38,8 @@ lines_drawn = ceil(n/(1.0*columns_drawn))
 tile_width = 380
 tile_height = tile_width*(y1 - y0)/(x1 - x0)
 tile_height = tile_height > 480 ? 480 : tile_height
-words_of(event) = strstrt(event, "_") == 0 ? event : words_of(event[1 : strstrt(event, "_") - 1]." ".event[strstrt(event, "_") + 1 : *])
+words_of(event) = strstrt(event, "_") == 0 ? event \
+    : words_of(event[1 : strstrt(event, "_") - 1]." ".event[strstrt(event, "_") + 1 : *])
 headline = numbered(figure, "Special positions of the linkage")
 note = "μ: transmission angle"
 page = columns_drawn*tile_width + 60

@@ -63,8 +63,11 @@ END_OF_PYTHON
 
 rigid_figures() {
   run 0 --out "$scratch/out" inputs/rigid.deck || return 1
-  speeds=$(for name in balance harmonics lagrange point_rates reactions shaking_force; do echo ${name}_speed_5 ${name}_speed_10; done)
-  drawn rigid figures coupler_curve kinematics_accelerations kinematics_angles kinematics_velocities motion special_positions $speeds
+  speeds=$(for name in balance harmonics lagrange point_rates reactions shaking_force; do
+    echo ${name}_speed_5 ${name}_speed_10
+  done)
+  drawn rigid figures coupler_curve kinematics_accelerations kinematics_angles kinematics_velocities motion special_positions \
+    $speeds
 }
 
 rigid_animations() {
@@ -124,7 +127,8 @@ pivots() {
 # A copy of the scripts, called through a link.
 installed_plots() {
   cp -R plots "$scratch/share" && ln -s share/draw_figures.sh "$scratch/draw" || return 1
-  timeout 300 sh "$scratch/draw" "$scratch/out/kinematics" >"$scratch/stdout" 2>"$scratch/stderr" || { cat "$scratch/stderr"; return 1; }
+  timeout 300 sh "$scratch/draw" "$scratch/out/kinematics" >"$scratch/stdout" 2>"$scratch/stderr" ||
+    { cat "$scratch/stderr"; return 1; }
   silent && [ "$(wc -l <"$scratch/stdout")" -eq 3 ]
 }
 
