@@ -1,5 +1,6 @@
 #!/bin/sh
 # A full disk: a clear message, no half table, and the earlier results untouched. The disk is a small tmpfs.
+# Large tables are of the motion alone: on a busy machine a search for frequencies may take long enough to leave resume.part.
 . tests/scripts/functions.sh
 
 disk=$scratch/disk
@@ -16,7 +17,7 @@ full="the file could not be written completely; is the disk full?"
 earlier_results() {
   beam_deck "CRANK 0" "REPORT frequencies" >"$deck"
   run 0 --out "$disk" "$deck" && cp -r "$disk" "$scratch/before" || return 1
-  beam_deck "CRANK 0 to 360 step 1" "REPORT frequencies" "REPORT shapes" "REPORT kinematics" >"$deck"
+  beam_deck "CRANK 0 to 360 step 0.5" "REPORT kinematics" >"$deck"
   run 2 --out "$disk" "$deck" && says "$full" && same "$disk" "$scratch/before"
 }
 
@@ -27,7 +28,7 @@ new_folder() {
 
 # Plain tables alone would have room.
 with_csv() {
-  beam_deck "CRANK 0 to 360 step 1" "REPORT frequencies" >"$deck"
+  beam_deck "CRANK 0 to 360 step 1.5" "REPORT kinematics" >"$deck"
   run 0 --out "$disk/plain" "$deck" && rm -r "$disk/plain" || return 1
   run 2 --out "$disk" --format csv "$deck" && says "$full" && same "$disk" "$scratch/before"
 }
