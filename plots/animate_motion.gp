@@ -31,7 +31,7 @@ set print $poses
 do for [k=1:shown] { print pose(theta[3*k - 2], theta[3*k - 1], theta[3*k]) }
 unset print
 
-note = slower == 1 ? "" : sprintf("%g times slower than it is", slower)
+note = slower == 1 ? "" : sprintf("slowed down %g times", slower)
 caption(row) = sprintf("t = %.2f %s,  ω₂ = %.1f %s", seconds[now], unit_time, rates[now], unit_omega2)
 tail = 6
 call plots."animate_poses.gp" delay pictures every_row

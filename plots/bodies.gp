@@ -25,7 +25,8 @@ capsule(p, q, h, colour) = (u = h*along_link(p, q), \
     sprintf("$capsule using (%.7g + %.7g*$1 + %.7g*$2 - %.7g*$3):(%.7g + %.7g*$1 + %.7g*$2 + %.7g*$3)", \
         real(p), real(q - p), real(u), imag(u), imag(p), imag(q - p), imag(u), real(u)).filled(colour))
 disc(p, h, colour) = capsule(p, p, h, colour)
-triangle(p, q, r, colour) = sprintf("$corners using ($1 == 0 ? %.7g : $1 == 1 ? %.7g : %.7g):($1 == 0 ? %.7g : $1 == 1 ? %.7g : %.7g)", \
+triangle(p, q, r, colour) = sprintf("$corners using ($1 == 0 ? %.7g : $1 == 1 ? %.7g : %.7g)".\
+    ":($1 == 0 ? %.7g : $1 == 1 ? %.7g : %.7g)", \
     real(p), real(q), real(r), imag(p), imag(q), imag(r)).filled(colour)
 
 # Where pins and points are in a row of a block of poses.

@@ -38,8 +38,8 @@ call plots."bodies.gp" sprintf("%g", 0.016*span)
 
 headline = numbered(figure, sprintf("Paths of points, with the mechanism at %s", at_crank(crank)))
 note = turning ? sprintf("dots: every %d° of the crank; grey: the mechanism every %g°", dots, 360.0/positions) \
-    : "grey: the mechanism at other positions of its range"
-eval frame(x_min - room, x_max + room, y_min - room - size, y_max + room, lines_of_notes(note, remark))
+    : "dots: crank angles at equal steps; grey: the mechanism at other positions of its range"
+eval frame(x_min - room - 0.4*size, x_max + room, y_min - room - size, y_max + room, lines_of_notes(note, remark))
 eval heading
 set xlabel "x".unit("x")
 set ylabel "y".unit("y")
@@ -56,8 +56,8 @@ ghosts = ""
 do for [k=1:positions] { if (k > 1 || !turning) { ghosts = ghosts.ghost($ghosts[k]) } }
 paths = ""
 do for [p=1:points] {
-    paths = paths.sprintf("$paths using %d:%d with lines lw 4 dt solid lc rgb '%s' title '%s', ", \
-        column_of(p), column_of(p) + 1, point_ink(p), word(point_names, p))
+    paths = paths.sprintf("$paths using %d:%d with lines lw 4 dt solid lc rgb '%s' title word(point_names, %d), ", \
+        column_of(p), column_of(p) + 1, point_ink(p), p)
     paths = paths.sprintf("$paths every %d using %d:%d with points pt 7 ps 0.9 lc rgb '%s' notitle, ", \
         dots, column_of(p), column_of(p) + 1, point_ink(p))
 }

@@ -111,18 +111,22 @@ plan_kinematics() {
         add kinematics_accelerations kinematics.gp kinematics.dat accelerations
 }
 
-# Paths need the pivots, which more than one position of kinematics.dat tells; the shaking force is drawn once.
+# The pivots are known if kinematics.dat has several positions.
+pivots_known() { [ -f kinematics.dat ] && [ "$(ask 'distinct crank' kinematics.dat | wc -l)" -gt 1 ]; }
+
+# Linkages as such need the pivots. The shaking force is drawn once, with counterweights if they are known.
 plan_rigid_dynamics() {
     balance=
     have balance.dat && balance=balance.dat
     if have points.dat; then
         plan_speeds point_rates points.dat
-        if [ -f kinematics.dat ] && [ "$(ask 'distinct crank' kinematics.dat | wc -l)" -gt 1 ]; then
+        if pivots_known; then
             add coupler_curve coupler_curve.gp points.dat kinematics.dat "$(telling_crank points.dat)" "$balance"
         else
             echo 'draw_figures.sh: paths of points are drawn only with kinematics.dat of several positions (REPORT kinematics)' >&2
         fi
     fi
+    pivots_known && have linkage.dat && add special_positions special_positions.gp linkage.dat kinematics.dat
     have reactions.dat && plan_speeds reactions reactions.dat
     [ -n "$balance" ] || ! have reactions.dat || plan_speeds shaking_force reactions.dat
     [ -z "$balance" ] || { plan_speeds shaking_force balance.dat; plan_speeds balance balance.dat; }
@@ -141,7 +145,7 @@ plan_animations() {
     points=
     have points.dat && points=points.dat
     have kinematics.dat || return
-    if [ "$(ask 'distinct crank' kinematics.dat | wc -l)" -eq 1 ]; then
+    if ! pivots_known; then
         echo 'draw_figures.sh: a linkage is animated if kinematics.dat has more than one position' >&2
         return
     fi
@@ -177,7 +181,8 @@ else
     plan_rigid_dynamics
 fi
 if [ ! -s "$new/plan" ]; then
-    [ $figures = figures ] || fail "$outdir has nothing to animate: that takes REPORT kinematics (the linkage as it moves) or shapes"
+    [ $figures = figures ] ||
+        fail "$outdir has nothing to animate: that takes REPORT kinematics (the linkage as it moves) or shapes"
     fail "$outdir has no table that a figure can be drawn from"
 fi
 

@@ -11,7 +11,8 @@ panels = words(quantities)
 harmonics = 0
 do for [name in columns] { if (name eq sprintf("h%d", harmonics + 1)) { harmonics = harmonics + 1 } }
 named(name) = name eq "shaking_x" ? "shaking force x" : name eq "shaking_y" ? "shaking force y" \
-    : name eq "shaking_moment" ? "shaking moment" : name eq "shaking_force" ? "shaking force" : name eq "torque" ? "driving torque" : name
+    : name eq "shaking_force" ? "shaking force" : name eq "shaking_moment" ? "shaking moment" \
+    : name eq "torque" ? "driving torque" : name
 
 # A block of rows: harmonic, then its amplitude for each of the linkages; a panel each.
 array most[panels]
@@ -56,7 +57,7 @@ do for [panel=1:panels] {
     set key at screen across(1305), up(base + panel_height)
     if (panel > 1) { do for [label=901:904] { unset label label }; unset key }
     if (panel < panels) { set format x "" } else { set format x "%h"; set xlabel "harmonic k" }
-    top = most[panel] > 0 ? 1.1*most[panel] : 1
+    top = most[panel] > 0 ? 1.1*most[panel] : 1.0
     set yrange [0:top]
     set ytics nice(top/5)
     set ylabel named(word(quantities, panel)) noenhanced

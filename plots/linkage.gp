@@ -29,7 +29,7 @@ turns_fully = abs(O4 - O2) + r2 <= r3 + r4 + slack && abs(abs(O4 - O2) - r2) >= 
 
 # ---- Points: each belongs to the link on which its place does not change ---------------------------------------
 
-point_names = ARG2 eq "" ? "" : answer(ARG2, "distinct point")
+point_names = ARG2 eq "" ? "" : names_in(ARG2, "point")
 points = words(point_names)
 array point_link[points + 1]
 array point_place[points + 1]                       # from the link's first pin, along it and to the left of it
@@ -43,11 +43,12 @@ if (points > 0) {
         spread = 1e300
         of_point(value) = strcol(col_point) eq word(point_names, p) ? value : NaN
         do for [link=2:4] {
-            stats ARG2 using (of_point(real(row_place(link)))):(imag(row_place(link))) name "place" nooutput
-            if (place_stddev_x + place_stddev_y < spread) {
-                spread = place_stddev_x + place_stddev_y
+            stats ARG2 using (of_point(real(row_place(link)))) name "along_it" nooutput
+            stats ARG2 using (of_point(imag(row_place(link)))) name "left_of_it" nooutput
+            if (along_it_stddev + left_of_it_stddev < spread) {
+                spread = along_it_stddev + left_of_it_stddev
                 point_link[p] = link
-                point_place[p] = place_mean_x + I*place_mean_y
+                point_place[p] = along_it_mean + I*left_of_it_mean
             }
         }
     }
@@ -72,4 +73,5 @@ extent = "x_min = real(O2); x_max = x_min; y_min = imag(O2); y_max = y_min; ".\
     "span = x_max - x_min > y_max - y_min ? x_max - x_min : y_max - y_min"
 
 # Where there are no points, the middle of the coupler is one.
-middle_of_coupler = "if (points == 0) { points = 1; array point_link[1]; array point_place[1]; point_link[1] = 3; point_place[1] = r3/2 }"
+middle_of_coupler = "if (points == 0) { points = 1; ".\
+    "array point_link[1]; array point_place[1]; point_link[1] = 3; point_place[1] = r3/2 }"

@@ -10,9 +10,10 @@ note = "work: of the motor, less what the loads take;  kinetic + potential − w
 source_of(k) = table
 picked = "1"
 x = "field('time')"
-x_axis = sprintf("set xrange [%.12g:%.12g]; set xlabel 'time'.unit('time')", low_time, high_time > low_time ? high_time : low_time + 1)
+x_axis = sprintf("set xrange [%.12g:%.12g]; set xlabel 'time'.unit('time')", low_time, \
+    high_time > low_time ? high_time : low_time + 1)
 panels = 3
-array axis_of[3] = ["angular velocity".unit("omega2"), "torque of the motor".unit("torque"), "energy [".typeset(unit_kinetic)."]"]
+array axis_of[3] = ["angular velocity".unit("omega2"), "motor torque".unit("torque"), "energy [".typeset(unit_kinetic)."]"]
 array curves_of[3] = ["field('omega2') field('omega4')", "field('torque')", "field('kinetic') field('potential') field('work')"]
 array titles_of[3] = ["'crank ω₂' 'follower ω₄'", "motor", "kinetic potential work"]
 call plots."panels.gp"

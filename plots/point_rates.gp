@@ -5,7 +5,7 @@ load ARG0[1 : strlen(ARG0) - strlen("point_rates.gp")]."style.gp"
 table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
 
 eval answer(table, "facts")
-names = answer(table, "distinct point")
+names = names_in(table, "point")
 headline = numbered(figure, sprintf("Speed and acceleration of points against crank angle, %s", at_speed(speed, unit_speed)))
 note = ""
 x = "field('crank')"

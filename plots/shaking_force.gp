@@ -1,4 +1,4 @@
-# The shaking force of one speed as an arrow's head sees it go round: as given and, from balance.dat, with counterweights.
+# A polar plot of the shaking force of one speed: as given and, from balance.dat, with counterweights.
 #   gnuplot -c shaking_force.gp balance.dat|reactions.dat OUT SPEED [FIGURE [REMARK]]
 
 load ARG0[1 : strlen(ARG0) - strlen("shaking_force.gp")]."style.gp"
@@ -14,10 +14,11 @@ if (balanced) {
     stats table using (value = pick(sqrt(field("balanced_x")**2 + field("balanced_y")**2)), \
         greatest = value > greatest ? value : greatest, value) name "rest" nooutput
 }
-ring = nice((greatest > 0 ? greatest : 1)/5)
-radius = ring*ceil((greatest > 0 ? greatest : 1)/ring - 0.001)
+ring = nice((greatest > 0 ? greatest : 1.0)/5)
+radius = ring*ceil((greatest > 0 ? greatest : 1.0)/ring - 0.001)
 
-stats table using (pick(field("shaking_x"))):(field("shaking_y")) name "middle" nooutput
+stats table using (pick(field("shaking_x"))) name "middle_x" nooutput
+stats table using (pick(field("shaking_y"))) name "middle_y" nooutput
 
 headline = numbered(figure, sprintf("Shaking force, %s", at_speed(speed, unit_speed)))
 note = "the force on the frame points from the centre to the curve; numbers: crank angle in degrees"
@@ -50,14 +51,14 @@ set arrow 41 from 0, -radius to 0, radius nohead lw 1.5 lc rgb "#909090" back
 set label 60 "x" at 1.03*radius, 0 left
 set label 61 "y" at 0, 1.03*radius center offset 0, 0.4
 
-# A mark and its crank angle every 30 degrees, the angle outside of the curve and not where another stands.
+# A mark every 30 degrees of the crank, and the angle beside it, at a right angle to the curve and not where another stands.
 last_x = 100*radius; last_y = 100*radius; begun = 0; before_x = 0; before_y = 0; off_x = 0; off_y = 0
 every_30 = "abs(field('crank')/30 - floor(field('crank')/30 + 0.5)) < 1e-9 && field('crank') < low_crank + 360"
 marked(value) = (@every_30) ? pick(value) : NaN
-# It stands off at a right angle to the curve.
 normal(x, y) = (tx = x - before_x, ty = y - before_y, before_x = x, before_y = y, \
-    begun == 0 || (tx == 0 && ty == 0) ? (begun = 1, ty = middle_mean_x - x, tx = y - middle_mean_y) : 0, t = sqrt(tx**2 + ty**2), t = t > 0 ? t : 1, \
-    t = ty*(x - middle_mean_x) - tx*(y - middle_mean_y) < 0 ? -t : t, off_x = 0.06*radius*ty/t, off_y = -0.06*radius*tx/t, 0)
+    begun == 0 || (tx == 0 && ty == 0) ? (begun = 1, ty = middle_x_mean - x, tx = y - middle_y_mean) : 0, \
+    t = sqrt(tx**2 + ty**2), t = t > 0 ? t : 1, t = ty*(x - middle_x_mean) - tx*(y - middle_y_mean) < 0 ? -t : t, \
+    off_x = 0.06*radius*ty/t, off_y = -0.06*radius*tx/t, 0)
 far(x, y) = (apart = sqrt((x - last_x)**2 + (y - last_y)**2) > 0.12*radius, \
     last_x = apart ? x : last_x, last_y = apart ? y : last_y, apart)
 labelled(x, y) = pick(0) == 0 ? (normal(x, y), @every_30 ? (far(x, y) ? x + off_x : NaN) : NaN) : NaN

@@ -80,8 +80,9 @@ same(a, b) = abs(a - b) <= 1e-9 * (1 + abs(b))
 argument(k) = exists("ARG".k) ? value("ARG".k) : ""     # of the script; one not given is empty
 field(name) = column(value("col_".name))            # this row's value in a column, after `eval answer(table, "facts")`
 unit(name) = " [".typeset(value("unit_".name))."]"
-typeset(text) = squared(strstrt(text, ".") == 0 ? text : text[1 : strstrt(text, ".") - 1]."·".text[strstrt(text, ".") + 1 : *])
-squared(text) = text[strlen(text) : *] eq "2" ? text[1 : strlen(text) - 1]."²" : text
+typeset(text) = text eq "" ? "" : symbol_of(text[1:1]).typeset(text[2:*])      # kg.mm2/s2 becomes kg·mm²/s²
+symbol_of(letter) = letter eq "." ? "·" : letter eq "2" ? "²" : letter eq "3" ? "³" : letter eq "4" ? "⁴" : letter
+names_in(table, name) = system(ask(table, "distinct ".name)." | sed 's/.*/\"&\"/'")     # each a word, whatever is in it
 
 # ---- Words ----------------------------------------------------------------------------------------------------
 

@@ -1,0 +1,141 @@
+#!/bin/sh
+# Figures and animations: every table of inputs/rigid.deck is drawn, gnuplot has nothing to complain about, and a GIF is whole.
+. tests/scripts/functions.sh
+
+case $program in
+*/release/*) ;;
+*) skip "figures and animations" "they are drawn from tables, which are the same in all builds"; exit ;;
+esac
+
+# drawn FOLDER KIND NAME...: without a word, figures or animations with these names and no others.
+drawn() {
+  folder=$scratch/out/$1
+  kind=$2
+  shift 2
+  option=
+  [ "$kind" = figures ] || option=--animate
+  timeout 300 sh plots/draw_figures.sh $option "$folder" >"$scratch/stdout" 2>"$scratch/stderr" || {
+    echo "status $?; it said:"
+    cat "$scratch/stderr"
+    return 1
+  }
+  silent || return 1
+  for name in "$@"; do echo "$name"; done | sort >"$scratch/expected"
+  sed '/^#/d; s/\.[a-z]*$//' "$folder/$kind/drawn.txt" | sort | diff "$scratch/expected" - || return 1
+  for file in "$folder/$kind/"*.png; do
+    [ ! -e "$file" ] || [ "$(wc -c <"$file")" -gt 8000 ] || { echo "$file is all but empty"; return 1; }
+  done
+}
+
+# gif FILE PICTURES: it ends where it should, has so many pictures, none like the one before, and plays without end.
+gif() {
+  python3 - "$scratch/out/$1" "$2" <<'END_OF_PYTHON'
+import sys
+
+with open(sys.argv[1], "rb") as file:
+    data = file.read()
+assert data[:6] == b"GIF89a", "no GIF"
+assert len(data) < 1000000, f"{len(data)} bytes"
+assert b"NETSCAPE2.0\x03\x01\x00\x00" in data, "it does not play without end"
+
+def blocks(place):
+    start = place
+    while data[place]:
+        place += data[place] + 1
+    return place + 1, data[start:place]
+
+place = 13 + (3*2**((data[10] & 7) + 1) if data[10] & 128 else 0)
+pictures = []
+while data[place] != 0x3B:
+    if data[place] == 0x21:
+        place, content = blocks(place + 2)
+    else:
+        assert data[place] == 0x2C, f"an unknown block at byte {place}"
+        flags = data[place + 9]
+        frame = data[place + 1:place + 9]
+        place, content = blocks(place + 11 + (3*2**((flags & 7) + 1) if flags & 128 else 0))
+        pictures.append((frame, content))
+assert place == len(data) - 1, "bytes behind its end"
+assert len(pictures) == int(sys.argv[2]), f"{len(pictures)} pictures"
+assert all(a != b for a, b in zip(pictures, pictures[1:])), "a picture that does not move"
+END_OF_PYTHON
+}
+
+rigid_figures() {
+  run 0 --out "$scratch/out" inputs/rigid.deck || return 1
+  speeds=$(for name in balance harmonics lagrange point_rates reactions shaking_force; do
+    echo ${name}_speed_5 ${name}_speed_10
+  done)
+  drawn rigid figures coupler_curve kinematics_accelerations kinematics_angles kinematics_velocities motion special_positions \
+    $speeds
+}
+
+rigid_animations() {
+  drawn rigid animations linkage motion && gif rigid/animations/linkage.gif 72 && gif rigid/animations/motion.gif 101
+}
+
+# Speeds of which one is the beginning of the other, failed rows, a single position, a name with an apostrophe.
+odd_tables() {
+  cat >"$scratch/dead.deck" <<'END_OF_DECK'
+TITLE A parallelogram's "dead" points, $1
+UNITS mm kg s
+GROUND O2 0 0
+GROUND O4 200 0
+LINK a O2 A length=100 mass=1 inertia=1000
+LINK b A B length=200 mass=1 inertia=1000
+LINK c O4 B length=100 mass=1 inertia=1000
+DRIVE a
+POINT p' b along=100 offset=60
+CRANK 0 to 360 step 30
+SPEED 0 0.5
+INERTIA distributed
+REPORT kinematics
+REPORT points
+REPORT reactions
+REPORT lagrange
+END_OF_DECK
+  sed 's/^CRANK.*/CRANK 90/; /REPORT points/d' "$scratch/dead.deck" >"$scratch/one.deck"
+  run 1 --quiet --out "$scratch/out" "$scratch/dead.deck" "$scratch/one.deck" || return 1
+  speeds=$(for name in lagrange reactions shaking_force; do echo ${name}_speed_0 ${name}_speed_0.5; done)
+  angles="kinematics_accelerations kinematics_angles kinematics_velocities"
+  drawn dead figures coupler_curve $angles point_rates_speed_0 point_rates_speed_0.5 $speeds || return 1
+  drawn one figures $angles $speeds
+}
+
+modes_swing() {
+  beam_deck "CRANK 60" "MODES 1" "REPORT shapes" >"$scratch/mode.deck"
+  run 0 --quiet --out "$scratch/out" "$scratch/mode.deck" || return 1
+  drawn mode animations mode_1_crank_60_speed_0 && gif mode/animations/mode_1_crank_60_speed_0.gif 40
+}
+
+nothing_to_animate() {
+  beam_deck "CRANK 60" "REPORT frequencies" >"$scratch/still.deck"
+  run 0 --quiet --out "$scratch/out" "$scratch/still.deck" || return 1
+  sh plots/draw_figures.sh --animate "$scratch/out/still" >"$scratch/stdout" 2>"$scratch/stderr" && echo "status 0" && return 1
+  says "has nothing to animate" && absent "$scratch/out/still/animations"
+}
+
+# What kinematics.dat tells of the linkage of inputs/kinematics.deck, at the origin of which there is no pivot.
+pivots() {
+  run 0 --quiet --out "$scratch/out" inputs/kinematics.deck || return 1
+  found=$(awk -v want=linkage -f plots/tables.awk <"$scratch/out/kinematics/kinematics.dat")
+  expected="O2 = {0.1, 0.05}; O4 = {0.5, 0.2}; r2 = 0.15; r3 = 0.4; r4 = 0.35; side = -1"
+  [ "$found" = "$expected" ] || echo "not '$expected' but '$found'"
+  [ "$found" = "$expected" ]
+}
+
+# A copy of the scripts, called through a link.
+installed_plots() {
+  cp -R plots "$scratch/share" && ln -s share/draw_figures.sh "$scratch/draw" || return 1
+  timeout 300 sh "$scratch/draw" "$scratch/out/kinematics" >"$scratch/stdout" 2>"$scratch/stderr" ||
+    { cat "$scratch/stderr"; return 1; }
+  silent && [ "$(wc -l <"$scratch/stdout")" -eq 3 ]
+}
+
+check "figures of inputs/rigid.deck" rigid_figures
+check "animations of inputs/rigid.deck" rigid_animations
+check "figures of failed rows, of one position, of names with apostrophes" odd_tables
+check "a mode swings" modes_swing
+check "nothing to animate" nothing_to_animate
+check "pivots and lengths from a table" pivots
+check "installed scripts" installed_plots
