@@ -21,7 +21,7 @@ unit_tests = $(if $(PFUNIT_DIR),pfunit,funit)/unit_tests
 
 ifndef kind
 # ---------------------------------------------------------------------------------------------- what a person types
-.PHONY: all debug quad thesis run figures check bench bench-pictures stress references fuzz memory golden install setup \
+.PHONY: all debug quad thesis run figures animate check bench bench-pictures stress references fuzz memory golden install setup \
         clean help
 
 all: setup
@@ -56,6 +56,11 @@ figures: all
 	@# Exit status 1: some rows could not be computed. The figures show where.
 	$(program) "$(DECK)" || test $$? -eq 1
 	@name=$$(basename "$(DECK)"); sh plots/draw_figures.sh "outputs/$${name%.*}"
+
+animate: all
+	$(need_deck)
+	$(program) "$(DECK)" || test $$? -eq 1
+	@name=$$(basename "$(DECK)"); sh plots/draw_figures.sh --animate "outputs/$${name%.*}"
 
 check: setup
 	@rm -f build/check.count
@@ -115,6 +120,7 @@ help:
 	@echo "make thesis             run both mechanisms of the thesis and draw their figures, in outputs/"
 	@echo "make run DECK=FILE      run one deck"
 	@echo "make figures DECK=FILE  run one deck and draw what its tables allow"
+	@echo "make animate DECK=FILE  run one deck and animate it: the linkage as it moves, and as it swings in its modes"
 	@echo "make check              all tests, in the release and in the debug build"
 	@echo "make check PFUNIT_DIR=D the same, with the unit tests run by the pFUnit 4 installed in the folder D"
 	@echo "make bench              time every solver in turn, tables and figures in outputs/bench/; four minutes"

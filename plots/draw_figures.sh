@@ -1,6 +1,7 @@
 #!/bin/sh
-# Draws every figure that the tables of one deck allow, into the folder `figures` beside them.
-#   draw_figures.sh outputs/mechanism1
+# Draws every figure that the tables of one deck allow, into the folder `figures` beside them, or animates what moves in
+# them, into the folder `animations`.
+#   draw_figures.sh [--animate] outputs/mechanism1
 # A figure of the thesis gets its number (thesis_figures.txt). The figures of the last run stay until all new ones are
 # drawn; then they go, and files that this script did not draw stay. Prints a line a figure.
 
@@ -13,7 +14,9 @@ fail() {
     exit "${2:-1}"
 }
 
-[ $# -eq 1 ] || fail 'usage: draw_figures.sh OUTDIR   (the folder with the tables of one deck)' 2
+figures=figures
+[ "${1-}" = --animate ] && figures=animations && shift
+[ $# -eq 1 ] || fail 'usage: draw_figures.sh [--animate] OUTDIR   (the folder with the tables of one deck)' 2
 outdir=${1%/}
 [ -d "$outdir" ] || fail "no folder $outdir"
 command -v gnuplot > /dev/null || fail 'gnuplot is not installed'
@@ -95,7 +98,7 @@ plan_frequencies() {
 
 plan_modes() {
     ask 'distinct mode crank speed' shapes.dat | while read -r mode crank speed; do
-        add "mode_${mode}_crank_${crank}_speed_$speed" mode_shape.gp shapes.dat "$mode" "$crank" "$speed"
+        add "mode_${mode}_crank_${crank}_speed_$speed" "${animate-mode_shape.gp}" shapes.dat "$mode" "$crank" "$speed"
     done
 }
 
@@ -108,14 +111,53 @@ plan_kinematics() {
         add kinematics_accelerations kinematics.gp kinematics.dat accelerations
 }
 
+# Paths need the pivots, which more than one position of kinematics.dat tells; the shaking force is drawn once.
+plan_rigid_dynamics() {
+    balance=
+    have balance.dat && balance=balance.dat
+    if have points.dat; then
+        plan_speeds point_rates points.dat
+        if [ -f kinematics.dat ] && [ "$(ask 'distinct crank' kinematics.dat | wc -l)" -gt 1 ]; then
+            add coupler_curve coupler_curve.gp points.dat kinematics.dat "$(telling_crank points.dat)" "$balance"
+        else
+            echo 'draw_figures.sh: paths of points are drawn only with kinematics.dat of several positions (REPORT kinematics)' >&2
+        fi
+    fi
+    have reactions.dat && plan_speeds reactions reactions.dat
+    [ -n "$balance" ] || ! have reactions.dat || plan_speeds shaking_force reactions.dat
+    [ -z "$balance" ] || { plan_speeds shaking_force balance.dat; plan_speeds balance balance.dat; }
+    have harmonics.dat && plan_speeds harmonics harmonics.dat
+    have lagrange.dat && plan_speeds lagrange lagrange.dat
+    have motion.dat && add motion motion.gp motion.dat
+}
+
+# Modes swing; a linkage turns, and moves as its motor makes it. Its pivots are known from kinematics.dat.
+plan_animations() {
+    case " $(LC_ALL=C.UTF-8 gnuplot -e 'set print "-"; print GPVAL_TERMINALS') " in
+        *' gif '*' pngcairo '* | *' pngcairo '*' gif '*) ;;
+        *) fail 'this gnuplot has not both of the terminals pngcairo and gif: nothing can be animated' ;;
+    esac
+    have shapes.dat && animate=animate_mode.gp plan_modes
+    points=
+    have points.dat && points=points.dat
+    have kinematics.dat || return
+    if [ "$(ask 'distinct crank' kinematics.dat | wc -l)" -eq 1 ]; then
+        echo 'draw_figures.sh: a linkage is animated if kinematics.dat has more than one position' >&2
+        return
+    fi
+    add linkage animate_linkage.gp kinematics.dat "$points"
+    have motion.dat && add motion animate_motion.gp motion.dat kinematics.dat "$points"
+}
+
 # A deck with VARY: its rows belong to many mechanisms, and only its frequencies are drawn, against what was varied.
 varied=
-for table in frequencies kinematics inertia mesh shapes branches; do
+for table in frequencies kinematics inertia mesh shapes branches reactions points lagrange linkage balance harmonics motion; do
     [ -z "$varied" ] && [ -f $table.dat ] && varied=$(ask varied $table.dat)
 done
 
 : > "$new/plan"
 if [ -n "$varied" ]; then
+    [ $figures = figures ] || fail "$outdir has nothing to animate: its tables are those of a deck with VARY"
     [ -f frequencies.dat ] ||
         fail "$outdir has nothing to draw: of a deck with VARY only frequencies.dat is drawn (REPORT frequencies)"
     if have frequencies.dat; then
@@ -123,6 +165,8 @@ if [ -n "$varied" ]; then
             add "frequencies_by_$parameter" varied.gp frequencies.dat "$parameter"
         done
     fi
+elif [ $figures = animations ]; then
+    plan_animations
 else
     have inertia.dat && plan_mechanism
     have mesh.dat && add finite_element_model finite_element_model.gp mesh.dat "$(telling_crank mesh.dat)"
@@ -130,16 +174,20 @@ else
     have branches.dat && plan_speeds branches branches.dat
     have shapes.dat && plan_modes
     have kinematics.dat && plan_kinematics
+    plan_rigid_dynamics
 fi
-[ -s "$new/plan" ] || fail "$outdir has no table that a figure can be drawn from"
+if [ ! -s "$new/plan" ]; then
+    [ $figures = figures ] || fail "$outdir has nothing to animate: that takes REPORT kinematics (the linkage as it moves) or shapes"
+    fail "$outdir has no table that a figure can be drawn from"
+fi
 
 # The plan becomes calls of the scripts, dealt out to two runs of gnuplot (starting one for each figure takes longer).
 : > "$new/draw0"
 : > "$new/draw1"
-awk -v deck="$deck" -v new="$new" '
+awk -v deck="$deck" -v new="$new" -v animated="${figures#figures}" '
     function quoted(text) { gsub(/\047/, "\047\047", text); return "\047" text "\047" }
     NR == FNR {
-        if ($1 != deck) next
+        if ($1 != deck || animated) next
         number[$2] = $3
         file[$2] = $4
         for (i = 5; i <= NF; i++) remark[$2] = remark[$2] (i > 5 ? " " : "") $i
@@ -156,31 +204,38 @@ awk -v deck="$deck" -v new="$new" '
     }' "$PLOTS/thesis_figures.txt" "$new/plan" || fail 'awk failed'
 
 # The scripts are UTF-8; in the C locale gnuplot warns about every degree sign.
-LC_ALL=C.UTF-8 gnuplot "$new/draw0" &
+# It counts the pictures of an animation on standard error.
+LC_ALL=C.UTF-8 gnuplot "$new/draw0" 2> "$new/told0" &
 first=$!
-LC_ALL=C.UTF-8 gnuplot -e 'fallback_told = 1' "$new/draw1"
+LC_ALL=C.UTF-8 gnuplot -e 'fallback_told = 1' "$new/draw1" 2> "$new/told1"
 second_status=$?
-wait "$first" && [ $second_status -eq 0 ] || fail "gnuplot failed: $outdir/figures is left as it was"
+wait "$first"
+first_status=$?
+sed '/^[0-9]* frames in animation sequence$/d' "$new/told0" "$new/told1" >&2
+[ $first_status -eq 0 ] && [ $second_status -eq 0 ] || fail "gnuplot failed: $outdir/$figures is left as it was"
 
-mkdir -p figures || fail "cannot write into $outdir/figures"
-if [ -f figures/drawn.txt ]; then
+mkdir -p $figures || fail "cannot write into $outdir/$figures"
+if [ -f $figures/drawn.txt ]; then
     while read -r name; do
         case $name in
             '' | '#'* | */*) ;;
-            *) rm -f "figures/$name" ;;
+            *) rm -f "$figures/$name" ;;
         esac
-    done < figures/drawn.txt
+    done < $figures/drawn.txt
 fi
 echo '# Drawn by draw_figures.sh, which removes these files when it draws again.' > "$new/drawn.txt"
 sort "$new/names" > "$new/sorted"
 while read -r name; do
-    for file in "$new/$name".*; do
-        [ -s "$file" ] || fail "gnuplot wrote no $name"
-        basename "$file" >> "$new/drawn.txt"
-        mv -f "$file" figures/ || fail "cannot write into $outdir/figures"
+    drawn=
+    for ending in png svg pdf gif; do
+        [ -s "$new/$name.$ending" ] || continue
+        drawn=$name.$ending
+        echo "$drawn" >> "$new/drawn.txt"
+        mv -f "$new/$drawn" $figures/ || fail "cannot write into $outdir/$figures"
     done
+    [ -n "$drawn" ] || fail "gnuplot wrote no $name"
 done < "$new/sorted"
-cp "$new/drawn.txt" figures/drawn.txt || fail "cannot write into $outdir/figures"
-sed -n "/^#/!p" figures/drawn.txt | while read -r name; do
-    printf '%s/figures/%s\n' "$outdir" "$name"
+cp "$new/drawn.txt" $figures/drawn.txt || fail "cannot write into $outdir/$figures"
+sed -n "/^#/!p" $figures/drawn.txt | while read -r name; do
+    printf '%s/%s/%s\n' "$outdir" $figures "$name"
 done

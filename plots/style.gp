@@ -22,11 +22,14 @@ if (terminal_name ne "pngcairo" && !exists("fallback_told")) {
 }
 fallback_told = 1
 
-# Pages are planned in pixels; pdfcairo counts in inches.
+# Pages are planned in pixels; pdfcairo counts in inches. Pictures of an animation are the same pages made smaller.
+page_scale = 1
+smaller(scale) = sprintf("page_scale = %g; extension = ''", scale)
 terminal_options(w, h) = terminal_name eq "pdfcairo" \
     ? sprintf("enhanced size %gin,%gin font 'Sans,16'", w/100.0, h/100.0) \
     : terminal_name eq "pngcairo" \
-    ? sprintf("enhanced size %d,%d font 'Sans,20' background rgb 'white'", w, h) \
+    ? sprintf("enhanced size %d,%d font 'Sans,20' fontscale %g linewidth %g pointscale %g background rgb 'white'", \
+        w*page_scale, h*page_scale, page_scale, page_scale, page_scale) \
     : sprintf("enhanced size %d,%d font 'Sans,%d'", w, h, terminal_name eq "svg" ? 24 : 15)
 open_page(w, h) = sprintf("set terminal %s %s; set output out.extension; page_width = %d; page_height = %d", \
     terminal_name, terminal_options(w, h), w, h)
@@ -76,7 +79,8 @@ keep(block, table, want) = "< awk -v datablock=".block.ask(table, want)[4 : *]  
 same(a, b) = abs(a - b) <= 1e-9 * (1 + abs(b))
 argument(k) = exists("ARG".k) ? value("ARG".k) : ""     # of the script; one not given is empty
 field(name) = column(value("col_".name))            # this row's value in a column, after `eval answer(table, "facts")`
-unit(name) = " [".squared(value("unit_".name))."]"
+unit(name) = " [".typeset(value("unit_".name))."]"
+typeset(text) = squared(strstrt(text, ".") == 0 ? text : text[1 : strstrt(text, ".") - 1]."·".text[strstrt(text, ".") + 1 : *])
 squared(text) = text[strlen(text) : *] eq "2" ? text[1 : strlen(text) - 1]."²" : text
 
 # ---- Words ----------------------------------------------------------------------------------------------------

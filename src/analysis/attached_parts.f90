@@ -9,7 +9,7 @@ module attached_parts
   implicit none (type, external)
   private
 
-  public :: body_point_t, add_lumps, add_loads, points_of, is_solid, line_density_of
+  public :: body_point_t, add_lumps, add_loads, points_of, place_on_body, is_solid, line_density_of
 
   !> A point fixed to a body.
   type :: body_point_t

@@ -9,6 +9,7 @@ module branch_tracking
   use kinds, only: wp
   use ledger, only: ledger_t
   use linkages, only: linkage_t
+  use load_cases, only: case_count
   use mechanisms, only: mechanism_t
   use mode_prints, only: likeness, mode_prints_t, new_mode_prints
   use motions, only: find_motion
@@ -217,7 +218,7 @@ contains
     type(chords_t) :: chords
     type(bordered_modes_t) :: modes(1)
     type(string_t) :: failure(1)
-    real(wp) :: factor(2, 1)
+    real(wp) :: factor(case_count, 1)
 
     found = .false.
     call find_pose(linkage, place(1), pose, error)
@@ -229,7 +230,7 @@ contains
     ! Places between two rows come in no order, nor are they told apart by the crank angle alone.
     work%tracks(1)%length = 0
     call solve_reduced(linkage, models%continuum, pose, place(1), distributed_unit_forces(linkage, pose, &
-      find_motion(linkage, pose), any(abs(factor) > 0.0_wp)), factor, request%modes, [.false.], work, chords, modes, failure, &
+      find_motion(linkage, pose), abs(factor(:, 1)) > 0.0_wp), factor, request%modes, [.false.], work, chords, modes, failure, &
       counts)
     found = len(failure(1)%text) == 0
     if (found) prints = new_mode_prints(models%continuum%layout, modes(1), request%modes)

@@ -8,6 +8,7 @@ module chain_modes
   use bordered_modes, only: bordered_modes_t, find_bordered_modes, new_start
   use deformation_chain, only: deformation_chain_t
   use deformation_model, only: deformation_model_t
+  use deformation_shapes, only: deformation_shapes_t
   use errors, only: error_t, set_error
   use kinds, only: wp
   use mode_count, only: count_limit, is_complete
@@ -75,10 +76,11 @@ contains
     real(wp), intent(out) :: vectors(:, :)
 
     real(wp), allocatable :: bending(:, :, :), strain(:, :, :), own(:), own_strain(:)
-    integer :: b, i, first, j, kinds, longest
+    integer :: b, i, first, j, kinds, longest, pieces
 
     longest = 1
     do b = 1, size(near%links)
+      if (.not. near%links(b)%bends) cycle
       longest = max(longest, near%links(b)%bending_shapes%unknowns, near%links(b)%axial_shapes%unknowns + 1)
     end do
     allocate (bending(longest, size(vectors, 2), size(near%links)))
@@ -86,6 +88,7 @@ contains
     bending = 0.0_wp
     strain = 0.0_wp
     do b = 1, size(near%links)
+      if (.not. near%links(b)%bends) cycle
       do i = 1, size(vectors, 2)
         associate (link => near%links(b), mode => modes%vector(:, i))
           first = near%layout%first(b)
@@ -93,38 +96,44 @@ contains
           if (link%clamped) own = own + mode(1)*link%bending(:, 0)
           first = first_axial(near%layout, near%links, b)
           own_strain = matmul(link%axial, mode(first:first + link%axial_modes - 1))
-          if (near%elements(b) == 1) then
-            ! The elongation of the link as a whole is a uniform strain.
-            own_strain = [mode(1 + b), own_strain]
-            kinds = merge(2, 1, link%bending_shapes%shear_stiffness > 0.0_wp)
+          own_strain = element_strains(link%axial_shapes, mode(chain%number(b)), own_strain)
+          if (link%bending_shapes%by_degree) then
+            pieces = link%bending_shapes%elements
+            kinds = pieces*merge(2, 1, link%bending_shapes%shear_stiffness > 0.0_wp)
             own = [(sqrt(2*((j - 1)/kinds) + 1.0_wp)*own(j), j=1, size(own))]
-            own_strain = [(sqrt(2*j - 1.0_wp)*own_strain(j), j=1, size(own_strain))]
-          else
-            own_strain = element_strains(near%elements(b), mode(1 + b), own_strain)
+            own_strain = [(sqrt(2*((j - 1)/pieces) + 1.0_wp)*own_strain(j), j=1, size(own_strain))]
           end if
           bending(:size(own), i, b) = own
           strain(:size(own_strain), i, b) = own_strain
         end associate
       end do
     end do
-    call project_modes(chain, near%elements == 1, bending, strain, vectors)
+    call project_modes(chain, near%links, bending, strain, vectors)
   end subroutine find_starts
 
-  !> Strains element by element, from the elongation of the link and the unknowns of `axial_shapes`.
-  pure function element_strains(elements, elongation, own) result(strain)
-    integer, intent(in) :: elements
+  !> Strains of all elements, scaled to energy, from the elongation of the link and the unknowns of `axial_shapes`, in their order but
+  !! for the uniform ones: these come with those of their degree, or element.
+  pure function element_strains(shapes, elongation, own) result(strain)
+    type(deformation_shapes_t), intent(in) :: shapes
     real(wp), intent(in) :: elongation
     real(wp), intent(in) :: own(:)
     real(wp) :: strain(size(own) + 1)
 
-    real(wp) :: uniform(elements)
-    integer :: e, more
+    real(wp) :: uniform(shapes%elements)
+    integer :: e, elements, more
 
-    uniform = elongation/sqrt(real(elements, wp))
-    do e = 1, elements - 1
-      uniform(:e) = uniform(:e) + own(e)/sqrt(e*(e + 1.0_wp))
-      uniform(e + 1) = uniform(e + 1) - e*own(e)/sqrt(e*(e + 1.0_wp))
-    end do
+    elements = shapes%elements
+    uniform = elongation/sqrt(elements/shapes%part)
+    associate (last => shapes%last, part => shapes%part)
+      do e = 1, elements - 1
+        uniform(:e) = uniform(:e) + own(e)/sqrt(last(e)*last(e + 1)/part(e + 1)/part(:e))
+        uniform(e + 1) = uniform(e + 1) - last(e)*own(e)/sqrt(last(e)*last(e + 1))
+      end do
+    end associate
+    if (shapes%by_degree) then
+      strain = [uniform, own(elements:)]
+      return
+    end if
     more = (size(own) + 1)/elements - 1
     do e = 1, elements
       strain((e - 1)*(more + 1) + 1) = uniform(e)

@@ -1,15 +1,20 @@
 !> The files of a run: opened together, put in place together.
 module deck_outputs
+  use balance_report, only: write_balance, write_harmonics
   use branch_report, only: write_branches
   use errors, only: error_t, set_error
   use file_system, only: is_directory, joined_path, make_directories, remove_empty_directory
   use frequency_report, only: write_frequencies, write_shapes
   use inertia_report, only: write_inertia
   use kinematics_report, only: write_kinematics
+  use lagrange_report, only: write_lagrange
+  use linkage_report, only: write_linkage
   use mesh_report, only: write_mesh
   use models, only: model_t, report_number
   use motion_report, only: write_motion
   use output_files, only: append_output, discard_output, finish_output, open_output, output_file_t, publish_output, remove_output
+  use points_report, only: write_points
+  use reactions_report, only: write_reactions
   use requests, only: report_balance, report_branches, report_frequencies, report_inertia, report_kind_count, report_kinematics, &
     report_lagrange, report_linkage, report_mesh, report_motion, report_points, report_reactions, report_shapes
   use run_findings, only: linkage_notes
@@ -25,10 +30,14 @@ module deck_outputs
     character(len=:), allocatable :: folder
     logical, private :: csv = .false.
     type(string_t), allocatable, private :: is_new(:)        !! folders that were not there before, outermost first
-    integer, allocatable, private :: kind(:)                 !! of each table: its report
+    integer, allocatable, private :: kind(:)                 !! of each table
     type(table_t), allocatable :: tables(:)
     type(output_file_t), private :: echo, log, summary
   end type outputs_t
+
+  !> A report has the table of its own number; those with two have another one behind all these.
+  integer, parameter :: table_harmonics = report_kind_count + 1
+  integer, parameter :: table_kind_count = table_harmonics
 
   character(len=*), parameter :: echo_name = "echo.deck", log_name = "run.log", summary_name = "summary.json"
 
@@ -47,7 +56,7 @@ contains
 
     outputs%folder = folder
     outputs%csv = csv
-    outputs%kind = pack([(i, i=1, report_kind_count)], [(report_number(model, i) > 0, i=1, report_kind_count)])
+    outputs%kind = pack([(i, i=1, table_kind_count)], [(report_number(model, report_of(i)) > 0, i=1, table_kind_count)])
     allocate (outputs%tables(size(outputs%kind)))
     call make_directories(folder, made, outputs%is_new)
     if (.not. made) then
@@ -79,7 +88,16 @@ contains
     if (is_directory(path)) call set_error(error, path//": error: this is a folder, and a file is to be written there")
   end subroutine refuse_folder
 
-  !> The name of a report's table, without `.dat` and `.csv`.
+  !> The report that a table belongs to.
+  pure function report_of(table) result(report)
+    integer, intent(in) :: table !! its kind
+    integer :: report
+
+    report = table
+    if (table == table_harmonics) report = report_balance
+  end function report_of
+
+  !> The name of a table, without `.dat` and `.csv`.
   pure function table_name(kind) result(name)
     integer, intent(in) :: kind
     character(len=:), allocatable :: name
@@ -108,6 +126,8 @@ contains
       name = "linkage"
     case (report_balance)
       name = "balance"
+    case (table_harmonics)
+      name = "harmonics"
     case (report_motion)
       name = "motion"
     end select
@@ -139,8 +159,20 @@ contains
           call write_shapes(table, model, mechanism, positions, sweep)
         case (report_branches)
           call write_branches(table, model, positions, sweep, run%branches)
+        case (report_reactions)
+          call write_reactions(table, model, mechanism, positions)
+        case (report_points)
+          call write_points(table, model, mechanism, positions)
+        case (report_lagrange)
+          call write_lagrange(table, model, mechanism, positions)
         case (report_motion)
           call write_motion(table, model, mechanism, run%motion)
+        case (report_linkage)
+          call write_linkage(table, model, mechanism)
+        case (report_balance)
+          call write_balance(table, model, mechanism, positions)
+        case (table_harmonics)
+          call write_harmonics(table, model, mechanism)
         end select
       end associate
     end do
@@ -185,7 +217,7 @@ contains
     if (allocated(error)) return
     call publish_output(outputs%summary, error)
     if (allocated(error)) return
-    do i = 1, report_kind_count
+    do i = 1, table_kind_count
       if (all(outputs%kind /= i)) call remove_output(outputs%folder, table_name(i)//".dat")
       if (all(outputs%kind /= i) .or. .not. outputs%csv) call remove_output(outputs%folder, table_name(i)//".csv")
     end do

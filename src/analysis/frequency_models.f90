@@ -8,6 +8,7 @@ module frequency_models
   use kinds, only: fineness, wp
   use ledger, only: ledger_t
   use link_store, only: link_store_t
+  use load_cases, only: case_count, constant_case
   use mechanisms, only: mechanism_t
   use models, only: solver_band, solver_dense
   use order_choice, only: choose_orders
@@ -41,26 +42,28 @@ module frequency_models
     integer :: points = 0              !! along each link, where shapes are wanted
     real(wp), allocatable :: speed(:)  !! [rad/s]; static: one value, which has no effect
     real(wp) :: acceleration = 0.0_wp  !! [rad/s²]
-    logical :: axial = .false.         !! with the geometric stiffness of the inertia loads
+    logical :: axial = .false.         !! with the geometric stiffness of the loads
+    logical :: constant = .false.      !! gravity, or forces and torques from outside, are among them
   end type mode_request_t
 
   type :: frequency_models_t
-    type(deformation_model_t) :: continuum !! one element a link, of the orders that the accuracy needs
+    type(deformation_model_t) :: continuum !! one element a link or between masses, of the orders that the accuracy needs
     type(deformation_model_t) :: mesh      !! that of the deck; for `by_long_mesh` with continuous links in place of the long ones
     type(deformation_chain_t) :: chain     !! that of the deck for `by_long_mesh`
   end type frequency_models_t
 
 contains
 
-  !> ω2² and α2 at every speed; zero without axial effects.
+  !> Factors of the unit loads at every speed, ω2², α2, and 1 for the constant ones; zero without axial effects.
   pure function load_factors(request) result(factor)
     type(mode_request_t), intent(in) :: request
-    real(wp) :: factor(2, size(request%speed))
+    real(wp) :: factor(case_count, size(request%speed))
 
     factor = 0.0_wp
     if (.not. request%axial) return
     factor(1, :) = request%speed**2
     factor(2, :) = request%acceleration
+    if (request%constant) factor(constant_case, :) = 1.0_wp
   end function load_factors
 
   !> How frequencies are found on a mesh.
@@ -114,7 +117,7 @@ contains
     if (request%method /= by_link_modes .and. request%method /= by_long_mesh) return
     associate (mesh => mechanism%mesh)
       is_long = is_long_link(mesh%elements, mesh%order, mesh%sheared)
-      call new_deformation_model(mechanism%linkage, mechanism%beams, merge(1, mesh%elements, is_long), &
+      call new_deformation_model(mechanism%linkage, mechanism%beams, merge(0, mesh%elements, is_long), &
         merge(models%continuum%order, mesh%order, is_long), request%lumped .and. request%axial .and. .not. is_long, models%mesh, &
         error, store)
       if (request%method == by_long_mesh) models%chain = new_deformation_chain(mechanism%linkage, mechanism%beams, &

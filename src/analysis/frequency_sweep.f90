@@ -6,6 +6,7 @@ module frequency_sweep
   use kinds, only: wp
   use ledger, only: add_ledger, ledger_t
   use link_store, only: link_store_t
+  use load_cases, only: has_constant_loads
   use mechanisms, only: mechanism_t
   use models, only: effects_static, inertia_lumped, model_t, needs_loads, report_number
   use position_modes, only: new_position_work, solve_position
@@ -158,6 +159,7 @@ contains
 
     request%modes = model%modes
     request%axial = needs_loads(model)
+    request%constant = has_constant_loads(mechanism%linkage)
     request%lumped = model%inertia == inertia_lumped
     request%method = chosen_method(model%solver, mechanism%accuracy > 0.0_wp, mechanism%mesh%elements, mechanism%mesh%order, &
       mechanism%mesh%sheared)

@@ -14,7 +14,7 @@ module kinematics_report
   implicit none (type, external)
   private
 
-  public :: write_kinematics
+  public :: write_kinematics, angle_note
 
 contains
 
@@ -32,9 +32,7 @@ contains
 
     length = coherent_unit(model%units, dimension_length)
     remarks = notes
-    call append_string(remarks, "3: link "//mechanism%names(2)%text//", angle from "//mechanism%pin_names(2)%text//" to "// &
-      mechanism%pin_names(3)%text//"; 4: link "//mechanism%names(3)%text//", angle from "//mechanism%pin_names(4)%text// &
-      " to "//mechanism%pin_names(3)%text)
+    call append_string(remarks, angle_note(mechanism))
     call append_string(remarks, "A: pin "//mechanism%pin_names(2)%text//"; B: pin "//mechanism%pin_names(3)%text)
     call append_string(remarks, "angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2")
     call write_header(table, model%title, remarks, columns(length))
@@ -52,6 +50,16 @@ contains
       end do
     end do
   end subroutine write_kinematics
+
+  !> Which link's angle theta3 and theta4 are.
+  pure function angle_note(mechanism) result(note)
+    type(mechanism_t), intent(in) :: mechanism
+    character(len=:), allocatable :: note
+
+    note = "3: link "//mechanism%names(2)%text//", angle from "//mechanism%pin_names(2)%text//" to "// &
+      mechanism%pin_names(3)%text//"; 4: link "//mechanism%names(3)%text//", angle from "//mechanism%pin_names(4)%text// &
+      " to "//mechanism%pin_names(3)%text
+  end function angle_note
 
   pure function columns(length) result(list)
     type(unit_t), intent(in) :: length

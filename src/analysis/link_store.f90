@@ -5,6 +5,7 @@
 module link_store
   use beam_mesh, only: beam_t
   use kinds, only: wp
+  use link_lumps, only: lump_masses, lump_places
   use link_modes, only: link_modes_t
   use linkages, only: body_t
   implicit none (type, external)
@@ -21,8 +22,9 @@ module link_store
     real(wp) :: line_density = 0.0_wp   !! [kg/m]
     real(wp) :: rotary_inertia = 0.0_wp !! ρI [kg m]
     type(beam_t) :: beam
-    integer :: elements = 0, order = 0
+    integer :: elements = 0, order = 0  !! no elements: one between the masses
     logical :: clamped = .false., lumped = .false.
+    real(wp), allocatable :: lumps(:)   !! masses along the link, then their places [kg, -]
   end type link_key_t
 
   type :: link_store_t
@@ -41,7 +43,15 @@ contains
     logical, intent(in) :: clamped, lumped
     type(link_key_t) :: key
 
-    key = link_key_t(body%length, body%line_density, body%rotary_inertia, beam, elements, order, clamped, lumped)
+    key%length = body%length
+    key%line_density = body%line_density
+    key%rotary_inertia = body%rotary_inertia
+    key%beam = beam
+    key%elements = elements
+    key%order = order
+    key%clamped = clamped
+    key%lumped = lumped
+    key%lumps = [lump_masses(body), lump_places(body)]
   end function new_link_key
 
   !> Copies the link of a key, if it is there.
@@ -82,6 +92,8 @@ contains
     logical :: is_same
 
     is_same = a%elements == b%elements .and. a%order == b%order .and. (a%clamped .eqv. b%clamped) .and. (a%lumped .eqv. b%lumped)
+    if (is_same) is_same = size(a%lumps) == size(b%lumps)
+    if (is_same) is_same = all(abs(a%lumps - b%lumps) <= 0.0_wp)
     if (is_same) is_same = all(abs(numbers_of(a) - numbers_of(b)) <= 0.0_wp)
   end function is_same
 

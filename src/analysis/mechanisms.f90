@@ -132,6 +132,7 @@ contains
 
     other = mechanism
     other%mesh = new_beam_mesh(mechanism%linkage, elements, mechanism%mesh%order, mechanism%mesh%sheared)
+    where (mechanism%load_elements > 0) other%load_elements = elements
   end function mesh_with
 
   pure function has_beams(mechanism) result(has)

@@ -1,20 +1,22 @@
 !> Frequencies of the deck's own mesh at one position, in one of three ways.
 module mesh_modes
-  use assembly, only: assemble_geometric_stiffness, assemble_mass, assemble_stiffness
-  use axial_forces, only: distributed_axial_forces, link_axial_force, lumped_axial_forces, total_force
+  use assembly, only: add_axial_jumps, assemble_geometric_stiffness, assemble_mass, assemble_stiffness
+  use axial_forces, only: axial_jumps, distributed_axial_forces, link_axial_force, lumped_axial_forces, mean_axial_force, &
+    most_jumps, total_force
   use band_matrix, only: band_matrix_t
   use bordered_matrix, only: bordered_matrix_t
   use bordered_modes, only: bordered_modes_t
   use chain_modes, only: find_chain_modes
+  use deformation_chain, only: deformation_chain_t
   use deformation_model, only: deformation_model_t
   use errors, only: error_t
   use frequency_models, only: by_dense, mode_request_t
-  use inertia_loads, only: distributed_load, load_t, lumped_load, pin_load
+  use inertia_loads, only: load_t
   use joint_forces, only: find_joint_forces, joint_forces_t
   use kinds, only: wp
+  use load_cases, only: case_count, find_case_loads, load_case_t, unit_cases
   use mechanisms, only: mechanism_t
   use modes, only: find_modes, modes_t
-  use motions, only: acceleration_field_t, unit_fields
   use pin_displacements, only: chords_t
   use position_results, only: of_frequency, position_result_t, position_work_t
   use positions, only: state_t
@@ -46,7 +48,7 @@ contains
     real(wp), allocatable :: unit_force(:, :, :), in_element(:, :, :)
     integer :: k
 
-    call find_mesh_forces(mechanism, model, state, request%lumped, any(abs(factor) > 0.0_wp), unit_force, in_element)
+    call find_mesh_forces(mechanism, model, state, request%lumped, any(abs(factor) > 0.0_wp, dim=2), unit_force, in_element)
     call solve_reduced(mechanism%linkage, model, state%pose, state%crank, unit_force, factor, request%modes, want_shapes, work, &
       chords, found, result%failure, result%counts)
     do k = 1, size(factor, 2)
@@ -78,7 +80,7 @@ contains
     integer :: elements, k
     logical :: loaded
 
-    call find_mesh_forces(mechanism, near, state, request%lumped, any(abs(factor) > 0.0_wp), unit_force, in_element)
+    call find_mesh_forces(mechanism, near, state, request%lumped, any(abs(factor) > 0.0_wp, dim=2), unit_force, in_element)
     call solve_reduced(mechanism%linkage, near, state%pose, state%crank, unit_force, factor, request%modes, want_shapes, &
       work%mesh, work%chain%chords, start, result%failure, result%counts)
     do k = 1, size(factor, 2)
@@ -86,6 +88,7 @@ contains
       loaded = any(abs(factor(:, k)) > 0.0_wp)
       elements = merge(size(in_element, 2), 0, loaded)
       work%chain%axial_force = total_force(in_element(:, :elements, :), factor(:, k))
+      if (loaded) call take_jumps(near, total_force(unit_force, factor(:, k)), work%chain)
       least_geometric = work%mesh%geometric
       if (loaded) then
         call combine(work%mesh, factor(:, k))
@@ -108,6 +111,23 @@ contains
     end do
   end subroutine solve_long_mesh
 
+  !> Gives a long mesh the jumps of its axial forces, which are those of the near model.
+  pure subroutine take_jumps(near, force, chain)
+    type(deformation_model_t), intent(in) :: near
+    real(wp), intent(in) :: force(:, :) !! (force functions, bodies) [N]
+    type(deformation_chain_t), intent(inout) :: chain
+
+    integer :: b, n
+
+    do b = 1, size(near%links)
+      if (.not. near%links(b)%bends) cycle
+      n = size(chain%links(b)%lump)
+      associate (smooth => smooth_functions(near, b))
+        chain%jump(:n, b) = force(smooth + 1:smooth + n, b)
+      end associate
+    end do
+  end subroutine take_jumps
+
   !> Lowers the axial force of continuous links until it is nowhere above that of the mesh.
   pure subroutine lower_to_mesh(mechanism, near, in_element, force)
     type(mechanism_t), intent(in) :: mechanism
@@ -119,7 +139,7 @@ contains
     integer :: b, e, end_of, n
 
     do b = 1, size(near%links)
-      if (near%lumped(b)) cycle
+      if (near%lumped(b) .or. .not. near%links(b)%bends) cycle
       n = mechanism%mesh%elements(b)
       above = 0.0_wp
       do e = 1, n
@@ -137,7 +157,7 @@ contains
 
   !> The mesh of the deck in nodal displacements.
   !!
-  !! Matrices are assembled once; the geometric stiffness is made of two unit matrices, one for ω2² and one for α2.
+  !! Matrices are assembled once; the geometric stiffness is made of unit matrices, one for each of the unit loads that occur.
   subroutine solve_nodal(mechanism, state, request, factor, want_shapes, result)
     type(mechanism_t), intent(in) :: mechanism
     type(state_t), intent(in) :: state
@@ -146,29 +166,33 @@ contains
     logical, intent(in) :: want_shapes(:)
     type(position_result_t), intent(inout) :: result
 
-    type(band_matrix_t) :: stiffness, mass, total, unit_stiffness(2)
-    type(acceleration_field_t) :: fields(2)
+    type(band_matrix_t) :: stiffness, mass, total, unit_stiffness(case_count)
+    type(load_case_t) :: cases(case_count)
     type(modes_t) :: found
     type(joint_forces_t) :: joints
     type(error_t), allocatable :: error
     real(wp) :: in_element(3, sum(mechanism%mesh%elements))
-    integer :: i, k
+    integer :: b, i, k
 
     stiffness = assemble_stiffness(mechanism%linkage, mechanism%beams, mechanism%mesh, state%pose)
     mass = assemble_mass(mechanism%linkage, mechanism%mesh, state%pose)
     result%counts%stiffness_matrices = result%counts%stiffness_matrices + 1
     result%counts%mass_matrices = result%counts%mass_matrices + 1
-    if (any(abs(factor) > 0.0_wp)) fields = unit_fields(mechanism%linkage, state%pose, state%motion)
-    do i = 1, 2
+    if (any(abs(factor) > 0.0_wp)) cases = unit_cases(mechanism%linkage, state%pose, state%motion)
+    do i = 1, case_count
       if (all(abs(factor(i, :)) <= 0.0_wp)) cycle
-      call find_axial_forces(mechanism, state, fields(i), request%lumped, in_element, joints)
+      call find_axial_forces(mechanism, state, cases(i), request%lumped, in_element, joints)
       unit_stiffness(i) = assemble_geometric_stiffness(mechanism%linkage, mechanism%mesh, state%pose, in_element)
+      do b = 1, size(mechanism%beams)
+        call add_axial_jumps(mechanism%linkage, mechanism%mesh, state%pose, b, &
+          axial_jumps(mechanism%linkage, b, state%pose, cases(i)%field), unit_stiffness(i))
+      end do
       result%counts%geometric_matrices = result%counts%geometric_matrices + 1
     end do
     do k = 1, size(factor, 2)
       if (len(result%failure(k)%text) > 0) cycle
       total = stiffness
-      do i = 1, 2
+      do i = 1, case_count
         if (abs(factor(i, k)) > 0.0_wp) total%entry = total%entry + factor(i, k)*unit_stiffness(i)%entry
       end do
       call find_modes(total, mass, request%modes, request%method == by_dense, all(abs(factor(:, k)) <= 0.0_wp), &
@@ -200,64 +224,86 @@ contains
   end subroutine take_over
 
   !> Axial forces of the unit loads, in the force functions of a model and element by element of the mesh.
-  pure subroutine find_mesh_forces(mechanism, model, state, lumped, loaded, force, in_element)
+  pure subroutine find_mesh_forces(mechanism, model, state, lumped, occurs, force, in_element)
     type(mechanism_t), intent(in) :: mechanism
     type(deformation_model_t), intent(in) :: model
     type(state_t), intent(in) :: state
     logical, intent(in) :: lumped                              !! masses on the nodes of the mesh, or along the links
-    logical, intent(in) :: loaded                              !! whether there are loads; else there are no functions, no elements
-    real(wp), allocatable, intent(out) :: force(:, :, :)       !! (force functions, bodies, 2) for ω2² = 1 and α2 = 1 [N]
-    real(wp), allocatable, intent(out) :: in_element(:, :, :)  !! (1, ξ, ξ²; elements; 2) [N]
+    logical, intent(in) :: occurs(case_count)                  !! unit loads that there are; without any no functions, no elements
+    real(wp), allocatable, intent(out) :: force(:, :, :)       !! (force functions with jumps, bodies, cases) [N]
+    real(wp), allocatable, intent(out) :: in_element(:, :, :)  !! (1, ξ, ξ²; elements; cases) [N]
 
-    type(acceleration_field_t) :: fields(2)
+    type(load_case_t) :: cases(case_count)
     type(joint_forces_t) :: joints
-    integer :: b, i, first, functions
+    real(wp), allocatable :: jump(:)
+    integer :: b, i, first, functions, smooth
 
     functions = 0
-    if (loaded) functions = max(3, maxval(model%elements, mask=model%lumped))
-    allocate (force(functions, size(model%links), 2), in_element(3, merge(sum(mechanism%mesh%elements), 0, loaded), 2))
+    if (any(occurs)) functions = max(3, maxval(model%elements, mask=model%lumped)) + most_jumps(mechanism%linkage)
+    allocate (force(functions, size(model%links), case_count))
+    allocate (in_element(3, merge(sum(mechanism%mesh%elements), 0, any(occurs)), case_count))
     force = 0.0_wp
-    if (.not. loaded) return
-    fields = unit_fields(mechanism%linkage, state%pose, state%motion)
-    do i = 1, 2
-      call find_axial_forces(mechanism, state, fields(i), lumped, in_element(:, :, i), joints)
+    in_element = 0.0_wp
+    if (.not. any(occurs)) return
+    cases = unit_cases(mechanism%linkage, state%pose, state%motion)
+    do i = 1, case_count
+      if (.not. occurs(i)) cycle
+      call find_axial_forces(mechanism, state, cases(i), lumped, in_element(:, :, i), joints)
       do b = 1, size(model%links)
         first = mechanism%mesh%first_element(b)
-        if (model%lumped(b)) then
-          force(:model%elements(b), b, i) = in_element(1, first:first + model%elements(b) - 1, i)
-        else
-          force(:3, b, i) = link_axial_force(mechanism%linkage, b, state%pose, fields(i), joints)
+        if (.not. model%links(b)%bends) then
+          force(1, b, i) = in_element(1, first, i)
+          cycle
         end if
+        smooth = smooth_functions(model, b)
+        if (model%lumped(b)) then
+          force(:smooth, b, i) = in_element(1, first:first + smooth - 1, i)
+        else
+          force(:smooth, b, i) = link_axial_force(mechanism%linkage, b, state%pose, cases(i)%field, joints)
+        end if
+        jump = axial_jumps(mechanism%linkage, b, state%pose, cases(i)%field)
+        force(smooth + 1:smooth + size(jump), b, i) = jump
       end do
     end do
   end subroutine find_mesh_forces
 
-  !> Axial forces in all elements under the inertia loads of an acceleration field.
-  pure subroutine find_axial_forces(mechanism, state, field, lumped, in_element, joints)
+  !> Force functions of a body without the jumps, which follow them.
+  pure function smooth_functions(model, body) result(number)
+    type(deformation_model_t), intent(in) :: model
+    integer, intent(in) :: body
+    integer :: number
+
+    number = merge(model%elements(body), 3, model%lumped(body))
+  end function smooth_functions
+
+  !> Axial forces in all elements under one of the unit loads; of a link that does not bend the mean, in its first element.
+  pure subroutine find_axial_forces(mechanism, state, case, lumped, in_element, joints)
     type(mechanism_t), intent(in) :: mechanism
     type(state_t), intent(in) :: state
-    type(acceleration_field_t), intent(in) :: field
+    type(load_case_t), intent(in) :: case
     logical, intent(in) :: lumped
     real(wp), intent(out) :: in_element(:, :) !! (1, ξ, ξ²; elements) [N]
     type(joint_forces_t), intent(out) :: joints
 
     type(load_t) :: loads(size(mechanism%linkage%bodies))
-    integer :: i
+    real(wp) :: pin_loads(2, size(mechanism%linkage%pin_mass))
+    integer :: elements(size(loads)), b
 
     associate (linkage => mechanism%linkage, mesh => mechanism%mesh)
-      do i = 1, size(loads)
-        if (lumped) then
-          loads(i) = lumped_load(linkage%bodies(i), i, mesh%elements(i), state%pose, field)
-        else
-          loads(i) = distributed_load(linkage%bodies(i), i, state%pose, field)
-        end if
-      end do
-      joints = find_joint_forces(linkage, state%pose, loads, pin_load(linkage, field))
+      elements = 0
+      if (lumped) elements = mechanism%load_elements
+      call find_case_loads(linkage, elements, state%pose, case, loads, pin_loads)
+      joints = find_joint_forces(linkage, state%pose, loads, pin_loads)
       if (lumped) then
-        in_element = lumped_axial_forces(linkage, mesh, state%pose, field, joints)
+        in_element = lumped_axial_forces(linkage, mesh, state%pose, case%field, joints)
       else
-        in_element = distributed_axial_forces(linkage, mesh, state%pose, field, joints)
+        in_element = distributed_axial_forces(linkage, mesh, state%pose, case%field, joints)
       end if
+      do b = 1, size(loads)
+        if (linkage%bodies(b)%bends) cycle
+        in_element(:, mesh%first_element(b)) = [mean_axial_force(linkage, b, elements(b), state%pose, case%field, joints), 0.0_wp, &
+          0.0_wp]
+      end do
     end associate
   end subroutine find_axial_forces
 

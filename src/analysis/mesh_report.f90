@@ -40,6 +40,7 @@ contains
     call append_real_columns(columns, "mass_a mass_b", mass%name)
     call append_string(notes, "mass_a and mass_b: what the element brings to the lumped masses of its nodes")
     call append_string(notes, "both links at a pin have a node of their own there")
+    if (.not. all(mechanism%linkage%bodies%bends)) call append_string(notes, "rigid links have no elements")
     call write_header(table, model%title, notes, columns)
     do i = 1, size(positions%crank)
       associate (state => positions%states(positions%state(i)))

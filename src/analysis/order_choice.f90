@@ -18,8 +18,8 @@ module order_choice
 
   public :: choose_orders
 
-  !> Orders are raised up to this number, 56, plus two thirds of the number of modes: more than any accuracy needs that the
-  !! precision can give, but under loads that buckle a link many times over (as beside a dead point).
+  !> Orders are raised up to this number, 56, plus two thirds of the number of modes (where all three links bend): more than any
+  !! accuracy needs that the precision can give, but under loads that buckle a link many times over (as beside a dead point).
   integer, parameter :: spare_orders = digits(1.0_wp) + 3
 
   !> Positions at which orders are tried: one in so many, within these limits. Every row of the sweep tells its own error afterwards.
@@ -41,7 +41,7 @@ contains
     type(beam_t), intent(in) :: beams(:)
     type(positions_t), intent(in) :: positions
     integer, intent(in) :: states(:)     !! numbers of those that the model is to serve
-    real(wp), intent(in) :: factor(:, :) !! (2, speeds) ω2² and α2
+    real(wp), intent(in) :: factor(:, :) !! (cases, speeds) of the unit loads
     integer, intent(in) :: modes
     real(wp), intent(in) :: bound        !! relative error of eigenvalues
     type(link_store_t), intent(inout) :: store
@@ -50,27 +50,29 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     real(wp) :: link_error(size(beams)), highest
-    integer :: order(size(beams)), b, highest_order
+    integer :: order(size(beams)), b, bending, highest_order
     integer, allocatable :: chosen(:)
-    integer :: one_element(size(beams))
+    integer :: between_masses(size(beams))
     logical :: continuous(size(beams))
 
     chosen = sample_states(positions, states)
-    highest_order = spare_orders + (2*modes)/3
-    order = max(8, modes/2 + 6)
-    one_element = 1
+    bending = count(linkage%bodies%bends)
+    highest_order = spare_orders + (2*modes)/bending
+    order = max(8, (3*modes)/(2*bending) + 6)
+    between_masses = 0
     continuous = .false. ! no masses on nodes
-    call new_deformation_model(linkage, beams, one_element, order, continuous, model, error, store)
+    call new_deformation_model(linkage, beams, between_masses, order, continuous, model, error, store)
     if (allocated(error) .or. size(chosen) == 0) return
     ! One position tells how short the waves are.
     call try_samples(linkage, model, positions, chosen(size(chosen)/2 + 1:size(chosen)/2 + 1), factor, modes, link_error, highest, &
       counts)
     do b = 1, size(beams)
+      if (.not. linkage%bodies(b)%bends) cycle
       order(b) = guessed_order(linkage%bodies(b)%length*wave_number(linkage%bodies(b), beams(b), highest), share*bound, order(b), &
-        highest_order, modes)
+        highest_order, modes, bending)
     end do
     do
-      call new_deformation_model(linkage, beams, one_element, order, continuous, model, error, store)
+      call new_deformation_model(linkage, beams, between_masses, order, continuous, model, error, store)
       if (allocated(error)) return
       call try_samples(linkage, model, positions, chosen, factor, modes, link_error, highest, counts)
       if (all(link_error <= share*bound .or. order >= highest_order)) exit
@@ -124,17 +126,18 @@ contains
   end function wave_number
 
   !> Order for a wave number times length, a bound of the error, and no fewer unknowns than a first model had for all modes.
-  pure function guessed_order(wave, bound, first, highest, modes) result(order)
-    real(wp), intent(in) :: wave  !! kL
+  pure function guessed_order(wave, bound, first, highest, modes, bending) result(order)
+    real(wp), intent(in) :: wave     !! kL
     real(wp), intent(in) :: bound
     integer, intent(in) :: first, highest, modes
+    integer, intent(in) :: bending   !! links that bend
     integer :: order
 
     real(wp) :: term
     integer :: least
 
     least = 4
-    if (2*modes > 3*least) least = first
+    if (2*modes > bending*least) least = first
     term = 1.0_wp
     do order = 2, highest
       term = term*0.25_wp*wave/(order - 1)
@@ -189,7 +192,7 @@ contains
     highest = 0.0_wp
     do i = 1, size(chosen)
       associate (state => positions%states(chosen(i)))
-        force = distributed_unit_forces(linkage, state%pose, state%motion, any(abs(factor) > 0.0_wp))
+        force = distributed_unit_forces(linkage, state%pose, state%motion, any(abs(tried) > 0.0_wp, dim=2))
         do k = 1, size(failure)
           failure(k)%text = ""
         end do

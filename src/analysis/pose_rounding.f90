@@ -9,6 +9,7 @@ module pose_rounding
   use errors, only: error_t
   use kinds, only: wp
   use linkages, only: linkage_t
+  use load_cases, only: case_count
   use motions, only: find_motion, motion_t
   use pin_displacements, only: chords_t, find_chords
   use poses, only: find_pose, pose_t
@@ -43,7 +44,7 @@ contains
     type(linkage_t), intent(in) :: linkage
     type(deformation_model_t), intent(in) :: model
     type(state_t), intent(in) :: state
-    real(wp), intent(in) :: factor(2)  !! ω2² and α2
+    real(wp), intent(in) :: factor(case_count) !! of the unit loads
     type(bordered_modes_t), intent(in) :: found
     integer, intent(in) :: modes
     real(wp), intent(out) :: error(:)  !! (modes) of eigenvalues
@@ -109,7 +110,7 @@ contains
     type(linkage_t), intent(in) :: linkage
     type(deformation_model_t), intent(in) :: model
     real(wp), intent(in) :: crank      !! [deg]
-    real(wp), intent(in) :: factor(2)
+    real(wp), intent(in) :: factor(case_count)
     type(bordered_modes_t), intent(in) :: found
     real(wp), intent(out) :: quotient(:) !! (modes)
     logical, intent(out) :: reached
@@ -131,7 +132,7 @@ contains
     chords = find_chords(linkage, model%links, pose)
     mass = new_bordered_matrix(model%layout, .false.)
     call reduced_mass(linkage, model%links, model%layout, chords, mass)
-    force = distributed_unit_forces(linkage, pose, motion, any(abs(factor) > 0.0_wp))
+    force = distributed_unit_forces(linkage, pose, motion, abs(factor) > 0.0_wp)
     geometric = new_bordered_matrix(model%layout, .true.)
     if (size(force) > 0) then
       call reduced_geometric_stiffness(model%links, model%layout, chords, total_force(force, factor), geometric)

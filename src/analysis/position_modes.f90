@@ -8,10 +8,10 @@ module position_modes
   use kinds, only: wp
   use link_modes, only: stations
   use linkages, only: linkage_t
+  use load_cases, only: case_count, load_case_t, unit_cases
   use mechanisms, only: mechanism_t
   use mesh_modes, only: solve_long_mesh, solve_mesh, solve_nodal
   use mode_prints, only: new_mode_prints
-  use motions, only: acceleration_field_t, unit_fields
   use pin_displacements, only: chords_t
   use pose_rounding, only: pose_error
   use position_results, only: of_frequency, position_result_t, position_work_t
@@ -36,7 +36,7 @@ contains
     if (request%method == by_long_mesh) work%chain = models%chain
   end function new_position_work
 
-  !> Solves (2.88) at a pose for every speed, with or without the axial forces of the motion.
+  !> Solves (2.88) at a pose for every speed, with or without the axial forces of the loads.
   !!
   !! Always solved is the structure with continuous links, to the accuracy of `models`. Where the deck has a mesh of its own, that is
   !! solved as well, and written; the error of its frequencies is their difference.
@@ -52,7 +52,7 @@ contains
     type(bordered_modes_t) :: found(size(request%speed))
     type(chords_t) :: chords
     real(wp), allocatable :: unit_force(:, :, :)
-    real(wp) :: factor(2, size(request%speed)), discretisation(size(mechanism%beams), request%modes)
+    real(wp) :: factor(case_count, size(request%speed)), discretisation(size(mechanism%beams), request%modes)
     real(wp) :: rounding(request%modes)
     integer :: k, n
 
@@ -66,7 +66,7 @@ contains
       result%failure(k)%text = ""
     end do
     factor = load_factors(request)
-    unit_force = distributed_unit_forces(mechanism%linkage, state%pose, state%motion, any(abs(factor) > 0.0_wp))
+    unit_force = distributed_unit_forces(mechanism%linkage, state%pose, state%motion, any(abs(factor) > 0.0_wp, dim=2))
     call solve_reduced(mechanism%linkage, models%continuum, state%pose, state%crank, unit_force, factor, request%modes, &
       want_shapes .and. request%method == by_orders, work%continuum, chords, found, result%failure, result%counts)
     if (size(unit_force) > 0) call find_deflection(mechanism%linkage, models%continuum, chords, state, factor, result%deflection)
@@ -107,22 +107,28 @@ contains
     type(deformation_model_t), intent(in) :: model
     type(chords_t), intent(in) :: chords
     type(state_t), intent(in) :: state
-    real(wp), intent(in) :: factor(:, :)  !! (2, speeds) ω2² and α2
+    real(wp), intent(in) :: factor(:, :)  !! (cases, speeds) of the unit loads
     real(wp), intent(out) :: ratio(:, :)  !! (bodies, speeds)
 
-    type(acceleration_field_t) :: fields(2)
-    real(wp) :: unit(2, stations, size(linkage%bodies), 2), squared
-    integer :: b, i, k
+    type(load_case_t) :: cases(case_count)
+    real(wp) :: unit(2, stations, size(linkage%bodies), case_count), displacement(2), squared
+    integer :: b, i, j, k
 
-    fields = unit_fields(linkage, state%pose, state%motion)
-    do i = 1, 2
-      call reduced_deflection(linkage, model%links, model%layout, chords, state%pose, fields(i), unit(:, :, :, i))
+    cases = unit_cases(linkage, state%pose, state%motion)
+    unit = 0.0_wp
+    do i = 1, case_count
+      if (all(abs(factor(i, :)) <= 0.0_wp)) cycle
+      call reduced_deflection(linkage, model%links, model%layout, chords, state%pose, cases(i), unit(:, :, :, i))
     end do
     do k = 1, size(factor, 2)
       do b = 1, size(linkage%bodies)
         squared = 0.0_wp
         do i = 1, stations
-          squared = max(squared, sum((factor(1, k)*unit(:, i, b, 1) + factor(2, k)*unit(:, i, b, 2))**2))
+          displacement = factor(1, k)*unit(:, i, b, 1)
+          do j = 2, case_count
+            displacement = displacement + factor(j, k)*unit(:, i, b, j)
+          end do
+          squared = max(squared, sum(displacement**2))
         end do
         ratio(b, k) = sqrt(squared)/linkage%bodies(b)%length
       end do

@@ -7,6 +7,7 @@ module reduced_modes
   use kinds, only: wp
   use ledger, only: ledger_t
   use linkages, only: linkage_t
+  use load_cases, only: case_count
   use mode_tracks, only: extrapolated_start, remember, track_t
   use pin_displacements, only: chords_t, find_chords
   use poses, only: pose_t
@@ -30,7 +31,7 @@ module reduced_modes
 
   !> Matrices, made once and filled at every position, and what is remembered of the last positions.
   type :: reduced_work_t
-    type(bordered_matrix_t) :: mass, unit(2), geometric
+    type(bordered_matrix_t) :: mass, unit(case_count), geometric
     type(track_t), allocatable :: tracks(:) !! (speeds)
   end type reduced_work_t
 
@@ -41,22 +42,25 @@ contains
     integer, intent(in) :: speeds
     type(reduced_work_t) :: work
 
+    integer :: i
+
     work%mass = new_bordered_matrix(model%layout, .false.)
     work%geometric = new_bordered_matrix(model%layout, .true.)
-    work%unit(1) = work%geometric
-    work%unit(2) = work%geometric
+    do i = 1, case_count
+      work%unit(i) = work%geometric
+    end do
     allocate (work%tracks(speeds))
   end function new_reduced_work
 
-  !> Solves `(I + ω2² G_ω + α2 G_α) y = λ M y` for every speed, from the modes of the last positions.
+  !> Solves `(I + G_const + ω2² G_ω + α2 G_α) y = λ M y` for every speed, from the modes of the last positions.
   subroutine solve_reduced(linkage, model, pose, place, unit_force, factor, modes, accurate_vectors, work, chords, found, failure, &
       counts)
     type(linkage_t), intent(in) :: linkage
     type(deformation_model_t), intent(in) :: model
     type(pose_t), intent(in) :: pose
     real(wp), intent(in) :: place                !! of the position among its neighbours [deg]
-    real(wp), intent(in) :: unit_force(:, :, :)  !! (force functions, bodies, 2) for ω2² = 1 and α2 = 1 [N]; no functions: no loads
-    real(wp), intent(in) :: factor(:, :)         !! (2, speeds) ω2² and α2
+    real(wp), intent(in) :: unit_force(:, :, :)  !! (force functions, bodies, cases) of the unit loads [N]; no functions: no loads
+    real(wp), intent(in) :: factor(:, :)         !! (cases, speeds) of the unit loads
     integer, intent(in) :: modes
     logical, intent(in) :: accurate_vectors(:)   !! (speeds)
     type(reduced_work_t), intent(inout) :: work
@@ -68,12 +72,12 @@ contains
     type(start_t) :: start
     type(error_t), allocatable :: error
     integer :: i, k
-    logical :: loaded, from_track, occurs(2) !! of the unit loads
+    logical :: loaded, from_track, occurs(case_count) !! of the unit loads
 
     chords = find_chords(linkage, model%links, pose)
     call reduced_mass(linkage, model%links, model%layout, chords, work%mass)
     counts%mass_matrices = counts%mass_matrices + 1
-    do i = 1, 2
+    do i = 1, case_count
       occurs(i) = size(unit_force, 1) > 0 .and. any(abs(factor(i, :)) > 0.0_wp)
       if (.not. occurs(i)) cycle
       call reduced_geometric_stiffness(model%links, model%layout, chords, unit_force(:, :, i), work%unit(i))
@@ -99,17 +103,17 @@ contains
     end do
   end subroutine solve_reduced
 
-  !> `G = ω2² G_ω + α2 G_α` from the unit matrices of the last position.
+  !> `G = G_const + ω2² G_ω + α2 G_α` from the unit matrices of the last position.
   pure subroutine combine(work, factor)
     type(reduced_work_t), intent(inout) :: work
-    real(wp), intent(in) :: factor(2) !! ω2² and α2
+    real(wp), intent(in) :: factor(case_count) !! of the unit loads
 
     integer :: i
 
     work%geometric%border = 0.0_wp
     work%geometric%coupling = 0.0_wp
     work%geometric%block = 0.0_wp
-    do i = 1, 2
+    do i = 1, case_count
       if (abs(factor(i)) > 0.0_wp) call add_scaled(work%geometric, factor(i), work%unit(i))
     end do
   end subroutine combine
@@ -148,15 +152,15 @@ contains
     integer, intent(in) :: b          !! number of the body
     real(wp) :: energy                !! [1/s²]
 
-    integer :: first, k, n, kinds
+    integer :: first, k, n, last
 
     associate (link => model%links(b))
       first = model%layout%first(b)
       n = size(link%bending, 1)
-      ! With shear every order has a curvature and a shear strain.
-      kinds = merge(2, 1, link%bending_shapes%shear_stiffness > 0.0_wp)
+      ! With shear every order has a curvature and a shear strain, in every element.
+      last = merge(4, 2, link%bending_shapes%shear_stiffness > 0.0_wp)*link%bending_shapes%elements
       energy = 0.0_wp
-      do k = max(1, n + 1 - 2*kinds), n
+      do k = max(1, n + 1 - last), n
         energy = energy + (dot_product(chords%across(3, :, b), vector(:model%layout%border))*link%bending(k, 0) + &
           dot_product(link%bending(k, 1:), vector(first:first + link%modes - 1)))**2
       end do

@@ -5,6 +5,7 @@ module rest_eigenvalues
   use errors, only: error_t
   use kinds, only: wp
   use ledger, only: ledger_t
+  use load_cases, only: case_count
   use mechanisms, only: mechanism_t
   use pin_displacements, only: chords_t
   use positions, only: find_positions, positions_t
@@ -33,7 +34,7 @@ contains
     type(string_t) :: failure(1)
     type(ledger_t) :: counts
     type(error_t), allocatable :: error
-    real(wp) :: no_forces(0, size(mechanism%beams), 2), at_rest(2, 1)
+    real(wp) :: no_forces(0, size(mechanism%beams), case_count), at_rest(case_count, 1)
     integer :: i
 
     lambda = 0.0_wp

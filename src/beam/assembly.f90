@@ -2,15 +2,17 @@
 module assembly
   use band_matrix, only: add_to_band, band_matrix_t, new_band_matrix
   use beam_element, only: element_geometric_stiffness, element_mass, element_stiffness
+  use element_places, only: element_part_stiffness, element_point_mass
   use beam_mesh, only: beam_mesh_t, beam_t, element_length
   use element_axes, only: turned_to_global
   use kinds, only: wp
+  use link_lumps, only: element_of_lump, lump_masses, lump_places
   use linkages, only: linkage_t
   use poses, only: pose_t
   implicit none (type, external)
   private
 
-  public :: assemble_stiffness, assemble_mass, assemble_geometric_stiffness
+  public :: assemble_stiffness, assemble_mass, assemble_geometric_stiffness, add_axial_jumps
 
 contains
 
@@ -35,7 +37,7 @@ contains
     end do
   end function assemble_stiffness
 
-  !> Consistent mass M of (2.88), with the masses of the pins.
+  !> Consistent mass M of (2.88), with the masses of the pins and those along the links.
   pure function assemble_mass(linkage, mesh, pose) result(mass)
     type(linkage_t), intent(in) :: linkage
     type(beam_mesh_t), intent(in) :: mesh
@@ -52,6 +54,7 @@ contains
       do i = mesh%first_element(body), mesh%first_element(body) + mesh%elements(body) - 1
         call add_to_band(mass, element, mesh%unknown(:size(element, 1), i))
       end do
+      call add_lump_masses(linkage, mesh, pose, body, mass)
     end do
     do pin = 1, size(linkage%pin_mass)
       do i = 1, 2
@@ -59,6 +62,28 @@ contains
       end do
     end do
   end function assemble_mass
+
+  !> `m NᵀN` of every mass along a link, where it is in its element.
+  pure subroutine add_lump_masses(linkage, mesh, pose, body, mass)
+    type(linkage_t), intent(in) :: linkage
+    type(beam_mesh_t), intent(in) :: mesh
+    type(pose_t), intent(in) :: pose
+    integer, intent(in) :: body
+    type(band_matrix_t), intent(inout) :: mass
+
+    real(wp), allocatable :: lump(:), xi(:), element(:, :)
+    real(wp) :: place
+    integer :: i, number
+
+    lump = lump_masses(linkage%bodies(body))
+    xi = lump_places(linkage%bodies(body))
+    do i = 1, size(lump)
+      call element_of_lump(xi(i), mesh%elements(body), number, place)
+      element = turned_to_global(lump(i)*element_point_mass(mesh%reference(body), element_length(mesh, linkage, body), place), &
+        pose%direction(:, body))
+      call add_to_band(mass, element, mesh%unknown(:size(element, 1), mesh%first_element(body) + number - 1))
+    end do
+  end subroutine add_lump_masses
 
   !> Geometric stiffness of the axial forces, as (2.84) in every element.
   pure function assemble_geometric_stiffness(linkage, mesh, pose, axial_force) result(stiffness)
@@ -80,5 +105,29 @@ contains
       end do
     end do
   end function assemble_geometric_stiffness
+
+  !> Adds that of forces which act from the first pin of a body up to each mass along it.
+  pure subroutine add_axial_jumps(linkage, mesh, pose, body, jump, stiffness)
+    type(linkage_t), intent(in) :: linkage
+    type(beam_mesh_t), intent(in) :: mesh
+    type(pose_t), intent(in) :: pose
+    integer, intent(in) :: body
+    real(wp), intent(in) :: jump(:) !! (lumps) [N]
+    type(band_matrix_t), intent(inout) :: stiffness
+
+    real(wp), allocatable :: xi(:), element(:, :)
+    real(wp) :: place
+    integer :: i, k, number
+
+    xi = lump_places(linkage%bodies(body))
+    do i = 1, size(jump)
+      call element_of_lump(xi(i), mesh%elements(body), number, place)
+      do k = 1, number
+        element = turned_to_global(jump(i)*element_part_stiffness(mesh%reference(body), element_length(mesh, linkage, body), &
+          merge(place, 1.0_wp, k == number)), pose%direction(:, body))
+        call add_to_band(stiffness, element, mesh%unknown(:size(element, 1), mesh%first_element(body) + k - 1))
+      end do
+    end do
+  end subroutine add_axial_jumps
 
 end module assembly

@@ -19,7 +19,7 @@ module beam_element
   private
 
   public :: reference_element_t, new_reference_element, axial_degree, element_unknowns
-  public :: element_mass, element_stiffness, element_geometric_stiffness, interpolate
+  public :: element_mass, element_stiffness, element_geometric_stiffness, interpolate, with_lengths
 
   !> Everything about an element that depends on its order only: length 1, rotations multiplied by the length.
   type :: reference_element_t
@@ -31,6 +31,7 @@ module beam_element
     real(wp), allocatable :: rotary(:, :)         !! (unknowns, unknowns) ∫ θ² dξ
     real(wp), allocatable :: shear(:, :)          !! (unknowns, unknowns) ∫ γ² dξ; not allocated without shear
     real(wp), allocatable :: geometric(:, :, :)   !! (unknowns, unknowns, 0:2) ∫ ξⁱ (dv/dξ)² dξ
+    real(wp), allocatable :: shape(:, :, :)       !! (0:p, unknowns, 3) Legendre coefficients of u, v and dv/dξ
   end type reference_element_t
 
 contains
@@ -95,6 +96,10 @@ contains
     element%geometric(:, :, 0) = products(slope, slope)
     element%geometric(:, :, 1) = products(slope, slope_xi)
     element%geometric(:, :, 2) = products(slope_xi, slope_xi)
+    allocate (element%shape(0:order, n, 3))
+    element%shape(:, :, 1) = along
+    element%shape(:, :, 2) = across
+    element%shape(:, :, 3) = slope
   end function new_reference_element
 
   !> Legendre coefficients of du/dξ for each unknown.

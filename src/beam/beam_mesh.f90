@@ -132,16 +132,17 @@ contains
 
   !> How many modes of a finite frequency a mesh has.
   !!
-  !! With shear and without rotary inertia cross-sections that turn, the axis at rest, move no mass: θ = −γ, continuous along a link
-  !! and of degree p − 2 in its elements, zero at the clamp.
+  !! A link that does not bend has none: every other one brings the unknowns of its elements but those of one node each. With shear and
+  !! without rotary inertia cross-sections that turn, the axis at rest, move no mass: θ = −γ, continuous along a link and of degree
+  !! p − 2 in its elements, zero at the clamp.
   pure function moving_unknowns(mesh, linkage) result(number)
     type(beam_mesh_t), intent(in) :: mesh
     type(linkage_t), intent(in) :: linkage
     integer :: number
 
-    number = mesh%unknowns
+    number = sum(mesh%elements*(element_unknowns(mesh%order, mesh%sheared) - 3), mask=linkage%bodies%bends)
     if (.not. mesh%sheared .or. any(linkage%bodies%rotary_inertia > 0.0_wp)) return
-    number = number - sum(mesh%elements*(mesh%order - 2) + 1) + 1
+    number = number - sum(mesh%elements*(mesh%order - 2) + 1, mask=linkage%bodies%bends) + merge(1, 0, linkage%bodies(1)%bends)
   end function moving_unknowns
 
   !> Length of the elements of a body [m].

@@ -4,16 +4,18 @@ module chain_links
   use deformation_shapes, only: bending_unknowns, curve, once_integrated, shear_scale
   use kinds, only: wp
   use legendre, only: gauss_rule, legendre_values
+  use link_lumps, only: element_of_lump, lump_masses, lump_places
   use link_modes, only: end_rotation
   use linkages, only: body_t
   use long_sums, only: long_dot
   implicit none (type, external)
   private
 
-  public :: chain_t, new_chain, slope_at_start, add_from_start, at_end, add_back_at_end, add_back, at_place
+  public :: chain_t, new_chain, slope_at_start, add_from_start, at_end, add_back_at_end, add_back, at_place, add_lump_forces
 
-  !> One link.
+  !> One link; one that does not bend has no unknowns, and what follows of them is empty.
   type :: chain_t
+    logical :: bends = .true.
     integer :: elements = 0
     integer :: bendings = 0     !! transverse unknowns of an element: curvatures, and with shear as many strains in turn with them
     integer :: at_end = 0       !! the first of them, which alone leave anything at its end
@@ -29,6 +31,10 @@ module chain_links
     real(wp), allocatable :: weight(:)      !! μ h/(2j+1): squares of the coefficients times these are the mass
     real(wp), allocatable :: rotation_weight(:) !! ρI h/(2j+1), likewise for the rotation; empty without rotary inertia
     real(wp), allocatable :: force(:, :, :) !! (coefficients − 1, coefficients − 1, 3) `h ∫ ξ^(k−1) P_i P_j dξ`
+    real(wp), allocatable :: lump(:)        !! masses along the link [kg]
+    integer, allocatable :: lump_element(:) !! (lumps) the element of each
+    real(wp), allocatable :: lump_value(:, :) !! (coefficients, lumps) P_j where it is in its element
+    real(wp), allocatable :: before(:, :, :) !! (coefficients − 1, coefficients − 1, lumps) `h ∫ P_i P_j dξ` from the element's start to it
     real(wp), allocatable :: start_slope(:) !! (bendings × elements) rotation at the first end, the chord at rest
     real(wp) :: end_rotation = 0.0_wp       !! the norm of `start_slope`
   end type chain_t
@@ -48,12 +54,18 @@ contains
     h = body%length/elements
     coefficients = max(order, axial_degree) + 1
     link%elements = elements
+    link%length = body%length
+    link%bends = body%bends
+    allocate (link%lump(0))
+    if (.not. body%bends) then
+      allocate (link%start_slope(0))
+      return
+    end if
     link%sheared = beam%shear_stiffness > 0.0_wp
     link%bendings = bending_unknowns(order, link%sheared)
     ! Curvatures of degree 0 and 1, and a uniform shear strain between them.
     link%at_end = merge(3, 2, link%sheared)
     link%strains = axial_degree
-    link%length = body%length
     link%end_rotation = end_rotation(body%length, beam%bending_stiffness, beam%shear_stiffness)
     call fill_bending(link, beam, order, coefficients)
     allocate (link%stretch(coefficients, axial_degree))
@@ -65,7 +77,35 @@ contains
     link%rotation_weight = [(body%rotary_inertia*h/(2*j + 1), j=0, merge(coefficients - 2, -1, body%rotary_inertia > 0.0_wp))]
     link%force = force_integrals(coefficients - 1, h)
     link%start_slope = start_slopes(link, beam)
+    call place_lumps(link, body, coefficients)
   end function new_chain
+
+  !> Puts the masses along a link into their elements.
+  pure subroutine place_lumps(link, body, coefficients)
+    type(chain_t), intent(inout) :: link
+    type(body_t), intent(in) :: body
+    integer, intent(in) :: coefficients
+
+    real(wp), allocatable :: xi(:)
+    real(wp) :: x(coefficients), w(coefficients), p(coefficients - 1), place
+    integer :: i, k
+
+    link%lump = lump_masses(body)
+    xi = lump_places(body)
+    allocate (link%lump_element(size(xi)), link%lump_value(coefficients, size(xi)))
+    allocate (link%before(coefficients - 1, coefficients - 1, size(xi)))
+    link%before = 0.0_wp
+    call gauss_rule(x, w)
+    do i = 1, size(xi)
+      call element_of_lump(xi(i), link%elements, link%lump_element(i), place)
+      link%lump_value(:, i) = legendre_values(coefficients - 1, 2.0_wp*place - 1.0_wp)
+      do k = 1, size(x)
+        p = legendre_values(coefficients - 2, place*(1.0_wp + x(k)) - 1.0_wp)
+        link%before(:, :, i) = link%before(:, :, i) + 0.5_wp*body%length/link%elements*place*w(k)* &
+          spread(p, 2, size(p))*spread(p, 1, size(p))
+      end do
+    end do
+  end subroutine place_lumps
 
   !> What the transverse unknowns of an element do in it.
   pure subroutine fill_bending(link, beam, order, coefficients)
@@ -190,6 +230,21 @@ contains
 
     y = y + matmul(force, table)
   end subroutine add_back
+
+  !> Adds the forces of the masses in an element: `m v` there, on every coefficient of the displacement.
+  pure subroutine add_lump_forces(link, element, coefficient, force)
+    type(chain_t), intent(in) :: link
+    integer, intent(in) :: element
+    real(wp), intent(in) :: coefficient(:)  !! Legendre coefficients of the displacement
+    real(wp), intent(inout) :: force(:)
+
+    integer :: i
+
+    do i = 1, size(link%lump)
+      if (link%lump_element(i) /= element) cycle
+      force = force + link%lump(i)*dot_product(link%lump_value(:, i), coefficient)*link%lump_value(:, i)
+    end do
+  end subroutine add_lump_forces
 
   pure function at_place(table, y, place) result(value)
     real(wp), intent(in) :: table(:, :), y(:)

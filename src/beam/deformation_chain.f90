@@ -4,12 +4,16 @@
 !! is the unit matrix. Nothing is assembled: work and memory grow with the number of elements, and no digits are lost to it, for
 !! the deformations of an element are small numbers themselves and not differences of displacements.
 module deformation_chain
+  use axial_forces, only: most_jumps
   use beam_mesh, only: beam_t
-  use chain_links, only: add_back, add_back_at_end, add_from_start, at_end, at_place, chain_t, new_chain, slope_at_start
+  use chain_links, only: add_back, add_back_at_end, add_from_start, add_lump_forces, at_end, at_place, chain_t, new_chain, &
+    slope_at_start
   use kinds, only: wp
+  use link_modes, only: link_modes_t
   use linkages, only: linkage_t
   use long_sums, only: add_exactly
-  use pin_displacements, only: chords_t
+  use pin_displacements, only: body_motion, border_numbers, chords_t
+  use rigid_links, only: new_rigid_link
   use symmetric_pencil, only: symmetric_pencil_t
   implicit none (type, external)
   private
@@ -19,8 +23,12 @@ module deformation_chain
   type, extends(symmetric_pencil_t) :: deformation_chain_t
     type(chain_t), allocatable :: links(:)
     type(chords_t) :: chords
+    integer, allocatable :: number(:)          !! (0:links) of the border unknowns, as in `border_numbers`
+    integer :: border = 0                      !! how many there are
+    real(wp), allocatable :: rigid_mass(:, :, :) !! (3, 3, links) of links that do not bend, as in `link_modes_t`
     real(wp), allocatable :: pin_mass(:)
     real(wp), allocatable :: axial_force(:, :) !! (3, elements) coefficients of 1, ξ, ξ² in every element [N]; no elements: no loads
+    real(wp), allocatable :: jump(:, :)        !! (lumps, links) forces from the first pin up to the masses along the links [N]
   contains
     procedure :: multiply
   end type deformation_chain_t
@@ -34,19 +42,29 @@ contains
     integer, intent(in) :: elements(:), order(:), axial_degree(:) !! (bodies)
     type(deformation_chain_t) :: chain
 
+    type(link_modes_t) :: rigid_link
     integer :: b, number
 
+    allocate (chain%number(0:size(beams)), chain%rigid_mass(3, 3, size(beams)))
+    chain%number(:) = border_numbers(linkage)
+    chain%border = maxval(chain%number)
+    chain%rigid_mass = 0.0_wp
     chain%pin_mass = linkage%pin_mass
-    allocate (chain%axial_force(3, 0), chain%links(size(beams)))
+    allocate (chain%axial_force(3, 0), chain%links(size(beams)), chain%jump(most_jumps(linkage), size(beams)))
+    chain%jump = 0.0_wp
     number = 0
     do b = 1, size(beams)
       chain%links(b) = new_chain(linkage%bodies(b), beams(b), elements(b), order(b), axial_degree(b))
+      if (.not. linkage%bodies(b)%bends) then
+        rigid_link = new_rigid_link(linkage%bodies(b), b == 1)
+        chain%rigid_mass(:, :, b) = rigid_link%rigid_mass
+      end if
       chain%links(b)%first_bending = number
       number = number + elements(b)*chain%links(b)%bendings
     end do
     do b = 1, size(beams)
       chain%links(b)%first_strain = number
-      number = number + elements(b)*axial_degree(b)
+      number = number + elements(b)*chain%links(b)%strains
     end do
     chain%unknowns = number
   end function new_deformation_chain
@@ -57,7 +75,7 @@ contains
     real(wp), intent(in) :: vector(:)
     real(wp), intent(out) :: mass_times(:), stiffness_times(:)
 
-    real(wp) :: border(size(pencil%links) + 1), on_border(size(pencil%links) + 1), turned(size(pencil%links) + 1), pin(2)
+    real(wp) :: border(pencil%border), on_border(pencil%border), turned(pencil%border), pin(2), motion(3, pencil%border)
     integer :: b, first_element
 
     border = border_of(pencil, vector)
@@ -67,11 +85,19 @@ contains
     stiffness_times = 0.0_wp
     first_element = 1
     do b = 1, size(pencil%links)
+      if (.not. pencil%links(b)%bends) then
+        motion = body_motion(pencil%chords, b)
+        on_border = on_border + matmul(matmul(pencil%rigid_mass(:, :, b), matmul(motion, border)), motion)
+        if (size(pencil%axial_force, 2) > 0) turned = turned + pencil%axial_force(1, first_element)*pencil%links(b)%length* &
+          dot_product(pencil%chords%turn(:, b), border)*pencil%chords%turn(:, b)
+        first_element = first_element + pencil%links(b)%elements
+        cycle
+      end if
       call add_bending(pencil%links(b), pencil%chords%across(:, :, b), border, vector, mass_times, on_border)
       call add_stretching(pencil%links(b), pencil%chords%along(:, :, b), border, vector, mass_times, on_border)
       if (size(pencil%axial_force, 2) > 0) then
         call add_geometric(pencil%links(b), pencil%axial_force(:, first_element:first_element + pencil%links(b)%elements - 1), &
-          pencil%chords%turn(:, b), border, vector, stiffness_times, turned)
+          pencil%jump(:, b), pencil%chords%turn(:, b), border, vector, stiffness_times, turned)
       end if
       first_element = first_element + pencil%links(b)%elements
     end do
@@ -89,19 +115,20 @@ contains
   pure function border_of(pencil, vector) result(border)
     class(deformation_chain_t), intent(in) :: pencil
     real(wp), intent(in) :: vector(:)
-    real(wp) :: border(size(pencil%links) + 1)
+    real(wp) :: border(pencil%border)
 
     real(wp) :: parts(2)
     integer :: b, e
 
-    border(1) = slope_at_start(pencil%links(1), vector)/pencil%links(1)%end_rotation
+    if (pencil%number(0) > 0) border(1) = slope_at_start(pencil%links(1), vector)/pencil%links(1)%end_rotation
     do b = 1, size(pencil%links)
+      if (pencil%number(b) == 0) cycle
       associate (link => pencil%links(b))
         parts = 0.0_wp
         do e = 1, link%elements
           call add_exactly(parts, vector(link%first_strain + (e - 1)*link%strains + 1))
         end do
-        border(b + 1) = sum(parts)/sqrt(real(link%elements, wp))
+        border(pencil%number(b)) = sum(parts)/sqrt(real(link%elements, wp))
       end associate
     end do
   end function border_of
@@ -114,12 +141,13 @@ contains
 
     integer :: b, e, i
 
-    call add_from_start(pencil%links(1), on_border(1)/pencil%links(1)%end_rotation, vector)
+    if (pencil%number(0) > 0) call add_from_start(pencil%links(1), on_border(1)/pencil%links(1)%end_rotation, vector)
     do b = 1, size(pencil%links)
+      if (pencil%number(b) == 0) cycle
       associate (link => pencil%links(b))
         do e = 1, link%elements
           i = link%first_strain + (e - 1)*link%strains + 1
-          vector(i) = vector(i) + on_border(b + 1)/sqrt(real(link%elements, wp))
+          vector(i) = vector(i) + on_border(pencil%number(b))/sqrt(real(link%elements, wp))
         end do
       end associate
     end do
@@ -166,6 +194,7 @@ contains
     do e = link%elements, 1, -1
       i = link%first_bending + (e - 1)*link%bendings
       force = link%weight*coefficient(:, e)
+      call add_lump_forces(link, e, coefficient(:, e), force)
       call add_back(link%bend, force, mass_times(i + 1:i + link%bendings))
       call add_back_at_end(link%bend, link%at_end, sum(value), mass_times(i + 1:i + link%bendings))
       call add_back_at_end(link%rotate, link%at_end, sum(slope), mass_times(i + 1:i + link%bendings))
@@ -205,6 +234,7 @@ contains
     do e = link%elements, 1, -1
       i = link%first_strain + (e - 1)*link%strains
       force = link%weight*coefficient(:, e)
+      call add_lump_forces(link, e, coefficient(:, e), force)
       call add_back(link%stretch, force, mass_times(i + 1:i + link%strains))
       call add_back_at_end(link%stretch, min(2, link%strains), sum(value), mass_times(i + 1:i + link%strains))
       call add_exactly(value, force(1))
@@ -213,9 +243,10 @@ contains
   end subroutine add_stretching
 
   !> `K_G = ∫ N v'²` of a link.
-  pure subroutine add_geometric(link, axial_force, turn, border, vector, stiffness_times, on_border)
+  pure subroutine add_geometric(link, axial_force, jump, turn, border, vector, stiffness_times, on_border)
     type(chain_t), intent(in) :: link
     real(wp), intent(in) :: axial_force(:, :) !! (3, elements)
+    real(wp), intent(in) :: jump(:)           !! (lumps, and perhaps more)
     real(wp), intent(in) :: turn(:)
     real(wp), intent(in) :: border(:), vector(:)
     real(wp), intent(inout) :: stiffness_times(:), on_border(:)
@@ -232,6 +263,10 @@ contains
       moment(:, e) = 0.0_wp
       do k = 1, 3
         moment(:, e) = moment(:, e) + axial_force(k, e)*matmul(link%force(:, :, k), coefficient)
+      end do
+      do k = 1, size(link%lump)
+        if (e < link%lump_element(k)) moment(:, e) = moment(:, e) + jump(k)*matmul(link%force(:, :, 1), coefficient)
+        if (e == link%lump_element(k)) moment(:, e) = moment(:, e) + jump(k)*matmul(link%before(:, :, k), coefficient)
       end do
       call add_exactly(slope, at_end(link%rotate, link%at_end, vector(i + 1:i + link%bendings)))
     end do
@@ -254,13 +289,19 @@ contains
     real(wp), intent(in) :: xi(:) !! from 0 to 1 along the body, ascending
     real(wp) :: displacement(3, size(xi))
 
-    real(wp) :: border(size(pencil%links) + 1), ends(2), start, moved(2), value(2), slope(2), h, place
+    real(wp) :: border(pencil%border), ends(2), start, moved(2), value(2), slope(2), h, place
     integer :: e, i, next, first
 
     border = border_of(pencil, vector)
     ends = matmul(pencil%chords%across(1:2, :, body), border)
     start = dot_product(pencil%chords%along(1, :, body), border)
     associate (link => pencil%links(body))
+      if (.not. link%bends) then
+        displacement(1, :) = start
+        displacement(2, :) = ends(1) + (ends(2) - ends(1))*xi
+        displacement(3, :) = (ends(2) - ends(1))/link%length
+        return
+      end if
       h = link%length/link%elements
       moved = 0.0_wp
       value = 0.0_wp

@@ -33,7 +33,10 @@ module link_modes
     integer :: modes = 0        !! transverse
     integer :: axial_modes = 0
     logical :: clamped = .false.
+    logical :: bends = .true.                         !! else all that follows is zero or empty but for the next two
     real(wp) :: length = 0.0_wp                       !! [m]
+    !> Mass of a rigid link: between the displacements of its first pin, along it and across it, and its rotation [kg, kg m, kg m²]
+    real(wp) :: rigid_mass(3, 3) = 0.0_wp
     real(wp) :: elongation = 0.0_wp                   !! √(L/EA): of a unit unknown [m/√J]
     real(wp) :: end_rotation = 0.0_wp                 !! √(L/3EI + 1/(kGA L)): of a unit unknown of the clamped end [rad/√J]
     real(wp), allocatable :: square(:)                !! (modes) 1/ω² of the link with its ends held, descending [s²]
@@ -44,7 +47,7 @@ module link_modes
     real(wp), allocatable :: axial_square(:)          !! (axial modes) [s²]
     real(wp), allocatable :: axial_participation(:, :) !! (2, axial modes)
     real(wp), allocatable :: geometric(:, :, :)       !! (2 + modes, 2 + modes, force functions) `∫ b v' v' dx`
-    type(next_order_t) :: next                        !! of the transverse displacement; empty if there are several elements
+    type(next_order_t) :: next                        !! of the transverse displacement; empty on a mesh of several elements
     type(next_order_t) :: axial_next
     real(wp) :: clamp_station(stations) = 0.0_wp      !! the curve of the clamped end there
     real(wp) :: sag(stations, 2) = 0.0_wp             !! deflection there of the held link under the loads μ (1 − ξ) and μ ξ
@@ -96,18 +99,19 @@ contains
   end function clamp_curve
 
   !> Everything about a link that does not change with the position.
-  pure subroutine new_link_modes(bending, axial, kept, axial_kept, clamped, stiffness, lumped, own, axial_own, link)
+  pure subroutine new_link_modes(bending, axial, kept, axial_kept, clamped, stiffness, lumped, jumps, own, axial_own, link)
     type(deformation_shapes_t), intent(in) :: bending, axial
     integer, intent(in) :: kept, axial_kept !! unknowns in use, the first of all
     logical, intent(in) :: clamped
     real(wp), intent(in) :: stiffness(2)    !! EA and EI [N, N m²]; `bending` knows kGA
     logical, intent(in) :: lumped           !! axial forces are constant in each element; else 1, ξ, ξ² along the link
+    real(wp), intent(in) :: jumps(:)        !! ξ where they jump as well: to a force that acts from the first end up to there
     real(wp), intent(in) :: own(:, :)       !! (kept, modes) right singular vectors of the held shapes, in the unknowns
     real(wp), intent(in) :: axial_own(:, :) !! (axial kept, axial modes)
     type(link_modes_t), intent(out) :: link
 
     real(wp), allocatable :: shape(:, :), slope(:, :), next_slope(:, :)
-    integer :: i
+    integer :: i, moved
 
     link%modes = size(own, 2)
     link%axial_modes = size(axial_own, 2)
@@ -131,8 +135,9 @@ contains
     link%participation(1:2, :) = matmul(transpose(bending%linear), shape(:, 2:))
     link%participation(3, :) = matmul(shape(:, 1), shape(:, 2:))
     link%linear(1:2, 1:2) = matmul(transpose(bending%linear), bending%linear)
-    associate (line => bending%linear(:bending%coefficients*bending%elements, :))
-      link%axial_linear = matmul(transpose(line), line)
+    moved = bending%coefficients*bending%elements
+    associate (line => bending%linear(:moved, :), lumps => bending%linear(size(bending%linear, 1) - bending%lumps + 1:, :))
+      link%axial_linear = matmul(transpose(line), line) + matmul(transpose(lumps), lumps)
     end associate
     link%linear(1:2, 3) = matmul(transpose(bending%linear), shape(:, 1))
     link%linear(3, 1:2) = link%linear(1:2, 3)
@@ -141,15 +146,15 @@ contains
     allocate (slope(size(bending%place), link%modes + 2))
     slope(:, rigid) = bending%root
     slope(:, clamp:) = matmul(bending%slope(:, :kept), link%bending)
-    call integrate_slopes(bending, lumped, slope, slope, link%geometric)
+    call integrate_slopes(bending, lumped, jumps, slope, slope, link%geometric)
     call place_stations(link)
     call add_axial(axial, axial_kept, link)
-    if (bending%elements > 1) then
-      next_slope = bending%slope(:, 1:0)
-    else
+    if (bending%by_degree) then
       next_slope = bending%slope(:, kept + 1:)
+    else
+      next_slope = bending%slope(:, 1:0)
     end if
-    call add_next_order(bending, kept, shape, slope, next_slope, lumped, link)
+    call add_next_order(bending, kept, shape, slope, next_slope, lumped, jumps, link)
   end subroutine new_link_modes
 
   !> Rotation of a link's end under a moment there that does unit work, the other end hinged: the norm of the start slopes.
@@ -180,18 +185,24 @@ contains
   end subroutine turn_last_end_up
 
   !> `∫ b f g dx` of slopes f and g, for every axial force function b.
-  pure subroutine integrate_slopes(shapes, lumped, first, second, integral)
+  pure subroutine integrate_slopes(shapes, lumped, jumps, first, second, integral)
     type(deformation_shapes_t), intent(in) :: shapes
     logical, intent(in) :: lumped
+    real(wp), intent(in) :: jumps(:)
     real(wp), intent(in) :: first(:, :), second(:, :) !! (Gauss points, functions) with the root of the weight
     real(wp), allocatable, intent(out) :: integral(:, :, :)
 
     real(wp) :: force(size(shapes%place))
-    integer :: j
+    integer :: j, smooth
 
-    allocate (integral(size(first, 2), size(second, 2), merge(shapes%elements, 3, lumped)))
+    smooth = merge(shapes%elements, 3, lumped)
+    allocate (integral(size(first, 2), size(second, 2), smooth + size(jumps)))
     do j = 1, size(integral, 3)
-      force = force_function(shapes, lumped, j)
+      if (j <= smooth) then
+        force = force_function(shapes, lumped, j)
+      else
+        force = merge(1.0_wp, 0.0_wp, shapes%place < jumps(j - smooth))
+      end if
       integral(:, :, j) = matmul(transpose(first), spread(force, 2, size(second, 2))*second)
     end do
   end subroutine integrate_slopes
@@ -235,7 +246,7 @@ contains
     shape = matmul(axial%displacement(:, :kept), link%axial)
     link%axial_square = [(dot_product(shape(:, i), shape(:, i)), i=1, link%axial_modes)]
     link%axial_participation = matmul(transpose(axial%linear), shape)
-    extra = merge(axial%unknowns - kept, 0, axial%elements == 1)
+    extra = merge(axial%unknowns - kept, 0, axial%by_degree)
     associate (next => axial%displacement(:, kept + 1:kept + extra))
       link%axial_next%mass = matmul(transpose(shape), next)
       link%axial_next%participation = matmul(transpose(axial%linear), next)
@@ -244,13 +255,14 @@ contains
   end subroutine add_axial
 
   !> What the unknowns left out by `kept` have to do with those in use.
-  pure subroutine add_next_order(bending, kept, shape, slope, next_slope, lumped, link)
+  pure subroutine add_next_order(bending, kept, shape, slope, next_slope, lumped, jumps, link)
     type(deformation_shapes_t), intent(in) :: bending
     integer, intent(in) :: kept
     real(wp), intent(in) :: shape(:, 0:)      !! (coefficients, 0:modes)
     real(wp), intent(in) :: slope(:, :)       !! (Gauss points, 2 + modes)
     real(wp), intent(in) :: next_slope(:, :)  !! (Gauss points, unknowns of the next orders)
     logical, intent(in) :: lumped
+    real(wp), intent(in) :: jumps(:)
     type(link_modes_t), intent(inout) :: link
 
     real(wp), allocatable :: all_squares(:, :, :)
@@ -264,8 +276,8 @@ contains
       link%next%participation(1:2, :) = matmul(transpose(bending%linear), next)
       link%next%participation(3, :) = matmul(shape(:, 0), next)
     end associate
-    call integrate_slopes(bending, lumped, slope, next_slope, link%next%geometric)
-    call integrate_slopes(bending, lumped, next_slope, next_slope, all_squares)
+    call integrate_slopes(bending, lumped, jumps, slope, next_slope, link%next%geometric)
+    call integrate_slopes(bending, lumped, jumps, next_slope, next_slope, all_squares)
     allocate (link%next%geometric_square(extra, size(all_squares, 3)))
     do j = 1, size(all_squares, 3)
       link%next%geometric_square(:, j) = [(all_squares(i, i, j), i=1, extra)]

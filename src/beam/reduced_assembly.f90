@@ -1,14 +1,15 @@
 !> Mass and geometric stiffness of a linkage in its links' own deformations.
 !!
 !! Unknowns: the clamped end's rotation and the links' elongations (the border), the transverse own modes of link after link (the
-!! blocks), then the axial ones. In all of them the elastic stiffness is the unit matrix.
+!! blocks), then the axial ones. In all of them the elastic stiffness is the unit matrix. A link that does not bend has none.
 module reduced_assembly
   use bordered_matrix, only: bordered_matrix_t, layout_t, new_layout
+  use inertia_loads, only: distributed_load, load_t
   use kinds, only: wp
   use link_modes, only: clamp, link_modes_t, rigid, stations
   use linkages, only: linkage_t, normal_to
-  use motions, only: acceleration_field_t
-  use pin_displacements, only: border_unknowns, chords_t
+  use load_cases, only: load_case_t
+  use pin_displacements, only: body_motion, border_numbers, chords_t
   use poses, only: pose_t
   implicit none (type, external)
   private
@@ -22,7 +23,7 @@ contains
     type(link_modes_t), intent(in) :: links(:) !! (bodies)
     type(layout_t) :: layout
 
-    layout = new_layout(border_unknowns(linkage), links%modes, links%axial_modes)
+    layout = new_layout(maxval(border_numbers(linkage)), links%modes, links%axial_modes)
   end function reduced_layout
 
   !> Number of the first axial unknown of a body.
@@ -48,6 +49,11 @@ contains
 
     mass%border = 0.0_wp
     do b = 1, size(links)
+      if (.not. links(b)%bends) then
+        across = body_motion(chords, b)
+        mass%border = mass%border + matmul(transpose(across), matmul(links(b)%rigid_mass, across))
+        cycle
+      end if
       across = chords%across(:, :, b)
       along = chords%along(:, :, b)
       mass%border = mass%border + matmul(transpose(across), matmul(links(b)%linear, across)) + &
@@ -139,7 +145,7 @@ contains
           residual = -lambda*(dot_product(ends, link%next%participation(:, i)) + &
             dot_product(vector(first:first + link%modes - 1), link%next%mass(:, i)))
           pivot = 1.0_wp - lambda*link%next%square(i)
-          do j = 1, size(force, 1)
+          do j = 1, min(size(force, 1), size(link%next%geometric, 3))
             residual = residual + force(j, b)*(turn*link%next%geometric(rigid, i, j) + ends(3)*link%next%geometric(clamp, i, j) + &
               dot_product(vector(first:first + link%modes - 1), link%next%geometric(clamp + 1:, i, j)))
             pivot = pivot + force(j, b)*link%next%geometric_square(i, j)
@@ -157,15 +163,16 @@ contains
     end do
   end function next_order_change
 
-  !> Static displacements, at the stations of every link and across it, under the inertia loads of an acceleration field that is
-  !! linear along the links. The stiffness is the unit matrix: every unknown is the work of the loads on its own shape.
-  pure subroutine reduced_deflection(linkage, links, layout, chords, pose, field, displacement)
+  !> Static displacements, at the stations of every link and across it, under the loads of a case. Inertia loads are linear along the
+  !! links; torques on links are carried by their pins. The stiffness is the unit matrix: every unknown is the work of the loads on
+  !! its own shape.
+  pure subroutine reduced_deflection(linkage, links, layout, chords, pose, case, displacement)
     type(linkage_t), intent(in) :: linkage
     type(link_modes_t), intent(in) :: links(:)
     type(layout_t), intent(in) :: layout
     type(chords_t), intent(in) :: chords
     type(pose_t), intent(in) :: pose
-    type(acceleration_field_t), intent(in) :: field
+    type(load_case_t), intent(in) :: case
     real(wp), intent(out) :: displacement(:, :, :) !! (along and across, stations, bodies) [m]
 
     real(wp) :: border(layout%border), across(2, size(links)), along(2), at_ends(2, 2), ends(3), axial_ends(2), xi
@@ -173,17 +180,23 @@ contains
 
     border = 0.0_wp
     do b = 1, size(links)
-      at_ends(:, 1) = field%at_first(:, b)
-      at_ends(:, 2) = field%at_first(:, b) + links(b)%length*field%slope(:, b)
+      border = border + case%couple(b)*chords%turn(:, b)
+      at_ends(:, 1) = case%field%at_first(:, b)
+      at_ends(:, 2) = case%field%at_first(:, b) + links(b)%length*case%field%slope(:, b)
       do i = 1, 2
         along(i) = dot_product(pose%direction(:, b), at_ends(:, i))
         across(i, b) = dot_product(normal_to(pose%direction(:, b)), at_ends(:, i))
       end do
-      border = border - matmul(transpose(chords%across(:, :, b)), matmul(links(b)%linear(:, 1:2), across(:, b))) - &
-        matmul(transpose(chords%along(:, :, b)), matmul(links(b)%axial_linear, along))
+      if (links(b)%bends) then
+        border = border - matmul(transpose(chords%across(:, :, b)), matmul(links(b)%linear(:, 1:2), across(:, b))) - &
+          matmul(transpose(chords%along(:, :, b)), matmul(links(b)%axial_linear, along))
+      else
+        border = border + matmul(rigid_work(linkage, b, pose, case), body_motion(chords, b))
+      end if
     end do
     do k = 1, size(linkage%pin_mass)
-      border = border - linkage%pin_mass(k)*matmul(field%at_pin(:, k), chords%pin(:, k, :))
+      border = border - linkage%pin_mass(k)*matmul(case%field%at_pin(:, k), chords%pin(:, k, :)) + &
+        matmul(case%pin_force(:, k), chords%pin(:, k, :))
     end do
     do b = 1, size(links)
       ends = matmul(chords%across(:, :, b), border)
@@ -191,10 +204,26 @@ contains
       do i = 1, stations
         xi = real(i - 1, wp)/(stations - 1)
         displacement(1, i, b) = (1.0_wp - xi)*axial_ends(1) + xi*axial_ends(2)
-        displacement(2, i, b) = (1.0_wp - xi)*ends(1) + xi*ends(2) + links(b)%clamp_station(i)*ends(3) - &
+        displacement(2, i, b) = (1.0_wp - xi)*ends(1) + xi*ends(2)
+        if (links(b)%bends) displacement(2, i, b) = displacement(2, i, b) + links(b)%clamp_station(i)*ends(3) - &
           dot_product(links(b)%sag(i, :), across(:, b))
       end do
     end do
   end subroutine reduced_deflection
+
+  !> Work of the inertia loads of a link that does not bend on the three motions of `body_motion` [N, N, N m].
+  pure function rigid_work(linkage, body, pose, case) result(work)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: body
+    type(pose_t), intent(in) :: pose
+    type(load_case_t), intent(in) :: case
+    real(wp) :: work(3)
+
+    type(load_t) :: load
+
+    load = distributed_load(linkage%bodies(body), body, pose, case%field)
+    work = [dot_product(pose%direction(:, body), load%force), dot_product(normal_to(pose%direction(:, body)), load%force), &
+      load%moment]
+  end function rigid_work
 
 end module reduced_assembly

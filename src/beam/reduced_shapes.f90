@@ -34,22 +34,24 @@ contains
     associate (link => links(body), border => vector(:layout%border), axis => pose%direction(:, body))
       ends = matmul(chords%across(:, :, body), border)
       axial_ends = matmul(chords%along(:, :, body), border)
+      across = (1.0_wp - xi)*ends(1) + xi*ends(2)
+      along = (1.0_wp - xi)*axial_ends(1) + xi*axial_ends(2)
+      displacement = [along*axis + across*normal_to(axis), dot_product(chords%turn(:, body), border)]
+      if (.not. link%bends) return
       first = layout%first(body)
       own(0) = ends(3)
       own(1:) = vector(first:first + link%modes - 1)
       unknown = matmul(link%bending, own)
       ! At its ends a link has no displacement of its own, and at the clamp no rotation: exactly, not but for rounding.
       inside = xi > 0.0_wp .and. xi < 1.0_wp
-      across = (1.0_wp - xi)*ends(1) + xi*ends(2)
       row = displacement_row(link%bending_shapes, xi)
       if (inside) across = across + dot_product(row(:size(unknown)), unknown)
       row = rotation_row(link%bending_shapes, xi)
-      displacement(3) = dot_product(chords%turn(:, body), border) + dot_product(row(:size(unknown)), unknown)
+      displacement(3) = displacement(3) + dot_product(row(:size(unknown)), unknown)
       if (link%clamped .and. xi <= 0.0_wp) displacement(3) = 0.0_wp
       first = first_axial(layout, links, body)
       unknown = matmul(link%axial, vector(first:first + link%axial_modes - 1))
       row = displacement_row(link%axial_shapes, xi)
-      along = (1.0_wp - xi)*axial_ends(1) + xi*axial_ends(2)
       if (inside) along = along + dot_product(row(:size(unknown)), unknown)
       displacement(:2) = along*axis + across*normal_to(axis)
     end associate

@@ -5,7 +5,7 @@ module four_bar_limits
   implicit none (type, external)
   private
 
-  public :: reach_t, crank_reach, can_reach, grashof_class, limit_angles
+  public :: reach_t, crank_reach, can_reach, grashof_class, limit_angles, in_line_slack
 
   !> Crank angles at which the loop closes: measured from the line of the ground pivots they are `±[least, most]`.
   type :: reach_t
@@ -23,7 +23,6 @@ contains
     real(wp), intent(in) :: length(3)    !! crank, coupler, follower [m]
     type(reach_t) :: reach
 
-    real(wp), parameter :: rounding = 1.0e-13_wp
     real(wp) :: r1, line(2), nearest, farthest, slack
 
     line = ground(:, 2) - ground(:, 1)
@@ -33,13 +32,24 @@ contains
       nearest = abs(r3 - r4)
       farthest = r3 + r4
       ! Links that close only stretched out or folded, as far as their digits tell, reach that dead point and are not refused.
-      slack = rounding*(r1 + r2 + r3 + r4)
+      slack = in_line_slack(r1, length)
       reach%closes = r1 + r2 >= nearest - slack .and. abs(r1 - r2) <= farthest + slack
       if (.not. reach%closes) return
       if (nearest > abs(r1 - r2) + slack) reach%least = crank_angle_at(r1, r2, nearest)
       if (farthest < r1 + r2 - slack) reach%most = crank_angle_at(r1, r2, farthest)
     end associate
   end function crank_reach
+
+  !> Sums and differences of the lengths that differ by less than this are the same, as far as the digits of a deck tell [m].
+  pure function in_line_slack(ground_length, length) result(slack)
+    real(wp), intent(in) :: ground_length !! r1 [m]
+    real(wp), intent(in) :: length(3)     !! crank, coupler, follower [m]
+    real(wp) :: slack
+
+    real(wp), parameter :: rounding = 1.0e-13_wp
+
+    slack = rounding*(ground_length + sum(length))
+  end function in_line_slack
 
   !> The crank angle from the line O2 → O4 at which A is at a distance from O4 [deg].
   !!
@@ -84,12 +94,11 @@ contains
     real(wp), intent(in) :: length(3)     !! crank, coupler, follower [m]
     character(len=:), allocatable :: class
 
-    real(wp), parameter :: same = 1.0e-12_wp
     real(wp) :: all_lengths(4), excess
 
     all_lengths = [ground_length, length]
     excess = 2.0_wp*(minval(all_lengths) + maxval(all_lengths)) - sum(all_lengths)
-    if (abs(excess) <= same*sum(all_lengths)) then
+    if (abs(excess) <= in_line_slack(ground_length, length)) then
       class = "change-point linkage (shortest + longest = sum of the other two)"
     else if (excess > 0.0_wp) then
       class = "non-Grashof triple rocker: no link turns fully"

@@ -7,7 +7,7 @@ module linkages
   implicit none (type, external)
   private
 
-  public :: linkage_t, body_t, lump_t, dyad_t, new_four_bar, cross, normal_to
+  public :: linkage_t, body_t, lump_t, dyad_t, new_four_bar, mobility, cross, normal_to
 
   !> A mass fixed to a body, where its own axes say: x along it, y to the left of the way from its first pin to its last.
   type :: lump_t
@@ -82,6 +82,23 @@ contains
     end do
     linkage%dyads = [dyad_t([2, 4], [2, 3], 3, merge(-1.0_wp, 1.0_wp, crossed))]
   end function new_four_bar
+
+  !> Degrees of freedom by counting: `3(n − 1) − 2j`, n links with the ground, j pins of two links each (Grübler, Kutzbach). A pin
+  !! where more links meet counts as one pin fewer than links.
+  pure function mobility(linkage) result(freedoms)
+    type(linkage_t), intent(in) :: linkage
+    integer :: freedoms
+
+    integer :: pin, links, pins
+
+    pins = 0
+    do pin = 1, size(linkage%is_ground)
+      links = count(linkage%bodies%first_pin == pin) + count(linkage%bodies%last_pin == pin) + &
+        merge(1, 0, linkage%is_ground(pin))
+      pins = pins + max(0, links - 1)
+    end do
+    freedoms = 3*size(linkage%bodies) - 2*pins
+  end function mobility
 
   !> The component of `a × b` out of the plane.
   pure function cross(a, b)

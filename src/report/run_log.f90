@@ -1,7 +1,9 @@
 !> The first part of `run.log`: what the deck describes.
 module run_log
+  use body_lines, only: body_line, mass_line
   use effect_cards, only: effect_words
   use kinds, only: wp
+  use link_cards, only: has_own_mass
   use models, only: branch_crossed, inertia_distributed, inertia_lumped, link_mass, model_t, needs_frequencies
   use text, only: plural, to_string
   use units, only: coherent_unit, dimension_acceleration, dimension_force, dimension_length, dimension_mass, dimension_moment, &
@@ -38,6 +40,7 @@ contains
         end if
         if (link%rigid) text = text//", rigid"
         text = text//line_feed
+        if (has_own_mass(link)) text = text//body_line(model, model%loop(i))//line_feed
       end associate
     end do
     do i = 1, size(model%pin_masses)
@@ -45,8 +48,7 @@ contains
         " "//mass%name//line_feed
     end do
     do i = 1, size(model%masses)
-      text = text//"mass on link "//model%masses(i)%link_name%text//": "//to_string(from_si(model%masses(i)%mass, mass), 12)// &
-        " "//mass%name//line_feed
+      text = text//mass_line(model, i)//line_feed
     end do
     if (total_mass(model) > 0.0_wp) then
       text = text//"total mass: "//to_string(from_si(total_mass(model), mass), 12)//" "//mass%name//line_feed

@@ -1,0 +1,27 @@
+# The linkage as it moves, with the paths of its points: a turn of the crank, or to and fro where it cannot turn.
+#   gnuplot -c animate_linkage.gp kinematics.dat OUT [points.dat [FIGURE [REMARK]]]
+# Without points.dat, the middle of the coupler draws its path.
+
+load ARG0[1 : strlen(ARG0) - strlen("animate_linkage.gp")]."style.gp"
+table = ARG1; out = ARG2; table_of_points = argument(3); figure = argument(4); remark = argument(5)
+eval smaller(0.65)
+
+eval answer(table, "facts")
+low = low_crank
+high = high_crank
+call plots."linkage.gp" table table_of_points
+eval middle_of_coupler
+
+# Evenly in the crank's angle, or slower towards both ends of its way.
+turning = turns_fully && high - low >= 240
+pictures = turning ? 72 : 60
+crank_of(k) = turning ? low + 360.0*k/pictures : 0.5*(low + high) - 0.5*(high - low)*cos(2*pi*k/pictures)
+set print $poses
+do for [k=0:2*pictures - 1] { print pose_at(radians*crank_of(k)) }
+unset print
+
+note = ""
+caption(row) = "θ₂ = ".sprintf("%d°", floor(word(row, 1)) % 360)
+tail = 24
+call plots."animate_poses.gp" 4 pictures 1
+eval close

@@ -1,0 +1,38 @@
+# The motion of motion.dat as fast as it is, or slower if it lasts less than a second or two; the first six seconds of a long one.
+#   gnuplot -c animate_motion.gp motion.dat OUT kinematics.dat [points.dat [FIGURE [REMARK]]]
+
+load ARG0[1 : strlen(ARG0) - strlen("animate_motion.gp")]."style.gp"
+table = ARG1; out = ARG2; kinematics = ARG3; table_of_points = argument(4); figure = argument(5); remark = argument(6)
+eval smaller(0.65)
+
+call plots."linkage.gp" kinematics table_of_points
+eval middle_of_coupler
+eval answer(table, "facts")
+
+# Pictures are rows of the table, of equal steps, 25 in a second or fewer.
+second = unit_time eq "ms" ? 1000.0 : 1.0           # of the deck's unit of time
+length = (high_time - low_time)/second
+slower = length < 1.5 && length > 0 ? nice(2/length) : 1
+step = rows > 1 ? slower*length/(rows - 1) : 1
+every_row = step < 0.04 ? floor(0.04/step + 0.001) : 1
+pictures = (rows - 1)/every_row + 1
+if (pictures > 150) { pictures = 150 }
+hundredths = every_row*step*100
+delay = hundredths < 2 ? 2 : floor(hundredths + 0.5)
+
+shown = (pictures - 1)*every_row + 1
+array theta[3*shown]
+array seconds[shown]
+array rates[shown]
+keep_pose(n) = n > shown ? NaN : (seconds[n] = field("time"), rates[n] = field("omega2"), \
+    theta[3*n - 2] = radians*field("crank"), theta[3*n - 1] = radians*field("theta3"), theta[3*n] = radians*field("theta4"), n)
+stats table using (keep_pose(int(column(0)) + 1)) nooutput
+set print $poses
+do for [k=1:shown] { print pose(theta[3*k - 2], theta[3*k - 1], theta[3*k]) }
+unset print
+
+note = slower == 1 ? "" : sprintf("%g times slower than it is", slower)
+caption(row) = sprintf("t = %.2f %s,  ω₂ = %.1f %s", seconds[now], unit_time, rates[now], unit_omega2)
+tail = 6
+call plots."animate_poses.gp" delay pictures every_row
+eval close

@@ -1,0 +1,19 @@
+# A motion from its start: speed of the crank, torque of the motor and energies against time.
+#   gnuplot -c motion.gp motion.dat OUT [FIGURE [REMARK]]
+
+load ARG0[1 : strlen(ARG0) - strlen("motion.gp")]."style.gp"
+table = ARG1; out = ARG2; figure = argument(3); remark = argument(4)
+
+eval answer(table, "facts")
+headline = numbered(figure, "Motion of the linkage under its motor and loads")
+note = "work: of the motor, less what the loads take;  kinetic + potential − work stays the same"
+source_of(k) = table
+picked = "1"
+x = "field('time')"
+x_axis = sprintf("set xrange [%.12g:%.12g]; set xlabel 'time'.unit('time')", low_time, high_time > low_time ? high_time : low_time + 1)
+panels = 3
+array axis_of[3] = ["angular velocity".unit("omega2"), "torque of the motor".unit("torque"), "energy [".typeset(unit_kinetic)."]"]
+array curves_of[3] = ["field('omega2') field('omega4')", "field('torque')", "field('kinetic') field('potential') field('work')"]
+array titles_of[3] = ["'crank ω₂' 'follower ω₄'", "motor", "kinetic potential work"]
+call plots."panels.gp"
+eval close

@@ -1,0 +1,24 @@
+# Speed and acceleration of the points of points.dat, for one speed of the crank, against the crank angle.
+#   gnuplot -c point_rates.gp points.dat OUT SPEED [FIGURE [REMARK]]
+
+load ARG0[1 : strlen(ARG0) - strlen("point_rates.gp")]."style.gp"
+table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
+
+eval answer(table, "facts")
+names = answer(table, "distinct point")
+headline = numbered(figure, sprintf("Speed and acceleration of points against crank angle, %s", at_speed(speed, unit_speed)))
+note = ""
+x = "field('crank')"
+x_axis = crank_axis(low_crank, high_crank)."; set xlabel 'crank angle θ₂'.unit('crank')"
+picked = "same(field('speed'),speed)"
+
+# Every point is a table of its own, with an empty line where rows have failed.
+source_of(k) = "< awk ".quoted(sprintf("NF == 0 { print } !/^#/ && $%d == \"%s\"", col_point, word(names, k)))." ".quoted(table)
+repeated(k, text) = k < 1 ? "" : repeated(k - 1, text)." ".text
+panels = 2
+array axis_of[2] = ["speed".unit("vx"), "acceleration".unit("ax")]
+array curves_of[2] = [repeated(words(names), "sqrt(field('vx')**2+field('vy')**2)"), \
+    repeated(words(names), "sqrt(field('ax')**2+field('ay')**2)")]
+array titles_of[2] = [names, names]
+call plots."panels.gp"
+eval close

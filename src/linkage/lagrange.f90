@@ -1,0 +1,100 @@
+!> Lagrange's equation of a rigid linkage with one degree of freedom: Ulker 2010 (2.50) to (2.64), for any number of bodies of any shape.
+!!
+!! The torque that a motion demands comes from energies alone here, without a force in any pin.
+module lagrange
+  use body_points, only: find_point_motion, point_motion_t
+  use kinds, only: wp
+  use linkages, only: linkage_t
+  use motions, only: motion_t
+  use poses, only: pose_t
+  use rigid_bodies, only: central_inertia, mass_centre, rigid_body_t
+  implicit none (type, external)
+  private
+
+  public :: lagrange_t, find_lagrange, velocity_term, demanded_torque, kinetic_energy
+
+  !> The terms of `M α2 + ½ M' ω2² + gravity + load = torque` at a pose, for every speed.
+  type :: lagrange_t
+    real(wp) :: inertia = 0.0_wp       !! M, of all moving masses at the crank [kg m²]
+    real(wp) :: inertia_slope = 0.0_wp !! M' = dM/dθ2 [kg m²]
+    real(wp) :: gravity = 0.0_wp       !! dU/dθ2 of the weights [N m]
+    real(wp) :: load = 0.0_wp          !! what holds the forces and torques from outside: minus their generalised force [N m]
+    real(wp) :: potential = 0.0_wp     !! U of the weights and of the forces on the pins, zero with all at the global origin [N m]
+  end type lagrange_t
+
+contains
+
+  !> M and M' of (2.54), dU/dθ2 and the generalised load at a pose.
+  !!
+  !! Twice the kinetic energy (2.50), summed over i = 2…4 (1…3 is a misprint), at ω2 = 1: `M = Σ m x_G'·x_G' + I_G h²`; its
+  !! derivative is `M' = 2 Σ m x_G'·x_G'' + I_G h h'`. For mass centres on the links these are (2.55) and the terms of (2.56)
+  !! with S2, S3 and C1, where ω2² is lost in print: `V = ½ M' ω2²`. The terms with G, which is −U by (2.62), are right as printed.
+  pure function find_lagrange(linkage, rigid, pose, motion) result(terms)
+    type(linkage_t), intent(in) :: linkage
+    type(rigid_body_t), intent(in) :: rigid(:) !! (bodies)
+    type(pose_t), intent(in) :: pose           !! away from dead points
+    type(motion_t), intent(in) :: motion
+    type(lagrange_t) :: terms
+
+    type(point_motion_t) :: point
+    real(wp) :: turning
+    integer :: b, p
+
+    do b = 1, size(linkage%bodies)
+      point = find_point_motion(linkage, pose, motion, b, mass_centre(rigid(b)))
+      call add_mass(rigid(b)%mass, linkage%gravity, point, terms)
+      turning = central_inertia(rigid(b))*motion%turn(b)
+      terms%inertia = terms%inertia + turning*motion%turn(b)
+      terms%inertia_slope = terms%inertia_slope + 2.0_wp*turning*motion%turn_slope(b)
+      terms%load = terms%load - linkage%couple(b)*motion%turn(b)
+    end do
+    do p = 1, size(linkage%is_ground)
+      point = point_motion_t(pose%pin(:, p), motion%pin(:, p), motion%pin_slope(:, p))
+      call add_mass(linkage%pin_mass(p), linkage%gravity, point, terms)
+      terms%load = terms%load - dot_product(linkage%pin_force(:, p), point%rate)
+      terms%potential = terms%potential - dot_product(linkage%pin_force(:, p), point%place)
+    end do
+  end function find_lagrange
+
+  !> Adds a mass that moves without turning.
+  pure subroutine add_mass(mass, gravity, point, terms)
+    real(wp), intent(in) :: mass       !! [kg]
+    real(wp), intent(in) :: gravity(2) !! [m/s²]
+    type(point_motion_t), intent(in) :: point
+    type(lagrange_t), intent(inout) :: terms
+
+    terms%inertia = terms%inertia + mass*dot_product(point%rate, point%rate)
+    terms%inertia_slope = terms%inertia_slope + 2.0_wp*mass*dot_product(point%rate, point%slope)
+    terms%gravity = terms%gravity - mass*dot_product(gravity, point%rate)
+    terms%potential = terms%potential - mass*dot_product(gravity, point%place)
+  end subroutine add_mass
+
+  !> `V = ½ M' ω2²` [N m]: (2.56) without its potential terms.
+  pure function velocity_term(terms, speed) result(torque)
+    type(lagrange_t), intent(in) :: terms
+    real(wp), intent(in) :: speed !! ω2 [rad/s]
+    real(wp) :: torque
+
+    torque = 0.5_wp*terms%inertia_slope*speed**2
+  end function velocity_term
+
+  !> The torque on the crank that a motion demands, (2.54) [N m].
+  pure function demanded_torque(terms, speed, acceleration) result(torque)
+    type(lagrange_t), intent(in) :: terms
+    real(wp), intent(in) :: speed        !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration !! α2 [rad/s²]
+    real(wp) :: torque
+
+    torque = terms%inertia*acceleration + velocity_term(terms, speed) + terms%gravity + terms%load
+  end function demanded_torque
+
+  !> `½ M ω2²`, (2.50) [N m].
+  pure function kinetic_energy(terms, speed) result(energy)
+    type(lagrange_t), intent(in) :: terms
+    real(wp), intent(in) :: speed !! ω2 [rad/s]
+    real(wp) :: energy
+
+    energy = 0.5_wp*terms%inertia*speed**2
+  end function kinetic_energy
+
+end module lagrange
