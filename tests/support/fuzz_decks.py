@@ -143,7 +143,7 @@ def dynamics(dice, names, pins, scale, mass, has_inertia):
             (0.4, f"GRAVITY {dice.choice(['0', '2.5m/s2'])} -9.81m/s2"),
             (0.2, f"FORCE {dice.choice(pins[1:3])} {weight*dice.between(-5, 5):.4g}N {weight*dice.between(-5, 5):.4g}N"),
             (0.2, f"TORQUE {dice.choice(names)} {weight*scale*dice.between(-3, 3):.4g}N*m"),
-            (0.2, f"MASS {dice.choice(names)} at={scale*dice.between(-1, 2):.4g}m {mass*dice.between(0.1, 3):.4g}kg"),
+            (0.2, f"MASS {dice.choice(names)} at={scale*dice.between(0, 0.15):.4g}m {mass*dice.between(0.1, 3):.4g}kg"),
             (0.3, f"POINT p {dice.choice(names)} along={scale*dice.between(-1, 2):.4g}m offset={scale*dice.between(-1, 1):.4g}m"),
             (0.4*motions, dice.choice([f"MOTOR torque={weight*scale*dice.between(-9, 9):.4g}N*m",
                                        f"MOTOR stall={weight*scale*dice.between(1, 9):.4g}N*m noload={dice.between(10, 99):.4g}rpm"])),
