@@ -20,11 +20,14 @@ EXTREMES = ["0", "-0", "0.0", "1", "-1", "1e-300", "1e-320", "1e-41", "1e-39", "
 UNITS = ["m", "mm", "cm", "in", "ft", "kg", "g", "tonne", "lbm", "slug", "slinch", "s", "ms", "N", "kN", "lbf", "Pa", "kPa", "MPa",
          "GPa", "psi", "ksi", "kg/m3", "g/cm^3", "lbm/in3", "mm2", "in4", "mm^4", "deg", "rad", "rad/s", "rpm", "rad/s2", "N/mm2"]
 KEYWORDS = ["TITLE", "UNITS", "MATERIAL", "SECTION", "GROUND", "LINK", "DRIVE", "BRANCH", "PINMASS", "MESH", "CRANK", "SPEED",
-            "INERTIA", "EFFECTS", "SOLVER", "MODES", "REPORT", "END", "INCLUDE", "SET", "VARY"]
+            "INERTIA", "EFFECTS", "SOLVER", "MODES", "REPORT", "END", "INCLUDE", "SET", "VARY", "GRAVITY", "FORCE", "TORQUE", "MASS", "POINT",
+            "MOTOR", "LOAD"]
 KEYS = ["E", "density", "nu", "thickness", "width", "diameter", "outer", "inner", "A", "I", "depth", "length", "material", "section",
-        "elements", "order", "accuracy", "alpha", "crank", "speed", "points", "shear_coefficient"]
+        "elements", "order", "accuracy", "alpha", "crank", "speed", "points", "shear_coefficient", "mass", "inertia", "center", "at", "along",
+        "offset", "torque", "damping", "stall", "noload", "end", "step"]
 WORDS = ["rectangle", "circle", "tube", "general", "open", "crossed", "lumped", "distributed", "static", "axial", "rotary", "shear",
-         "auto", "deformation", "dense", "band", "kinematics", "inertia", "mesh", "frequencies", "shapes", "branches", "to", "step", "*"]
+         "auto", "deformation", "dense", "band", "kinematics", "inertia", "mesh", "frequencies", "shapes", "branches", "to", "step", "*",
+         "rigid", "reactions", "points", "lagrange", "linkage", "balance", "motion"]
 PIECES = [b"\0", b"\t", b"\r", b"\n", b"\r\n", b"&", b" & \n", b"!", b"#", b"=", b"==", b",", b",,", b"$", b"$x", b'"', b"'", b"\\",
           b"\xc3\xb6", b"\xef\xbb\xbf", b"\xe2\x82\xac", b"\xff\xfe", b"\x80", b"\x1b[31m", b"\x7f", b"\xf0\x9f\x94\xa7", b" "*300,
           b"x"*5000, b"\n"*50, b"\nINCLUDE part.deck\n", b"\nINCLUDE d.deck\n", b"\nSET x 1\n", b"\nVARY x 1 2\n", b"$half", b"&\n"*20, b"%s%n", b"{", b"()", b"END\n", b"NaN", b"*****"]
@@ -131,6 +134,33 @@ def requests(dice, by_accuracy, own_speed):
     return cards
 
 
+def dynamics(dice, names, pins, scale, mass, has_inertia):
+    """Loads from outside, masses, points, a motor, and the reports on rigid links, in measure with a link's length and mass."""
+    weight = 9.81*mass
+    motions = dice.chance(0.3)
+    cards = []
+    for probability, card in (
+            (0.4, f"GRAVITY {dice.choice(['0', '2.5m/s2'])} -9.81m/s2"),
+            (0.2, f"FORCE {dice.choice(pins[1:3])} {weight*dice.between(-5, 5):.4g}N {weight*dice.between(-5, 5):.4g}N"),
+            (0.2, f"TORQUE {dice.choice(names)} {weight*scale*dice.between(-3, 3):.4g}N*m"),
+            (0.2, f"MASS {dice.choice(names)} at={scale*dice.between(0, 0.15):.4g}m {mass*dice.between(0.1, 3):.4g}kg"),
+            (0.3, f"POINT p {dice.choice(names)} along={scale*dice.between(-1, 2):.4g}m offset={scale*dice.between(-1, 1):.4g}m"),
+            (0.4*motions, dice.choice([f"MOTOR torque={weight*scale*dice.between(-9, 9):.4g}N*m",
+                                       f"MOTOR stall={weight*scale*dice.between(1, 9):.4g}N*m noload={dice.between(10, 99):.4g}rpm"])),
+            (0.4*motions, f"LOAD {dice.choice(names)} damping={weight*scale*dice.between(0, 0.5):.4g}N*m*s")):
+        if dice.chance(probability):
+            cards.append(card)
+    kinds = ["linkage"] + (["reactions", "lagrange", "balance"] if has_inertia else [])
+    if any(card.startswith("POINT") for card in cards):
+        kinds.append("points")
+    cards += [f"REPORT {kind}" for kind in kinds if dice.chance(0.3)]
+    if motions:
+        pace = (9.81/scale)**0.5
+        cards.append(f"REPORT motion crank={dice.between(-200, 400):.5g} speed={pace*dice.between(-3, 3):.4g} "
+                     f"end={3/pace:.5g}s step={dice.choice([0.3, 1.1, 3.0])/pace:.5g}s")
+    return cards
+
+
 def sound_deck(dice):
     """A deck that says something sensible, nearly always: other lengths, units, beams, speeds, orders, solvers, reports."""
     length, mass, time = (dice.choice(sorted(units)) for units in (LENGTHS, MASSES, TIMES))
@@ -166,6 +196,8 @@ def sound_deck(dice):
         cards.append(f"PINMASS {dice.choice(pins)} {quantity(dice, density*depth**2*scale*dice.factor(3), bare_mass, MASSES)}")
     mesh = meshes(dice, names) if dice.chance(0.95) else []
     cards += mesh + requests(dice, not mesh or "accuracy" in mesh[0], 3.0*(modulus/density)**0.5*depth/scale**2)
+    if dice.chance(0.4):
+        cards += dynamics(dice, names, pins, scale, density*depth**2*scale, any(card.startswith("INERTIA") for card in cards))
     if dice.chance(0.3):
         with_names(dice, cards)
     if dice.chance(0.5):
