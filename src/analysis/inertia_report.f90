@@ -29,8 +29,8 @@ module inertia_report
 
 contains
 
-  !> One row a mass (lumped) or a link (distributed, or with a mass of its own), one a mass fixed to a link, then one a pin that has a
-  !! mass; one block a speed.
+  !> One row a mass (lumped) or a link (distributed, or with a mass of its own), one a mass fixed to a link, then one a pin that has
+  !! a mass; one block a speed.
   subroutine write_inertia(table, model, mechanism, positions)
     type(table_t), intent(inout) :: table
     type(model_t), intent(in) :: model

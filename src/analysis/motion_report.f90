@@ -1,7 +1,6 @@
 !> `motion.dat`: how the linkage moves by itself, and what the log tells of it.
 module motion_report
-  use forward_motions, only: motion_sample_t, motion_tolerance
-  use kinds, only: wp
+  use forward_motions, only: motion_tolerance
   use mechanisms, only: mechanism_t
   use models, only: model_t
   use motion_runs, only: motion_failed, motion_failure, motion_run_t

@@ -15,7 +15,7 @@ module motion_runs
   implicit none (type, external)
   private
 
-  public :: motion_run_t, run_motion, has_motion, motion_rows, motion_rows_of, motion_failed, motion_failure
+  public :: motion_run_t, run_motion, has_motion, motion_rows_of, motion_failed, motion_failure
 
   !> The end of a motion is one of its instants when it is hit within this share of a step.
   real(wp), parameter :: hit = 1.0e-9_wp

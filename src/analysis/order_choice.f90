@@ -39,7 +39,8 @@ contains
   !! accuracy: links are uniform and loads smooth between masses.
   !!
   !! The error of order p is about `((kL/4)^{p−1}/(p−1)!)²` for a wave number k and the length L of the element; this gives a first
-  !! guess, which the error told by the model itself then raises. Errors: those of the model; none for a bound that is not reached at the highest order.
+  !! guess, which the error told by the model itself then raises. Errors: those of the model; none for a bound that is not reached at
+  !! the highest order.
   subroutine choose_orders(linkage, beams, positions, states, factor, modes, bound, store, model, counts, error)
     type(linkage_t), intent(in) :: linkage
     type(beam_t), intent(in) :: beams(:)
@@ -143,7 +144,8 @@ contains
     k = sqrt(added + sqrt(max(0.0_wp, added**2 + slender)))
   end function wave_number
 
-  !> Order for a wave number times length of element, a bound of the error, and no fewer unknowns than a first model had for all modes.
+  !> Order for a wave number times the length of an element, a bound of the error, and no fewer unknowns than a first model had for
+  !! all modes.
   pure function guessed_order(wave, bound, first, highest, modes, bending) result(order)
     real(wp), intent(in) :: wave     !! kL
     real(wp), intent(in) :: bound

@@ -11,7 +11,7 @@ module four_bar_angles
   private
 
   public :: four_bar_t, station_t, angles_t, four_bar_of, seen_from_follower, angles_at, half_turn
-  public :: least_stations, most_stations, crank_limits, posture_apart, posture_folded, posture_stretched
+  public :: least_stations, most_stations, crank_limits, posture_folded
 
   type :: four_bar_t
     real(wp) :: ground = 0.0_wp       !! r1 [m]

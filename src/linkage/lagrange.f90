@@ -1,4 +1,5 @@
-!> Lagrange's equation of a rigid linkage with one degree of freedom: Ulker 2010 (2.50) to (2.64), for any number of bodies of any shape.
+!> Lagrange's equation of a rigid linkage with one degree of freedom: Ulker 2010 (2.50) to (2.64), for any number of bodies of any
+!! shape.
 !!
 !! The torque that a motion demands comes from energies alone here, without a force in any pin.
 module lagrange

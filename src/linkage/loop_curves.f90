@@ -12,7 +12,7 @@ module loop_curves
   private
 
   public :: loop_curve_t, curve_point_t, new_loop_curve, find_start, find_point, closure_error, project, reduce
-  public :: change_point_sine, change_point_message
+  public :: change_point_message
 
   type :: loop_curve_t
     real(wp) :: length(3) = 0.0_wp !! of crank, coupler, follower: r2, r3, r4 [m]

@@ -11,13 +11,13 @@ module settled_cycles
 
   integer, parameter :: fewest_samples = 64, most_samples = 65536
 
-  !> Quantities that something balances to less than this share of the usual are judged by this share: it may be rounding that is left.
+  !> Quantities that something balances to less than this share of the usual are judged by this share: what is left may be rounding.
   real(wp), parameter :: least_share = 1.0e-3_wp
 
 contains
 
-  !> Doubles the samples of a turn until harmonics, mean and rms of all quantities are to 1e-13 of the largest value what every second
-  !! sample gives, or until there are 65,536 of them.
+  !> Doubles the samples of a turn until harmonics, mean and rms of all quantities are to 1e-13 of the largest value what every
+  !! second sample gives, or until there are 65,536 of them.
   !!
   !! They converge like a geometric series, the slower the nearer the crank comes to a dead point; the error of all samples is about
   !! the square of that of half of them.

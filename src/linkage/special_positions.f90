@@ -13,8 +13,8 @@ module special_positions
   public :: crank_limit_stretched, crank_limit_folded, follower_limit_stretched, follower_limit_folded, transmission_least, &
     transmission_most, change_point
 
-  !> Crank limit: coupler and follower in line, stretched out or folded; the crank turns back, and the linkage may go over to the other
-  !! branch. Follower limit: the same of crank and coupler; the follower turns back. Change point: all links in line.
+  !> Crank limit: coupler and follower in line, stretched out or folded; the crank turns back, and the linkage may go over to the
+  !! other branch. Follower limit: the same of crank and coupler; the follower turns back. Change point: all links in line.
   integer, parameter :: crank_limit_stretched = 1, crank_limit_folded = 2, follower_limit_stretched = 3, &
     follower_limit_folded = 4, transmission_least = 5, transmission_most = 6, change_point = 7
   character(len=*), parameter :: event_names(7) = [character(len=24) :: "crank_limit_stretched", "crank_limit_folded", &
@@ -96,8 +96,8 @@ contains
     end do
   end function follower_limits
 
-  !> Where all links are in line, within the digits of their lengths: `±r2 ± r3 = r1 ± r4`. There the branches meet, and nothing but its
-  !! momentum tells the linkage on which of them to go on.
+  !> Where all links are in line, within the digits of their lengths: `±r2 ± r3 = r1 ± r4`. There the branches meet, and nothing but
+  !! its momentum tells the linkage on which of them to go on.
   pure function find_change_points(ground, length) result(list)
     real(wp), intent(in) :: ground(2, 2) !! O2 and O4 [m]
     real(wp), intent(in) :: length(3)    !! crank, coupler, follower [m]

@@ -1,7 +1,7 @@
 !> What the links of a deck are as rigid bodies: their own card goes before section and material.
 module link_bodies
   use kinds, only: wp
-  use models, only: link_mass, model_t
+  use models, only: model_t
   use shear, only: link_rotary_inertia
   implicit none (type, external)
   private
