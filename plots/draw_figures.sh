@@ -1,6 +1,6 @@
 #!/bin/sh
-# Draws every figure that the tables of one deck allow, into the folder `figures` beside them, or animates what moves in
-# them, into the folder `animations`.
+# Draws every figure that the tables of one deck allow, into the folder `figures` beside them (the linkage that draws the
+# paths of points, as an animated GIF too), or animates all that moves in them, into the folder `animations`.
 #   draw_figures.sh [--animate] outputs/mechanism1
 # A figure of the thesis gets its number (thesis_figures.txt). The figures of the last run stay until all new ones are
 # drawn; then they go, and files that this script did not draw stay. Prints a line a figure.
@@ -114,6 +114,14 @@ plan_kinematics() {
 # The pivots are known if kinematics.dat has several positions.
 pivots_known() { [ -f kinematics.dat ] && [ "$(ask 'distinct crank' kinematics.dat | wc -l)" -gt 1 ]; }
 
+# An animation is made of pictures that pngcairo draws.
+can_animate() {
+    case " $(LC_ALL=C.UTF-8 gnuplot -e 'set print "-"; print GPVAL_TERMINALS') " in
+        *' gif '*' pngcairo '* | *' pngcairo '*' gif '*) ;;
+        *) return 1 ;;
+    esac
+}
+
 # Linkages as such need the pivots. The shaking force is drawn once, with counterweights if they are known.
 plan_rigid_dynamics() {
     balance=
@@ -122,6 +130,7 @@ plan_rigid_dynamics() {
         plan_speeds point_rates points.dat
         if pivots_known; then
             add coupler_curve coupler_curve.gp points.dat kinematics.dat "$(telling_crank points.dat)" "$balance"
+            can_animate && add linkage animate_linkage.gp kinematics.dat points.dat
         else
             echo 'draw_figures.sh: paths of points are drawn only with kinematics.dat of several positions (REPORT kinematics)' >&2
         fi
@@ -137,10 +146,7 @@ plan_rigid_dynamics() {
 
 # Modes swing; a linkage turns, and moves as its motor makes it. Its pivots are known from kinematics.dat.
 plan_animations() {
-    case " $(LC_ALL=C.UTF-8 gnuplot -e 'set print "-"; print GPVAL_TERMINALS') " in
-        *' gif '*' pngcairo '* | *' pngcairo '*' gif '*) ;;
-        *) fail 'this gnuplot has not both of the terminals pngcairo and gif: nothing can be animated' ;;
-    esac
+    can_animate || fail 'this gnuplot has not both of the terminals pngcairo and gif: nothing can be animated'
     have shapes.dat && animate=animate_mode.gp plan_modes
     points=
     have points.dat && points=points.dat

@@ -66,8 +66,8 @@ rigid_figures() {
   speeds=$(for name in balance harmonics lagrange point_rates reactions shaking_force; do
     echo ${name}_speed_5 ${name}_speed_10
   done)
-  drawn rigid figures coupler_curve kinematics_accelerations kinematics_angles kinematics_velocities motion special_positions \
-    $speeds
+  drawn rigid figures coupler_curve linkage kinematics_accelerations kinematics_angles kinematics_velocities motion \
+    special_positions $speeds
 }
 
 rigid_animations() {
@@ -98,7 +98,7 @@ END_OF_DECK
   run 1 --quiet --out "$scratch/out" "$scratch/dead.deck" "$scratch/one.deck" || return 1
   speeds=$(for name in lagrange reactions shaking_force; do echo ${name}_speed_0 ${name}_speed_0.5; done)
   angles="kinematics_accelerations kinematics_angles kinematics_velocities"
-  drawn dead figures coupler_curve $angles point_rates_speed_0 point_rates_speed_0.5 $speeds || return 1
+  drawn dead figures coupler_curve linkage $angles point_rates_speed_0 point_rates_speed_0.5 $speeds || return 1
   drawn one figures $angles $speeds
 }
 

@@ -17,6 +17,7 @@ import os
 import re
 import resource
 import shutil
+import signal
 import subprocess
 import sys
 from collections import Counter
@@ -27,6 +28,7 @@ from fuzz_decks import Dice
 FAILED = os.path.join("build", "fuzz")
 PROGRAM = os.path.join("build", "debug", "flexmech")
 MOST_SECONDS = 100            # of processor time; a deck takes 20 ms as a rule, and the machine may be slow
+MOTION_SECONDS = 20           # of one with a motion, which may run away: as many steps as it has turns are no fault
 MOST_MEMORY = 4*2**30         # of a run; more is a request that the program should have refused
 ECHO_EVERY = 12               # decks that come through: run the echo, and with two threads, of one in so many
 
@@ -45,20 +47,23 @@ RUN_TIME = re.compile(r"Fortran runtime|Backtrace|SIG[A-Z]{3}|At line \d+ of fil
 NOT_A_NUMBER = re.compile(r"\b(?:NaN|[-+]?Inf(?:inity)?)\b|\*{4,}|is not a number$")
 REAL = re.compile(r"-?\d\.\d+E[-+]\d{3}$")
 PLACE = re.compile(r"(?P<deck>.*?):(?P<line>\d+):(?P<column>\d+): (?:error|warning|note): .")
-TABLES = {"kinematics.dat", "inertia.dat", "mesh.dat", "frequencies.dat", "shapes.dat", "branches.dat"}
+TABLES = {"kinematics.dat", "inertia.dat", "mesh.dat", "frequencies.dat", "shapes.dat", "branches.dat", "reactions.dat", "points.dat",
+          "lagrange.dat", "linkage.dat", "balance.dat", "harmonics.dat", "motion.dat"}
+WORDS = {"link", "event", "point", "linkage", "quantity"}  # columns of words; and `branch`, but for branches.dat
 OTHERS = {"echo.deck", "run.log", "summary.json"}
 # What a deck may include.
 PART = b"MATERIAL brass E=100e9Pa density=8500kg/m3 nu=0.35\nSET half 0.5\n"
 
 
-def limits():
-    resource.setrlimit(resource.RLIMIT_CPU, (MOST_SECONDS, MOST_SECONDS + 5))
+def limits(seconds):
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
     resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
-def execute(program, words, folder):
-    return subprocess.run([program] + words, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, preexec_fn=limits, check=False)
+def execute(program, words, folder, seconds=MOST_SECONDS):
+    return subprocess.run([program] + words, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, check=False,
+                          preexec_fn=functools.partial(limits, seconds))
 
 
 def tree(folder):
@@ -111,7 +116,7 @@ def fault_of_table(name, text):
         if len(cells) != len(names):
             return f"{name}: {len(names)} columns, and a row of {len(cells)}: {line}"
         for column, cell in zip(names, cells):
-            if column in ("link", "event"):
+            if column in WORDS or (column == "branch" and cell in ("open", "crossed")):
                 continue
             if not REAL.match(cell) and not re.match(r"\d+$", cell):
                 return f"{name}: {column} is {cell}"
@@ -193,7 +198,10 @@ def fault_of_deck(program, folder, words, sound_words, text, again):
                 earlier.write("mine\n")
     before = tree(folder)
     deck = text.decode("utf-8", "replace")
-    run = execute(program, [word.replace("DECK", "d.deck") for word in words], folder)
+    moves = "motion" in deck.lower()
+    run = execute(program, [word.replace("DECK", "d.deck") for word in words], folder, MOTION_SECONDS if moves else MOST_SECONDS)
+    if moves and run.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+        return run.returncode, None
     fault = fault_of_run(words, run, deck)
     after = tree(folder)
     if not fault and (run.returncode == 2 or not sound_words) and after != before:

@@ -12,29 +12,33 @@ from glob import glob
 NUMBER = re.compile(rb"(?<![A-Za-z_0-9.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?")
 WORD = re.compile(rb"[A-Za-z][A-Za-z_0-9.'*-]*")
 RANGE = re.compile(rb"([-+0-9.eEdD]+)[a-z/]*(\s+to\s+)([-+0-9.eEdD]+)[a-z/]*(\s+step\s+)([-+0-9.eEdD]+)", re.IGNORECASE)
-MOTION = re.compile(rb"end\s*=\s*([-+0-9.eEdD]+)([a-z]*)(\s+)step\s*=\s*([-+0-9.eEdD]+)([a-z]*)", re.IGNORECASE)
 
 EXTREMES = ["0", "-0", "0.0", "1", "-1", "1e-300", "1e-320", "1e-41", "1e-39", "1e29", "1e30", "1e31", "1e39", "1e308", "1e309",
             "-1e308", "4e-324", "2147483647", "2147483648", "-2147483649", "99999999999999999999", "1e", "1e+", "+", "-", ".", "nan",
             "inf", "0x10", "1,5", "2*3", "1/2", "1d9", "1.2.3", "1e-9", "1e9", "360", "180", "89.99999999999999", "1e-15"]
 UNITS = ["m", "mm", "cm", "in", "ft", "kg", "g", "tonne", "lbm", "slug", "slinch", "s", "ms", "N", "kN", "lbf", "Pa", "kPa", "MPa",
-         "GPa", "psi", "ksi", "kg/m3", "g/cm^3", "lbm/in3", "mm2", "in4", "mm^4", "deg", "rad", "rad/s", "rpm", "rad/s2", "N/mm2"]
+         "GPa", "psi", "ksi", "kg/m3", "g/cm^3", "lbm/in3", "mm2", "in4", "mm^4", "deg", "rad", "rad/s", "rpm", "rad/s2", "N/mm2", "m/s2",
+         "N*m", "lbf*in", "kg*m2", "kg*mm2", "N*m*s", "N*m*s/rad", "N*m/rpm"]
 KEYWORDS = ["TITLE", "UNITS", "MATERIAL", "SECTION", "GROUND", "LINK", "DRIVE", "BRANCH", "PINMASS", "MESH", "CRANK", "SPEED",
-            "INERTIA", "EFFECTS", "SOLVER", "MODES", "REPORT", "END", "INCLUDE", "SET", "VARY"]
+            "INERTIA", "EFFECTS", "SOLVER", "MODES", "REPORT", "END", "INCLUDE", "SET", "VARY", "MASS", "POINT", "GRAVITY", "FORCE", "TORQUE",
+            "MOTOR", "LOAD"]
 KEYS = ["E", "density", "nu", "thickness", "width", "diameter", "outer", "inner", "A", "I", "depth", "length", "material", "section",
-        "elements", "order", "accuracy", "alpha", "crank", "speed", "points", "shear_coefficient"]
+        "elements", "order", "accuracy", "alpha", "crank", "speed", "points", "shear_coefficient", "mass", "inertia", "center", "at",
+        "offset", "along", "torque", "stall", "noload", "damping", "end", "step"]
 WORDS = ["rectangle", "circle", "tube", "general", "open", "crossed", "lumped", "distributed", "static", "axial", "rotary", "shear",
-         "auto", "deformation", "dense", "band", "kinematics", "inertia", "mesh", "frequencies", "shapes", "branches", "to", "step", "*"]
+         "auto", "deformation", "dense", "band", "kinematics", "inertia", "mesh", "frequencies", "shapes", "branches", "to", "step", "*",
+         "rigid", "reactions", "points", "lagrange", "linkage", "balance", "motion"]
 PIECES = [b"\0", b"\t", b"\r", b"\n", b"\r\n", b"&", b" & \n", b"!", b"#", b"=", b"==", b",", b",,", b"$", b"$x", b'"', b"'", b"\\",
           b"\xc3\xb6", b"\xef\xbb\xbf", b"\xe2\x82\xac", b"\xff\xfe", b"\x80", b"\x1b[31m", b"\x7f", b"\xf0\x9f\x94\xa7", b" "*300,
           b"x"*5000, b"\n"*50, b"\nINCLUDE part.deck\n", b"\nINCLUDE d.deck\n", b"\nSET x 1\n", b"\nVARY x 1 2\n", b"$half", b"&\n"*20, b"%s%n", b"{", b"()", b"END\n", b"NaN", b"*****"]
 REPORTS = ["kinematics", "inertia", "mesh", "frequencies", "shapes", "branches"]
+RIGID_REPORTS = ["reactions", "points", "lagrange", "linkage", "balance"]
 LENGTHS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "in": 0.0254, "ft": 0.3048}
 MASSES = {"kg": 1.0, "g": 1e-3, "tonne": 1e3, "lbm": 0.45359237, "slug": 14.593903, "slinch": 175.126835}
 TIMES = {"s": 1.0, "ms": 1e-3}
 
 # A run should end soon: so many positions and elements at most, where the mutations leave the text readable.
-MOST_STEPS, MOST_ELEMENTS, MOST_POINTS, MOST_MODES = 24, 120, 60, 12
+MOST_STEPS, MOST_ELEMENTS, MOST_POINTS, MOST_MODES, MOST_ROWS = 24, 120, 60, 12, 200
 
 
 class Dice:
@@ -101,7 +105,59 @@ def meshes(dice, names):
     return cards
 
 
-def requests(dice, by_accuracy, own_speed):
+def bodies(dice, links, pins, scale, mass, speed, bare):
+    """Rigid links, bodies, masses, points, loads and motors, in proportion to a link's length and mass and to a speed [SI].
+
+    `links` are LINK cards by name, and are changed; `bare` are the deck's units of length, mass and time.
+    """
+    length, inertia = (bare[0], LENGTHS), (bare[1]*bare[0]**2, {"kg*m2": 1.0, "kg*mm2": 1e-6})
+    force, moment = (bare[1]*bare[0]/bare[2]**2, {"N": 1.0}), (bare[1]*bare[0]**2/bare[2]**2, {"N*m": 1.0})
+    damping = (bare[1]*bare[0]**2/bare[2], {"N*m*s": 1.0, "N*m*s/rad": 1.0})
+    names = list(links)
+
+    def some(value, unit, signed=True):
+        return quantity(dice, value*dice.factor(1)*(dice.choice([1.0, -1.0]) if signed else 1.0), *unit)
+
+    rigid = [name for name in names if dice.chance(0.3)]
+    if len(rigid) == len(names) and dice.chance(0.9):
+        rigid = rigid[1:]
+    for name in rigid:
+        if dice.chance(0.5):
+            links[name] += f" mass={some(mass, (bare[1], MASSES), False)} inertia={some(mass*scale**2, inertia, False)}"
+        if dice.chance(0.3):
+            links[name] += f" center={some(scale/3, (bare[0], {}))},{some(scale/9, (bare[0], {}))}"
+        if "mass=" in links[name] and dice.chance(0.5):
+            links[name] = links[name].replace(" material=steel section=s", "")
+        links[name] += " rigid"
+    cards = []
+    for _ in range(dice.below(3)):
+        name = dice.choice(names)
+        beside = f" offset={some(scale/5, length)}" if name in rigid and dice.chance(0.7) else ""
+        cards.append(f"MASS {name} {some(mass, (bare[1], MASSES), False)} at={quantity(dice, scale*dice.between(0, 0.1), *length)}{beside}")
+    for probability, card in (
+            (0.5, f"POINT P {dice.choice(names)} along={some(scale, length)} offset={some(scale, length)}"),
+            (0.2, f"POINT Q {dice.choice(names)} along={some(scale, length)}"),
+            (0.4, f"GRAVITY 0 {quantity(dice, -9.81, bare[0]/bare[2]**2, {'m/s2': 1.0})}"),
+            (0.3, f"FORCE {dice.choice(pins[1:3])} {some(mass*speed**2*scale, force)} {some(mass*speed**2*scale, force)}"),
+            (0.3, f"TORQUE {dice.choice(names)} {some(mass*speed**2*scale**2, moment)}")):
+        if dice.chance(probability):
+            cards.append(card)
+    if dice.chance(0.6):
+        turn = some(mass*speed**2*scale**2, moment, False)
+        cards += dice.choice([[], [f"MOTOR torque={turn}"], [f"MOTOR stall={turn} noload={speed:.4g}rad/s"]])
+        if dice.chance(0.4):
+            cards.append(f"LOAD {dice.choice(names)} torque={some(mass*speed**2*scale**2/9, moment)} "
+                         f"damping={some(mass*speed*scale**2/9, damping, False)}")
+        end = min(2.0, dice.between(0.5, 9.0)/speed)
+        cards.append(f"REPORT motion crank={dice.choice([0, 30, 45, 90, 200])} speed={speed*dice.between(-1, 1):.4g}rad/s "
+                     f"end={quantity(dice, end, bare[2], TIMES)} step={number(dice, end/dice.choice([1, 7, 40])/bare[2]*0.999)}")
+    kinds = [kind for kind in RIGID_REPORTS if dice.chance(0.3)]
+    if not any(card.startswith("POINT") for card in cards) and dice.chance(0.9):
+        kinds = [kind for kind in kinds if kind != "points"]
+    return cards + ["REPORT " + kind for kind in kinds], bool(rigid)
+
+
+def requests(dice, by_accuracy, own_speed, rigid):
     """What is asked for; nearly always what goes together. Speeds are told apart by the links' own first vibration [rad/s]."""
     cards = [dice.choice([f"CRANK 0 to 360 step {dice.choice([30, 45, 72, 90])}", "CRANK 0 120 240", f"CRANK {dice.between(-400, 400):.6g}",
                           f"CRANK {dice.between(-180, 180):.4f} to {dice.between(200, 300):.3f} step 37.5", "CRANK 0 180",
@@ -120,7 +176,7 @@ def requests(dice, by_accuracy, own_speed):
         if dice.chance(probability):
             cards.append(card)
     if dice.chance(0.5):
-        cards.append("SOLVER " + dice.choice(["auto", "deformation"] if by_accuracy and not careless else ["dense", "band"]))
+        cards.append("SOLVER " + dice.choice(["auto", "deformation"] if (by_accuracy or rigid) and not careless else ["dense", "band"]))
     for kind in [kind for kind in REPORTS if dice.chance(0.4)] or ["frequencies"]:
         if kind == "inertia" and not any(card.startswith("INERTIA") for card in cards) and not careless:
             continue
@@ -157,15 +213,22 @@ def sound_deck(dice):
                                              f"general A={number(dice, depth**2/bare_length**2)} "
                                              f"I={number(dice, depth**4/(12*bare_length**4))} depth={side[2]} shear_coefficient=0.8"]))
     ends = [pins[:2], pins[1:3], [pins[3], pins[2]]]
+    links = {}
     for name, end, value in zip(names, ends, link_lengths(dice)):
         if dice.chance(0.3):
             end = end[::-1]
-        cards.append(f"LINK {name} {end[0]} {end[1]} length={quantity(dice, scale*value, bare_length, LENGTHS)} material=steel section=s")
+        links[name] = f"LINK {name} {end[0]} {end[1]} length={quantity(dice, scale*value, bare_length, LENGTHS)} material=steel section=s"
+    own_speed = 3.0*(modulus/density)**0.5*depth/scale**2
+    carried, rigid = [], False
+    if dice.chance(0.4):
+        carried, rigid = bodies(dice, links, pins, scale, density*depth**2*scale, own_speed*dice.factor(0.5)/10,
+                                (bare_length, bare_mass, bare_time))
+    cards += list(links.values()) + carried
     cards.append(f"DRIVE {names[0]}")
     if dice.chance(0.2):
         cards.append(f"PINMASS {dice.choice(pins)} {quantity(dice, density*depth**2*scale*dice.factor(3), bare_mass, MASSES)}")
-    mesh = meshes(dice, names) if dice.chance(0.95) else []
-    cards += mesh + requests(dice, not mesh or "accuracy" in mesh[0], 3.0*(modulus/density)**0.5*depth/scale**2)
+    mesh = meshes(dice, [name for name in names if "rigid" not in links[name]] or names) if dice.chance(0.95) else []
+    cards += mesh + requests(dice, not mesh or "accuracy" in mesh[0], own_speed, rigid)
     if dice.chance(0.3):
         with_names(dice, cards)
     if dice.chance(0.5):
@@ -184,7 +247,7 @@ def with_names(dice, cards):
         if not entries:
             continue
         value = dice.choice(entries)
-        cards[i] = cards[i].replace("=" + value, "=$" + name, 1)
+        cards[i] = re.sub("=" + re.escape(value) + r"(?!\S)", "=$" + name, cards[i], count=1)
         found = re.match(NUMBER.pattern.decode(), value)
         if found and dice.chance(0.4):
             unit = value[found.end():]
@@ -293,15 +356,17 @@ def tame(text):
     def at_most(limit):
         return lambda match: match[1] + (str(limit).encode() if limit < int(match[2]) < 500000 else match[2])
 
-    def briefer(match):
+    def shorter(match):
         try:
-            end, step = (float(part.lower().replace(b"d", b"e")) for part in match.group(1, 4))
-        except ValueError:
+            end, step = (float(NUMBER.match(part)[0].lower().replace(b"d", b"e")) for part in match.group(2, 4))
+        except (TypeError, ValueError):
             return match[0]
-        return b"end=%.6g%s%sstep=%s%s" % (2*step, match[5], match[3], match[4], match[5]) if end > 2*step > 0 else match[0]
+        if step <= 0 or not MOST_ROWS < end/step <= 1e6:
+            return match[0]
+        return match[1] + f"{end:.6g}".encode() + match[3] + f"{end/MOST_ROWS:.6g}".encode()
 
     text = RANGE.sub(fewer, text)
-    text = MOTION.sub(briefer, text)
+    text = re.sub(rb"(?i)(\bend=)([-+.\w/]+)(\s+step=)([-+.\w/]+)", shorter, text)
     # Full matrices, and elements with many unknowns, cost more.
     costly = re.search(rb"(?i)dense|order\s*=\s*\d\d", text)
     text = re.sub(rb"(?i)(elements\s*=\s*)(\d+)(?![.\d])", at_most(MOST_ELEMENTS//(8 if costly else 1)), text)
