@@ -1,4 +1,4 @@
-# A motion from its start: speed of the crank, torque of the motor and energies against time.
+# A motion from its start: angular velocities, torque of the motor and energies against time.
 #   gnuplot -c motion.gp motion.dat OUT [FIGURE [REMARK]]
 
 load ARG0[1 : strlen(ARG0) - strlen("motion.gp")]."style.gp"

@@ -13,7 +13,7 @@ x = "field('crank')"
 x_axis = crank_axis(low_crank, high_crank)."; set xlabel 'crank angle θ₂'.unit('crank')"
 magnitude(pin) = sprintf("sqrt(field('%sx')**2+field('%sy')**2)", pin, pin)
 
-# At a pin with a mass of its own the two links feel two forces.
+# At a pin with a mass or a load of its own the two links feel two forces.
 unlike(one, other) = (one_force = magnitude(one), sprintf("%s ? abs(%s-%s)/(1e-300+%s) : NaN", picked, one_force, \
     magnitude(other), one_force))
 forces = ""
