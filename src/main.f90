@@ -1,4 +1,4 @@
-!> FLEXMECH: vibration of flexible mechanisms. Arguments, one call a deck, exit status.
+!> FLEXMECH: rigid dynamics and vibration of flexible mechanisms. Arguments, one call a deck, exit status.
 program main
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
   use command_line, only: command_t, help_text, read_command_line, version_text

@@ -199,7 +199,7 @@ contains
     character(len=:), allocatable :: text
 
     text = "usage: flexmech [options] DECK..."//line_feed//line_feed// &
-      "Computes motion, inertia forces, natural frequencies and mode shapes of flexible linkages."//line_feed// &
+      "Computes motion, forces, balance, natural frequencies and mode shapes of flexible linkages."//line_feed// &
       "For every deck the tables are written to outputs/<deck base name>/. A deck named - is standard input."// &
       line_feed//line_feed// &
       "  --check      read and check the decks only"//line_feed// &
