@@ -45,7 +45,10 @@ RUN_TIME = re.compile(r"Fortran runtime|Backtrace|SIG[A-Z]{3}|At line \d+ of fil
 NOT_A_NUMBER = re.compile(r"\b(?:NaN|[-+]?Inf(?:inity)?)\b|\*{4,}|is not a number$")
 REAL = re.compile(r"-?\d\.\d+E[-+]\d{3}$")
 PLACE = re.compile(r"(?P<deck>.*?):(?P<line>\d+):(?P<column>\d+): (?:error|warning|note): .")
-TABLES = {"kinematics.dat", "inertia.dat", "mesh.dat", "frequencies.dat", "shapes.dat", "branches.dat"}
+TABLES = {"kinematics.dat", "inertia.dat", "mesh.dat", "frequencies.dat", "shapes.dat", "branches.dat", "reactions.dat",
+          "points.dat", "lagrange.dat", "linkage.dat", "balance.dat", "harmonics.dat", "motion.dat"}
+# Columns of words.
+WORDS = {"link", "event", "point", "linkage", "quantity", ("linkage.dat", "branch"), ("motion.dat", "branch")}
 OTHERS = {"echo.deck", "run.log", "summary.json"}
 # What a deck may include.
 PART = b"MATERIAL brass E=100e9Pa density=8500kg/m3 nu=0.35\nSET half 0.5\n"
@@ -111,7 +114,7 @@ def fault_of_table(name, text):
         if len(cells) != len(names):
             return f"{name}: {len(names)} columns, and a row of {len(cells)}: {line}"
         for column, cell in zip(names, cells):
-            if column in ("link", "event"):
+            if column in WORDS or (name, column) in WORDS:
                 continue
             if not REAL.match(cell) and not re.match(r"\d+$", cell):
                 return f"{name}: {column} is {cell}"
