@@ -2,14 +2,14 @@
 module attached_parts
   use kinds, only: wp
   use link_bodies, only: link_center, link_inertia
-  use link_cards, only: has_own_mass, link_t
+  use link_cards, only: has_own_mass
   use linkages, only: linkage_t, lump_t
   use models, only: link_mass, model_t
   use text, only: same_word
   implicit none (type, external)
   private
 
-  public :: body_point_t, add_lumps, add_loads, points_of, place_on_body, is_solid, line_density_of
+  public :: body_point_t, add_lumps, add_loads, points_of, place_on_body, body_of
 
   !> A point fixed to a body.
   type :: body_point_t
@@ -19,23 +19,6 @@ module attached_parts
   end type body_point_t
 
 contains
-
-  !> Whether a link is made of a material and has a section.
-  elemental function is_solid(link) result(is)
-    type(link_t), intent(in) :: link
-    logical :: is
-
-    is = link%material > 0 .and. link%section > 0
-  end function is_solid
-
-  !> ρA of a link that has material and section [kg/m].
-  pure function line_density_of(model, link) result(line_density)
-    type(model_t), intent(in) :: model
-    type(link_t), intent(in) :: link
-    real(wp) :: line_density
-
-    line_density = model%materials(link%material)%density*model%sections(link%section)%area
-  end function line_density_of
 
   !> What links with a mass of their own are, and the masses on them.
   pure subroutine add_lumps(model, linkage)

@@ -8,6 +8,7 @@ module balance_report
   use harmonics, only: highest_harmonic, spectrum_of, spectrum_t
   use kinds, only: wp
   use linkages, only: linkage_t, lump_t
+  use load_notes, only: acceleration_note
   use mechanisms, only: mechanism_t
   use models, only: model_t
   use numbers, only: shortest_text
@@ -136,7 +137,7 @@ contains
       ", with gravity and loads")
     call append_string(list, "balanced: with the counterweights of balance.dat, each as far from its ground pivot as "// &
       "its link is long")
-    call append_string(list, "angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2")
+    call append_string(list, acceleration_note(model))
   end function quantity_remarks
 
   !> Mass × radius and angle, and the card that makes it.

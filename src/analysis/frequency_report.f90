@@ -3,6 +3,7 @@ module frequency_report
   use constants, only: two_pi
   use frequency_sweep, only: is_drawn, sweep_t
   use kinds, only: wp
+  use load_notes, only: acceleration_note
   use mechanisms, only: mechanism_t
   use models, only: effects_static, inertia_distributed, inertia_lumped, is_loaded, is_moving, model_t, needs_loads, report_number
   use poses, only: pose_t
@@ -138,7 +139,7 @@ contains
       call append_string(notes, "frequencies of the instantaneous structure at rest: no axial forces")
     else
       call append_string(notes, "frequencies of the instantaneous structure with the axial forces of its "//loads_in_words(model))
-      call append_string(notes, "angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2")
+      call append_string(notes, acceleration_note(model))
       call append_string(notes, "a negative frequency stands for sqrt(-lambda)/(2 pi) of a negative eigenvalue: static divergence")
     end if
     if (model%rotary .and. model%shear) then

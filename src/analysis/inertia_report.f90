@@ -4,6 +4,7 @@ module inertia_report
   use kinds, only: wp
   use link_cards, only: has_own_mass
   use linkages, only: lump_t, normal_to
+  use load_notes, only: acceleration_note
   use mechanisms, only: mechanism_t
   use models, only: model_t
   use motions, only: acceleration_field_t, point_acceleration, scaled_sum, unit_fields
@@ -11,7 +12,7 @@ module inertia_report
   use positions, only: positions_t
   use tables, only: append_column, append_real_columns, column_t, integer_cell, integer_column, name_cell, name_column, &
     real_cells, real_column, table_t, write_failure, write_gap, write_header, write_row
-  use text, only: append_string, string_t, to_string
+  use text, only: append_string, string_t
   use units, only: coherent_unit, dimension_acceleration, dimension_force, dimension_length, dimension_mass, dimension_moment, &
     from_si, unit_system_t, unit_t
   implicit none (type, external)
@@ -119,7 +120,7 @@ contains
     end do
     if (lumps > count(own)) call append_string(notes, "masses fixed to links in rows of their own, "//mass_mark//"LINK")
     call append_string(notes, "masses at pins in rows of their own")
-    call append_string(notes, "angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2")
+    call append_string(notes, acceleration_note(model))
   end function notes_of
 
   pure function measures_of(system) result(measures)

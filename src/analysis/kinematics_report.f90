@@ -2,6 +2,7 @@
 module kinematics_report
   use constants, only: degree
   use kinds, only: wp
+  use load_notes, only: acceleration_note
   use mechanisms, only: mechanism_t
   use models, only: model_t
   use motions, only: angular_acceleration, angular_velocity, motion_t
@@ -9,7 +10,7 @@ module kinematics_report
   use positions, only: positions_t
   use tables, only: append_column, append_real_columns, column_t, real_cells, real_column, table_t, write_failure, write_gap, &
     write_header, write_row
-  use text, only: append_string, string_t, to_string
+  use text, only: append_string, string_t
   use units, only: coherent_unit, dimension_length, from_si, unit_t
   implicit none (type, external)
   private
@@ -34,7 +35,7 @@ contains
     remarks = notes
     call append_string(remarks, angle_note(mechanism))
     call append_string(remarks, "A: pin "//mechanism%pin_names(2)%text//"; B: pin "//mechanism%pin_names(3)%text)
-    call append_string(remarks, "angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2")
+    call append_string(remarks, acceleration_note(model))
     call write_header(table, model%title, remarks, columns(length))
     do k = 1, size(model%speed%value)
       if (k > 1) call write_gap(table, 2)

@@ -9,7 +9,7 @@ module load_notes
   implicit none (type, external)
   private
 
-  public :: append_load_notes, append_motion_notes
+  public :: append_load_notes, append_motion_notes, acceleration_note
 
 contains
 
@@ -112,7 +112,15 @@ contains
     call append_string(notes, "2: link "//mechanism%names(1)%text//"; 3: link "//mechanism%names(2)%text//"; 4: link "// &
       mechanism%names(3)%text//"; O2: pin "//mechanism%pin_names(1)%text//"; A: pin "//mechanism%pin_names(2)%text//"; B: pin "// &
       mechanism%pin_names(3)%text//"; O4: pin "//mechanism%pin_names(4)%text)
-    call append_string(notes, "angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2")
+    call append_string(notes, acceleration_note(model))
   end subroutine append_motion_notes
+
+  !> How the crank speeds up.
+  pure function acceleration_note(model) result(note)
+    type(model_t), intent(in) :: model
+    character(len=:), allocatable :: note
+
+    note = "angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2"
+  end function acceleration_note
 
 end module load_notes

@@ -1,11 +1,11 @@
 !> Model → what mechanics works on: the linkage with its masses and loads, its beams, its mesh.
 module mechanisms
-  use attached_parts, only: add_loads, add_lumps, body_point_t, is_solid, line_density_of, points_of
+  use attached_parts, only: add_loads, add_lumps, body_point_t, points_of
   use beam_mesh, only: beam_mesh_t, beam_t, new_beam_mesh
   use kinds, only: wp
   use link_cards, only: has_own_mass, link_t
   use linkages, only: linkage_t, new_four_bar
-  use models, only: branch_crossed, inertia_lumped, model_t
+  use models, only: branch_crossed, inertia_lumped, link_line_density, model_t
   use shear, only: link_rotary_inertia, link_shear_stiffness
   use text, only: same_word, string_t
   use tokens, only: token_texts
@@ -50,7 +50,7 @@ contains
     links = model%links(model%loop)
     line_density = 0.0_wp
     do i = 1, 3
-      if (is_solid(links(i)) .and. .not. has_own_mass(links(i))) line_density(i) = line_density_of(model, links(i))
+      if (.not. has_own_mass(links(i))) line_density(i) = link_line_density(model, model%loop(i))
     end do
     mechanism%linkage = new_four_bar(ground, links%length, line_density, pin_mass, model%branch == branch_crossed)
     mechanism%linkage%bodies%bends = .not. links%rigid
@@ -62,6 +62,14 @@ contains
     mechanism%names = token_texts(links%name)
     mechanism%pin_names = token_texts(model%loop_pins)
   end function new_mechanism
+
+  !> Whether a link is made of a material and has a section.
+  elemental function is_solid(link) result(is)
+    type(link_t), intent(in) :: link
+    logical :: is
+
+    is = link%material > 0 .and. link%section > 0
+  end function is_solid
 
   !> Stiffnesses, and the rotary inertia of links that have no mass of their own.
   pure subroutine add_beams(model, links, mechanism)

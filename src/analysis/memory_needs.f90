@@ -89,7 +89,7 @@ contains
     type(model_t), intent(in) :: model
     type(memory_need_t), intent(inout) :: need
 
-    integer, parameter :: numbers = 16
+    integer, parameter :: numbers = 16 !! of a sample, rounded up
     integer :: report
 
     report = report_number(model, report_motion)

@@ -1,9 +1,11 @@
 !> Forward dynamics of a model: its motion from a start on, kept at the instants that are to be written.
 module motion_runs
+  use attached_parts, only: body_of
   use drives, only: motor_drive_t, resistances_t
   use errors, only: error_t
-  use forward_motions, only: end_motion, forward_motion_t, motion_sample_t, move_until, no_stop, sample_motion, start_motion, &
-    stop_change_point, stop_many_steps, stop_no_inertia, stop_too_fast, turning_point_t
+  use forward_motions, only: end_motion, forward_motion_t, motion_sample_t, move_until, sample_motion, start_motion, &
+    turning_point_t
+  use four_bar_rates, only: no_stop, stop_change_point, stop_many_steps, stop_no_inertia, stop_too_fast
   use interruption, only: was_interrupted
   use kinds, only: long, wp
   use loop_curves, only: change_point_message
@@ -118,7 +120,7 @@ contains
 
     do i = 1, size(model%resistances)
       associate (resistance => model%resistances(i))
-        body = findloc(model%loop, resistance%link, dim=1)
+        body = body_of(model, resistance%link)
         resistances%taken(body) = resistance%torque
         resistances%damping(body) = resistance%damping
       end associate

@@ -2,12 +2,13 @@
 module points_report
   use body_points, only: find_point_motion, point_motion_t, point_total_acceleration, point_velocity
   use kinds, only: wp
+  use load_notes, only: acceleration_note
   use mechanisms, only: mechanism_t
   use models, only: model_t
   use positions, only: positions_t, state_t
   use tables, only: append_column, append_real_columns, column_t, name_cell, name_column, real_cells, real_column, table_t, &
     write_failure, write_gap, write_header, write_row
-  use text, only: append_string, string_t, to_string
+  use text, only: append_string, string_t
   use units, only: coherent_unit, dimension_acceleration, dimension_length, dimension_velocity, from_si, unit_t
   implicit none (type, external)
   private
@@ -42,7 +43,7 @@ contains
       call append_string(notes, "point "//mechanism%points(i)%name//": on link "// &
         mechanism%names(mechanism%points(i)%body)%text)
     end do
-    call append_string(notes, "global axes; angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2")
+    call append_string(notes, "global axes; "//acceleration_note(model))
     call append_column(columns, real_column("speed", "rad/s"))
     call append_column(columns, real_column("crank", "deg"))
     call append_column(columns, name_column("point", names))

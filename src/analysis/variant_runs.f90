@@ -67,8 +67,8 @@ contains
     run%positions = find_positions(run%mechanism%linkage, run%model%crank%value)
   end subroutine prepare_variant
 
-  !> Forward motion and frequencies, nearly all of the work. Variants may be solved at the same time: here are no texts, which gfortran 12 gives lengths
-  !> that all threads share. Errors: as above.
+  !> Forward motion and frequencies, nearly all of the work. Variants may be solved at the same time: here are no texts, which
+  !! gfortran 12 gives lengths that all threads share. Errors: as above.
   subroutine solve_variant(number, threads, progress, journal, store, run, error)
     integer, intent(in) :: number !! of the variant, from 1
     integer, intent(in) :: threads

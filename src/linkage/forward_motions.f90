@@ -4,55 +4,33 @@
 !! integrated in steps of order 8; after each the angles are put back on to the curve. Nothing is done to the energy, so that its
 !! balance tells how good the motion is.
 module forward_motions
-  use adaptive_integration, only: advance, close_integrator, integrator_t, open_integrator, rate_system_t, step_by
+  use adaptive_integration, only: advance, close_integrator, integrator_t, open_integrator, step_by
   use constants, only: degree, two_pi
-  use curve_dynamics, only: conservative_torques, curve_dynamics_t, find_inertia, new_curve_dynamics, potential_energy
+  use curve_dynamics, only: find_inertia, new_curve_dynamics, potential_energy
   use drives, only: drive_t, resistances_t
   use errors, only: error_t
+  use four_bar_rates, only: moving_four_bar_t, no_stop, rate_number, stop_many_steps, stop_no_inertia, stop_steps, &
+    unknown_count, work_number
   use interruption, only: was_interrupted
   use kinds, only: long, wp
   use linkages, only: linkage_t
-  use loop_curves, only: closure_error, curve_point_t, find_point, find_start, loop_curve_t, new_loop_curve, project, reduce
+  use loop_curves, only: closure_error, curve_point_t, find_point, find_start, new_loop_curve, project, reduce
   use rigid_bodies, only: rigid_body_t
   implicit none (type, external)
   private
 
   public :: forward_motion_t, motion_sample_t, turning_point_t, start_motion, move_until, sample_motion, end_motion
-  public :: motion_tolerance, no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps, stop_many_steps
+  public :: motion_tolerance
 
-  !> Estimated error of a step, of the angles in radians and of the rate relative to itself: some forty roundings. The estimate is of
-  !! order 7, and the step of order 8 is better than it by two or three digits, so rounding is what is left.
+  !> Estimated error of a step, of the angles in radians and of the rate relative to itself: some forty roundings. The estimate is
+  !! of order 7, and the step of order 8 is better than it by two or three digits, so rounding is what is left.
   real(wp), parameter :: motion_tolerance = 1.0e-14_wp
 
-  !> Why a motion does not go on.
-  integer, parameter :: no_stop = 0, stop_change_point = 1, stop_no_inertia = 2, stop_too_fast = 3, stop_steps = 4, &
-    stop_many_steps = 5
-
-  !> A trial step that turns a link by more than a turn is too long, whatever its error seems to be [rad]; a rate beyond all
-  !! mechanics, before it overflows [rad/s].
-  real(wp), parameter :: most_angle = 9.0_wp, most_rate = 1.0e100_wp
-
-  !> Shares of the inertia of all links: where M is below the first there are no rates; where it is below the second, that is what
-  !! makes the steps shrink to nothing.
-  real(wp), parameter :: least_inertia = 1.0e-13_wp, little_inertia = 1.0e-10_wp
+  !> Where M is below this share of the inertia of all links, that is what makes the steps shrink to nothing.
+  real(wp), parameter :: little_inertia = 1.0e-10_wp
 
   !> Nearer than this to where the crank turns back rounding may say that it is on either side: |sin(θ4 − θ3)|.
   real(wp), parameter :: undecided_sine = 1.0e-12_wp
-
-  !> Unknowns: the angles [rad], ṡ [rad/s], work [J].
-  integer, parameter :: rate = 4, work = 5, unknowns = 5
-
-  !> What the rates depend on.
-  type, extends(rate_system_t) :: moving_four_bar_t
-    type(loop_curve_t) :: curve
-    type(curve_dynamics_t) :: dynamics
-    class(drive_t), allocatable :: drive
-    type(resistances_t) :: resistances
-    real(wp) :: turns(3) = 0.0_wp !! whole turns of each link that its angle leaves out
-    integer :: stop = no_stop     !! why rates were last not found
-  contains
-    procedure :: find_rates => four_bar_rates
-  end type moving_four_bar_t
 
   !> A place where the crank turns back and the linkage goes over to its other branch.
   type :: turning_point_t
@@ -72,7 +50,7 @@ module forward_motions
     type(turning_point_t), allocatable :: turnings(:) !! (at least turning_count)
     type(integrator_t) :: integrator
     type(moving_four_bar_t), private :: system
-    real(wp), private :: state(unknowns) = 0.0_wp
+    real(wp), private :: state(unknown_count) = 0.0_wp
   end type forward_motion_t
 
   !> The linkage at an instant; in the order crank, coupler, follower.
@@ -94,7 +72,7 @@ contains
   !> Makes a motion ready at its first instant.
   !!
   !! Errors: the linkage does not reach the position, or it is a dead point, where the crank's speed does not tell that of the
-  !! others; no memory. A motion that cannot begin for another reason has its `stop` set.
+  !! others; no memory. What else keeps a motion from beginning `move_until` finds.
   subroutine start_motion(linkage, rigid, drive, resistances, crank_degrees, speed, duration, motion, error)
     type(linkage_t), intent(in) :: linkage      !! a four-bar
     type(rigid_body_t), intent(in) :: rigid(:)  !! (bodies)
@@ -121,7 +99,7 @@ contains
     motion%system%turns(1) = anint((crank_degrees*degree - motion%state(1))/two_pi)
     call find_point(motion%system%curve, motion%state(1:3), point, is_smooth)
     motion%is_open = point%sine > 0.0_wp
-    motion%state(rate) = speed/point%tangent(1)
+    motion%state(rate_number) = speed/point%tangent(1)
     call find_inertia(motion%system%dynamics, point, inertia, slope)
     first = sample_motion(motion)
     motion%energy = first%kinetic + first%potential
@@ -136,52 +114,14 @@ contains
     call close_integrator(motion%integrator)
   end subroutine end_motion
 
-  !> Angular velocities, `M s̈ = Q_s − ½ M' ṡ²`, and the power of what has no potential.
-  subroutine four_bar_rates(self, time, state, rates, found)
-    class(moving_four_bar_t), intent(inout) :: self
-    real(wp), intent(in) :: time
-    real(wp), intent(in) :: state(:)
-    real(wp), intent(out) :: rates(:)
-    logical, intent(out) :: found
-
-    type(curve_point_t) :: point
-    real(wp) :: inertia, slope, speed(3), torque(3), driving
-
-    ! Written so that what is not a number is refused too.
-    found = maxval(abs(state(1:3))) < most_angle .and. abs(state(rate)) < most_rate
-    if (.not. found) then
-      self%stop = stop_too_fast
-      return
-    end if
-    call find_point(self%curve, state(1:3), point, found)
-    if (.not. found) then
-      self%stop = stop_change_point
-      return
-    end if
-    call find_inertia(self%dynamics, point, inertia, slope)
-    found = inertia > least_inertia*sum(self%dynamics%inertia)
-    if (.not. found) then
-      self%stop = stop_no_inertia
-      return
-    end if
-    speed = point%tangent*state(rate)
-    torque = -self%resistances%taken - self%resistances%damping*speed
-    torque(1) = torque(1) + self%drive%torque(time, state(1) + two_pi*self%turns(1), speed(1))
-    driving = dot_product(torque, point%tangent)
-    rates(1:3) = speed
-    rates(rate) = (driving + dot_product(conservative_torques(self%dynamics, point), point%tangent) - &
-      0.5_wp*slope*state(rate)**2)/inertia
-    rates(work) = driving*state(rate)
-  end subroutine four_bar_rates
-
-  !> Follows the motion up to an instant, which is met exactly unless the motion stops or the run is interrupted. A motion that takes
-  !! too many steps on the way is stopped: it would seem to last for ever, for it is asked for too late, or is too fast.
+  !> Follows the motion up to an instant, which is met exactly unless the motion stops or the run is interrupted. A motion that
+  !! takes too many steps on the way is stopped: it would seem to last for ever, for it is asked for too late, or is too fast.
   subroutine move_until(motion, time)
     type(forward_motion_t), intent(inout) :: motion
     real(wp), intent(in) :: time !! [s]
 
     type(error_t), allocatable :: error
-    real(wp) :: before(unknowns), time_before
+    real(wp) :: before(unknown_count), time_before
     integer(long) :: last_step
 
     last_step = motion%integrator%steps + motion%most_steps
@@ -238,11 +178,11 @@ contains
   subroutine note_turning_point(motion, time, before)
     type(forward_motion_t), intent(inout) :: motion
     real(wp), intent(in) :: time              !! at which the step began [s]
-    real(wp), intent(in) :: before(unknowns)  !! state then
+    real(wp), intent(in) :: before(unknown_count)  !! state then
 
     integer, parameter :: most_trials = 60
     type(error_t), allocatable :: error
-    real(wp) :: state(unknowns), rates(unknowns), low, high, step, next, value, start_value, slope
+    real(wp) :: state(unknown_count), rates(unknown_count), low, high, step, next, value, start_value, slope
     integer :: trial
     logical :: found
 
@@ -306,11 +246,11 @@ contains
       call find_inertia(system%dynamics, point, inertia, slope)
       sample%time = motion%time
       sample%angle = angle/degree + 360.0_wp*system%turns
-      sample%speed = point%tangent*motion%state(rate)
+      sample%speed = point%tangent*motion%state(rate_number)
       sample%torque = system%drive%torque(motion%time, angle(1) + two_pi*system%turns(1), sample%speed(1))
-      sample%kinetic = 0.5_wp*inertia*motion%state(rate)**2
+      sample%kinetic = 0.5_wp*inertia*motion%state(rate_number)**2
       sample%potential = potential_energy(system%dynamics, point, angle + two_pi*system%turns)
-      sample%work = motion%state(work)
+      sample%work = motion%state(work_number)
       sample%energy_error = sample%kinetic + sample%potential - sample%work - motion%energy
       sample%closure = closure_error(system%curve, angle)
       sample%is_open = motion%is_open

@@ -27,8 +27,8 @@ contains
 
   !> M and M' of (2.54), dU/dθ2 and the generalised load at a pose.
   !!
-  !! Twice the kinetic energy (2.50), summed over i = 2…4 (1…3 is a misprint), at ω2 = 1: `M = Σ m x_G'·x_G' + I_G h²`; its
-  !! derivative is `M' = 2 Σ m x_G'·x_G'' + I_G h h'`. For mass centres on the links these are (2.55) and the terms of (2.56)
+  !! Twice the kinetic energy (2.50), summed over i = 2…4 (1…3 is a misprint), at ω2 = 1: `M = Σ (m x_G'·x_G' + I_G h²)`; its
+  !! derivative is `M' = 2 Σ (m x_G'·x_G'' + I_G h h')`. For mass centres on the links these are (2.55) and the terms of (2.56)
   !! with S2, S3 and C1, where ω2² is lost in print: `V = ½ M' ω2²`. The terms with G, which is −U by (2.62), are right as printed.
   pure function find_lagrange(linkage, rigid, pose, motion) result(terms)
     type(linkage_t), intent(in) :: linkage

@@ -1,7 +1,7 @@
 !> What the links of a deck are as rigid bodies: their own card goes before section and material.
 module link_bodies
   use kinds, only: wp
-  use models, only: model_t
+  use models, only: link_line_density, model_t
   use shear, only: link_rotary_inertia
   implicit none (type, external)
   private
@@ -20,20 +20,18 @@ contains
     if (model%links(link)%has_center) center = model%links(link)%center
   end function link_center
 
-  !> Moment of inertia of a link about its mass centre; of material and section `ρA L³/12`, with rotary inertia `ρI L` more
-  !! [kg m²].
+  !> Moment of inertia of a link about its mass centre; of material and section `ρA L³/12`, with rotary inertia `ρI L` more; 0
+  !! without these [kg m²].
   pure function link_inertia(model, link) result(inertia)
     type(model_t), intent(in) :: model
     integer, intent(in) :: link
     real(wp) :: inertia
 
-    inertia = 0.0_wp
     associate (this => model%links(link))
       if (this%has_inertia) then
         inertia = this%inertia
-      else if (this%material > 0 .and. this%section > 0) then
-        inertia = model%materials(this%material)%density*model%sections(this%section)%area*this%length**3/12.0_wp + &
-          link_rotary_inertia(model, link)*this%length
+      else
+        inertia = link_line_density(model, link)*this%length**3/12.0_wp + link_rotary_inertia(model, link)*this%length
       end if
     end associate
   end function link_inertia

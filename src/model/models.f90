@@ -19,7 +19,8 @@ module models
   private
 
   public :: model_t, report_number, needs_positions, is_moving, is_loaded, needs_loads, needs_inertia, needs_frequencies, &
-    needs_beams, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass
+    needs_beams, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
+    link_line_density
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
@@ -194,14 +195,26 @@ contains
     integer, intent(in) :: link
     real(wp) :: mass
 
-    mass = 0.0_wp
     associate (this => model%links(link))
       if (this%has_mass) then
         mass = this%mass
-      else if (this%material > 0 .and. this%section > 0) then
-        mass = model%materials(this%material)%density*model%sections(this%section)%area*this%length
+      else
+        mass = link_line_density(model, link)*this%length
       end if
     end associate
   end function link_mass
+
+  !> ρA of a link, whatever mass of its own it has; 0 without material or section [kg/m].
+  pure function link_line_density(model, link) result(line_density)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: link
+    real(wp) :: line_density
+
+    line_density = 0.0_wp
+    associate (this => model%links(link))
+      if (this%material == 0 .or. this%section == 0) return
+      line_density = model%materials(this%material)%density*model%sections(this%section)%area
+    end associate
+  end function link_line_density
 
 end module models

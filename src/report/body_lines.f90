@@ -8,7 +8,7 @@ module body_lines
   implicit none (type, external)
   private
 
-  public :: body_line, mass_line
+  public :: body_line, mass_line, place_words
 
 contains
 
@@ -58,7 +58,7 @@ contains
 
   !> `30 mm along, 5 mm to the left`
   pure function place_words(place, length) result(words)
-    real(wp), intent(in) :: place(2) !! [m]
+    real(wp), intent(in) :: place(2) !! along the link and to its left [m]
     type(unit_t), intent(in) :: length
     character(len=:), allocatable :: words
 

@@ -1,5 +1,6 @@
 !> `echo.deck`: the deck as the program understood it, a valid deck itself.
 module echo
+  use body_lines, only: place_words
   use card_echo, only: echo_line_t
   use kinds, only: wp
   use link_bodies, only: link_center, link_inertia
@@ -108,16 +109,14 @@ contains
     character(len=*), intent(in) :: derived !! that begins the line
 
     type(unit_t) :: length, mass, inertia
-    real(wp) :: center(2)
 
     length = coherent_unit(model%units, dimension_length)
     mass = coherent_unit(model%units, dimension_mass)
     inertia = coherent_unit(model%units, dimension_inertia)
-    center = from_si(link_center(model, link), length)
     call append_text(buffer, derived//" link "//model%links(link)%name%text//": mass = "// &
       to_string(from_si(link_mass(model, link), mass), 15)//" "//mass%name//", moment of inertia = "// &
       to_string(from_si(link_inertia(model, link), inertia), 15)//" "//inertia%name//" about its mass centre, "// &
-      to_string(center(1), 15)//" along and "//to_string(center(2), 15)//" "//length%name//" beside it"//achar(10))
+      place_words(link_center(model, link), length)//" from "//model%links(link)%pin(1)%text//achar(10))
   end subroutine append_body
 
   !> Rotary inertia and shear stiffness of a link, where they are asked for.
