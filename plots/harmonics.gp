@@ -38,7 +38,7 @@ unset print
 
 headline = numbered(figure, sprintf("Harmonics over a turn of the crank, %s", at_speed(speed, unit_speed)))
 in_units = system("sed -n 's/^# \\(forces in .*\\), phases in .*/\\1/p' ".quoted(table))
-note = "amplitudes of cos(k θ₂ + phase), without the mean".(in_units eq "" ? "" : ";  ".in_units)
+note = "amplitudes of cos(k θ₂ + phase), without the mean".(in_units eq "" ? "" : ";  ".typeset(in_units))
 panel_height = 235
 gap = 35
 lower = foot(lines_of_notes(note, remark))

@@ -23,6 +23,9 @@ module order_choice
   !! accuracy needs that the precision can give, but under loads that buckle a link many times over (as beside a dead point).
   integer, parameter :: spare_orders = digits(1.0_wp) + 3
 
+  !> With masses along a link its elements share the highest order, and have so many more each for the digits.
+  integer, parameter :: more_orders = 16
+
   !> No order is lower.
   integer, parameter :: least_order = 4
 
@@ -55,17 +58,17 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     real(wp) :: link_error(size(beams)), highest
-    integer :: order(size(beams)), b, bending, highest_order, pieces
+    integer :: order(size(beams)), highest_order(size(beams)), b, bending, pieces
     integer, allocatable :: chosen(:)
     integer :: between_masses(size(beams))
     logical :: continuous(size(beams))
 
     chosen = sample_states(positions, states)
     bending = count(linkage%bodies%bends)
-    highest_order = spare_orders + (2*modes)/bending
     do b = 1, size(beams)
       pieces = size(pieces_of(linkage%bodies(b))) - 1
       order(b) = max(least_order, (max(8, (3*modes)/(2*bending) + 6) + pieces - 1)/pieces)
+      highest_order(b) = (spare_orders + (2*modes)/bending + (pieces - 1)*more_orders)/pieces
     end do
     between_masses = 0
     continuous = .false. ! no masses on nodes
@@ -77,7 +80,7 @@ contains
     do b = 1, size(beams)
       if (.not. linkage%bodies(b)%bends) cycle
       order(b) = guessed_order(longest_piece(linkage%bodies(b))*wave_number(linkage%bodies(b), beams(b), highest), share*bound, &
-        order(b), highest_order, modes, bending)
+        order(b), highest_order(b), modes, bending)
     end do
     do
       call new_deformation_model(linkage, beams, between_masses, order, continuous, model, error, store)
@@ -87,7 +90,7 @@ contains
       do b = 1, size(beams)
         if (link_error(b) <= share*bound) cycle
         order(b) = raised_order(longest_piece(linkage%bodies(b))*wave_number(linkage%bodies(b), beams(b), highest), &
-          share*bound/link_error(b), order(b), highest_order)
+          share*bound/link_error(b), order(b), highest_order(b))
       end do
     end do
   end subroutine choose_orders
