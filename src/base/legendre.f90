@@ -5,7 +5,7 @@ module legendre
   implicit none (type, external)
   private
 
-  public :: legendre_values, twice_integrated, gauss_rule
+  public :: legendre_values, once_integrated, twice_integrated, gauss_rule
 
 contains
 
@@ -24,15 +24,32 @@ contains
     end do
   end function legendre_values
 
-  !> Legendre coefficients of `∫∫ P_j`, integrated from −1 both times for j ≥ 2: of P_{j−2}, P_j and P_{j+2}.
-  !!
-  !! From `∫ P_j = (P_{j+1} − P_{j−1})/(2j + 1)`. Value and slope vanish at both ends.
-  pure function twice_integrated(j) result(coefficients)
-    integer, intent(in) :: j !! at least 2
-    real(wp) :: coefficients(3)
+  !> Legendre coefficients of `∫ P_j` from −1, `(P_{j+1} − P_{j−1})/(2j + 1)`.
+  pure function once_integrated(j) result(coefficient)
+    integer, intent(in) :: j
+    real(wp) :: coefficient(0:j + 1)
 
-    coefficients = [1.0_wp/real((2*j - 1)*(2*j + 1), wp), -2.0_wp/real((2*j - 1)*(2*j + 3), wp), &
-      1.0_wp/real((2*j + 1)*(2*j + 3), wp)]
+    coefficient = 0.0_wp
+    coefficient(j + 1) = 1.0_wp/(2*j + 1)
+    if (j == 0) coefficient(0) = 1.0_wp
+    if (j > 0) coefficient(j - 1) = -1.0_wp/(2*j + 1)
+  end function once_integrated
+
+  !> Legendre coefficients of `∫∫ P_j`, both from −1. For j ≥ 2 value and slope vanish at both ends.
+  pure function twice_integrated(j) result(coefficient)
+    integer, intent(in) :: j
+    real(wp) :: coefficient(0:j + 2)
+
+    coefficient = 0.0_wp
+    select case (j)
+    case (0)
+      coefficient = [2.0_wp/3.0_wp, 1.0_wp, 1.0_wp/3.0_wp]
+    case (1)
+      coefficient = [-1.0_wp/3.0_wp, -0.4_wp, 0.0_wp, 1.0_wp/15.0_wp]
+    case default
+      coefficient(j - 2:j + 2:2) = [1.0_wp/real((2*j - 1)*(2*j + 1), wp), -2.0_wp/real((2*j - 1)*(2*j + 3), wp), &
+        1.0_wp/real((2*j + 1)*(2*j + 3), wp)]
+    end select
   end function twice_integrated
 
   !> Points and weights of the Gauss rule on −1 … 1: exact for polynomials of degree `2 size − 1`.

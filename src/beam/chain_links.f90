@@ -1,9 +1,9 @@
 !> One link on a long mesh: what the unknowns of an element do in it and at its end.
 module chain_links
   use beam_mesh, only: beam_t
-  use deformation_shapes, only: bending_unknowns, curve, once_integrated, shear_scale
+  use deformation_shapes, only: bending_unknowns, shear_scale
   use kinds, only: wp
-  use legendre, only: gauss_rule, legendre_values
+  use legendre, only: gauss_rule, legendre_values, once_integrated, twice_integrated
   use link_lumps, only: element_of_lump, lump_masses, lump_places
   use link_modes, only: end_rotation
   use linkages, only: body_t
@@ -126,7 +126,7 @@ contains
     do j = 0, order - 2
       column = column + 1
       scale = 0.5_wp*h*sqrt((2*j + 1)/(beam%bending_stiffness*h))
-      link%bend(:j + 3, column) = 0.5_wp*h*scale*curve(j)
+      link%bend(:j + 3, column) = 0.5_wp*h*scale*twice_integrated(j)
       link%turn(:j + 2, column) = scale*once_integrated(j)
       link%rotate(:, column) = link%turn(:, column)
       if (.not. link%sheared) cycle

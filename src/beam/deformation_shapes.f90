@@ -7,12 +7,11 @@
 !! to.
 module deformation_shapes
   use kinds, only: wp
-  use legendre, only: gauss_rule, legendre_values, twice_integrated
+  use legendre, only: gauss_rule, legendre_values, once_integrated, twice_integrated
   implicit none (type, external)
   private
 
   public :: deformation_shapes_t, bending_shapes, axial_shapes, bending_unknowns, bending_column, shear_scale
-  public :: curve, once_integrated
 
   !> What every unknown does. A function of the place is held as its Legendre coefficients in every element, one after the other,
   !! each coefficient times √(μ h/(2j+1)): then `∫ μ f g dx` is the scalar product. With rotary inertia those of its rotation
@@ -112,7 +111,7 @@ contains
         slope_coefficient = 0.0_wp
         slope_coefficient(:j + 1) = scale*once_integrated(j)
         coefficient = 0.0_wp
-        coefficient(:j + 2) = 0.5_wp*h*scale*curve(j)
+        coefficient(:j + 2) = 0.5_wp*h*scale*twice_integrated(j)
         ! Beyond its element a curvature P_0 has turned the link, and P_0 and P_1 have moved it; the chord takes both back.
         call add_unknown(shapes, e, column, 0.5_wp*h*scale*merge(2.0_wp - 8.0_wp/3.0_wp*j, 0.0_wp, j < 2), &
           merge(2.0_wp*scale, 0.0_wp, j == 0), coefficient, slope_coefficient, .true.)
@@ -326,32 +325,5 @@ contains
         dot_product(slope_coefficient, legendre_values(size(slope_coefficient) - 1, zeta))
     end do
   end subroutine add_in_element
-
-  !> Legendre coefficients of `∫ P_j` from −1.
-  pure function once_integrated(j) result(coefficient)
-    integer, intent(in) :: j
-    real(wp) :: coefficient(0:j + 1)
-
-    coefficient = 0.0_wp
-    coefficient(j + 1) = 1.0_wp/(2*j + 1)
-    if (j == 0) coefficient(0) = 1.0_wp
-    if (j > 0) coefficient(j - 1) = -1.0_wp/(2*j + 1)
-  end function once_integrated
-
-  !> Legendre coefficients of `∫∫ P_j`, both from −1.
-  pure function curve(j) result(coefficient)
-    integer, intent(in) :: j
-    real(wp) :: coefficient(0:j + 2)
-
-    coefficient = 0.0_wp
-    select case (j)
-    case (0)
-      coefficient = [2.0_wp/3.0_wp, 1.0_wp, 1.0_wp/3.0_wp]
-    case (1)
-      coefficient = [-1.0_wp/3.0_wp, -0.4_wp, 0.0_wp, 1.0_wp/15.0_wp]
-    case default
-      coefficient(j - 2:j + 2:2) = twice_integrated(j)
-    end select
-  end function curve
 
 end module deformation_shapes
