@@ -163,7 +163,8 @@ contains
     case (stop_too_fast)
       reason = "the links turn too fast to be followed"
     case (stop_many_steps)
-      reason = "there are too many turns from one row to the next; 'step=' or 'end=' is too long for this motion"
+      reason = "a million steps of the integration do not reach the next row: 'step=' or 'end=' is too long for a motion as "// &
+        "fast as this, or motor or damping too strong for the masses"
     case default
       reason = "the steps of the integration shrink to nothing"
     end select
