@@ -1,5 +1,6 @@
 !> `points.dat`: paths, velocities and accelerations of points fixed to links.
 module points_report
+  use body_lines, only: place_words
   use body_points, only: find_point_motion, point_motion_t, point_total_acceleration, point_velocity
   use kinds, only: wp
   use load_notes, only: acceleration_note
@@ -40,8 +41,10 @@ contains
     allocate (names(0), notes(0))
     do i = 1, size(mechanism%points)
       call append_string(names, mechanism%points(i)%name)
-      call append_string(notes, "point "//mechanism%points(i)%name//": on link "// &
-        mechanism%names(mechanism%points(i)%body)%text)
+      associate (point => model%points(i))
+        call append_string(notes, "point "//point%name%text//": on link "//model%links(point%link)%name%text//", "// &
+          place_words(point%place, measures%length)//" from "//model%links(point%link)%pin(1)%text)
+      end associate
     end do
     call append_string(notes, "global axes; "//acceleration_note(model))
     call append_column(columns, real_column("speed", "rad/s"))

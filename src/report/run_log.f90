@@ -6,8 +6,8 @@ module run_log
   use link_cards, only: has_own_mass
   use models, only: branch_crossed, inertia_distributed, inertia_lumped, link_mass, model_t, needs_frequencies
   use text, only: plural, to_string
-  use units, only: coherent_unit, dimension_acceleration, dimension_force, dimension_length, dimension_mass, dimension_moment, &
-    from_si, unit_t
+  use units, only: coherent_unit, dimension_acceleration, dimension_damping, dimension_force, dimension_length, dimension_mass, &
+    dimension_moment, from_si, unit_t
   implicit none (type, external)
   private
 
@@ -56,7 +56,7 @@ contains
     text = text//"branch: "//trim(merge("crossed", "open   ", model%branch == branch_crossed))//line_feed
     if (model%inertia == inertia_lumped) text = text//"inertia loads: lumped"//line_feed
     if (model%inertia == inertia_distributed) text = text//"inertia loads: distributed"//line_feed
-    text = text//load_lines(model)
+    text = text//load_lines(model)//motor_lines(model)
     if (needs_frequencies(model)) then
       text = text//"effects: "//effect_words(model%effects, model%rotary, model%shear)//line_feed
     end if
@@ -84,6 +84,33 @@ contains
         to_string(from_si(model%torques(i)%torque, moment), 12)//" "//moment%name//line_feed
     end do
   end function load_lines
+
+  !> What drives a linkage that moves by itself, and what resists: a line each.
+  pure function motor_lines(model) result(text)
+    type(model_t), intent(in) :: model
+    character(len=:), allocatable :: text
+
+    type(unit_t) :: moment, damping
+    integer :: i
+
+    moment = coherent_unit(model%units, dimension_moment)
+    damping = coherent_unit(model%units, dimension_damping)
+    text = ""
+    if (model%motor%keyword%line > 0) then
+      if (model%motor%is_line) then
+        text = "motor: torque "//to_string(from_si(model%motor%stall, moment), 12)//" "//moment%name//" at rest, none at "// &
+          to_string(model%motor%noload, 12)//" rad/s"//line_feed
+      else
+        text = "motor: torque "//to_string(from_si(model%motor%torque, moment), 12)//" "//moment%name//line_feed
+      end if
+    end if
+    do i = 1, size(model%resistances)
+      associate (load => model%resistances(i))
+        text = text//"load on link "//load%link_name%text//": torque "//to_string(from_si(load%torque, moment), 12)//" "// &
+          moment%name//", damping "//to_string(from_si(load%damping, damping), 12)//" "//damping%name//line_feed
+      end associate
+    end do
+  end function motor_lines
 
   !> `0, -9810 mm/s2`
   pure function pair_text(pair, measure) result(text)
