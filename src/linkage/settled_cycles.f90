@@ -47,8 +47,8 @@ contains
     end do
   end subroutine find_settled_cycles
 
-  !> The greatest difference between the spectra of all samples and of every second, by the largest value of each quantity; the first
-  !! one above `enough`, if there is any.
+  !> The greatest difference between the spectra of all samples and of every second, by the largest value of each quantity; the
+  !! first one above `enough`, if there is any.
   function largest_change(linkages, elements, turns, speed, acceleration, enough) result(change)
     type(linkage_t), intent(in) :: linkages(:)
     integer, intent(in) :: elements(:)
