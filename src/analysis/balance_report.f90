@@ -6,6 +6,7 @@ module balance_report
   use crank_cycle, only: cycle_t, cycle_values, drive_torque, largest_values, quantity_count, quantity_names, shaking_moment, &
     turns_freely, usual_values
   use harmonics, only: highest_harmonic, spectrum_of, spectrum_t
+  use interruption, only: was_interrupted
   use kinds, only: wp
   use linkages, only: linkage_t, lump_t
   use load_notes, only: acceleration_note
@@ -209,6 +210,7 @@ contains
       "or the shaking force through zero")
     call write_header(table, model%title, remarks, columns)
     do k = 1, size(model%speed%value)
+      if (was_interrupted()) return
       if (k > 1) call write_gap(table, 2)
       call write_speed(table, mechanism, linkages, turns, model%speed%value(k), model%acceleration, measures, columns)
     end do

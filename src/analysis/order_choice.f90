@@ -159,6 +159,9 @@ contains
     real(wp) :: term
     integer :: least
 
+    order = highest
+    ! Waves so short that no order serves: their number may be too large for an integer.
+    if (0.5_wp*wave > highest) return
     least = least_order
     if (2*modes > bending*least) least = first
     term = 1.0_wp

@@ -2,6 +2,7 @@
 module settled_cycles
   use crank_cycle, only: cycle_t, cycle_values, find_cycle, quantity_count, usual_values
   use harmonics, only: spectrum_of, spectrum_t
+  use interruption, only: was_interrupted
   use kinds, only: fineness, wp
   use linkages, only: linkage_t
   implicit none (type, external)
@@ -20,8 +21,8 @@ contains
   !! second sample gives, or until there are 65,536 of them.
   !!
   !! They converge like a geometric series, the slower the nearer the crank comes to a dead point; the error of all samples is about
-  !! the square of that of half of them.
-  pure subroutine find_settled_cycles(linkages, elements, speed, acceleration, turns, change)
+  !! the square of that of half of them. Many speeds next to a dead point take minutes: an interrupted run gets what there is.
+  subroutine find_settled_cycles(linkages, elements, speed, acceleration, turns, change)
     type(linkage_t), intent(in) :: linkages(:) !! of the same motion, and bodies with different masses; the crank turns freely
     integer, intent(in) :: elements(:)         !! (bodies) on whose nodes their masses sit; 0: distributed
     real(wp), intent(in) :: speed(:)           !! ω2, all that are wanted [rad/s]
@@ -30,6 +31,7 @@ contains
     real(wp), intent(out) :: change            !! by which every second sample differs, by the largest value
 
     real(wp), parameter :: settled = 1.0e-13_wp*fineness
+    real(wp) :: enough
     integer :: samples, i
 
     samples = fewest_samples
@@ -37,18 +39,22 @@ contains
       do i = 1, size(linkages)
         turns(i) = find_cycle(linkages(i), elements, samples)
       end do
-      change = largest_change(linkages, elements, turns, speed, acceleration)
-      if (change <= settled .or. samples >= most_samples) exit
+      ! One speed that asks for more samples is enough to take them; what the last samples give is told.
+      enough = merge(settled, huge(enough), samples < most_samples)
+      change = largest_change(linkages, elements, turns, speed, acceleration, enough)
+      if (change <= settled .or. samples >= most_samples .or. was_interrupted()) exit
       samples = 2*samples
     end do
   end subroutine find_settled_cycles
 
-  !> The greatest difference between the spectra of all samples and of every second, by the largest value of each quantity.
-  pure function largest_change(linkages, elements, turns, speed, acceleration) result(change)
+  !> The greatest difference between the spectra of all samples and of every second, by the largest value of each quantity; the
+  !! first one above `enough`, if there is any.
+  function largest_change(linkages, elements, turns, speed, acceleration, enough) result(change)
     type(linkage_t), intent(in) :: linkages(:)
     integer, intent(in) :: elements(:)
     type(cycle_t), intent(in) :: turns(:)
     real(wp), intent(in) :: speed(:), acceleration
+    real(wp), intent(in) :: enough !! [-]
     real(wp) :: change
 
     real(wp), allocatable :: values(:, :)
@@ -57,6 +63,7 @@ contains
 
     change = 0.0_wp
     do k = 1, size(speed)
+      if (change > enough .or. was_interrupted()) return
       largest = least_share*usual_values(linkages(1), elements, speed(k), acceleration)
       difference = 0.0_wp
       do i = 1, size(turns)

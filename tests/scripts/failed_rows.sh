@@ -61,3 +61,27 @@ absurd() {
   ! grep -qi "nan\|inf" "$scratch/out/absurd/frequencies.dat" || { echo "not a number in the table"; return 1; }
 }
 check "masses that rounding eats up are failed rows" absurd
+
+# A force beyond all mechanics: waves so short that their number is too large for an integer.
+cat >"$scratch/force.deck" <<'END_OF_DECK'
+UNITS    mm tonne s
+MATERIAL steel E=200GPa density=7800kg/m3
+SECTION  bar rectangle thickness=3 width=25.4
+GROUND   O2 0 0
+GROUND   O4 254 0
+LINK     crank    O2 A length=100   material=steel section=bar
+LINK     coupler  A  B length=279.4 material=steel section=bar
+LINK     follower O4 B length=266.7 material=steel section=bar
+DRIVE    crank
+FORCE    B 1e20 1e20
+MESH     * elements=3
+CRANK    0
+SPEED    0
+INERTIA  distributed
+MODES    3
+REPORT   frequencies
+END_OF_DECK
+crushed() {
+  run 1 --out "$scratch/out" "$scratch/force.deck" && says "error: speed 0 rad/s, crank 0 deg"
+}
+check "a force that crushes all links is a failed row" crushed

@@ -37,3 +37,26 @@ long_motion() {
   absent "$scratch/new"
 }
 check "no new folder is left where nothing was computed that takes time" long_motion
+
+# Next to a dead point a turn needs so many samples that the harmonics of many speeds take minutes.
+cat >"$scratch/balance.deck" <<'END_OF_DECK'
+UNITS    m kg s
+GROUND   O2 0 0
+GROUND   O4 2 0
+LINK     crank    O2 A length=1 mass=1 inertia=0.01
+LINK     coupler  A  B length=2 mass=1 inertia=0.01 center=1,0.2
+LINK     follower O4 B length=1.0000001 mass=1 inertia=0.01
+DRIVE    crank
+CRANK    10
+SPEED    1 to 3000 step 1
+INERTIA  distributed
+REPORT   balance
+END_OF_DECK
+long_harmonics() {
+  started=$(date +%s)
+  interrupted INT "$scratch/new" "$scratch/balance.deck" || return 1
+  [ $(($(date +%s) - started)) -lt 30 ] || { echo "it went on"; return 1; }
+  says "balance.deck: interrupted; its earlier results are untouched" || return 1
+  absent "$scratch/new"
+}
+check "harmonics stop likewise" long_harmonics
