@@ -8,13 +8,14 @@ module forward_motions
   use constants, only: degree, two_pi
   use curve_dynamics, only: find_inertia, new_curve_dynamics, potential_energy
   use drives, only: drive_t, resistances_t
-  use errors, only: error_t
+  use errors, only: error_t, set_error
   use four_bar_rates, only: moving_four_bar_t, no_stop, rate_number, stop_many_steps, stop_no_inertia, stop_steps, &
     unknown_count, work_number
   use interruption, only: was_interrupted
   use kinds, only: long, wp
   use linkages, only: linkage_t
   use loop_curves, only: closure_error, curve_point_t, find_point, find_start, new_loop_curve, project, reduce
+  use poses, only: dead_point_sine
   use rigid_bodies, only: rigid_body_t
   implicit none (type, external)
   private
@@ -71,8 +72,8 @@ contains
 
   !> Makes a motion ready at its first instant.
   !!
-  !! Errors: the linkage does not reach the position, or it is a dead point, where the crank's speed does not tell that of the
-  !! others; no memory. What else keeps a motion from beginning `move_until` finds.
+  !! Errors: the linkage does not reach the position; it is a limit position, where the crank can rest only and its speed would not
+  !! tell that of the others; a change point; no memory. What else keeps a motion from beginning `move_until` finds.
   subroutine start_motion(linkage, rigid, drive, resistances, crank_degrees, speed, duration, motion, error)
     type(linkage_t), intent(in) :: linkage      !! a four-bar
     type(rigid_body_t), intent(in) :: rigid(:)  !! (bodies)
@@ -99,7 +100,14 @@ contains
     motion%system%turns(1) = anint((crank_degrees*degree - motion%state(1))/two_pi)
     call find_point(motion%system%curve, motion%state(1:3), point, is_smooth)
     motion%is_open = point%sine > 0.0_wp
-    motion%state(rate_number) = speed/point%tangent(1)
+    if (abs(point%sine) < dead_point_sine) then
+      motion%is_open = linkage%dyads(1)%side > 0.0_wp
+      if (abs(speed) > 0.0_wp) call set_error(error, "dead point: at a limit position the crank turns back and can have no "// &
+        "speed; expected speed=0")
+      if (allocated(error)) return
+    end if
+    motion%state(rate_number) = 0.0_wp
+    if (abs(speed) > 0.0_wp) motion%state(rate_number) = speed/point%tangent(1)
     call find_inertia(motion%system%dynamics, point, inertia, slope)
     first = sample_motion(motion)
     motion%energy = first%kinetic + first%potential

@@ -7,7 +7,7 @@ module loop_curves
   use errors, only: error_t, set_error
   use kinds, only: wp
   use linkages, only: cross, linkage_t, normal_to
-  use poses, only: arm_to_middle, find_pose, pose_t
+  use poses, only: arm_to_middle, dead_point_sine, place_links, pose_t
   implicit none (type, external)
   private
 
@@ -48,7 +48,7 @@ contains
 
   !> The angles θ2, θ3, θ4 at a crank angle, on the branch of the linkage, in (−π, π] [rad].
   !!
-  !! Errors: those of `find_pose`; among dead points change points go by their own name.
+  !! Errors: those of `place_links`, and change points by name.
   pure subroutine find_start(linkage, crank_degrees, angle, error)
     type(linkage_t), intent(in) :: linkage
     real(wp), intent(in) :: crank_degrees !! [deg]
@@ -59,18 +59,20 @@ contains
     real(wp) :: e(2, 3)
     integer :: k
 
-    call find_pose(linkage, crank_degrees, pose, error)
+    call place_links(linkage, crank_degrees, pose, error)
     e(:, 1) = pose%direction(:, 1)
     do k = 1, 2
       e(:, k + 1) = arm_to_middle(linkage, linkage%dyads(1), pose, k)
     end do
-    ! Out of reach there are no directions.
-    if (allocated(error) .and. norm2(e(:, 2)) > 0.0_wp) then
-      if (max(abs(cross(e(:, 1), e(:, 2))), abs(cross(e(:, 1), e(:, 3))), abs(cross(e(:, 2), e(:, 3)))) < change_point_sine) &
-        call set_error(error, change_point_message)
-    end if
     ! Adding zero turns -0 into 0: an angle of -π would be outside the interval.
     angle = atan2(e(2, :) + 0.0_wp, e(1, :) + 0.0_wp)
+    if (allocated(error)) return
+    if (max(abs(cross(e(:, 1), e(:, 2))), abs(cross(e(:, 1), e(:, 3))), abs(cross(e(:, 2), e(:, 3)))) < change_point_sine) then
+      call set_error(error, change_point_message)
+    else if (abs(pose%sine(1)) < dead_point_sine) then
+      ! The crank angle of a limit position, rounded, may be a little out of reach.
+      call project(new_loop_curve(linkage), angle)
+    end if
   end subroutine find_start
 
   !> Direction and bend of the curve at a point on it or near to it.

@@ -8,7 +8,7 @@ module poses
   implicit none (type, external)
   private
 
-  public :: pose_t, find_pose, arm_to_middle, body_angle, transmission_angle, dead_point_sine
+  public :: pose_t, find_pose, place_links, arm_to_middle, body_angle, transmission_angle, dead_point_sine
 
   type :: pose_t
     real(wp), allocatable :: pin(:, :)       !! (2, pins) positions [m]
@@ -24,10 +24,31 @@ module poses
 
 contains
 
-  !> Places every pin for a crank angle. Equation 2.1 of Ulker (2010), solved by intersecting circles.
+  !> Places every pin for a crank angle that can move the links.
   !!
-  !! Errors: the position is out of reach, or a dead point (`|sin(θ4 − θ3)|` below 1e-6).
+  !! Errors: those of `place_links`, and a dead point (`|sin(θ4 − θ3)|` below 1e-6).
   pure subroutine find_pose(linkage, crank_degrees, pose, error)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), intent(in) :: crank_degrees !! angle of the driven body from the global x axis [deg]
+    type(pose_t), intent(out) :: pose
+    type(error_t), allocatable, intent(out) :: error
+
+    integer :: i
+
+    call place_links(linkage, crank_degrees, pose, error)
+    if (allocated(error)) return
+    do i = 1, size(pose%sine)
+      if (abs(pose%sine(i)) >= dead_point_sine) cycle
+      call set_error(error, "dead point: |sin(theta4 - theta3)| = "//to_string(abs(pose%sine(i)), 3)//" is below "// &
+        to_string(dead_point_sine))
+      return
+    end do
+  end subroutine find_pose
+
+  !> Places every pin for a crank angle, at dead points too. Equation 2.1 of Ulker (2010), solved by intersecting circles.
+  !!
+  !! Errors: the position is out of reach, or nothing says where a link is, since both its dyad's bases are at one place.
+  pure subroutine place_links(linkage, crank_degrees, pose, error)
     type(linkage_t), intent(in) :: linkage
     real(wp), intent(in) :: crank_degrees !! angle of the driven body from the global x axis [deg]
     type(pose_t), intent(out) :: pose
@@ -49,7 +70,7 @@ contains
       if (allocated(error)) return
     end do
     pose%pin = pose%pin + spread(origin, 2, size(pose%pin, 2))
-  end subroutine find_pose
+  end subroutine place_links
 
   !> Cosine and sine of an angle in degrees. Whole turns are taken off before: 0° and 360° are one position to the last digit.
   pure function direction_at(degrees) result(direction)
@@ -112,10 +133,6 @@ contains
       pose%direction(:, dyad%body(k)) = merge(1.0_wp, -1.0_wp, linkage%bodies(dyad%body(k))%last_pin == dyad%middle)*arm(:, k)
     end do
     sine = cross(arm(:, 1), arm(:, 2))
-    if (abs(sine) < dead_point_sine) then
-      call set_error(error, "dead point: |sin(theta4 - theta3)| = "//to_string(abs(sine), 3)//" is below "// &
-        to_string(dead_point_sine))
-    end if
   end subroutine place_dyad
 
   !> Angle of a body from the global x axis, in (−π, π] [rad].
