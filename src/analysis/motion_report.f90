@@ -74,7 +74,8 @@ contains
       "crank's ground pivot, of the follower from its own, of torques from angle 0")
     call append_string(notes, "work: of the motor, less what LOAD takes, since the start; energy_error: kinetic + potential - "// &
       "work, less the initial energy; closure: by how much the loop is open")
-    if (motion%count > 0) call append_string(notes, "initial energy: "//to_string(from_si(motion%energy, moment))//" "//moment%name// &
+    if (motion%count == 0) return
+    call append_string(notes, "initial energy: "//to_string(from_si(motion%energy, moment))//" "//moment%name// &
       "; steps of order 8, each to "//to_string(motion_tolerance)//" of a radian and of the speed")
   end function remarks
 

@@ -7,7 +7,7 @@ module variant_runs
   use ledger, only: add_ledger, ledger_t
   use link_store, only: link_store_t
   use mechanisms, only: mechanism_t, new_mechanism
-  use models, only: model_t, needs_frequencies
+  use models, only: model_t, needs_frequencies, needs_positions
   use kinds, only: long, wp
   use motion_runs, only: has_motion, motion_run_t, run_motion
   use positions, only: find_positions, positions_t
@@ -64,7 +64,12 @@ contains
     type(variant_run_t), intent(inout) :: run !! with its model
 
     run%mechanism = new_mechanism(run%model)
-    run%positions = find_positions(run%mechanism%linkage, run%model%crank%value)
+    ! Crank angles that no report asks about cannot fail.
+    if (needs_positions(run%model)) then
+      run%positions = find_positions(run%mechanism%linkage, run%model%crank%value)
+    else
+      run%positions = find_positions(run%mechanism%linkage, [real(wp) ::])
+    end if
   end subroutine prepare_variant
 
   !> Forward motion and frequencies, nearly all of the work. Variants may be solved at the same time: here are no texts, which
