@@ -1,8 +1,8 @@
 !> Counterweights on the two grounded links of a four-bar that cancel its shaking force, whatever its motion.
 !!
 !! R. S. Berkof, G. G. Lowen: A new method for completely force balancing simple linkages. J. Eng. Ind. 91 (1969) 21: the loop
-!! closes, so that the coupler's direction can be written by those of the other links; what then goes with each of these must vanish,
-!! and the mass centre of the linkage stands still.
+!! closes, so that the coupler's direction can be written by those of the other links; what then goes with each of these must
+!! vanish, and the mass centre of the linkage stands still.
 module balancing
   use kinds, only: wp
   use linkages, only: body_t, linkage_t, lump_t, normal_to
