@@ -18,7 +18,7 @@ module balance_report
   use settled_cycles, only: find_settled_cycles, least_share
   use tables, only: append_column, append_real_columns, column_t, name_cell, name_column, real_cells, real_column, table_t, &
     write_failure, write_gap, write_header, write_row
-  use text, only: append_string, string_t, to_string
+  use text, only: append_string, string_t, to_string, trimmed_list
   use units, only: coherent_unit, dimension_force, dimension_length, dimension_mass, dimension_moment, from_si, unit_system_t, &
     unit_t
   implicit none (type, external)
@@ -219,19 +219,11 @@ contains
   pure function harmonic_columns() result(columns)
     type(column_t), allocatable :: columns(:)
 
-    type(string_t), allocatable :: names(:)
     integer :: i
 
     call append_column(columns, real_column("speed", "rad/s"))
-    do i = 1, size(linkage_names)
-      call append_string(names, trim(linkage_names(i)))
-    end do
-    call append_column(columns, name_column("linkage", names))
-    deallocate (names)
-    do i = 1, quantity_count
-      call append_string(names, trim(quantity_names(i)))
-    end do
-    call append_column(columns, name_column("quantity", names))
+    call append_column(columns, name_column("linkage", trimmed_list(linkage_names)))
+    call append_column(columns, name_column("quantity", trimmed_list(quantity_names)))
     ! Their units are those of the quantity of the row.
     call append_real_columns(columns, "largest rms mean", "-")
     do i = 1, highest_harmonic

@@ -11,7 +11,7 @@ module linkage_report
   use sorting, only: ascending_order
   use tables, only: append_column, append_real_columns, column_t, name_cell, name_column, real_cells, table_t, write_gap, &
     write_header, write_row
-  use text, only: append_string, string_t, to_string
+  use text, only: append_string, string_t, to_string, trimmed_list
   implicit none (type, external)
   private
 
@@ -37,8 +37,8 @@ contains
 
     ground = mechanism%linkage%ground_position(:, [1, 4])
     length = mechanism%linkage%bodies%length
-    call append_column(columns, name_column("branch", words_of(branch_names)))
-    call append_column(columns, name_column("event", words_of(event_names)))
+    call append_column(columns, name_column("branch", trimmed_list(branch_names)))
+    call append_column(columns, name_column("event", trimmed_list(event_names)))
     call append_real_columns(columns, "crank theta3 theta4 transmission_angle", "deg")
     call write_header(table, model%title, remarks(mechanism, ground, length), columns)
     do branch = 1, size(sides)
@@ -54,17 +54,6 @@ contains
       end do
     end do
   end subroutine write_linkage
-
-  pure function words_of(names) result(list)
-    character(len=*), intent(in) :: names(:)
-    type(string_t), allocatable :: list(:)
-
-    integer :: i
-
-    do i = 1, size(names)
-      call append_string(list, trim(names(i)))
-    end do
-  end function words_of
 
   !> Class, mobility, ranges, change points, and what the words of the table mean.
   pure function remarks(mechanism, ground, length) result(list)

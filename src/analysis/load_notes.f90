@@ -4,7 +4,7 @@ module load_notes
   use link_cards, only: has_own_mass
   use mechanisms, only: mechanism_t
   use models, only: model_t
-  use text, only: append_string, string_t, to_string
+  use text, only: append_string, plural, string_t, to_string
   use units, only: coherent_unit, dimension_acceleration, dimension_force, dimension_moment, from_si, unit_t
   implicit none (type, external)
   private
@@ -45,8 +45,7 @@ contains
       else if (this%line_density <= 0.0_wp) then
         words = "without mass"
       else if (mechanism%load_elements(body) > 0) then
-        words = "lumped on "//to_string(mechanism%load_elements(body))//" elements"
-        if (mechanism%load_elements(body) == 1) words = "lumped on 1 element"
+        words = "lumped on "//plural(mechanism%load_elements(body), "element")
       else
         words = "distributed"
         if (this%rotary_inertia > 0.0_wp) words = "distributed with rotary inertia"

@@ -1,6 +1,7 @@
 !> `motion.dat`: how the linkage moves by itself, and what the log tells of it.
 module motion_report
   use forward_motions, only: motion_tolerance
+  use kinematics_report, only: angle_note
   use mechanisms, only: mechanism_t
   use models, only: model_t
   use motion_runs, only: motion_failed, motion_failure, motion_run_t
@@ -65,11 +66,8 @@ contains
     type(unit_t), intent(in) :: moment
     type(string_t), allocatable :: notes(:)
 
-    associate (names => mechanism%names, pins => mechanism%pin_names)
-      call append_string(notes, "crank, 2: link "//names(1)%text//"; 3: link "//names(2)%text//", angle from "//pins(2)%text// &
-        " to "//pins(3)%text//"; 4: link "//names(3)%text//", angle from "//pins(4)%text//" to "//pins(3)%text// &
-        "; angles go on over whole turns")
-    end associate
+    call append_string(notes, "crank, 2: link "//mechanism%names(1)%text//"; "//angle_note(mechanism)// &
+      "; angles go on over whole turns")
     call append_string(notes, "torque: of the motor; potential: of GRAVITY, FORCE and TORQUE, of crank and coupler from the "// &
       "crank's ground pivot, of the follower from its own, of torques from angle 0")
     call append_string(notes, "work: of the motor, less what LOAD takes, since the start; energy_error: kinetic + potential - "// &

@@ -5,7 +5,7 @@ module text
   implicit none (type, external)
   private
 
-  public :: string_t, to_string, word_list, joined, plural, lower_case, upper_case, same_word
+  public :: string_t, to_string, word_list, trimmed_list, joined, plural, lower_case, upper_case, same_word
   public :: append_string, character_count, is_continuation_byte
 
   !> A line, a word, a name: what an array of texts of different lengths is made of.
@@ -163,6 +163,19 @@ contains
       first = first + length + 1
     end do
   end function word_list
+
+  !> The words of an array, without the blanks behind them.
+  pure function trimmed_list(words) result(list)
+    character(len=*), intent(in) :: words(:)
+    type(string_t), allocatable :: list(:)
+
+    integer :: i
+
+    allocate (list(size(words)))
+    do i = 1, size(words)
+      list(i)%text = trim(words(i))
+    end do
+  end function trimmed_list
 
   !> `a, b, c`, or with another separator.
   pure function joined(list, separator) result(phrase)
