@@ -172,8 +172,9 @@ libraries := $(integration)
 instead   := $(wildcard tests/quad/*.f90)
 endif
 
-# File = module, so the objects of all layers can lie in one folder.
-sources := $(filter-out $(addprefix %/,$(notdir $(instead))),$(wildcard src/*/*.f90)) $(instead) src/main.f90
+# Sources lie in folders and in folders of these. File = module, so the objects of all can lie in one folder.
+found   := $(wildcard src/*.f90 src/*/*.f90 src/*/*/*.f90)
+sources := $(filter-out $(addprefix %/,$(notdir $(instead))),$(found)) $(instead)
 modules := $(patsubst %.f90,$(build)/%.o,$(filter-out main.f90,$(notdir $(sources))))
 # What only tests use; it is one of the modules of the quadruple build.
 test_modules := $(filter-out $(modules),$(build)/symmetric_eigensolver.o)
@@ -216,7 +217,9 @@ $(build)/bench/bench: $(bench_sources) $(modules)
 	$(compile) -ffree-line-length-132 $(warnings_$(kind)) -J$(@D) -I$(build) $^ $(libraries) -o $@
 
 # ------------------------------------------------------------------------------ unit tests with the bundled support
-tests := $(patsubst tests/unit/%.pf,%,$(wildcard tests/unit/test_*.pf))
+test_files := $(wildcard tests/unit/*.pf tests/unit/*/*.pf tests/unit/*/*/*.pf)
+tests      := $(basename $(notdir $(test_files)))
+vpath test_%.pf $(sort $(dir $(test_files)))
 $(call remember,$(build)/tests,$(tests))
 $(build)/tests: ;
 
@@ -224,11 +227,9 @@ $(build)/tests: ;
 fast_release = -O0
 test_options = -ffree-line-length-none $(fast_$(kind)) $(warnings_$(kind)) -J$(build)/funit -I$(build)
 
-$(build)/funit/%.F90: tests/unit/%.pf $(support)/translate_tests.py
-	python3 -B $(support)/translate_tests.py $< $@
-
-# The tests of the tests: these must fail.
-$(build)/funit/test_must_fail.F90: $(support)/test_must_fail.pf $(support)/translate_tests.py
+# The tests of the tests, which must fail, lie elsewhere.
+vpath test_must_fail.pf $(support)
+$(build)/funit/%.F90: %.pf $(support)/translate_tests.py
 	python3 -B $(support)/translate_tests.py $< $@
 
 $(build)/funit/driver.f90: $(build)/tests $(support)/translate_tests.py
@@ -241,8 +242,10 @@ $(build)/funit/funit.o: $(support)/funit.f90 $(build)/command
 	$(compile) $(test_options) -c $< -o $@
 
 # makedepf90 does not read .pf, but what a test uses stands at the head of its lines.
-uses = $(filter $(modules) $(test_modules),$(patsubst %,$(build)/%.o,$(shell sed -n 's/^ *use  *\([a-z0-9_]*\).*/\1/p' tests/unit/$(1).pf)))
-$(foreach test,$(tests),$(eval $(build)/funit/$(test).o $(build)/pfunit/$(test).o: $(call uses,$(test))))
+used = $(shell sed -n 's/^ *use  *\([a-z0-9_]*\).*/\1/p' $(1))
+uses = $(filter $(modules) $(test_modules),$(patsubst %,$(build)/%.o,$(call used,$(1))))
+objects = $(foreach way,funit pfunit,$(build)/$(way)/$(basename $(notdir $(1))).o)
+$(foreach file,$(test_files),$(eval $(call objects,$(file)): $(call uses,$(file))))
 
 $(build)/funit/test_%.o: $(build)/funit/test_%.F90 $(build)/funit/funit.o $(build)/command
 	@echo "$(FC) ($(kind)) test_$*"
@@ -277,13 +280,8 @@ $(call remember,$(build)/pfunit/must_fail.inc,$(call suites,test_must_fail))
 $(build)/pfunit/%.inc: ;
 
 # The preprocessor of pFUnit wants the file in the current folder.
-$(build)/pfunit/%.pf: tests/unit/%.pf
-	cp $< $@
-
-$(build)/pfunit/test_must_fail.pf: $(support)/test_must_fail.pf
-	cp $< $@
-
-$(build)/pfunit/%.F90: $(build)/pfunit/%.pf
+$(build)/pfunit/%.F90: %.pf
+	cp $< $(@D)/
 	cd $(@D) && python3 $(PFUNIT_BIN_DIR)/funitproc -quiet $(<F) $(@F)
 
 $(build)/pfunit/test_%.o: $(build)/pfunit/test_%.F90 $(build)/command

@@ -1,4 +1,5 @@
-!> FLEXMECH: rigid dynamics and vibration of flexible mechanisms. Arguments, one call a deck, exit status.
+!> FLEXMECH: rigid dynamics and vibration of flexible mechanisms. Arguments, one call a deck, exit
+!! status.
 program main
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
   use command_line, only: command_t, help_text, read_command_line, version_text
@@ -40,9 +41,10 @@ program main
     if (len(decks(i)%errors) > 0) outcomes(i)%exit_status = 2
     do j = 1, i - 1
       if (decks(j)%base /= decks(i)%base) cycle
-      call complain(outcomes(i), "two decks would write to the same folder '"//decks(i)%base//"': "//command%decks(j)%text// &
-        " and "//command%decks(i)%text)
-      call say("flexmech: error: "//outcomes(i)%complaints(size(outcomes(i)%complaints))%text//achar(10))
+      call complain(outcomes(i), "two decks would write to the same folder '"//decks(i)%base// &
+        "': "//command%decks(j)%text//" and "//command%decks(i)%text)
+      call say("flexmech: error: "//outcomes(i)%complaints(size(outcomes(i)%complaints))%text// &
+        achar(10))
     end do
     refused = refused .or. outcomes(i)%exit_status == 2
   end do
@@ -77,7 +79,8 @@ contains
     character(len=*), intent(in) :: complaint !! what is wrong with the command line
 
     if (command%json) then
-      write (output_unit, "(a)", advance="no") document_text(status, complaint, command%decks, decks, outcomes)
+      write (output_unit, "(a)", advance="no") document_text(status, complaint, command%decks, &
+        decks, outcomes)
     end if
     stop status, quiet=.true.
   end subroutine finish

@@ -1,4 +1,5 @@
-!> How much memory a run may take, as far as the system tells (Linux: the files of /proc and of control groups).
+!> How much memory a run may take, as far as the system tells (Linux: the files of /proc and of
+!! control groups).
 module available_memory
   use kinds, only: long, wp
   use text, only: to_string
@@ -20,7 +21,8 @@ module available_memory
 
 contains
 
-  !> The least of what the machine has free, what its control groups leave, and what the limit of address space leaves.
+  !> The least of what the machine has free, what its control groups leave, and what the limit of
+  !! address space leaves.
   function find_available_memory(threads) result(available)
     integer, intent(in) :: threads
     type(available_memory_t) :: available
@@ -63,7 +65,8 @@ contains
     end if
   end function memory_text
 
-  !> What the control groups of this process leave, the innermost and all above it; huge where there is no limit [bytes].
+  !> What the control groups of this process leave, the innermost and all above it; huge where there
+  !! is no limit [bytes].
   function left_by_groups() result(bytes)
     real(wp) :: bytes
 
@@ -80,16 +83,18 @@ contains
       first = index(line, ":/") + 1
       if (first == 1) cycle
       if (index(line, "0::") == 1) then
-        bytes = min(bytes, left_by_path("/sys/fs/cgroup", trim(line(first:)), "memory.max", "memory.current", "inactive_file"))
+        bytes = min(bytes, left_by_path("/sys/fs/cgroup", trim(line(first:)), "memory.max", &
+          "memory.current", "inactive_file"))
       else if (index(line, ":memory:") > 0) then
-        bytes = min(bytes, left_by_path("/sys/fs/cgroup/memory", trim(line(first:)), "memory.limit_in_bytes", &
-          "memory.usage_in_bytes", "total_inactive_file"))
+        bytes = min(bytes, left_by_path("/sys/fs/cgroup/memory", trim(line(first:)), &
+          "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"))
       end if
     end do
     close (unit, iostat=status)
   end function left_by_groups
 
-  !> The least that a group and those above it leave. What the group keeps of files that nobody reads any more counts as free.
+  !> The least that a group and those above it leave. What the group keeps of files that nobody
+  !! reads any more counts as free.
   function left_by_path(root, path, limit_file, use_file, cache_key) result(bytes)
     character(len=*), intent(in) :: root, path, limit_file, use_file, cache_key
     real(wp) :: bytes
@@ -105,14 +110,17 @@ contains
       limit = number_after(folder//limit_file, "")
       taken = number_after(folder//use_file, "")
       if (limit >= 0.0_wp .and. taken >= 0.0_wp) then
-        bytes = min(bytes, max(0.0_wp, limit - taken + max(0.0_wp, number_after(folder//"memory.stat", cache_key//" "))))
+        bytes = min(bytes, &
+          max(0.0_wp, limit - taken + max(0.0_wp, number_after(folder//"memory.stat", &
+          cache_key//" "))))
       end if
       if (len(group) <= 1) exit
       group = group(:max(1, index(group, "/", back=.true.) - 1))
     end do
   end function left_by_path
 
-  !> The whole number after a key at the start of a line of a file; −1 if there is no such file, no such line or no number (`max`).
+  !> The whole number after a key at the start of a line of a file; −1 if there is no such file, no
+  !! such line or no number (`max`).
   function number_after(path, key) result(number)
     character(len=*), intent(in) :: path, key
     real(wp) :: number

@@ -1,4 +1,5 @@
-!> An error is a value: allocated when something went wrong, and carried up to `main`, which alone prints and stops.
+!> An error is a value: allocated when something went wrong, and carried up to `main`, which alone
+!! prints and stops.
 module errors
   implicit none (type, external)
   private

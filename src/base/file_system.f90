@@ -21,7 +21,8 @@ module file_system
       integer(c_int) :: status
     end function c_closedir
 
-    !> `mode_t` is an unsigned integer of 16 or 32 bits on every system that has it; passed by value both arrive as `int`.
+    !> `mode_t` is an unsigned integer of 16 or 32 bits on every system that has it; passed by value
+    !! both arrive as `int`.
     function c_mkdir(path, mode) bind(c, name="mkdir") result(status)
       import :: c_char, c_int
       character(kind=c_char), intent(in) :: path(*)
@@ -79,9 +80,11 @@ contains
   subroutine make_directories(path, made, is_new)
     character(len=*), intent(in) :: path
     logical, intent(out) :: made                        !! whether the folder is there in the end
-    type(string_t), allocatable, intent(out) :: is_new(:) !! the folders that were not there before, outermost first
+    type(string_t), allocatable, intent(out) :: is_new(:) !! the folders that were not there before,
+                                                          !! outermost first
 
-    integer(c_int), parameter :: everybody = int(o'777', c_int) ! less what the user's umask takes away
+    integer(c_int), parameter :: everybody = int(o'777', c_int) ! less what the user's umask takes
+                                                                ! away
     integer :: at, count
 
     allocate (is_new(len(path)))
@@ -154,7 +157,8 @@ contains
     end if
   end function joined_path
 
-  !> The one absolute path of a file, whatever links and dots lead to it; empty if there is no such file.
+  !> The one absolute path of a file, whatever links and dots lead to it; empty if there is no such
+  !! file.
   function real_path(path) result(absolute)
     character(len=*), intent(in) :: path
     character(len=:), allocatable :: absolute

@@ -1,4 +1,5 @@
-!> Notices Ctrl-C and a request to end, so that a run can stop between two positions and leave nothing half done.
+!> Notices Ctrl-C and a request to end, so that a run can stop between two positions and leave
+!! nothing half done.
 !!
 !! The one module with a variable of its own: a signal handler has nowhere else to leave its news.
 module interruption
@@ -8,7 +9,8 @@ module interruption
 
   public :: watch_for_interruption, was_interrupted
 
-  integer(c_int), parameter :: interrupt_signal = 2_c_int, terminate_signal = 15_c_int !! SIGINT, SIGTERM in POSIX
+  !> SIGINT, SIGTERM in POSIX
+  integer(c_int), parameter :: interrupt_signal = 2_c_int, terminate_signal = 15_c_int
 
   integer(c_int), volatile :: last_signal = 0_c_int
 

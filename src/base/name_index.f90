@@ -25,7 +25,8 @@ contains
     allocate (list%name(size(names)), list%head(max(1, 2*size(names))), list%next(size(names)))
     list%name = names
     list%head = 0
-    ! Backwards, so that every chain begins with its earliest name and equal names are found in their own order.
+    ! Backwards, so that every chain begins with its earliest name and equal names are found in
+    ! their own order.
     do i = size(names), 1, -1
       bucket = bucket_of(names(i)%text, size(list%head))
       list%next(i) = list%head(bucket)

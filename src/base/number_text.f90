@@ -8,8 +8,8 @@ module number_text
   public :: scientific, number_width
 
   interface
-    !> `snprintf` for one double (ISO/IEC TS 18661-1, in the C library): three times as fast as a formatted write, which is most of
-    !! the time a large table takes.
+    !> `snprintf` for one double (ISO/IEC TS 18661-1, in the C library): three times as fast as a
+    !! formatted write, which is most of the time a large table takes.
     function c_strfromd(text, size, format, value) bind(c, name="strfromd") result(length)
       import :: c_char, c_double, c_int, c_size_t
       character(kind=c_char), intent(out) :: text(*)
@@ -20,12 +20,14 @@ module number_text
     end function c_strfromd
   end interface
 
-  integer, parameter :: number_width = 25 !! sign, 17 digits, point, exponent of three digits, and a blank
+  integer, parameter :: number_width = 25 !! sign, 17 digits, point, exponent of three digits, and a
+                                          !! blank
   integer, parameter :: longest = 32
 
 contains
 
-  !> A finite number with 17 digits and a three-digit exponent, at the right end of a field: what `es25.16e3` gives.
+  !> A finite number with 17 digits and a three-digit exponent, at the right end of a field: what
+  !! `es25.16e3` gives.
   function scientific(value, width) result(text)
     real(wp), intent(in) :: value
     integer, intent(in) :: width
@@ -35,13 +37,15 @@ contains
     character(len=longest) :: number
     integer :: i, length, exponent_at, missing
 
-    length = int(c_strfromd(digits, int(longest, c_size_t), ["%", ".", "1", "6", "E", c_null_char], real(value, c_double)))
+    length = int(c_strfromd(digits, int(longest, c_size_t), ["%", ".", "1", "6", "E", &
+      c_null_char], real(value, c_double)))
     do i = 1, length
       number(i:i) = digits(i)
     end do
     exponent_at = index(number(:length), "E")
     missing = 3 - (length - exponent_at - 1)
-    text = repeat(" ", width - length - missing)//number(:exponent_at + 1)//repeat("0", missing)//number(exponent_at + 2:length)
+    text = repeat(" ", width - length - missing)//number(:exponent_at + 1)//repeat("0", missing)// &
+      number(exponent_at + 2:length)
   end function scientific
 
 end module number_text

@@ -1,8 +1,10 @@
 !> The one converter from text to numbers.
 !!
-!! Fortran's own list-directed `read` takes `/`, `1,000`, `2*3.5` and `nan` for numbers; a deck must not.
+!! Fortran's own list-directed `read` takes `/`, `1,000`, `2*3.5` and `nan` for numbers; a deck must
+!! not.
 module numbers
-  use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_overflow, ieee_set_flag, ieee_set_halting_mode
+  use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_overflow, ieee_set_flag, &
+    ieee_set_halting_mode
   use kinds, only: long, wp
   use text, only: to_string
   implicit none (type, external)
@@ -14,8 +16,9 @@ contains
 
   !> How many leading characters of `string` form a number; 0 if it does not begin with one.
   !!
-  !! A number is `[sign] digits [. digits] [e|d [sign] digits]` with at least one digit before the exponent. The letter is an
-  !! exponent only before a digit or a sign, so that `10deg` is 10 and a unit.
+  !! A number is `[sign] digits [. digits] [e|d [sign] digits]` with at least one digit before the
+  !! exponent. The letter is an exponent only before a digit or a sign, so that `10deg` is 10 and a
+  !! unit.
   pure function number_length(string) result(length)
     character(len=*), intent(in) :: string
     integer :: length
@@ -107,14 +110,16 @@ contains
     end if
   end subroutine read_real
 
-  !> Reads a number of few digits, as nearly all of a deck are, in a tenth of the time that a formatted `read` takes.
+  !> Reads a number of few digits, as nearly all of a deck are, in a tenth of the time that a
+  !! formatted `read` takes.
   !!
-  !! Whole numbers below 10¹⁵ and powers of ten up to 10²² are doubles exactly; so their product or quotient is the double nearest
-  !! to the number, the same that `read` finds.
+  !! Whole numbers below 10¹⁵ and powers of ten up to 10²² are doubles exactly; so their product or
+  !! quotient is the double nearest to the number, the same that `read` finds.
   pure subroutine read_short(string, value, done)
     character(len=*), intent(in) :: string !! a number
     real(wp), intent(out) :: value
-    logical, intent(out) :: done           !! false: it has too many digits, or too large an exponent
+    logical, intent(out) :: done           !! false: it has too many digits, or too large an
+                                           !! exponent
 
     integer, parameter :: most_digits = 15, largest_power = 22
     integer(long) :: whole
@@ -161,7 +166,8 @@ contains
     done = .true.
   end subroutine read_short
 
-  !> A number in as few digits, from 15 on, as read back to the same double; trailing zeros are dropped.
+  !> A number in as few digits, from 15 on, as read back to the same double; trailing zeros are
+  !! dropped.
   pure function shortest_text(value) result(string)
     real(wp), intent(in) :: value
     character(len=:), allocatable :: string

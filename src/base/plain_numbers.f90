@@ -6,7 +6,8 @@ module plain_numbers
 
   public :: digit_count, real_length, write_real, usual_digits, longest_real
 
-  !> Significant digits where nobody asks for a number of them; characters that a real number takes at most.
+  !> Significant digits where nobody asks for a number of them; characters that a real number takes
+  !! at most.
   integer, parameter :: usual_digits = 6, longest_real = 56
 
 contains

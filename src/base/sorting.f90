@@ -8,7 +8,8 @@ module sorting
 
 contains
 
-  !> The permutation that puts `values` in ascending order; equal values keep their own order (merge sort).
+  !> The permutation that puts `values` in ascending order; equal values keep their own order (merge
+  !! sort).
   pure function ascending_order(values) result(order)
     real(wp), intent(in) :: values(:)
     integer :: order(size(values))

@@ -24,7 +24,8 @@ contains
     if (nearest > 0) phrase = " (did you mean '"//candidates(nearest)%text//"'?)"
   end function suggestion
 
-  !> Number of the candidate nearest to `word`; 0 if none is within a third of its length (one letter at least).
+  !> Number of the candidate nearest to `word`; 0 if none is within a third of its length (one
+  !! letter at least).
   pure function nearest_word(word, candidates) result(nearest)
     character(len=*), intent(in) :: word
     type(string_t), intent(in) :: candidates(:)
@@ -38,11 +39,14 @@ contains
     do i = 1, size(candidates)
       if (abs(len(candidates(i)%text) - len(word)) > best) cycle
       distance = edit_distance(lower_case(word), lower_case(candidates(i)%text))
-      ! A word of one or two letters is near everything; only a slip in one letter of more, or of case, is a spelling.
+      ! A word of one or two letters is near everything; only a slip in one letter of more, or of
+      ! case, is a spelling.
       if (distance > 0 .and. distance >= max(len(word), len(candidates(i)%text))) cycle
       if (distance == best .and. nearest > 0) then
-        ! Of two as near, the one of the same length: a slip of the finger is likelier than a letter left out.
-        if (len(candidates(i)%text) == len(word) .and. len(candidates(nearest)%text) /= len(word)) nearest = i
+        ! Of two as near, the one of the same length: a slip of the finger is likelier than a letter
+        ! left out.
+        if (len(candidates(i)%text) == len(word) .and. len(candidates(nearest)%text) /= len(word)) &
+          nearest = i
       else if (distance < best) then
         best = distance
         nearest = i
@@ -50,7 +54,8 @@ contains
     end do
   end function nearest_word
 
-  !> Smallest number of insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
+  !> Smallest number of insertions, deletions, replacements and swaps of neighbours that turn `a`
+  !! into `b`.
   !!
   !! Optimal string alignment distance (Damerau 1964).
   pure function edit_distance(a, b) result(distance)

@@ -1,11 +1,13 @@
-!> Small helpers for text: case, numbers as text, lists as prose, lengths in characters rather than bytes.
+!> Small helpers for text: case, numbers as text, lists as prose, lengths in characters rather than
+!! bytes.
 module text
   use kinds, only: long, wp
   use plain_numbers, only: digit_count, longest_real, real_length, usual_digits, write_real
   implicit none (type, external)
   private
 
-  public :: string_t, to_string, word_list, trimmed_list, joined, plural, lower_case, upper_case, same_word
+  public :: string_t, to_string, word_list, trimmed_list, joined, plural, lower_case, upper_case, &
+    same_word
   public :: append_string, character_count, is_continuation_byte
 
   !> A line, a word, a name: what an array of texts of different lengths is made of.
@@ -23,8 +25,9 @@ module text
 
 contains
 
-  !> Lengthens a list by one text. The constructor `[list, string_t(text)]` does the same, but gfortran 12 loses the memory of what
-  !! function results and structure constructors leave in an array constructor.
+  !> Lengthens a list by one text. The constructor `[list, string_t(text)]` does the same, but
+  !! gfortran 12 loses the memory of what function results and structure constructors leave in an
+  !! array constructor.
   pure subroutine append_string(list, text)
     type(string_t), allocatable, intent(inout) :: list(:) !! not allocated is as good as empty
     character(len=*), intent(in) :: text
@@ -42,8 +45,9 @@ contains
     call move_alloc(longer, list)
   end subroutine append_string
 
-  ! Lengths are worked out before the texts: gfortran 12 keeps the length of a function result of deferred length in one place for all
-  ! threads, so that such a function must not be called where several threads may (a failed position is told from inside a sweep).
+  ! Lengths are worked out before the texts: gfortran 12 keeps the length of a function result of
+  ! deferred length in one place for all threads, so that such a function must not be called where
+  ! several threads may (a failed position is told from inside a sweep).
 
   pure function integer_to_string(value) result(string)
     integer, intent(in) :: value
@@ -92,7 +96,8 @@ contains
 
     do i = 1, len(string)
       lower(i:i) = string(i:i)
-      if (lge(string(i:i), "A") .and. lle(string(i:i), "Z")) lower(i:i) = achar(iachar(string(i:i)) + 32)
+      if (lge(string(i:i), "A") .and. lle(string(i:i), "Z")) lower(i:i) &
+        = achar(iachar(string(i:i)) + 32)
     end do
   end function lower_case
 
@@ -104,7 +109,8 @@ contains
 
     do i = 1, len(string)
       upper(i:i) = string(i:i)
-      if (lge(string(i:i), "a") .and. lle(string(i:i), "z")) upper(i:i) = achar(iachar(string(i:i)) - 32)
+      if (lge(string(i:i), "a") .and. lle(string(i:i), "z")) upper(i:i) &
+        = achar(iachar(string(i:i)) - 32)
     end do
   end function upper_case
 

@@ -1,7 +1,7 @@
 !> Units of measurement: names, dimensions and exact factors to SI.
 !!
-!! A factor is kept as a fraction of whole numbers (mm = 1/1000, in = 254/10000), so that 254 mm becomes the double nearest
-!! to 0.254 m and comes back as 254 mm.
+!! A factor is kept as a fraction of whole numbers (mm = 1/1000, in = 254/10000), so that 254 mm
+!! becomes the double nearest to 0.254 m and comes back as 254 mm.
 module units
   use constants, only: pi
   use kinds, only: wp
@@ -10,14 +10,18 @@ module units
   implicit none (type, external)
   private
 
-  public :: unit_t, unit_system_t, dimension_name, wrong_unit, read_unit, new_unit_system, coherent_unit, coherent_factor, &
-    to_si, from_si, serves_for
-  public :: dimension_none, dimension_length, dimension_mass, dimension_time, dimension_angle, dimension_rate
-  public :: dimension_angular_acceleration, dimension_velocity, dimension_acceleration, dimension_force, dimension_moment
-  public :: dimension_stress, dimension_density, dimension_area, dimension_second_moment, dimension_rotary_inertia
+  public :: unit_t, unit_system_t, dimension_name, wrong_unit, read_unit, new_unit_system, &
+    coherent_unit, coherent_factor, to_si, from_si, serves_for
+  public :: dimension_none, dimension_length, dimension_mass, dimension_time, dimension_angle, &
+    dimension_rate
+  public :: dimension_angular_acceleration, dimension_velocity, dimension_acceleration, &
+    dimension_force, dimension_moment
+  public :: dimension_stress, dimension_density, dimension_area, dimension_second_moment, &
+    dimension_rotary_inertia
   public :: dimension_inertia, dimension_damping
 
-  !> Exponents of length, mass, time and angle. An angle counts as a dimension here, so that rpm and 1/s stay apart.
+  !> Exponents of length, mass, time and angle. An angle counts as a dimension here, so that rpm and
+  !! 1/s stay apart.
   integer, parameter :: dimension_none(4) = [0, 0, 0, 0]
   integer, parameter :: dimension_length(4) = [1, 0, 0, 0]
   integer, parameter :: dimension_mass(4) = [0, 1, 0, 0]
@@ -33,7 +37,8 @@ module units
   integer, parameter :: dimension_density(4) = [-3, 1, 0, 0]
   integer, parameter :: dimension_rotary_inertia(4) = [1, 1, 0, 0] !! per length of a link
   integer, parameter :: dimension_inertia(4) = [2, 1, 0, 0]
-  integer, parameter :: dimension_damping(4) = [2, 1, -1, 0]       !! moment per angular velocity, the angle left out
+  integer, parameter :: dimension_damping(4) = [2, 1, -1, 0]       !! moment per angular velocity,
+                                                                   !! the angle left out
   integer, parameter :: dimension_area(4) = [2, 0, 0, 0]
   integer, parameter :: dimension_second_moment(4) = [4, 0, 0, 0]
 
@@ -72,8 +77,10 @@ contains
     list(7) = unit("g", dimension_mass, 1.0_wp, 1000.0_wp)
     list(8) = unit("tonne", dimension_mass, 1000.0_wp, 1.0_wp)
     list(9) = unit("lbm", dimension_mass, lbm(1), lbm(2))
-    list(10) = unit("slug", dimension_mass, lbm(1)/1.0e4_wp*gravity(1), lbm(2)/1.0e4_wp*gravity(2)*0.3048_wp)
-    list(11) = unit("slinch", dimension_mass, lbm(1)/1.0e4_wp*gravity(1), lbm(2)/1.0e4_wp*gravity(2)*0.0254_wp)
+    list(10) = unit("slug", dimension_mass, lbm(1)/1.0e4_wp*gravity(1), &
+      lbm(2)/1.0e4_wp*gravity(2)*0.3048_wp)
+    list(11) = unit("slinch", dimension_mass, lbm(1)/1.0e4_wp*gravity(1), &
+      lbm(2)/1.0e4_wp*gravity(2)*0.0254_wp)
     list(12) = unit("s", dimension_time, 1.0_wp, 1.0_wp)
     list(13) = unit("ms", dimension_time, 1.0_wp, 1000.0_wp)
     list(14) = unit("N", dimension_force, 1.0_wp, 1.0_wp)
@@ -83,8 +90,10 @@ contains
     list(18) = unit("kPa", dimension_stress, 1.0e3_wp, 1.0_wp)
     list(19) = unit("MPa", dimension_stress, 1.0e6_wp, 1.0_wp)
     list(20) = unit("GPa", dimension_stress, 1.0e9_wp, 1.0_wp)
-    list(21) = unit("psi", dimension_stress, lbm(1)/1.0e4_wp*gravity(1), lbm(2)/1.0e4_wp*gravity(2)*0.00064516_wp)
-    list(22) = unit("ksi", dimension_stress, lbm(1)/1.0e1_wp*gravity(1), lbm(2)/1.0e4_wp*gravity(2)*0.00064516_wp)
+    list(21) = unit("psi", dimension_stress, lbm(1)/1.0e4_wp*gravity(1), &
+      lbm(2)/1.0e4_wp*gravity(2)*0.00064516_wp)
+    list(22) = unit("ksi", dimension_stress, lbm(1)/1.0e1_wp*gravity(1), &
+      lbm(2)/1.0e4_wp*gravity(2)*0.00064516_wp)
     list(23) = unit("rad", dimension_angle, 1.0_wp, 1.0_wp)
     list(24) = unit("deg", dimension_angle, pi, 180.0_wp)
     list(25) = unit("rpm", dimension_rate, pi, 30.0_wp)
@@ -104,9 +113,9 @@ contains
 
   !> Reads `mm`, `kg/m3`, `N/mm^2`, `lbf*s2/in`, …
   !!
-  !! Powers are whole numbers behind a name, with or without `^`; after a `/` everything up to the next `*` divides. Names keep
-  !! the case in which they are written. `problem` is empty, or names the part that is not a unit and offers the nearest of the
-  !! dimension that is wanted.
+  !! Powers are whole numbers behind a name, with or without `^`; after a `/` everything up to the
+  !! next `*` divides. Names keep the case in which they are written. `problem` is empty, or names
+  !! the part that is not a unit and offers the nearest of the dimension that is wanted.
   pure subroutine read_unit(text, wanted, measure, problem)
     character(len=*), intent(in) :: text
     integer, intent(in) :: wanted(4)
@@ -147,7 +156,8 @@ contains
       if (i > 0) then
         power = i
         name_length = name_length - 1
-        if (name_length > 1 .and. factor(name_length:name_length) == "^") name_length = name_length - 1
+        if (name_length > 1 .and. factor(name_length:name_length) == "^") name_length = &
+          name_length - 1
       end if
     end if
     name = factor(:name_length)
@@ -160,8 +170,8 @@ contains
       call multiply(measure, known(i), step*power)
       return
     end do
-    problem = "unknown unit '"//factor//"'"//suggestion(name, names_of_dimension(known, wanted))//"; expected a unit of "// &
-      dimension_noun(wanted)
+    problem = "unknown unit '"//factor//"'"//suggestion(name, names_of_dimension(known, wanted))// &
+      "; expected a unit of "//dimension_noun(wanted)
   end subroutine multiply_by_power
 
   !> Names of the units of a dimension; of all units if none has it.
@@ -195,7 +205,8 @@ contains
 
   !> The unit in which a deck means a bare number of the given dimension.
   !!
-  !! Angles are degrees and speeds rad/s whatever the UNITS card says; everything else follows from it.
+  !! Angles are degrees and speeds rad/s whatever the UNITS card says; everything else follows from
+  !! it.
   pure function coherent_unit(system, dimension) result(measure)
     type(unit_system_t), intent(in) :: system
     integer, intent(in) :: dimension(4)
@@ -214,7 +225,8 @@ contains
     if (dimension(4) /= 0) then
       if (all(dimension == dimension_angle)) measure = unit("deg", dimension, pi, 180.0_wp)
       if (all(dimension == dimension_rate)) measure = unit("rad/s", dimension, 1.0_wp, 1.0_wp)
-      if (all(dimension == dimension_angular_acceleration)) measure = unit("rad/s2", dimension, 1.0_wp, 1.0_wp)
+      if (all(dimension == dimension_angular_acceleration)) measure = unit("rad/s2", dimension, &
+        1.0_wp, 1.0_wp)
       return
     end if
     measure = unit("", dimension, 1.0_wp, 1.0_wp)
@@ -249,7 +261,8 @@ contains
 
     known = named_units()
     do i = 1, size(known)
-      if (all(measure%dimension == dimension_moment) .and. all(known(i)%dimension == dimension_force)) then
+      if (all(measure%dimension == dimension_moment) .and. &
+        all(known(i)%dimension == dimension_force)) then
         if (same_factor(measure, product_of(known(i), system%length))) then
           name = known(i)%name//"."//system%length%name
           return
@@ -272,14 +285,16 @@ contains
     type(unit_t), intent(in) :: a, b
     logical :: same
 
-    same = abs(a%numerator*b%denominator - b%numerator*a%denominator) <= 1.0e-12_wp*abs(b%numerator*a%denominator)
+    same = abs(a%numerator*b%denominator - b%numerator*a%denominator) <= &
+      1.0e-12_wp*abs(b%numerator*a%denominator)
   end function same_factor
 
   pure function product_of(a, b) result(c)
     type(unit_t), intent(in) :: a, b
     type(unit_t) :: c
 
-    c = unit(a%name//"."//b%name, a%dimension + b%dimension, a%numerator*b%numerator, a%denominator*b%denominator)
+    c = unit(a%name//"."//b%name, a%dimension + b%dimension, a%numerator*b%numerator, &
+      a%denominator*b%denominator)
   end function product_of
 
   !> `tonne.mm2`: the factors of positive power, mass first.
@@ -345,14 +360,16 @@ contains
     end if
   end function dimension_name
 
-  !> Whether a unit measures what is wanted. Damping may be written with its angle, `N*m*s/rad`, or without, `N*m*s`.
+  !> Whether a unit measures what is wanted. Damping may be written with its angle, `N*m*s/rad`, or
+  !! without, `N*m*s`.
   pure function serves_for(measure, wanted) result(serves)
     type(unit_t), intent(in) :: measure
     integer, intent(in) :: wanted(4) !! dimension
     logical :: serves
 
     serves = all(measure%dimension == wanted)
-    if (all(wanted == dimension_damping)) serves = serves .or. all(measure%dimension == wanted - dimension_angle)
+    if (all(wanted == dimension_damping)) serves = serves .or. &
+      all(measure%dimension == wanted - dimension_angle)
   end function serves_for
 
   !> Why a unit does not serve where another dimension is wanted.
@@ -364,10 +381,11 @@ contains
     if (len(dimension_noun(measure%dimension)) == 0) then
       problem = "'"//measure%name//"' is not a unit of "//dimension_noun(wanted)
     else if (all(wanted == dimension_none)) then
-      problem = "'"//measure%name//"' is a unit of "//dimension_noun(measure%dimension)//"; expected a number without unit"
+      problem = "'"//measure%name//"' is a unit of "//dimension_noun(measure%dimension)// &
+        "; expected a number without unit"
     else
-      problem = "'"//measure%name//"' is a unit of "//dimension_noun(measure%dimension)//"; expected a unit of "// &
-        dimension_noun(wanted)
+      problem = "'"//measure%name//"' is a unit of "//dimension_noun(measure%dimension)// &
+        "; expected a unit of "//dimension_noun(wanted)
     end if
   end function wrong_unit
 

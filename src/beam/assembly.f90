@@ -2,9 +2,9 @@
 module assembly
   use band_matrix, only: add_to_band, band_matrix_t, new_band_matrix
   use beam_element, only: element_geometric_stiffness, element_mass, element_stiffness
-  use element_places, only: element_part_stiffness, element_point_mass
   use beam_mesh, only: beam_mesh_t, beam_t, element_length
   use element_axes, only: turned_to_global
+  use element_places, only: element_part_stiffness, element_point_mass
   use kinds, only: wp
   use link_lumps, only: element_of_lump, lump_masses, lump_places
   use linkages, only: linkage_t
@@ -29,8 +29,9 @@ contains
 
     stiffness = new_band_matrix(mesh%unknowns, mesh%half_bandwidth)
     do body = 1, size(linkage%bodies)
-      element = turned_to_global(element_stiffness(mesh%reference(body), beams(body)%axial_stiffness, &
-        beams(body)%bending_stiffness, element_length(mesh, linkage, body), beams(body)%shear_stiffness), pose%direction(:, body))
+      element = turned_to_global(element_stiffness(mesh%reference(body), &
+        beams(body)%axial_stiffness, beams(body)%bending_stiffness, element_length(mesh, linkage, &
+        body), beams(body)%shear_stiffness), pose%direction(:, body))
       do i = mesh%first_element(body), mesh%first_element(body) + mesh%elements(body) - 1
         call add_to_band(stiffness, element, mesh%unknown(:size(element, 1), i))
       end do
@@ -49,8 +50,9 @@ contains
 
     mass = new_band_matrix(mesh%unknowns, mesh%half_bandwidth)
     do body = 1, size(linkage%bodies)
-      element = turned_to_global(element_mass(mesh%reference(body), linkage%bodies(body)%line_density, &
-        element_length(mesh, linkage, body), linkage%bodies(body)%rotary_inertia), pose%direction(:, body))
+      element = turned_to_global(element_mass(mesh%reference(body), &
+        linkage%bodies(body)%line_density, element_length(mesh, linkage, body), &
+        linkage%bodies(body)%rotary_inertia), pose%direction(:, body))
       do i = mesh%first_element(body), mesh%first_element(body) + mesh%elements(body) - 1
         call add_to_band(mass, element, mesh%unknown(:size(element, 1), i))
       end do
@@ -79,9 +81,10 @@ contains
     xi = lump_places(linkage%bodies(body))
     do i = 1, size(lump)
       call element_of_lump(xi(i), mesh%elements(body), number, place)
-      element = turned_to_global(lump(i)*element_point_mass(mesh%reference(body), element_length(mesh, linkage, body), place), &
-        pose%direction(:, body))
-      call add_to_band(mass, element, mesh%unknown(:size(element, 1), mesh%first_element(body) + number - 1))
+      element = turned_to_global(lump(i)*element_point_mass(mesh%reference(body), &
+        element_length(mesh, linkage, body), place), pose%direction(:, body))
+      call add_to_band(mass, element, mesh%unknown(:size(element, 1), &
+        mesh%first_element(body) + number - 1))
     end do
   end subroutine add_lump_masses
 
@@ -99,8 +102,8 @@ contains
     stiffness = new_band_matrix(mesh%unknowns, mesh%half_bandwidth)
     do body = 1, size(linkage%bodies)
       do i = mesh%first_element(body), mesh%first_element(body) + mesh%elements(body) - 1
-        element = turned_to_global(element_geometric_stiffness(mesh%reference(body), axial_force(:, i), &
-          element_length(mesh, linkage, body)), pose%direction(:, body))
+        element = turned_to_global(element_geometric_stiffness(mesh%reference(body), &
+          axial_force(:, i), element_length(mesh, linkage, body)), pose%direction(:, body))
         call add_to_band(stiffness, element, mesh%unknown(:size(element, 1), i))
       end do
     end do
@@ -123,9 +126,11 @@ contains
     do i = 1, size(jump)
       call element_of_lump(xi(i), mesh%elements(body), number, place)
       do k = 1, number
-        element = turned_to_global(jump(i)*element_part_stiffness(mesh%reference(body), element_length(mesh, linkage, body), &
-          merge(place, 1.0_wp, k == number)), pose%direction(:, body))
-        call add_to_band(stiffness, element, mesh%unknown(:size(element, 1), mesh%first_element(body) + k - 1))
+        element = turned_to_global(jump(i)*element_part_stiffness(mesh%reference(body), &
+          element_length(mesh, linkage, body), merge(place, 1.0_wp, k == number)), &
+          pose%direction(:, body))
+        call add_to_band(stiffness, element, mesh%unknown(:size(element, 1), &
+          mesh%first_element(body) + k - 1))
       end do
     end do
   end subroutine add_axial_jumps

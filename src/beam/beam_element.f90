@@ -1,17 +1,22 @@
-!> One beam element of any order p ≥ 3: degree p across the link, degree q along it. Order 3 is the element of the thesis.
+!> One beam element of any order p ≥ 3: degree p across the link, degree q along it. Order 3 is the
+!! element of the thesis.
 !!
-!! Unknowns {u1 v1 θ1 | bubbles across 1 … p−3 | bubbles along 1 … q−1 | u2 v2 θ2}: along and across the element and the rotation,
-!! at either node, as in (2.72), and between them what is zero at both. With ξ from 0 to 1 the bubbles are made of Legendre polynomials
-!! on that interval: those across have `d²v/dξ² = P_j` for j = 2 … p−2 and neither value nor slope at the ends, those along have
-!! `du/dξ = P_j` for j = 1 … q−1. So no stiffness couples a bubble with another unknown. Bubbles are lengths [m].
+!! Unknowns {u1 v1 θ1 | bubbles across 1 … p−3 | bubbles along 1 … q−1 | u2 v2 θ2}: along and across
+!! the element and the rotation, at either node, as in (2.72), and between them what is zero at
+!! both. With ξ from 0 to 1 the bubbles are made of Legendre polynomials on that interval: those
+!! across have `d²v/dξ² = P_j` for j = 2 … p−2 and neither value nor slope at the ends, those along
+!! have `du/dξ = P_j` for j = 1 … q−1. So no stiffness couples a bubble with another unknown.
+!! Bubbles are lengths [m].
 !!
-!! With shear, θ is the rotation of cross-sections, the unknowns above bend without shear strain (θ = v'), and p − 1 others follow the
-!! bubbles along: shear strains `γ = v' − θ = P_j/length`, j = 0 … p−2. For j ≥ 1 they turn nothing and v vanishes at the nodes; the
-!! uniform one comes with the curvature `6 P_1/length²` that brings v and θ back to zero there. As the shear stiffness grows these
-!! unknowns stiffen like axial ones, and the slender element remains: nothing locks.
+!! With shear, θ is the rotation of cross-sections, the unknowns above bend without shear strain (θ
+!! = v'), and p − 1 others follow the bubbles along: shear strains `γ = v' − θ = P_j/length`, j = 0
+!! … p−2. For j ≥ 1 they turn nothing and v vanishes at the nodes; the uniform one comes with the
+!! curvature `6 P_1/length²` that brings v and θ back to zero there. As the shear stiffness grows
+!! these unknowns stiffen like axial ones, and the slender element remains: nothing locks.
 !!
-!! Matrices are made of the Legendre coefficients of the shapes: integrals are then sums over orthogonal polynomials, exact but for
-!! rounding whatever the order. Values come from the recurrence. Powers of ξ would lose all digits at high orders.
+!! Matrices are made of the Legendre coefficients of the shapes: integrals are then sums over
+!! orthogonal polynomials, exact but for rounding whatever the order. Values come from the
+!! recurrence. Powers of ξ would lose all digits at high orders.
 module beam_element
   use kinds, only: wp
   use legendre, only: legendre_values
@@ -21,7 +26,8 @@ module beam_element
   public :: reference_element_t, new_reference_element, axial_degree, element_unknowns
   public :: element_mass, element_stiffness, element_geometric_stiffness, interpolate, with_lengths
 
-  !> Everything about an element that depends on its order only: length 1, rotations multiplied by the length.
+  !> Everything about an element that depends on its order only: length 1, rotations multiplied by
+  !! the length.
   type :: reference_element_t
     integer :: order = 0                          !! p
     logical :: sheared = .false.
@@ -29,17 +35,19 @@ module beam_element
     real(wp), allocatable :: axial(:, :)          !! (unknowns, unknowns) ∫ (du/dξ)² dξ
     real(wp), allocatable :: bending(:, :)        !! (unknowns, unknowns) ∫ (d²v/dξ²)² dξ
     real(wp), allocatable :: rotary(:, :)         !! (unknowns, unknowns) ∫ θ² dξ
-    real(wp), allocatable :: shear(:, :)          !! (unknowns, unknowns) ∫ γ² dξ; not allocated without shear
+    real(wp), allocatable :: shear(:, :)          !! (unknowns, unknowns) ∫ γ² dξ; not allocated
+                                                  !! without shear
     real(wp), allocatable :: geometric(:, :, :)   !! (unknowns, unknowns, 0:2) ∫ ξⁱ (dv/dξ)² dξ
-    real(wp), allocatable :: shape(:, :, :)       !! (0:p, unknowns, 3) Legendre coefficients of u, v and dv/dξ
+    real(wp), allocatable :: shape(:, :, :)       !! (0:p, unknowns, 3) Legendre coefficients of u,
+                                                  !! v and dv/dξ
   end type reference_element_t
 
 contains
 
   !> Degree q of the displacement along an element that is of degree p across it.
   !!
-  !! Order 3 is the thesis's element, linear along it. Beyond, about a third of p is as good as the full degree: at the frequencies
-  !! of bending a link is short compared with its axial waves.
+  !! Order 3 is the thesis's element, linear along it. Beyond, about a third of p is as good as the
+  !! full degree: at the frequencies of bending a link is short compared with its axial waves.
   elemental function axial_degree(order) result(degree)
     integer, intent(in) :: order !! p
     integer :: degree
@@ -58,20 +66,24 @@ contains
     if (sheared) unknowns = unknowns + order - 1
   end function element_unknowns
 
-  !> Makes the matrices of an order. Shapes are integrated from their strains, with 1 added where u, v or θ begins with 1.
+  !> Makes the matrices of an order. Shapes are integrated from their strains, with 1 added where u,
+  !! v or θ begins with 1.
   pure function new_reference_element(order, sheared) result(element)
     integer, intent(in) :: order !! p, at least 3
     logical, intent(in), optional :: sheared !! absent: no
     type(reference_element_t) :: element
 
-    real(wp), dimension(:, :), allocatable :: strain, curvature, shear, along, across, turn, slope, slope_xi !! (0:p, unknowns)
+    !> (0:p, unknowns)
+    real(wp), dimension(:, :), allocatable :: strain, curvature, shear, along, across, turn, &
+      slope, slope_xi
     integer :: n
 
     element%order = order
     if (present(sheared)) element%sheared = sheared
     n = element_unknowns(order, element%sheared)
     ! On assignment alone they would begin with 1.
-    allocate (strain(0:order, n), curvature(0:order, n), along(0:order, n), across(0:order, n), turn(0:order, n), slope(0:order, n))
+    allocate (strain(0:order, n), curvature(0:order, n), along(0:order, n), across(0:order, n), &
+      turn(0:order, n), slope(0:order, n))
     strain = strain_coefficients(order, n)
     along = integrated(strain)
     along(0, 1) = along(0, 1) + 1.0_wp
@@ -117,7 +129,8 @@ contains
     end do
   end function strain_coefficients
 
-  !> Legendre coefficients of dθ/dξ for each unknown; the nodal ones are those of (2.71): 6(2ξ − 1), −1 + 3(2ξ − 1), …
+  !> Legendre coefficients of dθ/dξ for each unknown; the nodal ones are those of (2.71): 6(2ξ − 1),
+  !! −1 + 3(2ξ − 1), …
   pure function curvature_coefficients(order, unknowns) result(curvature)
     integer, intent(in) :: order, unknowns
     real(wp) :: curvature(0:order, unknowns)
@@ -155,7 +168,8 @@ contains
     first = element_unknowns(order) - 2
   end function first_shear
 
-  !> Coefficients of `∫ f dξ` from 0: `∫ P_j = (P_{j+1} − P_{j−1})/(2(2j + 1))` and `∫ P_0 = (P_0 + P_1)/2`.
+  !> Coefficients of `∫ f dξ` from 0: `∫ P_j = (P_{j+1} − P_{j−1})/(2(2j + 1))` and `∫ P_0 = (P_0 +
+  !! P_1)/2`.
   pure function integrated(coefficients) result(integral)
     real(wp), intent(in) :: coefficients(0:, :) !! (0:p, functions), zero for P_p
     real(wp) :: integral(0:ubound(coefficients, 1), size(coefficients, 2))
@@ -212,7 +226,8 @@ contains
 
     mass = line_density*length*with_lengths(reference%mass, length)
     if (.not. present(rotary_inertia)) return
-    if (rotary_inertia > 0.0_wp) mass = mass + rotary_inertia/length*with_lengths(reference%rotary, length)
+    if (rotary_inertia > 0.0_wp) mass = mass + &
+      rotary_inertia/length*with_lengths(reference%rotary, length)
   end function element_mass
 
   !> Stiffness matrix; Ulker 2010 (2.79) with entry (3, 6) = +2EI/L for order 3.
@@ -229,17 +244,20 @@ contains
     stiffness = with_lengths(stiffness, length)
   end function element_stiffness
 
-  !> Geometric stiffness `∫ N v'² dx` of an axial force `N(ξ) = n0 + n1 ξ + n2 ξ²`, ξ from 0 to 1 along the element.
+  !> Geometric stiffness `∫ N v'² dx` of an axial force `N(ξ) = n0 + n1 ξ + n2 ξ²`, ξ from 0 to 1
+  !! along the element.
   !!
   !! For order 3 and n1 = n2 = 0 this is (2.84) of Ulker (2010).
   pure function element_geometric_stiffness(reference, force, length) result(stiffness)
     type(reference_element_t), intent(in) :: reference
     real(wp), intent(in) :: force(0:2) !! n0, n1, n2, tension positive [N]
     real(wp), intent(in) :: length     !! [m]
-    real(wp) :: stiffness(size(reference%geometric, 1), size(reference%geometric, 2)) !! [N/m, N, N m]
+    !> [N/m, N, N m]
+    real(wp) :: stiffness(size(reference%geometric, 1), size(reference%geometric, 2))
 
-    stiffness = with_lengths((force(0)*reference%geometric(:, :, 0) + force(1)*reference%geometric(:, :, 1) + &
-      force(2)*reference%geometric(:, :, 2))/length, length)
+    stiffness = with_lengths((force(0)*reference%geometric(:, :, &
+      0) + force(1)*reference%geometric(:, :, 1) + force(2)*reference%geometric(:, :, 2))/length, &
+      length)
   end function element_geometric_stiffness
 
   !> Gives rotations, which the reference element has as L θ, their length.
@@ -256,10 +274,11 @@ contains
     scaled(:, [3, n]) = scaled(:, [3, n])*length
   end function with_lengths
 
-  !> Displacement inside the element: along it, across it, and the rotation of its cross-section. Equation (2.71), bubbles, and
-  !! with shear what its strains do.
+  !> Displacement inside the element: along it, across it, and the rotation of its cross-section.
+  !! Equation (2.71), bubbles, and with shear what its strains do.
   !!
-  !! Bubbles are differences of polynomials that are equal at the ends to the last bit, so that the nodes are met exactly.
+  !! Bubbles are differences of polynomials that are equal at the ends to the last bit, so that the
+  !! nodes are met exactly.
   pure function interpolate(order, local, length, xi) result(displacement)
     integer, intent(in) :: order
     real(wp), intent(in) :: local(:) !! (unknowns) in the element's own axes
@@ -274,14 +293,17 @@ contains
     first = first_shear(order)
     shape = [(1.0_wp - xi)**2*(1.0_wp + 2.0_wp*xi), length*xi*(1.0_wp - xi)**2, &
       xi**2*(3.0_wp - 2.0_wp*xi), length*xi**2*(xi - 1.0_wp)]
-    slope = [-6.0_wp*xi*(1.0_wp - xi)/length, (1.0_wp - xi)*(1.0_wp - 3.0_wp*xi), 6.0_wp*xi*(1.0_wp - xi)/length, &
-      xi*(3.0_wp*xi - 2.0_wp)]
+    slope = [-6.0_wp*xi*(1.0_wp - xi)/length, (1.0_wp - xi)*(1.0_wp - 3.0_wp*xi), &
+      6.0_wp*xi*(1.0_wp - xi)/length, xi*(3.0_wp*xi - 2.0_wp)]
     p = legendre_values(order, 2.0_wp*xi - 1.0_wp)
     once = [((p(j + 1) - p(j - 1))/(2*(2*j + 1)), j=1, order - 1)]
     twice = [((once(j + 1) - once(j - 1))/(2*(2*j + 1)), j=2, order - 2)]
-    displacement(1) = (1.0_wp - xi)*local(1) + xi*local(n - 2) + dot_product(once(:first - 1 - order), local(order + 1:first - 1))
-    displacement(2) = dot_product(shape, local([2, 3, n - 1, n])) + dot_product(twice, local(4:order))
-    displacement(3) = dot_product(slope, local([2, 3, n - 1, n])) + dot_product(once(2:order - 2), local(4:order))/length
+    displacement(1) = (1.0_wp - xi)*local(1) + xi*local(n - 2) + &
+      dot_product(once(:first - 1 - order), local(order + 1:first - 1))
+    displacement(2) = dot_product(shape, local([2, 3, n - 1, n])) + dot_product(twice, &
+      local(4:order))
+    displacement(3) = dot_product(slope, local([2, 3, n - 1, n])) + dot_product(once(2:order - 2), &
+      local(4:order))/length
     if (n == element_unknowns(order)) return
     displacement(2) = displacement(2) + xi*(1.0_wp - xi)*(1.0_wp - 2.0_wp*xi)*local(first) + &
       dot_product(once(:order - 2), local(first + 1:n - 3))

@@ -1,10 +1,11 @@
 !> Nodes, elements and unknowns of a linkage of beams.
 !!
-!! Nodes are numbered round the loop as in the thesis: every body has its own nodes, so that a pin between two bodies is two
-!! nodes in one place. Unknowns are numbered along the same way; at a pin the rotation of the body that ends comes before the
-!! displacements that both share, and these before the rotation of the body that begins. Bubbles and shear strains come
-!! between the nodes of their element. So the half bandwidth of a chain of bodies is one less than the unknowns of its largest
-!! element, 5 for order 3, whatever the number of elements.
+!! Nodes are numbered round the loop as in the thesis: every body has its own nodes, so that a pin
+!! between two bodies is two nodes in one place. Unknowns are numbered along the same way; at a pin
+!! the rotation of the body that ends comes before the displacements that both share, and these
+!! before the rotation of the body that begins. Bubbles and shear strains come between the nodes of
+!! their element. So the half bandwidth of a chain of bodies is one less than the unknowns of its
+!! largest element, 5 for order 3, whatever the number of elements.
 module beam_mesh
   use beam_element, only: element_unknowns, new_reference_element, reference_element_t
   use kinds, only: wp
@@ -26,19 +27,23 @@ module beam_mesh
     integer, allocatable :: order(:)          !! (bodies) of its elements
     logical :: sheared = .false.              !! elements have shear strains
     integer, allocatable :: first_element(:)  !! (bodies) number of its first element
-    integer, allocatable :: first_node(:)     !! (bodies) number of its first node; its element i joins nodes i and i + 1 from here
-    !> (largest element, elements) of u1 v1 θ1, bubbles, shear strains, u2 v2 θ2 as in the element, nodal displacements in global
-    !! axes; 0: held. An element has as many as its order asks for, and zeros beyond.
+    integer, allocatable :: first_node(:)     !! (bodies) number of its first node; its element i
+                                              !! joins nodes i and i + 1 from here
+    !> (largest element, elements) of u1 v1 θ1, bubbles, shear strains, u2 v2 θ2 as in the element,
+    !! nodal displacements in global axes; 0: held. An element has as many as its order asks for,
+    !! and zeros beyond.
     integer, allocatable :: unknown(:, :)
     integer, allocatable :: pin_unknown(:, :) !! (2, pins) of the displacements of pins; 0: held
-    type(reference_element_t), allocatable :: reference(:) !! (bodies) what its elements have in common
+    type(reference_element_t), allocatable :: reference(:) !! (bodies) what its elements have in
+                                                           !! common
     integer :: unknowns = 0
     integer :: half_bandwidth = 0
   end type beam_mesh_t
 
 contains
 
-  !> Numbers nodes and unknowns. The driven body is clamped at its first pin, the other grounds hold their pin (thesis, 3.2.2).
+  !> Numbers nodes and unknowns. The driven body is clamped at its first pin, the other grounds hold
+  !! their pin (thesis, 3.2.2).
   pure function new_beam_mesh(linkage, elements, orders, sheared) result(mesh)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: elements(:) !! (bodies)
@@ -67,19 +72,22 @@ contains
     mesh%half_bandwidth = 0
     do i = 1, size(mesh%unknown, 2)
       associate (column => mesh%unknown(:, i))
-        mesh%half_bandwidth = max(mesh%half_bandwidth, maxval(column) - minval(column, mask=column > 0))
+        mesh%half_bandwidth = max(mesh%half_bandwidth, maxval(column) - minval(column, &
+          mask=column > 0))
       end associate
     end do
   end function new_beam_mesh
 
-  !> Numbers the unknowns of a body: bubbles between the nodes of their element, so that every element has a run of its own.
+  !> Numbers the unknowns of a body: bubbles between the nodes of their element, so that every
+  !! element has a run of its own.
   pure subroutine number_body(mesh, linkage, body, placed)
     type(beam_mesh_t), intent(inout) :: mesh
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: body
     logical, intent(inout) :: placed(:) !! (pins)
 
-    integer :: i, n, node(3), last_node(3), bubble(element_unknowns(mesh%order(body), mesh%sheared) - 6)
+    integer :: i, n, node(3), last_node(3), &
+      bubble(element_unknowns(mesh%order(body), mesh%sheared) - 6)
 
     n = size(bubble) + 6
     associate (first => linkage%bodies(body)%first_pin, last => linkage%bodies(body)%last_pin)
@@ -132,17 +140,20 @@ contains
 
   !> How many modes of a finite frequency a mesh has.
   !!
-  !! A link that does not bend has none: every other one brings the unknowns of its elements but those of one node each. With shear
-  !! and without rotary inertia cross-sections that turn, the axis at rest, move no mass: θ = −γ, continuous along a link and of degree
-  !! p − 2 in its elements, zero at the clamp.
+  !! A link that does not bend has none: every other one brings the unknowns of its elements but
+  !! those of one node each. With shear and without rotary inertia cross-sections that turn, the
+  !! axis at rest, move no mass: θ = −γ, continuous along a link and of degree p − 2 in its
+  !! elements, zero at the clamp.
   pure function moving_unknowns(mesh, linkage) result(number)
     type(beam_mesh_t), intent(in) :: mesh
     type(linkage_t), intent(in) :: linkage
     integer :: number
 
-    number = sum(mesh%elements*(element_unknowns(mesh%order, mesh%sheared) - 3), mask=linkage%bodies%bends)
+    number = sum(mesh%elements*(element_unknowns(mesh%order, mesh%sheared) - 3), &
+      mask=linkage%bodies%bends)
     if (.not. mesh%sheared .or. any(linkage%bodies%rotary_inertia > 0.0_wp)) return
-    number = number - sum(mesh%elements*(mesh%order - 2) + 1, mask=linkage%bodies%bends) + merge(1, 0, linkage%bodies(1)%bends)
+    number = number - sum(mesh%elements*(mesh%order - 2) + 1, mask=linkage%bodies%bends) + &
+      merge(1, 0, linkage%bodies(1)%bends)
   end function moving_unknowns
 
   !> Length of the elements of a body [m].

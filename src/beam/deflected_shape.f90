@@ -13,7 +13,8 @@ module deflected_shape
 
 contains
 
-  !> Displacement of the point of a body at distance `s` from its first pin: x, y and rotation, in global axes.
+  !> Displacement of the point of a body at distance `s` from its first pin: x, y and rotation, in
+  !! global axes.
   pure function shape_point(linkage, mesh, pose, vector, body, s) result(displacement)
     type(linkage_t), intent(in) :: linkage
     type(beam_mesh_t), intent(in) :: mesh
@@ -30,7 +31,8 @@ contains
     position = s/length
     i = max(1, min(mesh%elements(body), 1 + int(position)))
     associate (e => pose%direction(:, body))
-      local = interpolate(mesh%order(body), to_local(element_vector(mesh, vector, body, i), e), length, position - (i - 1))
+      local = interpolate(mesh%order(body), to_local(element_vector(mesh, vector, body, i), e), &
+        length, position - (i - 1))
       displacement = [local(1)*e + local(2)*normal_to(e), local(3)]
     end associate
   end function shape_point

@@ -8,7 +8,8 @@ module element_axes
 
 contains
 
-  !> An element matrix in the global axes: `Tᵀ A T`, T made of the transpose of (2.75) at either node. Bubbles do not turn.
+  !> An element matrix in the global axes: `Tᵀ A T`, T made of the transpose of (2.75) at either
+  !! node. Bubbles do not turn.
   pure function turned_to_global(matrix, direction) result(turned)
     real(wp), intent(in) :: matrix(:, :)
     real(wp), intent(in) :: direction(2) !! unit vector along the element
@@ -39,7 +40,8 @@ contains
     first = first_of_nodes(size(displacement))
     local = displacement
     do k = 1, 2
-      local(first(k):first(k) + 1) = matmul(rotation(direction), displacement(first(k):first(k) + 1))
+      local(first(k):first(k) + 1) = matmul(rotation(direction), &
+        displacement(first(k):first(k) + 1))
     end do
   end function to_local
 

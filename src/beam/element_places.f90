@@ -10,7 +10,8 @@ module element_places
 
 contains
 
-  !> `NᵀN` of the displacements along and across the element at a place: its mass matrix for a unit mass there.
+  !> `NᵀN` of the displacements along and across the element at a place: its mass matrix for a unit
+  !! mass there.
   pure function element_point_mass(reference, length, xi) result(mass)
     type(reference_element_t), intent(in) :: reference
     real(wp), intent(in) :: length !! [m]
@@ -20,7 +21,8 @@ contains
     real(wp) :: p(0:reference%order)
 
     p = legendre_values(reference%order, 2.0_wp*xi - 1.0_wp)
-    mass = with_lengths(square(matmul(p, reference%shape(:, :, 1))) + square(matmul(p, reference%shape(:, :, 2))), length)
+    mass = with_lengths(square(matmul(p, reference%shape(:, :, 1))) + &
+      square(matmul(p, reference%shape(:, :, 2))), length)
   end function element_point_mass
 
   !> Geometric stiffness `∫ v'² dx` of a unit force from the first node up to a place.
@@ -36,8 +38,8 @@ contains
     call gauss_rule(x, w)
     stiffness = 0.0_wp
     do i = 1, size(x)
-      stiffness = stiffness + 0.5_wp*xi*w(i)* &
-        square(matmul(legendre_values(reference%order, xi*(1.0_wp + x(i)) - 1.0_wp), reference%shape(:, :, 3)))
+      stiffness = stiffness + 0.5_wp*xi*w(i)*square(matmul(legendre_values(reference%order, &
+        xi*(1.0_wp + x(i)) - 1.0_wp), reference%shape(:, :, 3)))
     end do
     stiffness = with_lengths(stiffness/length, length)
   end function element_part_stiffness

@@ -10,12 +10,15 @@ module round_off
 
 contains
 
-  !> `ε ‖K_e‖/‖M_e‖`, the largest over all bodies: the error of an eigenvalue λ from the rounding of K alone [1/s²].
+  !> `ε ‖K_e‖/‖M_e‖`, the largest over all bodies: the error of an eigenvalue λ from the rounding of
+  !! K alone [1/s²].
   !!
-  !! Element stiffnesses grow without bound as elements shrink, and in a smooth mode nearly all of them cancels. A solver in nodal
-  !! unknowns cannot undo it, and residuals and counts of the same matrices do not show it. The order of an element does not matter:
-  !! its nodal stiffness is that of order 3, and bubbles stand alone on the diagonal, so that nothing of theirs can cancel. So do
-  !! shear strains but the uniform one, whose share of the bending stiffness, 12EI/h³, is below that of a node.
+  !! Element stiffnesses grow without bound as elements shrink, and in a smooth mode nearly all of
+  !! them cancels. A solver in nodal unknowns cannot undo it, and residuals and counts of the same
+  !! matrices do not show it. The order of an element does not matter: its nodal stiffness is that
+  !! of order 3, and bubbles stand alone on the diagonal, so that nothing of theirs can cancel. So
+  !! do shear strains but the uniform one, whose share of the bending stiffness, 12EI/h³, is below
+  !! that of a node.
   pure function round_off_error(linkage, beams, mesh, body) result(error)
     type(linkage_t), intent(in) :: linkage
     type(beam_t), intent(in) :: beams(:) !! (bodies)
@@ -32,7 +35,8 @@ contains
         if (i /= body) cycle
       end if
       length = element_length(mesh, linkage, i)
-      stiffness = max(2.0_wp*beams(i)%axial_stiffness/length, 24.0_wp*beams(i)%bending_stiffness/length**3)
+      stiffness = max(2.0_wp*beams(i)%axial_stiffness/length, &
+        24.0_wp*beams(i)%bending_stiffness/length**3)
       error = max(error, epsilon(1.0_wp)*stiffness/(linkage%bodies(i)%line_density*length))
     end do
   end function round_off_error

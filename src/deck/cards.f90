@@ -12,7 +12,8 @@ module cards
   type :: entry_t
     type(token_t) :: key
     type(token_t) :: value
-    type(token_t), allocatable :: items(:) !! of a list with a `$name` in it, each with its own place; else not allocated
+    type(token_t), allocatable :: items(:) !! of a list with a `$name` in it, each with its own
+                                           !! place; else not allocated
   end type entry_t
 
   type :: card_t
@@ -23,12 +24,14 @@ module cards
 
 contains
 
-  !> Reads all cards of a deck, or of another file of its source; what is wrong with the form of a line is noted in `diagnostics`.
+  !> Reads all cards of a deck, or of another file of its source; what is wrong with the form of a
+  !! line is noted in `diagnostics`.
   pure subroutine read_cards(source, cards, diagnostics, file)
     type(source_t), intent(in) :: source
     type(card_t), allocatable, intent(out) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
-    integer, intent(in), optional :: file !! number in the source of a file that is included; absent: the deck itself
+    integer, intent(in), optional :: file !! number in the source of a file that is included;
+                                          !! absent: the deck itself
 
     type(card_t), allocatable :: found(:), larger(:)
     type(token_t), allocatable :: words(:)
@@ -51,12 +54,14 @@ contains
       if (size(words) == 0) cycle
       ! What follows is read all the same: its cards would otherwise be told as missing.
       if (ended .and. .not. told) then
-        call add_error(diagnostics, words(1), "nothing may follow END", end_card, "the deck ends here")
+        call add_error(diagnostics, words(1), "nothing may follow END", end_card, &
+          "the deck ends here")
         told = .true.
       end if
       if (same_word(words(1)%text, "END")) then
         if (present(file)) then
-          call add_error(diagnostics, words(1), "END stands in the deck, not in a file that it includes")
+          call add_error(diagnostics, words(1), &
+            "END stands in the deck, not in a file that it includes")
           cycle
         end if
         ended = .true.
@@ -174,7 +179,8 @@ contains
     words = [words, title]
   end subroutine read_title
 
-  !> An INCLUDE whose file name is in quotes: the name may hold blanks and all other characters. The quotes stay in its word.
+  !> An INCLUDE whose file name is in quotes: the name may hold blanks and all other characters. The
+  !! quotes stay in its word.
   pure subroutine read_quoted_include(text, line, words, found, diagnostics)
     character(len=*), intent(in) :: text
     integer, intent(in) :: line
@@ -202,7 +208,8 @@ contains
     i = index(text(finish + 1:), text(finish:finish))
     if (i == 0) then
       words(2)%set_line = -1
-      call add_error(diagnostics, token_t(text(finish:finish), line, words(2)%column), "this quote is not closed")
+      call add_error(diagnostics, token_t(text(finish:finish), line, words(2)%column), &
+        "this quote is not closed")
       return
     end if
     words(2)%text = text(finish:finish + i)
@@ -211,7 +218,8 @@ contains
     words = [words, more]
   end subroutine read_quoted_include
 
-  !> Tells words from entries: what stands before an equals sign is a key, what stands behind it its value.
+  !> Tells words from entries: what stands before an equals sign is a key, what stands behind it its
+  !! value.
   pure subroutine sort_words(words, card, diagnostics)
     type(token_t), intent(in) :: words(:)
     type(card_t), intent(out) :: card
@@ -228,7 +236,8 @@ contains
       i = 2
       do while (i <= size(words))
         is_key = .false.
-        if (i < size(words) .and. .not. is_title) is_key = words(i + 1)%text == "=" .and. words(i)%text /= "="
+        if (i < size(words) .and. .not. is_title) is_key = words(i + 1)%text == "=" .and. &
+          words(i)%text /= "="
         if (is_key) then
           keyed = keyed + 1
           if (pass == 2) call read_entry(words, i, card%entries(keyed), diagnostics)
@@ -246,7 +255,8 @@ contains
     end do
   end subroutine sort_words
 
-  !> Whether a value follows the key at `words(i)` and its equals sign. A word with an equals sign behind it is the next key.
+  !> Whether a value follows the key at `words(i)` and its equals sign. A word with an equals sign
+  !! behind it is the next key.
   pure function has_value(words, i) result(has)
     type(token_t), intent(in) :: words(:)
     integer, intent(in) :: i

@@ -1,7 +1,8 @@
 !> The text of a deck and of the files it includes, line by line, as the user wrote it.
 !!
-!! Lines are numbered through all files: those of the deck first, then those of each file in the order of its reading. So a
-!! line number is a place whatever the file, and only what is written for people looks up which file it is in.
+!! Lines are numbered through all files: those of the deck first, then those of each file in the
+!! order of its reading. So a line number is a place whatever the file, and only what is written for
+!! people looks up which file it is in.
 module deck_source
   use, intrinsic :: iso_fortran_env, only: input_unit, iostat_end, iostat_eor
   use errors, only: error_t, set_error
@@ -11,12 +12,15 @@ module deck_source
   implicit none (type, external)
   private
 
-  public :: source_t, source_file_t, standard_input, read_source, read_file, source_from_text, append_source, line_count
-  public :: source_line, file_of_line, first_line, last_line, line_place, line_origin, path_from_deck
+  public :: source_t, source_file_t, standard_input, read_source, read_file, source_from_text, &
+    append_source, line_count
+  public :: source_line, file_of_line, first_line, last_line, line_place, line_origin, &
+    path_from_deck
 
   !> One of the files that a source is made of.
   type :: source_file_t
-    character(len=:), allocatable :: path !! as the user gave it, or where it is seen from the working folder
+    character(len=:), allocatable :: path !! as the user gave it, or where it is seen from the
+                                          !! working folder
     integer :: first_line = 1             !! number of its first line in the source
     integer :: include_line = 0           !! line of the INCLUDE card that names it; 0 for none
   end type source_file_t
@@ -24,7 +28,8 @@ module deck_source
   type :: source_t
     character(len=:), allocatable :: path !! of the deck, as the user gave it
     character(len=:), allocatable :: text !! every line ends in a line feed
-    integer, allocatable :: line_start(:) !! byte at which each line begins, and one past the end of the text
+    integer, allocatable :: line_start(:) !! byte at which each line begins, and one past the end of
+                                          !! the text
     type(source_file_t), allocatable :: files(:)
   end type source_t
 
@@ -38,7 +43,8 @@ contains
 
   !> Reads a whole deck; the path `-` is standard input.
   !!
-  !! Errors (their message begins with the path): no such file, a folder, a file that cannot be read or is not text.
+  !! Errors (their message begins with the path): no such file, a folder, a file that cannot be read
+  !! or is not text.
   subroutine read_source(path, source, error)
     character(len=*), intent(in) :: path
     type(source_t), intent(out) :: source
@@ -76,7 +82,8 @@ contains
     character(len=*), intent(in) :: path
     type(source_t), intent(out) :: source
     character(len=:), allocatable, intent(out) :: problem
-    character(len=:), allocatable, intent(out) :: place !! `:line:column` of the problem, empty if it has none
+    character(len=:), allocatable, intent(out) :: place !! `:line:column` of the problem, empty if
+                                                        !! it has none
 
     type(text_buffer_t) :: buffer
     integer :: unit, status
@@ -93,8 +100,8 @@ contains
       problem = "no such file"
       return
     end if
-    open (newunit=unit, file=path, status="old", action="read", access="sequential", form="formatted", &
-      iostat=status, iomsg=message)
+    open (newunit=unit, file=path, status="old", action="read", access="sequential", &
+      form="formatted", iostat=status, iomsg=message)
     if (status == 0) then
       call read_lines(unit, buffer, status, message)
       close (unit)
@@ -123,7 +130,8 @@ contains
       length = 0
       read (unit, "(a)", advance="no", size=length, iostat=status, iomsg=message) piece
       if (length > 0) call append_text(buffer, piece(:length))
-      ! An endless device must not fill the memory: a NUL byte is no text, and nobody writes a deck of half a gigabyte.
+      ! An endless device must not fill the memory: a NUL byte is no text, and nobody writes a deck
+      ! of half a gigabyte.
       if (index(piece(:length), achar(0)) > 0) then
         call append_text(buffer, line_feed)
         status = 0
@@ -147,7 +155,8 @@ contains
     end do
   end subroutine read_lines
 
-  !> A source from text already at hand: cuts it into lines, drops a byte order mark and carriage returns.
+  !> A source from text already at hand: cuts it into lines, drops a byte order mark and carriage
+  !! returns.
   pure function source_from_text(path, text) result(source)
     character(len=*), intent(in) :: path, text
     type(source_t) :: source
@@ -270,7 +279,8 @@ contains
     end associate
   end function line_place
 
-  !> Where a line stands, as seen from the deck: `line 7`, or `parts/steel.deck:7` in a file that it includes.
+  !> Where a line stands, as seen from the deck: `line 7`, or `parts/steel.deck:7` in a file that it
+  !! includes.
   pure function line_origin(source, line) result(origin)
     type(source_t), intent(in) :: source
     integer, intent(in) :: line
@@ -312,7 +322,8 @@ contains
       if (source%text(i:i) == line_feed .or. source%text(i:i) == tab) cycle
       line = count(source%line_start <= i)
       write (code, "(z2.2)") iachar(source%text(i:i))
-      place = ":"//to_string(line)//":"//to_string(character_count(source%text(source%line_start(line):i)))
+      place = ":"//to_string(line)//":"// &
+        to_string(character_count(source%text(source%line_start(line):i)))
       problem = "byte 0x"//code//" is no part of a text; is this a deck?"
       return
     end do

@@ -9,7 +9,8 @@ module diagnostics
   implicit none (type, external)
   private
 
-  public :: diagnostics_t, add_error, add_warning, has_errors, error_count, render_errors, render_warnings, warning_texts
+  public :: diagnostics_t, add_error, add_warning, has_errors, error_count, render_errors, &
+    render_warnings, warning_texts
   public :: diagnostic_t, errors_of, warnings_of, untold_errors, untold_warnings
 
   !> One message. A place without a line stands for what the deck lacks.
@@ -97,7 +98,8 @@ contains
     count = diagnostics%errors%total
   end function error_count
 
-  !> All errors, in the order of the deck's lines, ready for standard error; empty if there are none.
+  !> All errors, in the order of the deck's lines, ready for standard error; empty if there are
+  !! none.
   pure function render_errors(diagnostics, source) result(text)
     type(diagnostics_t), intent(in) :: diagnostics
     type(source_t), intent(in) :: source
@@ -126,9 +128,11 @@ contains
     text = ""
     associate (warnings => diagnostics%warnings)
       do i = 1, warnings%kept
-        text = text//line_origin(source, warnings%list(i)%place%line)//": "//warnings%list(i)%message//achar(10)
+        text = text//line_origin(source, warnings%list(i)%place%line)//": "// &
+          warnings%list(i)%message//achar(10)
       end do
-      if (warnings%total > warnings%kept) text = text//plural(warnings%total - warnings%kept, "more warning")//achar(10)
+      if (warnings%total > warnings%kept) text = text//plural(warnings%total - warnings%kept, &
+        "more warning")//achar(10)
     end associate
   end function warning_texts
 
@@ -173,7 +177,8 @@ contains
     do i = 1, messages%kept
       ! What has no place stands for the deck's end, and comes last.
       place(i) = huge(place)
-      if (messages%list(i)%place%line > 0) place(i) = messages%list(i)%place%line*1.0e9_wp + messages%list(i)%place%column
+      if (messages%list(i)%place%line > 0) place(i) = messages%list(i)%place%line*1.0e9_wp + &
+        messages%list(i)%place%column
     end do
     order = ascending_order(place)
     allocate (list(messages%kept))
@@ -197,11 +202,13 @@ contains
       associate (item => list(i))
         call append_place(buffer, source, item%place, severity, item%message)
         call append_setting(buffer, source, item%place)
-        if (len(item%note) > 0) call append_place(buffer, source, item%second_place, "note", item%note)
+        if (len(item%note) > 0) call append_place(buffer, source, item%second_place, "note", &
+          item%note)
       end associate
     end do
     if (messages%total > messages%kept) then
-      call append_text(buffer, source%path//": "//plural(messages%total - messages%kept, "more "//severity)//achar(10))
+      call append_text(buffer, source%path//": "//plural(messages%total - messages%kept, &
+        "more "//severity)//achar(10))
     end if
     text = buffer_text(buffer)
   end function rendered
@@ -221,11 +228,13 @@ contains
     setting%line = place%set_line
     setting%column = place%set_column
     note = "'"//written_word(source, place)//"' is set here"
-    if (written_word(source, setting) /= place%text) note = "'"//written_word(source, place)//"' is "//place%text//", set here"
+    if (written_word(source, setting) /= place%text) note = "'"//written_word(source, place)// &
+      "' is "//place%text//", set here"
     call append_place(buffer, source, setting, "note", note)
   end subroutine append_setting
 
-  !> Appends `path:line:column: severity: message`, the line and the caret, and who includes the file.
+  !> Appends `path:line:column: severity: message`, the line and the caret, and who includes the
+  !! file.
   pure subroutine append_place(buffer, source, place, severity, message)
     type(text_buffer_t), intent(inout) :: buffer
     type(source_t), intent(in) :: source
@@ -237,8 +246,8 @@ contains
 
     if (place%line < 1) then
       ! Something is missing from the deck: there is no word to point at, only its end.
-      call append_text(buffer, source%path//":"//to_string(max(1, last_line(source, 1)))//":1: "//severity//": "// &
-        message//achar(10))
+      call append_text(buffer, source%path//":"//to_string(max(1, last_line(source, 1)))//":1: "// &
+        severity//": "//message//achar(10))
       return
     end if
     call append_text(buffer, line_place(source, place%line)//":"//to_string(place%column)//": "// &
@@ -250,9 +259,11 @@ contains
     line = characters(line, first, window)
     number = to_string(place%line - source%files(file)%first_line + 1)
     number = repeat(" ", max(0, 5 - len(number)))//number
-    marks = max(1, min(character_count(written_word(source, place)), window - (place%column - first)))
+    marks = max(1, min(character_count(written_word(source, place)), &
+      window - (place%column - first)))
     call append_text(buffer, number//" | "//line//achar(10))
-    call append_text(buffer, repeat(" ", len(number))//" | "//repeat(" ", place%column - first)//repeat("^", marks)//achar(10))
+    call append_text(buffer, repeat(" ", len(number))//" | "//repeat(" ", place%column - first)// &
+      repeat("^", marks)//achar(10))
     do while (source%files(file)%include_line > 0)
       call append_text(buffer, repeat(" ", len(number))//" included from "// &
         line_place(source, source%files(file)%include_line)//achar(10))

@@ -17,10 +17,11 @@ module includes
 
 contains
 
-  !> Reads the cards of a deck, with those of the files that it includes in the places of their INCLUDE cards.
+  !> Reads the cards of a deck, with those of the files that it includes in the places of their
+  !! INCLUDE cards.
   !!
-  !! The lines of the files are appended to `source`, so that every word has its place. What cannot be included is noted in
-  !! `diagnostics`; the cards that are there are read all the same.
+  !! The lines of the files are appended to `source`, so that every word has its place. What cannot
+  !! be included is noted in `diagnostics`; the cards that are there are read all the same.
   subroutine read_all_cards(source, cards, diagnostics)
     type(source_t), intent(inout) :: source !! the deck
     type(card_t), allocatable, intent(out) :: cards(:)
@@ -49,7 +50,8 @@ contains
   !> Puts the cards of the files in place of the INCLUDE cards of one file.
   recursive subroutine insert_files(source, chain, level, cards, diagnostics)
     type(source_t), intent(inout) :: source
-    type(string_t), intent(inout) :: chain(0:) !! the files under way, the deck first, as absolute paths
+    type(string_t), intent(inout) :: chain(0:) !! the files under way, the deck first, as absolute
+                                               !! paths
     integer, intent(in) :: level               !! of the file whose cards these are; 0 is the deck
     type(card_t), allocatable, intent(inout) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
@@ -87,7 +89,8 @@ contains
     count = count + size(more)
   end subroutine append_cards
 
-  !> Reads the file that an INCLUDE card names. If it cannot be done, the card stays: it stands for cards that nobody knows.
+  !> Reads the file that an INCLUDE card names. If it cannot be done, the card stays: it stands for
+  !! cards that nobody knows.
   recursive subroutine read_included(source, chain, level, card, cards, diagnostics)
     type(source_t), intent(inout) :: source
     type(string_t), intent(inout) :: chain(0:)
@@ -104,8 +107,10 @@ contains
     call read_path(source, card, path, diagnostics)
     if (len(path) == 0) return
     problem = loop_problem(source, chain(:level), path, card%keyword%line)
-    if (level == most_levels) problem = "files include each other more than "//to_string(most_levels)//" levels deep"
-    if (size(source%files) > most_files) problem = "more than "//to_string(most_files)//" files are included"
+    if (level == most_levels) problem = "files include each other more than "// &
+      to_string(most_levels)//" levels deep"
+    if (size(source%files) > most_files) problem = "more than "//to_string(most_files)// &
+      " files are included"
     if (len(problem) == 0) then
       call read_file(path, more, problem, place)
       if (len(problem) > 0) problem = "'"//path//place//"' cannot be included: "//problem
@@ -121,7 +126,8 @@ contains
     call insert_files(source, chain, level + 1, cards, diagnostics)
   end subroutine read_included
 
-  !> The path on an INCLUDE card, relative to the file that the card is in; empty if the card is wrong.
+  !> The path on an INCLUDE card, relative to the file that the card is in; empty if the card is
+  !! wrong.
   subroutine read_path(source, card, path, diagnostics)
     type(source_t), intent(in) :: source
     type(card_t), intent(in) :: card
@@ -132,7 +138,8 @@ contains
 
     path = ""
     if (size(card%entries) > 0) then
-      call add_error(diagnostics, card%entries(1)%key, "a file name with an equals sign needs quotes; expected: "//pattern)
+      call add_error(diagnostics, card%entries(1)%key, &
+        "a file name with an equals sign needs quotes; expected: "//pattern)
       return
     else if (size(card%words) == 0) then
       call add_error(diagnostics, card%keyword, "this card is too short; expected: "//pattern)
@@ -145,7 +152,8 @@ contains
     name = card%words(1)%text
     if (card%words(1)%set_line < 0) return
     if (index(name, "$") == 1) then
-      call add_error(diagnostics, card%words(1), "files are included before values are set: INCLUDE takes no '"//name//"'")
+      call add_error(diagnostics, card%words(1), &
+        "files are included before values are set: INCLUDE takes no '"//name//"'")
       return
     end if
     if (scan(name(1:1), """'") == 1) name = name(2:len(name) - 1)
@@ -190,7 +198,8 @@ contains
     end do
   end function loop_problem
 
-  !> UNITS belongs to the deck: a file that others include cannot know their units, and must not change them.
+  !> UNITS belongs to the deck: a file that others include cannot know their units, and must not
+  !! change them.
   pure subroutine drop_units(cards, diagnostics)
     type(card_t), allocatable, intent(inout) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
@@ -202,7 +211,8 @@ contains
     allocate (kept(size(cards)))
     do i = 1, size(cards)
       if (same_word(cards(i)%keyword%text, "UNITS")) then
-        call add_error(diagnostics, cards(i)%keyword, "UNITS stands in the deck, not in a file that it includes")
+        call add_error(diagnostics, cards(i)%keyword, &
+          "UNITS stands in the deck, not in a file that it includes")
       else
         call append_cards(kept, count, cards(i:i))
       end if

@@ -6,12 +6,14 @@ module tokens
 
   public :: token_t, split_words, token_part, list_items, token_texts, code_length, name_problem
 
-  !> A word. Where `$name` stands in the deck, it has the text that `$name` stands for, and knows both places.
+  !> A word. Where `$name` stands in the deck, it has the text that `$name` stands for, and knows
+  !! both places.
   type :: token_t
     character(len=:), allocatable :: text
     integer :: line = 0       !! in the deck, from 1
     integer :: column = 0     !! of its first character, from 1; a tab is one character
-    integer :: set_line = 0   !! where the text of a `$name` is set; 0: it stands here; negative: unknown, which is told
+    integer :: set_line = 0   !! where the text of a `$name` is set; 0: it stands here; negative:
+                              !! unknown, which is told
     integer :: set_column = 0
   end type token_t
 
@@ -55,10 +57,12 @@ contains
     end do
   end function split_words
 
-  !> Moves on from the word that ends at `last` to the next one; `column` follows in characters, not in bytes.
+  !> Moves on from the word that ends at `last` to the next one; `column` follows in characters, not
+  !! in bytes.
   pure subroutine next_word(line, first, last, column)
     character(len=*), intent(in) :: line
-    integer, intent(out) :: first     !! byte at which the next word begins; past the line if there is none
+    integer, intent(out) :: first     !! byte at which the next word begins; past the line if there
+                                      !! is none
     integer, intent(inout) :: last    !! byte at which it ends
     integer, intent(inout) :: column  !! of the first character of the word
 
@@ -80,7 +84,8 @@ contains
     end do
   end subroutine next_word
 
-  !> Some characters of a word. What `$name` stands for has its parts where it is set, and its place where it is used.
+  !> Some characters of a word. What `$name` stands for has its parts where it is set, and its place
+  !! where it is used.
   pure function token_part(word, first, last) result(part)
     type(token_t), intent(in) :: word
     integer, intent(in) :: first, last !! bytes of its text

@@ -1,4 +1,5 @@
-!> `(K − μ M) x = b` for a stiffness `K = I + G` and bordered matrices G and M: the step of every inverse iteration.
+!> `(K − μ M) x = b` for a stiffness `K = I + G` and bordered matrices G and M: the step of every
+!! inverse iteration.
 module bordered_solver
   use bordered_matrix, only: bordered_matrix_t, layout_t
   use kinds, only: fineness, wp
@@ -9,9 +10,11 @@ module bordered_solver
 
 contains
 
-  !> Eliminates block after block, each with its rows of the border and the right side, then the border.
+  !> Eliminates block after block, each with its rows of the border and the right side, then the
+  !! border.
   !!
-  !! `L D Lᵀ` without pivoting. Nothing rests on its accuracy: whoever uses the solution measures its residual.
+  !! `L D Lᵀ` without pivoting. Nothing rests on its accuracy: whoever uses the solution measures
+  !! its residual.
   pure subroutine solve_shifted(layout, mass, geometric, loaded, shift, right_side, solution)
     type(layout_t), intent(in) :: layout
     type(bordered_matrix_t), intent(in) :: mass      !! M, diagonal in its blocks
@@ -21,7 +24,8 @@ contains
     real(wp), intent(in) :: right_side(:)            !! (unknowns)
     real(wp), intent(out) :: solution(:)             !! (unknowns)
 
-    real(wp) :: panel(layout%border + maxval(layout%size) + 1, merge(maxval(layout%size), 0, loaded), size(layout%size))
+    real(wp) :: panel(layout%border + maxval(layout%size) + 1, merge(maxval(layout%size), 0, &
+      loaded), size(layout%size))
     real(wp) :: border(layout%border + 1, layout%border), pivot, factor
     integer :: b, i, j, k, first_single
 
@@ -36,7 +40,8 @@ contains
       first_single = n + 1
       if (loaded) then
         do b = 1, size(layout%size)
-          call eliminate_block(layout, mass, geometric, shift, right_side, b, panel(:, :, b), border)
+          call eliminate_block(layout, mass, geometric, shift, right_side, b, panel(:, :, b), &
+            border)
         end do
         first_single = n + 1 + sum(layout%size)
       end if
@@ -57,7 +62,8 @@ contains
         do b = 1, size(layout%size)
           associate (m => layout%size(b), first => layout%first(b))
             do k = 1, m
-              panel(m + n + 1, k, b) = panel(m + n + 1, k, b) - dot_product(panel(m + 1:m + n, k, b), solution(:n))
+              panel(m + n + 1, k, b) = panel(m + n + 1, k, b) - &
+                dot_product(panel(m + 1:m + n, k, b), solution(:n))
               panel(m + 1, k, b) = panel(m + n + 1, k, b)
             end do
             call substitute_back(panel(:m + 1, :m, b), m, solution(first:first + m - 1))
@@ -78,7 +84,8 @@ contains
     real(wp), intent(in) :: shift
     real(wp), intent(in) :: right_side(:)
     integer, intent(in) :: b                 !! number of the block
-    real(wp), intent(out) :: panel(:, :)     !! columns of the block; below it the border's rows and the right side
+    real(wp), intent(out) :: panel(:, :)     !! columns of the block; below it the border's rows and
+                                             !! the right side
     real(wp), intent(inout) :: border(:, :)
 
     real(wp) :: factor
@@ -127,7 +134,8 @@ contains
     end do
   end subroutine eliminate
 
-  !> A pivot, moved away from zero if it is near: the solution, a direction only, keeps enough digits to be improved.
+  !> A pivot, moved away from zero if it is near: the solution, a direction only, keeps enough
+  !! digits to be improved.
   pure function off_zero(pivot) result(moved)
     real(wp), intent(in) :: pivot
     real(wp) :: moved

@@ -12,15 +12,18 @@ module cholesky_factor
 
 contains
 
-  !> Replaces a matrix by its factor. Errors: it is not positive definite; the message names the unknown.
+  !> Replaces a matrix by its factor. Errors: it is not positive definite; the message names the
+  !! unknown.
   pure subroutine factor_band(matrix, error)
     type(band_matrix_t), intent(inout) :: matrix
     type(error_t), allocatable, intent(out) :: error
 
     integer :: info
 
-    call dpbtrf("L", order_of(matrix), half_bandwidth_of(matrix), matrix%entry, size(matrix%entry, 1), info)
-    if (info /= 0) call set_error(error, "the stiffness matrix is not positive definite at unknown "//to_string(info))
+    call dpbtrf("L", order_of(matrix), half_bandwidth_of(matrix), matrix%entry, &
+      size(matrix%entry, 1), info)
+    if (info /= 0) call set_error(error, &
+      "the stiffness matrix is not positive definite at unknown "//to_string(info))
   end subroutine factor_band
 
   !> Replaces a right-hand side by the solution.
@@ -31,7 +34,8 @@ contains
     integer :: info
 
     ! dpbtrs fails only when its arguments have wrong shapes, and these come from the factor itself.
-    call dpbtrs("L", order_of(factor), half_bandwidth_of(factor), 1, factor%entry, size(factor%entry, 1), x, size(x), info)
+    call dpbtrs("L", order_of(factor), half_bandwidth_of(factor), 1, factor%entry, &
+      size(factor%entry, 1), x, size(x), info)
   end subroutine solve_with_factor
 
 end module cholesky_factor

@@ -8,7 +8,8 @@ module eigenvalue_gaps
 
 contains
 
-  !> Distance of an eigenvalue to the nearest other one, relative to the larger of both; 1 if there is no other.
+  !> Distance of an eigenvalue to the nearest other one, relative to the larger of both; 1 if there
+  !! is no other.
   pure function relative_gap(lambda, i) result(gap)
     real(wp), intent(in) :: lambda(:)
     integer, intent(in) :: i

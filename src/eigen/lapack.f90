@@ -8,8 +8,8 @@ module lapack
 
   interface
     !> Some eigenvalues and vectors of `A x = λ B x`, symmetric, B positive definite (LAPACK).
-    subroutine dsygvx(itype, jobz, range, uplo, n, a, lda, b, ldb, vl, vu, il, iu, abstol, m, w, z, ldz, work, lwork, iwork, &
-        ifail, info)
+    subroutine dsygvx(itype, jobz, range, uplo, n, a, lda, b, ldb, vl, vu, il, iu, abstol, m, w, &
+        z, ldz, work, lwork, iwork, ifail, info)
       import :: wp
       integer, intent(in) :: itype, n, lda, ldb, il, iu, ldz, lwork
       character(len=1), intent(in) :: jobz, range, uplo
@@ -40,7 +40,8 @@ module lapack
     end subroutine dpbtrs
 
     !> One step of the implicitly restarted Lanczos method by reverse communication (ARPACK).
-    subroutine dsaupd(ido, bmat, n, which, nev, tol, resid, ncv, v, ldv, iparam, ipntr, workd, workl, lworkl, info)
+    subroutine dsaupd(ido, bmat, n, which, nev, tol, resid, ncv, v, ldv, iparam, ipntr, workd, &
+      workl, lworkl, info)
       import :: wp
       integer, intent(inout) :: ido, info
       character(len=1), intent(in) :: bmat
@@ -51,8 +52,8 @@ module lapack
     end subroutine dsaupd
 
     !> Eigenvalues and vectors once `dsaupd` has converged (ARPACK).
-    subroutine dseupd(rvec, howmny, select, d, z, ldz, sigma, bmat, n, which, nev, tol, resid, ncv, v, ldv, iparam, ipntr, &
-        workd, workl, lworkl, info)
+    subroutine dseupd(rvec, howmny, select, d, z, ldz, sigma, bmat, n, which, nev, tol, resid, &
+        ncv, v, ldv, iparam, ipntr, workd, workl, lworkl, info)
       import :: wp
       logical, intent(in) :: rvec
       character(len=1), intent(in) :: howmny, bmat

@@ -11,25 +11,30 @@ module singular_vectors
 
   integer, parameter :: most_sweeps = 60
 
-  !> Where columns depend on others, one this small beside the whole matrix is nothing but rounding [ε].
+  !> Where columns depend on others, one this small beside the whole matrix is nothing but rounding
+  !! [ε].
   real(wp), parameter :: no_column = 64.0_wp
 
 contains
 
-  !> Right singular vectors of a matrix, those of the largest values first, by one-sided Jacobi rotations.
+  !> Right singular vectors of a matrix, those of the largest values first, by one-sided Jacobi
+  !! rotations.
   !!
-  !! Pairs of columns are turned until all are perpendicular. Unlike methods that first reduce the matrix to two diagonals, this
-  !! keeps the relative accuracy of small singular values (Demmel and Veselić, SIAM J. Matrix Anal. Appl. 13 (1992) 1204): the high
-  !! vibrations of a link are as exact as the low ones. LAPACK's dgesvj does the same, but raises the floating-point exceptions that
+  !! Pairs of columns are turned until all are perpendicular. Unlike methods that first reduce the
+  !! matrix to two diagonals, this keeps the relative accuracy of small singular values (Demmel and
+  !! Veselić, SIAM J. Matrix Anal. Appl. 13 (1992) 1204): the high vibrations of a link are as exact
+  !! as the low ones. LAPACK's dgesvj does the same, but raises the floating-point exceptions that
   !! the debug build stops at.
   !!
-  !! Columns that depend on others end as zero but for rounding. In a space of fewer dimensions they can never be perpendicular:
-  !! they are left alone then, and their vectors left out. Errors: no convergence.
+  !! Columns that depend on others end as zero but for rounding. In a space of fewer dimensions they
+  !! can never be perpendicular: they are left alone then, and their vectors left out. Errors: no
+  !! convergence.
   pure subroutine find_right_singular_vectors(matrix, vectors, error, rank)
     real(wp), intent(in) :: matrix(:, :)                !! no fewer rows than independent columns
     real(wp), allocatable, intent(out) :: vectors(:, :) !! (columns, independent columns)
     type(error_t), allocatable, intent(out) :: error
-    integer, intent(in), optional :: rank               !! independent columns, if not all of them are
+    integer, intent(in), optional :: rank               !! independent columns, if not all of them
+                                                        !! are
 
     real(wp) :: a(size(matrix, 1), size(matrix, 2)), squared(size(matrix, 2)), least
     integer :: i, j, sweep, n
@@ -56,7 +61,8 @@ contains
       if (.not. turned) exit
     end do
     if (turned .and. n > 1) then
-      call set_error(error, "the own vibrations of a link were not found in "//to_string(most_sweeps)//" sweeps of rotations")
+      call set_error(error, "the own vibrations of a link were not found in "// &
+        to_string(most_sweeps)//" sweeps of rotations")
       return
     end if
     squared = sum(a**2, dim=1)
@@ -74,7 +80,8 @@ contains
     real(wp), intent(in) :: least !! square of the length up to which a column is none
     logical, intent(inout) :: turned
 
-    real(wp) :: length(2), product, slope, tangent, cosine, column(size(first)), vector(size(first_vector))
+    real(wp) :: length(2), product, slope, tangent, cosine, column(size(first)), &
+      vector(size(first_vector))
 
     length = [dot_product(first, first), dot_product(second, second)]
     if (minval(length) <= least) return

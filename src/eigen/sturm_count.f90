@@ -11,8 +11,9 @@ contains
 
   !> Number of eigenvalues of `K x = λ M x` below `shift`.
   !!
-  !! By Sylvester's law of inertia it is the number of negative pivots of `K − shift M = L D Lᵀ`. The factorization does not pivot:
-  !! that keeps the band, and an element growth that would spoil the count needs a pivot near zero, which is moved away from it.
+  !! By Sylvester's law of inertia it is the number of negative pivots of `K − shift M = L D Lᵀ`.
+  !! The factorization does not pivot: that keeps the band, and an element growth that would spoil
+  !! the count needs a pivot near zero, which is moved away from it.
   pure function count_below(stiffness, mass, shift) result(number)
     type(band_matrix_t), intent(in) :: stiffness
     type(band_matrix_t), intent(in) :: mass !! positive definite, of the same shape
@@ -26,14 +27,16 @@ contains
     a = shifted(stiffness, mass, -shift)
     number = 0
     do j = 1, order_of(a)
-      least = tiny(1.0_wp) + epsilon(1.0_wp)*(abs(stiffness%entry(1, j)) + abs(shift)*mass%entry(1, j))
+      least = tiny(1.0_wp) + epsilon(1.0_wp)*(abs(stiffness%entry(1, j)) + &
+        abs(shift)*mass%entry(1, j))
       pivot = a%entry(1, j)
       if (abs(pivot) < least) pivot = -least
       if (pivot < 0.0_wp) number = number + 1
       last = min(order_of(a), j + half_bandwidth_of(a))
       do i = j + 1, last
         factor = a%entry(1 + i - j, j)/pivot
-        a%entry(1:1 + last - i, i) = a%entry(1:1 + last - i, i) - factor*a%entry(1 + i - j:1 + last - j, j)
+        a%entry(1:1 + last - i, i) = a%entry(1:1 + last - i, i) - &
+          factor*a%entry(1 + i - j:1 + last - j, j)
       end do
     end do
   end function count_below

@@ -1,8 +1,8 @@
 !> Points fixed to bodies: where they are, and how they move with the crank.
 module body_points
   use kinds, only: wp
+  use kinematic_coefficients, only: motion_t
   use linkages, only: linkage_t, normal_to
-  use motions, only: motion_t
   use poses, only: pose_t
   implicit none (type, external)
   private
@@ -18,8 +18,8 @@ module body_points
 
 contains
 
-  !> (2.39) to (2.44) of Ulker (2010), per ω2, ω2² and α2: with r from the first pin to the point and n its normal
-  !! `x' = x_first' + h n` and `x'' = x_first'' + h' n − h² r`.
+  !> (2.39) to (2.44) of Ulker (2010), per ω2, ω2² and α2: with r from the first pin to the point
+  !! and n its normal `x' = x_first' + h n` and `x'' = x_first'' + h' n − h² r`.
   pure function find_point_motion(linkage, pose, motion, body, place) result(point)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose

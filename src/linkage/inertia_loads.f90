@@ -1,8 +1,8 @@
 !> Inertia loads of moving links: the forces that their masses exert on the linkage.
 module inertia_loads
   use kinds, only: wp
+  use kinematic_coefficients, only: acceleration_field_t, point_acceleration
   use linkages, only: body_t, cross, linkage_t, normal_to
-  use motions, only: acceleration_field_t, point_acceleration
   use poses, only: pose_t
   implicit none (type, external)
   private
@@ -17,7 +17,8 @@ module inertia_loads
 
 contains
 
-  !> Masses of a uniform link at the nodes of `elements` equal elements: half of each neighbouring element's mass [kg].
+  !> Masses of a uniform link at the nodes of `elements` equal elements: half of each neighbouring
+  !! element's mass [kg].
   pure function lumped_masses(body, elements) result(masses)
     type(body_t), intent(in) :: body
     integer, intent(in) :: elements
@@ -61,7 +62,8 @@ contains
     call add_lumps(body, number, pose, field, load)
   end function lumped_load
 
-  !> Load of a link with uniform mass, `f(s) = −μ (a_first + s slope)`: force (2.45), moment about the first pin.
+  !> Load of a link with uniform mass, `f(s) = −μ (a_first + s slope)`: force (2.45), moment about
+  !! the first pin.
   !!
   !! With rotary inertia a moment −ρI α acts along it.
   pure function distributed_load(body, number, pose, field) result(load)
@@ -77,7 +79,8 @@ contains
     load%force = -mass*(field%at_first(:, number) + 0.5_wp*body%length*field%slope(:, number))
     load%moment = -mass*body%length*cross(pose%direction(:, number), &
       0.5_wp*field%at_first(:, number) + body%length/3.0_wp*field%slope(:, number))
-    if (body%rotary_inertia > 0.0_wp) load%moment = load%moment - body%rotary_inertia*body%length*field%angular(number)
+    if (body%rotary_inertia > 0.0_wp) load%moment = load%moment - &
+      body%rotary_inertia*body%length*field%angular(number)
     call add_lumps(body, number, pose, field, load)
   end function distributed_load
 

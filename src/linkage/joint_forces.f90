@@ -19,8 +19,8 @@ contains
 
   !> Solves (2.47) to (2.49) of Ulker (2010) for the forces at the pins and the driving torque.
   !!
-  !! Dyads are taken off in the reverse of the order in which they are placed; each leaves its base forces as loads on the pins
-  !! that carry it, until only the driven body is left.
+  !! Dyads are taken off in the reverse of the order in which they are placed; each leaves its base
+  !! forces as loads on the pins that carry it, until only the driven body is left.
   pure function find_joint_forces(linkage, pose, body_load, pin_load) result(forces)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose          !! away from dead points
@@ -41,12 +41,13 @@ contains
     associate (crank => linkage%bodies(1))
       forces%on_last(:, 1) = carried(:, crank%last_pin)
       forces%on_first(:, 1) = -(forces%on_last(:, 1) + body_load(1)%force)
-      forces%torque = -(crank%length*cross(pose%direction(:, 1), forces%on_last(:, 1)) + body_load(1)%moment)
+      forces%torque = -(crank%length*cross(pose%direction(:, 1), forces%on_last(:, 1)) + &
+        body_load(1)%moment)
     end associate
   end function find_joint_forces
 
-  !> Forces of one dyad. Moments of each body about its base give the force in the middle: `n3·X = p`, `n4·X = q`, hence
-  !! `X = (p e4 − q e3)/sin(θ4 − θ3)`.
+  !> Forces of one dyad. Moments of each body about its base give the force in the middle: `n3·X =
+  !! p`, `n4·X = q`, hence `X = (p e4 − q e3)/sin(θ4 − θ3)`.
   pure subroutine solve_dyad(linkage, dyad, pose, sine, body_load, carried, forces)
     type(linkage_t), intent(in) :: linkage
     type(dyad_t), intent(in) :: dyad
@@ -63,7 +64,8 @@ contains
       associate (body => linkage%bodies(dyad%body(k)), load => body_load(dyad%body(k)))
         e(:, k) = arm_to_middle(linkage, dyad, pose, k)
         moment(k) = load%moment
-        if (body%last_pin /= dyad%middle) moment(k) = load%moment + body%length*cross(e(:, k), load%force)
+        if (body%last_pin /= dyad%middle) moment(k) = load%moment + body%length*cross(e(:, k), &
+          load%force)
         moment(k) = moment(k)/body%length
       end associate
     end do

@@ -1,12 +1,12 @@
-!> Lagrange's equation of a rigid linkage with one degree of freedom: Ulker 2010 (2.50) to (2.64), for any number of bodies of any
-!! shape.
+!> Lagrange's equation of a rigid linkage with one degree of freedom: Ulker 2010 (2.50) to (2.64),
+!! for any number of bodies of any shape.
 !!
 !! The torque that a motion demands comes from energies alone here, without a force in any pin.
 module lagrange
   use body_points, only: find_point_motion, point_motion_t
   use kinds, only: wp
+  use kinematic_coefficients, only: motion_t
   use linkages, only: linkage_t
-  use motions, only: motion_t
   use poses, only: pose_t
   use rigid_bodies, only: central_inertia, mass_centre, rigid_body_t
   implicit none (type, external)
@@ -19,17 +19,20 @@ module lagrange
     real(wp) :: inertia = 0.0_wp       !! M, of all moving masses at the crank [kg m²]
     real(wp) :: inertia_slope = 0.0_wp !! M' = dM/dθ2 [kg m²]
     real(wp) :: gravity = 0.0_wp       !! dU/dθ2 of the weights [N m]
-    real(wp) :: load = 0.0_wp          !! what holds the forces and torques from outside: minus their generalised force [N m]
-    real(wp) :: potential = 0.0_wp     !! U of the weights and of the forces on the pins, zero with all at the global origin [N m]
+    real(wp) :: load = 0.0_wp          !! what holds the forces and torques from outside: minus
+                                       !! their generalised force [N m]
+    real(wp) :: potential = 0.0_wp     !! U of the weights and of the forces on the pins, zero with
+                                       !! all at the global origin [N m]
   end type lagrange_t
 
 contains
 
   !> M and M' of (2.54), dU/dθ2 and the generalised load at a pose.
   !!
-  !! Twice the kinetic energy (2.50), summed over i = 2…4 (1…3 is a misprint), at ω2 = 1: `M = Σ (m x_G'·x_G' + I_G h²)`; its
-  !! derivative is `M' = 2 Σ (m x_G'·x_G'' + I_G h h')`. For mass centres on the links these are (2.55) and the terms of (2.56)
-  !! with S2, S3 and C1, where ω2² is lost in print: `V = ½ M' ω2²`. The terms with G, which is −U by (2.62), are right as printed.
+  !! Twice the kinetic energy (2.50), summed over i = 2…4 (1…3 is a misprint), at ω2 = 1: `M = Σ (m
+  !! x_G'·x_G' + I_G h²)`; its derivative is `M' = 2 Σ (m x_G'·x_G'' + I_G h h')`. For mass centres
+  !! on the links these are (2.55) and the terms of (2.56) with S2, S3 and C1, where ω2² is lost in
+  !! print: `V = ½ M' ω2²`. The terms with G, which is −U by (2.62), are right as printed.
   pure function find_lagrange(linkage, rigid, pose, motion) result(terms)
     type(linkage_t), intent(in) :: linkage
     type(rigid_body_t), intent(in) :: rigid(:) !! (bodies)

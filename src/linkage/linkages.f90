@@ -1,7 +1,9 @@
-!> A planar linkage as mechanics sees it: pins, links between them, one driven link, and dyads hung on to it.
+!> A planar linkage as mechanics sees it: pins, links between them, one driven link, and dyads hung
+!! on to it.
 !!
-!! Everything but `new_four_bar` works for any linkage of mobility one that can be put together from a driven link and dyads (two
-!! links that meet in a pin, each hung on to a pin whose motion is known already).
+!! Everything but `new_four_bar` works for any linkage of mobility one that can be put together from
+!! a driven link and dyads (two links that meet in a pin, each hung on to a pin whose motion is
+!! known already).
 module linkages
   use kinds, only: wp
   implicit none (type, external)
@@ -9,22 +11,26 @@ module linkages
 
   public :: linkage_t, body_t, lump_t, dyad_t, new_four_bar, mobility, cross, normal_to
 
-  !> A mass fixed to a body, where its own axes say: x along it, y to the left of the way from its first pin to its last.
+  !> A mass fixed to a body, where its own axes say: x along it, y to the left of the way from its
+  !! first pin to its last.
   type :: lump_t
     real(wp) :: mass = 0.0_wp      !! [kg]
-    real(wp) :: place(2) = 0.0_wp  !! of its mass centre, from the first pin, in the axes of the body [m]
+    real(wp) :: place(2) = 0.0_wp  !! of its mass centre, from the first pin, in the axes of the
+                                   !! body [m]
     real(wp) :: inertia = 0.0_wp   !! moment of inertia about its own mass centre [kg m²]
   end type lump_t
 
-  !> A straight link: uniform, with lumps, or a rigid shape of any kind, which is a lump alone. Along it runs a coordinate from its
-  !! first pin to its last, round the loop.
+  !> A straight link: uniform, with lumps, or a rigid shape of any kind, which is a lump alone.
+  !! Along it runs a coordinate from its first pin to its last, round the loop.
   type :: body_t
     integer :: first_pin = 0           !! where the way round the loop enters it
     integer :: last_pin = 0            !! where it leaves it
     real(wp) :: length = 0.0_wp        !! [m]
     real(wp) :: line_density = 0.0_wp  !! mass per length [kg/m]
-    real(wp) :: sense = 1.0_wp         !! +1: its angle is that of first → last pin, −1: that of last → first
-    real(wp) :: rotary_inertia = 0.0_wp !! ρI of its cross-sections per length [kg m]; 0 where it is left out
+    real(wp) :: sense = 1.0_wp         !! +1: its angle is that of first → last pin, −1: that of
+                                       !! last → first
+    real(wp) :: rotary_inertia = 0.0_wp !! ρI of its cross-sections per length [kg m]; 0 where it is
+                                        !! left out
     logical :: bends = .true.          !! as a beam; else it is rigid
     type(lump_t), allocatable :: lumps(:)
   end type body_t
@@ -34,7 +40,8 @@ module linkages
     integer :: base(2) = 0      !! pins that carry it
     integer :: body(2) = 0      !! bodies from each base to the middle
     integer :: middle = 0       !! pin where the bodies meet
-    real(wp) :: side = 1.0_wp   !! +1: the middle lies to the left of base 1 → base 2, −1: to its right
+    real(wp) :: side = 1.0_wp   !! +1: the middle lies to the left of base 1 → base 2, −1: to its
+                                !! right
   end type dyad_t
 
   type :: linkage_t
@@ -42,15 +49,19 @@ module linkages
     real(wp), allocatable :: ground_position(:, :) !! (2, pins) [m]; zero for moving pins
     real(wp), allocatable :: pin_mass(:)          !! (pins) [kg]
     real(wp) :: gravity(2) = 0.0_wp               !! [m/s²]
-    real(wp), allocatable :: pin_force(:, :)      !! (2, pins) constant forces on the pins from outside [N]
-    real(wp), allocatable :: couple(:)            !! (bodies) constant torques on the bodies from outside [N m]
-    type(body_t), allocatable :: bodies(:)        !! in the order round the loop; the first is driven about its first pin
+    real(wp), allocatable :: pin_force(:, :)      !! (2, pins) constant forces on the pins from
+                                                  !! outside [N]
+    real(wp), allocatable :: couple(:)            !! (bodies) constant torques on the bodies from
+                                                  !! outside [N m]
+    type(body_t), allocatable :: bodies(:)        !! in the order round the loop; the first is
+                                                  !! driven about its first pin
     type(dyad_t), allocatable :: dyads(:)         !! in the order in which they are placed
   end type linkage_t
 
 contains
 
-  !> The four-bar O2–A–B–O4: pins 1 to 4, bodies crank, coupler, follower; the follower's angle is that of O4 → B.
+  !> The four-bar O2–A–B–O4: pins 1 to 4, bodies crank, coupler, follower; the follower's angle is
+  !! that of O4 → B.
   pure function new_four_bar(ground, length, line_density, pin_mass, crossed) result(linkage)
     real(wp), intent(in) :: ground(2, 2)     !! O2 and O4 [m]
     real(wp), intent(in) :: length(3)        !! crank, coupler, follower [m]
@@ -83,8 +94,8 @@ contains
     linkage%dyads = [dyad_t([2, 4], [2, 3], 3, merge(-1.0_wp, 1.0_wp, crossed))]
   end function new_four_bar
 
-  !> Degrees of freedom by counting: `3(n − 1) − 2j`, n links with the ground, j pins of two links each (Grübler, Kutzbach). A pin
-  !! where more links meet counts as one pin fewer than links.
+  !> Degrees of freedom by counting: `3(n − 1) − 2j`, n links with the ground, j pins of two links
+  !! each (Grübler, Kutzbach). A pin where more links meet counts as one pin fewer than links.
   pure function mobility(linkage) result(freedoms)
     type(linkage_t), intent(in) :: linkage
     integer :: freedoms

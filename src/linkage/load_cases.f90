@@ -1,16 +1,18 @@
-!> The three loads of which every load of a moving linkage is made: `constant + ω2² of turning + α2 of speeding up`.
+!> The three loads of which every load of a moving linkage is made: `constant + ω2² of turning + α2
+!! of speeding up`.
 module load_cases
   use inertia_loads, only: distributed_load, load_t, lumped_load, pin_load
   use kinds, only: wp
+  use kinematic_coefficients, only: acceleration_field_t, motion_t, unit_fields
   use linkages, only: linkage_t
-  use motions, only: acceleration_field_t, motion_t, unit_fields
   use poses, only: pose_t
   implicit none (type, external)
   private
 
   public :: load_case_t, case_count, constant_case, unit_cases, has_constant_loads, find_case_loads
 
-  !> Numbers of the cases: for ω2² = 1, for α2 = 1, and of gravity and the forces and torques from outside.
+  !> Numbers of the cases: for ω2² = 1, for α2 = 1, and of gravity and the forces and torques from
+  !! outside.
   integer, parameter :: case_count = 3, constant_case = 3
 
   !> Inertia loads are those of an acceleration field; gravity g is the field −g.
@@ -27,7 +29,8 @@ contains
     type(linkage_t), intent(in) :: linkage
     logical :: has
 
-    has = any(abs(linkage%gravity) > 0.0_wp) .or. any(abs(linkage%pin_force) > 0.0_wp) .or. any(abs(linkage%couple) > 0.0_wp)
+    has = any(abs(linkage%gravity) > 0.0_wp) .or. any(abs(linkage%pin_force) > 0.0_wp) .or. &
+      any(abs(linkage%couple) > 0.0_wp)
   end function has_constant_loads
 
   !> The three cases at a pose, or those of them that occur: the others are left empty.
@@ -67,7 +70,8 @@ contains
   !> Loads on bodies and pins in one case.
   pure subroutine find_case_loads(linkage, elements, pose, case, body_loads, pin_loads)
     type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: elements(:)         !! (bodies) on whose nodes their masses sit; 0: distributed
+    integer, intent(in) :: elements(:)         !! (bodies) on whose nodes their masses sit; 0:
+                                               !! distributed
     type(pose_t), intent(in) :: pose
     type(load_case_t), intent(in) :: case
     type(load_t), intent(out) :: body_loads(:) !! (bodies)

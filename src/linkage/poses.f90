@@ -8,18 +8,22 @@ module poses
   implicit none (type, external)
   private
 
-  public :: pose_t, find_pose, place_links, arm_to_middle, body_angle, transmission_angle, dead_point_sine
+  public :: pose_t, find_pose, place_links, arm_to_middle, body_angle, transmission_angle, &
+    dead_point_sine
 
   type :: pose_t
     real(wp), allocatable :: pin(:, :)       !! (2, pins) positions [m]
     real(wp), allocatable :: direction(:, :) !! (2, bodies) unit vectors, first → last pin
-    real(wp), allocatable :: sine(:)         !! (dyads) of the angle from base 1 → middle to base 2 → middle; 0 at a dead point
+    real(wp), allocatable :: sine(:)         !! (dyads) of the angle from base 1 → middle to base 2
+                                             !! → middle; 0 at a dead point
   end type pose_t
 
-  !> Nearer to a dead point than this the motion is not computed: velocities grow like 1/sin(θ4 − θ3).
+  !> Nearer to a dead point than this the motion is not computed: velocities grow like 1/sin(θ4 −
+  !! θ3).
   real(wp), parameter :: dead_point_sine = 1.0e-6_wp
 
-  !> A limit position missed by rounding is a dead point, not out of reach: relative slack for the area of the dyad's triangle.
+  !> A limit position missed by rounding is a dead point, not out of reach: relative slack for the
+  !! area of the dyad's triangle.
   real(wp), parameter :: limit_slack = 1.0e-11_wp
 
 contains
@@ -39,15 +43,17 @@ contains
     if (allocated(error)) return
     do i = 1, size(pose%sine)
       if (abs(pose%sine(i)) >= dead_point_sine) cycle
-      call set_error(error, "dead point: |sin(theta4 - theta3)| = "//to_string(abs(pose%sine(i)), 3)//" is below "// &
-        to_string(dead_point_sine))
+      call set_error(error, "dead point: |sin(theta4 - theta3)| = "//to_string(abs(pose%sine(i)), &
+        3)//" is below "//to_string(dead_point_sine))
       return
     end do
   end subroutine find_pose
 
-  !> Places every pin for a crank angle, at dead points too. Equation 2.1 of Ulker (2010), solved by intersecting circles.
+  !> Places every pin for a crank angle, at dead points too. Equation 2.1 of Ulker (2010), solved by
+  !! intersecting circles.
   !!
-  !! Errors: the position is out of reach, or nothing says where a link is, since both its dyad's bases are at one place.
+  !! Errors: the position is out of reach, or nothing says where a link is, since both its dyad's
+  !! bases are at one place.
   pure subroutine place_links(linkage, crank_degrees, pose, error)
     type(linkage_t), intent(in) :: linkage
     real(wp), intent(in) :: crank_degrees !! angle of the driven body from the global x axis [deg]
@@ -57,7 +63,8 @@ contains
     real(wp) :: origin(2)
     integer :: i
 
-    allocate (pose%pin(2, size(linkage%is_ground)), pose%direction(2, size(linkage%bodies)), pose%sine(size(linkage%dyads)))
+    allocate (pose%pin(2, size(linkage%is_ground)), pose%direction(2, size(linkage%bodies)), &
+      pose%sine(size(linkage%dyads)))
     ! Seen from the crank's pivot, so that no digits go to a drawing's far-off origin.
     origin = linkage%ground_position(:, linkage%bodies(1)%first_pin)
     pose%pin = linkage%ground_position - spread(origin, 2, size(pose%pin, 2))
@@ -72,7 +79,8 @@ contains
     pose%pin = pose%pin + spread(origin, 2, size(pose%pin, 2))
   end subroutine place_links
 
-  !> Cosine and sine of an angle in degrees. Whole turns are taken off before: 0° and 360° are one position to the last digit.
+  !> Cosine and sine of an angle in degrees. Whole turns are taken off before: 0° and 360° are one
+  !! position to the last digit.
   pure function direction_at(degrees) result(direction)
     real(wp), intent(in) :: degrees
     real(wp) :: direction(2)
@@ -96,8 +104,8 @@ contains
 
   !> Intersects the circles about the two bases of a dyad.
   !!
-  !! The height of the triangle over the line of the bases is taken from its area in Heron's form, whose factors vanish exactly
-  !! where the dyad is stretched or folded.
+  !! The height of the triangle over the line of the bases is taken from its area in Heron's form,
+  !! whose factors vanish exactly where the dyad is stretched or folded.
   pure subroutine place_dyad(linkage, dyad, pose, sine, error)
     type(linkage_t), intent(in) :: linkage
     type(dyad_t), intent(in) :: dyad
@@ -112,7 +120,8 @@ contains
     base = pose%pin(:, dyad%base(2)) - pose%pin(:, dyad%base(1))
     distance = norm2(base)
     sine = 0.0_wp
-    four_areas_squared = (r(1) + r(2) + distance)*(r(1) + r(2) - distance)*(distance + r(1) - r(2))*(distance - r(1) + r(2))
+    four_areas_squared = (r(1) + r(2) + distance)*(r(1) + r(2) - distance)*(distance + r(1) - &
+      r(2))*(distance - r(1) + r(2))
     if (four_areas_squared < -limit_slack*maxval([r, distance])**4) then
       call set_error(error, "the position is out of reach")
       return
@@ -125,12 +134,14 @@ contains
     unit = base/distance
     along = 0.5_wp*(distance + (r(1) - r(2))*(r(1) + r(2))/distance)
     height = 0.5_wp*sqrt(max(four_areas_squared, 0.0_wp))/distance
-    pose%pin(:, dyad%middle) = pose%pin(:, dyad%base(1)) + along*unit + dyad%side*height*normal_to(unit)
+    pose%pin(:, dyad%middle) = pose%pin(:, dyad%base(1)) + along*unit + &
+      dyad%side*height*normal_to(unit)
 
     do k = 1, 2
       arm(:, k) = pose%pin(:, dyad%middle) - pose%pin(:, dyad%base(k))
       arm(:, k) = arm(:, k)/norm2(arm(:, k))
-      pose%direction(:, dyad%body(k)) = merge(1.0_wp, -1.0_wp, linkage%bodies(dyad%body(k))%last_pin == dyad%middle)*arm(:, k)
+      pose%direction(:, dyad%body(k)) = merge(1.0_wp, -1.0_wp, &
+        linkage%bodies(dyad%body(k))%last_pin == dyad%middle)*arm(:, k)
     end do
     sine = cross(arm(:, 1), arm(:, 2))
   end subroutine place_dyad

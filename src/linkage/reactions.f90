@@ -1,11 +1,12 @@
-!> Inverse dynamics: the forces in all pins, the torque of the drive, and what the moving masses do to the ground.
+!> Inverse dynamics: the forces in all pins, the torque of the drive, and what the moving masses do
+!! to the ground.
 module reactions
   use inertia_loads, only: load_t
   use joint_forces, only: find_joint_forces, joint_forces_t
   use kinds, only: wp
+  use kinematic_coefficients, only: motion_t
   use linkages, only: cross, linkage_t
   use load_cases, only: case_count, find_case_loads, load_case_t, unit_cases
-  use motions, only: motion_t
   use poses, only: pose_t
   implicit none (type, external)
   private
@@ -13,19 +14,23 @@ module reactions
   public :: reactions_t, unit_reactions_t, find_unit_reactions, reactions_at
 
   type :: reactions_t
-    type(joint_forces_t) :: joints             !! forces on the bodies at their pins, torque of the drive
+    type(joint_forces_t) :: joints             !! forces on the bodies at their pins, torque of the
+                                               !! drive
     real(wp) :: shaking_force(2) = 0.0_wp      !! `−Σ m a`, the resultant of the inertia forces [N]
-    real(wp) :: shaking_moment = 0.0_wp        !! of these and of all −I α, about the ground pivot of the driven body [N m]
+    real(wp) :: shaking_moment = 0.0_wp        !! of these and of all −I α, about the ground pivot
+                                               !! of the driven body [N m]
   end type reactions_t
 
-  !> Reactions to each of the three loads of which all are made: for ω2² = 1, for α2 = 1, and the constant ones.
+  !> Reactions to each of the three loads of which all are made: for ω2² = 1, for α2 = 1, and the
+  !! constant ones.
   type :: unit_reactions_t
     type(reactions_t) :: of_case(case_count)
   end type unit_reactions_t
 
 contains
 
-  !> Reactions at a pose, once for all speeds: (2.47) to (2.49) of Ulker (2010) for each load by itself.
+  !> Reactions at a pose, once for all speeds: (2.47) to (2.49) of Ulker (2010) for each load by
+  !! itself.
   pure function find_unit_reactions(linkage, elements, pose, motion) result(unit)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: elements(:)  !! (bodies) on whose nodes their masses sit; 0: distributed

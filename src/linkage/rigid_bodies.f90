@@ -1,4 +1,5 @@
-!> Links as rigid bodies: three numbers are all that inertia can tell of a body that turns and moves in a plane.
+!> Links as rigid bodies: three numbers are all that inertia can tell of a body that turns and moves
+!! in a plane.
 module rigid_bodies
   use kinds, only: wp
   use linkages, only: body_t, linkage_t
@@ -9,7 +10,8 @@ module rigid_bodies
 
   type :: rigid_body_t
     real(wp) :: mass = 0.0_wp            !! [kg]
-    real(wp) :: first_moment(2) = 0.0_wp !! mass times place of the mass centre, from the first pin, in the axes of the body [kg m]
+    real(wp) :: first_moment(2) = 0.0_wp !! mass times place of the mass centre, from the first pin,
+                                         !! in the axes of the body [kg m]
     real(wp) :: inertia = 0.0_wp         !! moment of inertia about the first pin [kg m²]
   end type rigid_body_t
 
@@ -17,11 +19,13 @@ contains
 
   !> Mass, first moment and moment of inertia of a body with all its lumps.
   !!
-  !! The uniform part is `m, m L/2, m L²/3`, with rotary inertia `ρI L` more; on the nodes of n equal elements its moment of inertia
-  !! about the mass centre is `(m L²/12)(1 + 2/n²)`, and cross-sections turn nothing.
+  !! The uniform part is `m, m L/2, m L²/3`, with rotary inertia `ρI L` more; on the nodes of n
+  !! equal elements its moment of inertia about the mass centre is `(m L²/12)(1 + 2/n²)`, and
+  !! cross-sections turn nothing.
   pure function rigid_body(body, elements) result(rigid)
     type(body_t), intent(in) :: body
-    integer, intent(in) :: elements !! on whose nodes the mass of the link sits; 0: it is distributed along the link
+    integer, intent(in) :: elements !! on whose nodes the mass of the link sits; 0: it is
+                                    !! distributed along the link
     type(rigid_body_t) :: rigid
 
     integer :: i
@@ -57,7 +61,8 @@ contains
     end do
   end function rigid_bodies_of
 
-  !> Place of the mass centre, from the first pin, in the axes of the body [m]; of a body without mass the first pin.
+  !> Place of the mass centre, from the first pin, in the axes of the body [m]; of a body without
+  !! mass the first pin.
   pure function mass_centre(rigid) result(place)
     type(rigid_body_t), intent(in) :: rigid
     real(wp) :: place(2)

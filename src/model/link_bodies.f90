@@ -10,7 +10,8 @@ module link_bodies
 
 contains
 
-  !> Mass centre of a link, from the first pin of its card: along the link, and to the left of the way to the second pin [m].
+  !> Mass centre of a link, from the first pin of its card: along the link, and to the left of the
+  !! way to the second pin [m].
   pure function link_center(model, link) result(center)
     type(model_t), intent(in) :: model
     integer, intent(in) :: link
@@ -20,8 +21,8 @@ contains
     if (model%links(link)%has_center) center = model%links(link)%center
   end function link_center
 
-  !> Moment of inertia of a link about its mass centre; of material and section `ρA L³/12`, with rotary inertia `ρI L` more; 0
-  !! without these [kg m²].
+  !> Moment of inertia of a link about its mass centre; of material and section `ρA L³/12`, with
+  !! rotary inertia `ρI L` more; 0 without these [kg m²].
   pure function link_inertia(model, link) result(inertia)
     type(model_t), intent(in) :: model
     integer, intent(in) :: link
@@ -31,7 +32,8 @@ contains
       if (this%has_inertia) then
         inertia = this%inertia
       else
-        inertia = link_line_density(model, link)*this%length**3/12.0_wp + link_rotary_inertia(model, link)*this%length
+        inertia = link_line_density(model, link)*this%length**3/12.0_wp + &
+          link_rotary_inertia(model, link)*this%length
       end if
     end associate
   end function link_inertia

@@ -34,8 +34,9 @@ contains
 
     grounded = count([(find_name(grounds, model%links(link)%pin(i)%text) > 0, i=1, 2)])
     if (size(model%links) /= 3 .or. size(model%grounds) /= 2) then
-      call add_error(diagnostics, model%links(min(4, size(model%links)))%name, "only the four-bar can be solved: three links "// &
-        "and two ground pivots; this deck has "//to_string(size(model%links))//" and "//to_string(size(model%grounds)))
+      call add_error(diagnostics, model%links(min(4, size(model%links)))%name, &
+        "only the four-bar can be solved: three links "//"and two ground pivots; this deck has "// &
+        to_string(size(model%links))//" and "//to_string(size(model%grounds)))
       return
     else if (grounded /= 1) then
       call add_error(diagnostics, model%drive, "the driven link '"//model%drive%text//"' "// &
@@ -61,7 +62,8 @@ contains
     end do
   end subroutine find_loop
 
-  !> Every pin joins two links and yet there is no way round: two of the three links hang together, and the third is fixed.
+  !> Every pin joins two links and yet there is no way round: two of the three links hang together,
+  !! and the third is fixed.
   pure subroutine refuse_open_loop(diagnostics, model, grounds, used)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
@@ -72,12 +74,14 @@ contains
 
     do i = 1, size(model%links)
       if (used(i)) cycle
-      if (find_name(grounds, model%links(i)%pin(1)%text) == 0 .or. find_name(grounds, model%links(i)%pin(2)%text) == 0) cycle
-      call add_error(diagnostics, model%links(i)%name, "link '"//model%links(i)%name%text//"' joins the two ground pivots "// &
-        "and cannot move")
+      if (find_name(grounds, model%links(i)%pin(1)%text) == 0 .or. find_name(grounds, &
+        model%links(i)%pin(2)%text) == 0) cycle
+      call add_error(diagnostics, model%links(i)%name, "link '"//model%links(i)%name%text// &
+        "' joins the two ground pivots "//"and cannot move")
       return
     end do
-    call add_error(diagnostics, model%drive, "the links do not form a loop that '"//model%drive%text//"' can drive")
+    call add_error(diagnostics, model%drive, "the links do not form a loop that '"// &
+      model%drive%text//"' can drive")
   end subroutine refuse_open_loop
 
   !> The link not yet met that has a pin; 0 if there is none.
@@ -92,7 +96,8 @@ contains
     number = 0
     do n = 1, size(links)
       if (used(n)) cycle
-      if (same_word(links(n)%pin(1)%text, name) .or. same_word(links(n)%pin(2)%text, name)) number = n
+      if (same_word(links(n)%pin(1)%text, name) .or. same_word(links(n)%pin(2)%text, name)) &
+        number = n
     end do
   end function link_at
 

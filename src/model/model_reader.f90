@@ -13,13 +13,14 @@ module model_reader
   use name_checks, only: check_names
   use numbers, only: read_integer
   use part_reader, only: read_parts
+  use request_cards, only: read_crank, read_speed
   use request_checks, only: card_names, check_required, check_requests
-  use requests, only: read_crank, read_speed
   use shear, only: check_shear
   use spelling, only: suggestion
   use text, only: lower_case, same_word, string_t, to_string, word_list
   use tokens, only: token_t
-  use units, only: dimension_length, dimension_mass, dimension_time, new_unit_system, read_unit, unit_system_t, unit_t, wrong_unit
+  use units, only: dimension_length, dimension_mass, dimension_time, new_unit_system, read_unit, &
+    unit_system_t, unit_t, wrong_unit
   implicit none (type, external)
   private
 
@@ -81,7 +82,8 @@ contains
     do i = 1, size(cards)
       associate (keyword => cards(i)%keyword)
         if (any([(same_word(known(k)%text, keyword%text), k=1, size(known))])) cycle
-        call add_error(diagnostics, keyword, "unknown card '"//keyword%text//"'"//suggestion(keyword%text, known))
+        call add_error(diagnostics, keyword, "unknown card '"//keyword%text//"'"// &
+          suggestion(keyword%text, known))
       end associate
     end do
   end subroutine check_keywords
@@ -91,7 +93,8 @@ contains
     type(card_t), intent(in) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
 
-    character(len=*), parameter :: single = "TITLE UNITS GRAVITY MOTOR BRANCH CRANK SPEED INERTIA EFFECTS SOLVER MODES"
+    character(len=*), parameter :: single = &
+      "TITLE UNITS GRAVITY MOTOR BRANCH CRANK SPEED INERTIA EFFECTS SOLVER MODES"
     type(string_t), allocatable :: names(:)
     integer :: i, k, first
 
@@ -101,8 +104,8 @@ contains
       do i = 1, size(cards)
         if (.not. same_word(cards(i)%keyword%text, names(k)%text)) cycle
         if (first > 0) then
-          call add_error(diagnostics, cards(i)%keyword, "a second "//names(k)%text//" card", cards(first)%keyword, &
-            "the first is here")
+          call add_error(diagnostics, cards(i)%keyword, "a second "//names(k)%text//" card", &
+            cards(first)%keyword, "the first is here")
         else
           first = i
         end if
@@ -110,7 +113,8 @@ contains
     end do
   end subroutine refuse_second_cards
 
-  !> Reads `UNITS length mass time`, which may stand anywhere. A deck without it is read on in SI, to find its other errors.
+  !> Reads `UNITS length mass time`, which may stand anywhere. A deck without it is read on in SI,
+  !! to find its other errors.
   subroutine read_units(cards, diagnostics, system)
     type(card_t), intent(in) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
@@ -173,14 +177,15 @@ contains
         if (size(cards(i)%words) == 0) cycle
         model%title = cards(i)%words(1)%text
         if (cards(i)%words(1)%column == cards(i)%keyword%column + len("TITLE")) then
-          call add_error(diagnostics, cards(i)%words(1), "a blank must stand between TITLE and its text")
+          call add_error(diagnostics, cards(i)%words(1), &
+            "a blank must stand between TITLE and its text")
         end if
       case ("drive")
         call check_form(cards(i), 1, 1, "", "DRIVE link", diagnostics, fine)
         if (.not. fine) cycle
         if (model%drive%line > 0) then
-          call add_error(diagnostics, cards(i)%words(1), "the linkage is driven twice; it has one driven link", &
-            model%drive, "first driven here")
+          call add_error(diagnostics, cards(i)%words(1), &
+            "the linkage is driven twice; it has one driven link", model%drive, "first driven here")
         else
           model%drive = cards(i)%words(1)
         end if
@@ -191,18 +196,20 @@ contains
       case ("speed")
         call read_speed(cards(i), model%units, diagnostics, model%speed, model%acceleration)
       case ("inertia")
-        call read_option(cards(i), "INERTIA lumped|distributed", "lumped distributed", model%inertia, model%inertia_word)
+        call read_option(cards(i), "INERTIA lumped|distributed", "lumped distributed", &
+          model%inertia, model%inertia_word)
       case ("effects")
         call read_effects(cards(i), diagnostics, effects)
       case ("solver")
-        call read_option(cards(i), "SOLVER auto|deformation|dense|band", "auto deformation dense band", model%solver, &
-          model%solver_word)
+        call read_option(cards(i), "SOLVER auto|deformation|dense|band", &
+          "auto deformation dense band", model%solver, model%solver_word)
       case ("modes")
         call read_modes(cards(i), diagnostics, model)
       end select
     end do
     model%effects = effects%loads
-    if (effects%loads == 0) model%effects = merge(effects_axial, effects_static, is_moving(model) .or. is_loaded(model))
+    if (effects%loads == 0) model%effects = merge(effects_axial, effects_static, &
+      is_moving(model) .or. is_loaded(model))
     model%rotary = effects%rotary
     model%shear = effects%shear
     model%shear_word = effects%shear_word
@@ -239,7 +246,8 @@ contains
     call check_form(card, 1, 1, "", "MODES number", diagnostics, fine)
     if (.not. fine) return
     call read_integer(card%words(1)%text, modes, problem)
-    if (len(problem) == 0 .and. modes < 1) problem = "the number of modes must be at least 1, not "//to_string(modes)
+    if (len(problem) == 0 .and. modes < 1) &
+      problem = "the number of modes must be at least 1, not "//to_string(modes)
     if (len(problem) > 0) then
       call add_error(diagnostics, card%words(1), problem)
     else

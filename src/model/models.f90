@@ -9,8 +9,9 @@ module models
   use load_cards, only: force_card_t, torque_card_t
   use materials, only: material_t
   use motor_cards, only: motor_t, resistance_t
-  use requests, only: report_balance, report_branches, report_frequencies, report_inertia, report_lagrange, &
-    report_linkage, report_mesh, report_motion, report_reactions, report_shapes, report_t
+  use request_cards, only: report_balance, report_branches, report_frequencies, report_inertia, &
+    report_lagrange, report_linkage, report_mesh, report_motion, report_reactions, report_shapes, &
+    report_t
   use sections, only: section_t
   use tokens, only: token_t
   use units, only: unit_system_t
@@ -18,9 +19,9 @@ module models
   implicit none (type, external)
   private
 
-  public :: model_t, report_number, needs_positions, is_moving, is_loaded, needs_loads, needs_inertia, needs_frequencies, &
-    needs_beams, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
-    link_line_density
+  public :: model_t, report_number, needs_positions, is_moving, is_loaded, needs_loads, &
+    needs_inertia, needs_frequencies, needs_beams, needs_masses, needs_mesh, report_of_masses, &
+    bears_lumped_masses, link_mass, link_line_density
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
@@ -45,8 +46,10 @@ module models
     type(torque_card_t), allocatable :: torques(:)
     type(motor_t) :: motor
     type(resistance_t), allocatable :: resistances(:)
-    integer, allocatable :: loop(:)             !! links round the loop from the driven ground: numbers in `links`
-    type(token_t), allocatable :: loop_pins(:)  !! pins round the loop, from the driven ground to the other one
+    integer, allocatable :: loop(:)             !! links round the loop from the driven ground:
+                                                !! numbers in `links`
+    type(token_t), allocatable :: loop_pins(:)  !! pins round the loop, from the driven ground to
+                                                !! the other one
     type(token_t) :: drive                      !! name of the driven link
     integer :: branch = branch_open
     type(value_list_t) :: crank                 !! [deg]
@@ -63,9 +66,11 @@ module models
     integer :: modes = 3
     type(token_t) :: modes_word                 !! without a line if the deck does not say
     type(report_t), allocatable :: reports(:)
-    type(echo_line_t), allocatable :: echo(:)   !! the cards in the order of the deck, written out again; no part of reading them
+    type(echo_line_t), allocatable :: echo(:)   !! the cards in the order of the deck, written out
+                                                !! again; no part of reading them
     character(len=:), allocatable :: variant    !! `L=90mm`, of a deck with VARY; else empty
-    real(wp), allocatable :: varied(:)          !! values of what varies, in the units of the VARY cards
+    real(wp), allocatable :: varied(:)          !! values of what varies, in the units of the VARY
+                                                !! cards
   end type model_t
 
 contains
@@ -84,13 +89,15 @@ contains
     end do
   end function report_number
 
-  !> Whether a report is asked for that has a row for every crank angle. A report that cannot be read may have none.
+  !> Whether a report is asked for that has a row for every crank angle. A report that cannot be
+  !! read may have none.
   pure function needs_positions(model) result(needs)
     type(model_t), intent(in) :: model
     logical :: needs
 
     associate (kind => model%reports%kind)
-      needs = size(kind) == 0 .or. any(kind /= 0 .and. kind /= report_linkage .and. kind /= report_motion)
+      needs = size(kind) == 0 .or. any(kind /= 0 .and. kind /= report_linkage .and. &
+        kind /= report_motion)
     end associate
   end function needs_positions
 
@@ -121,8 +128,8 @@ contains
     type(model_t), intent(in) :: model
     logical :: needs
 
-    needs = report_number(model, report_frequencies) > 0 .or. report_number(model, report_shapes) > 0 .or. &
-      report_number(model, report_branches) > 0
+    needs = report_number(model, report_frequencies) > 0 .or. &
+      report_number(model, report_shapes) > 0 .or. report_number(model, report_branches) > 0
   end function needs_frequencies
 
   !> Whether links are asked for as beams.
@@ -154,7 +161,8 @@ contains
     needs = report_of_masses(model) > 0
   end function needs_masses
 
-  !> Whether lumped masses of a link sit on nodes: a link that is rigid or has a mass of its own has no nodes.
+  !> Whether lumped masses of a link sit on nodes: a link that is rigid or has a mass of its own has
+  !! no nodes.
   elemental function bears_lumped_masses(link) result(bears)
     type(link_t), intent(in) :: link
     logical :: bears
@@ -168,7 +176,8 @@ contains
     logical :: needs
 
     needs = needs_beams(model)
-    if (model%inertia == inertia_lumped .and. needs_masses(model)) needs = needs .or. any(bears_lumped_masses(model%links))
+    if (model%inertia == inertia_lumped .and. needs_masses(model)) needs = needs .or. &
+      any(bears_lumped_masses(model%links))
   end function needs_mesh
 
   !> Whether the frequencies asked for feel loads, of the motion or constant ones.
@@ -176,7 +185,8 @@ contains
     type(model_t), intent(in) :: model
     logical :: needs
 
-    needs = needs_frequencies(model) .and. model%effects == effects_axial .and. (is_moving(model) .or. is_loaded(model))
+    needs = needs_frequencies(model) .and. model%effects == effects_axial .and. &
+      (is_moving(model) .or. is_loaded(model))
   end function needs_loads
 
   !> Whether it matters how the mass of links makes loads, which INERTIA says.

@@ -1,7 +1,8 @@
 !> What links resist to shear, and whether a deck that asks for it says all that it takes.
 !!
-!! The shear stiffness is kGA with G = E/(2(1 + ν)). The shear coefficient k is the deck's own, or that of G. R. Cowper, The shear
-!! coefficient in Timoshenko's beam theory, J. Appl. Mech. 33 (1966) 335.
+!! The shear stiffness is kGA with G = E/(2(1 + ν)). The shear coefficient k is the deck's own, or
+!! that of G. R. Cowper, The shear coefficient in Timoshenko's beam theory, J. Appl. Mech. 33 (1966)
+!! 335.
 module shear
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
@@ -31,8 +32,8 @@ contains
       k = 6.0_wp*(1.0_wp + nu)/(7.0_wp + 6.0_wp*nu)
     case (shape_tube)
       m_squared = section%inner_share**2
-      k = 6.0_wp*(1.0_wp + nu)*(1.0_wp + m_squared)**2/((7.0_wp + 6.0_wp*nu)*(1.0_wp + m_squared)**2 + &
-        (20.0_wp + 12.0_wp*nu)*m_squared)
+      k = 6.0_wp*(1.0_wp + nu)*(1.0_wp + m_squared)**2/ &
+        ((7.0_wp + 6.0_wp*nu)*(1.0_wp + m_squared)**2 + (20.0_wp + 12.0_wp*nu)*m_squared)
     end select
   end function shear_coefficient
 
@@ -45,7 +46,8 @@ contains
     stiffness = 0.0_wp
     associate (this => model%links(link))
       if (.not. model%shear .or. this%rigid .or. this%material == 0 .or. this%section == 0) return
-      associate (material => model%materials(this%material), section => model%sections(this%section))
+      associate (material => model%materials(this%material), &
+        section => model%sections(this%section))
         if (.not. material%has_ratio) return
         stiffness = shear_coefficient(section, material%poissons_ratio)*material%youngs_modulus/ &
           (2.0_wp*(1.0_wp + material%poissons_ratio))*section%area
@@ -53,7 +55,8 @@ contains
     end associate
   end function link_shear_stiffness
 
-  !> ρI of a link of the deck; 0 where rotary inertia is not asked for or the link has no section [kg m].
+  !> ρI of a link of the deck; 0 where rotary inertia is not asked for or the link has no section
+  !! [kg m].
   pure function link_rotary_inertia(model, link) result(inertia)
     type(model_t), intent(in) :: model
     integer, intent(in) :: link
@@ -66,7 +69,8 @@ contains
     end associate
   end function link_rotary_inertia
 
-  !> Shear needs Poisson's ratio of every material in use, and a shear coefficient of every general section.
+  !> Shear needs Poisson's ratio of every material in use, and a shear coefficient of every general
+  !! section.
   pure subroutine check_shear(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model !! whose links have their materials and sections
@@ -76,17 +80,21 @@ contains
     if (.not. model%shear .or. .not. needs_frequencies(model)) return
     do i = 1, size(model%materials)
       associate (material => model%materials(i))
-        if (material%has_ratio .or. .not. any(model%links%material == i .and. .not. model%links%rigid)) cycle
-        call add_error(diagnostics, material%name, "material '"//material%name%text//"' has no 'nu=', and the shear modulus "// &
-          "E/(2(1 + nu)) needs it", model%shear_word, "shear is asked for here")
+        if (material%has_ratio .or. .not. any(model%links%material == i .and. &
+          .not. model%links%rigid)) cycle
+        call add_error(diagnostics, material%name, "material '"//material%name%text// &
+          "' has no 'nu=', and the shear modulus "//"E/(2(1 + nu)) needs it", model%shear_word, &
+          "shear is asked for here")
       end associate
     end do
     do i = 1, size(model%sections)
       associate (section => model%sections(i))
         if (section%shape /= shape_general .or. section%shear_word%line > 0) cycle
         if (.not. any(model%links%section == i .and. .not. model%links%rigid)) cycle
-        call add_error(diagnostics, section%name, "section '"//section%name%text//"' is general, and its shear coefficient "// &
-          "cannot be derived: expected 'shear_coefficient='", model%shear_word, "shear is asked for here")
+        call add_error(diagnostics, section%name, "section '"//section%name%text// &
+          "' is general, and its shear coefficient "// &
+          "cannot be derived: expected 'shear_coefficient='", model%shear_word, &
+          "shear is asked for here")
       end associate
     end do
   end subroutine check_shear

@@ -10,7 +10,7 @@ module bench_models
   use kinds, only: wp
   use linkage_cards, only: mesh_t
   use models, only: effects_axial, effects_static, model_t, report_number, solver_auto, solver_band, solver_dense
-  use requests, only: report_frequencies, report_t
+  use request_cards, only: report_frequencies, report_t
   implicit none (type, external)
   private
 

@@ -4,15 +4,15 @@ module bench_runs
   use bench_models, only: base_t, model_of, refusal
   use errors, only: error_t
   use exact_values, only: bench_speed, exact_states, exact_values_t, largest_error
-  use frequency_models, only: by_orders, frequency_models_t, new_frequency_models
-  use frequency_sweep, only: run_sweep, sweep_t
+  use vibration_models, only: by_orders, frequency_models_t, new_frequency_models
+  use frequency_study, only: run_sweep, sweep_t
   use kinds, only: long, wp
   use ledger, only: ledger_t
   use link_store, only: link_store_t
   use mechanisms, only: mechanism_t, new_mechanism
   use models, only: model_t
   use nodal_runs, only: solve_nodal_states
-  use position_modes, only: new_position_work, solve_position
+  use position_solver, only: new_position_work, solve_position
   use position_results, only: position_result_t, position_work_t
   use positions, only: by_crank_angle, find_positions, positions_t
   use progress, only: progress_t

@@ -4,15 +4,15 @@ module nodal_runs
   use assembly, only: assemble_geometric_stiffness, assemble_mass, assemble_stiffness
   use axial_forces, only: distributed_axial_forces
   use band_matrix, only: band_matrix_t, full_matrix, order_of
-  use band_modes, only: solve_band
+  use band_eigensolver, only: solve_band
   use bench_cases, only: with_band, with_dsygv
-  use dense_modes, only: solve_dense
+  use dense_eigensolver, only: solve_dense
   use errors, only: error_t, set_error
   use inertia_loads, only: distributed_load, load_t, pin_load
   use joint_forces, only: find_joint_forces
   use kinds, only: wp
   use mechanisms, only: mechanism_t
-  use motions, only: acceleration_field_t, unit_fields
+  use kinematic_coefficients, only: acceleration_field_t, unit_fields
   use positions, only: state_t
   use text, only: to_string
   implicit none (type, external)
@@ -108,7 +108,7 @@ contains
     end associate
   end function unit_axial_forces
 
-  !> `M x = θ K x` by dsygv: all eigenvalues, of which the largest are kept. That way round for the digits, as in `dense_modes`.
+  !> `M x = θ K x` by dsygv: all eigenvalues, of which the largest are kept. That way round for the digits, as in `dense_eigensolver`.
   subroutine solve_all(stiffness, mass, inverse, error)
     type(band_matrix_t), intent(in) :: stiffness, mass
     real(wp), intent(out) :: inverse(:) !! 1/λ, largest first

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Checks what the compiler does not: the layers of src/, and the habits that can be read off a file.
 
-    check_layers.py [FOLDER]     the folder that holds src/ and tests/, by default the current one
+    check_layers.py [FOLDER]     the folder that holds src/, tests/ and docs/, by default the current one
+
+The layers and what each may use are those of the table in docs/architecture.md.
 
 Prints `ok FILE` or `not ok FILE:LINE: why`; exit status 1 when anything is wrong.
 """
@@ -11,17 +13,7 @@ import re
 import sys
 from glob import glob
 
-# Folder of src/: the folders it may use besides its own. main.f90 may use all.
-LAYERS = {
-    "base": [],
-    "deck": ["base"],
-    "model": ["base", "deck"],
-    "linkage": ["base"],
-    "beam": ["base", "linkage"],
-    "eigen": ["base"],
-    "report": ["base", "model"],
-    "analysis": ["base", "deck", "model", "linkage", "beam", "eigen", "report"],
-}
+MOST_COLUMNS = 100
 INTRINSIC = {"iso_fortran_env", "iso_c_binding", "ieee_arithmetic", "ieee_exceptions", "ieee_features", "omp_lib"}
 
 
@@ -57,8 +49,27 @@ def statements(path):
             text = ""
 
 
-def faults(path, folder_of, layer):
-    """What is wrong with one file. `layer` is its folder in src/, None for main.f90, "tests" for a module of the tests."""
+def read_layers(path):
+    """The table of the layers: folder of src/ → the folders that it may use besides itself."""
+    layers = {}
+    with open(path, encoding="utf-8") as document:
+        for line in document:
+            cells = [cell.strip() for cell in line.split("|")]
+            if len(cells) == 5 and re.match(r"`[a-z_/.]+`$", cells[1]):
+                layers[cells[1].strip("`")] = re.findall(r"`([a-z_/]+)`", cells[3])
+    return layers
+
+
+def layer_of(path, layers):
+    """The row of the table that a file of src/ belongs to: that of its folder, else that of a folder above."""
+    folder = os.path.relpath(os.path.dirname(path), "src")
+    while folder and folder not in layers:
+        folder = os.path.dirname(folder)
+    return folder
+
+
+def faults(path, layer_of_module, layers, layer):
+    """What is wrong with one file. `layer` is its row in the table, "tests" for a module of the tests."""
     name = os.path.splitext(os.path.basename(path))[0]
     modules, implicit_none = 0, False
     for number, text in statements(path):
@@ -70,7 +81,7 @@ def faults(path, folder_of, layer):
             elif begun[1] != name:
                 yield number, f"module {begun[1]} stands in a file of another name"
         implicit_none = implicit_none or re.match(r"implicit\s+none\s*\(\s*type\s*,\s*external\s*\)$", text)
-        if layer and re.search(r"(^|\)\s*)(error\s+)?stop\b(?!\s*[=(%])", text):
+        if name != "main" and re.search(r"(^|\)\s*)(error\s+)?stop\b(?!\s*[=(%])", text):
             yield number, "only main stops the program"
 
         use = re.match(r"use\b\s*(,\s*(?:non_)?intrinsic\s*)?(?:::)?\s*(\w+)\s*(.*)$", text)
@@ -84,36 +95,51 @@ def faults(path, folder_of, layer):
                 yield number, f"use, intrinsic :: {module} says that this is the compiler's"
         elif layer == "tests":
             continue
-        elif module not in folder_of:
+        elif module not in layer_of_module:
             yield number, f"there is no module {module} in src/"
-        elif layer and folder_of[module] not in [layer] + LAYERS[layer]:
-            yield number, f"{layer}/ may not use {folder_of[module]}/ ({module})"
-    if layer and not modules:
+        elif layer_of_module[module] not in [layer] + layers[layer]:
+            yield number, f"{layer}/ may not use {layer_of_module[module]}/ ({module})"
+    if name != "main" and not modules:
         yield 1, "no module in this file"
     if layer != "tests" and not implicit_none:
         yield 1, "implicit none (type, external) is missing"
 
 
+def width_faults(path):
+    """Lines wider than the sources are."""
+    with open(path, encoding="utf-8") as source:
+        for number, line in enumerate(source, 1):
+            if len(line.rstrip("\n")) > MOST_COLUMNS:
+                yield number, f"wider than {MOST_COLUMNS} columns"
+
+
 def main(root):
     os.chdir(root)
-    sources = sorted(glob("src/*/*.f90"))
-    folder_of = {os.path.splitext(os.path.basename(path))[0]: path.split(os.sep)[1] for path in sources}
+    layers = read_layers(os.path.join("docs", "architecture.md"))
+    sources = sorted(glob("src/**/*.f90", recursive=True))
+    layer_of_module = {os.path.splitext(os.path.basename(path))[0]: layer_of(path, layers) for path in sources}
     wrong = False
-    modules_of_tests = set(glob("tests/unit/*.pf") + glob("tests/bench/*.f90")) - {os.path.join("tests", "bench", "bench.f90")}
-    for path in sources + sorted(glob("src/*.f90")) + sorted(modules_of_tests):
-        layer = "tests" if path in modules_of_tests else path.split(os.sep)[1]
-        if path == os.path.join("src", "main.f90"):
-            layer = None
-        elif layer not in LAYERS and layer != "tests":
-            print(f"not ok {path}: a source stands in one of the folders {', '.join(LAYERS)}")
+    modules_of_tests = set(glob("tests/unit/**/*.pf", recursive=True) + glob("tests/bench/*.f90")) - \
+        {os.path.join("tests", "bench", "bench.f90")}
+    for path in sources + sorted(modules_of_tests):
+        layer = "tests" if path in modules_of_tests else layer_of(path, layers)
+        if not layer:
+            print(f"not ok {path}: its folder is not in the table of docs/architecture.md")
             wrong = True
             continue
-        found = list(faults(path, folder_of, layer))
+        found = list(faults(path, layer_of_module, layers, layer))
+        if layer != "tests":
+            found += width_faults(path)
         for number, why in found:
             print(f"not ok {path}:{number}: {why}")
         if not found:
             print(f"ok {path}")
         wrong = wrong or bool(found)
+    for layer, uses in layers.items():
+        for folder in [layer] + uses:
+            if not os.path.isdir(os.path.join("src", folder)):
+                print(f"not ok docs/architecture.md: there is no folder src/{folder}")
+                wrong = True
     return 1 if wrong else 0
 
 

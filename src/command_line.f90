@@ -1,0 +1,228 @@
+!> The command line as a value.
+module command_line
+  use deck_runs, only: run_options_t
+  use errors, only: error_t, set_error
+  use numbers, only: read_integer
+  use program_version, only: program_name, version_number
+  use spelling, only: suggestion
+  use text, only: same_word, string_t, word_list
+  use tokens, only: name_problem
+  implicit none (type, external)
+  private
+
+  public :: command_t, read_command_line, help_text, version_text
+
+  type :: command_t
+    type(run_options_t) :: run
+    type(string_t), allocatable :: decks(:)
+    type(string_t), allocatable :: settings(:) !! of `--set`, each `name=value`
+    logical :: check_only = .false.
+    logical :: stats = .false.
+    logical :: json = .false.
+    logical :: help = .false.
+    logical :: version = .false.
+    character(len=:), allocatable, private :: valued !! the options with a value that were given,
+                                                     !! between blanks
+  end type command_t
+
+  character(len=*), parameter :: line_feed = achar(10)
+  integer, parameter :: most_threads = 1024
+
+contains
+
+  !> Reads the arguments of the program. Errors: an unknown option, an option without its value, a
+  !! setting that is none or is given twice, no deck, one deck twice.
+  subroutine read_command_line(command, error)
+    type(command_t), intent(out) :: command
+    type(error_t), allocatable, intent(out) :: error
+
+    type(string_t), allocatable :: words(:)
+    integer :: i
+    logical :: options_ended, input_taken
+
+    words = arguments()
+    command%run%folder = "outputs"
+    command%valued = " "
+    allocate (command%decks(0), command%settings(0))
+    options_ended = .false.
+    input_taken = .false.
+    i = 1
+    do while (i <= size(words) .and. .not. allocated(error))
+      associate (word => words(i)%text)
+        if (word == "-" .and. input_taken) then
+          call set_error(error, "standard input can be read only once")
+        else if (options_ended .or. word == "-" .or. index(word, "-") /= 1) then
+          command%decks = [command%decks, words(i)]
+          input_taken = input_taken .or. word == "-"
+        else if (word == "--") then
+          options_ended = .true.
+        else
+          call read_option(words, i, command, error)
+        end if
+      end associate
+      i = i + 1
+    end do
+    ! Where the line goes wrong before `--json`, that is still how the answer is wanted.
+    if (allocated(error)) command%json = any([(words(i)%text == "--json", i=1, size(words))])
+    if (allocated(error) .or. command%help .or. command%version) return
+    if (size(command%decks) == 0) call set_error(error, &
+      "no deck given; flexmech --help tells how to run one")
+  end subroutine read_command_line
+
+  function arguments() result(words)
+    type(string_t), allocatable :: words(:)
+
+    integer :: i, length
+
+    allocate (words(command_argument_count()))
+    do i = 1, size(words)
+      call get_command_argument(i, length=length)
+      allocate (character(len=length) :: words(i)%text)
+      if (length > 0) call get_command_argument(i, words(i)%text)
+    end do
+  end function arguments
+
+  !> Reads one option; `i` moves on to its value if it has one. `--out=DIR` is as good as `--out
+  !! DIR`.
+  subroutine read_option(words, i, command, error)
+    type(string_t), intent(in) :: words(:)
+    integer, intent(inout) :: i
+    type(command_t), intent(inout) :: command
+    type(error_t), allocatable, intent(out) :: error
+
+    character(len=*), parameter :: known = &
+      "--check --out --set --threads --format --resume --quiet --stats --json --version --help"
+    character(len=:), allocatable :: name, value
+    integer :: k
+
+    name = words(i)%text
+    k = index(name, "=")
+    if (k > 0) name = name(:k - 1)
+    select case (name)
+    case ("--out", "--set", "--threads", "--format")
+      if (k > 0) then
+        value = words(i)%text(k + 1:)
+      else if (i < size(words)) then
+        i = i + 1
+        value = words(i)%text
+      else
+        value = ""
+      end if
+      if (len(value) == 0) then
+        call set_error(error, "option "//name//" needs a value")
+      else if (name == "--set") then
+        call take_setting(value, command%settings, error)
+      else if (index(command%valued, " "//name//" ") > 0) then
+        call set_error(error, "option "//name//" is given twice")
+      else
+        command%valued = command%valued//name//" "
+        call read_option_value(name, value, command, error)
+      end if
+      return
+    end select
+    if (k > 0) name = words(i)%text
+    select case (name)
+    case ("--check")
+      command%check_only = .true.
+    case ("--quiet")
+      command%run%quiet = .true.
+    case ("--resume")
+      command%run%resume = .true.
+    case ("--stats")
+      command%stats = .true.
+    case ("--json")
+      command%json = .true.
+    case ("--version")
+      command%version = .true.
+    case ("--help", "-h")
+      command%help = .true.
+    case default
+      call set_error(error, "unknown option '"//name//"'"//suggestion(name, word_list(known)))
+    end select
+  end subroutine read_option
+
+  !> Takes `name=value`; that the decks have the name is checked when they are read.
+  pure subroutine take_setting(word, settings, error)
+    character(len=*), intent(in) :: word
+    type(string_t), allocatable, intent(inout) :: settings(:)
+    type(error_t), allocatable, intent(inout) :: error
+
+    character(len=:), allocatable :: name, value
+    integer :: sign, i
+
+    sign = index(word, "=")
+    if (sign < 2 .or. sign == len(word)) then
+      call set_error(error, "option --set needs a name and a value, as in --set L=100mm, not '"// &
+        word//"'")
+      return
+    end if
+    name = word(:sign - 1)
+    value = word(sign + 1:)
+    if (len(name_problem(name)) > 0) then
+      call set_error(error, "option --set: "//name_problem(name))
+    else if (scan(value, " =!#&"//achar(9)//line_feed) > 0) then
+      call set_error(error, "option --set: '"//value//"' is not one value, as a SET card has it")
+    end if
+    do i = 1, size(settings)
+      if (.not. same_word(settings(i)%text(:index(settings(i)%text, "=") - 1), name)) cycle
+      call set_error(error, "option --set gives '"//name//"' twice: "//settings(i)%text//" and "// &
+        word)
+    end do
+    settings = [settings, string_t(word)]
+  end subroutine take_setting
+
+  subroutine read_option_value(name, value, command, error)
+    character(len=*), intent(in) :: name, value
+    type(command_t), intent(inout) :: command
+    type(error_t), allocatable, intent(out) :: error
+
+    character(len=*), parameter :: formats = "plain csv"
+    character(len=:), allocatable :: problem
+
+    select case (name)
+    case ("--out")
+      command%run%folder = value
+    case ("--threads")
+      call read_integer(value, command%run%threads, problem)
+      if (len(problem) > 0 .or. command%run%threads < 1 .or. command%run%threads > most_threads) &
+        then
+        call set_error(error, "option --threads needs a number from 1 to 1024, not '"//value//"'")
+      end if
+    case ("--format")
+      command%run%csv = value == "csv"
+      if (value /= "csv" .and. value /= "plain") then
+        call set_error(error, "unknown format '"//value//"'"//suggestion(value, &
+          word_list(formats))//"; --format is plain or csv")
+      end if
+    end select
+  end subroutine read_option_value
+
+  pure function version_text() result(text)
+    character(len=:), allocatable :: text
+
+    text = program_name//" "//version_number
+  end function version_text
+
+  pure function help_text() result(text)
+    character(len=:), allocatable :: text
+
+    text = "usage: flexmech [options] DECK..."//line_feed//line_feed// &
+      "Computes motion, forces, balance, natural frequencies and mode shapes of flexible "// &
+      "linkages."//line_feed// &
+      "For every deck the tables are written to outputs/<deck base name>/. A deck named - is "// &
+      "standard input."//line_feed//line_feed//"  --check      read and check the decks only"// &
+      line_feed//"  --out DIR    write to DIR/<deck base name>/"//line_feed// &
+      "  --set N=V    put V in place of the value that SET or VARY gives the name N; may be "// &
+      "repeated"//line_feed//"  --threads N  compute N positions at a time (1)"//line_feed// &
+      "  --format csv write every table as comma-separated values too (plain)"//line_feed// &
+      "  --resume     go on where an earlier run of the deck was killed or interrupted"// &
+      line_feed//"  --quiet      no warnings, no progress; errors are still told"//line_feed// &
+      "  --stats      tell what was computed and how long it took"//line_feed// &
+      "  --json       on standard output: errors, warnings and failed rows of all decks as JSON"// &
+      line_feed//"  --version    the program's version"//line_feed//"  --help       this text"// &
+      line_feed//line_feed// &
+      "Exit status: 0 done; 1 some position or mode could not be computed (the rest is "// &
+      "written);"//line_feed//"2 bad deck or command line, nothing written."//line_feed
+  end function help_text
+
+end module command_line

@@ -1,0 +1,314 @@
+!> What every card needs when its words become values: names, quantities with units, keys, and clear
+!! complaints.
+module card_reader
+  use cards, only: card_t
+  use diagnostics, only: add_error, diagnostics_t
+  use kinds, only: wp
+  use numbers, only: number_length, read_integer, read_real
+  use spelling, only: suggestion
+  use text, only: joined, same_word, string_t, to_string, word_list
+  use tokens, only: name_problem, token_part, token_t
+  use units, only: coherent_factor, dimension_name, read_unit, serves_for, to_si, unit_system_t, &
+    unit_t, wrong_unit
+  implicit none (type, external)
+  private
+
+  public :: check_form, has_key, entry_number, read_name, read_quantity, read_measure, &
+    require_positive, refuse_negative
+  public :: read_entry_quantity, read_entry_count, read_choice
+
+contains
+
+  !> Checks the number of a card's words and its keys. `fine` tells whether the words are as many as
+  !! they should be, `known_keys` whether all keys are known: beside a key that is not, one that is
+  !! missing need not be told.
+  pure subroutine check_form(card, least, most, keys, pattern, diagnostics, fine, known_keys)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: least, most        !! words besides the keyword
+    character(len=*), intent(in) :: keys      !! allowed keys, separated by single blanks
+    character(len=*), intent(in) :: pattern   !! the card as it should be, for messages
+    type(diagnostics_t), intent(inout) :: diagnostics
+    logical, intent(out) :: fine
+    logical, intent(out), optional :: known_keys
+
+    integer, parameter :: most_keys = 100
+    type(string_t), allocatable :: allowed(:)
+    integer :: i, j
+
+    fine = size(card%words) >= least .and. size(card%words) <= most
+    if (size(card%words) < least) then
+      call add_error(diagnostics, card%keyword, "this card is too short; expected: "//pattern)
+    else if (size(card%words) > most) then
+      call add_error(diagnostics, card%words(most + 1), &
+        "unexpected '"//card%words(most + 1)%text//"'; expected: "//pattern)
+    end if
+    allowed = word_list(keys)
+    if (present(known_keys)) known_keys = .true.
+    ! No card has a dozen keys: what comes after a hundred has been complained of often enough.
+    do i = 1, min(size(card%entries), most_keys)
+      associate (key => card%entries(i)%key)
+        if (.not. any_same(allowed, key%text)) then
+          if (present(known_keys)) known_keys = .false.
+          if (size(allowed) > 0) then
+            call add_error(diagnostics, key, "unknown key '"//key%text//"'"//suggestion(key%text, &
+              allowed)//"; expected: "//pattern)
+          else
+            call add_error(diagnostics, key, "unknown key '"//key%text//"'; expected: "//pattern)
+          end if
+        end if
+        do j = 1, i - 1
+          if (.not. same_word(card%entries(j)%key%text, key%text)) cycle
+          call add_error(diagnostics, key, "'"//key%text//"=' is given twice", &
+            card%entries(j)%key, "first given here")
+          exit
+        end do
+      end associate
+    end do
+  end subroutine check_form
+
+  pure function any_same(list, word) result(any_is)
+    type(string_t), intent(in) :: list(:)
+    character(len=*), intent(in) :: word
+    logical :: any_is
+
+    integer :: i
+
+    any_is = .false.
+    do i = 1, size(list)
+      any_is = any_is .or. same_word(list(i)%text, word)
+    end do
+  end function any_same
+
+  !> Number of the entry with the given key; 0 if the card has none or its value is missing.
+  pure function entry_number(card, key) result(number)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: key
+    integer :: number
+
+    integer :: i
+
+    number = 0
+    do i = 1, size(card%entries)
+      if (.not. same_word(card%entries(i)%key%text, key)) cycle
+      if (len(card%entries(i)%value%text) > 0) number = i
+      return
+    end do
+  end function entry_number
+
+  !> Takes a word as a name.
+  pure subroutine read_name(word, diagnostics)
+    type(token_t), intent(in) :: word
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    if (len(name_problem(word%text)) > 0) call add_error(diagnostics, word, name_problem(word%text))
+  end subroutine read_name
+
+  !> Reads a number with or without a unit of its own; what a bare number means is the caller's to
+  !! say.
+  pure subroutine read_measure(word, dimension, bare, diagnostics, value, measure, fine)
+    type(token_t), intent(in) :: word
+    integer, intent(in) :: dimension(4)         !! that the number must have
+    type(unit_t), intent(in) :: bare            !! unit of a bare number
+    type(diagnostics_t), intent(inout) :: diagnostics
+    real(wp), intent(out) :: value              !! as written
+    type(unit_t), intent(out) :: measure        !! its unit
+    logical, intent(out) :: fine
+
+    character(len=:), allocatable :: problem
+    type(token_t) :: place
+    integer :: length
+
+    measure = bare
+    value = 0.0_wp
+    fine = .false.
+    place = word
+    length = number_length(word%text)
+    if (length == 0) then
+      call add_error(diagnostics, word, "'"//word%text//"' is not a number; expected "// &
+        dimension_name(dimension))
+      return
+    end if
+    call read_real(word%text(:length), value, problem)
+    if (len(problem) > 0) then
+      problem = problem//"; expected "//dimension_name(dimension)
+    else if (length < len(word%text)) then
+      if (word%text(length + 1:length + 1) == ",") then
+        problem = "'"//word%text//"' is not a number: no commas here; expected "// &
+          dimension_name(dimension)
+      else if (scan(word%text(length + 1:length + 1), ".*/+-0123456789") == 1) then
+        problem = "'"//word%text//"' is not a number; expected "//dimension_name(dimension)
+      else
+        call read_unit(word%text(length + 1:), dimension, measure, problem)
+        if (len(problem) == 0 .and. .not. serves_for(measure, dimension)) &
+          problem = wrong_unit(measure, dimension)
+        place = token_part(word, length + 1, len(word%text))
+      end if
+    end if
+    if (len(problem) == 0) then
+      problem = range_problem(word%text, value, measure)
+      if (len(problem) > 0) place = word
+    end if
+    fine = len(problem) == 0
+    if (fine) return
+    call add_error(diagnostics, place, problem)
+  end subroutine read_measure
+
+  !> Why a number is beyond reason; empty if it is not.
+  !!
+  !! The limits are far from any mechanism, and near enough to keep products such as EI/L³ and their
+  !! squares from overflowing.
+  pure function range_problem(text, value, measure) result(problem)
+    character(len=*), intent(in) :: text
+    real(wp), intent(in) :: value        !! as written
+    type(unit_t), intent(in) :: measure
+    character(len=:), allocatable :: problem
+
+    real(wp), parameter :: largest = 1.0e30_wp, smallest = 1.0e-40_wp
+
+    problem = ""
+    ! Before the conversion, which may overflow.
+    if (abs(value) > largest*measure%denominator/measure%numerator) then
+      problem = "'"//text//"' is too large: numbers up to 1e30 (in SI units) are taken"
+    else if (abs(value) > 0.0_wp .and. abs(value) < smallest*measure%denominator/ &
+      measure%numerator) then
+      problem = "'"//text//"' is too small: numbers from 1e-40 (in SI units) are taken"
+    end if
+  end function range_problem
+
+  !> Reads a quantity in SI.
+  pure subroutine read_quantity(word, dimension, system, diagnostics, value, fine)
+    type(token_t), intent(in) :: word
+    integer, intent(in) :: dimension(4)
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    real(wp), intent(out) :: value !! [SI]
+    logical, intent(out) :: fine
+
+    type(unit_t) :: measure
+
+    call read_measure(word, dimension, coherent_factor(system, dimension), diagnostics, value, &
+      measure, fine)
+    if (fine) then
+      value = to_si(value, measure)
+    else
+      value = 0.0_wp ! a number out of range would overflow further on
+    end if
+  end subroutine read_quantity
+
+  !> Reads the quantity of a key in SI; a key that must be there and is not is an error.
+  pure subroutine read_entry_quantity(card, key, dimension, system, required, diagnostics, value, &
+    fine)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: key
+    integer, intent(in) :: dimension(4)
+    type(unit_system_t), intent(in) :: system
+    logical, intent(in) :: required
+    type(diagnostics_t), intent(inout) :: diagnostics
+    real(wp), intent(out) :: value !! [SI]
+    logical, intent(out) :: fine   !! whether a value was read
+
+    integer :: i
+
+    value = 0.0_wp
+    fine = .false.
+    i = entry_number(card, key)
+    if (i > 0) then
+      call read_quantity(card%entries(i)%value, dimension, system, diagnostics, value, fine)
+    else if (required .and. .not. has_key(card, key)) then
+      call add_error(diagnostics, card%keyword, "'"//key//"=' is missing; expected "// &
+        dimension_name(dimension))
+    end if
+  end subroutine read_entry_quantity
+
+  !> Whether a card has a key, with a value or without.
+  pure function has_key(card, key) result(has)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: key
+    logical :: has
+
+    integer :: i
+
+    has = .false.
+    do i = 1, size(card%entries)
+      has = has .or. same_word(card%entries(i)%key%text, key)
+    end do
+  end function has_key
+
+  !> Complains about a value that is not greater than zero.
+  pure subroutine require_positive(card, key, value, diagnostics)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: key
+    real(wp), intent(in) :: value
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: i
+
+    i = entry_number(card, key)
+    if (i == 0 .or. value > 0.0_wp) return
+    call add_error(diagnostics, card%entries(i)%value, &
+      "'"//key//"=' must be greater than 0, not "//card%entries(i)%value%text)
+  end subroutine require_positive
+
+  !> Complains about a value that is less than zero.
+  pure subroutine refuse_negative(word, value, noun, diagnostics)
+    type(token_t), intent(in) :: word
+    real(wp), intent(in) :: value
+    character(len=*), intent(in) :: noun !! what it is: `a mass`
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    if (value < 0.0_wp) call add_error(diagnostics, word, noun//" must not be negative, as "// &
+      word%text//" is")
+  end subroutine refuse_negative
+
+  !> Reads the whole number of a key, no less than `least`.
+  pure subroutine read_entry_count(card, key, least, diagnostics, value, fine)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: key
+    integer, intent(in) :: least
+    type(diagnostics_t), intent(inout) :: diagnostics
+    integer, intent(out) :: value
+    logical, intent(out) :: fine !! whether the key is there and its value right
+
+    character(len=:), allocatable :: problem
+    integer :: i
+
+    value = least
+    fine = .false.
+    i = entry_number(card, key)
+    if (i == 0) return
+    associate (word => card%entries(i)%value)
+      call read_integer(word%text, value, problem)
+      if (len(problem) > 0) then
+        call add_error(diagnostics, word, problem//"; expected a whole number from "// &
+          to_string(least)//" up")
+      else if (value < least) then
+        call add_error(diagnostics, word, "'"//key//"=' must be at least "//to_string(least)// &
+          ", not "//word%text)
+      else
+        fine = .true.
+      end if
+    end associate
+  end subroutine read_entry_count
+
+  !> Reads a word that must be one of a few; `choice` is its number among them, 0 if it is none.
+  pure subroutine read_choice(word, choices, diagnostics, choice)
+    type(token_t), intent(in) :: word
+    character(len=*), intent(in) :: choices !! separated by single blanks
+    type(diagnostics_t), intent(inout) :: diagnostics
+    integer, intent(out) :: choice
+
+    type(string_t), allocatable :: list(:)
+    integer :: i
+
+    list = word_list(choices)
+    choice = 0
+    do i = 1, size(list)
+      if (same_word(list(i)%text, word%text)) choice = i
+    end do
+    if (choice == 0) then
+      call add_error(diagnostics, word, "unknown word '"//word%text//"'"//suggestion(word%text, &
+        list)//"; expected one of: "//joined(list))
+    end if
+  end subroutine read_choice
+
+end module card_reader

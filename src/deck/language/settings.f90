@@ -1,0 +1,269 @@
+!> SET, VARY and `--set`: names that stand for values.
+module settings
+  use card_reader, only: check_form, read_name
+  use cards, only: card_t
+  use deck_source, only: append_source, line_count, source_from_text, source_t
+  use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
+  use name_index, only: find_name, name_index_t, new_name_index
+  use spelling, only: nearest_word, suggestion
+  use text, only: character_count, same_word, string_t
+  use tokens, only: name_problem, token_t, token_texts
+  use units, only: dimension_none, read_unit, unit_t
+  implicit none (type, external)
+  private
+
+  public :: setting_t, settings_t, read_settings, look_up_setting, warn_of_unused_settings
+
+  !> A name and where its value comes from.
+  type :: setting_t
+    type(token_t) :: name         !! on its card
+    type(token_t) :: value        !! of SET or of `--set`, perhaps a `$name` itself; without a line
+                                  !! if it cannot be read
+    integer :: card = 0           !! number of its card
+    logical :: is_varied = .false.
+    logical :: is_overridden = .false. !! by `--set`
+    logical :: is_used = .false.
+    integer :: root = 0           !! number of the setting at the end of its chain of `$name`s,
+                                  !! often itself; 0: there is none
+  end type setting_t
+
+  type :: settings_t
+    type(setting_t), allocatable :: list(:) !! in the order of the deck
+    type(name_index_t) :: names
+  end type settings_t
+
+contains
+
+  !> Reads the SET cards and the names on VARY cards, and lets the command line override them.
+  pure subroutine read_settings(cards, options, source, diagnostics, settings)
+    type(card_t), intent(in) :: cards(:)
+    type(string_t), intent(in) :: options(:) !! of the command line, each `name=value`
+    type(source_t), intent(inout) :: source  !! the options are appended to it, to be pointed at
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(settings_t), intent(out) :: settings
+
+    integer :: i, count
+
+    allocate (settings%list(size(cards)))
+    count = 0
+    do i = 1, size(cards)
+      if (same_word(cards(i)%keyword%text, "SET")) then
+        call read_setting(cards(i), i, .false., diagnostics, settings%list, count)
+      else if (same_word(cards(i)%keyword%text, "VARY")) then
+        call read_setting(cards(i), i, .true., diagnostics, settings%list, count)
+      end if
+    end do
+    settings%list = settings%list(:count)
+    settings%names = new_name_index(token_texts(settings%list%name))
+    do i = 1, count
+      associate (first => settings%list(find_name(settings%names, settings%list(i)%name%text)))
+        if (first%card == settings%list(i)%card) cycle
+        call add_error(diagnostics, settings%list(i)%name, "'"//settings%list(i)%name%text// &
+          "' has a value already", first%name, "first defined here")
+      end associate
+    end do
+    call take_options(options, source, diagnostics, settings)
+    call find_roots(diagnostics, settings)
+  end subroutine read_settings
+
+  !> Reads `SET name value`, or the name of `VARY name …`, whose values are read when all names are
+  !! known.
+  pure subroutine read_setting(card, number, is_varied, diagnostics, list, count)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: number !! of the card
+    logical, intent(in) :: is_varied
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(setting_t), intent(inout) :: list(:)
+    integer, intent(inout) :: count
+
+    logical :: fine
+
+    if (is_varied) then
+      call check_form(card, 2, huge(1), "", &
+        "VARY name a to b step s, or VARY name and a list of values", diagnostics, fine)
+    else
+      call check_form(card, 2, 2, "", "SET name value", diagnostics, fine)
+    end if
+    if (size(card%words) == 0) return
+    call read_name(card%words(1), diagnostics)
+    if (len(name_problem(card%words(1)%text)) > 0) return
+    count = count + 1
+    list(count)%name = card%words(1)
+    list(count)%card = number
+    list(count)%is_varied = is_varied
+    list(count)%value = token_t("", 0, 0)
+    if (fine .and. .not. is_varied) list(count)%value = card%words(2)
+  end subroutine read_setting
+
+  !> Puts what the command line says in place of what the deck says.
+  pure subroutine take_options(options, source, diagnostics, settings)
+    type(string_t), intent(in) :: options(:)
+    type(source_t), intent(inout) :: source
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(settings_t), intent(inout) :: settings
+
+    character(len=*), parameter :: option = "--set "
+    character(len=:), allocatable :: lines
+    integer :: i, number, used, first, sign
+
+    if (size(options) == 0) return
+    first = line_count(source)
+    lines = ""
+    do i = 1, size(options)
+      lines = lines//option//options(i)%text//achar(10)
+    end do
+    call append_source(source, source_from_text("<command line>", lines), 0)
+    do i = 1, size(options)
+      sign = index(options(i)%text, "=")
+      associate (name => options(i)%text(:sign - 1))
+        number = find_name(settings%names, name)
+        if (number == 0) then
+          call add_error(diagnostics, token_t(name, first + i, len(option) + 1), &
+            source%path//" has no SET or VARY '"//name//"'"//suggestion(name, settings%names%name))
+          cycle
+        end if
+        ! What the deck says here is not heard, but it is no slip either.
+        used = find_name(settings%names, settings%list(number)%value%text(2:))
+        if (used > 0 .and. index(settings%list(number)%value%text, "$") == 1) &
+          settings%list(used)%is_used = .true.
+        settings%list(number)%is_varied = .false.
+        settings%list(number)%is_overridden = .true.
+        settings%list(number)%value = token_t(options(i)%text(sign + 1:), first + i, &
+          len(option) + 1 + character_count(options(i)%text(:sign)))
+      end associate
+    end do
+  end subroutine take_options
+
+  !> Follows the values that are a `$name` themselves to the setting that has the text, or the
+  !! variation.
+  pure subroutine find_roots(diagnostics, settings)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(settings_t), intent(inout) :: settings
+
+    type(token_t) :: value
+    integer :: next(size(settings%list)), visit(size(settings%list)), i, at, root
+
+    do i = 1, size(settings%list)
+      next(i) = 0
+      value = settings%list(i)%value
+      if (index(value%text, "$") == 0) cycle
+      call look_up_setting(value, settings, diagnostics, next(i))
+      if (next(i) == 0) next(i) = -1
+    end do
+    visit = 0
+    do i = 1, size(settings%list)
+      at = i
+      do while (next(at) > 0 .and. visit(at) == 0)
+        visit(at) = i
+        at = next(at)
+      end do
+      if (next(at) > 0 .and. visit(at) == i) then
+        call add_error(diagnostics, settings%list(at)%value, "'"//settings%list(at)%name%text// &
+          "' stands for itself: "//chain_text(settings, next, at))
+        root = 0
+      else if (next(at) > 0) then
+        root = settings%list(at)%root
+      else
+        root = at
+        if (next(at) < 0 .or. (settings%list(at)%value%line == 0 .and. &
+          .not. settings%list(at)%is_varied)) root = 0
+        settings%list(at)%root = root
+      end if
+      ! The whole way has the same end.
+      at = i
+      do while (next(at) > 0 .and. visit(at) == i)
+        visit(at) = huge(at)
+        settings%list(at)%root = root
+        at = next(at)
+      end do
+    end do
+  end subroutine find_roots
+
+  !> `$a -> $b -> $a`
+  pure function chain_text(settings, next, first) result(chain)
+    type(settings_t), intent(in) :: settings
+    integer, intent(in) :: next(:), first
+    character(len=:), allocatable :: chain
+
+    integer :: at
+
+    chain = "$"//settings%list(first)%name%text
+    at = first
+    do
+      at = next(at)
+      chain = chain//" -> $"//settings%list(at)%name%text
+      if (at == first) return
+    end do
+  end function chain_text
+
+  !> Finds the setting that a `$name` means, or complains.
+  pure subroutine look_up_setting(word, settings, diagnostics, number)
+    type(token_t), intent(in) :: word !! with a `$` in it
+    type(settings_t), intent(inout) :: settings
+    type(diagnostics_t), intent(inout) :: diagnostics
+    integer, intent(out) :: number !! 0 if there is none
+
+    character(len=:), allocatable :: hint
+    integer :: nearest
+
+    number = 0
+    if (word%text == "$") then
+      call add_error(diagnostics, word, "a name belongs to this '$': that of a SET or VARY card")
+      return
+    else if (index(word%text, "$") /= 1 .or. len(name_problem(word%text(2:))) > 0) then
+      call add_error(diagnostics, word, &
+        "'"//word%text//"' has a '$' with something joined to it; '$name' is a whole value, "// &
+        "and its sign and its unit stand in the value, as in SET name -100mm")
+      return
+    end if
+    number = find_name(settings%names, word%text(2:))
+    if (number > 0) then
+      settings%list(number)%is_used = .true.
+      return
+    end if
+    hint = joined_unit(word%text(2:), settings)
+    nearest = nearest_word(word%text(2:), settings%names%name)
+    if (len(hint) == 0 .and. nearest > 0) hint = " (did you mean '$"// &
+      settings%list(nearest)%name%text//"'?)"
+    call add_error(diagnostics, word, "no SET or VARY card defines '"//word%text//"'"//hint)
+  end subroutine look_up_setting
+
+  !> What to say if a name is a known one with a unit behind it.
+  pure function joined_unit(name, settings) result(hint)
+    character(len=*), intent(in) :: name
+    type(settings_t), intent(in) :: settings
+    character(len=:), allocatable :: hint
+
+    type(unit_t) :: measure
+    character(len=:), allocatable :: problem
+    integer :: length
+
+    hint = ""
+    do length = len(name) - 1, 1, -1
+      if (find_name(settings%names, name(:length)) == 0) cycle
+      call read_unit(name(length + 1:), dimension_none, measure, problem)
+      if (len(problem) > 0) cycle
+      hint = "; '$"//name(:length)// &
+        "' is a whole value, and its unit stands in the value, as in SET "//name(:length)// &
+        " 100"//name(length + 1:)
+      return
+    end do
+  end function joined_unit
+
+  !> A name that nothing uses is a slip as a rule; where a `$name` is wrong, that is the slip.
+  pure subroutine warn_of_unused_settings(settings, diagnostics)
+    type(settings_t), intent(in) :: settings
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: i
+
+    if (has_errors(diagnostics)) return
+    do i = 1, size(settings%list)
+      if (settings%list(i)%is_used .or. settings%list(i)%is_varied) cycle
+      if (find_name(settings%names, settings%list(i)%name%text) /= i) cycle
+      call add_warning(diagnostics, settings%list(i)%name, "'"//settings%list(i)%name%text// &
+        "' is set and not used")
+    end do
+  end subroutine warn_of_unused_settings
+
+end module settings

@@ -1,0 +1,154 @@
+!> `$name` in the values on cards.
+module substitution
+  use cards, only: card_t, entry_t
+  use diagnostics, only: diagnostics_t
+  use settings, only: look_up_setting, settings_t
+  use text, only: same_word
+  use text_buffer, only: append_text, buffer_text, text_buffer_t
+  use tokens, only: list_items, token_t
+  implicit none (type, external)
+  private
+
+  public :: slot_t, substitute, put_value
+
+  !> Where a `$name` stands that a VARY card gives its values.
+  type :: slot_t
+    integer :: card = 0
+    integer :: word = 0    !! number among the card's words; 0: it stands in an entry
+    integer :: entry = 0
+    integer :: item = 0    !! number in the list of the entry; 0: it is the whole value
+    integer :: setting = 0 !! the number of its VARY among the settings
+  end type slot_t
+
+contains
+
+  !> Puts values in place of every `$name`, and lists those whose value changes from variant to
+  !! variant.
+  !!
+  !! What cannot be looked up is complained of, and marked so that nobody else complains of it.
+  pure subroutine substitute(cards, settings, diagnostics, slots)
+    type(card_t), intent(inout) :: cards(:)
+    type(settings_t), intent(inout) :: settings !! learns which are used
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(slot_t), allocatable, intent(out) :: slots(:)
+
+    integer :: i, k, count, first
+
+    allocate (slots(8))
+    count = 0
+    do i = 1, size(cards)
+      first = 1
+      ! No value in the sense of `$name` stands there, or it has been dealt with.
+      if (same_word(cards(i)%keyword%text, "TITLE") .or. same_word(cards(i)%keyword%text, &
+        "INCLUDE") .or. same_word(cards(i)%keyword%text, "SET")) cycle
+      if (same_word(cards(i)%keyword%text, "VARY")) first = 2
+      do k = first, size(cards(i)%words)
+        if (index(cards(i)%words(k)%text, "$") == 0) cycle
+        call substitute_word(cards(i)%words(k), slot_t(card=i, word=k), settings, diagnostics, &
+          slots, count)
+      end do
+      do k = 1, size(cards(i)%entries)
+        if (index(cards(i)%entries(k)%value%text, "$") == 0) cycle
+        call substitute_entry(cards(i)%entries(k), slot_t(card=i, entry=k), settings, diagnostics, &
+          slots, count)
+      end do
+    end do
+    slots = slots(:count)
+  end subroutine substitute
+
+  !> Puts its value in place of one `$name`, or appends its slot.
+  pure subroutine substitute_word(word, slot, settings, diagnostics, slots, count)
+    type(token_t), intent(inout) :: word
+    type(slot_t), intent(in) :: slot !! where the word is
+    type(settings_t), intent(inout) :: settings
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(slot_t), allocatable, intent(inout) :: slots(:)
+    integer, intent(inout) :: count !! slots in use
+
+    integer :: number, root
+
+    call look_up_setting(word, settings, diagnostics, number)
+    root = 0
+    if (number > 0) root = settings%list(number)%root
+    if (root == 0) then
+      word%set_line = -1
+    else if (settings%list(root)%is_varied) then
+      if (count == size(slots)) slots = [slots, slots]
+      count = count + 1
+      slots(count) = slot
+      slots(count)%setting = root
+    else
+      call set_word(word, settings%list(root)%value)
+    end if
+  end subroutine substitute_word
+
+  !> Gives a word the text of another one, and that one's place as where it is set.
+  pure subroutine set_word(word, value)
+    type(token_t), intent(inout) :: word
+    type(token_t), intent(in) :: value
+
+    word%text = value%text
+    word%set_line = value%line
+    word%set_column = value%column
+  end subroutine set_word
+
+  !> The same in the value of a key, which may be a list.
+  pure subroutine substitute_entry(entry, slot, settings, diagnostics, slots, count)
+    type(entry_t), intent(inout) :: entry
+    type(slot_t), intent(in) :: slot !! where the entry is
+    type(settings_t), intent(inout) :: settings
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(slot_t), allocatable, intent(inout) :: slots(:)
+    integer, intent(inout) :: count
+
+    type(slot_t) :: place
+    integer :: i
+
+    if (index(entry%value%text, ",") == 0) then
+      call substitute_word(entry%value, slot, settings, diagnostics, slots, count)
+      return
+    end if
+    entry%items = list_items(entry%value)
+    place = slot
+    do i = 1, size(entry%items)
+      if (index(entry%items(i)%text, "$") == 0) cycle
+      place%item = i
+      call substitute_word(entry%items(i), place, settings, diagnostics, slots, count)
+      if (entry%items(i)%set_line < 0) entry%value%set_line = -1
+    end do
+    call join_items(entry)
+  end subroutine substitute_entry
+
+  !> The text of a list from its items.
+  pure subroutine join_items(entry)
+    type(entry_t), intent(inout) :: entry
+
+    type(text_buffer_t) :: buffer
+    integer :: i
+
+    do i = 1, size(entry%items)
+      if (i > 1) call append_text(buffer, ",")
+      call append_text(buffer, entry%items(i)%text)
+    end do
+    entry%value%text = buffer_text(buffer)
+  end subroutine join_items
+
+  !> Puts the value of a variant into a slot.
+  pure subroutine put_value(cards, slot, value)
+    type(card_t), intent(inout) :: cards(:)
+    type(slot_t), intent(in) :: slot
+    type(token_t), intent(in) :: value !! its text, and its place on the VARY card
+
+    associate (card => cards(slot%card))
+      if (slot%word > 0) then
+        call set_word(card%words(slot%word), value)
+      else if (slot%item > 0) then
+        call set_word(card%entries(slot%entry)%items(slot%item), value)
+        call join_items(card%entries(slot%entry))
+      else
+        call set_word(card%entries(slot%entry)%value, value)
+      end if
+    end associate
+  end subroutine put_value
+
+end module substitution

@@ -1,0 +1,335 @@
+!> Lists of numbers on cards: single ones, ranges `a to b step s`, one unit for all.
+module value_lists
+  use card_reader, only: entry_number, read_measure, read_quantity
+  use cards, only: card_t
+  use diagnostics, only: add_error, diagnostics_t
+  use kinds, only: wp
+  use numbers, only: number_length
+  use sorting, only: ascending_order
+  use text, only: same_word, to_string
+  use tokens, only: list_items, token_t
+  use units, only: coherent_unit, dimension_angle, dimension_none, from_si, read_unit, to_si, &
+    unit_system_t, unit_t, wrong_unit
+  implicit none (type, external)
+  private
+
+  public :: value_list_t, empty_list, read_values, read_entry_list, read_entry_pair, value_number
+
+  !> Numbers that a card lists, each with the word it came from.
+  type :: value_list_t
+    real(wp), allocatable :: value(:)      !! in the unit that the reader of the card states
+    integer, allocatable :: word(:)        !! of each value, in `words`
+    type(token_t), allocatable :: words(:)
+  end type value_list_t
+
+  !> More positions than this are a slip of the pen.
+  integer, parameter :: most_values = 1000000
+
+contains
+
+  !> A list without values.
+  pure function empty_list() result(list)
+    type(value_list_t) :: list
+
+    allocate (list%value(0), list%word(0), list%words(0))
+  end function empty_list
+
+  !> Reads the values of a key, separated by commas.
+  pure subroutine read_entry_list(card, key, dimension, system, diagnostics, list)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: key
+    integer, intent(in) :: dimension(4)
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(value_list_t), intent(out) :: list
+
+    type(token_t), allocatable :: words(:)
+    logical :: fine
+
+    list = empty_list()
+    if (entry_number(card, key) == 0) return
+    call find_items(card, key, diagnostics, words, fine)
+    if (fine) call read_values(words, dimension, system, key//" value", diagnostics, list)
+  end subroutine read_entry_list
+
+  !> Reads the two values of a key, which may be equal [SI].
+  pure subroutine read_entry_pair(card, key, names, dimension, system, diagnostics, pair, fine)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: key
+    character(len=*), intent(in) :: names !! of the two, for messages: `along,offset`
+    integer, intent(in) :: dimension(4)
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    real(wp), intent(out) :: pair(2)
+    logical, intent(out) :: fine          !! whether the key is there and its values right
+
+    type(token_t), allocatable :: words(:)
+    logical :: both(2)
+    integer :: i
+
+    pair = 0.0_wp
+    fine = .false.
+    if (entry_number(card, key) == 0) return
+    call find_items(card, key, diagnostics, words, fine)
+    if (.not. fine) return
+    if (size(words) /= 2) then
+      call add_error(diagnostics, words(min(3, size(words))), "'"//key//"=' takes two values: "// &
+        key//"="//names)
+      fine = .false.
+      return
+    end if
+    do i = 1, 2
+      call read_quantity(words(i), dimension, system, diagnostics, pair(i), both(i))
+    end do
+    fine = all(both)
+  end subroutine read_entry_pair
+
+  !> The items of a list behind a key that is there; one that is empty is an error.
+  pure subroutine find_items(card, key, diagnostics, words, fine)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: key
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(token_t), allocatable, intent(out) :: words(:)
+    logical, intent(out) :: fine
+
+    type(token_t), allocatable :: more(:)
+    integer :: i
+
+    fine = .true.
+    associate (entry => card%entries(entry_number(card, key)))
+      if (allocated(entry%items)) then
+        allocate (words(0))
+        do i = 1, size(entry%items)
+          ! By itself: inside of an array constructor gfortran 12 would lose its memory.
+          more = list_items(entry%items(i))
+          words = [words, more]
+        end do
+      else
+        words = list_items(entry%value)
+      end if
+    end associate
+    do i = 1, size(words)
+      if (len(words(i)%text) > 0) cycle
+      words(i)%text = ","
+      call add_error(diagnostics, words(i), "a value is missing in this list")
+      fine = .false.
+      return
+    end do
+  end subroutine find_items
+
+  !> Reads a list of numbers and ranges. Angles are returned in degrees, everything else in SI.
+  pure subroutine read_values(words, dimension, system, noun, diagnostics, list)
+    type(token_t), intent(in) :: words(:)
+    integer, intent(in) :: dimension(4)
+    type(unit_system_t), intent(in) :: system
+    character(len=*), intent(in) :: noun !! what the numbers are, for messages
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(value_list_t), intent(out) :: list
+
+    type(unit_t) :: bare
+    real(wp) :: first, last, step
+    integer :: i, count, filled
+    logical :: fine
+
+    list = empty_list()
+    list%words = words
+    filled = 0
+    bare = coherent_unit(system, dimension)
+    count = size(words)
+    call read_common_unit(words, dimension, diagnostics, bare, count)
+    fine = .true.
+    i = 1
+    do while (i <= count)
+      call read_value(words(i), dimension, bare, diagnostics, first, fine)
+      if (.not. fine) exit
+      if (i < count) then
+        if (same_word(words(i + 1)%text, "to")) then
+          call read_range_end(words(:count), i, dimension, bare, noun, diagnostics, last, step, &
+            fine)
+          if (.not. fine) exit
+          call append_range(first, last, step, i, noun, diagnostics, list, filled, fine)
+          if (.not. fine) exit
+          i = i + 5
+          cycle
+        end if
+      end if
+      call append_points([first], i, list, filled)
+      i = i + 1
+    end do
+    list%value = list%value(:filled)
+    list%word = list%word(:filled)
+    ! Angles and speeds are of the order of one or are zero; a pure number may stand for anything.
+    if (fine) call refuse_duplicates(noun, &
+      merge(0.0_wp, 1.0_wp, all(dimension == dimension_none)), diagnostics, list)
+  end subroutine read_values
+
+  !> A last word that is no number is the unit of all bare numbers before it; `count` then leaves it
+  !! out.
+  pure subroutine read_common_unit(words, dimension, diagnostics, bare, count)
+    type(token_t), intent(in) :: words(:)
+    integer, intent(in) :: dimension(4)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(unit_t), intent(inout) :: bare
+    integer, intent(inout) :: count
+
+    type(unit_t) :: measure
+    character(len=:), allocatable :: problem
+
+    if (count < 2) return
+    if (number_length(words(count)%text) > 0 .or. same_word(words(count)%text, "to") .or. &
+      same_word(words(count)%text, "step") .or. same_word(words(count - 1)%text, "to") .or. &
+      same_word(words(count - 1)%text, "step")) return
+    call read_unit(words(count)%text, dimension, measure, problem)
+    if (len(problem) > 0) then
+      call add_error(diagnostics, words(count), problem)
+    else if (any(measure%dimension /= dimension)) then
+      call add_error(diagnostics, words(count), wrong_unit(measure, dimension))
+    else
+      bare = measure
+    end if
+    count = count - 1
+  end subroutine read_common_unit
+
+  !> One number: degrees stay the user's own digits.
+  pure subroutine read_value(word, dimension, bare, diagnostics, value, fine)
+    type(token_t), intent(in) :: word
+    integer, intent(in) :: dimension(4)
+    type(unit_t), intent(in) :: bare
+    type(diagnostics_t), intent(inout) :: diagnostics
+    real(wp), intent(out) :: value
+    logical, intent(out) :: fine
+
+    type(unit_t) :: measure, degrees
+    character(len=:), allocatable :: problem
+
+    call read_measure(word, dimension, bare, diagnostics, value, measure, fine)
+    if (.not. fine) return
+    if (any(dimension /= dimension_angle)) then
+      value = to_si(value, measure)
+    else if (measure%name /= "deg") then
+      call read_unit("deg", dimension_angle, degrees, problem)
+      value = from_si(to_si(value, measure), degrees)
+    end if
+  end subroutine read_value
+
+  !> Reads the words `to b step s` behind `words(i)`.
+  pure subroutine read_range_end(words, i, dimension, bare, noun, diagnostics, last, step, fine)
+    type(token_t), intent(in) :: words(:)
+    integer, intent(in) :: i
+    integer, intent(in) :: dimension(4)
+    type(unit_t), intent(in) :: bare
+    character(len=*), intent(in) :: noun
+    type(diagnostics_t), intent(inout) :: diagnostics
+    real(wp), intent(out) :: last, step
+    logical, intent(out) :: fine
+
+    fine = size(words) >= i + 4
+    if (fine) fine = same_word(words(i + 3)%text, "step")
+    last = 0.0_wp
+    step = 0.0_wp
+    if (.not. fine) then
+      call add_error(diagnostics, words(i + 1), "a range of "//noun//"s reads: a to b step s")
+      return
+    end if
+    call read_value(words(i + 2), dimension, bare, diagnostics, last, fine)
+    if (fine) call read_value(words(i + 4), dimension, bare, diagnostics, step, fine)
+    if (fine .and. abs(step) <= 0.0_wp) then
+      call add_error(diagnostics, words(i + 4), "the step must not be 0")
+      fine = .false.
+    end if
+  end subroutine read_range_end
+
+  !> Appends the points `a + i s` up to `b`; `b` itself when it is hit within 1e-9 of a step.
+  pure subroutine append_range(first, last, step, word, noun, diagnostics, list, filled, fine)
+    real(wp), intent(in) :: first, last, step
+    integer, intent(in) :: word
+    character(len=*), intent(in) :: noun
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(value_list_t), intent(inout) :: list
+    integer, intent(inout) :: filled
+    logical, intent(out) :: fine
+
+    real(wp), parameter :: hit = 1.0e-9_wp
+    real(wp), allocatable :: points(:)
+    real(wp) :: steps
+    integer :: i
+
+    steps = (last - first)/step
+    fine = .false.
+    if (steps < 0.0_wp) then
+      call add_error(diagnostics, list%words(word + 4), "the step leads away from "// &
+        list%words(word + 2)%text)
+    else if (steps > most_values - 1) then
+      call add_error(diagnostics, list%words(word + 4), "this range has more than "// &
+        to_string(most_values)//" "//noun//"s")
+    else
+      points = [(first + i*step, i=0, floor(steps + hit))]
+      if (abs(points(size(points)) - last) <= hit*abs(step)) points(size(points)) = last
+      call append_points(points, word, list, filled)
+      fine = .true.
+    end if
+  end subroutine append_range
+
+  !> Appends values that all come from one word. The arrays grow by doubling: a deck may list a
+  !! million angles.
+  pure subroutine append_points(points, word, list, filled)
+    real(wp), intent(in) :: points(:)
+    integer, intent(in) :: word
+    type(value_list_t), intent(inout) :: list
+    integer, intent(inout) :: filled !! values in use
+
+    integer :: capacity
+
+    if (filled + size(points) > size(list%value)) then
+      capacity = 2*(filled + size(points))
+      list%value = [list%value(:filled), spread(0.0_wp, 1, capacity - filled)]
+      list%word = [list%word(:filled), spread(0, 1, capacity - filled)]
+    end if
+    list%value(filled + 1:filled + size(points)) = points
+    list%word(filled + 1:filled + size(points)) = word
+    filled = filled + size(points)
+  end subroutine append_points
+
+  !> A value given twice is an error: the second is a slip, or the table would hold the same row
+  !! twice.
+  pure subroutine refuse_duplicates(noun, least, diagnostics, list)
+    character(len=*), intent(in) :: noun
+    real(wp), intent(in) :: least !! values are compared relative to themselves, or to this if they
+                                  !! are smaller
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(value_list_t), intent(in) :: list
+
+    real(wp), parameter :: same = 1.0e-12_wp
+    integer, allocatable :: order(:)
+    integer :: i, earlier, later
+    logical :: told(size(list%words))
+
+    order = ascending_order(list%value)
+    told = .false.
+    do i = 2, size(order)
+      earlier = min(order(i - 1), order(i))
+      later = max(order(i - 1), order(i))
+      if (abs(list%value(later) - list%value(earlier)) > same*max(least, abs(list%value(later)))) &
+        cycle
+      ! Two ranges may share hundreds of values; one is enough to point them out.
+      if (told(list%word(later))) cycle
+      told(list%word(later)) = .true.
+      call add_error(diagnostics, list%words(list%word(later)), "the "//noun//" "// &
+        to_string(list%value(later))//" is given twice", list%words(list%word(earlier)), &
+        "first given here")
+    end do
+  end subroutine refuse_duplicates
+
+  !> Number of a value in a list, allowing for the last digits of ranges and of conversions; 0 if it
+  !! is not there.
+  pure function value_number(list, value) result(number)
+    type(value_list_t), intent(in) :: list
+    real(wp), intent(in) :: value
+    integer :: number
+
+    do number = size(list%value), 1, -1
+      if (abs(list%value(number) - value) <= 1.0e-9_wp*max(1.0_wp, abs(value))) return
+    end do
+  end function value_number
+
+end module value_lists

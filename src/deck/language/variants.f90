@@ -1,0 +1,224 @@
+!> The cards of a deck with values in place of its `$name`s: once, or once a variant where VARY
+!! gives many.
+module variants
+  use cards, only: card_t
+  use deck_source, only: source_t
+  use diagnostics, only: add_error, diagnostics_t, has_errors
+  use kinds, only: long, wp
+  use settings, only: read_settings, settings_t, warn_of_unused_settings
+  use substitution, only: put_value, slot_t, substitute
+  use text, only: same_word, string_t, to_string
+  use tokens, only: token_texts
+  use variations, only: read_variation, variation_t
+  implicit none (type, external)
+  private
+
+  public :: deck_cards_t, read_deck_cards, variant_count, take_variant, variant_values, &
+    variant_text, parameter_names
+
+  !> All cards of a deck, and what is to stand in place of its `$name`s.
+  type :: deck_cards_t
+    type(card_t), allocatable :: written(:)          !! as they stand in the files
+    type(settings_t) :: settings
+    type(variation_t), allocatable :: variations(:)  !! in the order of the deck; the last one
+                                                     !! varies fastest
+    type(card_t), allocatable, private :: fixed(:)   !! with the values of SET in place
+    type(slot_t), allocatable, private :: slots(:)   !! where the values of VARY go
+    integer, allocatable, private :: source_of(:)    !! (slots) the number in `variations`
+  end type deck_cards_t
+
+  integer, parameter :: most_variants = 1000000
+
+contains
+
+  !> Takes over the cards of a deck, reads its SET and VARY cards, and finds every `$name`.
+  pure subroutine read_deck_cards(cards, options, source, diagnostics, deck)
+    type(card_t), allocatable, intent(inout) :: cards(:) !! moved into `deck`
+    type(string_t), intent(in) :: options(:)             !! of the command line, each `name=value`
+    type(source_t), intent(inout) :: source              !! the options are appended to it, to be
+                                                         !! pointed at
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(deck_cards_t), intent(out) :: deck
+
+    call move_alloc(cards, deck%written)
+    allocate (deck%variations(0), deck%slots(0), deck%source_of(0))
+    call read_settings(deck%written, options, source, diagnostics, deck%settings)
+    deck%fixed = deck%written
+    call substitute(deck%fixed, deck%settings, diagnostics, deck%slots)
+    call warn_of_unused_settings(deck%settings, diagnostics)
+    call read_variations(deck, diagnostics)
+  end subroutine read_deck_cards
+
+  !> Reads the VARY cards that the command line leaves, and joins them to the places where their
+  !! values go.
+  pure subroutine read_variations(deck, diagnostics)
+    type(deck_cards_t), intent(inout) :: deck
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    type(variation_t), allocatable :: list(:)
+    integer(long) :: variants
+    integer :: i, k, count
+    logical :: all_found !! so far, of what `$name`s mean
+
+    all_found = .not. has_errors(diagnostics)
+    call refuse_varied_variations(deck, diagnostics)
+    allocate (list(size(deck%settings%list)))
+    deck%source_of = spread(0, 1, size(deck%slots))
+    count = 0
+    variants = 1
+    do i = 1, size(list)
+      associate (setting => deck%settings%list(i))
+        if (.not. setting%is_varied .or. size(deck%fixed(setting%card)%words) < 2) cycle
+        count = count + 1
+        call read_variation(deck%fixed(setting%card), i, deck%fixed, diagnostics, list(count))
+        if (.not. any(deck%slots%setting == i) .and. all_found) then
+          call add_error(diagnostics, setting%name, "no card uses '$"//setting%name%text// &
+            "': all variants would be the same")
+        end if
+        where (deck%slots%setting == i) deck%source_of = count
+        variants = min(variants*max(1, size(list(count)%value)), most_variants + 1_long)
+        if (variants > most_variants .and. .not. has_errors(diagnostics)) then
+          call add_error(diagnostics, setting%name, "there are more than "// &
+            to_string(most_variants)//" variants")
+        end if
+      end associate
+    end do
+    do k = 1, size(deck%slots)
+      if (deck%source_of(k) == 0) call mark_unknown(deck%fixed, deck%slots(k))
+    end do
+    deallocate (deck%variations)
+    allocate (deck%variations(count))
+    do k = 1, count
+      deck%variations(k) = list(k)
+    end do
+  end subroutine read_variations
+
+  !> The values of a VARY card are known before there are variants.
+  pure subroutine refuse_varied_variations(deck, diagnostics)
+    type(deck_cards_t), intent(inout) :: deck
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: k
+
+    do k = 1, size(deck%slots)
+      associate (slot => deck%slots(k))
+        if (.not. same_word(deck%fixed(slot%card)%keyword%text, "VARY")) cycle
+        ! A key on the card is complained of as such.
+        if (slot%word == 0) cycle
+        call add_error(diagnostics, deck%fixed(slot%card)%words(slot%word), &
+          "the values of a VARY cannot vary themselves", deck%settings%list(slot%setting)%name, &
+          "this one does")
+        call mark_unknown(deck%fixed, slot)
+      end associate
+    end do
+  end subroutine refuse_varied_variations
+
+  !> How many variants a deck has; 1 without VARY.
+  pure function variant_count(deck) result(count)
+    type(deck_cards_t), intent(in) :: deck
+    integer :: count
+
+    integer :: k
+
+    count = 1
+    do k = 1, size(deck%variations)
+      count = count*size(deck%variations(k)%value)
+    end do
+  end function variant_count
+
+  !> The cards of a variant. Given the cards of another variant of the same deck, it only changes
+  !! what differs.
+  !!
+  !! A variation without values, which has been complained of, leaves its places marked as such.
+  pure subroutine take_variant(deck, number, cards)
+    type(deck_cards_t), intent(in) :: deck
+    integer, intent(in) :: number !! from 1
+    type(card_t), allocatable, intent(inout) :: cards(:)
+
+    integer :: choice(size(deck%variations)), k
+
+    if (.not. allocated(cards)) cards = deck%fixed
+    choice = choices(deck, number)
+    do k = 1, size(deck%slots)
+      if (deck%source_of(k) == 0) cycle
+      associate (variation => deck%variations(deck%source_of(k)))
+        if (size(variation%word) > 0) then
+          call put_value(cards, deck%slots(k), variation%word(choice(deck%source_of(k))))
+        else
+          call mark_unknown(cards, deck%slots(k))
+        end if
+      end associate
+    end do
+  end subroutine take_variant
+
+  !> Marks a value that nobody can know, so that nobody complains of it again.
+  pure subroutine mark_unknown(cards, slot)
+    type(card_t), intent(inout) :: cards(:)
+    type(slot_t), intent(in) :: slot
+
+    associate (card => cards(slot%card))
+      if (slot%word > 0) then
+        card%words(slot%word)%set_line = -1
+      else
+        card%entries(slot%entry)%value%set_line = -1
+        if (slot%item > 0) card%entries(slot%entry)%items(slot%item)%set_line = -1
+      end if
+    end associate
+  end subroutine mark_unknown
+
+  !> Which value each VARY has in a variant: the last one varies fastest.
+  pure function choices(deck, number) result(choice)
+    type(deck_cards_t), intent(in) :: deck
+    integer, intent(in) :: number
+    integer :: choice(size(deck%variations))
+
+    integer :: k, rest, count
+
+    rest = number - 1
+    do k = size(choice), 1, -1
+      count = max(1, size(deck%variations(k)%value))
+      choice(k) = 1 + mod(rest, count)
+      rest = rest/count
+    end do
+  end function choices
+
+  !> The names of what varies.
+  pure function parameter_names(deck) result(names)
+    type(deck_cards_t), intent(in) :: deck
+    type(string_t), allocatable :: names(:)
+
+    allocate (names(0))
+    if (allocated(deck%variations)) names = token_texts(deck%variations%name)
+  end function parameter_names
+
+  !> The value of every VARY in a variant, in the units of their cards.
+  pure function variant_values(deck, number) result(values)
+    type(deck_cards_t), intent(in) :: deck
+    integer, intent(in) :: number
+    real(wp) :: values(size(deck%variations))
+
+    integer :: choice(size(deck%variations)), k
+
+    choice = choices(deck, number)
+    do k = 1, size(values)
+      values(k) = deck%variations(k)%value(choice(k))
+    end do
+  end function variant_values
+
+  !> `L=90.5mm w=2`; empty for a deck without VARY.
+  pure function variant_text(deck, number) result(text)
+    type(deck_cards_t), intent(in) :: deck
+    integer, intent(in) :: number
+    character(len=:), allocatable :: text
+
+    integer :: choice(size(deck%variations)), k
+
+    choice = choices(deck, number)
+    text = ""
+    do k = 1, size(choice)
+      if (k > 1) text = text//" "
+      text = text//deck%variations(k)%name%text//"="//deck%variations(k)%word(choice(k))%text
+    end do
+  end function variant_text
+
+end module variants

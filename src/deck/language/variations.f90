@@ -1,0 +1,199 @@
+!> VARY: a name that takes one value after the other.
+module variations
+  use cards, only: card_t
+  use diagnostics, only: add_error, diagnostics_t, error_count
+  use kinds, only: wp
+  use numbers, only: number_length, shortest_text
+  use text, only: lower_case, same_word
+  use tokens, only: token_part, token_t
+  use units, only: dimension_length, dimension_mass, dimension_none, dimension_time, &
+    new_unit_system, read_unit, unit_system_t, unit_t
+  use value_lists, only: read_values, value_list_t
+  implicit none (type, external)
+  private
+
+  public :: variation_t, read_variation
+
+  !> One VARY card.
+  type :: variation_t
+    type(token_t) :: name
+    integer :: setting = 0                 !! its number among the settings
+    character(len=:), allocatable :: unit  !! of all values; empty if they have none
+    real(wp), allocatable :: value(:)      !! in this unit
+    type(token_t), allocatable :: word(:)  !! each value as text with its unit, which reads back to
+                                           !! the same double, and its place
+  end type variation_t
+
+contains
+
+  !> Reads `VARY name a to b step s` and lists of numbers, as on the CRANK card. There are no values
+  !! if the card is wrong.
+  pure subroutine read_variation(card, setting, cards, diagnostics, variation)
+    type(card_t), intent(in) :: card !! of two words at least, with values in place of `$name`
+    integer, intent(in) :: setting
+    type(card_t), intent(in) :: cards(:) !! of the deck
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(variation_t), intent(out) :: variation
+
+    type(token_t), allocatable :: words(:)
+    type(value_list_t) :: list
+    integer :: i, errors
+    logical :: fine
+
+    variation%name = card%words(1)
+    variation%setting = setting
+    variation%unit = ""
+    allocate (variation%value(0), variation%word(0))
+    words = card%words(2:)
+    errors = error_count(diagnostics)
+    if (is_column(variation%name%text, cards)) call add_error(diagnostics, variation%name, &
+      "'"//variation%name%text// &
+      "' is a column of the tables; what varies needs a name of its own, for it becomes a "// &
+      "column, too")
+    call take_unit(words, diagnostics, variation%unit, fine)
+    if (.not. fine) return
+    call read_values(words, dimension_none, si_units(), "value", diagnostics, list)
+    if (error_count(diagnostics) > errors .or. any(words%set_line < 0)) return
+    variation%value = list%value
+    deallocate (variation%word)
+    allocate (variation%word(size(list%value)))
+    do i = 1, size(list%value)
+      variation%word(i) = card%words(1 + list%word(i))
+      variation%word(i)%text = shortest_text(list%value(i))//variation%unit
+    end do
+  end subroutine read_variation
+
+  !> Whether a name stands at the head of a column of some table. That of the newer reports is told
+  !! only where they are asked for: `M`, `load` or `time` may vary elsewhere.
+  pure function is_column(name, cards) result(is)
+    character(len=*), intent(in) :: name
+    type(card_t), intent(in) :: cards(:) !! of the deck
+    logical :: is
+
+    character(len=*), parameter :: columns = &
+      " speed crank theta3 theta4 omega3 omega4 alpha3 alpha4 Ax Ay Bx By "// &
+      "transmission_angle mass link x y ax ay Fx Fy m moment element node_a node_b xa ya xb yb "// &
+      "mass_a mass_b mode frequency s "//"ux uy rotation branch mac event failure "
+    integer :: i
+
+    is = index(columns, " "//name//" ") > 0 .or. is_numbered(name, "f") .or. &
+      is_numbered(name, "error")
+    do i = 1, size(cards)
+      if (.not. same_word(cards(i)%keyword%text, "REPORT") .or. size(cards(i)%words) == 0) cycle
+      is = is .or. index(columns_of(lower_case(cards(i)%words(1)%text)), " "//name//" ") > 0
+      if (same_word(cards(i)%words(1)%text, "balance")) is = is .or. is_numbered(name, "h") .or. &
+        is_numbered(name, "phase")
+    end do
+  end function is_column
+
+  !> Columns of the tables of rigid dynamics.
+  pure function columns_of(report) result(columns)
+    character(len=*), intent(in) :: report
+    character(len=:), allocatable :: columns
+
+    columns = ""
+    select case (report)
+    case ("reactions")
+      columns = " O2x O2y A2x A2y A3x A3y B3x B3y B4x B4y O4x O4y torque shaking_x shaking_y "// &
+        "shaking_moment "
+    case ("points")
+      columns = " point vx vy "
+    case ("lagrange")
+      columns = " M dM V gravity load torque kinetic potential "
+    case ("balance")
+      columns = " xG yG shaking_x shaking_y shaking_moment torque balanced_x balanced_y "// &
+        "balanced_moment balanced_torque "//"linkage quantity largest rms mean "
+    case ("motion")
+      columns = " time omega2 torque kinetic potential work energy_error closure "
+    end select
+  end function columns_of
+
+  !> Whether a name is a word with a number behind it.
+  pure function is_numbered(name, word) result(is)
+    character(len=*), intent(in) :: name, word
+    logical :: is
+
+    is = .false.
+    if (len(name) > len(word) .and. index(name, word) == 1) is = verify(name(len(word) + 1:), &
+      "0123456789") == 0
+  end function is_numbered
+
+  !> Takes the unit off the numbers: all have the same one, or none has, or it stands behind them
+  !! all.
+  pure subroutine take_unit(words, diagnostics, unit, fine)
+    type(token_t), allocatable, intent(inout) :: words(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    character(len=:), allocatable, intent(inout) :: unit
+    logical, intent(out) :: fine !! whether there is one unit
+
+    type(token_t) :: mine, first
+    integer :: i, length
+    logical :: at_end
+
+    fine = .true.
+    at_end = is_unit_at_end(words)
+    if (at_end) then
+      first = words(size(words))
+      unit = first%text
+      words = words(:size(words) - 1)
+    end if
+    do i = 1, size(words)
+      length = number_length(words(i)%text)
+      if (length == 0) cycle
+      mine = token_part(words(i), length + 1, len(words(i)%text))
+      ! What is no unit is left for the reader of numbers to complain of.
+      if (len(mine%text) > 0) then
+        if (scan(mine%text(:1), ".,*/+-0123456789") == 1) cycle
+      end if
+      words(i) = token_part(words(i), 1, length)
+      if (at_end .and. len(mine%text) == 0) cycle
+      if (i == 1 .and. .not. at_end) then
+        first = mine
+        unit = mine%text
+      end if
+      if (mine%text == unit .and. .not. at_end) cycle
+      fine = .false.
+      if (len(mine%text) == 0) mine = words(i)
+      if (len(first%text) == 0) first = words(1)
+      call add_error(diagnostics, mine, "all values of a VARY have the same unit, or none", first, &
+        "another one is here")
+      return
+    end do
+  end subroutine take_unit
+
+  !> Whether the last word is the unit of all numbers before it.
+  pure function is_unit_at_end(words) result(is)
+    type(token_t), intent(in) :: words(:)
+    logical :: is
+
+    integer :: last
+
+    last = size(words)
+    is = .false.
+    if (last < 2) return
+    if (number_length(words(last)%text) > 0 .or. words(last)%set_line < 0 .or. &
+      index(words(last)%text, "$") > 0) return
+    is = .not. (is_range_word(words(last)) .or. is_range_word(words(last - 1)))
+  end function is_unit_at_end
+
+  pure function is_range_word(word) result(is)
+    type(token_t), intent(in) :: word
+    logical :: is
+
+    is = same_word(word%text, "to") .or. same_word(word%text, "step")
+  end function is_range_word
+
+  !> Units for numbers that have none: any will do.
+  pure function si_units() result(system)
+    type(unit_system_t) :: system
+
+    type(unit_t) :: length, mass, time
+    character(len=:), allocatable :: problem
+
+    call read_unit("m", dimension_length, length, problem)
+    call read_unit("kg", dimension_mass, mass, problem)
+    call read_unit("s", dimension_time, time, problem)
+    system = new_unit_system(length, mass, time)
+  end function si_units
+
+end module variations

@@ -1,0 +1,276 @@
+!> One link on a long mesh: what the unknowns of an element do in it and at its end.
+module chain_links
+  use beam_mesh, only: beam_t
+  use deformation_shapes, only: bending_unknowns, shear_scale
+  use kinds, only: wp
+  use legendre, only: gauss_rule, legendre_values, once_integrated, twice_integrated
+  use link_lumps, only: element_of_lump, lump_masses, lump_places
+  use link_modes, only: end_rotation
+  use linkages, only: body_t
+  use long_sums, only: long_dot
+  implicit none (type, external)
+  private
+
+  public :: chain_t, new_chain, slope_at_start, add_from_start, at_end, add_back_at_end, add_back, &
+    at_place, add_lump_forces
+
+  !> One link; one that does not bend has no unknowns, and what follows of them is empty.
+  type :: chain_t
+    logical :: bends = .true.
+    integer :: elements = 0
+    integer :: bendings = 0     !! transverse unknowns of an element: curvatures, and with shear as
+                                !! many strains in turn with them
+    integer :: at_end = 0       !! the first of them, which alone leave anything at its end
+    logical :: sheared = .false.
+    integer :: strains = 0
+    integer :: first_bending = 0 !! number of the link's first unknown, minus one
+    integer :: first_strain = 0
+    real(wp) :: length = 0.0_wp !! of the link [m]
+    real(wp), allocatable :: bend(:, :)     !! (coefficients, bendings) Legendre coefficients of the
+                                            !! displacement in the element
+    real(wp), allocatable :: turn(:, :)     !! (coefficients − 1, bendings) those of its slope
+    real(wp), allocatable :: rotate(:, :)   !! (coefficients − 1, bendings) those of the rotation of
+                                            !! its cross-sections
+    real(wp), allocatable :: stretch(:, :)  !! (coefficients, strains) those of the axial
+                                            !! displacement
+    real(wp), allocatable :: weight(:)      !! μ h/(2j+1): squares of the coefficients times these
+                                            !! are the mass
+    real(wp), allocatable :: rotation_weight(:) !! ρI h/(2j+1), likewise for the rotation; empty
+                                                !! without rotary inertia
+    real(wp), allocatable :: force(:, :, :) !! (coefficients − 1, coefficients − 1, 3) `h ∫ ξ^(k−1)
+                                            !! P_i P_j dξ`
+    real(wp), allocatable :: lump(:)        !! masses along the link [kg]
+    integer, allocatable :: lump_element(:) !! (lumps) the element of each
+    real(wp), allocatable :: lump_value(:, :) !! (coefficients, lumps) P_j where it is in its
+                                              !! element
+    !> (coefficients − 1, coefficients − 1, lumps) `h ∫ P_i P_j dξ` from the start of its element to
+    !! it
+    real(wp), allocatable :: before(:, :, :)
+    real(wp), allocatable :: start_slope(:) !! (bendings × elements) rotation at the first end, the
+                                            !! chord at rest
+    real(wp) :: end_rotation = 0.0_wp       !! the norm of `start_slope`
+  end type chain_t
+
+contains
+
+  !> Everything about a link on a long mesh that does not change with the position.
+  pure function new_chain(body, beam, elements, order, axial_degree) result(link)
+    type(body_t), intent(in) :: body
+    type(beam_t), intent(in) :: beam
+    integer, intent(in) :: elements, order, axial_degree
+    type(chain_t) :: link
+
+    real(wp) :: h
+    integer :: j, coefficients
+
+    h = body%length/elements
+    coefficients = max(order, axial_degree) + 1
+    link%elements = elements
+    link%length = body%length
+    link%bends = body%bends
+    allocate (link%lump(0))
+    if (.not. body%bends) then
+      allocate (link%start_slope(0))
+      return
+    end if
+    link%sheared = beam%shear_stiffness > 0.0_wp
+    link%bendings = bending_unknowns(order, link%sheared)
+    ! Curvatures of degree 0 and 1, and a uniform shear strain between them.
+    link%at_end = merge(3, 2, link%sheared)
+    link%strains = axial_degree
+    link%end_rotation = end_rotation(body%length, beam%bending_stiffness, beam%shear_stiffness)
+    call fill_bending(link, beam, order, coefficients)
+    allocate (link%stretch(coefficients, axial_degree))
+    link%stretch = 0.0_wp
+    do j = 0, axial_degree - 1
+      link%stretch(:j + 2, j + 1) = &
+        0.5_wp*h*sqrt((2*j + 1)/(beam%axial_stiffness*h))*once_integrated(j)
+    end do
+    link%weight = [(body%line_density*h/(2*j + 1), j=0, coefficients - 1)]
+    link%rotation_weight = [(body%rotary_inertia*h/(2*j + 1), j=0, merge(coefficients - 2, -1, &
+      body%rotary_inertia > 0.0_wp))]
+    link%force = force_integrals(coefficients - 1, h)
+    link%start_slope = start_slopes(link, beam)
+    call place_lumps(link, body, coefficients)
+  end function new_chain
+
+  !> Puts the masses along a link into their elements.
+  pure subroutine place_lumps(link, body, coefficients)
+    type(chain_t), intent(inout) :: link
+    type(body_t), intent(in) :: body
+    integer, intent(in) :: coefficients
+
+    real(wp), allocatable :: xi(:)
+    real(wp) :: x(coefficients), w(coefficients), p(coefficients - 1), place
+    integer :: i, k
+
+    link%lump = lump_masses(body)
+    xi = lump_places(body)
+    allocate (link%lump_element(size(xi)), link%lump_value(coefficients, size(xi)))
+    allocate (link%before(coefficients - 1, coefficients - 1, size(xi)))
+    link%before = 0.0_wp
+    call gauss_rule(x, w)
+    do i = 1, size(xi)
+      call element_of_lump(xi(i), link%elements, link%lump_element(i), place)
+      link%lump_value(:, i) = legendre_values(coefficients - 1, 2.0_wp*place - 1.0_wp)
+      do k = 1, size(x)
+        p = legendre_values(coefficients - 2, place*(1.0_wp + x(k)) - 1.0_wp)
+        link%before(:, :, i) = link%before(:, :, i) + 0.5_wp*body%length/link%elements*place*w(k)* &
+          spread(p, 2, size(p))*spread(p, 1, size(p))
+      end do
+    end do
+  end subroutine place_lumps
+
+  !> What the transverse unknowns of an element do in it.
+  pure subroutine fill_bending(link, beam, order, coefficients)
+    type(chain_t), intent(inout) :: link
+    type(beam_t), intent(in) :: beam
+    integer, intent(in) :: order, coefficients
+
+    real(wp) :: h, scale
+    integer :: j, column
+
+    h = link%length/link%elements
+    allocate (link%bend(coefficients, link%bendings), link%turn(coefficients - 1, link%bendings))
+    link%bend = 0.0_wp
+    link%turn = 0.0_wp
+    link%rotate = link%turn
+    column = 0
+    do j = 0, order - 2
+      column = column + 1
+      scale = 0.5_wp*h*sqrt((2*j + 1)/(beam%bending_stiffness*h))
+      link%bend(:j + 3, column) = 0.5_wp*h*scale*twice_integrated(j)
+      link%turn(:j + 2, column) = scale*once_integrated(j)
+      link%rotate(:, column) = link%turn(:, column)
+      if (.not. link%sheared) cycle
+      column = column + 1
+      scale = shear_scale(j, beam%shear_stiffness, h)
+      link%bend(:j + 2, column) = 0.5_wp*h*scale*once_integrated(j)
+      link%turn(j + 1, column) = scale
+    end do
+  end subroutine fill_bending
+
+  !> `θ(0) = −∫ (1 − x/L) θ' dx − ∫ γ dx/L`; of the curvatures only P_0 and P_1 count, of the shear
+  !! strains only P_0.
+  pure function start_slopes(link, beam) result(slope)
+    type(chain_t), intent(in) :: link
+    type(beam_t), intent(in) :: beam
+    real(wp) :: slope(link%bendings*link%elements)
+
+    real(wp) :: h
+    integer :: e, first
+
+    h = link%length/link%elements
+    slope = 0.0_wp
+    do e = 1, link%elements
+      first = (e - 1)*link%bendings
+      slope(first + 1) = -sqrt(h/beam%bending_stiffness)*(1.0_wp - (e - 0.5_wp)/link%elements)
+      if (link%sheared) slope(first + 2) = -sqrt(h/beam%shear_stiffness)/link%length
+      slope(first + link%at_end) = sqrt(3.0_wp*h/beam%bending_stiffness)/(6.0_wp*link%elements)
+    end do
+  end function start_slopes
+
+  !> `h ∫ ξ^(k−1) P_i P_j dξ` for k = 1, 2, 3.
+  pure function force_integrals(coefficients, h) result(integral)
+    integer, intent(in) :: coefficients
+    real(wp), intent(in) :: h
+    real(wp) :: integral(coefficients, coefficients, 3)
+
+    real(wp) :: x(coefficients + 1), w(coefficients + 1), p(coefficients)
+    integer :: i, j, k
+
+    call gauss_rule(x, w)
+    integral = 0.0_wp
+    do i = 1, size(x)
+      p = legendre_values(coefficients - 1, x(i))
+      do k = 1, 3
+        do j = 1, coefficients
+          integral(:, j, k) = integral(:, j, k) + 0.5_wp*h*w(i)*(0.5_wp*(1.0_wp + x(i)))**(k - &
+            1)*p(j)*p
+        end do
+      end do
+    end do
+  end function force_integrals
+
+  !> Rotation of a link's first end against its chord.
+  pure function slope_at_start(link, vector) result(slope)
+    type(chain_t), intent(in) :: link
+    real(wp), intent(in) :: vector(:)
+    real(wp) :: slope
+
+    slope = long_dot(link%start_slope, &
+      vector(link%first_bending + 1:link%first_bending + size(link%start_slope)))
+  end function slope_at_start
+
+  !> The transpose of `slope_at_start`.
+  pure subroutine add_from_start(link, moment, vector)
+    type(chain_t), intent(in) :: link
+    real(wp), intent(in) :: moment
+    real(wp), intent(inout) :: vector(:)
+
+    integer :: i
+
+    do i = 1, size(link%start_slope)
+      vector(link%first_bending + i) = vector(link%first_bending + i) + moment*link%start_slope(i)
+    end do
+  end subroutine add_from_start
+
+  !> Value at the end of an element.
+  pure function at_end(table, count, y) result(value)
+    real(wp), intent(in) :: table(:, :), y(:)
+    integer, intent(in) :: count !! unknowns that leave anything there
+    real(wp) :: value
+
+    integer :: j
+
+    value = 0.0_wp
+    do j = 1, count
+      value = value + sum(table(:, j))*y(j)
+    end do
+  end function at_end
+
+  pure subroutine add_back_at_end(table, count, value, y)
+    real(wp), intent(in) :: table(:, :), value
+    integer, intent(in) :: count
+    real(wp), intent(inout) :: y(:)
+
+    integer :: j
+
+    do j = 1, count
+      y(j) = y(j) + sum(table(:, j))*value
+    end do
+  end subroutine add_back_at_end
+
+  pure subroutine add_back(table, force, y)
+    real(wp), intent(in) :: table(:, :), force(:)
+    real(wp), intent(inout) :: y(:)
+
+    y = y + matmul(force, table)
+  end subroutine add_back
+
+  !> Adds the forces of the masses in an element: `m v` there, on every coefficient of the
+  !! displacement.
+  pure subroutine add_lump_forces(link, element, coefficient, force)
+    type(chain_t), intent(in) :: link
+    integer, intent(in) :: element
+    real(wp), intent(in) :: coefficient(:)  !! Legendre coefficients of the displacement
+    real(wp), intent(inout) :: force(:)
+
+    integer :: i
+
+    do i = 1, size(link%lump)
+      if (link%lump_element(i) /= element) cycle
+      force = force + link%lump(i)*dot_product(link%lump_value(:, i), &
+        coefficient)*link%lump_value(:, i)
+    end do
+  end subroutine add_lump_forces
+
+  pure function at_place(table, y, place) result(value)
+    real(wp), intent(in) :: table(:, :), y(:)
+    real(wp), intent(in) :: place !! from −1 to 1 in the element
+    real(wp) :: value
+
+    value = dot_product(matmul(table, y), legendre_values(size(table, 1) - 1, place))
+  end function at_place
+
+end module chain_links

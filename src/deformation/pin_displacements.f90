@@ -1,0 +1,112 @@
+!> How the links' elongations and the rotation of the clamped end move the pins.
+!!
+!! With its driven link clamped, a linkage of mobility one is statically determinate: its links' own
+!! deformations are free, and the pins follow. A link moves its pins by its elongation only, and the
+!! driven one by the rotation of its chord against the clamp. A link that does not bend moves none.
+module pin_displacements
+  use kinds, only: wp
+  use link_modes, only: link_modes_t
+  use linkages, only: cross, linkage_t, normal_to
+  use poses, only: arm_to_middle, pose_t
+  implicit none (type, external)
+  private
+
+  public :: chords_t, find_chords, border_numbers, body_motion
+
+  !> What the border unknowns (the clamped end's rotation, then the elongation of every link that
+  !! bends) do to the chords of all links.
+  type :: chords_t
+    real(wp), allocatable :: across(:, :, :) !! (3, border, bodies) transverse, at the first and
+                                             !! last pin, and the clamped end's curve
+    real(wp), allocatable :: along(:, :, :)  !! (2, border, bodies) axial, at the first and last pin
+    real(wp), allocatable :: turn(:, :)      !! (border, bodies) rotation of the chord [rad]
+    real(wp), allocatable :: pin(:, :, :)    !! (2, pins, border) displacement of the pins
+  end type chords_t
+
+contains
+
+  !> Numbers of the border unknowns; 0 where a link that does not bend has none.
+  pure function border_numbers(linkage) result(number)
+    type(linkage_t), intent(in) :: linkage
+    integer :: number(0:size(linkage%bodies)) !! of the clamped end's rotation, then of the
+                                              !! elongation of every body
+
+    integer :: b, last
+
+    number = 0
+    if (linkage%bodies(1)%bends) number(0) = 1
+    last = number(0)
+    do b = 1, size(linkage%bodies)
+      if (.not. linkage%bodies(b)%bends) cycle
+      last = last + 1
+      number(b) = last
+    end do
+  end function border_numbers
+
+  !> Moves the driven link's pin, then dyad after dyad: the middle pin has the elongations of both
+  !! bodies along them, `e_k·(U − U_base k) = δ_k`, hence `U = (q n1 − p n2)/sin(θ4 − θ3)` with p
+  !! and q the right sides.
+  pure function find_chords(linkage, links, pose) result(chords)
+    type(linkage_t), intent(in) :: linkage
+    type(link_modes_t), intent(in) :: links(:) !! (bodies)
+    type(pose_t), intent(in) :: pose           !! away from dead points
+    type(chords_t) :: chords
+
+    real(wp) :: e(2, 2), right_side
+    integer :: number(0:size(links)), b, i, j, k, border
+
+    number = border_numbers(linkage)
+    border = maxval(number)
+    allocate (chords%pin(2, size(linkage%is_ground), border))
+    chords%pin = 0.0_wp
+    associate (driven => linkage%bodies(1))
+      if (driven%bends) then
+        chords%pin(:, driven%last_pin, number(0)) = &
+          -links(1)%end_rotation*driven%length*normal_to(pose%direction(:, 1))
+        chords%pin(:, driven%last_pin, number(1)) = links(1)%elongation*pose%direction(:, 1)
+      end if
+    end associate
+    do i = 1, size(linkage%dyads)
+      associate (dyad => linkage%dyads(i))
+        do k = 1, 2
+          e(:, k) = arm_to_middle(linkage, dyad, pose, k)
+        end do
+        do j = 1, border
+          do k = 1, 2
+            right_side = dot_product(e(:, k), chords%pin(:, dyad%base(k), j))
+            if (j == number(dyad%body(k))) right_side = right_side + links(dyad%body(k))%elongation
+            chords%pin(:, dyad%middle, j) = chords%pin(:, dyad%middle, j) + merge(-1.0_wp, 1.0_wp, &
+              k == 1)*right_side/cross(e(:, 1), e(:, 2))*normal_to(e(:, 3 - k))
+          end do
+        end do
+      end associate
+    end do
+    allocate (chords%across(3, border, size(links)), chords%along(2, border, size(links)), &
+      chords%turn(border, size(links)))
+    do b = 1, size(links)
+      associate (body => linkage%bodies(b), axis => pose%direction(:, b))
+        do j = 1, border
+          chords%across(1, j, b) = dot_product(normal_to(axis), chords%pin(:, body%first_pin, j))
+          chords%across(2, j, b) = dot_product(normal_to(axis), chords%pin(:, body%last_pin, j))
+          chords%across(3, j, b) = merge(1.0_wp, 0.0_wp, j == number(0) .and. links(b)%clamped)
+          chords%along(1, j, b) = dot_product(axis, chords%pin(:, body%first_pin, j))
+          chords%along(2, j, b) = dot_product(axis, chords%pin(:, body%last_pin, j))
+        end do
+        chords%turn(:, b) = (chords%across(2, :, b) - chords%across(1, :, b))/body%length
+      end associate
+    end do
+  end function find_chords
+
+  !> What the border unknowns do to a body as a whole: displacement of its first pin, along it and
+  !! across it, and rotation.
+  pure function body_motion(chords, body) result(motion)
+    type(chords_t), intent(in) :: chords
+    integer, intent(in) :: body
+    real(wp) :: motion(3, size(chords%turn, 1))
+
+    motion(1, :) = chords%along(1, :, body)
+    motion(2, :) = chords%across(1, :, body)
+    motion(3, :) = chords%turn(:, body)
+  end function body_motion
+
+end module pin_displacements

@@ -1,0 +1,244 @@
+!> Mass and geometric stiffness of a linkage in its links' own deformations.
+!!
+!! Unknowns: the clamped end's rotation and the links' elongations (the border), the transverse own
+!! modes of link after link (the blocks), then the axial ones. In all of them the elastic stiffness
+!! is the unit matrix. A link that does not bend has none.
+module reduced_assembly
+  use bordered_matrix, only: bordered_matrix_t, layout_t, new_layout
+  use inertia_loads, only: distributed_load, load_t
+  use kinds, only: wp
+  use link_modes, only: clamp, link_modes_t, rigid, stations
+  use linkages, only: linkage_t, normal_to
+  use load_cases, only: load_case_t
+  use pin_displacements, only: body_motion, border_numbers, chords_t
+  use poses, only: pose_t
+  implicit none (type, external)
+  private
+
+  public :: reduced_layout, reduced_mass, reduced_geometric_stiffness, next_order_change, &
+    reduced_deflection, first_axial
+
+contains
+
+  pure function reduced_layout(linkage, links) result(layout)
+    type(linkage_t), intent(in) :: linkage
+    type(link_modes_t), intent(in) :: links(:) !! (bodies)
+    type(layout_t) :: layout
+
+    layout = new_layout(maxval(border_numbers(linkage)), links%modes, links%axial_modes)
+  end function reduced_layout
+
+  !> Number of the first axial unknown of a body.
+  pure function first_axial(layout, links, body) result(first)
+    type(layout_t), intent(in) :: layout
+    type(link_modes_t), intent(in) :: links(:)
+    integer, intent(in) :: body
+    integer :: first
+
+    first = layout%unknowns - sum(links(body:)%axial_modes) + 1
+  end function first_axial
+
+  !> `M = SᵀmS`: diagonal between the own modes, and a border for what the pins do to the links.
+  pure subroutine reduced_mass(linkage, links, layout, chords, mass)
+    type(linkage_t), intent(in) :: linkage
+    type(link_modes_t), intent(in) :: links(:)
+    type(layout_t), intent(in) :: layout
+    type(chords_t), intent(in) :: chords
+    type(bordered_matrix_t), intent(inout) :: mass !! of the right shape, without blocks [s²]
+
+    real(wp) :: across(3, layout%border), along(2, layout%border)
+    integer :: b, i, k, first
+
+    mass%border = 0.0_wp
+    do b = 1, size(links)
+      if (.not. links(b)%bends) then
+        across = body_motion(chords, b)
+        mass%border = mass%border + matmul(transpose(across), matmul(links(b)%rigid_mass, across))
+        cycle
+      end if
+      across = chords%across(:, :, b)
+      along = chords%along(:, :, b)
+      mass%border = mass%border + matmul(transpose(across), matmul(links(b)%linear, across)) + &
+        matmul(transpose(along), matmul(links(b)%axial_linear, along))
+      first = layout%first(b) - 1
+      do k = 1, links(b)%modes
+        mass%diagonal(first + k) = links(b)%square(k)
+        do i = 1, layout%border
+          mass%coupling(i, first + k) = across(1, i)*links(b)%participation(1, k) + &
+            across(2, i)*links(b)%participation(2, k) + across(3, i)*links(b)%participation(3, k)
+        end do
+      end do
+      first = first_axial(layout, links, b) - 1
+      do k = 1, links(b)%axial_modes
+        mass%diagonal(first + k) = links(b)%axial_square(k)
+        do i = 1, layout%border
+          mass%coupling(i, first + k) = along(1, i)*links(b)%axial_participation(1, k) + &
+            along(2, i)*links(b)%axial_participation(2, k)
+        end do
+      end do
+    end do
+    do b = 1, size(linkage%pin_mass)
+      if (linkage%pin_mass(b) <= 0.0_wp) cycle
+      do k = 1, layout%border
+        mass%border(:, k) = mass%border(:, k) + linkage%pin_mass(b)* &
+          (chords%pin(1, b, :)*chords%pin(1, b, k) + chords%pin(2, b, :)*chords%pin(2, b, k))
+      end do
+    end do
+  end subroutine reduced_mass
+
+  !> `K_G = ∫ N v'² dx` of all links: full blocks between own modes, and a border for the rotation
+  !! of the chords.
+  pure subroutine reduced_geometric_stiffness(links, layout, chords, force, stiffness)
+    type(link_modes_t), intent(in) :: links(:)
+    type(layout_t), intent(in) :: layout
+    type(chords_t), intent(in) :: chords
+    real(wp), intent(in) :: force(:, :)                 !! (force functions, bodies) coefficients,
+                                                        !! tension positive [N]
+    type(bordered_matrix_t), intent(inout) :: stiffness !! of the right shape, with blocks [-]
+
+    real(wp) :: on_chord, on_curve
+    real(wp), allocatable :: slopes(:, :)
+    integer :: b, i, j, k, m, first
+
+    stiffness%border = 0.0_wp
+    do b = 1, size(links)
+      m = links(b)%modes
+      slopes = force(1, b)*links(b)%geometric(:, :, 1)
+      do j = 2, size(links(b)%geometric, 3)
+        slopes = slopes + force(j, b)*links(b)%geometric(:, :, j)
+      end do
+      first = layout%first(b) - 1
+      do k = 1, m
+        stiffness%block(:m, k, b) = slopes(clamp + 1:, clamp + k)
+        do i = 1, layout%border
+          stiffness%coupling(i, first + k) = chords%turn(i, b)*slopes(rigid, clamp + k) + &
+            chords%across(3, i, b)*slopes(clamp, clamp + k)
+        end do
+      end do
+      do i = 1, layout%border
+        on_chord = chords%turn(i, b)*slopes(rigid, rigid) + chords%across(3, i, b)*slopes(clamp, &
+          rigid)
+        on_curve = chords%turn(i, b)*slopes(rigid, clamp) + chords%across(3, i, b)*slopes(clamp, &
+          clamp)
+        stiffness%border(:, i) = stiffness%border(:, i) + on_chord*chords%turn(:, b) + &
+          on_curve*chords%across(3, :, b)
+      end do
+    end do
+  end subroutine reduced_geometric_stiffness
+
+  !> How much the next two orders of the polynomials would lower an eigenvalue, link by link.
+  !!
+  !! With r the residual of the mode in their equations the change is `−Σ r²/(k − λ m)` (to first
+  !! order, which is all there is once the change is small). The unknowns of the next orders do not
+  !! meet those of another link.
+  pure function next_order_change(links, layout, chords, force, vector, lambda) result(change)
+    type(link_modes_t), intent(in) :: links(:)
+    type(layout_t), intent(in) :: layout
+    type(chords_t), intent(in) :: chords
+    real(wp), intent(in) :: force(:, :)  !! (force functions, bodies) at this speed; no functions:
+                                         !! static [N]
+    real(wp), intent(in) :: vector(:)    !! mode with yᵀMy = 1
+    real(wp), intent(in) :: lambda       !! its eigenvalue [1/s²]
+    real(wp) :: change(size(links))      !! (bodies) positive [1/s²]
+
+    real(wp) :: ends(3), turn, residual, pivot
+    integer :: b, i, j, first, axial
+
+    change = 0.0_wp
+    do b = 1, size(links)
+      associate (link => links(b), border => vector(:layout%border))
+        first = layout%first(b)
+        ends = matmul(chords%across(:, :, b), border)
+        turn = dot_product(chords%turn(:, b), border)
+        do i = 1, size(link%next%square)
+          residual = -lambda*(dot_product(ends, link%next%participation(:, i)) + &
+            dot_product(vector(first:first + link%modes - 1), link%next%mass(:, i)))
+          pivot = 1.0_wp - lambda*link%next%square(i)
+          do j = 1, min(size(force, 1), size(link%next%geometric, 3))
+            residual = residual + force(j, b)*(turn*link%next%geometric(rigid, i, j) + &
+              ends(3)*link%next%geometric(clamp, i, j) + &
+              dot_product(vector(first:first + link%modes - 1), link%next%geometric(clamp + 1:, i, &
+              j)))
+            pivot = pivot + force(j, b)*link%next%geometric_square(i, j)
+          end do
+          change(b) = change(b) + residual**2/max(abs(pivot), 0.1_wp)
+        end do
+        axial = first_axial(layout, links, b)
+        ends(1:2) = matmul(chords%along(:, :, b), border)
+        do i = 1, size(link%axial_next%square)
+          residual = lambda*(dot_product(ends(1:2), link%axial_next%participation(:, i)) + &
+            dot_product(vector(axial:axial + link%axial_modes - 1), link%axial_next%mass(:, i)))
+          change(b) = change(b) + residual**2/max(abs(1.0_wp - lambda*link%axial_next%square(i)), &
+            0.1_wp)
+        end do
+      end associate
+    end do
+  end function next_order_change
+
+  !> Static displacements, at the stations of every link and across it, under the loads of a case.
+  !! Inertia loads are linear along the links; torques on links are carried by their pins. The
+  !! stiffness is the unit matrix: every unknown is the work of the loads on its own shape.
+  pure subroutine reduced_deflection(linkage, links, layout, chords, pose, case, displacement)
+    type(linkage_t), intent(in) :: linkage
+    type(link_modes_t), intent(in) :: links(:)
+    type(layout_t), intent(in) :: layout
+    type(chords_t), intent(in) :: chords
+    type(pose_t), intent(in) :: pose
+    type(load_case_t), intent(in) :: case
+    real(wp), intent(out) :: displacement(:, :, :) !! (along and across, stations, bodies) [m]
+
+    real(wp) :: border(layout%border), across(2, size(links)), along(2), at_ends(2, 2), ends(3), &
+      axial_ends(2), xi
+    integer :: b, i, k
+
+    border = 0.0_wp
+    do b = 1, size(links)
+      border = border + case%couple(b)*chords%turn(:, b)
+      at_ends(:, 1) = case%field%at_first(:, b)
+      at_ends(:, 2) = case%field%at_first(:, b) + links(b)%length*case%field%slope(:, b)
+      do i = 1, 2
+        along(i) = dot_product(pose%direction(:, b), at_ends(:, i))
+        across(i, b) = dot_product(normal_to(pose%direction(:, b)), at_ends(:, i))
+      end do
+      if (links(b)%bends) then
+        border = border - matmul(transpose(chords%across(:, :, b)), &
+          matmul(links(b)%linear(:, 1:2), across(:, b))) - &
+          matmul(transpose(chords%along(:, :, b)), matmul(links(b)%axial_linear, along))
+      else
+        border = border + matmul(rigid_work(linkage, b, pose, case), body_motion(chords, b))
+      end if
+    end do
+    do k = 1, size(linkage%pin_mass)
+      border = border - linkage%pin_mass(k)*matmul(case%field%at_pin(:, k), chords%pin(:, k, :)) + &
+        matmul(case%pin_force(:, k), chords%pin(:, k, :))
+    end do
+    do b = 1, size(links)
+      ends = matmul(chords%across(:, :, b), border)
+      axial_ends = matmul(chords%along(:, :, b), border)
+      do i = 1, stations
+        xi = real(i - 1, wp)/(stations - 1)
+        displacement(1, i, b) = (1.0_wp - xi)*axial_ends(1) + xi*axial_ends(2)
+        displacement(2, i, b) = (1.0_wp - xi)*ends(1) + xi*ends(2)
+        if (links(b)%bends) displacement(2, i, b) = displacement(2, i, b) + &
+          links(b)%clamp_station(i)*ends(3) - dot_product(links(b)%sag(i, :), across(:, b))
+      end do
+    end do
+  end subroutine reduced_deflection
+
+  !> Work of the inertia loads of a link that does not bend on the three motions of `body_motion`
+  !! [N, N, N m].
+  pure function rigid_work(linkage, body, pose, case) result(work)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: body
+    type(pose_t), intent(in) :: pose
+    type(load_case_t), intent(in) :: case
+    real(wp) :: work(3)
+
+    type(load_t) :: load
+
+    load = distributed_load(linkage%bodies(body), body, pose, case%field)
+    work = [dot_product(pose%direction(:, body), load%force), &
+      dot_product(normal_to(pose%direction(:, body)), load%force), load%moment]
+  end function rigid_work
+
+end module reduced_assembly

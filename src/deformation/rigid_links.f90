@@ -1,0 +1,41 @@
+!> Links that do not bend: no unknowns of their own, and a mass that moves with its pins.
+module rigid_links
+  use kinds, only: wp
+  use link_modes, only: link_modes_t, rigid
+  use linkages, only: body_t
+  use rigid_bodies, only: rigid_body, rigid_body_t
+  implicit none (type, external)
+  private
+
+  public :: new_rigid_link
+
+contains
+
+  !> A link without own deformations, with the mass of its body.
+  !!
+  !! Its axial force is one number, the mean of what a slender link would have: its only force
+  !! function is 1.
+  pure function new_rigid_link(body, clamped) result(link)
+    type(body_t), intent(in) :: body
+    logical, intent(in) :: clamped
+    type(link_modes_t) :: link
+
+    type(rigid_body_t) :: whole
+
+    whole = rigid_body(body, 0)
+    link%bends = .false.
+    link%clamped = clamped
+    link%length = body%length
+    link%rigid_mass = reshape([whole%mass, 0.0_wp, -whole%first_moment(2), &
+      0.0_wp, whole%mass, whole%first_moment(1), &
+      -whole%first_moment(2), whole%first_moment(1), whole%inertia], [3, 3])
+    allocate (link%square(0), link%participation(3, 0), link%axial_square(0), &
+      link%axial_participation(2, 0))
+    allocate (link%bending(0, 0:0), link%axial(0, 0))
+    allocate (link%geometric(2, 2, 1))
+    link%geometric = 0.0_wp
+    link%geometric(rigid, rigid, 1) = body%length
+    allocate (link%next%square(0), link%axial_next%square(0))
+  end function new_rigid_link
+
+end module rigid_links

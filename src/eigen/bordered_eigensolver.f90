@@ -1,0 +1,429 @@
+!> The lowest modes of `(I + G) y = λ M y` for bordered matrices, each with a bound of its error,
+!! and a proof that none is missing.
+module bordered_eigensolver
+  use band_matrix, only: band_matrix_t, full_band
+  use bordered_matrix, only: all_unknowns, bordered_matrix_t, bordered_times_vector, dense_form, &
+    layout_t
+  use bordered_solver, only: solve_shifted
+  use completeness_proof, only: count_limit, count_margin, is_complete, rest_norm
+  use dense_eigensolver, only: solve_dense
+  use eigenvalue_gaps, only: relative_gap
+  use errors, only: error_t, set_error
+  use kinds, only: wp
+  use nodal_eigensolver, only: find_definite_shift
+  use sorting, only: ascending_order
+  use sturm_count, only: shifted
+  use text, only: to_string
+  implicit none (type, external)
+  private
+
+  public :: bordered_modes_t, start_t, find_bordered_modes, new_start
+
+  !> From where to look for modes: what is known from neighbours.
+  type :: start_t
+    integer :: modes = 0                     !! 0: nothing is known
+    real(wp), allocatable :: lambda(:)       !! (modes)
+    real(wp), allocatable :: direction(:, :) !! (unknowns, modes) M y, of any length
+  end type start_t
+
+  type :: bordered_modes_t
+    real(wp), allocatable :: lambda(:)        !! ω², ascending; perhaps more than were asked for
+                                              !! [1/s²]
+    real(wp), allocatable :: vector(:, :)     !! (unknowns, modes) with yᵀMy = 1
+    real(wp), allocatable :: mass_times(:, :) !! (unknowns, modes) M y
+    real(wp), allocatable :: error(:)         !! (modes) relative bound of the error of the
+                                              !! eigenvalue of these matrices
+    integer, allocatable :: origin(:)         !! (modes) number in the start from which each came
+    real(wp) :: rest = 0.0_wp                 !! norm that proves, below 1, that no mode up to the
+                                              !! last wanted is missing
+    integer :: factorizations = 0             !! of the bordered matrix: one an inverse iteration
+    integer :: full_solutions = 0             !! of the dense eigenproblem
+    integer :: reduced_solutions = 0          !! the same with the first few modes of every link
+                                              !! only
+  end type bordered_modes_t
+
+  integer, parameter :: most_iterations = 8
+
+  !> Share of a mode that a neighbour must not have of another one: two starts have run to one mode.
+  real(wp), parameter :: most_overlap = 1.0e-5_wp
+
+  !> Relative distance of eigenvalues below which a mode is kept perpendicular to those found
+  !! before.
+  real(wp), parameter :: same_eigenvalue = 1.0e-3_wp
+
+  !> Error of an eigenvalue from rounding, in units of ε times the terms that cancel in its Rayleigh
+  !! quotient.
+  real(wp), parameter :: rounding = 16.0_wp
+
+  !> Below the first the proof holds, with a margin for its own rounding. Modes beyond those wanted
+  !! serve it, and are kept for the next position unless it holds easily without them.
+  real(wp), parameter :: most_rest = 0.999_wp, easy_rest = 0.8_wp
+
+  !> Modes beyond those wanted that a search without a start begins with, and that it may go up to.
+  integer, parameter :: first_guards = 2, most_guards = 32
+
+  !> Relative accuracy of the last eigenvalue of a start, about: inverse iteration finds the other
+  !! digits.
+  real(wp), parameter :: start_accuracy = 1.0e-6_wp
+
+contains
+
+  pure function new_start() result(start)
+    type(start_t) :: start
+
+    start%modes = 0
+    allocate (start%lambda(0), start%direction(0, 0))
+  end function new_start
+
+  !> Finds the lowest modes, from a start if there is one; if it leads astray, or there is none,
+  !! from a dense eigenproblem.
+  !!
+  !! Every mode is improved by inverse iteration at its Rayleigh quotient until the error of its
+  !! eigenvalue is below rounding. Errors: no start leads to modes that are proven to be complete.
+  subroutine find_bordered_modes(layout, mass, geometric, loaded, wanted, accurate_vectors, start, &
+    found, error)
+    type(layout_t), intent(in) :: layout
+    type(bordered_matrix_t), intent(in) :: mass      !! M, positive definite [s²]
+    type(bordered_matrix_t), intent(in) :: geometric !! G
+    logical, intent(in) :: loaded                    !! whether there is a G
+    integer, intent(in) :: wanted
+    logical, intent(in) :: accurate_vectors          !! vectors to the last digits, too, not only
+                                                     !! eigenvalues
+    type(start_t), intent(in) :: start
+    type(bordered_modes_t), intent(out) :: found
+    type(error_t), allocatable, intent(out) :: error
+
+    type(start_t) :: dense_start
+    integer :: guards
+    logical :: proven
+
+    if (wanted > layout%unknowns) then
+      call set_error(error, to_string(wanted)//" modes are asked for, and there are only "// &
+        to_string(layout%unknowns)//" unknowns")
+      return
+    end if
+    if (start%modes >= wanted) then
+      call improve_all(layout, mass, geometric, loaded, wanted, accurate_vectors, start, found, &
+        proven)
+      if (proven) return
+    end if
+    if (4*(wanted + first_guards) < layout%unknowns) then
+      call solve_dense_start(layout, mass, geometric, loaded, leading_unknowns(layout, wanted), &
+        wanted + first_guards, dense_start, error)
+      if (.not. allocated(error)) then
+        found%reduced_solutions = found%reduced_solutions + 1
+        call improve_all(layout, mass, geometric, loaded, wanted, accurate_vectors, dense_start, &
+          found, proven)
+        if (proven) return
+      end if
+    end if
+    guards = first_guards
+    do
+      guards = min(2*guards, layout%unknowns - wanted)
+      call solve_dense_start(layout, mass, geometric, loaded, all_unknowns(layout), &
+        wanted + guards, dense_start, error)
+      found%full_solutions = found%full_solutions + 1
+      if (allocated(error)) return
+      call improve_all(layout, mass, geometric, loaded, wanted, accurate_vectors, dense_start, &
+        found, proven)
+      if (proven) return
+      if (guards == layout%unknowns - wanted .or. guards >= most_guards) exit
+    end do
+    if (found%rest > 0.0_wp) then
+      call set_error(error, "it could not be proven that no mode is missing (norm of the rest "// &
+        to_string(found%rest, 3)//")")
+    else
+      call set_error(error, "fewer modes were found than are wanted")
+    end if
+  end subroutine find_bordered_modes
+
+  !> Improves every mode of a start, puts them in order, and looks whether all is well.
+  subroutine improve_all(layout, mass, geometric, loaded, wanted, accurate_vectors, start, found, &
+    proven)
+    type(layout_t), intent(in) :: layout
+    type(bordered_matrix_t), intent(in) :: mass, geometric
+    logical, intent(in) :: loaded
+    integer, intent(in) :: wanted
+    logical, intent(in) :: accurate_vectors
+    type(start_t), intent(in) :: start
+    type(bordered_modes_t), intent(inout) :: found
+    logical, intent(out) :: proven
+
+    real(wp) :: stiffness_times(layout%unknowns, start%modes)
+    integer :: i, number, order(start%modes)
+    logical :: converged
+
+    proven = .false.
+    if (allocated(found%lambda)) deallocate (found%lambda, found%vector, found%mass_times, &
+      found%error, found%origin)
+    allocate (found%lambda(start%modes), found%error(start%modes), found%origin(start%modes))
+    allocate (found%vector(layout%unknowns, start%modes), found%mass_times(layout%unknowns, &
+      start%modes))
+    number = 0
+    do i = 1, start%modes
+      call improve(layout, mass, geometric, loaded, accurate_vectors, relative_gap(start%lambda, &
+        i), start%lambda(i), start%direction(:, i), found%lambda(:number), &
+        found%vector(:, :number), found%mass_times(:, :number), found%lambda(number + 1), &
+        found%vector(:, number + 1), found%mass_times(:, number + 1), &
+        stiffness_times(:, number + 1), found%error(number + 1), found%factorizations, converged)
+      if (.not. converged) cycle
+      ! Two starts may lead to one mode. What is lost then, the proof will miss.
+      if (overlaps(found%vector(:, number + 1), found%mass_times(:, :number))) cycle
+      number = number + 1
+      found%origin(number) = i
+    end do
+    if (number < wanted) return
+    order(:number) = ascending_order(found%lambda(:number))
+    if (number < start%modes .or. any(order(2:number) < order(:number - 1))) then
+      call choose_modes(found, order(:number))
+      stiffness_times(:, :number) = stiffness_times(:, order(:number))
+    end if
+    call check(layout, mass, geometric, loaded, wanted, stiffness_times(:, :number), found, proven)
+  end subroutine improve_all
+
+  !> Whether a mode is one of those found.
+  pure function overlaps(vector, mass_times)
+    real(wp), intent(in) :: vector(:), mass_times(:, :)
+    logical :: overlaps
+
+    integer :: j
+
+    overlaps = .false.
+    do j = 1, size(mass_times, 2)
+      overlaps = overlaps .or. abs(dot_product(vector, mass_times(:, j))) > most_overlap
+    end do
+  end function overlaps
+
+  !> Keeps some modes, in an order.
+  pure subroutine choose_modes(found, order)
+    type(bordered_modes_t), intent(inout) :: found
+    integer, intent(in) :: order(:)
+
+    found%lambda = found%lambda(order)
+    found%error = found%error(order)
+    found%origin = found%origin(order)
+    found%vector = found%vector(:, order)
+    found%mass_times = found%mass_times(:, order)
+  end subroutine choose_modes
+
+  !> Inverse iteration at the Rayleigh quotient, from a direction `M y` and an estimate of the
+  !! eigenvalue.
+  !!
+  !! Where modes with nearly the same eigenvalue are known, it is kept perpendicular to them:
+  !! rounding alone would decide which of them it leads to.
+  pure subroutine improve(layout, mass, geometric, loaded, accurate_vector, gap_guess, estimate, &
+      direction, known, known_vector, known_mass_times, lambda, vector, mass_times, &
+      stiffness_times, residual_of_lambda, factorizations, converged)
+    type(layout_t), intent(in) :: layout
+    type(bordered_matrix_t), intent(in) :: mass, geometric
+    logical, intent(in) :: loaded, accurate_vector
+    real(wp), intent(in) :: gap_guess      !! relative distance of the nearest other eigenvalue
+    real(wp), intent(in) :: estimate
+    real(wp), intent(in) :: direction(:)
+    real(wp), intent(in) :: known(:)                             !! eigenvalues of modes found
+                                                                 !! before
+    real(wp), intent(in) :: known_vector(:, :), known_mass_times(:, :)
+    real(wp), intent(out) :: lambda
+    real(wp), intent(out) :: vector(:), mass_times(:), stiffness_times(:)
+    real(wp), intent(out) :: residual_of_lambda !! |r|²/λ; divided by the relative gap it is the
+                                                !! relative error of λ
+    integer, intent(inout) :: factorizations
+    logical, intent(out) :: converged
+
+    !> Beyond it squares overflow, or are zero.
+    integer, parameter :: most_exponent = maxexponent(1.0_wp)/2 - digits(1.0_wp)
+    real(wp) :: residual, square, scale, error, previous, largest
+    integer :: i, j, pass
+
+    lambda = estimate
+    mass_times = direction
+    previous = huge(previous)
+    ! As it stays where rounding has left nothing of M, or of the direction.
+    converged = .false.
+    residual = 0.0_wp
+    stiffness_times = 0.0_wp
+    do i = 1, most_iterations
+      call solve_shifted(layout, mass, geometric, loaded, lambda, mass_times, vector)
+      factorizations = factorizations + 1
+      ! Normalised before the products, so that nothing overflows.
+      largest = maxval(abs(vector))
+      if (.not. (largest > 0.0_wp .and. largest <= huge(largest))) exit
+      if (abs(exponent(largest)) > most_exponent) vector = vector/largest
+      vector = vector/sqrt(dot_product(vector, vector))
+      ! Twice: what a first pass loses to rounding the second one restores.
+      do pass = 1, 2
+        do j = 1, size(known)
+          if (abs(known(j) - lambda) > same_eigenvalue*abs(lambda)) cycle
+          vector = vector - dot_product(known_mass_times(:, j), vector)*known_vector(:, j)
+          vector = vector/sqrt(dot_product(vector, vector))
+        end do
+      end do
+      call bordered_times_vector(layout, mass, vector, mass_times)
+      stiffness_times = vector
+      if (loaded) then
+        call bordered_times_vector(layout, geometric, vector, stiffness_times)
+        stiffness_times = stiffness_times + vector
+      end if
+      square = dot_product(vector, mass_times)
+      if (.not. square > 0.0_wp) exit
+      scale = 1.0_wp/sqrt(square)
+      vector = scale*vector
+      mass_times = scale*mass_times
+      stiffness_times = scale*stiffness_times
+      lambda = dot_product(vector, stiffness_times)
+      ! With yᵀMy = 1 and K near I: |y|² = scale² is about λ, and the error of λ about |r|²/gap.
+      residual = sum((stiffness_times - lambda*mass_times)**2)
+      error = residual/max(gap_guess, epsilon(1.0_wp))
+      converged = error <= 0.25_wp*epsilon(1.0_wp)*abs(lambda)
+      if (accurate_vector) converged = converged .and. error <= (1.0e-13_wp*scale)**2
+      if (converged) exit
+      ! Rounding ends the descent of the residual: then this is all there is.
+      if (i > 2 .and. residual >= 0.25_wp*previous) then
+        converged = error <= 1.0e-10_wp*max(abs(lambda), 1.0e-6_wp*scale**2)
+        exit
+      end if
+      previous = residual
+    end do
+    residual_of_lambda = residual/max(abs(lambda), tiny(lambda))
+  end subroutine improve
+
+  !> Sum of the sizes of the terms of `yᵀKy/yᵀMy`, relative to λ: what rounding is multiplied by.
+  !!
+  !! For M, by the inequality of Cauchy and Schwarz, `|M_jk| ≤ √(M_jj M_kk)`.
+  pure function cancellation(mass, layout, vector, stiffness_times, lambda)
+    type(bordered_matrix_t), intent(in) :: mass
+    type(layout_t), intent(in) :: layout
+    real(wp), intent(in) :: vector(:), stiffness_times(:), lambda
+    real(wp) :: cancellation
+
+    real(wp) :: size_of
+    integer :: i
+
+    size_of = 0.0_wp
+    do i = 1, layout%border
+      size_of = size_of + abs(vector(i))*sqrt(mass%border(i, i))
+    end do
+    do i = layout%border + 1, layout%unknowns
+      size_of = size_of + abs(vector(i))*sqrt(mass%diagonal(i))
+    end do
+    cancellation = size_of**2 + &
+      (dot_product(vector, vector) + sum(abs(vector*(stiffness_times - vector))))/max(abs(lambda), &
+      tiny(lambda))
+  end function cancellation
+
+  !> Whether the modes are all there are up to the last wanted one, and how exact they are.
+  !!
+  !! Let μ lie just above the last of k modes, Q be an orthonormal basis of their K y, and P the
+  !! projection on its complement. On the complement `K − μM` is positive if `‖P (μM − G) P‖ < 1`:
+  !! then no more than k modes lie below μ, which are these. The norm is that of Frobenius, a sum of
+  !! squares. Where it is not below 1 a Cholesky factorization may still prove it.
+  subroutine check(layout, mass, geometric, loaded, wanted, stiffness_times, found, proven)
+    type(layout_t), intent(in) :: layout
+    type(bordered_matrix_t), intent(in) :: mass, geometric
+    logical, intent(in) :: loaded
+    integer, intent(in) :: wanted
+    real(wp), intent(in) :: stiffness_times(:, :)
+    type(bordered_modes_t), intent(inout) :: found
+    logical, intent(out) :: proven
+
+    real(wp) :: limit, rest(size(found%lambda))
+    integer :: i, kept, below
+
+    rest = huge(1.0_wp)
+    do i = wanted, size(rest)
+      rest(i) = rest_norm(layout, mass, geometric, loaded, count_limit(found%lambda(i)), &
+        stiffness_times(:, :i))
+      if (rest(i) < easy_rest) exit
+    end do
+    kept = wanted - 1 + minloc(rest(wanted:), dim=1)
+    found%rest = rest(kept)
+    proven = found%rest < most_rest
+    if (.not. proven) then
+      limit = count_limit(found%lambda(wanted))
+      below = count(found%lambda < limit)
+      call is_complete(layout, mass, geometric, loaded, limit, found%lambda(:below), &
+        found%mass_times(:, :below), proven)
+      found%factorizations = found%factorizations + 1
+      kept = below
+    end if
+    if (.not. proven) return
+    do i = 1, kept
+      found%error(i) = found%error(i)/true_gap(found%lambda, i, wanted, found%rest) + &
+        rounding*epsilon(1.0_wp)*cancellation(mass, layout, found%vector(:, i), &
+        stiffness_times(:, i), found%lambda(i))
+    end do
+    if (kept < size(found%lambda)) call choose_modes(found, [(i, i=1, kept)])
+  end subroutine check
+
+  !> Relative distance of an eigenvalue to the nearest other one; for the last one wanted the proof
+  !! tells how near another may be: only beyond the limit of the count, if that is all it tells.
+  pure function true_gap(lambda, i, wanted, rest) result(distance)
+    real(wp), intent(in) :: lambda(:)
+    integer, intent(in) :: i, wanted
+    real(wp), intent(in) :: rest
+    real(wp) :: distance
+
+    distance = max(relative_gap(lambda, i), epsilon(1.0_wp))
+    if (i >= wanted) distance = min(distance, max(1.0_wp - rest, count_margin))
+  end function true_gap
+
+  !> Modes of the dense eigenproblem of some unknowns, the others held.
+  subroutine solve_dense_start(layout, mass, geometric, loaded, chosen, modes, start, error)
+    type(layout_t), intent(in) :: layout
+    type(bordered_matrix_t), intent(in) :: mass, geometric
+    logical, intent(in) :: loaded
+    integer, intent(in) :: chosen(:) !! numbers of unknowns
+    integer, intent(in) :: modes
+    type(start_t), intent(out) :: start
+    type(error_t), allocatable, intent(out) :: error
+
+    type(band_matrix_t) :: m, k
+    real(wp) :: shift, inverse(modes), full(layout%unknowns)
+    real(wp), allocatable :: vector(:, :), dense(:, :), diagonal(:)
+    integer :: i, factorizations
+
+    if (modes > size(chosen)) then
+      call set_error(error, to_string(modes)//" modes of "//to_string(size(chosen))//" unknowns")
+      return
+    end if
+    m = full_band(dense_form(layout, mass, chosen))
+    allocate (dense(size(chosen), size(chosen)))
+    dense = 0.0_wp
+    if (loaded) dense = dense_form(layout, geometric, chosen)
+    do i = 1, size(chosen)
+      dense(i, i) = dense(i, i) + 1.0_wp
+    end do
+    k = full_band(dense)
+    shift = 0.0_wp
+    if (loaded) call find_definite_shift(k, m, shift, factorizations)
+    ! The diagonal has the eigenvalues about, and so the size of the last one that is wanted.
+    diagonal = m%entry(1, :)/(k%entry(1, :) + shift*m%entry(1, :))
+    diagonal = diagonal(ascending_order(diagonal))
+    call solve_dense(shifted(k, m, shift), m, modes, .true., inverse, vector, error, &
+      start_accuracy*abs(diagonal(size(chosen) - modes + 1)))
+    if (allocated(error)) return
+    start%modes = modes
+    start%lambda = 1.0_wp/inverse - shift
+    allocate (start%direction(layout%unknowns, modes))
+    do i = 1, modes
+      full = 0.0_wp
+      full(chosen) = vector(:, i)
+      call bordered_times_vector(layout, mass, full, start%direction(:, i))
+    end do
+  end subroutine solve_dense_start
+
+  !> The border and the first own modes of every link: close to the lowest modes, for a small price.
+  pure function leading_unknowns(layout, wanted) result(chosen)
+    type(layout_t), intent(in) :: layout
+    integer, intent(in) :: wanted
+    integer, allocatable :: chosen(:)
+
+    integer :: b, i
+
+    chosen = [(i, i=1, layout%border)]
+    do b = 1, size(layout%size)
+      chosen = [chosen, (layout%first(b) + i - 1, i=1, min(layout%size(b), wanted + 2))]
+    end do
+  end function leading_unknowns
+
+end module bordered_eigensolver

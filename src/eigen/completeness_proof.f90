@@ -1,0 +1,230 @@
+!> A proof that no mode is missing, by sums of squares only.
+module completeness_proof
+  use band_matrix, only: band_matrix_t, full_band
+  use bordered_matrix, only: all_unknowns, bordered_matrix_t, bordered_times_vector, dense_form, &
+    layout_t
+  use cholesky_factor, only: factor_band
+  use errors, only: error_t
+  use kinds, only: wp
+  implicit none (type, external)
+  private
+
+  public :: count_limit, count_margin, rest_norm, squared_norm, perpendicular, projected_norm, &
+    is_complete
+
+  !> How far above the last mode the interval reaches in which modes are counted, relatively.
+  real(wp), parameter :: count_margin = 1.0e-8_wp
+
+  !> What the difference of sums of squares may lose to rounding, relative to the largest, and how
+  !! much of that is bearable.
+  real(wp), parameter :: loss = 100.0_wp*epsilon(1.0_wp), most_loss = 1.0e-3_wp
+
+contains
+
+  !> Upper end of the interval in which modes are counted, for the eigenvalue of the last one.
+  pure function count_limit(lambda) result(limit)
+    real(wp), intent(in) :: lambda
+    real(wp) :: limit
+
+    limit = lambda + count_margin*abs(lambda)
+  end function count_limit
+
+  !> Frobenius norm of `P E P`, `E = μM − G`, P the projection on the complement of some directions.
+  !!
+  !! `‖P E P‖² = ‖E‖² − 2 ‖E Q‖² + ‖Qᵀ E Q‖²` for an orthonormal basis Q of these directions.
+  pure function rest_norm(layout, mass, geometric, loaded, limit, directions) result(norm)
+    type(layout_t), intent(in) :: layout
+    type(bordered_matrix_t), intent(in) :: mass, geometric
+    logical, intent(in) :: loaded
+    real(wp), intent(in) :: limit              !! μ
+    real(wp), intent(in) :: directions(:, :)   !! (unknowns, directions), independent
+    real(wp) :: norm
+
+    real(wp) :: q(size(directions, 1), size(directions, 2)), e_times_q(size(directions, 1), &
+      size(directions, 2))
+    real(wp) :: product(size(directions, 1)), square
+    integer :: i
+
+    do i = 1, size(q, 2)
+      q(:, i) = perpendicular(directions(:, i), q(:, :i - 1))
+      call bordered_times_vector(layout, mass, q(:, i), product)
+      e_times_q(:, i) = limit*product
+      if (loaded) then
+        call bordered_times_vector(layout, geometric, q(:, i), product)
+        e_times_q(:, i) = e_times_q(:, i) - product
+      end if
+    end do
+    square = squared_norm(layout, mass, geometric, loaded, limit)
+    if (loss*square < most_loss) then
+      norm = projected_norm(square, q, e_times_q)
+    else
+      ! With many modes ‖E‖² is so large that the difference has no digits left: the projected
+      ! matrix itself is worked out.
+      norm = worked_out_norm(layout, mass, geometric, loaded, limit, q)
+    end if
+  end function rest_norm
+
+  !> The same norm, column by column of `P E P`.
+  pure function worked_out_norm(layout, mass, geometric, loaded, limit, q) result(norm)
+    type(layout_t), intent(in) :: layout
+    type(bordered_matrix_t), intent(in) :: mass, geometric
+    logical, intent(in) :: loaded
+    real(wp), intent(in) :: limit
+    real(wp), intent(in) :: q(:, :) !! orthonormal columns
+    real(wp) :: norm
+
+    real(wp) :: column(layout%unknowns), product(layout%unknowns), turned(layout%unknowns), square
+    integer :: i
+
+    square = 0.0_wp
+    do i = 1, layout%unknowns
+      column = 0.0_wp
+      column(i) = 1.0_wp
+      column = column - matmul(q, q(i, :))
+      call bordered_times_vector(layout, mass, column, product)
+      if (loaded) then
+        call bordered_times_vector(layout, geometric, column, turned)
+        product = limit*product - turned
+      else
+        product = limit*product
+      end if
+      product = product - matmul(q, matmul(product, q))
+      square = square + dot_product(product, product)
+    end do
+    norm = sqrt(square)
+  end function worked_out_norm
+
+  !> A unit vector along the part of a direction that is perpendicular to others.
+  pure function perpendicular(direction, others) result(unit)
+    real(wp), intent(in) :: direction(:)
+    real(wp), intent(in) :: others(:, :) !! orthonormal columns
+    real(wp) :: unit(size(direction))
+
+    integer :: j, pass
+
+    unit = direction
+    ! Twice: what a first pass loses to rounding the second one restores.
+    do pass = 1, 2
+      do j = 1, size(others, 2)
+        unit = unit - dot_product(others(:, j), unit)*others(:, j)
+      end do
+    end do
+    unit = unit/sqrt(dot_product(unit, unit))
+  end function perpendicular
+
+  !> `√(‖E‖² − 2 ‖E Q‖² + ‖Qᵀ E Q‖²)`
+  pure function projected_norm(square, q, e_times_q) result(norm)
+    real(wp), intent(in) :: square          !! ‖E‖²
+    real(wp), intent(in) :: q(:, :)         !! orthonormal columns
+    real(wp), intent(in) :: e_times_q(:, :)
+    real(wp) :: norm
+
+    real(wp) :: rest
+    integer :: i, j
+
+    rest = square
+    do i = 1, size(q, 2)
+      rest = rest - 2.0_wp*dot_product(e_times_q(:, i), e_times_q(:, i)) + dot_product(q(:, i), &
+        e_times_q(:, i))**2
+      do j = 1, i - 1
+        rest = rest + 2.0_wp*dot_product(q(:, j), e_times_q(:, i))**2
+      end do
+    end do
+    ! What the subtraction may have lost is added.
+    norm = sqrt(max(rest, 0.0_wp) + loss*square)
+  end function projected_norm
+
+  !> `‖μM − G‖²` of Frobenius.
+  pure function squared_norm(layout, mass, geometric, loaded, limit) result(square)
+    type(layout_t), intent(in) :: layout
+    type(bordered_matrix_t), intent(in) :: mass, geometric
+    logical, intent(in) :: loaded
+    real(wp), intent(in) :: limit
+    real(wp) :: square
+
+    integer :: b, i, k, first
+
+    associate (n => layout%border)
+      if (.not. loaded) then
+        square = limit**2*(sum(mass%border**2) + 2.0_wp*sum(mass%coupling(:, n + 1:)**2) + &
+          sum(mass%diagonal(n + 1:)**2))
+        return
+      end if
+      square = sum((limit*mass%border - geometric%border)**2) + &
+        sum((limit*mass%diagonal(n + 1:))**2)
+      do k = n + 1, layout%unknowns
+        do i = 1, n
+          square = square + 2.0_wp*(limit*mass%coupling(i, k) - geometric%coupling(i, k))**2
+        end do
+      end do
+    end associate
+    do b = 1, size(layout%size)
+      first = layout%first(b) - 1
+      do k = 1, layout%size(b)
+        square = square - 2.0_wp*limit*mass%diagonal(first + k)*geometric%block(k, k, b)
+        do i = 1, layout%size(b)
+          square = square + geometric%block(i, k, b)**2
+        end do
+      end do
+    end do
+  end function squared_norm
+
+  !> The same proof where sums of squares are too rough, under heavy loads: whether no modes but
+  !! those given lie below a limit.
+  !!
+  !! `K − μM + Σ (μ + s − λ_i) (M y_i)(M y_i)ᵀ` differs from `K − μM` by as many positive terms as
+  !! modes are given. If it is positive definite, `K − μM` has no more negative eigenvalues than
+  !! these, however rough λ_i and y_i are. A Cholesky factorization that comes to its end, with the
+  !! bound of its rounding taken from the diagonal first, proves that it is (Demmel 1989; Rump
+  !! 2006).
+  subroutine is_complete(layout, mass, geometric, loaded, limit, lambda, mass_times, proven)
+    type(layout_t), intent(in) :: layout
+    type(bordered_matrix_t), intent(in) :: mass, geometric
+    logical, intent(in) :: loaded
+    real(wp), intent(in) :: limit            !! μ
+    real(wp), intent(in) :: lambda(:)        !! (modes)
+    real(wp), intent(in) :: mass_times(:, :) !! (unknowns, modes) M y
+    logical, intent(out) :: proven
+
+    real(wp), allocatable :: dense(:, :), geometric_form(:, :)
+    type(band_matrix_t) :: band
+    type(error_t), allocatable :: error
+    real(wp) :: margin, lift
+    integer :: i, j, n
+
+    n = layout%unknowns
+    dense = dense_form(layout, mass, all_unknowns(layout))
+    ! Sum of the sizes of all terms of the diagonal: what rounding is multiplied by.
+    margin = n
+    do i = 1, n
+      margin = margin + abs(limit)*dense(i, i)
+    end do
+    dense = -limit*dense
+    if (loaded) then
+      geometric_form = dense_form(layout, geometric, all_unknowns(layout))
+      do i = 1, n
+        margin = margin + abs(geometric_form(i, i))
+      end do
+      dense = dense + geometric_form
+    end if
+    do i = 1, n
+      dense(i, i) = dense(i, i) + 1.0_wp
+    end do
+    do i = 1, size(lambda)
+      lift = max(0.0_wp, limit + abs(limit) - lambda(i))
+      margin = margin + lift*dot_product(mass_times(:, i), mass_times(:, i))
+      do j = 1, n
+        dense(:, j) = dense(:, j) + lift*mass_times(j, i)*mass_times(:, i)
+      end do
+    end do
+    ! Rounding of the sums, and (n + 2) ε/2 times the trace for the factorization.
+    margin = margin*epsilon(margin)*(n + 2 + 8*size(lambda))
+    do i = 1, n
+      dense(i, i) = dense(i, i) - margin
+    end do
+    band = full_band(dense)
+    call factor_band(band, error)
+    proven = .not. allocated(error)
+  end subroutine is_complete
+
+end module completeness_proof

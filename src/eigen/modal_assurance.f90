@@ -1,0 +1,103 @@
+!> The better part of some modes: enough to recognise them at another position.
+module modal_assurance
+  use bordered_eigensolver, only: bordered_modes_t
+  use bordered_matrix, only: layout_t
+  use kinds, only: wp
+  implicit none (type, external)
+  private
+
+  public :: mode_prints_t, new_mode_prints, likeness
+
+  !> The part of every mode in the border and the first own modes of every link, which models of
+  !! different orders have in common; zeros where a link has fewer.
+  type :: mode_prints_t
+    real(wp), allocatable :: vector(:, :)     !! (unknowns kept, modes) of y, where yᵀMy = 1 for the
+                                              !! kept ones alone
+    real(wp), allocatable :: mass_times(:, :) !! (unknowns kept, modes) of M y
+  end type mode_prints_t
+
+  !> Less of its mass than this in the unknowns that are kept, and a mode cannot be recognised by
+  !! them.
+  real(wp), parameter :: least_kept = 1.0e-3_wp
+
+contains
+
+  !> The print of a mode of which too little is kept (links that buckle many times over) is zero: it
+  !! is like no other.
+  pure function new_mode_prints(layout, found, modes) result(prints)
+    type(layout_t), intent(in) :: layout
+    type(bordered_modes_t), intent(in) :: found
+    integer, intent(in) :: modes
+    type(mode_prints_t) :: prints
+
+    real(wp) :: kept
+    integer :: i, first, slot
+
+    allocate (prints%vector(layout%border + size(layout%size)*across_kept(modes) + &
+      size(layout%group)*modes, modes))
+    prints%vector = 0.0_wp
+    prints%mass_times = prints%vector
+    slot = 0
+    call keep(found, 1, layout%border, layout%border, slot, prints)
+    do i = 1, size(layout%size)
+      call keep(found, layout%first(i), min(layout%size(i), across_kept(modes)), &
+        across_kept(modes), slot, prints)
+    end do
+    first = layout%unknowns - sum(layout%group) + 1
+    do i = 1, size(layout%group)
+      call keep(found, first, min(layout%group(i), modes), modes, slot, prints)
+      first = first + layout%group(i)
+    end do
+    do i = 1, modes
+      kept = dot_product(prints%vector(:, i), prints%mass_times(:, i))
+      if (kept >= least_kept) then
+        prints%vector(:, i) = prints%vector(:, i)/sqrt(kept)
+        prints%mass_times(:, i) = prints%mass_times(:, i)/sqrt(kept)
+      else
+        prints%vector(:, i) = 0.0_wp
+        prints%mass_times(:, i) = 0.0_wp
+      end if
+    end do
+  end function new_mode_prints
+
+  !> Own transverse modes of a link that are kept.
+  pure function across_kept(modes) result(number)
+    integer, intent(in) :: modes
+    integer :: number
+
+    number = modes + 2
+  end function across_kept
+
+  !> Copies some unknowns of all modes and moves on by as many slots as they have.
+  pure subroutine keep(found, first, number, slots, slot, prints)
+    type(bordered_modes_t), intent(in) :: found
+    integer, intent(in) :: first, number !! unknowns
+    integer, intent(in) :: slots
+    integer, intent(inout) :: slot       !! the last one taken
+    type(mode_prints_t), intent(inout) :: prints
+
+    integer :: modes
+
+    modes = size(prints%vector, 2)
+    prints%vector(slot + 1:slot + number, :) = found%vector(first:first + number - 1, :modes)
+    prints%mass_times(slot + 1:slot + number, :) = found%mass_times(first:first + number - 1, &
+      :modes)
+    slot = slot + slots
+  end subroutine keep
+
+  !> Modal assurance criterion in the mass inner product, from 0 to 1, between the modes of two
+  !! positions.
+  !!
+  !! `(aᵀM_b b)(bᵀM_a a)` for modes of unit mass: each position has its own mass matrix, and the
+  !! product of both is 1 for equal shapes.
+  pure function likeness(first, second) result(mac)
+    type(mode_prints_t), intent(in) :: first, second
+    real(wp) :: mac(size(first%vector, 2), size(second%vector, 2)) !! (modes of the first, modes of
+                                                                   !! the second)
+
+    mac = matmul(transpose(first%vector), second%mass_times)*matmul(transpose(first%mass_times), &
+      second%vector)
+    mac = max(0.0_wp, min(1.0_wp, mac))
+  end function likeness
+
+end module modal_assurance

@@ -1,0 +1,140 @@
+!> Counterweights on the two grounded links of a four-bar that cancel its shaking force, whatever
+!! its motion.
+!!
+!! R. S. Berkof, G. G. Lowen: A new method for completely force balancing simple linkages. J. Eng.
+!! Ind. 91 (1969) 21: the loop closes, so that the coupler's direction can be written by those of
+!! the other links; what then goes with each of these must vanish, and the mass centre of the
+!! linkage stands still.
+module counterweights
+  use kinds, only: wp
+  use linkages, only: body_t, linkage_t, lump_t, normal_to
+  use poses, only: pose_t
+  use rigid_bodies, only: rigid_bodies_of, rigid_body_t
+  implicit none (type, external)
+  private
+
+  public :: counterweight_t, find_counterweights, counterweight_lump, balanced_linkage, &
+    total_mass, linkage_mass_centre
+
+  !> A counterweight on a link that turns about a ground pivot.
+  type :: counterweight_t
+    integer :: body = 0                  !! in the linkage
+    real(wp) :: first_moment(2) = 0.0_wp !! mass × place from the ground pivot: along the link to
+                                         !! its moving pin, to the left [kg m]
+    logical :: needed = .false.          !! not where rounding is all that is left
+  end type counterweight_t
+
+contains
+
+  !> The counterweights of crank and follower.
+  !!
+  !! In complex coordinates of the links (x from the ground pivot to the moving pin, of the coupler
+  !! from A to B) with m z the first moments: `−[m2 z2 + m3 r2 (1 − z3/r3) + m_A r2]` and `−[m4 z4 +
+  !! m3 r4 z3/r3 + m_B r4]`. Gravity, loads and the ground's own position do not matter.
+  pure function find_counterweights(linkage, elements) result(weights)
+    type(linkage_t), intent(in) :: linkage !! a four-bar: crank O2–A, coupler A–B, follower B–O4
+    integer, intent(in) :: elements(:)     !! (bodies) on whose nodes their masses sit; 0:
+                                           !! distributed
+    type(counterweight_t) :: weights(2)
+
+    real(wp), parameter :: rounding = 1.0e-14_wp
+    type(rigid_body_t) :: rigid(3)
+    real(wp) :: parts(2, 4), r2, r3, r4
+    integer :: i
+
+    rigid = rigid_bodies_of(linkage, elements)
+    r2 = linkage%bodies(1)%length
+    r3 = linkage%bodies(2)%length
+    r4 = linkage%bodies(3)%length
+    do i = 1, 2
+      if (i == 1) then
+        weights(i)%body = 1
+        parts(:, 1) = rigid(1)%first_moment
+        parts(:, 2) = [rigid(2)%mass*r2, 0.0_wp]
+        parts(:, 3) = -rigid(2)%first_moment*(r2/r3)
+        parts(:, 4) = [linkage%pin_mass(2)*r2, 0.0_wp]
+      else
+        weights(i)%body = 3
+        ! The axes of the follower's body start at B and look to O4.
+        parts(:, 1) = [rigid(3)%mass*r4, 0.0_wp]
+        parts(:, 2) = -rigid(3)%first_moment
+        parts(:, 3) = rigid(2)%first_moment*(r4/r3)
+        parts(:, 4) = [linkage%pin_mass(3)*r4, 0.0_wp]
+      end if
+      weights(i)%first_moment = -sum(parts, dim=2)
+      weights(i)%needed = norm2(weights(i)%first_moment) > rounding*sum(norm2(parts, dim=1))
+    end do
+  end function find_counterweights
+
+  !> A counterweight as a mass without size at a distance from the ground pivot, in the axes of its
+  !! body.
+  pure function counterweight_lump(weight, body, radius) result(lump)
+    type(counterweight_t), intent(in) :: weight !! that is needed
+    type(body_t), intent(in) :: body
+    real(wp), intent(in) :: radius              !! [m]
+    type(lump_t) :: lump
+
+    lump%mass = norm2(weight%first_moment)/radius
+    lump%place = weight%first_moment*(radius/norm2(weight%first_moment))
+    if (body%sense < 0.0_wp) lump%place = [body%length, 0.0_wp] - lump%place
+  end function counterweight_lump
+
+  !> The linkage with its counterweights, each as far from its pivot as its link is long.
+  pure function balanced_linkage(linkage, weights) result(balanced)
+    type(linkage_t), intent(in) :: linkage
+    type(counterweight_t), intent(in) :: weights(:)
+    type(linkage_t) :: balanced
+
+    integer :: i
+
+    balanced = linkage
+    do i = 1, size(weights)
+      if (.not. weights(i)%needed) cycle
+      associate (body => balanced%bodies(weights(i)%body))
+        body%lumps = [body%lumps, counterweight_lump(weights(i), body, body%length)]
+      end associate
+    end do
+  end function balanced_linkage
+
+  !> Mass of all that moves [kg].
+  pure function total_mass(linkage, elements) result(mass)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: elements(:) !! (bodies) as above
+    real(wp) :: mass
+
+    type(rigid_body_t) :: rigid(size(linkage%bodies))
+
+    rigid = rigid_bodies_of(linkage, elements)
+    mass = sum(rigid%mass) + sum(linkage%pin_mass, mask=.not. linkage%is_ground)
+  end function total_mass
+
+  !> Place of the mass centre of a linkage; of one without mass the place of its driven body's pivot
+  !! [m].
+  pure function linkage_mass_centre(linkage, elements, pose) result(centre)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: elements(:) !! (bodies) as above
+    type(pose_t), intent(in) :: pose
+    real(wp) :: centre(2)
+
+    type(rigid_body_t) :: rigid(size(linkage%bodies))
+    real(wp) :: mass
+    integer :: i
+
+    mass = total_mass(linkage, elements)
+    centre = pose%pin(:, linkage%bodies(1)%first_pin)
+    if (mass <= 0.0_wp) return
+    rigid = rigid_bodies_of(linkage, elements)
+    centre = 0.0_wp
+    do i = 1, size(rigid)
+      associate (body => linkage%bodies(i), axis => pose%direction(:, i))
+        centre = centre + rigid(i)%mass*pose%pin(:, body%first_pin) + &
+          rigid(i)%first_moment(1)*axis + rigid(i)%first_moment(2)*normal_to(axis)
+      end associate
+    end do
+    do i = 1, size(linkage%pin_mass)
+      if (.not. linkage%is_ground(i)) centre = centre + linkage%pin_mass(i)*pose%pin(:, i)
+    end do
+    centre = centre/mass
+  end function linkage_mass_centre
+
+end module counterweights

@@ -1,0 +1,218 @@
+!> A whole turn of the crank: what the linkage does to the ground and asks of its drive, as periodic
+!! quantities.
+module crank_cycle
+  use counterweights, only: total_mass
+  use errors, only: error_t
+  use four_bar_limits, only: crank_reach, reach_t
+  use kinds, only: wp
+  use kinematic_coefficients, only: find_motion
+  use linkages, only: linkage_t
+  use load_cases, only: case_count
+  use poses, only: find_pose, pose_t
+  use reactions, only: find_unit_reactions, unit_reactions_t
+  implicit none (type, external)
+  private
+
+  public :: cycle_t, turns_freely, find_cycle, cycle_values, largest_values, usual_values
+  public :: quantity_names, quantity_count, shaking_x, shaking_y, shaking_force, shaking_moment, &
+    drive_torque
+
+  integer, parameter :: shaking_x = 1, shaking_y = 2, shaking_force = 3, shaking_moment = 4, &
+    drive_torque = 5
+  integer, parameter :: quantity_count = 5
+  character(len=*), parameter :: quantity_names(quantity_count) = &
+    [character(len=14) :: "shaking_x", "shaking_y", "shaking_force", "shaking_moment", "torque"]
+
+  !> Forces along x and y, moment, torque at every sample, for each of the three loads of which all
+  !! are made.
+  type :: cycle_t
+    real(wp), allocatable :: part(:, :, :) !! (4, cases, samples) [N, N, N m, N m]
+  end type cycle_t
+
+contains
+
+  !> Whether the crank of a four-bar turns fully without coming to a dead point.
+  pure function turns_freely(linkage) result(turns)
+    type(linkage_t), intent(in) :: linkage
+    logical :: turns
+
+    type(reach_t) :: reach
+    type(pose_t) :: pose
+    type(error_t), allocatable :: error
+    integer :: i
+
+    reach = crank_reach(linkage%ground_position(:, [1, 4]), linkage%bodies%length)
+    turns = reach%closes .and. reach%least <= 0.0_wp .and. reach%most >= 180.0_wp
+    ! The angle between coupler and follower is least and most as the crank passes the line of the
+    ! ground.
+    do i = 0, 1
+      if (.not. turns) return
+      call find_pose(linkage, reach%ground + 180.0_wp*i, pose, error)
+      turns = .not. allocated(error)
+    end do
+  end function turns_freely
+
+  !> Samples a turn evenly, from the crank angle 0.
+  pure function find_cycle(linkage, elements, samples) result(turn)
+    type(linkage_t), intent(in) :: linkage !! whose crank turns freely
+    integer, intent(in) :: elements(:)     !! (bodies) on whose nodes their masses sit; 0:
+                                           !! distributed
+    integer, intent(in) :: samples
+    type(cycle_t) :: turn
+
+    integer :: i
+
+    allocate (turn%part(4, case_count, samples))
+    do i = 1, samples
+      turn%part(:, :, i) = parts_at(linkage, elements, 360.0_wp*real(i - 1, wp)/samples)
+    end do
+  end function find_cycle
+
+  pure function parts_at(linkage, elements, crank) result(part)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: elements(:)
+    real(wp), intent(in) :: crank !! [deg]
+    real(wp) :: part(4, case_count)
+
+    type(pose_t) :: pose
+    type(error_t), allocatable :: error
+    type(unit_reactions_t) :: unit
+    integer :: i
+
+    part = 0.0_wp
+    call find_pose(linkage, crank, pose, error)
+    if (allocated(error)) return
+    unit = find_unit_reactions(linkage, elements, pose, find_motion(linkage, pose))
+    do i = 1, case_count
+      part(:, i) = [unit%of_case(i)%shaking_force, unit%of_case(i)%shaking_moment, &
+        unit%of_case(i)%joints%torque]
+    end do
+  end function parts_at
+
+  !> All quantities of a turn at a speed and an acceleration of the crank, the same all round.
+  pure function cycle_values(turn, speed, acceleration) result(values)
+    type(cycle_t), intent(in) :: turn
+    real(wp), intent(in) :: speed        !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration !! α2 [rad/s²]
+    real(wp) :: values(size(turn%part, 3), quantity_count)
+
+    integer :: i
+
+    do i = 1, size(values, 1)
+      values(i, :) = quantities(turn%part(:, :, i), speed, acceleration)
+    end do
+  end function cycle_values
+
+  pure function quantities(part, speed, acceleration) result(values)
+    real(wp), intent(in) :: part(:, :), speed, acceleration
+    real(wp) :: values(quantity_count)
+
+    real(wp) :: total(4)
+
+    total = matmul(part, [speed**2, acceleration, 1.0_wp])
+    values = [total(1), total(2), norm2(total(1:2)), total(3), total(4)]
+  end function quantities
+
+  !> What the quantities are like in a linkage that nothing balances: a measure for what is left
+  !! where something does.
+  !!
+  !! A mass m that goes as fast as the crank turns, at the distance of the links' sum: `m L ω²`,
+  !! with gravity and α2 likewise.
+  pure function usual_values(linkage, elements, speed, acceleration) result(values)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: elements(:)   !! (bodies) as above
+    real(wp), intent(in) :: speed        !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration !! α2 [rad/s²]
+    real(wp) :: values(quantity_count)
+
+    real(wp) :: length, force
+
+    length = sum(linkage%bodies%length)
+    force = total_mass(linkage, elements)*((speed**2 + abs(acceleration))*length + &
+      norm2(linkage%gravity))
+    values = force
+    values([shaking_moment, drive_torque]) = force*length
+  end function usual_values
+
+  !> The greatest absolute value of every quantity in a turn, between its samples too.
+  !!
+  !! Round each of the highest samples the maximum is closed in by golden sections. A turn that has
+  !! so many samples that its harmonics do not change with more of them has no peaks that they do
+  !! not show.
+  pure function largest_values(linkage, elements, turn, speed, acceleration) result(largest)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: elements(:)   !! (bodies) as above
+    type(cycle_t), intent(in) :: turn
+    real(wp), intent(in) :: speed        !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration !! α2 [rad/s²]
+    real(wp) :: largest(quantity_count)
+
+    integer, parameter :: most_peaks = 3
+    real(wp), allocatable :: size_of(:)
+    real(wp) :: values(size(turn%part, 3), quantity_count), step
+    integer :: n, q, k, at
+
+    n = size(values, 1)
+    step = 360.0_wp/n
+    values = abs(cycle_values(turn, speed, acceleration))
+    largest = maxval(values, dim=1)
+    do q = 1, quantity_count
+      ! Samples that are no peaks are put down.
+      size_of = merge(values(:, q), 0.0_wp, values(:, q) >= cshift(values(:, q), 1) .and. &
+        values(:, q) >= cshift(values(:, q), -1))
+      do k = 1, most_peaks
+        at = maxloc(size_of, dim=1)
+        if (size_of(at) <= 0.0_wp) exit
+        size_of(at) = 0.0_wp
+        largest(q) = max(largest(q), peak_between(linkage, elements, q, speed, acceleration, &
+          step*(at - 2), step*at))
+      end do
+    end do
+  end function largest_values
+
+  !> Golden-section search for the greatest absolute value of a quantity between two crank angles.
+  pure function peak_between(linkage, elements, quantity, speed, acceleration, first, &
+    last) result(peak)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: elements(:), quantity
+    real(wp), intent(in) :: speed, acceleration, first, last !! angles [deg]
+    real(wp) :: peak
+
+    real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
+    ! A peak is flat: at this distance from it [deg] the value has all its digits.
+    real(wp), parameter :: near = 1.0e-7_wp
+    real(wp) :: a, b, x(2), y(2)
+
+    a = first
+    b = last
+    x = [b - golden*(b - a), a + golden*(b - a)]
+    y = [value_at(linkage, elements, quantity, speed, acceleration, x(1)), &
+      value_at(linkage, elements, quantity, speed, acceleration, x(2))]
+    do while (b - a > near)
+      if (y(1) >= y(2)) then
+        b = x(2)
+        x = [b - golden*(b - a), x(1)]
+        y = [value_at(linkage, elements, quantity, speed, acceleration, x(1)), y(1)]
+      else
+        a = x(1)
+        x = [x(2), a + golden*(b - a)]
+        y = [y(2), value_at(linkage, elements, quantity, speed, acceleration, x(2))]
+      end if
+    end do
+    peak = maxval(y)
+  end function peak_between
+
+  !> Absolute value of a quantity at a crank angle.
+  pure function value_at(linkage, elements, quantity, speed, acceleration, crank) result(value)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: elements(:), quantity
+    real(wp), intent(in) :: speed, acceleration, crank !! angle [deg]
+    real(wp) :: value
+
+    real(wp) :: values(quantity_count)
+
+    values = quantities(parts_at(linkage, elements, crank), speed, acceleration)
+    value = abs(values(quantity))
+  end function value_at
+
+end module crank_cycle

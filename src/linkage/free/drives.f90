@@ -1,0 +1,53 @@
+!> What drives a linkage, and what takes its power away, while it moves freely.
+module drives
+  use kinds, only: wp
+  implicit none (type, external)
+  private
+
+  public :: drive_t, motor_drive_t, resistances_t
+
+  !> A torque on the driven body.
+  type, abstract :: drive_t
+  contains
+    procedure(torque_interface), deferred :: torque
+  end type drive_t
+
+  abstract interface
+    pure function torque_interface(self, time, angle, speed) result(torque)
+      import :: drive_t, wp
+      class(drive_t), intent(in) :: self
+      real(wp), intent(in) :: time  !! [s]
+      real(wp), intent(in) :: angle !! of the driven body, with all whole turns [rad]
+      real(wp), intent(in) :: speed !! of the driven body [rad/s]
+      real(wp) :: torque            !! counter-clockwise [N m]
+    end function torque_interface
+  end interface
+
+  !> A motor with a straight torque-speed line `stall − slope ω`; a constant torque where the slope
+  !! is 0, none where both are.
+  type, extends(drive_t) :: motor_drive_t
+    real(wp) :: stall = 0.0_wp !! [N m]
+    real(wp) :: slope = 0.0_wp !! [N m s]
+  contains
+    procedure :: torque => motor_torque
+  end type motor_drive_t
+
+  !> What is taken from each body: `taken + damping ω`, counter-clockwise, in the order crank,
+  !! coupler, follower.
+  type :: resistances_t
+    real(wp) :: taken(3) = 0.0_wp   !! [N m]
+    real(wp) :: damping(3) = 0.0_wp !! [N m s]
+  end type resistances_t
+
+contains
+
+  pure function motor_torque(self, time, angle, speed) result(torque)
+    class(motor_drive_t), intent(in) :: self
+    real(wp), intent(in) :: time, angle, speed
+    real(wp) :: torque
+
+    ! The line knows neither time nor angle.
+    torque = self%stall - self%slope*speed + 0.0_wp*(time + angle)
+  end function motor_torque
+
+end module drives

@@ -1,0 +1,284 @@
+!> Forward dynamics: how a four-bar moves under a drive, resistances, gravity and constant loads.
+!!
+!! The state is a point of the loop-closure curve with the rate ṡ along it, and the work done so far
+!! by what has no potential. It is integrated in steps of order 8; after each the angles are put
+!! back on to the curve. Nothing is done to the energy, so that its balance tells how good the
+!! motion is.
+module forward_motions
+  use adaptive_integration, only: advance, close_integrator, integrator_t, open_integrator, step_by
+  use constants, only: degree, two_pi
+  use curve_dynamics, only: find_inertia, new_curve_dynamics, potential_energy
+  use drives, only: drive_t, resistances_t
+  use errors, only: error_t, set_error
+  use four_bar_rates, only: moving_four_bar_t, no_stop, rate_number, stop_many_steps, &
+    stop_no_inertia, stop_steps, unknown_count, work_number
+  use interruption, only: was_interrupted
+  use kinds, only: long, wp
+  use linkages, only: linkage_t
+  use loop_curves, only: closure_error, curve_point_t, find_point, find_start, new_loop_curve, &
+    project, reduce
+  use poses, only: dead_point_sine
+  use rigid_bodies, only: rigid_body_t
+  implicit none (type, external)
+  private
+
+  public :: forward_motion_t, motion_sample_t, turning_point_t, start_motion, move_until, &
+    sample_motion, end_motion
+  public :: motion_tolerance
+
+  !> Estimated error of a step, of the angles in radians and of the rate relative to itself: some
+  !! forty roundings. The estimate is of order 7, and the step of order 8 is better than it by two
+  !! or three digits, so rounding is what is left.
+  real(wp), parameter :: motion_tolerance = 1.0e-14_wp
+
+  !> Where M is below this share of the inertia of all links, that is what makes the steps shrink to
+  !! nothing.
+  real(wp), parameter :: little_inertia = 1.0e-10_wp
+
+  !> Nearer than this to where the crank turns back rounding may say that it is on either side:
+  !! |sin(θ4 − θ3)|.
+  real(wp), parameter :: undecided_sine = 1.0e-12_wp
+
+  !> A place where the crank turns back and the linkage goes over to its other branch.
+  type :: turning_point_t
+    real(wp) :: time = 0.0_wp    !! [s]
+    real(wp) :: crank = 0.0_wp   !! with all whole turns [deg]
+    logical :: to_open = .false. !! else to the crossed branch
+  end type turning_point_t
+
+  !> A motion under way.
+  type :: forward_motion_t
+    real(wp) :: time = 0.0_wp         !! [s]
+    real(wp) :: energy = 0.0_wp       !! kinetic and potential, at the start [J]
+    integer :: stop = no_stop         !! why it does not go on
+    logical :: is_open = .true.       !! branch; else crossed
+    integer(long) :: most_steps = 1000000_long !! from one instant to the next: some 6,000 turns,
+                                               !! and some seconds
+    integer :: turning_count = 0
+    type(turning_point_t), allocatable :: turnings(:) !! (at least turning_count)
+    type(integrator_t) :: integrator
+    type(moving_four_bar_t), private :: system
+    real(wp), private :: state(unknown_count) = 0.0_wp
+  end type forward_motion_t
+
+  !> The linkage at an instant; in the order crank, coupler, follower.
+  type :: motion_sample_t
+    real(wp) :: time = 0.0_wp      !! [s]
+    real(wp) :: angle(3) = 0.0_wp  !! with all whole turns [deg]
+    real(wp) :: speed(3) = 0.0_wp  !! [rad/s]
+    real(wp) :: torque = 0.0_wp    !! of the drive [N m]
+    real(wp) :: kinetic = 0.0_wp   !! [J]
+    real(wp) :: potential = 0.0_wp !! of gravity and constant loads [J]
+    real(wp) :: work = 0.0_wp      !! of drive and resistances since the start [J]
+    real(wp) :: energy_error = 0.0_wp !! kinetic + potential − work, less what it was at the start
+                                      !! [J]
+    real(wp) :: closure = 0.0_wp   !! by how much the loop is open [m]
+    logical :: is_open = .true.    !! branch; else crossed
+  end type motion_sample_t
+
+contains
+
+  !> Makes a motion ready at its first instant.
+  !!
+  !! Errors: the linkage does not reach the position; it is a limit position, where the crank can
+  !! rest only and its speed would not tell that of the others; a change point; no memory. What else
+  !! keeps a motion from beginning `move_until` finds.
+  subroutine start_motion(linkage, rigid, drive, resistances, crank_degrees, speed, duration, &
+    motion, error)
+    type(linkage_t), intent(in) :: linkage      !! a four-bar
+    type(rigid_body_t), intent(in) :: rigid(:)  !! (bodies)
+    class(drive_t), intent(in) :: drive
+    type(resistances_t), intent(in) :: resistances
+    real(wp), intent(in) :: crank_degrees       !! [deg]
+    real(wp), intent(in) :: speed               !! of the crank [rad/s]
+    real(wp), intent(in) :: duration            !! about how long it is to be followed, above 0 [s]
+    type(forward_motion_t), intent(out) :: motion
+    type(error_t), allocatable, intent(out) :: error
+
+    type(curve_point_t) :: point
+    type(motion_sample_t) :: first
+    real(wp) :: slope, inertia
+    logical :: is_smooth
+
+    motion%system%curve = new_loop_curve(linkage)
+    motion%system%dynamics = new_curve_dynamics(linkage, rigid)
+    allocate (motion%system%drive, source=drive)
+    motion%system%resistances = resistances
+    allocate (motion%turnings(0))
+    call find_start(linkage, crank_degrees, motion%state(1:3), error)
+    if (allocated(error)) return
+    motion%system%turns(1) = anint((crank_degrees*degree - motion%state(1))/two_pi)
+    call find_point(motion%system%curve, motion%state(1:3), point, is_smooth)
+    motion%is_open = point%sine > 0.0_wp
+    if (abs(point%sine) < dead_point_sine) then
+      motion%is_open = linkage%dyads(1)%side > 0.0_wp
+      if (abs(speed) > 0.0_wp) call set_error(error, &
+        "dead point: at a limit position the crank turns back and can have no "// &
+        "speed; expected speed=0")
+      if (allocated(error)) return
+    end if
+    motion%state(rate_number) = 0.0_wp
+    if (abs(speed) > 0.0_wp) motion%state(rate_number) = speed/point%tangent(1)
+    call find_inertia(motion%system%dynamics, point, inertia, slope)
+    first = sample_motion(motion)
+    motion%energy = first%kinetic + first%potential
+    ! Rates and works that are small against those of one radian in the whole time do not matter.
+    call open_integrator(motion%integrator, [1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp/duration, &
+      first%kinetic + inertia/duration**2], motion_tolerance, 0.01_wp*duration, error)
+  end subroutine start_motion
+
+  subroutine end_motion(motion)
+    type(forward_motion_t), intent(inout) :: motion
+
+    call close_integrator(motion%integrator)
+  end subroutine end_motion
+
+  !> Follows the motion up to an instant, which is met exactly unless the motion stops or the run is
+  !! interrupted. A motion that takes too many steps on the way is stopped: it would seem to last
+  !! for ever, for it is asked for too late, or is too fast.
+  subroutine move_until(motion, time)
+    type(forward_motion_t), intent(inout) :: motion
+    real(wp), intent(in) :: time !! [s]
+
+    type(error_t), allocatable :: error
+    real(wp) :: before(unknown_count), time_before
+    integer(long) :: last_step
+
+    last_step = motion%integrator%steps + motion%most_steps
+    do while (motion%time < time .and. motion%stop == no_stop)
+      if (was_interrupted()) return
+      if (motion%integrator%steps >= last_step) then
+        motion%stop = stop_many_steps
+        return
+      end if
+      before = motion%state
+      time_before = motion%time
+      motion%system%stop = no_stop
+      call advance(motion%integrator, motion%system, motion%time, time, motion%state, error)
+      if (allocated(error)) then
+        motion%stop = merge(motion%system%stop, stop_steps, motion%system%stop /= no_stop)
+        if (motion%stop == stop_steps) then
+          if (inertia_of(motion) < little_inertia) motion%stop = stop_no_inertia
+        end if
+        return
+      end if
+      call project(motion%system%curve, motion%state(1:3))
+      if (has_changed_branch(motion)) call note_turning_point(motion, time_before, before)
+      call reduce(motion%state(1:3), motion%system%turns)
+    end do
+  end subroutine move_until
+
+  !> M at the present point, as a share of the inertia of all links.
+  pure function inertia_of(motion) result(inertia)
+    type(forward_motion_t), intent(in) :: motion
+    real(wp) :: inertia
+
+    type(curve_point_t) :: point
+    real(wp) :: slope
+    logical :: is_smooth
+
+    call find_point(motion%system%curve, motion%state(1:3), point, is_smooth)
+    call find_inertia(motion%system%dynamics, point, inertia, slope)
+    inertia = inertia/sum(motion%system%dynamics%inertia)
+  end function inertia_of
+
+  !> Whether `sin(θ4 − θ3)`, positive where B lies to the left of A → O4, says that the branch is
+  !! another one than before.
+  pure function has_changed_branch(motion) result(has)
+    type(forward_motion_t), intent(in) :: motion
+    logical :: has
+
+    real(wp) :: sine
+
+    sine = sin(motion%state(3) - motion%state(2))
+    has = abs(sine) > undecided_sine .and. (sine > 0.0_wp .neqv. motion%is_open)
+  end function has_changed_branch
+
+  !> Notes the change of branch, and where in the last step `sin(θ4 − θ3)` went through zero:
+  !! Newton's method within a shrinking interval, each trial one step from where the last one began.
+  !! A step that began with nothing but rounding is where it went.
+  subroutine note_turning_point(motion, time, before)
+    type(forward_motion_t), intent(inout) :: motion
+    real(wp), intent(in) :: time              !! at which the step began [s]
+    real(wp), intent(in) :: before(unknown_count)  !! state then
+
+    integer, parameter :: most_trials = 60
+    type(error_t), allocatable :: error
+    real(wp) :: state(unknown_count), rates(unknown_count), low, high, step, next, value, &
+      start_value, slope
+    integer :: trial
+    logical :: found
+
+    motion%is_open = .not. motion%is_open
+    low = 0.0_wp
+    high = motion%time - time
+    start_value = sin(before(3) - before(2))
+    value = sin(motion%state(3) - motion%state(2))
+    step = 0.0_wp
+    if (value*start_value < 0.0_wp) step = high*start_value/(start_value - value)
+    state = before
+    do trial = 1, merge(most_trials, 0, value*start_value < 0.0_wp)
+      state = before
+      call step_by(motion%integrator, motion%system, time, step, state, error)
+      found = .false.
+      if (.not. allocated(error)) call motion%system%find_rates(time + step, state, rates, found)
+      if (.not. found) exit
+      value = sin(state(3) - state(2))
+      if (value*start_value > 0.0_wp) then
+        low = step
+      else
+        high = step
+      end if
+      slope = cos(state(3) - state(2))*(rates(3) - rates(2))
+      next = -1.0_wp
+      if (abs(slope) > tiny(slope)) next = step - value/slope
+      if (abs(next - step) <= 2.0_wp*epsilon(1.0_wp)*(time + step)) exit
+      if (.not. (next >= low .and. next <= high)) next = 0.5_wp*(low + high)
+      step = next
+    end do
+    call append_turning_point(motion, turning_point_t(time + step, &
+      state(1)/degree + 360.0_wp*motion%system%turns(1), motion%is_open))
+  end subroutine note_turning_point
+
+  pure subroutine append_turning_point(motion, turning)
+    type(forward_motion_t), intent(inout) :: motion
+    type(turning_point_t), intent(in) :: turning
+
+    type(turning_point_t), allocatable :: larger(:)
+
+    if (motion%turning_count == size(motion%turnings)) then
+      allocate (larger(2*motion%turning_count + 8))
+      larger(:motion%turning_count) = motion%turnings
+      call move_alloc(larger, motion%turnings)
+    end if
+    motion%turning_count = motion%turning_count + 1
+    motion%turnings(motion%turning_count) = turning
+  end subroutine append_turning_point
+
+  !> Everything about the present instant.
+  pure function sample_motion(motion) result(sample)
+    type(forward_motion_t), intent(in) :: motion
+    type(motion_sample_t) :: sample
+
+    type(curve_point_t) :: point
+    real(wp) :: inertia, slope
+    logical :: is_smooth
+
+    associate (system => motion%system, angle => motion%state(1:3))
+      call find_point(system%curve, angle, point, is_smooth)
+      call find_inertia(system%dynamics, point, inertia, slope)
+      sample%time = motion%time
+      sample%angle = angle/degree + 360.0_wp*system%turns
+      sample%speed = point%tangent*motion%state(rate_number)
+      sample%torque = system%drive%torque(motion%time, angle(1) + two_pi*system%turns(1), &
+        sample%speed(1))
+      sample%kinetic = 0.5_wp*inertia*motion%state(rate_number)**2
+      sample%potential = potential_energy(system%dynamics, point, angle + two_pi*system%turns)
+      sample%work = motion%state(work_number)
+      sample%energy_error = sample%kinetic + sample%potential - sample%work - motion%energy
+      sample%closure = closure_error(system%curve, angle)
+      sample%is_open = motion%is_open
+    end associate
+  end function sample_motion
+
+end module forward_motions

@@ -1,0 +1,83 @@
+!> Equations of motion of a four-bar under a drive, resistances, gravity and constant loads, along
+!! its loop-closure curve.
+module four_bar_rates
+  use adaptive_integration, only: rate_system_t
+  use constants, only: two_pi
+  use curve_dynamics, only: conservative_torques, curve_dynamics_t, find_inertia
+  use drives, only: drive_t, resistances_t
+  use kinds, only: wp
+  use loop_curves, only: curve_point_t, find_point, loop_curve_t
+  implicit none (type, external)
+  private
+
+  public :: moving_four_bar_t, rate_number, work_number, unknown_count
+  public :: no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps, stop_many_steps
+
+  !> Why a motion does not go on: for the first three reasons there are no rates.
+  integer, parameter :: no_stop = 0, stop_change_point = 1, stop_no_inertia = 2, &
+    stop_too_fast = 3, stop_steps = 4, stop_many_steps = 5
+
+  !> Steps begin with angles from −π to π: a trial step that leads beyond the first is too long,
+  !! whatever its error seems to be [rad]. A rate beyond all mechanics, before it overflows [rad/s].
+  real(wp), parameter :: most_angle = 9.0_wp, most_rate = 1.0e100_wp
+
+  !> Share of the inertia of all links: where M is below it there are no rates.
+  real(wp), parameter :: least_inertia = 1.0e-13_wp
+
+  !> Numbers of the unknowns behind the angles [rad]: ṡ [rad/s], work [J]; how many there are in
+  !! all.
+  integer, parameter :: rate_number = 4, work_number = 5, unknown_count = 5
+
+  !> What the rates depend on.
+  type, extends(rate_system_t) :: moving_four_bar_t
+    type(loop_curve_t) :: curve
+    type(curve_dynamics_t) :: dynamics
+    class(drive_t), allocatable :: drive
+    type(resistances_t) :: resistances
+    real(wp) :: turns(3) = 0.0_wp !! whole turns of each link that its angle leaves out
+    integer :: stop = no_stop     !! why rates were last not found
+  contains
+    procedure :: find_rates => rates_of_motion
+  end type moving_four_bar_t
+
+contains
+
+  !> Angular velocities, `M s̈ = Q_s − ½ M' ṡ²`, and the power of what has no potential.
+  subroutine rates_of_motion(self, time, state, rates, found)
+    class(moving_four_bar_t), intent(inout) :: self
+    real(wp), intent(in) :: time
+    real(wp), intent(in) :: state(:)
+    real(wp), intent(out) :: rates(:)
+    logical, intent(out) :: found
+
+    type(curve_point_t) :: point
+    real(wp) :: inertia, slope, speed(3), torque(3), driving
+
+    ! Written so that what is not a number is refused too.
+    found = maxval(abs(state(1:3))) < most_angle .and. abs(state(rate_number)) < most_rate
+    if (.not. found) then
+      self%stop = stop_too_fast
+      return
+    end if
+    call find_point(self%curve, state(1:3), point, found)
+    if (.not. found) then
+      self%stop = stop_change_point
+      return
+    end if
+    call find_inertia(self%dynamics, point, inertia, slope)
+    found = inertia > least_inertia*sum(self%dynamics%inertia)
+    if (.not. found) then
+      self%stop = stop_no_inertia
+      return
+    end if
+    speed = point%tangent*state(rate_number)
+    torque = -self%resistances%taken - self%resistances%damping*speed
+    torque(1) = torque(1) + self%drive%torque(time, state(1) + two_pi*self%turns(1), speed(1))
+    driving = dot_product(torque, point%tangent)
+    rates(1:3) = speed
+    rates(rate_number) = (driving + dot_product(conservative_torques(self%dynamics, point), &
+      point%tangent) - 0.5_wp*slope*state(rate_number)**2)/inertia
+    rates(work_number) = driving*state(rate_number)
+  end subroutine rates_of_motion
+
+end module four_bar_rates

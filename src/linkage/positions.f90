@@ -1,0 +1,78 @@
+!> The crank positions of a run: each computed once, however often it is written.
+module positions
+  use errors, only: error_t
+  use kinds, only: wp
+  use kinematic_coefficients, only: find_motion, motion_t
+  use linkages, only: linkage_t
+  use poses, only: find_pose, pose_t
+  use sorting, only: ascending_order
+  implicit none (type, external)
+  private
+
+  public :: positions_t, state_t, find_positions, by_crank_angle
+
+  !> The linkage at one crank angle.
+  type :: state_t
+    real(wp) :: crank = 0.0_wp !! [deg]
+    type(pose_t) :: pose
+    type(motion_t) :: motion
+    type(error_t), allocatable :: error !! why there is no pose
+  end type state_t
+
+  type :: positions_t
+    real(wp), allocatable :: crank(:)     !! as the deck lists them [deg]
+    integer, allocatable :: state(:)      !! of each, in `states`; 0° and 360° have the same
+    type(state_t), allocatable :: states(:)
+  end type positions_t
+
+contains
+
+  !> Solves position and motion once for every different angle.
+  pure function find_positions(linkage, crank) result(positions)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), intent(in) :: crank(:) !! [deg]
+    type(positions_t) :: positions
+
+    real(wp) :: reduced(size(crank))
+    integer :: order(size(crank)), i, states
+    integer :: first(size(crank))
+
+    positions%crank = crank
+    reduced = modulo(crank, 360.0_wp)
+    order = ascending_order(reduced)
+    allocate (positions%state(size(crank)))
+    ! Equal angles stand side by side in the sorted order, the first listed before the others.
+    first = [(i, i=1, size(crank))]
+    do i = 2, size(crank)
+      if (reduced(order(i)) <= reduced(order(i - 1))) first(order(i)) = first(order(i - 1))
+    end do
+    states = 0
+    do i = 1, size(crank)
+      if (first(i) == i) states = states + 1
+    end do
+    allocate (positions%states(states))
+    states = 0
+    do i = 1, size(crank)
+      if (first(i) < i) then
+        positions%state(i) = positions%state(first(i))
+        cycle
+      end if
+      states = states + 1
+      positions%state(i) = states
+      associate (state => positions%states(states))
+        state%crank = crank(i)
+        call find_pose(linkage, crank(i), state%pose, state%error)
+        if (.not. allocated(state%error)) state%motion = find_motion(linkage, state%pose)
+      end associate
+    end do
+  end function find_positions
+
+  !> The numbers of all states in the order of their crank angles.
+  pure function by_crank_angle(positions) result(states)
+    type(positions_t), intent(in) :: positions
+    integer :: states(size(positions%states))
+
+    states = ascending_order(modulo(positions%states%crank, 360.0_wp))
+  end function by_crank_angle
+
+end module positions

@@ -1,0 +1,101 @@
+!> MASS and POINT: what is fixed to a link, and where, as read; names are not yet looked up.
+module body_cards
+  use card_reader, only: check_form, entry_number, read_entry_quantity, read_name, read_quantity
+  use cards, only: card_t
+  use diagnostics, only: add_error, diagnostics_t
+  use kinds, only: wp
+  use tokens, only: token_t
+  use units, only: dimension_length, dimension_mass, unit_system_t
+  implicit none (type, external)
+  private
+
+  public :: mass_card_t, point_t, read_mass, read_point
+
+  !> A mass fixed to a link.
+  type :: mass_card_t
+    type(token_t) :: link_name       !! without a line if it cannot be read
+    integer :: link = 0              !! number in the model's list
+    real(wp) :: place(2) = 0.0_wp    !! from the first pin of the link's card: along the link, and
+                                     !! to the left of the way to the second pin [m]
+    type(token_t) :: place_word      !! where it is given
+    real(wp) :: mass = 0.0_wp        !! [kg]
+  end type mass_card_t
+
+  !> A point fixed to a link, whose path is wanted.
+  type :: point_t
+    type(token_t) :: name            !! without a line if it cannot be read
+    type(token_t) :: link_name
+    integer :: link = 0              !! number in the model's list
+    real(wp) :: place(2) = 0.0_wp    !! as that of a mass [m]
+  end type point_t
+
+contains
+
+  !> Reads `MASS link at= [offset=] value`.
+  pure subroutine read_mass(card, system, diagnostics, mass)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(mass_card_t), intent(out) :: mass
+
+    logical :: fine, known_keys
+
+    mass%link_name = token_t("", 0, 0)
+    mass%place_word = card%keyword
+    call check_form(card, 2, 2, "at offset", "MASS link at= [offset=] mass", diagnostics, fine, &
+      known_keys)
+    if (size(card%words) > 0) mass%link_name = card%words(1)
+    call read_place(card, "at", known_keys, system, diagnostics, mass%place, mass%place_word)
+    if (.not. fine) return
+    call read_quantity(card%words(2), dimension_mass, system, diagnostics, mass%mass, fine)
+    if (fine .and. mass%mass <= 0.0_wp) then
+      call add_error(diagnostics, card%words(2), "a mass must be greater than 0, not "// &
+        card%words(2)%text)
+    end if
+  end subroutine read_mass
+
+  !> Reads `POINT name link along= [offset=]`.
+  pure subroutine read_point(card, system, diagnostics, point)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(point_t), intent(out) :: point
+
+    type(token_t) :: place_word
+    logical :: fine, known_keys
+
+    point%name = token_t("", 0, 0)
+    point%link_name = token_t("", 0, 0)
+    call check_form(card, 2, 2, "along offset", "POINT name link along= [offset=]", diagnostics, &
+      fine, known_keys)
+    if (size(card%words) > 0) then
+      point%name = card%words(1)
+      call read_name(point%name, diagnostics)
+    end if
+    if (size(card%words) > 1) point%link_name = card%words(2)
+    call read_place(card, "along", known_keys, system, diagnostics, point%place, place_word)
+  end subroutine read_point
+
+  !> Reads the two keys of a place on a link, of which `offset=` may be left out.
+  pure subroutine read_place(card, key, known_keys, system, diagnostics, place, word)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: key !! of the coordinate along the link
+    logical, intent(in) :: known_keys
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    real(wp), intent(out) :: place(2)   !! [m]
+    type(token_t), intent(out) :: word  !! the keyword, if there is no place
+
+    integer :: i
+    logical :: fine
+
+    word = card%keyword
+    call read_entry_quantity(card, key, dimension_length, system, known_keys, diagnostics, &
+      place(1), fine)
+    call read_entry_quantity(card, "offset", dimension_length, system, .false., diagnostics, &
+      place(2), fine)
+    i = entry_number(card, key)
+    if (i > 0) word = card%entries(i)%value
+  end subroutine read_place
+
+end module body_cards

@@ -1,0 +1,132 @@
+!> Cards written out again in one form, with the user's own words, for `echo.deck`.
+module card_echo
+  use card_reader, only: entry_number
+  use cards, only: card_t
+  use deck_source, only: line_origin, source_t
+  use effect_cards, only: effect_words
+  use settings, only: setting_t
+  use text, only: lower_case, same_word, upper_case
+  use text_buffer, only: append_text, buffer_text, text_buffer_t
+  use variants, only: deck_cards_t
+  implicit none (type, external)
+  private
+
+  public :: echo_line_t, echo_cards
+
+  type :: echo_line_t
+    character(len=:), allocatable :: text   !! the card
+    character(len=:), allocatable :: origin !! where it comes from; empty where a comment cannot
+                                            !! stand
+  end type echo_line_t
+
+contains
+
+  !> The cards in the order of the deck. A `$name` stays as it is, with its SET or VARY card; what
+  !! the command line says is a SET card, so that the echo needs nothing but itself.
+  pure function echo_cards(deck, cards, loads, source) result(lines)
+    type(deck_cards_t), intent(in) :: deck
+    type(card_t), intent(in) :: cards(:) !! of one of its variants
+    integer, intent(in) :: loads         !! `effects_static` or `effects_axial`: what EFFECTS is,
+                                         !! said or not
+    type(source_t), intent(in) :: source !! that the cards are from
+    type(echo_line_t) :: lines(size(cards))
+
+    integer :: i
+
+    do i = 1, size(cards)
+      lines(i) = echo_card(deck%written(i), cards(i), source)
+      if (same_word(cards(i)%keyword%text, "EFFECTS")) call complete_effects(cards(i), loads, &
+        lines(i))
+    end do
+    do i = 1, size(deck%settings%list)
+      associate (setting => deck%settings%list(i))
+        if (setting%is_overridden) lines(setting%card) &
+          = overridden_line(deck%written(setting%card), setting, source)
+      end associate
+    end do
+  end function echo_cards
+
+  !> The SET card that says what the command line has said, beside what the deck says.
+  pure function overridden_line(card, setting, source) result(line)
+    type(card_t), intent(in) :: card
+    type(setting_t), intent(in) :: setting
+    type(source_t), intent(in) :: source
+    type(echo_line_t) :: line
+
+    line%text = "SET "//setting%name%text//" "//setting%value%text
+    line%origin = "--set on the command line; "//line_origin(source, card%keyword%line)//" has "
+    if (same_word(card%keyword%text, "VARY")) then
+      line%origin = line%origin//card_text(card)
+    else
+      line%origin = line%origin//card%words(2)%text
+    end if
+  end function overridden_line
+
+  !> A card with its defaults written out.
+  pure function echo_card(written, card, source) result(line)
+    type(card_t), intent(in) :: written  !! as it stands in the deck
+    type(card_t), intent(in) :: card     !! with values in place of its `$name`s
+    type(source_t), intent(in) :: source !! that the card is from
+    type(echo_line_t) :: line
+
+    line%text = card_text(written)
+    line%origin = line_origin(source, card%keyword%line)
+    select case (lower_case(card%keyword%text))
+    case ("title")
+      line%origin = ""
+    case ("mesh")
+      if (entry_number(card, "order") == 0 .and. entry_number(card, "accuracy") == 0) &
+        call append_default(line, "order=3")
+    case ("mass", "point")
+      if (entry_number(card, "offset") == 0) call append_default(line, "offset=0")
+    case ("report")
+      if (same_word(card%words(1)%text, "shapes") .and. entry_number(card, "points") == 0) &
+        call append_default(line, "points=21")
+      if (same_word(card%words(1)%text, "motion") .and. entry_number(card, "speed") == 0) &
+        call append_default(line, "speed=0")
+    end select
+  end function echo_card
+
+  !> A card in one form: words first, single blanks.
+  pure function card_text(card) result(text)
+    type(card_t), intent(in) :: card
+    character(len=:), allocatable :: text
+
+    type(text_buffer_t) :: buffer
+    integer :: i
+
+    call append_text(buffer, upper_case(card%keyword%text))
+    do i = 1, size(card%words)
+      call append_text(buffer, " "//card%words(i)%text)
+    end do
+    do i = 1, size(card%entries)
+      call append_text(buffer, " "//card%entries(i)%key%text//"="//card%entries(i)%value%text)
+    end do
+    text = buffer_text(buffer)
+  end function card_text
+
+  !> Writes out what an EFFECTS card leaves to the speeds.
+  pure subroutine complete_effects(card, loads, line)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: loads
+    type(echo_line_t), intent(inout) :: line
+
+    integer :: i
+
+    do i = 1, size(card%words)
+      if (same_word(card%words(i)%text, "static") .or. same_word(card%words(i)%text, "axial")) &
+        return
+    end do
+    call append_default(line, effect_words(loads, .false., .false.))
+  end subroutine complete_effects
+
+  !> Adds what a card leaves out.
+  pure subroutine append_default(line, entry)
+    type(echo_line_t), intent(inout) :: line
+    character(len=*), intent(in) :: entry
+
+    line%text = line%text//" "//entry
+    line%origin = line%origin//"; "//entry//" is the default"
+  end subroutine append_default
+
+end module card_echo

@@ -1,0 +1,131 @@
+!> MOTOR and LOAD: what drives a linkage that moves by itself, and what resists; names are not yet
+!! looked up.
+module motor_cards
+  use card_reader, only: check_form, entry_number, has_key, read_entry_quantity, refuse_negative
+  use cards, only: card_t
+  use diagnostics, only: add_error, diagnostics_t
+  use kinds, only: wp
+  use text, only: same_word
+  use tokens, only: token_t
+  use units, only: dimension_damping, dimension_moment, dimension_rate, unit_system_t
+  implicit none (type, external)
+  private
+
+  public :: motor_t, resistance_t, read_motor, read_resistance
+
+  !> What turns the driven link: a constant torque, or `stall (1 − ω2/noload)`.
+  type :: motor_t
+    type(token_t) :: keyword       !! without a line if there is no motor
+    logical :: is_line = .false.   !! torque falls with speed
+    real(wp) :: torque = 0.0_wp    !! constant, counter-clockwise [N m]
+    real(wp) :: stall = 0.0_wp     !! torque at rest [N m]
+    real(wp) :: noload = 0.0_wp    !! speed without torque, of the same sign [rad/s]
+  end type motor_t
+
+  !> What a link gives away: `torque + damping × its angular velocity`.
+  type :: resistance_t
+    type(token_t) :: keyword
+    type(token_t) :: link_name     !! without a line if it cannot be read
+    integer :: link = 0            !! number in the model's list
+    real(wp) :: torque = 0.0_wp    !! taken from the link, counter-clockwise [N m]
+    real(wp) :: damping = 0.0_wp   !! not negative [N m s/rad]
+  end type resistance_t
+
+contains
+
+  !> Reads `MOTOR torque=` or `MOTOR stall= noload=`.
+  pure subroutine read_motor(card, system, diagnostics, motor)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(motor_t), intent(out) :: motor
+
+    logical :: fine, known_keys, stalls, runs
+
+    motor%keyword = card%keyword
+    call check_form(card, 0, 0, "torque stall noload", "MOTOR torque=, or MOTOR stall= noload=", &
+      diagnostics, fine, known_keys)
+    motor%is_line = has_key(card, "stall") .or. has_key(card, "noload")
+    if (has_key(card, "torque") .and. motor%is_line) then
+      call refuse_mixture(card, diagnostics)
+      return
+    end if
+    if (known_keys .and. .not. has_key(card, "torque") .and. .not. motor%is_line) then
+      call add_error(diagnostics, card%keyword, &
+        "the torque of the motor is missing; expected: MOTOR torque=, or "//"MOTOR stall= noload=")
+    end if
+    call read_entry_quantity(card, "torque", dimension_moment, system, .false., diagnostics, &
+      motor%torque, fine)
+    if (.not. motor%is_line) return
+    call read_entry_quantity(card, "stall", dimension_moment, system, known_keys, diagnostics, &
+      motor%stall, stalls)
+    call read_entry_quantity(card, "noload", dimension_rate, system, known_keys, diagnostics, &
+      motor%noload, runs)
+    if (stalls) call refuse_zero(card, "stall", motor%stall, diagnostics)
+    if (runs) call refuse_zero(card, "noload", motor%noload, diagnostics)
+    if (.not. (stalls .and. runs) .or. motor%stall*motor%noload >= 0.0_wp) return
+    call add_error(diagnostics, card%entries(entry_number(card, "noload"))%value, &
+      "'stall=' and 'noload=' must have the same "//"sign: a motor runs the way that it pulls", &
+      card%entries(entry_number(card, "stall"))%value, "'stall=' is given here")
+  end subroutine read_motor
+
+  pure subroutine refuse_zero(card, key, value, diagnostics)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: key
+    real(wp), intent(in) :: value
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    if (abs(value) > 0.0_wp) return
+    call add_error(diagnostics, card%entries(entry_number(card, key))%value, &
+      "'"//key//"=' must not be 0")
+  end subroutine refuse_zero
+
+  !> A torque is constant or falls with speed.
+  pure subroutine refuse_mixture(card, diagnostics)
+    type(card_t), intent(in) :: card
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: i, constant, line
+
+    constant = 0
+    line = 0
+    do i = size(card%entries), 1, -1
+      associate (key => card%entries(i)%key%text)
+        if (same_word(key, "torque")) constant = i
+        if (same_word(key, "stall") .or. same_word(key, "noload")) line = i
+      end associate
+    end do
+    call add_error(diagnostics, card%entries(line)%key, &
+      "a motor has a constant torque, 'torque=', or one that falls with its "// &
+      "speed, 'stall= noload=', not both", card%entries(constant)%key, "'torque=' is given here")
+  end subroutine refuse_mixture
+
+  !> Reads `LOAD link [torque=] [damping=]`.
+  pure subroutine read_resistance(card, system, diagnostics, resistance)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(resistance_t), intent(out) :: resistance
+
+    logical :: fine, known_keys
+
+    resistance%keyword = card%keyword
+    resistance%link_name = token_t("", 0, 0)
+    call check_form(card, 1, 1, "torque damping", "LOAD link [torque=] [damping=]", diagnostics, &
+      fine, known_keys)
+    if (size(card%words) > 0) resistance%link_name = card%words(1)
+    if (known_keys .and. .not. has_key(card, "torque") .and. .not. has_key(card, "damping")) then
+      call add_error(diagnostics, card%keyword, &
+        "'torque=' or 'damping=' is missing: this load would be none")
+    end if
+    call read_entry_quantity(card, "torque", dimension_moment, system, .false., diagnostics, &
+      resistance%torque, fine)
+    call read_entry_quantity(card, "damping", dimension_damping, system, .false., diagnostics, &
+      resistance%damping, fine)
+    if (fine) then
+      call refuse_negative(card%entries(entry_number(card, "damping"))%value, resistance%damping, &
+        "damping", diagnostics)
+    end if
+  end subroutine read_resistance
+
+end module motor_cards

@@ -1,0 +1,189 @@
+!> SECTION: the cross-section of a link.
+module sections
+  use card_reader, only: check_form, entry_number, has_key, read_choice, read_entry_quantity, &
+    read_name, require_positive
+  use cards, only: card_t
+  use constants, only: pi
+  use diagnostics, only: add_error, diagnostics_t
+  use kinds, only: wp
+  use tokens, only: token_t
+  use units, only: dimension_area, dimension_length, dimension_none, dimension_second_moment, &
+    unit_system_t
+  implicit none (type, external)
+  private
+
+  public :: section_t, read_section, shape_rectangle, shape_circle, shape_tube, shape_general
+
+  type :: section_t
+    type(token_t) :: name
+    integer :: shape = 0               !! one of the shape_… numbers; 0: unknown
+    real(wp) :: area = 0.0_wp          !! [m²]
+    real(wp) :: second_moment = 0.0_wp !! about the axis normal to the plane of motion [m⁴]
+    real(wp) :: depth = 0.0_wp         !! in the plane of motion [m]; 0 if the deck does not tell
+    real(wp) :: inner_share = 0.0_wp   !! of a tube: inner diameter, of the outer one
+    real(wp) :: shear_coefficient = 0.0_wp !! that of the deck; 0 if it gives none
+    type(token_t) :: shear_word        !! where it stands
+  end type section_t
+
+  character(len=*), parameter :: shapes = "rectangle circle tube general"
+  integer, parameter :: shape_rectangle = 1, shape_circle = 2, shape_tube = 3, shape_general = 4
+
+contains
+
+  !> Reads `SECTION name rectangle thickness= width= | circle diameter= | tube outer= inner= |
+  !! general A= I= [depth=]`, all of them with `[shear_coefficient=]`.
+  pure subroutine read_section(card, system, diagnostics, section)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(section_t), intent(out) :: section
+
+    logical :: fine
+
+    section%name = card%keyword
+    section%shear_word = token_t("", 0, 0)
+    if (size(card%words) > 0) then
+      section%name = card%words(1)
+      call read_name(section%name, diagnostics)
+    end if
+    if (size(card%words) < 2) then
+      call check_form(card, 2, 2, &
+        "thickness width diameter outer inner A I depth shear_coefficient", &
+        "SECTION name rectangle|circle|tube|general ...", diagnostics, fine)
+      return
+    end if
+    call read_choice(card%words(2), shapes, diagnostics, section%shape)
+    select case (section%shape)
+    case (shape_rectangle)
+      call read_rectangle(card, system, diagnostics, section)
+    case (shape_circle)
+      call read_circle(card, system, diagnostics, section)
+    case (shape_tube)
+      call read_tube(card, system, diagnostics, section)
+    case (shape_general)
+      call read_general(card, system, diagnostics, section)
+    end select
+    if (section%shape > 0) call read_shear_coefficient(card, system, diagnostics, section)
+  end subroutine read_section
+
+  pure subroutine read_shear_coefficient(card, system, diagnostics, section)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(section_t), intent(inout) :: section
+
+    character(len=*), parameter :: key = "shear_coefficient"
+    logical :: fine
+
+    if (.not. has_key(card, key)) return
+    section%shear_word = card%keyword
+    call read_entry_quantity(card, key, dimension_none, system, .false., diagnostics, &
+      section%shear_coefficient, fine)
+    if (.not. fine) return
+    section%shear_word = card%entries(entry_number(card, key))%value
+    if (section%shear_coefficient > 0.0_wp .and. section%shear_coefficient <= 1.0_wp) return
+    call add_error(diagnostics, section%shear_word, &
+      "'shear_coefficient=' must be above 0 and at most 1, not "//section%shear_word%text)
+  end subroutine read_shear_coefficient
+
+  !> `I = width thickness³/12`, the thickness in the plane of motion.
+  pure subroutine read_rectangle(card, system, diagnostics, section)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(section_t), intent(inout) :: section
+
+    real(wp) :: thickness, width
+    logical :: fine, known_keys
+
+    call check_form(card, 2, 2, "thickness width shear_coefficient", &
+      "SECTION name rectangle thickness= width= [shear_coefficient=]", diagnostics, fine, &
+      known_keys)
+    call read_positive(card, "thickness", dimension_length, system, known_keys, diagnostics, &
+      thickness)
+    call read_positive(card, "width", dimension_length, system, known_keys, diagnostics, width)
+    section%area = thickness*width
+    section%second_moment = width*thickness**3/12.0_wp
+    section%depth = thickness
+  end subroutine read_rectangle
+
+  !> `I = π d⁴/64`
+  pure subroutine read_circle(card, system, diagnostics, section)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(section_t), intent(inout) :: section
+
+    real(wp) :: diameter
+    logical :: fine, known_keys
+
+    call check_form(card, 2, 2, "diameter shear_coefficient", &
+      "SECTION name circle diameter= [shear_coefficient=]", diagnostics, fine, known_keys)
+    call read_positive(card, "diameter", dimension_length, system, known_keys, diagnostics, &
+      diameter)
+    section%area = pi*diameter**2/4.0_wp
+    section%second_moment = pi*diameter**4/64.0_wp
+    section%depth = diameter
+  end subroutine read_circle
+
+  !> `I = π (D² − d²)(D² + d²)/64`: factored, so that a thin wall costs no digits.
+  pure subroutine read_tube(card, system, diagnostics, section)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(section_t), intent(inout) :: section
+
+    real(wp) :: outer, inner
+    logical :: fine, known_keys
+
+    call check_form(card, 2, 2, "outer inner shear_coefficient", &
+      "SECTION name tube outer= inner= [shear_coefficient=]", diagnostics, fine, known_keys)
+    call read_positive(card, "outer", dimension_length, system, known_keys, diagnostics, outer)
+    call read_positive(card, "inner", dimension_length, system, known_keys, diagnostics, inner)
+    if (outer > 0.0_wp .and. inner >= outer) then
+      call add_error(diagnostics, card%entries(entry_number(card, "inner"))%value, &
+        "'inner=' must be less than 'outer=', "// &
+        card%entries(entry_number(card, "outer"))%value%text//", not "// &
+        card%entries(entry_number(card, "inner"))%value%text)
+      return
+    end if
+    section%area = pi*(outer - inner)*(outer + inner)/4.0_wp
+    section%second_moment = section%area*(outer**2 + inner**2)/16.0_wp
+    if (outer > 0.0_wp) section%inner_share = inner/outer
+    section%depth = outer
+  end subroutine read_tube
+
+  pure subroutine read_general(card, system, diagnostics, section)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(section_t), intent(inout) :: section
+
+    logical :: fine, known_keys
+
+    call check_form(card, 2, 2, "A I depth shear_coefficient", &
+      "SECTION name general A= I= [depth=] [shear_coefficient=]", diagnostics, fine, known_keys)
+    call read_positive(card, "A", dimension_area, system, known_keys, diagnostics, section%area)
+    call read_positive(card, "I", dimension_second_moment, system, known_keys, diagnostics, &
+      section%second_moment)
+    call read_positive(card, "depth", dimension_length, system, .false., diagnostics, section%depth)
+  end subroutine read_general
+
+  !> A quantity greater than zero; zero when it is missing or wrong, and then `diagnostics` says so.
+  pure subroutine read_positive(card, key, dimension, system, required, diagnostics, value)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: key
+    integer, intent(in) :: dimension(4)
+    type(unit_system_t), intent(in) :: system
+    logical, intent(in) :: required
+    type(diagnostics_t), intent(inout) :: diagnostics
+    real(wp), intent(out) :: value
+
+    logical :: fine
+
+    call read_entry_quantity(card, key, dimension, system, required, diagnostics, value, fine)
+    if (fine) call require_positive(card, key, value, diagnostics)
+    value = max(value, 0.0_wp)
+  end subroutine read_positive
+
+end module sections

@@ -1,0 +1,112 @@
+!> Names on MASS, POINT, FORCE, TORQUE and LOAD cards, and whether the bodies are complete.
+module body_checks
+  use diagnostics, only: add_error, diagnostics_t
+  use link_cards, only: link_t
+  use models, only: model_t
+  use name_checks, only: link_ends, look_up
+  use name_index, only: find_name, name_index_t, new_name_index
+  use tokens, only: token_t, token_texts
+  implicit none (type, external)
+  private
+
+  public :: check_bodies
+
+contains
+
+  !> Gives every card its link, and complains about what cannot be.
+  pure subroutine check_bodies(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(inout) :: model !! whose links have their materials and sections
+
+    type(name_index_t) :: links
+    integer :: i
+
+    links = new_name_index(token_texts(model%links%name))
+    do i = 1, size(model%masses)
+      call find_link(model%masses(i)%link_name, links, diagnostics, model%masses(i)%link)
+    end do
+    do i = 1, size(model%points)
+      call find_link(model%points(i)%link_name, links, diagnostics, model%points(i)%link)
+    end do
+    do i = 1, size(model%torques)
+      call find_link(model%torques(i)%link_name, links, diagnostics, model%torques(i)%link)
+    end do
+    do i = 1, size(model%resistances)
+      call find_link(model%resistances(i)%link_name, links, diagnostics, model%resistances(i)%link)
+    end do
+    call check_points(diagnostics, model)
+    call check_forces(diagnostics, model)
+    do i = 1, size(model%links)
+      call check_inertia(diagnostics, model%links(i))
+    end do
+  end subroutine check_bodies
+
+  pure subroutine find_link(word, links, diagnostics, link)
+    type(token_t), intent(in) :: word
+    type(name_index_t), intent(in) :: links
+    type(diagnostics_t), intent(inout) :: diagnostics
+    integer, intent(inout) :: link !! 0 if the card could not be read
+
+    if (word%line > 0) call look_up(word, links, "link", diagnostics, link)
+  end subroutine find_link
+
+  !> In the tables a point has its name, and so has a pin.
+  pure subroutine check_points(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    type(token_t), allocatable :: ends(:)
+    type(name_index_t) :: pins
+    integer :: i, number
+
+    ends = link_ends(model%links)
+    pins = new_name_index(token_texts(ends))
+    do i = 1, size(model%points)
+      associate (name => model%points(i)%name)
+        if (name%line == 0) cycle
+        number = find_name(pins, name%text)
+        if (number == 0) cycle
+        call add_error(diagnostics, name, "the point '"//name%text//"' has the name of a pin", &
+          ends(number), "the pin is here")
+      end associate
+    end do
+  end subroutine check_points
+
+  !> Forces act on moving pins.
+  pure subroutine check_forces(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    type(name_index_t) :: pins, grounds
+    integer :: i, number
+
+    pins = new_name_index(token_texts(link_ends(model%links)))
+    grounds = new_name_index(token_texts(model%grounds%pin))
+    do i = 1, size(model%forces)
+      associate (pin => model%forces(i)%pin)
+        if (pin%line == 0) cycle
+        number = find_name(grounds, pin%text)
+        if (number > 0) then
+          call add_error(diagnostics, pin, &
+            "a load on a fixed pin: it would load nothing but the ground", &
+            model%grounds(number)%pin, "'"//pin%text//"' is fixed here")
+        else
+          call look_up(pin, pins, "pin", diagnostics, number)
+        end if
+      end associate
+    end do
+  end subroutine check_forces
+
+  !> A mass without a shape says nothing of how it turns.
+  pure subroutine check_inertia(diagnostics, link)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(link_t), intent(in) :: link
+
+    if (.not. link%has_mass .or. link%has_inertia) return
+    if (link%material_name%line > 0 .and. link%section_name%line > 0) return
+    call add_error(diagnostics, link%body_word, "link '"//link%name%text// &
+      "' has a mass and no moment of inertia; expected "// &
+      "'inertia=' about its mass centre, or material and section")
+  end subroutine check_inertia
+
+end module body_checks

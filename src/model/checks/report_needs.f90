@@ -1,0 +1,90 @@
+!> What the reports asked for need, and whether the deck has it.
+module report_needs
+  use diagnostics, only: add_error, diagnostics_t
+  use link_cards, only: has_own_mass, link_t
+  use models, only: bears_lumped_masses, inertia_lumped, inertia_none, is_moving, model_t, &
+    needs_beams, needs_frequencies, needs_inertia, needs_masses, report_number, report_of_masses
+  use request_cards, only: report_branches, report_frequencies, report_points, report_shapes
+  use text, only: joined, word_list
+  implicit none (type, external)
+  private
+
+  public :: check_report_needs
+
+contains
+
+  !> Links need material, section and mesh, or a mass; loads need INERTIA; paths need points.
+  pure subroutine check_report_needs(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model !! whose links have their materials, sections and meshes
+
+    integer :: i, points
+
+    do i = 1, size(model%links)
+      call check_link(diagnostics, model, model%links(i))
+    end do
+    call check_inertia_card(diagnostics, model)
+    points = report_number(model, report_points)
+    if (points == 0 .or. size(model%points) > 0) return
+    call add_error(diagnostics, model%reports(points)%keyword, &
+      "this report has a row for every POINT card, and there is none; "// &
+      "expected: POINT name link along= [offset=]")
+  end subroutine check_report_needs
+
+  !> What a link lacks: as a beam, or as a body with a mass.
+  pure subroutine check_link(diagnostics, model, link)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+    type(link_t), intent(in) :: link
+
+    character(len=:), allocatable :: lacking, way_out
+    logical :: beam, mass, mesh
+
+    beam = needs_beams(model) .and. .not. link%rigid
+    mass = needs_masses(model) .or. needs_frequencies(model)
+    mesh = beam .or. (needs_masses(model) .and. model%inertia == inertia_lumped .and. &
+      bears_lumped_masses(link))
+    if (beam .and. has_own_mass(link)) then
+      call add_error(diagnostics, link%body_word, "link '"//link%name%text// &
+        "' bends, and a beam has the mass of its section; "// &
+        "expected 'rigid' on this card, or no '"//link%body_word%text//"='")
+      return
+    end if
+    ! A mass without moment of inertia has been told.
+    if (.not. beam) mass = mass .and. .not. link%has_mass
+    lacking = ""
+    if ((beam .or. mass) .and. link%material_name%line == 0) lacking = lacking//" material"
+    if ((beam .or. mass) .and. link%section_name%line == 0) lacking = lacking//" section"
+    way_out = ""
+    if (len(lacking) > 0 .and. .not. beam) way_out = ", or 'mass=' and 'inertia='"
+    if (mesh .and. link%mesh == 0) lacking = lacking//" mesh"
+    if (len(lacking) == 0) return
+    call add_error(diagnostics, link%name, "link '"//link%name%text//"' has no "// &
+      joined(word_list(lacking(2:)), ", no ")//"; the reports asked for need "// &
+      trim(merge("it  ", "them", index(lacking(2:), " ") == 0))//way_out)
+  end subroutine check_link
+
+  !> How the mass of beams makes loads is for the deck to say.
+  pure subroutine check_inertia_card(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    character(len=*), parameter :: expected = &
+      ", and there is no INERTIA card; expected: INERTIA lumped or INERTIA distributed"
+    integer :: report
+
+    if (model%inertia /= inertia_none .or. .not. needs_inertia(model)) return
+    report = report_of_masses(model)
+    if (report > 0) then
+      call add_error(diagnostics, model%reports(report)%keyword, &
+        "this report uses inertia loads"//expected)
+    else
+      report = max(report_number(model, report_frequencies), report_number(model, report_shapes), &
+        report_number(model, report_branches))
+      call add_error(diagnostics, model%reports(report)%keyword, &
+        "frequencies under the loads of "// &
+        trim(merge("the motion", "gravity   ", is_moving(model)))//" are asked for"//expected)
+    end if
+  end subroutine check_inertia_card
+
+end module report_needs

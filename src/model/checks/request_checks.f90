@@ -1,0 +1,236 @@
+!> What is asked for: whether the deck has all it takes, and whether it makes sense.
+module request_checks
+  use cards, only: card_t
+  use diagnostics, only: add_error, add_warning, diagnostics_t
+  use kinds, only: wp
+  use models, only: effects_static, is_loaded, is_moving, model_t, needs_frequencies, &
+    needs_positions, report_number
+  use report_needs, only: check_report_needs
+  use request_cards, only: report_kinds, report_motion, report_shapes
+  use spelling, only: nearest_word
+  use text, only: joined, same_word, string_t, to_string, upper_case, word_list
+  use tokens, only: token_t
+  use value_lists, only: value_list_t, value_number
+  use vibration_checks, only: check_vibrations
+  implicit none (type, external)
+  private
+
+  public :: check_required, check_requests, has_card, card_names
+
+  character(len=*), parameter :: card_names = &
+    "TITLE UNITS INCLUDE SET VARY MATERIAL SECTION GROUND LINK DRIVE BRANCH PINMASS MESH MASS "// &
+    "POINT GRAVITY FORCE TORQUE "//"MOTOR LOAD CRANK SPEED INERTIA EFFECTS SOLVER MODES REPORT"
+
+  !> A link stockier than this is no slender beam: shear and rotary inertia decide.
+  real(wp), parameter :: least_slenderness = 10.0_wp
+
+  integer, parameter :: most_modes = 100
+
+contains
+
+  !> Cards that no deck can do without.
+  subroutine check_required(cards, diagnostics, model)
+    type(card_t), intent(in) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model !! with its reports
+
+    if (.not. has_card(cards, "UNITS")) &
+      call missing("there is no UNITS card; expected: UNITS length mass time")
+    ! What a file holds that cannot be included is not missing from the deck.
+    if (has_card(cards, "INCLUDE")) return
+    if (.not. has_card(cards, "GROUND") .or. .not. has_card(cards, "LINK")) then
+      call missing("there are no "//trim(merge("GROUND", "LINK  ", &
+        .not. has_card(cards, "GROUND")))//" cards: no linkage is described")
+    end if
+    if (.not. has_card(cards, "DRIVE") .and. model%motor%keyword%line > 0) then
+      call add_error(diagnostics, model%motor%keyword, &
+        "a motor needs a driven link; expected: DRIVE link")
+    else if (.not. has_card(cards, "DRIVE")) then
+      call missing("the linkage is not driven; expected: DRIVE link")
+    end if
+    if (needs_positions(model) .and. .not. has_card(cards, "CRANK")) then
+      call missing("there is no CRANK card; expected: CRANK a to b step s, or a list of angles")
+    end if
+    if (.not. has_card(cards, "REPORT")) then
+      call missing("there is no REPORT card; expected REPORT and one of: "// &
+        joined(word_list(report_kinds)))
+    end if
+
+  contains
+
+    subroutine missing(message)
+      character(len=*), intent(in) :: message
+
+      call add_error(diagnostics, token_t("", 0, 0), message)
+    end subroutine missing
+
+  end subroutine check_required
+
+  !> Whether a deck has a card, be it misspelt.
+  function has_card(cards, keyword) result(has)
+    type(card_t), intent(in) :: cards(:)
+    character(len=*), intent(in) :: keyword
+    logical :: has
+
+    type(string_t), allocatable :: known(:)
+    integer :: i
+
+    has = .true.
+    do i = 1, size(cards)
+      if (same_word(cards(i)%keyword%text, keyword)) return
+    end do
+    known = word_list(card_names)
+    do i = 1, size(cards)
+      if (means(cards(i)%keyword%text, keyword, known)) return
+    end do
+    has = .false.
+  end function has_card
+
+  !> Whether an unknown keyword is likely a misspelt `keyword`: then that card is not missing but
+  !! wrong.
+  pure function means(unknown, keyword, known)
+    character(len=*), intent(in) :: unknown, keyword
+    type(string_t), intent(in) :: known(:) !! all keywords
+    logical :: means
+
+    integer :: i, nearest
+
+    means = .false.
+    ! Most are no misspelt ones, and comparing spellings takes its time.
+    do i = 1, size(known)
+      if (same_word(known(i)%text, unknown)) return
+    end do
+    nearest = nearest_word(unknown, known)
+    if (nearest > 0) means = same_word(known(nearest)%text, keyword)
+  end function means
+
+  !> What reports need, values that must be on other cards, and what deserves a warning.
+  subroutine check_requests(cards, diagnostics, model)
+    type(card_t), intent(in) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    call check_report_needs(diagnostics, model)
+    call check_vibrations(diagnostics, model)
+    call check_modes(diagnostics, model)
+    call check_shapes(diagnostics, model)
+    call warn_of_stocky_links(diagnostics, model)
+    call warn_of_static_loads(cards, diagnostics, model)
+    call warn_of_idle_motors(diagnostics, model)
+  end subroutine check_requests
+
+  pure subroutine check_modes(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    if (.not. needs_frequencies(model) .or. model%modes <= most_modes) return
+    call add_error(diagnostics, model%modes_word, "at most "//to_string(most_modes)// &
+      " modes are certified, not "//to_string(model%modes))
+  end subroutine check_modes
+
+  !> Shapes are drawn where positions are computed.
+  subroutine check_shapes(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: i, number
+
+    number = report_number(model, report_shapes)
+    if (number == 0) return
+    associate (report => model%reports(number))
+      call check_values(report%crank, model%crank, "crank angle", "CRANK")
+      if (model%effects == effects_static .and. size(report%speed%value) > 0) then
+        call add_error(diagnostics, report%speed%words(1), &
+          "static shapes do not depend on the speed: 'speed=' has no meaning here")
+      else
+        call check_values(report%speed, model%speed, "speed", "SPEED")
+      end if
+    end associate
+
+  contains
+
+    subroutine check_values(wanted, given, noun, card)
+      type(value_list_t), intent(in) :: wanted, given
+      character(len=*), intent(in) :: noun, card
+
+      do i = 1, size(wanted%value)
+        if (size(given%value) == 0 .or. value_number(given, wanted%value(i)) > 0) cycle
+        call add_error(diagnostics, wanted%words(wanted%word(i)), "the "//noun//" "// &
+          to_string(wanted%value(i))//" is not on the "//card//" card")
+      end do
+    end subroutine check_values
+
+  end subroutine check_shapes
+
+  pure subroutine warn_of_stocky_links(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: i
+
+    if (.not. needs_frequencies(model) .or. (model%rotary .and. model%shear)) return
+    do i = 1, size(model%links)
+      associate (link => model%links(i))
+        if (link%section == 0 .or. link%length <= 0.0_wp .or. link%rigid) cycle
+        associate (depth => model%sections(link%section)%depth)
+          if (depth <= 0.0_wp .or. link%length >= least_slenderness*depth) cycle
+          call add_warning(diagnostics, link%length_word, "link '"//link%name%text//"' is only "// &
+            to_string(link%length/depth, 3)// &
+            " times as long as thick; slender-beam theory wants 10 or "// &
+            "more, or EFFECTS rotary shear")
+        end associate
+      end associate
+    end do
+  end subroutine warn_of_stocky_links
+
+  pure subroutine warn_of_static_loads(cards, diagnostics, model)
+    type(card_t), intent(in) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: i
+
+    character(len=:), allocatable :: what, cards_at_fault
+
+    if (model%effects /= effects_static .or. .not. needs_frequencies(model)) return
+    if (.not. is_moving(model) .and. .not. is_loaded(model)) return
+    if (.not. is_loaded(model)) then
+      what = "the speed"
+      cards_at_fault = "SPEED says"
+    else if (.not. is_moving(model)) then
+      what = "loads"
+      cards_at_fault = "GRAVITY, FORCE and TORQUE say"
+    else
+      what = "speed and loads"
+      cards_at_fault = "SPEED, GRAVITY, FORCE and TORQUE say"
+    end if
+    do i = 1, size(cards)
+      if (.not. same_word(cards(i)%keyword%text, "EFFECTS")) cycle
+      call add_warning(diagnostics, cards(i)%keyword, "static frequencies do not depend on "// &
+        what//": they are computed once, whatever "//cards_at_fault)
+    end do
+  end subroutine warn_of_static_loads
+
+  !> What drives a motion and what resists it says nothing where the crank angle is prescribed.
+  pure subroutine warn_of_idle_motors(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: i
+
+    if (report_number(model, report_motion) > 0) return
+    if (model%motor%keyword%line > 0) call warn_of_idle_card(diagnostics, model%motor%keyword)
+    do i = 1, size(model%resistances)
+      call warn_of_idle_card(diagnostics, model%resistances(i)%keyword)
+    end do
+  end subroutine warn_of_idle_motors
+
+  pure subroutine warn_of_idle_card(diagnostics, keyword)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(token_t), intent(in) :: keyword
+
+    call add_warning(diagnostics, keyword, upper_case(keyword%text)// &
+      " serves REPORT motion only, which is not asked for")
+  end subroutine warn_of_idle_card
+
+end module request_checks

@@ -1,0 +1,66 @@
+!> Links that bend beside links that do not, and what they carry: whether frequencies can be found.
+module vibration_checks
+  use diagnostics, only: add_error, diagnostics_t
+  use kinds, only: wp
+  use models, only: model_t, needs_beams, needs_frequencies, report_number, solver_band, &
+    solver_dense
+  use request_cards, only: report_branches, report_frequencies, report_mesh, report_shapes
+  use text, only: lower_case
+  implicit none (type, external)
+  private
+
+  public :: check_vibrations
+
+contains
+
+  !> Something must bend, by a solver that knows rigid links, and masses on beams sit on their axes.
+  pure subroutine check_vibrations(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: report, rigid
+
+    if (.not. needs_beams(model) .or. size(model%links) == 0) return
+    if (all(model%links%rigid)) then
+      report = max(report_number(model, report_frequencies), report_number(model, report_shapes), &
+        report_number(model, report_branches), report_number(model, report_mesh))
+      call add_error(diagnostics, model%reports(report)%keyword, &
+        "all links are rigid: nothing bends", model%links(1)%rigid_word, "the first rigid link")
+      return
+    end if
+    if (.not. needs_frequencies(model)) return
+    rigid = findloc(model%links%rigid, .true., dim=1)
+    if (rigid > 0 .and. (model%solver == solver_dense .or. model%solver == solver_band)) then
+      call add_error(diagnostics, model%solver_word, &
+        "SOLVER "//lower_case(model%solver_word%text)//" knows no rigid links; "// &
+        "expected SOLVER auto or deformation", model%links(rigid)%rigid_word, "this link is rigid")
+    end if
+    call check_masses(diagnostics, model)
+  end subroutine check_vibrations
+
+  !> A mass beside or beyond a beam would need an arm that is not there.
+  pure subroutine check_masses(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: i
+
+    do i = 1, size(model%masses)
+      if (model%masses(i)%link == 0) cycle
+      associate (mass => model%masses(i), link => model%links(model%masses(i)%link))
+        if (link%rigid) cycle
+        if (abs(mass%place(2)) > 0.0_wp) then
+          call add_error(diagnostics, mass%place_word, "a mass beside link '"//link%name%text// &
+            "', which bends: a beam carries "// &
+            "masses on its axis; expected 'offset=0', or a rigid link")
+        else if (mass%place(1) < 0.0_wp .or. mass%place(1) > link%length) then
+          call add_error(diagnostics, mass%place_word, "a mass beyond the end of link '"// &
+            link%name%text//"', which bends; "// &
+            "expected 'at=' from 0 to its length, or a rigid link", link%length_word, &
+            "its length is given here")
+        end if
+      end associate
+    end do
+  end subroutine check_masses
+
+end module vibration_checks

@@ -1,0 +1,172 @@
+!> Values as JSON (RFC 8259).
+module json_text
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use kinds, only: long, wp
+  use numbers, only: read_real
+  use text, only: is_continuation_byte, to_string
+  use text_buffer, only: append_text, buffer_text, text_buffer_t
+  implicit none (type, external)
+  private
+
+  public :: json_list_t, add_item, add_member, json_array, json_object
+  public :: json_value, json_null
+
+  !> The items of an array or the members of an object.
+  type :: json_list_t
+    integer, private :: count = 0
+    type(text_buffer_t), private :: buffer
+  end type json_list_t
+
+  !> A string, or a number in the shortest form that gives it back; one that is not finite is null.
+  interface json_value
+    module procedure :: json_string
+    module procedure :: json_integer
+    module procedure :: json_long
+    module procedure :: json_number
+  end interface json_value
+
+  character(len=*), parameter :: json_null = "null", line_feed = achar(10)
+  character(len=*), parameter :: replacement = char(239)//char(191)//char(189) !! U+FFFD
+
+contains
+
+  !> Appends a value that is JSON already.
+  pure subroutine add_item(list, value)
+    type(json_list_t), intent(inout) :: list
+    character(len=*), intent(in) :: value
+
+    if (list%count > 0) call append_text(list%buffer, ","//line_feed)
+    call append_text(list%buffer, value)
+    list%count = list%count + 1
+  end subroutine add_item
+
+  !> Appends a name with a value that is JSON already.
+  pure subroutine add_member(list, name, value)
+    type(json_list_t), intent(inout) :: list
+    character(len=*), intent(in) :: name, value
+
+    if (list%count > 0) call append_text(list%buffer, ", ")
+    call append_text(list%buffer, json_string(name)//": "//value)
+    list%count = list%count + 1
+  end subroutine add_member
+
+  !> The items in brackets, one a line.
+  pure function json_array(list) result(value)
+    type(json_list_t), intent(in) :: list
+    character(len=:), allocatable :: value
+
+    value = "["//line_feed//buffer_text(list%buffer)//line_feed//"]"
+    if (list%count == 0) value = "[]"
+  end function json_array
+
+  !> The members in braces, on one line.
+  pure function json_object(list) result(value)
+    type(json_list_t), intent(in) :: list
+    character(len=:), allocatable :: value
+
+    value = "{"//buffer_text(list%buffer)//"}"
+  end function json_object
+
+  pure function json_integer(number) result(value)
+    integer, intent(in) :: number
+    character(len=:), allocatable :: value
+
+    value = to_string(number)
+  end function json_integer
+
+  pure function json_long(number) result(value)
+    integer(long), intent(in) :: number
+    character(len=:), allocatable :: value
+
+    value = to_string(number)
+  end function json_long
+
+  pure function json_number(number) result(value)
+    real(wp), intent(in) :: number
+    character(len=:), allocatable :: value
+
+    character(len=:), allocatable :: problem
+    real(wp) :: back
+    integer :: digits
+
+    value = json_null
+    if (.not. ieee_is_finite(number)) return
+    do digits = precision(number), precision(number) + 2
+      value = to_string(number, digits)
+      call read_real(value, back, problem)
+      if (len(problem) == 0 .and. .not. abs(back - number) > 0.0_wp) return
+    end do
+  end function json_number
+
+  !> Text in quotes. UTF-8 stays as it is, a byte that is none becomes U+FFFD, and control
+  !! characters are escaped.
+  pure function json_string(text) result(value)
+    character(len=*), intent(in) :: text
+    character(len=:), allocatable :: value
+
+    type(text_buffer_t) :: buffer
+    character(len=4) :: code
+    integer :: i, length
+
+    call append_text(buffer, '"')
+    i = 1
+    do while (i <= len(text))
+      length = character_length(text(i:))
+      if (length == 0) then
+        call append_text(buffer, replacement)
+        length = 1
+      else if (scan(text(i:i), '"\') == 1) then
+        call append_text(buffer, "\"//text(i:i))
+      else if (iachar(text(i:i)) < 32 .or. iachar(text(i:i)) == 127) then
+        write (code, "(z4.4)") iachar(text(i:i))
+        call append_text(buffer, "\u"//code)
+      else
+        call append_text(buffer, text(i:i + length - 1))
+      end if
+      i = i + length
+    end do
+    call append_text(buffer, '"')
+    value = buffer_text(buffer)
+  end function json_string
+
+  !> Bytes of the UTF-8 character that a text begins with (RFC 3629, section 4); 0 if it begins with
+  !! none.
+  pure function character_length(text) result(length)
+    character(len=*), intent(in) :: text !! not empty
+    integer :: length
+
+    integer :: second, least, most
+
+    ! The first byte tells the length, and what the second may be: overlong forms, surrogates and
+    ! what lies beyond U+10FFFF are out.
+    least = 128
+    most = 191
+    select case (ichar(text(1:1)))
+    case (:127)
+      length = 1
+    case (194:223)
+      length = 2
+    case (224:239)
+      length = 3
+      if (ichar(text(1:1)) == 224) least = 160
+      if (ichar(text(1:1)) == 237) most = 159
+    case (240:244)
+      length = 4
+      if (ichar(text(1:1)) == 240) least = 144
+      if (ichar(text(1:1)) == 244) most = 143
+    case default
+      length = 0
+    end select
+    if (length < 2) return
+    if (len(text) < length) then
+      length = 0
+      return
+    end if
+    second = ichar(text(2:2))
+    if (second < least .or. second > most) length = 0
+    if (length > 2) then
+      if (.not. all(is_continuation_byte([text(3:3), text(length:length)]))) length = 0
+    end if
+  end function character_length
+
+end module json_text

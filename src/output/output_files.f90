@@ -1,0 +1,118 @@
+!> Files that appear only when they are complete.
+!!
+!! A file is written under a temporary name, its size on the disk compared with the bytes written (a
+!! full disk shows nowhere else), and only then renamed. Until then the file of an earlier run stays
+!! as it was.
+module output_files
+  use errors, only: error_t, set_error
+  use file_system, only: joined_path, remove_file, rename_file
+  use kinds, only: long
+  use text_buffer, only: append_text, text_buffer_t
+  implicit none (type, external)
+  private
+
+  public :: output_file_t, open_output, append_output, finish_output, publish_output, &
+    remove_output, discard_output
+
+  type :: output_file_t
+    character(len=:), allocatable :: path
+    integer, private :: unit = -1
+    logical, private :: is_open = .false.
+    integer(long), private :: bytes = 0_long
+    logical, private :: sound = .true.
+    type(text_buffer_t), private :: buffer !! text not yet written
+  end type output_file_t
+
+  character(len=*), parameter :: temporary = ".part"
+  integer, parameter :: buffer_size = 65536
+
+contains
+
+  subroutine open_output(folder, name, file, error)
+    character(len=*), intent(in) :: folder, name
+    type(output_file_t), intent(out) :: file
+    type(error_t), allocatable, intent(out) :: error
+
+    integer :: status
+
+    file%path = joined_path(folder, name)
+    open (newunit=file%unit, file=file%path//temporary, status="replace", action="write", &
+      access="stream", form="unformatted", iostat=status)
+    file%is_open = status == 0
+    if (status /= 0) call set_error(error, file%path//temporary// &
+      ": error: this file cannot be written")
+  end subroutine open_output
+
+  !> Appends text as it is.
+  subroutine append_output(file, text)
+    type(output_file_t), intent(inout) :: file
+    character(len=*), intent(in) :: text
+
+    call append_text(file%buffer, text)
+    if (file%buffer%length > buffer_size) call write_buffer(file)
+  end subroutine append_output
+
+  subroutine write_buffer(file)
+    type(output_file_t), intent(inout) :: file
+
+    integer :: status
+
+    if (file%buffer%length == 0) return
+    write (file%unit, iostat=status) file%buffer%storage(:file%buffer%length)
+    file%sound = file%sound .and. status == 0
+    file%bytes = file%bytes + file%buffer%length
+    file%buffer%length = 0
+  end subroutine write_buffer
+
+  !> Writes what is left and checks that everything is on the disk. Errors: it is not.
+  subroutine finish_output(file, error)
+    type(output_file_t), intent(inout) :: file
+    type(error_t), allocatable, intent(out) :: error
+
+    integer :: status
+    integer(long) :: size_on_disk
+
+    call write_buffer(file)
+    close (file%unit, iostat=status)
+    file%is_open = .false.
+    file%sound = file%sound .and. status == 0
+    inquire (file=file%path//temporary, size=size_on_disk)
+    if (.not. file%sound .or. size_on_disk /= file%bytes) then
+      call set_error(error, &
+        file%path//": error: the file could not be written completely; is the disk full?")
+    end if
+  end subroutine finish_output
+
+  !> Gives a finished file its name, in place of an earlier one.
+  subroutine publish_output(file, error)
+    type(output_file_t), intent(in) :: file
+    type(error_t), allocatable, intent(out) :: error
+
+    logical :: done
+
+    call rename_file(file%path//temporary, file%path, done)
+    if (.not. done) call set_error(error, file%path//": error: the file cannot be put in place")
+  end subroutine publish_output
+
+  !> Removes a file that is no longer asked for, and what an earlier run that was killed may have
+  !! left of it.
+  subroutine remove_output(folder, name)
+    character(len=*), intent(in) :: folder, name
+
+    call remove_file(joined_path(folder, name))
+    call remove_file(joined_path(folder, name)//temporary)
+  end subroutine remove_output
+
+  !> Removes what was written so far.
+  subroutine discard_output(file)
+    type(output_file_t), intent(inout) :: file
+
+    integer :: status
+
+    if (.not. allocated(file%path)) return
+    if (file%is_open) close (file%unit, iostat=status)
+    file%is_open = .false.
+    call remove_file(file%path//temporary)
+  end subroutine discard_output
+
+end module output_files

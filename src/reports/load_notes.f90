@@ -1,0 +1,129 @@
+!> What loads a mechanism, in words for the heads of tables.
+module load_notes
+  use kinds, only: wp
+  use link_cards, only: has_own_mass
+  use mechanisms, only: mechanism_t
+  use models, only: model_t
+  use text, only: append_string, plural, string_t, to_string
+  use units, only: coherent_unit, dimension_acceleration, dimension_force, dimension_moment, &
+    from_si, unit_t
+  implicit none (type, external)
+  private
+
+  public :: append_load_notes, append_motion_notes, acceleration_note
+
+contains
+
+  !> Which inertia every link has, gravity, forces and torques from outside.
+  pure subroutine append_load_notes(notes, model, mechanism)
+    type(string_t), allocatable, intent(inout) :: notes(:)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+
+    character(len=:), allocatable :: line
+    integer :: b
+
+    line = "inertia:"
+    do b = 1, size(mechanism%names)
+      if (b > 1) line = line//","
+      line = line//" "//mechanism%names(b)%text//" "//inertia_words(model, mechanism, b)
+    end do
+    call append_string(notes, line)
+    call append_string(notes, gravity_words(model, mechanism))
+    call append_string(notes, outside_loads(model, mechanism))
+  end subroutine append_load_notes
+
+  !> `lumped on 4 elements`
+  pure function inertia_words(model, mechanism, body) result(words)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    integer, intent(in) :: body
+    character(len=:), allocatable :: words
+
+    associate (this => mechanism%linkage%bodies(body))
+      if (has_own_mass(model%links(model%loop(body)))) then
+        words = "a body of its own"
+      else if (this%line_density <= 0.0_wp) then
+        words = "without mass"
+      else if (mechanism%load_elements(body) > 0) then
+        words = "lumped on "//plural(mechanism%load_elements(body), "element")
+      else
+        words = "distributed"
+        if (this%rotary_inertia > 0.0_wp) words = "distributed with rotary inertia"
+      end if
+    end associate
+  end function inertia_words
+
+  !> `gravity: 0 -9.81 m/s2`
+  pure function gravity_words(model, mechanism) result(line)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    character(len=:), allocatable :: line
+
+    line = "gravity: "//vector(mechanism%linkage%gravity, coherent_unit(model%units, &
+      dimension_acceleration))
+  end function gravity_words
+
+  !> Forces on pins and torques on links in one line.
+  pure function outside_loads(model, mechanism) result(line)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    character(len=:), allocatable :: line
+
+    character(len=:), allocatable :: before
+    type(unit_t) :: moment
+    integer :: i
+
+    line = "loads from outside: none"
+    before = "loads from outside: "
+    associate (linkage => mechanism%linkage)
+      do i = 1, size(mechanism%pin_names)
+        if (all(abs(linkage%pin_force(:, i)) <= 0.0_wp)) cycle
+        line = before//"force "//vector(linkage%pin_force(:, i), coherent_unit(model%units, &
+          dimension_force))//" at pin "//mechanism%pin_names(i)%text
+        before = line//", "
+      end do
+      moment = coherent_unit(model%units, dimension_moment)
+      do i = 1, size(mechanism%names)
+        if (abs(linkage%couple(i)) <= 0.0_wp) cycle
+        line = before//"torque "//to_string(from_si(linkage%couple(i), moment), 12)//" "// &
+          moment%name//" on link "//mechanism%names(i)%text
+        before = line//", "
+      end do
+    end associate
+  end function outside_loads
+
+  !> `0 -9.81 m/s2`, or `none`
+  pure function vector(components, measure) result(words)
+    real(wp), intent(in) :: components(2)
+    type(unit_t), intent(in) :: measure
+    character(len=:), allocatable :: words
+
+    words = "none"
+    if (all(abs(components) <= 0.0_wp)) return
+    words = to_string(from_si(components(1), measure), 12)//" "// &
+      to_string(from_si(components(2), measure), 12)//" "//measure%name
+  end function vector
+
+  !> Which links and pins the numbers and letters of columns mean, and how the crank speeds up.
+  pure subroutine append_motion_notes(notes, model, mechanism)
+    type(string_t), allocatable, intent(inout) :: notes(:)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+
+    call append_string(notes, "2: link "//mechanism%names(1)%text//"; 3: link "// &
+      mechanism%names(2)%text//"; 4: link "//mechanism%names(3)%text//"; O2: pin "// &
+      mechanism%pin_names(1)%text//"; A: pin "//mechanism%pin_names(2)%text//"; B: pin "// &
+      mechanism%pin_names(3)%text//"; O4: pin "//mechanism%pin_names(4)%text)
+    call append_string(notes, acceleration_note(model))
+  end subroutine append_motion_notes
+
+  !> How the crank speeds up.
+  pure function acceleration_note(model) result(note)
+    type(model_t), intent(in) :: model
+    character(len=:), allocatable :: note
+
+    note = "angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2"
+  end function acceleration_note
+
+end module load_notes

@@ -1,0 +1,273 @@
+!> Checks of a model that need mechanics, with complaints that point at the deck.
+module deck_checks
+  use beam_mesh, only: moving_unknowns
+  use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
+  use four_bar_limits, only: can_reach, crank_reach, reach_t
+  use kinds, only: wp
+  use mechanisms, only: has_beams, has_mesh, mechanism_t, mesh_with, new_mechanism
+  use models, only: model_t, needs_frequencies, solver_band, solver_dense
+  use motion_checks, only: check_motion
+  use nodal_eigensolver, only: most_round_off
+  use rest_eigenvalues, only: lowest_rest_eigenvalues
+  use round_off, only: round_off_error
+  use sorting, only: ascending_order
+  use text, only: plural, to_string
+  use tokens, only: token_t
+  use value_lists, only: value_list_t
+  implicit none (type, external)
+  private
+
+  public :: check_mechanics
+
+  !> Share of the distance of the ground pivots that the rounding of their coordinates may take.
+  real(wp), parameter :: most_coordinate_error = 1.0e-10_wp
+
+  !> Positions at which the lowest frequency is estimated to judge round-off.
+  integer, parameter :: most_samples = 25
+
+contains
+
+  !> Whether the linkage closes, reaches every position, has as many unknowns as modes, and a mesh
+  !! that keeps enough digits.
+  subroutine check_mechanics(model, diagnostics)
+    type(model_t), intent(in) :: model !! without errors so far
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    type(mechanism_t) :: mechanism
+    type(reach_t) :: reach
+
+    mechanism = new_mechanism(model)
+    associate (ground => mechanism%linkage%ground_position(:, [1, 4]))
+      if (norm2(ground(:, 2) - ground(:, 1)) <= 0.0_wp) then
+        call add_error(diagnostics, model%grounds(2)%pin, &
+          "the two ground pivots are at the same place", model%grounds(1)%pin, &
+          "the other one is here")
+        return
+      end if
+      if (epsilon(1.0_wp)*maxval(abs(ground)) > most_coordinate_error*norm2(ground(:, &
+        2) - ground(:, 1))) then
+        call add_warning(diagnostics, model%grounds(2)%pin, &
+          "the ground pivots are so far from the origin that their distance "// &
+          "has lost digits; put the origin nearer to them")
+      end if
+      reach = crank_reach(ground, mechanism%linkage%bodies%length)
+    end associate
+    if (.not. reach%closes) then
+      call report_open_linkage(model, mechanism, diagnostics)
+      return
+    end if
+    call check_reach(model, reach, diagnostics)
+    call check_motion(model, mechanism, reach, reachable(reach), diagnostics)
+    if (.not. needs_frequencies(model) .or. .not. has_mesh(mechanism) .or. &
+      .not. has_beams(mechanism)) return
+    ! Where the program chooses orders there are unknowns enough; in deformation coordinates no
+    ! digits are lost.
+    if (mechanism%accuracy > 0.0_wp) return
+    call check_modes(model, mechanism, diagnostics)
+    if (has_errors(diagnostics) .or. all(model%solver /= [solver_dense, solver_band])) return
+    call check_round_off(model, mechanism, diagnostics)
+  end subroutine check_mechanics
+
+  !> One link is longer than all the others together.
+  subroutine report_open_linkage(model, mechanism, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    real(wp) :: ground_length
+    integer :: longest
+
+    associate (ground => mechanism%linkage%ground_position, &
+      length => mechanism%linkage%bodies%length)
+      ground_length = norm2(ground(:, 4) - ground(:, 1))
+      longest = maxloc(length, dim=1)
+      if (ground_length > length(longest)) then
+        call add_error(diagnostics, model%grounds(2)%pin, &
+          "the linkage closes at no crank angle: the ground pivots are farther "// &
+          "apart than the three links together are long")
+      else
+        call add_error(diagnostics, model%links(model%loop(longest))%length_word, &
+          "the linkage closes at no crank angle: link '"//mechanism%names(longest)%text// &
+          "' is longer than the other links and the distance of the ground pivots together")
+      end if
+    end associate
+  end subroutine report_open_linkage
+
+  !> Positions out of reach: one complaint with all that the user needs to mend the deck.
+  subroutine check_reach(model, reach, diagnostics)
+    type(model_t), intent(in) :: model
+    type(reach_t), intent(in) :: reach
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=:), allocatable :: message
+    logical :: out_of_reach(size(model%crank%value))
+    integer :: first
+
+    out_of_reach = .not. can_reach(reach, model%crank%value)
+    if (.not. any(out_of_reach)) return
+    first = findloc(out_of_reach, .true., dim=1)
+    if (count(out_of_reach) == 1) then
+      message = "the crank angle "//to_string(model%crank%value(first), 10)//" deg is out of reach"
+    else
+      message = to_string(count(out_of_reach))//" crank angles are out of reach, the first at "// &
+        to_string(model%crank%value(first), 10)//" deg"
+    end if
+    call add_error(diagnostics, model%crank%words(model%crank%word(first)), &
+      message//"; the linkage closes "//reachable(reach)//": "// &
+      ready_card(reach, step_of(model%crank)))
+  end subroutine check_reach
+
+  !> The step that the user has in mind: that of the first range, or 5 degrees.
+  pure function step_of(crank) result(step)
+    type(value_list_t), intent(in) :: crank
+    real(wp) :: step
+
+    step = 5.0_wp
+    if (size(crank%value) < 2) return
+    if (crank%word(1) == crank%word(2)) step = abs(crank%value(2) - crank%value(1))
+  end function step_of
+
+  !> The reachable crank angles as a CRANK card. It keeps off the limits: these are dead points, and
+  !! near them frequencies fade.
+  pure function ready_card(reach, step) result(card)
+    type(reach_t), intent(in) :: reach
+    real(wp), intent(in) :: step !! [deg]
+    character(len=:), allocatable :: card
+
+    real(wp), allocatable :: limits(:, :)
+    integer :: i
+
+    limits = reachable_intervals(reach)
+    card = "CRANK"
+    do i = 1, size(limits, 2)
+      card = card//" "//interval(limits(1, i), limits(2, i), step)
+    end do
+  end function ready_card
+
+  !> `between -132.6 and 132.6 deg`
+  pure function reachable(reach) result(phrase)
+    type(reach_t), intent(in) :: reach
+    character(len=:), allocatable :: phrase
+
+    real(wp), allocatable :: limits(:, :)
+    integer :: i
+
+    limits = reachable_intervals(reach)
+    phrase = ""
+    do i = 1, size(limits, 2)
+      if (i > 1) phrase = phrase//" and "
+      phrase = phrase//"between "//to_string(limits(1, i), 7)//" and "//to_string(limits(2, i), 7)
+    end do
+    phrase = phrase//" deg"
+  end function reachable
+
+  !> One interval or two, from the global x axis.
+  pure function reachable_intervals(reach) result(limits)
+    type(reach_t), intent(in) :: reach
+    real(wp), allocatable :: limits(:, :) !! (2, intervals) [deg]
+
+    real(wp), parameter :: near_zero = 1.0e-9_wp
+
+    if (reach%least <= near_zero) then
+      limits = reshape([-reach%most, reach%most], [2, 1])
+    else if (reach%most >= 180.0_wp - near_zero) then
+      limits = reshape([reach%least, 360.0_wp - reach%least], [2, 1])
+    else
+      limits = reshape([reach%least, reach%most, 360.0_wp - reach%most, 360.0_wp - reach%least], &
+        [2, 2])
+    end if
+    limits = limits + reach%ground
+  end function reachable_intervals
+
+  !> `a to b step s`, half a degree or more inside the limits; a twentieth in a short interval, the
+  !! middle alone in a tiny one.
+  pure function interval(a, b, step) result(range_text)
+    real(wp), intent(in) :: a, b, step !! [deg]
+    character(len=:), allocatable :: range_text
+
+    real(wp), parameter :: short = 10.0_wp
+    real(wp) :: grid
+    integer :: first, last
+
+    grid = merge(1.0_wp, 10.0_wp, b - a > short)
+    first = ceiling(a*grid + 0.5_wp)
+    last = floor(b*grid - 0.5_wp)
+    if (first < last) then
+      range_text = to_string(first/grid, 9)//" to "//to_string(last/grid, 9)//" step "// &
+        to_string(step)
+    else
+      range_text = to_string(0.5_wp*(a + b), 12)
+    end if
+  end function interval
+
+  subroutine check_modes(model, mechanism, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    type(token_t) :: place
+    integer :: most
+
+    most = moving_unknowns(mechanism%mesh, mechanism%linkage)
+    place = model%modes_word
+    if (place%line == 0) place = model%meshes(1)%keyword
+    if (model%modes > most) then
+      call add_error(diagnostics, place, plural(model%modes, "mode")// &
+        " asked for, but the mesh has only "// &
+        plural(most, trim(merge("unknown       ", "moving unknown", &
+        most == mechanism%mesh%unknowns))))
+    else if (model%modes > mechanism%mesh%unknowns - 2 .and. model%solver == solver_band) then
+      call add_error(diagnostics, place, "SOLVER band finds at most "// &
+        plural(mechanism%mesh%unknowns - 2, "mode")// &
+        " of this mesh (two fewer than its unknowns), not "//to_string(model%modes))
+    end if
+  end subroutine check_modes
+
+  !> Refuses a mesh so fine that the rounding of its matrices spoils the lowest frequencies.
+  !!
+  !! The bound is `ε‖K_e‖/(λ‖M_e‖)`. The median of the positions decides: one of them near a dead
+  !! point is a matter of its own row.
+  subroutine check_round_off(model, mechanism, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    real(wp), allocatable :: lambda(:)
+    real(wp) :: bound
+    character(len=:), allocatable :: fault, amount
+    integer :: i, body, samples
+
+    samples = min(size(model%crank%value), most_samples)
+    lambda = lowest_rest_eigenvalues(mechanism, &
+      [(model%crank%value(1 + ((i - 1)*(size(model%crank%value) - 1))/max(1, samples - 1)), i=1, &
+      samples)])
+    lambda = lambda(ascending_order(lambda))
+    do body = 1, size(mechanism%beams)
+      bound = bound_of(mechanism, body, lambda((samples + 1)/2))
+      if (bound <= most_round_off) cycle
+      if (bound_of(mesh_with(mechanism, spread(1, 1, size(mechanism%beams))), body, &
+        lambda((samples + 1)/2)) <= most_round_off) then
+        fault = "this mesh is too fine for double precision: use fewer elements"
+      else
+        fault = "link '"//mechanism%names(body)%text//"' is too slender for double precision"
+      end if
+      amount = "more than 1000"
+      if (bound < 1.0e3_wp) amount = to_string(bound, 2)
+      call add_error(diagnostics, model%meshes(model%links(model%loop(body))%mesh)%keyword, &
+        fault//"; round-off in '"//mechanism%names(body)%text//"' may reach "//amount// &
+        " times the lowest eigenvalue, "//"and the limit is "//to_string(most_round_off))
+    end do
+  end subroutine check_round_off
+
+  !> `ε‖K_e‖/(λ‖M_e‖)` of a body's elements.
+  pure function bound_of(mechanism, body, lambda) result(bound)
+    type(mechanism_t), intent(in) :: mechanism
+    integer, intent(in) :: body
+    real(wp), intent(in) :: lambda !! [1/s²]
+    real(wp) :: bound
+
+    bound = round_off_error(mechanism%linkage, mechanism%beams, mechanism%mesh, body)/max(lambda, &
+      sqrt(tiny(lambda)))
+  end function bound_of
+
+end module deck_checks

@@ -1,0 +1,220 @@
+!> The memory that a run will take, told before it takes any.
+!!
+!! An estimate on the safe side from the sizes of what is kept, and constants measured with the peak
+!! of the process.
+module memory_needs
+  use available_memory, only: available_memory_t, memory_text
+  use beam_element, only: axial_degree, element_unknowns
+  use deformation_shapes, only: bending_unknowns
+  use diagnostics, only: add_error, diagnostics_t
+  use kinds, only: wp
+  use models, only: effects_static, model_t, needs_frequencies, report_number
+  use motion_study, only: motion_rows_of
+  use request_cards, only: report_branches, report_motion, report_shapes
+  use text, only: plural, to_string
+  use tokens, only: token_t
+  use vibration_models, only: by_band, by_dense, by_long_mesh, chosen_method
+  implicit none (type, external)
+  private
+
+  public :: memory_need_t, memory_of_run, check_memory
+
+  !> One part of it.
+  type :: memory_need_t
+    real(wp) :: bytes = 0.0_wp
+    character(len=:), allocatable :: what !! takes it, in the plural
+    type(token_t) :: place                !! the card that asks for it
+  end type memory_need_t
+
+  !> What the parts of the memory belong to.
+  integer, parameter :: of_results = 1, of_shapes = 2, of_branches = 3, of_mesh = 4, &
+    of_matrices = 5, of_motion = 6, parts = 6
+
+  !> Bytes of a number; of a pose with its motion; of the results at a position, and at one of its
+  !! speeds, besides their numbers.
+  real(wp), parameter :: number = 8.0_wp, of_pose = 1050.0_wp, of_position = 600.0_wp, &
+    of_speed = 230.0_wp
+
+  !> What every run takes, and what goes to waste between the pieces.
+  real(wp), parameter :: of_process = 1.0e7_wp, spare = 1.1_wp
+
+contains
+
+  !> Refuses a deck that asks for more memory than there is, at the card that asks for most of it.
+  subroutine check_memory(model, threads, available, diagnostics)
+    type(model_t), intent(in) :: model !! without errors so far
+    integer, intent(in) :: threads
+    type(available_memory_t), intent(in) :: available
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    type(memory_need_t) :: needs(parts)
+    character(len=:), allocatable :: of_all
+    real(wp) :: total
+    integer :: most
+
+    call memory_of_run(model, threads, needs)
+    total = of_process + spare*sum(needs%bytes)
+    if (total <= available%bytes) return
+    most = maxloc(needs%bytes, dim=1)
+    of_all = ""
+    if (needs(most)%bytes < 0.8_wp*total) of_all = " of "//memory_text(total)//" in all"
+    call add_error(diagnostics, needs(most)%place, needs(most)%what//" need "// &
+      memory_text(needs(most)%bytes)//of_all//", and "//available%told)
+  end subroutine check_memory
+
+  !> The parts, some of them zero.
+  subroutine memory_of_run(model, threads, needs)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: threads
+    type(memory_need_t), intent(out) :: needs(:)
+
+    real(wp) :: rows !! of results
+    integer :: speeds
+
+    speeds = size(model%speed%value)
+    if (model%effects == effects_static) speeds = 1
+    rows = real(size(model%crank%value), wp)*speeds
+    needs(of_results)%place = model%reports(1)%keyword
+    if (size(model%crank%words) > 0) needs(of_results)%place = model%crank%words(1)
+    needs(of_results)%what = "the results at "//plural(size(model%crank%value), "position")
+    needs(of_results)%bytes = size(model%crank%value)*of_pose
+    call add_motion(model, needs(of_motion))
+    if (any(model%links%mesh > 0) .and. all(model%links%mesh > 0 .or. model%links%rigid)) &
+      call add_mesh(model, threads, needs)
+    if (.not. needs_frequencies(model)) return
+    needs(of_results)%what = needs(of_results)%what//" and "//plural(speeds, "speed")
+    needs(of_results)%bytes = needs(of_results)%bytes + size(model%crank%value)*of_position + &
+      rows*(of_speed + 2*model%modes*number)
+    call add_shapes(model, speeds, needs(of_shapes))
+    call add_branches(model, rows, needs(of_branches))
+  end subroutine memory_of_run
+
+  !> Every instant of a motion, kept until it is written.
+  pure subroutine add_motion(model, need)
+    type(model_t), intent(in) :: model
+    type(memory_need_t), intent(inout) :: need
+
+    integer, parameter :: numbers = 16 !! of a sample, rounded up
+    integer :: report
+
+    report = report_number(model, report_motion)
+    if (report == 0) return
+    need%place = model%reports(report)%keyword
+    need%what = "the "//plural(motion_rows_of(model), "instant")//" of the motion"
+    need%bytes = numbers*number*motion_rows_of(model)
+  end subroutine add_motion
+
+  !> Displacements at the points of all links in every mode, kept until they are written.
+  pure subroutine add_shapes(model, speeds, need)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: speeds
+    type(memory_need_t), intent(inout) :: need
+
+    real(wp) :: drawn
+    integer :: report
+
+    report = report_number(model, report_shapes)
+    if (report == 0) return
+    associate (asked => model%reports(report))
+      drawn = merge(size(asked%crank%value), size(model%crank%value), size(asked%crank%value) > 0)
+      drawn = drawn*merge(size(asked%speed%value), speeds, size(asked%speed%value) > 0)
+      need%place = asked%keyword
+      need%what = "the shapes of "//plural(model%modes, "mode")//" at "//to_string(drawn, 9)// &
+        " positions and speeds"
+      need%bytes = drawn*model%modes*3*number*size(model%links)*asked%points
+    end associate
+  end subroutine add_shapes
+
+  !> What modes are recognised by: the border and the first own modes of every link, of y and of M
+  !! y; and what is written of them.
+  pure subroutine add_branches(model, rows, need)
+    type(model_t), intent(in) :: model
+    real(wp), intent(in) :: rows
+    type(memory_need_t), intent(inout) :: need
+
+    real(wp), parameter :: of_print = 200.0_wp, of_branch = 20.0_wp
+    real(wp) :: kept
+    integer :: report
+
+    report = report_number(model, report_branches)
+    if (report == 0) return
+    kept = size(model%links) + 1 + size(model%links)*(2.0_wp*model%modes + 2)
+    need%place = model%reports(report)%keyword
+    need%what = "the branches of "//plural(model%modes, "mode")//" through "//to_string(rows, 9)// &
+      " positions and speeds"
+    need%bytes = rows*(of_print + model%modes*(of_branch + 2*kept*number))
+  end subroutine add_branches
+
+  !> The mesh, and the matrices or vectors of its unknowns, which every thread has for itself.
+  subroutine add_mesh(model, threads, needs)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: threads
+    type(memory_need_t), intent(inout) :: needs(:)
+
+    !> Copies of the numbers of unknowns, each of four bytes; numbers with every element (forces,
+    !! masses).
+    real(wp), parameter :: copies = 3.0_wp, of_element = 20.0_wp
+    integer, allocatable :: links(:), elements(:), order(:)
+    integer :: finest, i
+    real(wp) :: unknowns
+
+    ! Rigid links have no mesh.
+    links = pack([(i, i=1, size(model%links))], model%links%mesh > 0)
+    elements = model%meshes(model%links(links)%mesh)%elements
+    order = model%meshes(model%links(links)%mesh)%order
+    finest = maxloc(elements*bending_unknowns(order, model%shear), dim=1)
+    needs(of_mesh)%place = model%meshes(model%links(links(finest))%mesh)%keyword
+    needs(of_matrices)%place = needs(of_mesh)%place
+    needs(of_mesh)%what = plural(sum(elements), "element")
+    needs(of_mesh)%bytes = sum(real(elements, wp))*(copies*4*maxval(element_unknowns(order, &
+      model%shear)) + of_element*number)
+    if (.not. needs_frequencies(model)) return
+    select case (chosen_method(model%solver, &
+      any(model%meshes(model%links(links)%mesh)%accuracy > 0.0_wp), elements, order, model%shear))
+    case (by_dense)
+      unknowns = nodal_unknowns(elements, order, model%shear)
+      needs(of_matrices)%place = model%solver_word
+      needs(of_matrices)%what = "dense matrices of "//to_string(unknowns, 9)// &
+        " unknowns (3 of them a thread)"
+      needs(of_matrices)%bytes = threads*3*number*unknowns**2
+    case (by_band)
+      unknowns = nodal_unknowns(elements, order, model%shear)
+      needs(of_matrices)%what = "band matrices of "//to_string(unknowns, 9)//" unknowns"
+      needs(of_matrices)%bytes = number*unknowns*band_numbers(model%modes, &
+        maxval(element_unknowns(order, model%shear)))
+    case (by_long_mesh)
+      unknowns = &
+        sum(real(elements, wp)*(bending_unknowns(order, model%shear) + axial_degree(order)))
+      needs(of_matrices)%what = "vectors of "//to_string(unknowns, 9)//" unknowns"
+      needs(of_matrices)%bytes = threads*number*unknowns*chain_numbers(model%modes)
+    end select
+  end subroutine add_mesh
+
+  !> As `beam_mesh` numbers them: every element brings what it has but one of its nodes. A loop of
+  !! links has as many pins' displacements and links' rotations more as its supports hold.
+  pure function nodal_unknowns(elements, order, sheared) result(unknowns)
+    integer, intent(in) :: elements(:), order(:)
+    logical, intent(in) :: sheared
+    real(wp) :: unknowns
+
+    unknowns = sum(real(elements, wp)*(element_unknowns(order, sheared) - 3))
+  end function nodal_unknowns
+
+  !> Numbers per unknown for ARPACK: eight band matrices, its basis, vectors.
+  pure function band_numbers(modes, bandwidth) result(numbers)
+    integer, intent(in) :: modes, bandwidth
+    real(wp) :: numbers
+
+    numbers = 8.0_wp*bandwidth + max(2*modes + 1, 20) + 2*modes + 8
+  end function band_numbers
+
+  !> Numbers per unknown for running sums: the basis of `subspace_eigensolver` with its products,
+  !! nine times the modes each; vectors.
+  pure function chain_numbers(modes) result(numbers)
+    integer, intent(in) :: modes
+    real(wp) :: numbers
+
+    numbers = 27.0_wp*modes + 4*modes + 14
+  end function chain_numbers
+
+end module memory_needs

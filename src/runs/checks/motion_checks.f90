@@ -1,0 +1,61 @@
+!> Checks of a motion that need mechanics: where it starts, and whether there is anything to move.
+module motion_checks
+  use curve_dynamics, only: curve_dynamics_t, new_curve_dynamics
+  use diagnostics, only: add_error, diagnostics_t
+  use four_bar_limits, only: can_reach, reach_t
+  use kinds, only: wp
+  use linkages, only: linkage_t
+  use mechanisms, only: mechanism_t
+  use models, only: model_t, report_number
+  use request_cards, only: report_motion
+  use rigid_bodies, only: rigid_bodies_of, rigid_body_t
+  use text, only: to_string
+  implicit none (type, external)
+  private
+
+  public :: check_motion
+
+contains
+
+  !> Whether REPORT motion, if it is asked for, can start.
+  subroutine check_motion(model, mechanism, reach, reachable, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(reach_t), intent(in) :: reach
+    character(len=*), intent(in) :: reachable !! the angles at which the linkage closes, in words
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: number
+
+    number = report_number(model, report_motion)
+    if (number == 0) return
+    associate (report => model%reports(number))
+      if (.not. can_reach(reach, report%start_angle)) then
+        call add_error(diagnostics, report%start_angle_word, "the initial crank angle "// &
+          to_string(report%start_angle, 10)//" deg is out of reach; the linkage closes "//reachable)
+      end if
+      if (has_moving_mass(mechanism%linkage, mechanism%load_elements)) return
+      call add_error(diagnostics, report%keyword, &
+        "nothing that moves has a mass: no force would tell how it moves")
+    end associate
+  end subroutine check_motion
+
+  !> Whether any body or pin takes kinetic energy when it moves: a body that is hung on the ground,
+  !! when it turns about its pivot.
+  pure function has_moving_mass(linkage, elements) result(has)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: elements(:) !! (bodies) on whose nodes their masses sit; 0: distributed
+    logical :: has
+
+    ! What is left of a mass at its ground pivot where moments of inertia about either pin are taken
+    ! from each other.
+    real(wp), parameter :: rounding = 4.0_wp*epsilon(1.0_wp)
+    type(rigid_body_t) :: rigid(size(linkage%bodies))
+    type(curve_dynamics_t) :: dynamics
+
+    rigid = rigid_bodies_of(linkage, elements)
+    dynamics = new_curve_dynamics(linkage, rigid)
+    has = any(dynamics%inertia > rounding*rigid%inertia)
+  end function has_moving_mass
+
+end module motion_checks

@@ -1,0 +1,272 @@
+!> `summary.json`, and the parts of it that `--json` prints too: errors, warnings and failed
+!! positions as JSON.
+module deck_summary
+  use deck_source, only: file_of_line, last_line, path_from_deck, source_t
+  use diagnostics, only: diagnostic_t, diagnostics_t, errors_of, untold_errors, untold_warnings, &
+    warnings_of
+  use json_text, only: add_item, add_member, json_array, json_list_t, json_null, json_object, &
+    json_value
+  use models, only: model_t, needs_frequencies
+  use program_version, only: program_name, version_number
+  use run_findings, only: failure_t, findings_t
+  use tables, only: column_t, has_unit, table_t
+  use text, only: character_count, plural, string_t
+  use tokens, only: token_t
+  use variant_runs, only: run_totals_t
+  implicit none (type, external)
+  private
+
+  public :: summary_text, error_list, warning_list, failure_array, add_plain_message
+
+contains
+
+  !> The text of `summary.json`.
+  pure function summary_text(name, file, diagnostics, source, findings, model, totals, parameters, &
+    tables) result(text)
+    character(len=*), intent(in) :: name             !! of the output folder
+    character(len=*), intent(in) :: file             !! name of the deck's file, without its folder
+    type(diagnostics_t), intent(in) :: diagnostics
+    type(source_t), intent(in) :: source
+    type(findings_t), intent(in) :: findings
+    type(model_t), intent(in) :: model
+    type(run_totals_t), intent(in) :: totals
+    type(string_t), intent(in) :: parameters(:)      !! names of what varies
+    type(table_t), intent(in) :: tables(:)           !! all rows written
+    character(len=:), allocatable :: text
+
+    type(json_list_t) :: object, list
+    integer :: i
+
+    call add_member(object, "program", json_value(program_name))
+    call add_member(object, "version", json_value(version_number))
+    call add_member(object, "deck", json_value(name))
+    call add_member(object, "exit_status", json_value(merge(1, 0, findings%failures > 0)))
+    call add_member(object, "counts", count_object(model, totals, tables, findings))
+    call add_member(object, "warnings", json_array(warning_list(diagnostics, source, findings, &
+      file)))
+    call add_member(object, "failures", failure_array(findings, parameters))
+    do i = 1, size(tables)
+      call add_item(list, table_object(tables(i)))
+    end do
+    call add_member(object, "tables", json_array(list))
+    text = json_object(object)//achar(10)
+  end function summary_text
+
+  pure function count_object(model, totals, tables, findings) result(value)
+    type(model_t), intent(in) :: model
+    type(run_totals_t), intent(in) :: totals
+    type(table_t), intent(in) :: tables(:)
+    type(findings_t), intent(in) :: findings
+    character(len=:), allocatable :: value
+
+    type(json_list_t) :: object
+
+    call add_member(object, "variants", json_value(totals%variants))
+    call add_member(object, "positions", json_value(totals%rows))
+    call add_member(object, "speeds", json_value(size(model%speed%value)))
+    call add_member(object, "modes", json_value(merge(model%modes, 0, needs_frequencies(model))))
+    call add_member(object, "failures", json_value(findings%failures))
+    call add_member(object, "rows", json_value(sum(tables%rows)))
+    call add_member(object, "failed_rows", json_value(sum(tables%failed_rows)))
+    value = json_object(object)
+  end function count_object
+
+  pure function table_object(table) result(value)
+    type(table_t), intent(in) :: table
+    character(len=:), allocatable :: value
+
+    type(json_list_t) :: object, list
+    integer :: i
+
+    call add_member(object, "file", json_value(table%name//".dat"))
+    if (table%has_csv) then
+      call add_member(object, "csv", json_value(table%name//".csv"))
+    else
+      call add_member(object, "csv", json_null)
+    end if
+    call add_member(object, "rows", json_value(table%rows))
+    call add_member(object, "failed_rows", json_value(table%failed_rows))
+    do i = 1, size(table%columns)
+      call add_item(list, column_object(table%columns(i)))
+    end do
+    call add_member(object, "columns", json_array(list))
+    value = json_object(object)
+  end function table_object
+
+  pure function column_object(column) result(value)
+    type(column_t), intent(in) :: column
+    character(len=:), allocatable :: value
+
+    type(json_list_t) :: object
+
+    call add_member(object, "name", json_value(column%name))
+    if (has_unit(column)) then
+      call add_member(object, "unit", json_value(column%unit))
+    else
+      call add_member(object, "unit", json_null)
+    end if
+    value = json_object(object)
+  end function column_object
+
+  !> All errors of a deck, in the order of its lines.
+  pure function error_list(diagnostics, source, file) result(list)
+    type(diagnostics_t), intent(in) :: diagnostics
+    type(source_t), intent(in) :: source
+    character(len=*), intent(in) :: file
+    type(json_list_t) :: list
+
+    call add_messages(list, errors_of(diagnostics), source, file)
+    if (untold_errors(diagnostics) > 0) call add_plain_message(list, file, &
+      plural(untold_errors(diagnostics), "more error"))
+  end function error_list
+
+  !> All warnings of a deck, in the order of its lines, then those of its run.
+  pure function warning_list(diagnostics, source, findings, file) result(list)
+    type(diagnostics_t), intent(in) :: diagnostics
+    type(source_t), intent(in) :: source
+    type(findings_t), intent(in) :: findings
+    character(len=*), intent(in) :: file
+    type(json_list_t) :: list
+
+    integer :: i
+
+    call add_messages(list, warnings_of(diagnostics), source, file)
+    if (untold_warnings(diagnostics) > 0) call add_plain_message(list, file, &
+      plural(untold_warnings(diagnostics), "more warning"))
+    do i = 1, findings%warning_count
+      call add_plain_message(list, file, findings%warnings(i)%text)
+    end do
+  end function warning_list
+
+  pure subroutine add_messages(list, diagnostics, source, file)
+    type(json_list_t), intent(inout) :: list
+    type(diagnostic_t), intent(in) :: diagnostics(:)
+    type(source_t), intent(in) :: source
+    character(len=*), intent(in) :: file
+
+    type(json_list_t) :: object
+    integer :: i
+
+    do i = 1, size(diagnostics)
+      object = place_members(diagnostics(i)%place, source, file)
+      call add_member(object, "message", json_value(diagnostics(i)%message))
+      call add_member(object, "second_place", second_place(diagnostics(i), source, file))
+      call add_item(list, json_object(object))
+    end do
+  end subroutine add_messages
+
+  !> Appends a message about no place in particular, or about a line and column.
+  pure subroutine add_plain_message(list, file, message, line, column)
+    type(json_list_t), intent(inout) :: list
+    character(len=*), intent(in) :: file, message
+    integer, intent(in), optional :: line, column
+
+    type(json_list_t) :: object
+
+    call add_member(object, "file", json_value(file))
+    if (present(line) .and. present(column)) then
+      call add_member(object, "line", json_value(line))
+      call add_member(object, "column", json_value(column))
+      call add_member(object, "length", json_value(1))
+    else
+      call add_member(object, "line", json_null)
+      call add_member(object, "column", json_null)
+      call add_member(object, "length", json_null)
+    end if
+    call add_member(object, "message", json_value(message))
+    call add_member(object, "second_place", json_null)
+    call add_item(list, json_object(object))
+  end subroutine add_plain_message
+
+  !> File, line, column and length of a word. What a deck lacks is told at its end, with the length
+  !! 0.
+  pure function place_members(place, source, file) result(object)
+    type(token_t), intent(in) :: place
+    type(source_t), intent(in) :: source
+    character(len=*), intent(in) :: file
+    type(json_list_t) :: object
+
+    if (place%line > 0) then
+      associate (of_line => source%files(file_of_line(source, place%line)))
+        if (of_line%first_line == 1) then
+          call add_member(object, "file", json_value(file))
+        else
+          call add_member(object, "file", json_value(path_from_deck(source, of_line%path)))
+        end if
+        call add_member(object, "line", json_value(place%line - of_line%first_line + 1))
+      end associate
+      call add_member(object, "column", json_value(place%column))
+      call add_member(object, "length", json_value(character_count(place%text)))
+    else
+      call add_member(object, "file", json_value(file))
+      call add_member(object, "line", json_value(max(1, last_line(source, 1))))
+      call add_member(object, "column", json_value(1))
+      call add_member(object, "length", json_value(0))
+    end if
+  end function place_members
+
+  !> The second place of a message with what is said about it, or null.
+  pure function second_place(diagnostic, source, file) result(value)
+    type(diagnostic_t), intent(in) :: diagnostic
+    type(source_t), intent(in) :: source
+    character(len=*), intent(in) :: file
+    character(len=:), allocatable :: value
+
+    type(json_list_t) :: object
+
+    value = json_null
+    if (len(diagnostic%note) == 0) return
+    object = place_members(diagnostic%second_place, source, file)
+    call add_member(object, "message", json_value(diagnostic%note))
+    value = json_object(object)
+  end function second_place
+
+  !> Positions without a pose, for which the speed is null, positions × speeds without modes, and
+  !! motions that ended too soon.
+  pure function failure_array(findings, parameters) result(value)
+    type(findings_t), intent(in) :: findings
+    type(string_t), intent(in) :: parameters(:) !! names of what varies
+    character(len=:), allocatable :: value
+
+    type(json_list_t) :: list
+    integer :: i
+
+    do i = 1, findings%failures
+      call add_item(list, failure_object(findings%failed(i), parameters))
+    end do
+    value = json_array(list)
+  end function failure_array
+
+  pure function failure_object(failure, parameters) result(value)
+    type(failure_t), intent(in) :: failure
+    type(string_t), intent(in) :: parameters(:)
+    character(len=:), allocatable :: value
+
+    type(json_list_t) :: object, varied
+    integer :: i
+
+    do i = 1, size(parameters)
+      call add_member(varied, parameters(i)%text, json_value(failure%varied(i)))
+    end do
+    call add_member(object, "parameters", json_object(varied))
+    if (failure%of_motion) then
+      call add_member(object, "stage", json_value("motion"))
+      call add_member(object, "speed", json_null)
+    else if (failure%at_every_speed) then
+      call add_member(object, "stage", json_value("position"))
+      call add_member(object, "speed", json_null)
+    else
+      call add_member(object, "stage", json_value("frequencies"))
+      call add_member(object, "speed", json_value(failure%speed))
+    end if
+    call add_member(object, "crank", json_value(failure%crank))
+    if (failure%of_motion) then
+      call add_member(object, "time", json_value(failure%time))
+    else
+      call add_member(object, "time", json_null)
+    end if
+    call add_member(object, "reason", json_value(failure%reason))
+    value = json_object(object)
+  end function failure_object
+
+end module deck_summary

@@ -1,0 +1,161 @@
+!> `echo.deck`: the deck as the program understood it, a valid deck itself.
+module echo
+  use body_lines, only: place_words
+  use card_echo, only: echo_line_t
+  use kinds, only: wp
+  use link_bodies, only: link_center, link_inertia
+  use link_cards, only: has_own_mass
+  use models, only: effects_axial, link_mass, model_t
+  use shear, only: link_rotary_inertia, link_shear_stiffness, shear_coefficient
+  use text, only: character_count, same_word, to_string
+  use text_buffer, only: append_text, buffer_text, text_buffer_t
+  use units, only: coherent_unit, dimension_area, dimension_force, dimension_inertia, &
+    dimension_length, dimension_mass, dimension_rotary_inertia, dimension_second_moment, from_si, &
+    unit_t
+  implicit none (type, external)
+  private
+
+  public :: echo_text
+
+  integer, parameter :: comment_column = 72
+
+contains
+
+  !> All cards with the user's own digits, the defaults as cards, and what follows from them as
+  !! comments.
+  pure function echo_text(model) result(text)
+    type(model_t), intent(in) :: model
+    character(len=:), allocatable :: text
+
+    type(text_buffer_t) :: buffer
+    integer :: i
+
+    do i = 1, size(model%echo)
+      call append_card(buffer, model%echo(i))
+    end do
+    call append_default(buffer, model, "BRANCH", "open")
+    ! A model without MESH cards has a mesh only where a report needs one.
+    if (size(model%meshes) > 0) call append_default(buffer, model, "MESH", &
+      "* accuracy="//to_string(model%meshes(1)%accuracy))
+    call append_default(buffer, model, "SPEED", "0")
+    call append_default(buffer, model, "EFFECTS", &
+      trim(merge("axial ", "static", model%effects == effects_axial)))
+    call append_default(buffer, model, "SOLVER", "auto")
+    call append_default(buffer, model, "MODES", "3")
+    call append_derived(buffer, model)
+    text = buffer_text(buffer)
+  end function echo_text
+
+  pure subroutine append_card(buffer, line)
+    type(text_buffer_t), intent(inout) :: buffer
+    type(echo_line_t), intent(in) :: line
+
+    call append_text(buffer, line%text)
+    if (len(line%origin) > 0) then
+      call append_text(buffer, repeat(" ", max(1, comment_column - character_count(line%text)))// &
+        "! "//line%origin)
+    end if
+    call append_text(buffer, achar(10))
+  end subroutine append_card
+
+  !> Writes a card that the deck leaves out.
+  pure subroutine append_default(buffer, model, keyword, value)
+    type(text_buffer_t), intent(inout) :: buffer
+    type(model_t), intent(in) :: model
+    character(len=*), intent(in) :: keyword, value
+
+    type(echo_line_t) :: line
+    integer :: i
+
+    do i = 1, size(model%echo)
+      associate (text => model%echo(i)%text)
+        if (same_word(text(:index(text//" ", " ") - 1), keyword)) return
+      end associate
+    end do
+    line%text = keyword//" "//value
+    line%origin = "default"
+    call append_card(buffer, line)
+  end subroutine append_default
+
+  !> What the program made of the cards, in the deck's units.
+  pure subroutine append_derived(buffer, model)
+    type(text_buffer_t), intent(inout) :: buffer
+    type(model_t), intent(in) :: model
+
+    type(unit_t) :: area, second_moment, mass
+    character(len=:), allocatable :: derived
+    integer :: i
+
+    derived = "! derived:"
+    if (len(model%variant) > 0) derived = "! derived at "//model%variant//":"
+    area = coherent_unit(model%units, dimension_area)
+    second_moment = coherent_unit(model%units, dimension_second_moment)
+    mass = coherent_unit(model%units, dimension_mass)
+    do i = 1, size(model%sections)
+      associate (this => model%sections(i))
+        call append_text(buffer, derived//" section "//this%name%text//": A = "// &
+          to_string(from_si(this%area, area), 15)//" "//area%name//", I = "// &
+          to_string(from_si(this%second_moment, second_moment), 15)//" "//second_moment%name// &
+          achar(10))
+      end associate
+    end do
+    do i = 1, size(model%links)
+      if (has_own_mass(model%links(i))) call append_body(buffer, model, i, derived)
+      if (link_mass(model, i) <= 0.0_wp .or. has_own_mass(model%links(i))) cycle
+      call append_text(buffer, derived//" link "//model%links(i)%name%text//": mass = "// &
+        to_string(from_si(link_mass(model, i), mass), 15)//" "//mass%name//achar(10))
+      call append_thickness(buffer, model, i, derived)
+    end do
+  end subroutine append_derived
+
+  !> What a link with a mass of its own is as a rigid body.
+  pure subroutine append_body(buffer, model, link, derived)
+    type(text_buffer_t), intent(inout) :: buffer
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: link
+    character(len=*), intent(in) :: derived !! that begins the line
+
+    type(unit_t) :: length, mass, inertia
+
+    length = coherent_unit(model%units, dimension_length)
+    mass = coherent_unit(model%units, dimension_mass)
+    inertia = coherent_unit(model%units, dimension_inertia)
+    call append_text(buffer, derived//" link "//model%links(link)%name%text//": mass = "// &
+      to_string(from_si(link_mass(model, link), mass), 15)//" "//mass%name// &
+      ", moment of inertia = "//to_string(from_si(link_inertia(model, link), inertia), 15)//" "// &
+      inertia%name//" about its mass centre, "//place_words(link_center(model, link), length)// &
+      " from "//model%links(link)%pin(1)%text//achar(10))
+  end subroutine append_body
+
+  !> Rotary inertia and shear stiffness of a link, where they are asked for.
+  pure subroutine append_thickness(buffer, model, link, derived)
+    type(text_buffer_t), intent(inout) :: buffer
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: link
+    character(len=*), intent(in) :: derived !! that begins the line
+
+    type(unit_t) :: measure
+    character(len=:), allocatable :: origin
+
+    associate (this => model%links(link))
+      if (link_rotary_inertia(model, link) > 0.0_wp) then
+        measure = coherent_unit(model%units, dimension_rotary_inertia)
+        call append_text(buffer, derived//" link "//this%name%text//": rotary inertia rho I = "// &
+          to_string(from_si(link_rotary_inertia(model, link), measure), 15)//" "//measure%name// &
+          achar(10))
+      end if
+      if (link_shear_stiffness(model, link) <= 0.0_wp) return
+      measure = coherent_unit(model%units, dimension_force)
+      associate (section => model%sections(this%section), &
+        nu => model%materials(this%material)%poissons_ratio)
+        origin = "Cowper"
+        if (section%shear_word%line > 0) origin = "as its section has it"
+        call append_text(buffer, derived//" link "//this%name%text//": shear coefficient k = "// &
+          to_string(shear_coefficient(section, nu), 15)//" ("//origin//"), k G A = "// &
+          to_string(from_si(link_shear_stiffness(model, link), measure), 15)//" "//measure%name// &
+          achar(10))
+      end associate
+    end associate
+  end subroutine append_thickness
+
+end module echo

@@ -1,0 +1,116 @@
+!> What `--json` prints: the errors, warnings and failed positions of all decks in one document.
+module run_document
+  use deck_readings, only: deck_t
+  use deck_runs, only: run_result_t
+  use deck_source, only: standard_input
+  use deck_summary, only: add_plain_message, error_list, failure_array, warning_list
+  use json_text, only: add_item, add_member, json_array, json_list_t, json_null, json_object, &
+    json_value
+  use numbers, only: read_integer
+  use program_version, only: program_name, version_number
+  use text, only: string_t
+  use variants, only: parameter_names
+  implicit none (type, external)
+  private
+
+  public :: deck_outcome_t, document_text
+
+  !> How a deck fared.
+  type :: deck_outcome_t
+    integer :: exit_status = -1                  !! -1: not run, because of another deck
+    type(string_t), allocatable :: complaints(:) !! what kept it from being run, or its run from its
+                                                 !! end
+    type(run_result_t) :: result                 !! empty if it was not run
+  end type deck_outcome_t
+
+contains
+
+  !> The whole document; `complaint` is what is wrong with the command line, empty if nothing is.
+  pure function document_text(exit_status, complaint, paths, decks, outcomes) result(text)
+    integer, intent(in) :: exit_status
+    character(len=*), intent(in) :: complaint
+    type(string_t), intent(in) :: paths(:)          !! of the decks, as the user gave them
+    type(deck_t), intent(in) :: decks(:)            !! (as paths)
+    type(deck_outcome_t), intent(in) :: outcomes(:) !! (as paths)
+    character(len=:), allocatable :: text
+
+    type(json_list_t) :: object, errors, list
+    integer :: i
+
+    call add_member(object, "program", json_value(program_name))
+    call add_member(object, "version", json_value(version_number))
+    call add_member(object, "exit_status", json_value(exit_status))
+    if (len(complaint) > 0) call add_item(errors, message_object(complaint))
+    call add_member(object, "errors", json_array(errors))
+    do i = 1, size(decks)
+      call add_item(list, deck_object(paths(i)%text, decks(i), outcomes(i)))
+    end do
+    call add_member(object, "decks", json_array(list))
+    text = json_object(object)//achar(10)
+  end function document_text
+
+  pure function message_object(message) result(value)
+    character(len=*), intent(in) :: message
+    character(len=:), allocatable :: value
+
+    type(json_list_t) :: object
+
+    call add_member(object, "message", json_value(message))
+    value = json_object(object)
+  end function message_object
+
+  pure function deck_object(path, deck, outcome) result(value)
+    character(len=*), intent(in) :: path
+    type(deck_t), intent(in) :: deck
+    type(deck_outcome_t), intent(in) :: outcome
+    character(len=:), allocatable :: value
+
+    character(len=:), allocatable :: file
+    type(json_list_t) :: object, errors
+    integer :: i
+
+    file = path
+    if (path == "-") file = standard_input
+    call add_member(object, "deck", json_value(path))
+    if (outcome%exit_status < 0) then
+      call add_member(object, "exit_status", json_null)
+    else
+      call add_member(object, "exit_status", json_value(outcome%exit_status))
+    end if
+    errors = error_list(deck%diagnostics, deck%source, file)
+    if (len(deck%refusal) > 0) call add_refusal(errors, file, deck%refusal)
+    if (allocated(outcome%complaints)) then
+      do i = 1, size(outcome%complaints)
+        call add_plain_message(errors, file, outcome%complaints(i)%text)
+      end do
+    end if
+    call add_member(object, "errors", json_array(errors))
+    call add_member(object, "warnings", json_array(warning_list(deck%diagnostics, deck%source, &
+      outcome%result%findings, path)))
+    call add_member(object, "failures", failure_array(outcome%result%findings, &
+      parameter_names(deck%cards)))
+    value = json_object(object)
+  end function deck_object
+
+  !> Appends `file: error: message` or `file:line:column: error: message`, taken apart.
+  pure subroutine add_refusal(errors, file, refusal)
+    type(json_list_t), intent(inout) :: errors
+    character(len=*), intent(in) :: file, refusal
+
+    character(len=*), parameter :: mark = ": error: "
+    character(len=:), allocatable :: place, problem
+    integer :: at, colon, line, column
+
+    at = len(file) + index(refusal(len(file) + 1:), mark)
+    place = refusal(len(file) + 2:at - 1)
+    colon = index(place, ":")
+    if (colon == 0) then
+      call add_plain_message(errors, file, refusal(at + len(mark):))
+    else
+      call read_integer(place(:colon - 1), line, problem)
+      call read_integer(place(colon + 1:), column, problem)
+      call add_plain_message(errors, file, refusal(at + len(mark):), line, column)
+    end if
+  end subroutine add_refusal
+
+end module run_document

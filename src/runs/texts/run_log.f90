@@ -1,0 +1,149 @@
+!> The first part of `run.log`: what the deck describes.
+module run_log
+  use body_lines, only: body_line, mass_line
+  use effect_cards, only: effect_words
+  use kinds, only: wp
+  use link_cards, only: has_own_mass
+  use models, only: branch_crossed, inertia_distributed, inertia_lumped, link_mass, model_t, &
+    needs_frequencies
+  use text, only: plural, to_string
+  use units, only: coherent_unit, dimension_acceleration, dimension_damping, dimension_force, &
+    dimension_length, dimension_mass, dimension_moment, from_si, unit_t
+  implicit none (type, external)
+  private
+
+  public :: model_summary
+
+  character(len=*), parameter :: line_feed = achar(10)
+
+contains
+
+  !> Title, links in the order of the loop, masses, requests: a few lines.
+  pure function model_summary(model) result(text)
+    type(model_t), intent(in) :: model
+    character(len=:), allocatable :: text
+
+    character(len=:), allocatable :: where_to
+    type(unit_t) :: length, mass
+    integer :: i
+
+    text = ""
+    if (len(model%title) > 0) text = model%title//line_feed
+    length = coherent_unit(model%units, dimension_length)
+    mass = coherent_unit(model%units, dimension_mass)
+    do i = 1, size(model%loop)
+      associate (link => model%links(model%loop(i)))
+        where_to = model%loop_pins(i)%text//" - "//model%loop_pins(i + 1)%text
+        text = text//"link "//link%name%text//": "//where_to//", length "// &
+          to_string(from_si(link%length, length), 12)//" "//length%name
+        if (link_mass(model, model%loop(i)) > 0.0_wp) then
+          text = text//", mass "//to_string(from_si(link_mass(model, model%loop(i)), mass), 12)// &
+            " "//mass%name
+        end if
+        if (link%rigid) text = text//", rigid"
+        text = text//line_feed
+        if (has_own_mass(link)) text = text//body_line(model, model%loop(i))//line_feed
+      end associate
+    end do
+    do i = 1, size(model%pin_masses)
+      text = text//"mass at pin "//model%pin_masses(i)%pin%text//": "// &
+        to_string(from_si(model%pin_masses(i)%mass, mass), 12)//" "//mass%name//line_feed
+    end do
+    do i = 1, size(model%masses)
+      text = text//mass_line(model, i)//line_feed
+    end do
+    if (total_mass(model) > 0.0_wp) then
+      text = text//"total mass: "//to_string(from_si(total_mass(model), mass), 12)//" "// &
+        mass%name//line_feed
+    end if
+    text = text//"branch: "//trim(merge("crossed", "open   ", model%branch == branch_crossed))// &
+      line_feed
+    if (model%inertia == inertia_lumped) text = text//"inertia loads: lumped"//line_feed
+    if (model%inertia == inertia_distributed) text = text//"inertia loads: distributed"//line_feed
+    text = text//load_lines(model)//motor_lines(model)
+    if (needs_frequencies(model)) then
+      text = text//"effects: "//effect_words(model%effects, model%rotary, model%shear)//line_feed
+    end if
+    text = text//plural(size(model%crank%value), "crank angle")//", "// &
+      plural(size(model%speed%value), "speed")//line_feed
+  end function model_summary
+
+  !> Constant loads, a line each.
+  pure function load_lines(model) result(text)
+    type(model_t), intent(in) :: model
+    character(len=:), allocatable :: text
+
+    type(unit_t) :: acceleration, force, moment
+    integer :: i
+
+    acceleration = coherent_unit(model%units, dimension_acceleration)
+    force = coherent_unit(model%units, dimension_force)
+    moment = coherent_unit(model%units, dimension_moment)
+    text = ""
+    if (model%gravity_word%line > 0) text = "gravity: "//pair_text(model%gravity, acceleration)// &
+      line_feed
+    do i = 1, size(model%forces)
+      text = text//"force at pin "//model%forces(i)%pin%text//": "// &
+        pair_text(model%forces(i)%force, force)//line_feed
+    end do
+    do i = 1, size(model%torques)
+      text = text//"torque on link "//model%torques(i)%link_name%text//": "// &
+        to_string(from_si(model%torques(i)%torque, moment), 12)//" "//moment%name//line_feed
+    end do
+  end function load_lines
+
+  !> What drives a linkage that moves by itself, and what resists: a line each.
+  pure function motor_lines(model) result(text)
+    type(model_t), intent(in) :: model
+    character(len=:), allocatable :: text
+
+    type(unit_t) :: moment, damping
+    integer :: i
+
+    moment = coherent_unit(model%units, dimension_moment)
+    damping = coherent_unit(model%units, dimension_damping)
+    text = ""
+    if (model%motor%keyword%line > 0) then
+      if (model%motor%is_line) then
+        text = "motor: torque "//to_string(from_si(model%motor%stall, moment), 12)//" "// &
+          moment%name//" at rest, none at "//to_string(model%motor%noload, 12)//" rad/s"//line_feed
+      else
+        text = "motor: torque "//to_string(from_si(model%motor%torque, moment), 12)//" "// &
+          moment%name//line_feed
+      end if
+    end if
+    do i = 1, size(model%resistances)
+      associate (load => model%resistances(i))
+        text = text//"load on link "//load%link_name%text//": torque "// &
+          to_string(from_si(load%torque, moment), 12)//" "//moment%name//", damping "// &
+          to_string(from_si(load%damping, damping), 12)//" "//damping%name//line_feed
+      end associate
+    end do
+  end function motor_lines
+
+  !> `0, -9810 mm/s2`
+  pure function pair_text(pair, measure) result(text)
+    real(wp), intent(in) :: pair(2) !! [SI]
+    type(unit_t), intent(in) :: measure
+    character(len=:), allocatable :: text
+
+    text = to_string(from_si(pair(1), measure), 12)//", "//to_string(from_si(pair(2), measure), &
+      12)//" "//measure%name
+  end function pair_text
+
+  !> Mass of all links and pins that the deck gives a mass, and of what sits on links [kg].
+  pure function total_mass(model) result(mass)
+    type(model_t), intent(in) :: model
+    real(wp) :: mass
+
+    integer :: i
+
+    mass = 0.0_wp
+    do i = 1, size(model%links)
+      mass = mass + link_mass(model, i)
+    end do
+    if (size(model%pin_masses) > 0) mass = mass + sum(model%pin_masses%mass)
+    if (size(model%masses) > 0) mass = mass + sum(model%masses%mass)
+  end function total_mass
+
+end module run_log

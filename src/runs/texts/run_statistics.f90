@@ -1,0 +1,201 @@
+!> What a run computed, and how long its stages took.
+module run_statistics
+  use beam_mesh, only: beam_mesh_t
+  use deformation_model, only: deformation_model_t
+  use frequency_study, only: sweep_t
+  use kinds, only: long, wp
+  use text, only: append_string, plural, string_t, to_string
+  use variant_runs, only: run_totals_t
+  use vibration_models, only: by_band, by_dense, by_link_modes, by_long_mesh, by_orders
+  implicit none (type, external)
+  private
+
+  public :: stopwatch_t, start_stopwatch, stop_stage, statistics_text, sweep_summary, &
+    accuracy_summary
+
+  !> Seconds of one stage after another.
+  type :: stopwatch_t
+    integer(long), private :: last = 0_long
+    type(string_t), allocatable, private :: stages(:)
+  end type stopwatch_t
+
+contains
+
+  subroutine start_stopwatch(watch)
+    type(stopwatch_t), intent(out) :: watch
+
+    allocate (watch%stages(0))
+    call system_clock(watch%last)
+  end subroutine start_stopwatch
+
+  !> Ends a stage and begins the next.
+  subroutine stop_stage(watch, name)
+    type(stopwatch_t), intent(inout) :: watch
+    character(len=*), intent(in) :: name
+
+    integer(long) :: now, rate
+
+    call system_clock(now, rate)
+    call append_string(watch%stages, name//" "//to_string(1000.0_wp*real(now - watch%last, &
+      wp)/real(rate, wp), 3)//" ms")
+    watch%last = now
+  end subroutine stop_stage
+
+  !> The ledger of `--stats`.
+  pure function statistics_text(watch, name, totals) result(text)
+    type(stopwatch_t), intent(in) :: watch
+    character(len=*), intent(in) :: name !! of the deck
+    type(run_totals_t), intent(in) :: totals
+    character(len=:), allocatable :: text
+
+    character(len=*), parameter :: line_feed = achar(10)
+    integer :: i
+
+    text = name//":"
+    if (totals%variants > 1) text = text//" variants "//to_string(totals%variants)//","
+    text = text//" rows "//to_string(totals%rows)//", positions "//to_string(totals%positions)// &
+      ", kinematic solutions "//to_string(totals%positions)//line_feed
+    if (totals%motion_steps > 0) then
+      text = text//name//": steps of forward motion "//to_string(totals%motion_steps)//line_feed
+    end if
+    if (totals%has_frequencies) then
+      text = text//frequency_lines(name, totals)
+    else
+      text = text//name//": skipped beams, matrices and eigenproblems: no report needs them"// &
+        line_feed
+    end if
+    text = text//name//":"
+    do i = 1, size(watch%stages)
+      text = text//" "//watch%stages(i)%text
+      if (i < size(watch%stages)) text = text//","
+    end do
+    text = text//line_feed
+  end function statistics_text
+
+  !> What frequencies took, and what was not needed.
+  pure function frequency_lines(name, totals) result(text)
+    character(len=*), intent(in) :: name
+    type(run_totals_t), intent(in) :: totals
+    character(len=:), allocatable :: text
+
+    character(len=*), parameter :: line_feed = achar(10)
+
+    associate (counts => totals%counts)
+      text = name//": link models "//to_string(counts%link_models)//", mass matrices "// &
+        to_string(counts%mass_matrices)//", stiffness matrices "// &
+        to_string(counts%stiffness_matrices)//", geometric stiffness matrices "// &
+        to_string(counts%geometric_matrices)//line_feed
+      text = text//name//": eigenproblems begun from neighbours "// &
+        to_string(counts%extrapolated)//", from a few modes of every link "// &
+        to_string(counts%reduced_solutions)//", solved in full "// &
+        to_string(counts%full_solutions)//line_feed
+      text = text//name//": factorizations, one an inverse iteration or count, "// &
+        to_string(counts%factorizations)//", products with a long mesh "// &
+        to_string(counts%operator_products)//line_feed
+      text = text//name//": proofs that no mode is missing "//to_string(counts%proofs)// &
+        ", mode shapes "//to_string(counts%shapes)//line_feed
+      if (totals%positions < totals%rows) then
+        text = text//name//": skipped "//plural(int(totals%rows - totals%positions), "row")// &
+          ": computed already, a full turn away"//line_feed
+      end if
+      if (counts%geometric_matrices == 0) text = text//name// &
+        ": skipped geometric stiffness: no loads of the motion"//line_feed
+      if (counts%shapes == 0) text = text//name//": skipped mode shapes: none are asked for"// &
+        line_feed
+      if (totals%speeds > 1) then
+        text = text//name//": skipped kinematics, mass and unit loads of "// &
+          plural(totals%speeds - 1, "more speed")//": those of the first serve"//line_feed
+      end if
+    end associate
+  end function frequency_lines
+
+  !> How the frequencies were found, for the log.
+  pure function sweep_summary(sweep, mesh) result(text)
+    type(sweep_t), intent(in) :: sweep
+    type(beam_mesh_t), intent(in) :: mesh
+    character(len=:), allocatable :: text
+
+    character(len=*), parameter :: line_feed = achar(10)
+    integer :: unknowns
+
+    unknowns = mesh%unknowns
+    if (.not. all(sweep%models%continuum%links%bends)) then
+      if (sweep%request%method == by_link_modes) unknowns = sweep%models%mesh%layout%unknowns
+      if (sweep%request%method == by_long_mesh) unknowns = sweep%models%chain%unknowns
+    end if
+    select case (sweep%request%method)
+    case (by_orders)
+      text = "orders chosen by the program, one element a link"// &
+        between_masses(sweep%models%continuum)//": "//orders_of(sweep%models%continuum)// &
+        ", solved in deformation coordinates: "// &
+        to_string(sweep%models%continuum%layout%unknowns)//" unknowns"
+    case (by_link_modes, by_long_mesh)
+      text = "mesh of the deck, solved in deformation coordinates: "//to_string(unknowns)// &
+        " unknowns"
+    case (by_dense)
+      text = "mesh of the deck, solved in nodal displacements by dsygvx (LAPACK): "// &
+        to_string(mesh%unknowns)//" unknowns"
+    case default
+      text = "mesh of the deck, solved in nodal displacements by shift and invert on dpbtrf "// &
+        "(ARPACK): "//to_string(mesh%unknowns)//" unknowns, half bandwidth "// &
+        to_string(mesh%half_bandwidth)
+    end select
+    if (sweep%request%method /= by_orders) then
+      text = text//line_feed//"errors told by continuous links of orders "// &
+        orders_of(sweep%models%continuum)//": "// &
+        to_string(sweep%models%continuum%layout%unknowns)//" unknowns"
+    end if
+    text = text//line_feed
+  end function sweep_summary
+
+  !> How sure the frequencies are, for the log.
+  pure function accuracy_summary(method, largest) result(text)
+    integer, intent(in) :: method    !! as in `vibration_models`
+    real(wp), intent(in) :: largest  !! error of any frequency; below 0 there is none
+    character(len=:), allocatable :: text
+
+    character(len=*), parameter :: line_feed = achar(10)
+
+    text = ""
+    if (largest < 0.0_wp) return
+    if (largest > 1.0_wp) then
+      text = "some frequencies written are not known to any digit: see the error columns"//line_feed
+      return
+    end if
+    text = "every frequency written is within "//to_string(largest, 2)// &
+      " of itself, and none is missing: "
+    if (any(method == [by_dense, by_band])) then
+      text = text//"by counts of the same matrices"//line_feed
+    else
+      text = text//"that is proven"//line_feed
+    end if
+  end function accuracy_summary
+
+  !> Links with masses along them have more elements than one.
+  pure function between_masses(model) result(text)
+    type(deformation_model_t), intent(in) :: model
+    character(len=:), allocatable :: text
+
+    text = ""
+    if (any(model%links%bending_shapes%elements > 1)) text = ", or between masses"
+  end function between_masses
+
+  !> `10, 12, rigid`
+  pure function orders_of(model) result(text)
+    type(deformation_model_t), intent(in) :: model
+    character(len=:), allocatable :: text
+
+    integer :: i
+
+    text = ""
+    do i = 1, size(model%order)
+      if (i > 1) text = text//", "
+      if (model%links(i)%bends) then
+        text = text//to_string(model%order(i))
+      else
+        text = text//"rigid"
+      end if
+    end do
+  end function orders_of
+
+end module run_statistics

@@ -1,0 +1,153 @@
+!> The modes of a long mesh at one position and speed, found from those of a near model and proven
+!! to be complete by it.
+!!
+!! The near model has a continuous link in place of every long one, and the mesh of the deck on the
+!! others. A continuous link bends in every way that a mesh does, and in some more: so as many modes
+!! lie below a limit, or more. Polynomials of the order chosen stand for it within their own error,
+!! which is far below the margin of the count.
+module chain_solver
+  use bordered_eigensolver, only: bordered_modes_t, find_bordered_modes, new_start
+  use bordered_matrix, only: bordered_matrix_t
+  use chain_projection, only: project_modes
+  use completeness_proof, only: count_limit, is_complete
+  use deformation_chain, only: deformation_chain_t
+  use deformation_model, only: deformation_model_t
+  use deformation_shapes, only: deformation_shapes_t
+  use errors, only: error_t, set_error
+  use kinds, only: wp
+  use reduced_assembly, only: first_axial
+  use speed_solver, only: reduced_work_t
+  use subspace_eigensolver, only: find_subspace_modes, subspace_modes_t
+  use text, only: to_string
+  implicit none (type, external)
+  private
+
+  public :: find_chain_modes
+
+  !> Modes beyond those wanted, where the next one is so near that the near model counts it in.
+  integer, parameter :: guards(3) = [0, 2, 6]
+
+contains
+
+  !> Errors: no convergence, or a mode may be missing.
+  subroutine find_chain_modes(near, work, loaded, least_geometric, start, wanted, &
+    accurate_vectors, chain, found, error)
+    type(deformation_model_t), intent(in) :: near
+    type(reduced_work_t), intent(in) :: work        !! its matrices at this position and speed
+    logical, intent(in) :: loaded
+    type(bordered_matrix_t), intent(in) :: least_geometric !! its geometric stiffness, nowhere above
+                                                           !! that of the mesh
+    type(bordered_modes_t), intent(in) :: start     !! its modes
+    integer, intent(in) :: wanted
+    logical, intent(in) :: accurate_vectors
+    type(deformation_chain_t), intent(in) :: chain  !! at this position and speed
+    type(subspace_modes_t), intent(out) :: found
+    type(error_t), allocatable, intent(out) :: error
+
+    type(bordered_modes_t) :: modes
+    real(wp), allocatable :: vectors(:, :)
+    integer :: i, products
+    logical :: proven
+
+    modes = start
+    products = 0
+    do i = 1, size(guards)
+      if (wanted + guards(i) > near%layout%unknowns) exit
+      if (i > 1) then
+        call find_bordered_modes(near%layout, work%mass, work%geometric, loaded, &
+          wanted + guards(i), accurate_vectors, new_start(), modes, error)
+        if (allocated(error)) return
+      end if
+      allocate (vectors(chain%unknowns, size(modes%lambda)))
+      call find_starts(near, modes, chain, vectors)
+      call find_subspace_modes(chain, vectors, accurate_vectors, found, error)
+      products = products + found%products
+      found%products = products
+      if (allocated(error)) return
+      call is_complete(near%layout, work%mass, least_geometric, loaded, &
+        count_limit(found%lambda(wanted + guards(i))), modes%lambda(:wanted + guards(i)), &
+        modes%mass_times(:, :wanted + guards(i)), proven)
+      if (proven) return
+      deallocate (vectors)
+    end do
+    call set_error(error, "it could not be proven that no mode is missing among the "// &
+      to_string(wanted)//" of the long mesh")
+  end subroutine find_chain_modes
+
+  !> The modes of the near model on the mesh.
+  pure subroutine find_starts(near, modes, chain, vectors)
+    type(deformation_model_t), intent(in) :: near
+    type(bordered_modes_t), intent(in) :: modes
+    type(deformation_chain_t), intent(in) :: chain
+    real(wp), intent(out) :: vectors(:, :)
+
+    real(wp), allocatable :: bending(:, :, :), strain(:, :, :), own(:), own_strain(:)
+    integer :: b, i, first, j, kinds, longest, pieces
+
+    longest = 1
+    do b = 1, size(near%links)
+      if (.not. near%links(b)%bends) cycle
+      longest = max(longest, near%links(b)%bending_shapes%unknowns, &
+        near%links(b)%axial_shapes%unknowns + 1)
+    end do
+    allocate (bending(longest, size(vectors, 2), size(near%links)))
+    allocate (strain, mold=bending)
+    bending = 0.0_wp
+    strain = 0.0_wp
+    do b = 1, size(near%links)
+      if (.not. near%links(b)%bends) cycle
+      do i = 1, size(vectors, 2)
+        associate (link => near%links(b), mode => modes%vector(:, i))
+          first = near%layout%first(b)
+          own = matmul(link%bending(:, 1:), mode(first:first + link%modes - 1))
+          if (link%clamped) own = own + mode(1)*link%bending(:, 0)
+          first = first_axial(near%layout, near%links, b)
+          own_strain = matmul(link%axial, mode(first:first + link%axial_modes - 1))
+          own_strain = element_strains(link%axial_shapes, mode(chain%number(b)), own_strain)
+          if (link%bending_shapes%by_degree) then
+            pieces = link%bending_shapes%elements
+            kinds = pieces*merge(2, 1, link%bending_shapes%shear_stiffness > 0.0_wp)
+            own = [(sqrt(2*((j - 1)/kinds) + 1.0_wp)*own(j), j=1, size(own))]
+            own_strain = [(sqrt(2*((j - 1)/pieces) + 1.0_wp)*own_strain(j), j=1, size(own_strain))]
+          end if
+          bending(:size(own), i, b) = own
+          strain(:size(own_strain), i, b) = own_strain
+        end associate
+      end do
+    end do
+    call project_modes(chain, near%links, bending, strain, vectors)
+  end subroutine find_starts
+
+  !> Strains of all elements, scaled to energy, from the elongation of the link and the unknowns of
+  !! `axial_shapes`, in their order but for the uniform ones: these come with those of their degree,
+  !! or element.
+  pure function element_strains(shapes, elongation, own) result(strain)
+    type(deformation_shapes_t), intent(in) :: shapes
+    real(wp), intent(in) :: elongation
+    real(wp), intent(in) :: own(:)
+    real(wp) :: strain(size(own) + 1)
+
+    real(wp) :: uniform(shapes%elements)
+    integer :: e, elements, more
+
+    elements = shapes%elements
+    uniform = elongation/sqrt(elements/shapes%part)
+    associate (last => shapes%last, part => shapes%part)
+      do e = 1, elements - 1
+        uniform(:e) = uniform(:e) + own(e)/sqrt(last(e)*last(e + 1)/part(e + 1)/part(:e))
+        uniform(e + 1) = uniform(e + 1) - last(e)*own(e)/sqrt(last(e)*last(e + 1))
+      end do
+    end associate
+    if (shapes%by_degree) then
+      strain = [uniform, own(elements:)]
+      return
+    end if
+    more = (size(own) + 1)/elements - 1
+    do e = 1, elements
+      strain((e - 1)*(more + 1) + 1) = uniform(e)
+      strain((e - 1)*(more + 1) + 2:e*(more + 1)) = own(elements + (e - 1)*more:elements - 1 + &
+        e*more)
+    end do
+  end function element_strains
+
+end module chain_solver

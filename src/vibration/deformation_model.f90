@@ -1,0 +1,132 @@
+!> A linkage of beams in its links' own deformations: all that does not change with the position,
+!! found once a run.
+module deformation_model
+  use beam_element, only: axial_degree
+  use beam_mesh, only: beam_t
+  use bordered_matrix, only: layout_t
+  use deformation_shapes, only: axial_shapes, bending_shapes, bending_unknowns, deformation_shapes_t
+  use errors, only: error_t
+  use kinds, only: wp
+  use link_lumps, only: add_lumps, lump_places, pieces_of
+  use link_modes, only: held_shapes, link_modes_t, new_link_modes
+  use link_store, only: find_link, keep_link, link_key_t, link_store_t, new_link_key
+  use linkages, only: linkage_t
+  use reduced_assembly, only: reduced_layout
+  use rigid_links, only: new_rigid_link
+  use singular_vectors, only: find_right_singular_vectors
+  implicit none (type, external)
+  private
+
+  public :: deformation_model_t, new_deformation_model
+
+  type :: deformation_model_t
+    integer, allocatable :: elements(:)         !! (bodies) of equal length; 0: continuous, one
+                                                !! between the masses along the link
+    integer, allocatable :: order(:)            !! (bodies) polynomial degree of the transverse
+                                                !! displacement
+    logical, allocatable :: lumped(:)           !! (bodies) axial forces are constant in each
+                                                !! element
+    type(link_modes_t), allocatable :: links(:) !! (bodies)
+    type(layout_t) :: layout
+  end type deformation_model_t
+
+contains
+
+  !> Takes every link apart that a store, where there is one, does not know. Errors: the own modes
+  !! of a link could not be found.
+  subroutine new_deformation_model(linkage, beams, elements, order, lumped, model, error, store)
+    type(linkage_t), intent(in) :: linkage
+    type(beam_t), intent(in) :: beams(:)    !! (bodies)
+    integer, intent(in) :: elements(:)      !! (bodies) as in the model
+    integer, intent(in) :: order(:)         !! (bodies)
+    logical, intent(in) :: lumped(:)        !! (bodies)
+    type(deformation_model_t), intent(out) :: model
+    type(error_t), allocatable, intent(out) :: error
+    type(link_store_t), intent(inout), optional :: store
+
+    type(link_key_t) :: key
+    integer :: b
+    logical :: known
+
+    model%elements = elements
+    model%order = order
+    model%lumped = lumped
+    allocate (model%links(size(beams)))
+    do b = 1, size(beams)
+      if (.not. linkage%bodies(b)%bends) then
+        model%links(b) = new_rigid_link(linkage%bodies(b), b == 1)
+        cycle
+      end if
+      key = new_link_key(linkage%bodies(b), beams(b), elements(b), order(b), b == 1, lumped(b))
+      known = .false.
+      if (present(store)) call find_link(store, key, model%links(b), known)
+      if (known) cycle
+      call find_own_modes(linkage, beams(b), b, elements(b), order(b), lumped(b), model%links(b), &
+        error)
+      if (allocated(error)) return
+      if (present(store)) call keep_link(store, key, model%links(b))
+    end do
+    model%layout = reduced_layout(linkage, model%links)
+  end subroutine new_deformation_model
+
+  !> One link. A single element, or those of a continuous link, knows the next orders as well, to
+  !! tell its own error: two across, and four along, where orders are so low that the next one of
+  !! either symmetry may not be enough.
+  !!
+  !! With shear and without rotary inertia some deformations move no mass: θ + γ = 0 everywhere.
+  !! They meet nothing in M and K_G, and are left out. What is left are the continuous displacements
+  !! of their degree that vanish at both ends.
+  subroutine find_own_modes(linkage, beam, b, mesh_elements, order, lumped, link, error)
+    type(linkage_t), intent(in) :: linkage
+    type(beam_t), intent(in) :: beam
+    integer, intent(in) :: b, mesh_elements, order
+    logical, intent(in) :: lumped
+    type(link_modes_t), intent(out) :: link
+    type(error_t), allocatable, intent(out) :: error
+
+    type(deformation_shapes_t) :: bending, axial
+    real(wp), allocatable :: basis(:, :), axial_basis(:, :), displacement(:, :), own(:, :), &
+      axial_own(:, :)
+    real(wp), allocatable :: ends(:)
+    integer :: elements, more, axial_more, degree, kept, axial_kept, independent
+    logical :: clamped, sheared
+
+    clamped = b == 1
+    sheared = beam%shear_stiffness > 0.0_wp
+    more = merge(2, 0, mesh_elements <= 1)
+    axial_more = merge(4, 0, mesh_elements <= 1)
+    degree = axial_degree(order)
+    associate (body => linkage%bodies(b))
+      if (mesh_elements == 0) then
+        ends = pieces_of(body)
+        elements = size(ends) - 1
+        bending = bending_shapes(body%length, body%line_density, beam%bending_stiffness, elements, &
+          order + more, beam%shear_stiffness, body%rotary_inertia, ends=ends)
+        axial = axial_shapes(body%length, body%line_density, beam%axial_stiffness, elements, &
+          degree + axial_more, ends)
+      else
+        elements = mesh_elements
+        bending = bending_shapes(body%length, body%line_density, beam%bending_stiffness, elements, &
+          order + more, beam%shear_stiffness, body%rotary_inertia, cuts=lump_places(body))
+        axial = axial_shapes(body%length, body%line_density, beam%axial_stiffness, elements, &
+          degree + axial_more)
+      end if
+      call add_lumps(body, bending)
+      call add_lumps(body, axial)
+    end associate
+    kept = elements*bending_unknowns(order, sheared)
+    axial_kept = elements*degree - 1
+    call held_shapes(bending, kept, clamped, basis, displacement)
+    independent = size(basis, 2)
+    if (sheared .and. linkage%bodies(b)%rotary_inertia <= 0.0_wp) independent = elements*order - 1
+    call find_right_singular_vectors(displacement, own, error, independent)
+    if (allocated(error)) return
+    call held_shapes(axial, axial_kept, .false., axial_basis, displacement)
+    call find_right_singular_vectors(displacement, axial_own, error)
+    if (allocated(error)) return
+    call new_link_modes(bending, axial, kept, axial_kept, clamped, [beam%axial_stiffness, &
+      beam%bending_stiffness], lumped, lump_places(linkage%bodies(b)), matmul(basis, own), &
+      axial_own, link)
+  end subroutine find_own_modes
+
+end module deformation_model

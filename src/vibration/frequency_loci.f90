@@ -1,0 +1,347 @@
+!> Modes followed by their shapes along crank angle and speed.
+module frequency_loci
+  use axial_forces, only: distributed_unit_forces
+  use bordered_eigensolver, only: bordered_modes_t
+  use errors, only: error_t
+  use frequency_report, only: frequency_of, has_result
+  use frequency_study, only: sweep_t
+  use kinds, only: wp
+  use kinematic_coefficients, only: find_motion
+  use ledger, only: ledger_t
+  use linkages, only: linkage_t
+  use load_cases, only: case_count
+  use mechanisms, only: mechanism_t
+  use modal_assurance, only: likeness, mode_prints_t, new_mode_prints
+  use pin_displacements, only: chords_t
+  use poses, only: find_pose, pose_t
+  use positions, only: positions_t
+  use sorting, only: ascending_order
+  use speed_solver, only: new_reduced_work, reduced_work_t, solve_reduced
+  use text, only: string_t
+  use vibration_models, only: frequency_models_t, load_factors, mode_request_t
+  implicit none (type, external)
+  private
+
+  public :: branches_t, follow_branches, event_none, event_start, event_crossing, event_veering, &
+    event_ambiguous
+
+  integer, parameter :: event_none = 0, event_start = 1, event_crossing = 2, event_veering = 3, &
+    event_ambiguous = 4
+
+  type :: branches_t
+    integer :: count = 0                         !! branches in all
+    integer, allocatable :: branch(:, :, :)      !! (modes, rows, speeds) number of the branch that
+                                                 !! a mode belongs to; 0: failed row
+    real(wp), allocatable :: mac(:, :, :)        !! (modes, rows, speeds) likeness to the same
+                                                 !! branch on the row before; 1 at a start
+    integer, allocatable :: event(:, :, :)       !! (modes, rows, speeds)
+    integer, allocatable :: partner(:, :, :)     !! (modes, rows, speeds) branch that is crossed or
+                                                 !! veered from; else 0
+  end type branches_t
+
+  !> Shapes are the same above the first and different below the second; between them a step is
+  !! halved, this often at most.
+  real(wp), parameter :: same_shape = 0.9_wp, other_shape = 0.1_wp
+  integer, parameter :: most_halvings = 6
+
+  !> Two frequencies have parted again when their distance is this multiple of the least one. Where
+  !! just two modes veer, half of each has gone over to the other at √2.
+  real(wp), parameter :: veering_width = 1.6_wp
+
+  !> Where a step is cut: not in its middle, which may well be a dead point between two symmetric
+  !! positions.
+  real(wp), parameter :: cut = 0.45_wp
+
+contains
+
+  !> Follows every mode from row to row in the order of crank angles, block after block of speeds;
+  !! the first row of a block continues that of the block before.
+  subroutine follow_branches(mechanism, positions, sweep, branches)
+    type(mechanism_t), intent(in) :: mechanism
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(inout) :: sweep !! its ledger counts what is found between the rows
+    type(branches_t), intent(out) :: branches
+
+    type(reduced_work_t) :: work
+    integer :: order(size(positions%crank)), rows, speeds, modes, i, k, last, first_row
+    logical :: apart
+
+    rows = size(positions%crank)
+    speeds = size(sweep%request%speed)
+    modes = sweep%request%modes
+    allocate (branches%branch(modes, rows, speeds), branches%mac(modes, rows, speeds))
+    allocate (branches%event(modes, rows, speeds), branches%partner(modes, rows, speeds))
+    branches%branch = 0
+    branches%mac = 1.0_wp
+    branches%event = event_none
+    branches%partner = 0
+    order = ascending_order(positions%crank)
+    work = new_reduced_work(sweep%models%continuum, 1)
+    first_row = 0
+    do k = 1, speeds
+      last = 0
+      apart = .false.
+      do i = 1, rows
+        ! Beyond a dead point the linkage may have another form: nobody could tell which branch goes
+        ! on there.
+        if (last > 0 .and. allocated(positions%states(positions%state(order(i)))%error)) &
+          apart = .true.
+        if (.not. has_result(positions, sweep, positions%state(order(i)), k)) cycle
+        if (apart) then
+          call start_branches(branches, order(i), k)
+        else if (last > 0) then
+          call follow_step(mechanism, positions, [last, k], [order(i), k], work, sweep, branches)
+        else if (first_row > 0 .and. k > 1) then
+          call follow_step(mechanism, positions, [first_row, k - 1], [order(i), k], work, sweep, &
+            branches)
+        else
+          call start_branches(branches, order(i), k)
+        end if
+        apart = .false.
+        if (last == 0) first_row = order(i)
+        last = order(i)
+      end do
+      if (last == 0) first_row = 0
+      call mark_veerings(positions, sweep, order, k, branches)
+    end do
+  end subroutine follow_branches
+
+  !> A new branch for every mode.
+  pure subroutine start_branches(branches, row, speed)
+    type(branches_t), intent(inout) :: branches
+    integer, intent(in) :: row, speed
+
+    integer :: i
+
+    do i = 1, size(branches%branch, 1)
+      branches%branch(i, row, speed) = branches%count + i
+      branches%event(i, row, speed) = event_start
+    end do
+    branches%count = branches%count + size(branches%branch, 1)
+  end subroutine start_branches
+
+  !> From one row to the next: every mode gets the branch of the mode that it continues, or begins a
+  !! new one.
+  subroutine follow_step(mechanism, positions, from, to, work, sweep, branches)
+    type(mechanism_t), intent(in) :: mechanism
+    type(positions_t), intent(in) :: positions
+    integer, intent(in) :: from(2), to(2)         !! row and speed
+    type(reduced_work_t), intent(inout) :: work   !! for what lies between them
+    type(sweep_t), intent(inout) :: sweep
+    type(branches_t), intent(inout) :: branches
+
+    integer :: next(sweep%request%modes), i, j
+    real(wp) :: mac(sweep%request%modes, sweep%request%modes), place(2), target_place(2)
+    logical :: clear(sweep%request%modes)
+
+    associate (first => sweep%results(positions%state(from(1)))%prints(from(2)), &
+        second => sweep%results(positions%state(to(1)))%prints(to(2)))
+      place = [positions%crank(from(1)), sweep%request%speed(from(2))]
+      target_place = [positions%crank(to(1)), sweep%request%speed(to(2))]
+      call match(mechanism%linkage, sweep%models, sweep%request, first, place, second, &
+        target_place, most_halvings, work, sweep%counts, next, clear)
+      mac = likeness(first, second)
+    end associate
+    do j = 1, size(next)
+      i = findloc(next, j, dim=1)
+      if (i > 0) then
+        branches%branch(j, to(1), to(2)) = branches%branch(i, from(1), from(2))
+        branches%mac(j, to(1), to(2)) = mac(i, j)
+      else
+        branches%count = branches%count + 1
+        branches%branch(j, to(1), to(2)) = branches%count
+        ! A mode that nothing leads to comes from beyond the modes computed, or is one that some
+        ! other may have become.
+        branches%event(j, to(1), to(2)) = merge(event_start, event_ambiguous, all(clear))
+        branches%mac(j, to(1), to(2)) = maxval(mac(:, j))
+      end if
+    end do
+    call mark_crossings(branches, next, to)
+  end subroutine follow_step
+
+  !> For every mode of one place the mode of another place that continues it; 0 if it leaves the
+  !! modes computed, or is not clear.
+  !!
+  !! Where the shape of a mode is neither the same as that of another nor different from all, the
+  !! way is cut in two. At the last cut what is still unclear stays so.
+  recursive subroutine match(linkage, models, request, first, place, second, target_place, &
+    halvings, work, counts, next, clear)
+    type(linkage_t), intent(in) :: linkage
+    type(frequency_models_t), intent(in) :: models
+    type(mode_request_t), intent(in) :: request
+    type(mode_prints_t), intent(in) :: first, second
+    real(wp), intent(in) :: place(2), target_place(2) !! crank angle and speed [deg, rad/s]
+    integer, intent(in) :: halvings
+    type(reduced_work_t), intent(inout) :: work
+    type(ledger_t), intent(inout) :: counts
+    integer, intent(out) :: next(:)
+    logical, intent(out) :: clear(:)
+
+    type(mode_prints_t) :: middle
+    real(wp) :: mac(size(next), size(next)), middle_place(2)
+    integer :: to_middle(size(next)), from_middle(size(next)), i
+    logical :: to_middle_clear(size(next)), from_middle_clear(size(next)), doubtful(size(next)), &
+      found
+
+    mac = likeness(first, second)
+    next = maxloc(mac, dim=2)
+    do i = 1, size(next)
+      clear(i) = count(mac(i, :) >= same_shape) == 1 .and. count(mac(:, next(i)) >= same_shape) == 1
+      if (.not. clear(i)) next(i) = 0
+      clear(i) = clear(i) .or. all(mac(i, :) <= other_shape)
+    end do
+    if (all(clear) .or. halvings == 0) return
+    middle_place = place + cut*(target_place - place)
+    call prints_at(linkage, models, request, middle_place, work, counts, middle, found)
+    if (.not. found) return
+    call match(linkage, models, request, first, place, middle, middle_place, halvings - 1, work, &
+      counts, to_middle, to_middle_clear)
+    ! Where no mode that is in doubt comes as far as the middle, the rest of the way decides
+    ! nothing.
+    if (any(to_middle > 0 .and. .not. clear)) then
+      call match(linkage, models, request, middle, middle_place, second, target_place, &
+        halvings - 1, work, counts, from_middle, from_middle_clear)
+    end if
+    do i = 1, size(next)
+      if (clear(i)) cycle
+      clear(i) = to_middle_clear(i)
+      if (to_middle(i) == 0) cycle
+      clear(i) = from_middle_clear(to_middle(i))
+      next(i) = from_middle(to_middle(i))
+    end do
+    ! Two ways to one mode tell nothing.
+    doubtful = [(next(i) > 0 .and. count(next == next(i)) > 1, i=1, size(next))]
+    where (doubtful)
+      next = 0
+      clear = .false.
+    end where
+  end subroutine match
+
+  !> Modes between two rows.
+  subroutine prints_at(linkage, models, request, place, work, counts, prints, found)
+    type(linkage_t), intent(in) :: linkage
+    type(frequency_models_t), intent(in) :: models
+    type(mode_request_t), intent(in) :: request
+    real(wp), intent(in) :: place(2) !! crank angle and speed [deg, rad/s]
+    type(reduced_work_t), intent(inout) :: work
+    type(ledger_t), intent(inout) :: counts
+    type(mode_prints_t), intent(out) :: prints
+    logical, intent(out) :: found
+
+    type(pose_t) :: pose
+    type(error_t), allocatable :: error
+    type(mode_request_t) :: here
+    type(chords_t) :: chords
+    type(bordered_modes_t) :: modes(1)
+    type(string_t) :: failure(1)
+    real(wp) :: factor(case_count, 1)
+
+    found = .false.
+    call find_pose(linkage, place(1), pose, error)
+    if (allocated(error)) return
+    here = request
+    here%speed = place(2:2)
+    factor = load_factors(here)
+    failure(1)%text = ""
+    ! Places between two rows come in no order, nor are they told apart by the crank angle alone.
+    work%tracks(1)%length = 0
+    call solve_reduced(linkage, models%continuum, pose, place(1), distributed_unit_forces(linkage, &
+      pose, find_motion(linkage, pose), abs(factor(:, 1)) > 0.0_wp), factor, request%modes, &
+      [.false.], work, chords, modes, failure, counts)
+    found = len(failure(1)%text) == 0
+    if (found) prints = new_mode_prints(models%continuum%layout, modes(1), request%modes)
+  end subroutine prints_at
+
+  !> Two branches that have changed places since the row before have crossed.
+  pure subroutine mark_crossings(branches, next, to)
+    type(branches_t), intent(inout) :: branches
+    integer, intent(in) :: next(:) !! (modes of the row before) mode that continues each; 0: none
+    integer, intent(in) :: to(2)   !! row and speed
+
+    integer :: i, j
+
+    do i = 1, size(next)
+      do j = i + 1, size(next)
+        if (next(i) == 0 .or. next(j) == 0 .or. next(i) < next(j)) cycle
+        branches%event(next([i, j]), to(1), to(2)) = event_crossing
+        branches%partner(next(i), to(1), to(2)) = branches%branch(next(j), to(1), to(2))
+        branches%partner(next(j), to(1), to(2)) = branches%branch(next(i), to(1), to(2))
+      end do
+    end do
+  end subroutine mark_crossings
+
+  !> Two neighbouring branches that come near, exchange their shapes and part again have veered:
+  !! marked where they are nearest.
+  pure subroutine mark_veerings(positions, sweep, order, speed, branches)
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    integer, intent(in) :: order(:) !! rows by crank angle
+    integer, intent(in) :: speed
+    type(branches_t), intent(inout) :: branches
+
+    real(wp) :: distance(size(order))
+    integer :: i, mode, left, right
+
+    do mode = 1, sweep%request%modes - 1
+      do i = 1, size(order)
+        distance(i) = huge(1.0_wp)
+        if (.not. has_result(positions, sweep, positions%state(order(i)), speed)) cycle
+        associate (lambda => sweep%results(positions%state(order(i)))%lambda(:, speed))
+          distance(i) = frequency_of(lambda(mode + 1)) - frequency_of(lambda(mode))
+        end associate
+      end do
+      do i = 2, size(order) - 1
+        if (distance(i) > distance(i - 1) .or. distance(i) >= distance(i + 1)) cycle
+        left = edge(distance, i, -1)
+        right = edge(distance, i, 1)
+        if (left == 0 .or. right == 0) cycle
+        if (.not. have_exchanged(positions, sweep, branches, mode, speed, order(left), &
+          order(right))) cycle
+        branches%event(mode:mode + 1, order(i), speed) = event_veering
+        branches%partner(mode, order(i), speed) = branches%branch(mode + 1, order(i), speed)
+        branches%partner(mode + 1, order(i), speed) = branches%branch(mode, order(i), speed)
+      end do
+    end do
+  end subroutine mark_veerings
+
+  !> The row at which two frequencies have parted again, on one side of their least distance; 0 if
+  !! they do not.
+  pure function edge(distance, nearest, side)
+    real(wp), intent(in) :: distance(:)
+    integer, intent(in) :: nearest, side
+    integer :: edge
+
+    integer :: i
+
+    edge = 0
+    i = nearest
+    do while (i + side >= 1 .and. i + side <= size(distance))
+      if (distance(i + side) >= huge(1.0_wp) .or. distance(i + side) < distance(i)) return
+      i = i + side
+      if (distance(i) > veering_width*distance(nearest)) then
+        edge = i
+        return
+      end if
+    end do
+  end function edge
+
+  !> Whether a mode of one row looks like the next higher one of another, and the other way round,
+  !! though their branches do not.
+  pure function have_exchanged(positions, sweep, branches, mode, speed, from, to) result(have)
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    type(branches_t), intent(in) :: branches
+    integer, intent(in) :: mode, speed, from, to
+    logical :: have
+
+    real(wp) :: mac(sweep%request%modes, sweep%request%modes)
+
+    have = all(branches%branch(mode:mode + 1, from, speed) == branches%branch(mode:mode + 1, to, &
+      speed))
+    if (.not. have) return
+    mac = likeness(sweep%results(positions%state(from))%prints(speed), &
+      sweep%results(positions%state(to))%prints(speed))
+    have = mac(mode, mode + 1) > mac(mode, mode) .and. mac(mode + 1, mode) > mac(mode + 1, mode + 1)
+  end function have_exchanged
+
+end module frequency_loci

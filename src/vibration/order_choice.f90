@@ -1,0 +1,250 @@
+!> Polynomial orders that reach an accuracy, link by link.
+module order_choice
+  use axial_forces, only: distributed_unit_forces, total_force
+  use beam_mesh, only: beam_t
+  use bordered_eigensolver, only: bordered_modes_t
+  use deformation_model, only: deformation_model_t, new_deformation_model
+  use errors, only: error_t
+  use kinds, only: wp
+  use ledger, only: ledger_t
+  use link_lumps, only: pieces_of
+  use link_store, only: link_store_t
+  use linkages, only: body_t, linkage_t
+  use pin_displacements, only: chords_t
+  use positions, only: positions_t
+  use speed_solver, only: new_reduced_work, order_error, reduced_work_t, solve_reduced
+  use text, only: string_t
+  implicit none (type, external)
+  private
+
+  public :: choose_orders
+
+  !> Orders are raised up to this number, 56, plus two thirds of the number of modes (where all
+  !! three links bend): more than any accuracy needs that the precision can give, but under loads
+  !! that buckle a link many times over (as beside a dead point).
+  integer, parameter :: spare_orders = digits(1.0_wp) + 3
+
+  !> With masses along a link its elements share the highest order, and have so many more each for
+  !! the digits.
+  integer, parameter :: more_orders = 16
+
+  !> No order is lower.
+  integer, parameter :: least_order = 4
+
+  !> Positions at which orders are tried: one in so many, within these limits. Every row of the
+  !! sweep tells its own error afterwards.
+  integer, parameter :: positions_a_sample = 9, least_samples = 2, most_samples = 6
+
+  !> Share of the accuracy that one link may use up at the samples: other positions may be worse.
+  real(wp), parameter :: share = 0.1_wp
+
+contains
+
+  !> Finds a model that keeps the error of every eigenvalue below a bound, at samples of the
+  !! positions, at the least and the greatest speed; each link has one element, or one between its
+  !! masses, of the least order that does. That is enough for any accuracy: links are uniform and
+  !! loads smooth between masses.
+  !!
+  !! The error of order p is about `((kL/4)^{p−1}/(p−1)!)²` for a wave number k and the length L of
+  !! the element; this gives a first guess, which the error told by the model itself then raises.
+  !! Errors: those of the model; none for a bound that is not reached at the highest order.
+  subroutine choose_orders(linkage, beams, positions, states, factor, modes, bound, store, model, &
+    counts, error)
+    type(linkage_t), intent(in) :: linkage
+    type(beam_t), intent(in) :: beams(:)
+    type(positions_t), intent(in) :: positions
+    integer, intent(in) :: states(:)     !! numbers of those that the model is to serve
+    real(wp), intent(in) :: factor(:, :) !! (cases, speeds) of the unit loads
+    integer, intent(in) :: modes
+    real(wp), intent(in) :: bound        !! relative error of eigenvalues
+    type(link_store_t), intent(inout) :: store
+    type(deformation_model_t), intent(out) :: model
+    type(ledger_t), intent(inout) :: counts
+    type(error_t), allocatable, intent(out) :: error
+
+    real(wp) :: link_error(size(beams)), highest
+    integer :: order(size(beams)), highest_order(size(beams)), b, bending, pieces
+    integer, allocatable :: chosen(:)
+    integer :: between_masses(size(beams))
+    logical :: continuous(size(beams))
+
+    chosen = sample_states(positions, states)
+    bending = count(linkage%bodies%bends)
+    do b = 1, size(beams)
+      pieces = size(pieces_of(linkage%bodies(b))) - 1
+      order(b) = max(least_order, (max(8, (3*modes)/(2*bending) + 6) + pieces - 1)/pieces)
+      highest_order(b) = (spare_orders + (2*modes)/bending + (pieces - 1)*more_orders)/pieces
+    end do
+    between_masses = 0
+    continuous = .false. ! no masses on nodes
+    call new_deformation_model(linkage, beams, between_masses, order, continuous, model, error, &
+      store)
+    if (allocated(error) .or. size(chosen) == 0) return
+    ! One position tells how short the waves are.
+    call try_samples(linkage, model, positions, chosen(size(chosen)/2 + 1:size(chosen)/2 + 1), &
+      factor, modes, link_error, highest, counts)
+    do b = 1, size(beams)
+      if (.not. linkage%bodies(b)%bends) cycle
+      order(b) = guessed_order(longest_piece(linkage%bodies(b))*wave_number(linkage%bodies(b), &
+        beams(b), highest), share*bound, order(b), highest_order(b), modes, bending)
+    end do
+    do
+      call new_deformation_model(linkage, beams, between_masses, order, continuous, model, error, &
+        store)
+      if (allocated(error)) return
+      call try_samples(linkage, model, positions, chosen, factor, modes, link_error, highest, &
+        counts)
+      if (all(link_error <= share*bound .or. order >= highest_order)) exit
+      do b = 1, size(beams)
+        if (link_error(b) <= share*bound) cycle
+        order(b) = raised_order(longest_piece(linkage%bodies(b))*wave_number(linkage%bodies(b), &
+          beams(b), highest), share*bound/link_error(b), order(b), highest_order(b))
+      end do
+    end do
+  end subroutine choose_orders
+
+  !> Some of the states that have a pose, spread over the list.
+  pure function sample_states(positions, states) result(chosen)
+    type(positions_t), intent(in) :: positions
+    integer, intent(in) :: states(:)
+    integer, allocatable :: chosen(:)
+
+    integer :: sound(size(states)), i, count, number
+
+    count = 0
+    do i = 1, size(states)
+      if (allocated(positions%states(states(i))%error)) cycle
+      count = count + 1
+      sound(count) = states(i)
+    end do
+    number = min(max(least_samples, min(count/positions_a_sample, most_samples)), count)
+    chosen = [(sound(1 + ((i - 1)*(count - 1))/max(1, number - 1)), i=1, number)]
+  end function sample_states
+
+  !> Length of the longest part of a link without masses [m].
+  pure function longest_piece(body) result(length)
+    type(body_t), intent(in) :: body
+    real(wp) :: length
+
+    real(wp), allocatable :: ends(:)
+
+    ends = pieces_of(body)
+    length = body%length*maxval(ends(2:) - ends(:size(ends) - 1))
+  end function longest_piece
+
+  !> k of the shortest waves of a frequency in a link.
+  !!
+  !! `EI k⁴ − (ρI + EI μ/kGA) ω² k² − μω² (1 − ρI ω²/kGA) = 0`
+  pure function wave_number(body, beam, lambda) result(k)
+    type(body_t), intent(in) :: body
+    type(beam_t), intent(in) :: beam
+    real(wp), intent(in) :: lambda !! ω² [1/s²]
+    real(wp) :: k                  !! [1/m]
+
+    real(wp) :: slender, added
+
+    slender = body%line_density*lambda/beam%bending_stiffness
+    k = slender**0.25_wp
+    if (body%rotary_inertia <= 0.0_wp .and. beam%shear_stiffness <= 0.0_wp) return
+    added = body%rotary_inertia/beam%bending_stiffness
+    if (beam%shear_stiffness > 0.0_wp) then
+      added = added + body%line_density/beam%shear_stiffness
+      slender = slender*(1.0_wp - body%rotary_inertia*lambda/beam%shear_stiffness)
+    end if
+    added = 0.5_wp*added*lambda
+    k = sqrt(added + sqrt(max(0.0_wp, added**2 + slender)))
+  end function wave_number
+
+  !> Order for a wave number times the length of an element, a bound of the error, and no fewer
+  !! unknowns than a first model had for all modes.
+  pure function guessed_order(wave, bound, first, highest, modes, bending) result(order)
+    real(wp), intent(in) :: wave     !! kL
+    real(wp), intent(in) :: bound
+    integer, intent(in) :: first, highest, modes
+    integer, intent(in) :: bending   !! links that bend
+    integer :: order
+
+    real(wp) :: term
+    integer :: least
+
+    order = highest
+    ! Waves so short that no order serves: their number may be too large for an integer.
+    if (0.5_wp*wave > highest) return
+    least = least_order
+    if (2*modes > bending*least) least = first
+    term = 1.0_wp
+    do order = 2, highest
+      term = term*0.25_wp*wave/(order - 1)
+      if (order >= max(least, nint(0.5_wp*wave)) .and. term**2 <= bound) return
+    end do
+    order = highest
+  end function guessed_order
+
+  !> Order at which an error has fallen to a share of itself: from order p to p + 1 it falls by the
+  !! square of `kL/4p`. At most by `most_raised`: where orders are far too low the error says
+  !! little.
+  pure function raised_order(wave, share_wanted, order, highest) result(raised)
+    real(wp), intent(in) :: wave         !! kL
+    real(wp), intent(in) :: share_wanted !! below 1
+    integer, intent(in) :: order, highest
+    integer :: raised
+
+    integer, parameter :: most_raised = 8
+    real(wp) :: fallen
+
+    fallen = 1.0_wp
+    do raised = order + 1, min(order + most_raised, highest) - 1
+      fallen = fallen*min(0.5_wp, 0.25_wp*wave/(raised - 1))**2
+      if (fallen <= share_wanted) return
+    end do
+    raised = min(order + most_raised, highest)
+  end function raised_order
+
+  !> The largest error of any mode by link, and the largest eigenvalue, over the samples at the
+  !! least and the greatest speed.
+  subroutine try_samples(linkage, model, positions, chosen, factor, modes, link_error, highest, &
+    counts)
+    type(linkage_t), intent(in) :: linkage
+    type(deformation_model_t), intent(in) :: model
+    type(positions_t), intent(in) :: positions
+    integer, intent(in) :: chosen(:)
+    real(wp), intent(in) :: factor(:, :)
+    integer, intent(in) :: modes
+    real(wp), intent(out) :: link_error(:)
+    real(wp), intent(out) :: highest
+    type(ledger_t), intent(inout) :: counts
+
+    type(reduced_work_t) :: work
+    type(chords_t) :: chords
+    type(bordered_modes_t), allocatable :: found(:)
+    type(string_t), allocatable :: failure(:)
+    real(wp), allocatable :: force(:, :, :), tried(:, :)
+    integer :: i, k
+
+    tried = factor(:, [minloc(factor(1, :), dim=1), maxloc(factor(1, :), dim=1)])
+    if (all(abs(tried(:, 1) - tried(:, 2)) <= 0.0_wp)) tried = tried(:, :1)
+    allocate (found(size(tried, 2)), failure(size(tried, 2)))
+    work = new_reduced_work(model, size(tried, 2))
+    link_error = 0.0_wp
+    highest = 0.0_wp
+    do i = 1, size(chosen)
+      associate (state => positions%states(chosen(i)))
+        force = distributed_unit_forces(linkage, state%pose, state%motion, &
+          any(abs(tried) > 0.0_wp, dim=2))
+        do k = 1, size(failure)
+          failure(k)%text = ""
+        end do
+        call solve_reduced(linkage, model, state%pose, state%crank, force, tried, modes, &
+          spread(.false., 1, size(found)), work, chords, found, failure, counts)
+      end associate
+      do k = 1, size(found)
+        if (len(failure(k)%text) > 0) cycle
+        highest = max(highest, maxval(abs(found(k)%lambda(:modes))))
+        link_error = max(link_error, &
+          maxval(order_error(model, chords, total_force(force, tried(:, k)), found(k), modes), &
+          dim=2))
+      end do
+    end do
+  end subroutine try_samples
+
+end module order_choice

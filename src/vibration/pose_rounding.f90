@@ -1,0 +1,160 @@
+!> What the rounding of a position does to its frequencies.
+!!
+!! Near a dead point a crank angle, itself rounded, says less and less about the rest of the
+!! linkage.
+module pose_rounding
+  use axial_forces, only: distributed_unit_forces, total_force
+  use bordered_eigensolver, only: bordered_modes_t
+  use bordered_matrix, only: bordered_matrix_t, bordered_times_vector, new_bordered_matrix
+  use deformation_model, only: deformation_model_t
+  use errors, only: error_t
+  use kinds, only: wp
+  use kinematic_coefficients, only: find_motion, motion_t
+  use linkages, only: linkage_t
+  use load_cases, only: case_count
+  use pin_displacements, only: chords_t, find_chords
+  use poses, only: find_pose, pose_t
+  use positions, only: state_t
+  use reduced_assembly, only: reduced_geometric_stiffness, reduced_mass
+  implicit none (type, external)
+  private
+
+  public :: pose_error
+
+  !> Multiples of ε, measured against quadruple precision: of 1/sin² far from dead points, of the
+  !! sensitivity near them.
+  real(wp), parameter :: far_multiple = 4.0_wp, near_multiple = 2.0_wp
+
+  !> Nearer than this, in |sin(θ4 − θ3)|, sensitivities are worked out: at rest, and under loads,
+  !! which grow with 1/sin themselves.
+  real(wp), parameter :: near_sine = 0.15_wp, loaded_near_sine = 0.4_wp
+
+  !> Longest over shortest length up to which the sine alone tells how sure a position is.
+  real(wp), parameter :: usual_spread = 2.0_wp
+
+  !> Change of a length, of itself and times sin², by which they are worked out.
+  real(wp), parameter :: small_change = 1.0e-3_wp
+
+contains
+
+  !> Relative error of every eigenvalue: ε times the change of the eigenvalue with the lengths of
+  !! the links.
+  !!
+  !! A sine counts for less where a link of a dyad is short beside the distances that place it: its
+  !! angle takes up all of their rounding. Where dead points are far, `ε/sin²(θ4 − θ3)` bounds it,
+  !! more where terms cancel in λ. Near them, modes differ: some soften with the sine, others do not
+  !! feel it, loads grow like its powers. There each length is changed a little, and `yᵀ(ΔG − λΔM)y`
+  !! is what that does.
+  subroutine pose_error(linkage, model, state, factor, found, modes, error)
+    type(linkage_t), intent(in) :: linkage
+    type(deformation_model_t), intent(in) :: model
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: factor(case_count) !! of the unit loads
+    type(bordered_modes_t), intent(in) :: found
+    integer, intent(in) :: modes
+    real(wp), intent(out) :: error(:)  !! (modes) of eigenvalues
+
+    real(wp) :: sine, least_sine, spread, energy, rest(modes), changed(modes)
+    type(linkage_t) :: other
+    integer :: b, i, side
+    logical :: reached
+
+    spread = max(1.0_wp, length_spread(linkage, state%pose)/usual_spread)
+    sine = minval(abs(state%pose%sine))/spread
+    least_sine = near_sine
+    ! Loads have the accelerations of short links in them as well: of lengths unlike each other no
+    ! multiple is known.
+    if (any(abs(factor) > 0.0_wp)) least_sine = merge(loaded_near_sine, 1.0_wp, spread <= 1.0_wp)
+    if (sine >= least_sine) then
+      do i = 1, modes
+        energy = dot_product(found%vector(:, i), found%vector(:, i))
+        error(i) = 2.0_wp*far_multiple*epsilon(1.0_wp)/sine**2*(1.0_wp + &
+          energy/max(abs(found%lambda(i)), tiny(energy)))
+      end do
+      return
+    end if
+    call rayleigh_quotients(linkage, model, state%crank, factor, found, rest, reached)
+    error = 0.0_wp
+    do b = 1, size(linkage%bodies)
+      do side = 1, -1, -2
+        other = linkage
+        other%bodies(b)%length = linkage%bodies(b)%length*(1.0_wp + side*small_change*sine**2)
+        call rayleigh_quotients(other, model, state%crank, factor, found, changed, reached)
+        if (reached) exit
+      end do
+      if (.not. reached) then
+        error = error + 1.0_wp
+        cycle
+      end if
+      error = error + near_multiple*epsilon(1.0_wp)*abs(changed - rest)/ &
+        (small_change*sine**2*max(abs(found%lambda(:modes)), tiny(1.0_wp)))
+    end do
+    error = 2.0_wp*error
+  end subroutine pose_error
+
+  !> The largest of all lengths, and of the distances between the bases of dyads, beside the
+  !! shortest link of a dyad.
+  pure function length_spread(linkage, pose) result(spread)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    real(wp) :: spread
+
+    real(wp) :: largest, shortest
+    integer :: i
+
+    largest = maxval(linkage%bodies%length)
+    shortest = huge(shortest)
+    do i = 1, size(linkage%dyads)
+      associate (dyad => linkage%dyads(i))
+        largest = max(largest, norm2(pose%pin(:, dyad%base(2)) - pose%pin(:, dyad%base(1))))
+        shortest = min(shortest, minval(linkage%bodies(dyad%body)%length))
+      end associate
+    end do
+    spread = largest/shortest
+  end function length_spread
+
+  !> `yᵀ(I + G − λM)y` of all modes in a linkage whose lengths may differ from those of the modes.
+  subroutine rayleigh_quotients(linkage, model, crank, factor, found, quotient, reached)
+    type(linkage_t), intent(in) :: linkage
+    type(deformation_model_t), intent(in) :: model
+    real(wp), intent(in) :: crank      !! [deg]
+    real(wp), intent(in) :: factor(case_count)
+    type(bordered_modes_t), intent(in) :: found
+    real(wp), intent(out) :: quotient(:) !! (modes)
+    logical, intent(out) :: reached
+
+    type(pose_t) :: pose
+    type(motion_t) :: motion
+    type(chords_t) :: chords
+    type(bordered_matrix_t) :: mass, geometric
+    type(error_t), allocatable :: error
+    real(wp), allocatable :: force(:, :, :)
+    real(wp) :: product(model%layout%unknowns)
+    integer :: i
+
+    quotient = 0.0_wp
+    call find_pose(linkage, crank, pose, error)
+    reached = .not. allocated(error)
+    if (.not. reached) return
+    motion = find_motion(linkage, pose)
+    chords = find_chords(linkage, model%links, pose)
+    mass = new_bordered_matrix(model%layout, .false.)
+    call reduced_mass(linkage, model%links, model%layout, chords, mass)
+    force = distributed_unit_forces(linkage, pose, motion, abs(factor) > 0.0_wp)
+    geometric = new_bordered_matrix(model%layout, .true.)
+    if (size(force) > 0) then
+      call reduced_geometric_stiffness(model%links, model%layout, chords, &
+        total_force(force, factor), geometric)
+    end if
+    do i = 1, size(quotient)
+      associate (y => found%vector(:, i))
+        call bordered_times_vector(model%layout, mass, y, product)
+        quotient(i) = dot_product(y, y) - found%lambda(i)*dot_product(y, product)
+        if (size(force) == 0) cycle
+        call bordered_times_vector(model%layout, geometric, y, product)
+        quotient(i) = quotient(i) + dot_product(y, product)
+      end associate
+    end do
+  end subroutine rayleigh_quotients
+
+end module pose_rounding

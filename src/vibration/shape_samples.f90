@@ -1,0 +1,144 @@
+!> Mode shapes at equal distances along the links, whatever the unknowns they were found in.
+module shape_samples
+  use bordered_eigensolver, only: bordered_modes_t
+  use deflected_shape, only: shape_point
+  use deformation_chain, only: chain_shape, deformation_chain_t
+  use deformation_model, only: deformation_model_t
+  use kinds, only: wp
+  use linkages, only: linkage_t, normal_to
+  use mechanisms, only: mechanism_t
+  use pin_displacements, only: chords_t
+  use positions, only: state_t
+  use reduced_shapes, only: reduced_shape_point
+  use vibration_models, only: mode_request_t
+  implicit none (type, external)
+  private
+
+  public :: shapes_t, sample_reduced, sample_chain, sample_nodal
+
+  !> Displacements along the links in every mode, with φᵀMφ = 1 and the sign of physics: mid-link to
+  !! the left of its link.
+  type :: shapes_t
+    real(wp), allocatable :: displacement(:, :, :, :) !! (x, y, rotation; points; bodies; modes)
+                                                      !! [kg^-1/2]
+  end type shapes_t
+
+contains
+
+  !> Shapes of a model in deformation coordinates, at equal distances along the links.
+  pure subroutine sample_reduced(linkage, model, chords, state, found, request, shapes)
+    type(linkage_t), intent(in) :: linkage
+    type(deformation_model_t), intent(in) :: model
+    type(chords_t), intent(in) :: chords
+    type(state_t), intent(in) :: state
+    type(bordered_modes_t), intent(in) :: found
+    type(mode_request_t), intent(in) :: request
+    type(shapes_t), intent(out) :: shapes
+
+    real(wp) :: middle(3, size(model%links))
+    integer :: b, i, mode
+
+    allocate (shapes%displacement(3, request%points, size(model%links), request%modes))
+    do mode = 1, request%modes
+      do b = 1, size(model%links)
+        do i = 1, request%points
+          shapes%displacement(:, i, b, mode) = reduced_shape_point(model%links, model%layout, &
+            chords, state%pose, found%vector(:, mode), b, real(i - 1, wp)/(request%points - 1))
+        end do
+        middle(:, b) = reduced_shape_point(model%links, model%layout, chords, state%pose, &
+          found%vector(:, mode), b, 0.5_wp)
+      end do
+      shapes%displacement(:, :, :, mode) = mid_link_sign(linkage, state, &
+        middle)*shapes%displacement(:, :, :, mode)
+    end do
+  end subroutine sample_reduced
+
+  !> Shapes on a long mesh.
+  pure subroutine sample_chain(linkage, chain, state, vector, request, shapes)
+    type(linkage_t), intent(in) :: linkage
+    type(deformation_chain_t), intent(in) :: chain
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: vector(:, :)
+    type(mode_request_t), intent(in) :: request
+    type(shapes_t), intent(out) :: shapes
+
+    real(wp) :: middle(3, size(linkage%bodies)), local(3, request%points), at_middle(3, 1)
+    integer :: b, i, mode
+
+    allocate (shapes%displacement(3, request%points, size(linkage%bodies), request%modes))
+    do mode = 1, request%modes
+      do b = 1, size(linkage%bodies)
+        local = chain_shape(chain, vector(:, mode), b, &
+          [(real(i - 1, wp)/(request%points - 1), i=1, request%points)])
+        do i = 1, request%points
+          shapes%displacement(:, i, b, mode) = in_global_axes(local(:, i), state%pose%direction(:, &
+            b))
+        end do
+        at_middle = chain_shape(chain, vector(:, mode), b, [0.5_wp])
+        middle(:, b) = in_global_axes(at_middle(:, 1), state%pose%direction(:, b))
+      end do
+      shapes%displacement(:, :, :, mode) = mid_link_sign(linkage, state, &
+        middle)*shapes%displacement(:, :, :, mode)
+    end do
+  end subroutine sample_chain
+
+  !> The same for nodal displacements.
+  pure subroutine sample_nodal(mechanism, state, vector, request, shapes)
+    type(mechanism_t), intent(in) :: mechanism
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: vector(:, :) !! (unknowns, modes)
+    type(mode_request_t), intent(in) :: request
+    type(shapes_t), intent(out) :: shapes
+
+    real(wp) :: middle(3, size(mechanism%linkage%bodies)), length
+    integer :: b, i, mode
+
+    allocate (shapes%displacement(3, request%points, size(mechanism%linkage%bodies), request%modes))
+    do mode = 1, request%modes
+      do b = 1, size(mechanism%linkage%bodies)
+        length = mechanism%linkage%bodies(b)%length
+        do i = 1, request%points
+          shapes%displacement(:, i, b, mode) = shape_point(mechanism%linkage, mechanism%mesh, &
+            state%pose, vector(:, mode), b, length*(i - 1)/(request%points - 1))
+        end do
+        middle(:, b) = shape_point(mechanism%linkage, mechanism%mesh, state%pose, vector(:, mode), &
+          b, 0.5_wp*length)
+      end do
+      shapes%displacement(:, :, :, mode) = mid_link_sign(mechanism%linkage, state, &
+        middle)*shapes%displacement(:, :, :, mode)
+    end do
+  end subroutine sample_nodal
+
+  !> A displacement along and across a link, and its rotation, with the first two in global axes.
+  pure function in_global_axes(local, direction) result(global)
+    real(wp), intent(in) :: local(3)
+    real(wp), intent(in) :: direction(2)
+    real(wp) :: global(3)
+
+    global = [local(1)*direction + local(2)*normal_to(direction), local(3)]
+  end function in_global_axes
+
+  !> The sign that makes the largest transverse displacement at mid-link positive, in that link's
+  !! own axes (those of its angle).
+  !!
+  !! Displacements equal within 1e-9 of the largest are ties, and the first of these links round the
+  !! loop decides.
+  pure function mid_link_sign(linkage, state, middle) result(sign_of_mode)
+    type(linkage_t), intent(in) :: linkage
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: middle(:, :) !! (3, bodies) displacements at mid-link
+    real(wp) :: sign_of_mode
+
+    real(wp), parameter :: tie = 1.0e-9_wp
+    real(wp) :: across(size(linkage%bodies))
+    integer :: b
+
+    do b = 1, size(linkage%bodies)
+      across(b) = linkage%bodies(b)%sense*dot_product(normal_to(state%pose%direction(:, b)), &
+        middle(:2, b))
+    end do
+    b = findloc(abs(across) >= (1.0_wp - tie)*maxval(abs(across)), .true., dim=1)
+    sign_of_mode = sign(1.0_wp, across(b))
+  end function mid_link_sign
+
+end module shape_samples

@@ -1,0 +1,136 @@
+!> What a run needs to find frequencies at any position: made once.
+module vibration_models
+  use beam_element, only: axial_degree
+  use deformation_chain, only: deformation_chain_t, new_deformation_chain
+  use deformation_model, only: deformation_model_t, new_deformation_model
+  use deformation_shapes, only: bending_unknowns
+  use errors, only: error_t
+  use kinds, only: fineness, wp
+  use ledger, only: ledger_t
+  use link_store, only: link_store_t
+  use load_cases, only: case_count, constant_case
+  use mechanisms, only: mechanism_t
+  use models, only: solver_band, solver_dense
+  use order_choice, only: choose_orders
+  use positions, only: positions_t
+  implicit none (type, external)
+  private
+
+  public :: mode_request_t, frequency_models_t, new_frequency_models, load_factors, chosen_method
+  public :: by_orders, by_link_modes, by_long_mesh, by_dense, by_band
+
+  !> How the frequencies that are written are found: with orders that the program chooses; on the
+  !! mesh of the deck in deformation coordinates, taken apart link by link, or with running sums; on
+  !! it in nodal unknowns, with full or with band matrices.
+  integer, parameter :: by_orders = 1, by_link_modes = 2, by_long_mesh = 3, by_dense = 4, &
+    by_band = 5
+
+  !> Links with more unknowns than this are not taken apart into their own modes.
+  integer, parameter :: most_link_unknowns = 80
+
+  !> More modes that continuous links must know exactly where they prove that a long mesh lacks
+  !! none.
+  integer, parameter :: long_mesh_guards = 8
+
+  !> Accuracy of the model by which the error of a mesh is told.
+  real(wp), parameter :: judging_accuracy = 1.0e-13_wp*fineness
+
+  !> What is wanted at every position.
+  type :: mode_request_t
+    integer :: modes = 3
+    integer :: method = by_orders
+    real(wp) :: accuracy = judging_accuracy !! of frequencies, for orders that the program chooses
+    logical :: lumped = .false.        !! inertia loads on the nodes of the mesh, or along the links
+    logical :: follow = .false.        !! modes are followed from row to row
+    integer :: points = 0              !! along each link, where shapes are wanted
+    real(wp), allocatable :: speed(:)  !! [rad/s]; static: one value, which has no effect
+    real(wp) :: acceleration = 0.0_wp  !! [rad/s²]
+    logical :: axial = .false.         !! with the geometric stiffness of the loads
+    logical :: constant = .false.      !! gravity, or forces and torques from outside, are among
+                                       !! them
+  end type mode_request_t
+
+  type :: frequency_models_t
+    type(deformation_model_t) :: continuum !! one element a link or between masses, of the orders
+                                           !! that the accuracy needs
+    type(deformation_model_t) :: mesh      !! that of the deck; for `by_long_mesh` with continuous
+                                           !! links in place of the long ones
+    type(deformation_chain_t) :: chain     !! that of the deck for `by_long_mesh`
+  end type frequency_models_t
+
+contains
+
+  !> Factors of the unit loads at every speed, ω2², α2, and 1 for the constant ones; zero without
+  !! axial effects.
+  pure function load_factors(request) result(factor)
+    type(mode_request_t), intent(in) :: request
+    real(wp) :: factor(case_count, size(request%speed))
+
+    factor = 0.0_wp
+    if (.not. request%axial) return
+    factor(1, :) = request%speed**2
+    factor(2, :) = request%acceleration
+    if (request%constant) factor(constant_case, :) = 1.0_wp
+  end function load_factors
+
+  !> How frequencies are found on a mesh.
+  pure function chosen_method(solver, accurate, elements, order, sheared) result(method)
+    integer, intent(in) :: solver                !! of the deck
+    logical, intent(in) :: accurate              !! the mesh is left to the program
+    integer, intent(in) :: elements(:), order(:) !! (bodies)
+    logical, intent(in) :: sheared               !! elements have shear strains
+    integer :: method
+
+    if (accurate) then
+      method = by_orders
+    else if (solver == solver_dense) then
+      method = by_dense
+    else if (solver == solver_band) then
+      method = by_band
+    else if (any(is_long_link(elements, order, sheared))) then
+      method = by_long_mesh
+    else
+      method = by_link_modes
+    end if
+  end function chosen_method
+
+  !> Whether a link has too many unknowns to be taken apart; a single element never has.
+  elemental function is_long_link(elements, order, sheared) result(is)
+    integer, intent(in) :: elements, order
+    logical, intent(in) :: sheared
+    logical :: is
+
+    is = elements > 1 .and. elements*bending_unknowns(order, sheared) > most_link_unknowns
+  end function is_long_link
+
+  !> Errors: the own modes of a link could not be found.
+  subroutine new_frequency_models(mechanism, positions, states, request, bound, store, models, &
+    counts, error)
+    type(mechanism_t), intent(in) :: mechanism
+    type(positions_t), intent(in) :: positions
+    integer, intent(in) :: states(:) !! numbers of those that they are to serve
+    type(mode_request_t), intent(in) :: request
+    real(wp), intent(in) :: bound !! relative error of eigenvalues that the orders must keep
+    type(link_store_t), intent(inout) :: store
+    type(frequency_models_t), intent(out) :: models
+    type(ledger_t), intent(inout) :: counts
+    type(error_t), allocatable, intent(out) :: error
+
+    logical :: is_long(size(mechanism%beams))
+
+    call choose_orders(mechanism%linkage, mechanism%beams, positions, states, &
+      load_factors(request), request%modes + merge(long_mesh_guards, 0, &
+      request%method == by_long_mesh), bound, store, models%continuum, counts, error)
+    if (allocated(error)) return
+    if (request%method /= by_link_modes .and. request%method /= by_long_mesh) return
+    associate (mesh => mechanism%mesh)
+      is_long = is_long_link(mesh%elements, mesh%order, mesh%sheared)
+      call new_deformation_model(mechanism%linkage, mechanism%beams, merge(0, mesh%elements, &
+        is_long), merge(models%continuum%order, mesh%order, is_long), request%lumped .and. &
+        request%axial .and. .not. is_long, models%mesh, error, store)
+      if (request%method == by_long_mesh) models%chain = new_deformation_chain(mechanism%linkage, &
+        mechanism%beams, mesh%elements, mesh%order, axial_degree(mesh%order))
+    end associate
+  end subroutine new_frequency_models
+
+end module vibration_models
