@@ -3,10 +3,10 @@ module assembly
   use band_matrix, only: add_to_band, band_matrix_t, new_band_matrix
   use beam_element, only: element_geometric_stiffness, element_mass, element_stiffness
   use beam_mesh, only: beam_mesh_t, beam_t, element_length
+  use body_lumps, only: element_of_lump, lump_masses, lump_places
   use element_axes, only: turned_to_global
   use element_places, only: element_part_stiffness, element_point_mass
   use kinds, only: wp
-  use link_lumps, only: element_of_lump, lump_masses, lump_places
   use linkages, only: linkage_t
   use poses, only: pose_t
   implicit none (type, external)

@@ -7,12 +7,13 @@
 !! r do the work `−½ ψ² Σ F·r`, and `Σ F·r`, which is `∫ N dx` of a slender link, is L times that
 !! mean.
 module axial_forces
+  use acceleration_fields, only: acceleration_field_t, point_acceleration
   use beam_mesh, only: beam_mesh_t, element_count, element_length
+  use body_lumps, only: lump_count
   use inertia_loads, only: load_t, lumped_masses, lumped_stations
   use joint_forces, only: find_joint_forces, joint_forces_t
   use kinds, only: wp
-  use kinematic_coefficients, only: acceleration_field_t, motion_t, point_acceleration
-  use link_lumps, only: lump_count
+  use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t, normal_to
   use load_cases, only: case_count, find_case_loads, load_case_t, unit_cases
   use poses, only: pose_t
@@ -169,10 +170,10 @@ contains
 
   !> Axial forces of links under the unit loads, their masses distributed along them; without loads
   !! there are no force functions.
-  pure function distributed_unit_forces(linkage, pose, motion, occurs) result(force)
+  pure function distributed_unit_forces(linkage, pose, coefficients, occurs) result(force)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
-    type(motion_t), intent(in) :: motion
+    type(kinematic_coefficients_t), intent(in) :: coefficients
     logical, intent(in) :: occurs(case_count)   !! cases that are wanted; the forces of others are
                                                 !! zero
     real(wp), allocatable :: force(:, :, :)     !! (1, ξ, ξ², jumps; bodies; cases) [N]
@@ -188,7 +189,7 @@ contains
       case_count))
     if (.not. any(occurs)) return
     force = 0.0_wp
-    cases = unit_cases(linkage, pose, motion, occurs)
+    cases = unit_cases(linkage, pose, coefficients, occurs)
     do i = 1, case_count
       if (.not. occurs(i)) cycle
       call find_case_loads(linkage, spread(0, 1, size(loads)), pose, cases(i), loads, pin_loads)

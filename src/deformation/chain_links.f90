@@ -1,10 +1,10 @@
 !> One link on a long mesh: what the unknowns of an element do in it and at its end.
 module chain_links
   use beam_mesh, only: beam_t
+  use body_lumps, only: element_of_lump, lump_masses, lump_places
   use deformation_shapes, only: bending_unknowns, shear_scale
   use kinds, only: wp
   use legendre, only: gauss_rule, legendre_values, once_integrated, twice_integrated
-  use link_lumps, only: element_of_lump, lump_masses, lump_places
   use link_modes, only: end_rotation
   use linkages, only: body_t
   use long_sums, only: long_dot

@@ -14,7 +14,7 @@ module deformation_chain
   use link_modes, only: link_modes_t
   use linkages, only: linkage_t
   use long_sums, only: add_exactly
-  use pin_displacements, only: body_motion, border_numbers, chords_t
+  use pin_displacements, only: body_displacement, border_numbers, chords_t
   use rigid_links, only: new_rigid_link
   use symmetric_pencil, only: symmetric_pencil_t
   implicit none (type, external)
@@ -96,7 +96,7 @@ contains
     first_element = 1
     do b = 1, size(pencil%links)
       if (.not. pencil%links(b)%bends) then
-        motion = body_motion(pencil%chords, b)
+        motion = body_displacement(pencil%chords, b)
         on_border = on_border + matmul(matmul(pencil%rigid_mass(:, :, b), matmul(motion, border)), &
           motion)
         if (size(pencil%axial_force, 2) > 0) turned = turned + pencil%axial_force(1, &

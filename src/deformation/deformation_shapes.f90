@@ -33,7 +33,7 @@ module deformation_shapes
     integer :: rotations = 0                     !! coefficients of the rotation in an element; none
                                                  !! without rotary inertia
     integer :: lumps = 0                         !! masses besides that of the link, see
-                                                 !! `link_lumps`
+                                                 !! `lump_displacements`
     integer :: unknowns = 0
     !> (coefficients × elements, then rotations × elements, then lumps; unknowns) scaled
     real(wp), allocatable :: displacement(:, :)

@@ -11,7 +11,7 @@ module pin_displacements
   implicit none (type, external)
   private
 
-  public :: chords_t, find_chords, border_numbers, body_motion
+  public :: chords_t, find_chords, border_numbers, body_displacement
 
   !> What the border unknowns (the clamped end's rotation, then the elongation of every link that
   !! bends) do to the chords of all links.
@@ -99,7 +99,7 @@ contains
 
   !> What the border unknowns do to a body as a whole: displacement of its first pin, along it and
   !! across it, and rotation.
-  pure function body_motion(chords, body) result(motion)
+  pure function body_displacement(chords, body) result(motion)
     type(chords_t), intent(in) :: chords
     integer, intent(in) :: body
     real(wp) :: motion(3, size(chords%turn, 1))
@@ -107,6 +107,6 @@ contains
     motion(1, :) = chords%along(1, :, body)
     motion(2, :) = chords%across(1, :, body)
     motion(3, :) = chords%turn(:, body)
-  end function body_motion
+  end function body_displacement
 
 end module pin_displacements

@@ -10,7 +10,7 @@ module reduced_assembly
   use link_modes, only: clamp, link_modes_t, rigid, stations
   use linkages, only: linkage_t, normal_to
   use load_cases, only: load_case_t
-  use pin_displacements, only: body_motion, border_numbers, chords_t
+  use pin_displacements, only: body_displacement, border_numbers, chords_t
   use poses, only: pose_t
   implicit none (type, external)
   private
@@ -52,7 +52,7 @@ contains
     mass%border = 0.0_wp
     do b = 1, size(links)
       if (.not. links(b)%bends) then
-        across = body_motion(chords, b)
+        across = body_displacement(chords, b)
         mass%border = mass%border + matmul(transpose(across), matmul(links(b)%rigid_mass, across))
         cycle
       end if
@@ -205,7 +205,7 @@ contains
           matmul(links(b)%linear(:, 1:2), across(:, b))) - &
           matmul(transpose(chords%along(:, :, b)), matmul(links(b)%axial_linear, along))
       else
-        border = border + matmul(rigid_work(linkage, b, pose, case), body_motion(chords, b))
+        border = border + matmul(rigid_work(linkage, b, pose, case), body_displacement(chords, b))
       end if
     end do
     do k = 1, size(linkage%pin_mass)
@@ -225,8 +225,8 @@ contains
     end do
   end subroutine reduced_deflection
 
-  !> Work of the inertia loads of a link that does not bend on the three motions of `body_motion`
-  !! [N, N, N m].
+  !> Work of the inertia loads of a link that does not bend on the three motions of
+  !! `body_displacement` [N, N, N m].
   pure function rigid_work(linkage, body, pose, case) result(work)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: body

@@ -1,46 +1,47 @@
 !> Points fixed to bodies: where they are, and how they move with the crank.
 module body_points
   use kinds, only: wp
-  use kinematic_coefficients, only: motion_t
+  use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t, normal_to
   use poses, only: pose_t
   implicit none (type, external)
   private
 
-  public :: point_motion_t, find_point_motion, point_velocity, point_total_acceleration
+  public :: point_coefficients_t, find_point_coefficients, point_velocity, point_total_acceleration
 
   !> Its velocity is `x' ω2`, its acceleration `x' α2 + x'' ω2²`.
-  type :: point_motion_t
+  type :: point_coefficients_t
     real(wp) :: place(2) = 0.0_wp  !! x, in global axes [m]
     real(wp) :: rate(2) = 0.0_wp   !! x' = dx/dθ2 [m]
     real(wp) :: slope(2) = 0.0_wp  !! x'' = d²x/dθ2² [m]
-  end type point_motion_t
+  end type point_coefficients_t
 
 contains
 
   !> (2.39) to (2.44) of Ulker (2010), per ω2, ω2² and α2: with r from the first pin to the point
   !! and n its normal `x' = x_first' + h n` and `x'' = x_first'' + h' n − h² r`.
-  pure function find_point_motion(linkage, pose, motion, body, place) result(point)
+  pure function find_point_coefficients(linkage, pose, coefficients, body, place) result(point)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
-    type(motion_t), intent(in) :: motion
+    type(kinematic_coefficients_t), intent(in) :: coefficients
     integer, intent(in) :: body
     real(wp), intent(in) :: place(2) !! from the first pin of the body, in its axes [m]
-    type(point_motion_t) :: point
+    type(point_coefficients_t) :: point
 
     real(wp) :: arm(2)
 
     arm = place(1)*pose%direction(:, body) + place(2)*normal_to(pose%direction(:, body))
-    associate (pin => linkage%bodies(body)%first_pin, h => motion%turn(body))
+    associate (pin => linkage%bodies(body)%first_pin, h => coefficients%turn(body))
       point%place = pose%pin(:, pin) + arm
-      point%rate = motion%pin(:, pin) + h*normal_to(arm)
-      point%slope = motion%pin_slope(:, pin) + motion%turn_slope(body)*normal_to(arm) - h**2*arm
+      point%rate = coefficients%pin(:, pin) + h*normal_to(arm)
+      point%slope = coefficients%pin_slope(:, pin) + &
+        coefficients%turn_slope(body)*normal_to(arm) - h**2*arm
     end associate
-  end function find_point_motion
+  end function find_point_coefficients
 
   !> [m/s]
   pure function point_velocity(point, speed) result(velocity)
-    type(point_motion_t), intent(in) :: point
+    type(point_coefficients_t), intent(in) :: point
     real(wp), intent(in) :: speed !! ω2 [rad/s]
     real(wp) :: velocity(2)
 
@@ -49,7 +50,7 @@ contains
 
   !> [m/s²]
   pure function point_total_acceleration(point, speed, acceleration) result(total)
-    type(point_motion_t), intent(in) :: point
+    type(point_coefficients_t), intent(in) :: point
     real(wp), intent(in) :: speed        !! ω2 [rad/s]
     real(wp), intent(in) :: acceleration !! α2 [rad/s²]
     real(wp) :: total(2)

@@ -1,7 +1,7 @@
 !> Inertia loads of moving links: the forces that their masses exert on the linkage.
 module inertia_loads
+  use acceleration_fields, only: acceleration_field_t, point_acceleration
   use kinds, only: wp
-  use kinematic_coefficients, only: acceleration_field_t, point_acceleration
   use linkages, only: body_t, cross, linkage_t, normal_to
   use poses, only: pose_t
   implicit none (type, external)
@@ -59,7 +59,7 @@ contains
       load%force = load%force + force
       load%moment = load%moment + stations(i)*cross(pose%direction(:, number), force)
     end do
-    call add_lumps(body, number, pose, field, load)
+    call add_lump_loads(body, number, pose, field, load)
   end function lumped_load
 
   !> Load of a link with uniform mass, `f(s) = −μ (a_first + s slope)`: force (2.45), moment about
@@ -81,11 +81,11 @@ contains
       0.5_wp*field%at_first(:, number) + body%length/3.0_wp*field%slope(:, number))
     if (body%rotary_inertia > 0.0_wp) load%moment = load%moment - &
       body%rotary_inertia*body%length*field%angular(number)
-    call add_lumps(body, number, pose, field, load)
+    call add_lump_loads(body, number, pose, field, load)
   end function distributed_load
 
   !> Adds `F = −m a` (2.45) and `M = −I α` (2.46) of the lumps of a body.
-  pure subroutine add_lumps(body, number, pose, field, load)
+  pure subroutine add_lump_loads(body, number, pose, field, load)
     type(body_t), intent(in) :: body
     integer, intent(in) :: number
     type(pose_t), intent(in) :: pose
@@ -104,7 +104,7 @@ contains
         load%moment = load%moment + cross(arm, force) - lump%inertia*field%angular(number)
       end associate
     end do
-  end subroutine add_lumps
+  end subroutine add_lump_loads
 
   !> Forces of the pins' own masses [N].
   pure function pin_load(linkage, field) result(force)

@@ -3,9 +3,9 @@
 !!
 !! The torque that a motion demands comes from energies alone here, without a force in any pin.
 module lagrange
-  use body_points, only: find_point_motion, point_motion_t
+  use body_points, only: find_point_coefficients, point_coefficients_t
   use kinds, only: wp
-  use kinematic_coefficients, only: motion_t
+  use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t
   use poses, only: pose_t
   use rigid_bodies, only: central_inertia, mass_centre, rigid_body_t
@@ -33,27 +33,28 @@ contains
   !! x_G'·x_G' + I_G h²)`; its derivative is `M' = 2 Σ (m x_G'·x_G'' + I_G h h')`. For mass centres
   !! on the links these are (2.55) and the terms of (2.56) with S2, S3 and C1, where ω2² is lost in
   !! print: `V = ½ M' ω2²`. The terms with G, which is −U by (2.62), are right as printed.
-  pure function find_lagrange(linkage, rigid, pose, motion) result(terms)
+  pure function find_lagrange(linkage, rigid, pose, coefficients) result(terms)
     type(linkage_t), intent(in) :: linkage
     type(rigid_body_t), intent(in) :: rigid(:) !! (bodies)
     type(pose_t), intent(in) :: pose           !! away from dead points
-    type(motion_t), intent(in) :: motion
+    type(kinematic_coefficients_t), intent(in) :: coefficients
     type(lagrange_t) :: terms
 
-    type(point_motion_t) :: point
+    type(point_coefficients_t) :: point
     real(wp) :: turning
     integer :: b, p
 
     do b = 1, size(linkage%bodies)
-      point = find_point_motion(linkage, pose, motion, b, mass_centre(rigid(b)))
+      point = find_point_coefficients(linkage, pose, coefficients, b, mass_centre(rigid(b)))
       call add_mass(rigid(b)%mass, linkage%gravity, point, terms)
-      turning = central_inertia(rigid(b))*motion%turn(b)
-      terms%inertia = terms%inertia + turning*motion%turn(b)
-      terms%inertia_slope = terms%inertia_slope + 2.0_wp*turning*motion%turn_slope(b)
-      terms%load = terms%load - linkage%couple(b)*motion%turn(b)
+      turning = central_inertia(rigid(b))*coefficients%turn(b)
+      terms%inertia = terms%inertia + turning*coefficients%turn(b)
+      terms%inertia_slope = terms%inertia_slope + 2.0_wp*turning*coefficients%turn_slope(b)
+      terms%load = terms%load - linkage%couple(b)*coefficients%turn(b)
     end do
     do p = 1, size(linkage%is_ground)
-      point = point_motion_t(pose%pin(:, p), motion%pin(:, p), motion%pin_slope(:, p))
+      point = point_coefficients_t(pose%pin(:, p), coefficients%pin(:, p), &
+        coefficients%pin_slope(:, p))
       call add_mass(linkage%pin_mass(p), linkage%gravity, point, terms)
       terms%load = terms%load - dot_product(linkage%pin_force(:, p), point%rate)
       terms%potential = terms%potential - dot_product(linkage%pin_force(:, p), point%place)
@@ -64,7 +65,7 @@ contains
   pure subroutine add_mass(mass, gravity, point, terms)
     real(wp), intent(in) :: mass       !! [kg]
     real(wp), intent(in) :: gravity(2) !! [m/s²]
-    type(point_motion_t), intent(in) :: point
+    type(point_coefficients_t), intent(in) :: point
     type(lagrange_t), intent(inout) :: terms
 
     terms%inertia = terms%inertia + mass*dot_product(point%rate, point%rate)

@@ -1,9 +1,10 @@
 !> The three loads of which every load of a moving linkage is made: `constant + ω2² of turning + α2
 !! of speeding up`.
 module load_cases
+  use acceleration_fields, only: acceleration_field_t, unit_fields
   use inertia_loads, only: distributed_load, load_t, lumped_load, pin_load
   use kinds, only: wp
-  use kinematic_coefficients, only: acceleration_field_t, motion_t, unit_fields
+  use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t
   use poses, only: pose_t
   implicit none (type, external)
@@ -34,10 +35,10 @@ contains
   end function has_constant_loads
 
   !> The three cases at a pose, or those of them that occur: the others are left empty.
-  pure function unit_cases(linkage, pose, motion, occurs) result(cases)
+  pure function unit_cases(linkage, pose, coefficients, occurs) result(cases)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
-    type(motion_t), intent(in) :: motion
+    type(kinematic_coefficients_t), intent(in) :: coefficients
     logical, intent(in), optional :: occurs(case_count) !! absent: all
     type(load_case_t) :: cases(case_count)
 
@@ -47,7 +48,7 @@ contains
 
     wanted = .true.
     if (present(occurs)) wanted = occurs
-    fields = unit_fields(linkage, pose, motion)
+    fields = unit_fields(linkage, pose, coefficients)
     do i = 1, 2
       if (.not. wanted(i)) cycle
       cases(i)%field = fields(i)

@@ -2,7 +2,7 @@
 module positions
   use errors, only: error_t
   use kinds, only: wp
-  use kinematic_coefficients, only: find_motion, motion_t
+  use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use linkages, only: linkage_t
   use poses, only: find_pose, pose_t
   use sorting, only: ascending_order
@@ -15,7 +15,7 @@ module positions
   type :: state_t
     real(wp) :: crank = 0.0_wp !! [deg]
     type(pose_t) :: pose
-    type(motion_t) :: motion
+    type(kinematic_coefficients_t) :: coefficients
     type(error_t), allocatable :: error !! why there is no pose
   end type state_t
 
@@ -62,7 +62,8 @@ contains
       associate (state => positions%states(states))
         state%crank = crank(i)
         call find_pose(linkage, crank(i), state%pose, state%error)
-        if (.not. allocated(state%error)) state%motion = find_motion(linkage, state%pose)
+        if (.not. allocated(state%error)) state%coefficients = &
+          find_kinematic_coefficients(linkage, state%pose)
       end associate
     end do
   end function find_positions

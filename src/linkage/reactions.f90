@@ -4,7 +4,7 @@ module reactions
   use inertia_loads, only: load_t
   use joint_forces, only: find_joint_forces, joint_forces_t
   use kinds, only: wp
-  use kinematic_coefficients, only: motion_t
+  use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: cross, linkage_t
   use load_cases, only: case_count, find_case_loads, load_case_t, unit_cases
   use poses, only: pose_t
@@ -31,11 +31,11 @@ contains
 
   !> Reactions at a pose, once for all speeds: (2.47) to (2.49) of Ulker (2010) for each load by
   !! itself.
-  pure function find_unit_reactions(linkage, elements, pose, motion) result(unit)
+  pure function find_unit_reactions(linkage, elements, pose, coefficients) result(unit)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: elements(:)  !! (bodies) on whose nodes their masses sit; 0: distributed
     type(pose_t), intent(in) :: pose    !! away from dead points
-    type(motion_t), intent(in) :: motion
+    type(kinematic_coefficients_t), intent(in) :: coefficients
     type(unit_reactions_t) :: unit
 
     type(load_case_t) :: cases(case_count)
@@ -43,7 +43,7 @@ contains
     real(wp) :: pin_loads(2, size(linkage%is_ground))
     integer :: i
 
-    cases = unit_cases(linkage, pose, motion)
+    cases = unit_cases(linkage, pose, coefficients)
     do i = 1, case_count
       call find_case_loads(linkage, elements, pose, cases(i), body_loads, pin_loads)
       unit%of_case(i)%joints = find_joint_forces(linkage, pose, body_loads, pin_loads)

@@ -9,7 +9,7 @@ module attached_parts
   implicit none (type, external)
   private
 
-  public :: body_point_t, add_lumps, add_loads, points_of, place_on_body, body_of
+  public :: body_point_t, attach_masses, apply_loads, points_of, place_on_body, body_of
 
   !> A point fixed to a body.
   type :: body_point_t
@@ -21,7 +21,7 @@ module attached_parts
 contains
 
   !> What links with a mass of their own are, and the masses on them.
-  pure subroutine add_lumps(model, linkage)
+  pure subroutine attach_masses(model, linkage)
     type(model_t), intent(in) :: model
     type(linkage_t), intent(inout) :: linkage
 
@@ -45,7 +45,7 @@ contains
         end do
       end associate
     end do
-  end subroutine add_lumps
+  end subroutine attach_masses
 
   !> A link whose card says what its mass is.
   pure function own_lump(model, body) result(lump)
@@ -74,7 +74,7 @@ contains
   end function place_on_body
 
   !> Gravity, forces on pins, torques on links.
-  pure subroutine add_loads(model, linkage)
+  pure subroutine apply_loads(model, linkage)
     type(model_t), intent(in) :: model
     type(linkage_t), intent(inout) :: linkage
 
@@ -90,7 +90,7 @@ contains
     do i = 1, size(model%torques)
       linkage%couple(body_of(model, model%torques(i)%link)) = model%torques(i)%torque
     end do
-  end subroutine add_loads
+  end subroutine apply_loads
 
   !> The points whose paths are wanted.
   pure function points_of(model) result(points)

@@ -1,6 +1,6 @@
 !> Model → what mechanics works on: the linkage with its masses and loads, its beams, its mesh.
 module mechanisms
-  use attached_parts, only: add_loads, add_lumps, body_point_t, points_of
+  use attached_parts, only: apply_loads, attach_masses, body_point_t, points_of
   use beam_mesh, only: beam_mesh_t, beam_t, new_beam_mesh
   use kinds, only: wp
   use link_cards, only: has_own_mass, link_t
@@ -61,8 +61,8 @@ contains
     mechanism%linkage%bodies%bends = .not. links%rigid
     call add_beams(model, links, mechanism)
     call add_mesh(model, links, mechanism)
-    call add_lumps(model, mechanism%linkage)
-    call add_loads(model, mechanism%linkage)
+    call attach_masses(model, mechanism%linkage)
+    call apply_loads(model, mechanism%linkage)
     mechanism%points = points_of(model)
     mechanism%names = token_texts(links%name)
     mechanism%pin_names = token_texts(model%loop_pins)

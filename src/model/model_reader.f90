@@ -14,7 +14,7 @@ module model_reader
   use numbers, only: read_integer
   use part_reader, only: read_parts
   use request_cards, only: read_crank, read_speed
-  use request_checks, only: card_names, check_required, check_requests
+  use request_checks, only: card_names, check_requests, check_required
   use shear, only: check_shear
   use spelling, only: suggestion
   use text, only: lower_case, same_word, string_t, to_string, word_list

@@ -108,8 +108,8 @@ contains
 
     type(reactions_t) :: reactions
 
-    reactions = reactions_at(find_unit_reactions(linkage, elements, state%pose, state%motion), &
-      speed, acceleration)
+    reactions = reactions_at(find_unit_reactions(linkage, elements, state%pose, &
+      state%coefficients), speed, acceleration)
     cells = [from_si(reactions%shaking_force, measures%force), &
       from_si([reactions%shaking_moment, reactions%joints%torque], measures%moment)]
   end function reactions_of

@@ -1,9 +1,8 @@
 !> `inertia.dat`: masses, their accelerations and inertia forces.
 module inertia_report
+  use acceleration_fields, only: acceleration_field_t, point_acceleration, scaled_sum, unit_fields
   use inertia_loads, only: lumped_masses, lumped_stations
   use kinds, only: wp
-  use kinematic_coefficients, only: acceleration_field_t, point_acceleration, scaled_sum, &
-    unit_fields
   use link_cards, only: has_own_mass
   use linkages, only: lump_t, normal_to
   use load_notes, only: acceleration_note
@@ -70,7 +69,7 @@ contains
               state%error%message)
           else
             call write_position(table, mechanism, own, measures, columns, state%pose, &
-              scaled_sum(unit_fields(mechanism%linkage, state%pose, state%motion), &
+              scaled_sum(unit_fields(mechanism%linkage, state%pose, state%coefficients), &
               model%speed%value(k), model%acceleration), [model%speed%value(k), &
               positions%crank(i)], has_moment)
           end if

@@ -2,7 +2,7 @@
 module kinematics_report
   use constants, only: degree
   use kinds, only: wp
-  use kinematic_coefficients, only: angular_acceleration, angular_velocity, motion_t
+  use kinematic_coefficients, only: angular_acceleration, angular_velocity, kinematic_coefficients_t
   use load_notes, only: acceleration_note
   use mechanisms, only: mechanism_t
   use models, only: model_t
@@ -47,7 +47,7 @@ contains
               state%error%message)
           else
             call write_row(table, real_cells([model%speed%value(k), positions%crank(i), &
-              row_of(mechanism, state%pose, state%motion, model%speed%value(k), &
+              row_of(mechanism, state%pose, state%coefficients, model%speed%value(k), &
               model%acceleration, length)]))
           end if
         end associate
@@ -77,18 +77,18 @@ contains
     call append_column(list, real_column("transmission_angle", "deg"))
   end function columns
 
-  pure function row_of(mechanism, pose, motion, speed, acceleration, length) result(row)
+  pure function row_of(mechanism, pose, coefficients, speed, acceleration, length) result(row)
     type(mechanism_t), intent(in) :: mechanism
     type(pose_t), intent(in) :: pose
-    type(motion_t), intent(in) :: motion
+    type(kinematic_coefficients_t), intent(in) :: coefficients
     real(wp), intent(in) :: speed, acceleration !! of the crank [rad/s, rad/s²]
     type(unit_t), intent(in) :: length
     real(wp) :: row(11)
 
     real(wp) :: velocity(3), angular(3)
 
-    velocity = angular_velocity(motion, speed)
-    angular = angular_acceleration(motion, speed, acceleration)
+    velocity = angular_velocity(coefficients, speed)
+    angular = angular_acceleration(coefficients, speed, acceleration)
     row = [body_angle(mechanism%linkage, pose, 2)/degree, body_angle(mechanism%linkage, pose, &
       3)/degree, velocity(2:3), angular(2:3), from_si(pose%pin(:, 2), length), &
       from_si(pose%pin(:, 3), length), transmission_angle(mechanism%linkage, pose, 1)/degree]

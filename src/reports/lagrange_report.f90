@@ -47,7 +47,7 @@ contains
           else
             call write_row(table, &
               real_cells([place, row_of(find_lagrange(mechanism%linkage, rigid, state%pose, &
-              state%motion), place(1), model%acceleration, inertia, moment)]))
+              state%coefficients), place(1), model%acceleration, inertia, moment)]))
           end if
         end associate
       end do

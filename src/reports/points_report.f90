@@ -1,7 +1,8 @@
 !> `points.dat`: paths, velocities and accelerations of points fixed to links.
 module points_report
   use body_lines, only: place_words
-  use body_points, only: find_point_motion, point_motion_t, point_total_acceleration, point_velocity
+  use body_points, only: find_point_coefficients, point_coefficients_t, point_total_acceleration, &
+    point_velocity
   use kinds, only: wp
   use load_notes, only: acceleration_note
   use mechanisms, only: mechanism_t
@@ -82,13 +83,13 @@ contains
     real(wp), intent(in) :: place(2)         !! speed and crank angle [rad/s, deg]
     real(wp), intent(in) :: acceleration     !! of the crank [rad/s²]
 
-    type(point_motion_t) :: point
+    type(point_coefficients_t) :: point
     integer :: i
 
     do i = 1, size(mechanism%points)
       associate (this => mechanism%points(i))
-        point = find_point_motion(mechanism%linkage, state%pose, state%motion, this%body, &
-          this%place)
+        point = find_point_coefficients(mechanism%linkage, state%pose, state%coefficients, &
+          this%body, this%place)
         call write_row(table, real_cells(place)//name_cell(this%name, width)// &
           real_cells([from_si(point%place, measures%length), &
           from_si(point_velocity(point, place(1)), measures%velocity), &

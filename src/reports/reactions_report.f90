@@ -91,7 +91,7 @@ contains
     integer :: b
 
     found = reactions_at(find_unit_reactions(mechanism%linkage, mechanism%load_elements, &
-      state%pose, state%motion), speed, acceleration)
+      state%pose, state%coefficients), speed, acceleration)
     do b = 1, 3
       row(4*b - 3:4*b) = from_si([found%joints%on_first(:, b), found%joints%on_last(:, b)], force)
     end do

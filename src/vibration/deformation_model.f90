@@ -3,14 +3,15 @@
 module deformation_model
   use beam_element, only: axial_degree
   use beam_mesh, only: beam_t
+  use body_lumps, only: lump_places, pieces_of
   use bordered_matrix, only: layout_t
   use deformation_shapes, only: axial_shapes, bending_shapes, bending_unknowns, deformation_shapes_t
   use errors, only: error_t
   use kinds, only: wp
-  use link_lumps, only: add_lumps, lump_places, pieces_of
   use link_modes, only: held_shapes, link_modes_t, new_link_modes
   use link_store, only: find_link, keep_link, link_key_t, link_store_t, new_link_key
   use linkages, only: linkage_t
+  use lump_displacements, only: add_lump_displacements
   use reduced_assembly, only: reduced_layout
   use rigid_links, only: new_rigid_link
   use singular_vectors, only: find_right_singular_vectors
@@ -111,8 +112,8 @@ contains
         axial = axial_shapes(body%length, body%line_density, beam%axial_stiffness, elements, &
           degree + axial_more)
       end if
-      call add_lumps(body, bending)
-      call add_lumps(body, axial)
+      call add_lump_displacements(body, bending)
+      call add_lump_displacements(body, axial)
     end associate
     kept = elements*bending_unknowns(order, sheared)
     axial_kept = elements*degree - 1

@@ -6,7 +6,7 @@ module frequency_loci
   use frequency_report, only: frequency_of, has_result
   use frequency_study, only: sweep_t
   use kinds, only: wp
-  use kinematic_coefficients, only: find_motion
+  use kinematic_coefficients, only: find_kinematic_coefficients
   use ledger, only: ledger_t
   use linkages, only: linkage_t
   use load_cases, only: case_count
@@ -246,8 +246,8 @@ contains
     ! Places between two rows come in no order, nor are they told apart by the crank angle alone.
     work%tracks(1)%length = 0
     call solve_reduced(linkage, models%continuum, pose, place(1), distributed_unit_forces(linkage, &
-      pose, find_motion(linkage, pose), abs(factor(:, 1)) > 0.0_wp), factor, request%modes, &
-      [.false.], work, chords, modes, failure, counts)
+      pose, find_kinematic_coefficients(linkage, pose), abs(factor(:, 1)) > 0.0_wp), factor, &
+      request%modes, [.false.], work, chords, modes, failure, counts)
     found = len(failure(1)%text) == 0
     if (found) prints = new_mode_prints(models%continuum%layout, modes(1), request%modes)
   end subroutine prints_at

@@ -5,8 +5,8 @@
 !! that results do not depend on what was computed before.
 module link_store
   use beam_mesh, only: beam_t
+  use body_lumps, only: lump_masses, lump_places
   use kinds, only: wp
-  use link_lumps, only: lump_masses, lump_places
   use link_modes, only: link_modes_t
   use linkages, only: body_t
   implicit none (type, external)

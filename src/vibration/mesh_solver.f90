@@ -190,7 +190,8 @@ contains
     mass = assemble_mass(mechanism%linkage, mechanism%mesh, state%pose)
     result%counts%stiffness_matrices = result%counts%stiffness_matrices + 1
     result%counts%mass_matrices = result%counts%mass_matrices + 1
-    if (any(abs(factor) > 0.0_wp)) cases = unit_cases(mechanism%linkage, state%pose, state%motion)
+    if (any(abs(factor) > 0.0_wp)) cases = unit_cases(mechanism%linkage, state%pose, &
+      state%coefficients)
     do i = 1, case_count
       if (all(abs(factor(i, :)) <= 0.0_wp)) cycle
       call find_axial_forces(mechanism, state, cases(i), request%lumped, in_element, joints)
@@ -267,7 +268,7 @@ contains
     force = 0.0_wp
     in_element = 0.0_wp
     if (.not. any(occurs)) return
-    cases = unit_cases(mechanism%linkage, state%pose, state%motion, occurs)
+    cases = unit_cases(mechanism%linkage, state%pose, state%coefficients, occurs)
     do i = 1, case_count
       if (.not. occurs(i)) cycle
       call find_axial_forces(mechanism, state, cases(i), lumped, in_element(:, :, i), joints)

@@ -2,12 +2,12 @@
 module order_choice
   use axial_forces, only: distributed_unit_forces, total_force
   use beam_mesh, only: beam_t
+  use body_lumps, only: pieces_of
   use bordered_eigensolver, only: bordered_modes_t
   use deformation_model, only: deformation_model_t, new_deformation_model
   use errors, only: error_t
   use kinds, only: wp
   use ledger, only: ledger_t
-  use link_lumps, only: pieces_of
   use link_store, only: link_store_t
   use linkages, only: body_t, linkage_t
   use pin_displacements, only: chords_t
@@ -229,7 +229,7 @@ contains
     highest = 0.0_wp
     do i = 1, size(chosen)
       associate (state => positions%states(chosen(i)))
-        force = distributed_unit_forces(linkage, state%pose, state%motion, &
+        force = distributed_unit_forces(linkage, state%pose, state%coefficients, &
           any(abs(tried) > 0.0_wp, dim=2))
         do k = 1, size(failure)
           failure(k)%text = ""

@@ -9,7 +9,7 @@ module pose_rounding
   use deformation_model, only: deformation_model_t
   use errors, only: error_t
   use kinds, only: wp
-  use kinematic_coefficients, only: find_motion, motion_t
+  use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use linkages, only: linkage_t
   use load_cases, only: case_count
   use pin_displacements, only: chords_t, find_chords
@@ -124,7 +124,7 @@ contains
     logical, intent(out) :: reached
 
     type(pose_t) :: pose
-    type(motion_t) :: motion
+    type(kinematic_coefficients_t) :: coefficients
     type(chords_t) :: chords
     type(bordered_matrix_t) :: mass, geometric
     type(error_t), allocatable :: error
@@ -136,11 +136,11 @@ contains
     call find_pose(linkage, crank, pose, error)
     reached = .not. allocated(error)
     if (.not. reached) return
-    motion = find_motion(linkage, pose)
+    coefficients = find_kinematic_coefficients(linkage, pose)
     chords = find_chords(linkage, model%links, pose)
     mass = new_bordered_matrix(model%layout, .false.)
     call reduced_mass(linkage, model%links, model%layout, chords, mass)
-    force = distributed_unit_forces(linkage, pose, motion, abs(factor) > 0.0_wp)
+    force = distributed_unit_forces(linkage, pose, coefficients, abs(factor) > 0.0_wp)
     geometric = new_bordered_matrix(model%layout, .true.)
     if (size(force) > 0) then
       call reduced_geometric_stiffness(model%links, model%layout, chords, &

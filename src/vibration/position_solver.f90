@@ -71,7 +71,7 @@ contains
       result%failure(k)%text = ""
     end do
     factor = load_factors(request)
-    unit_force = distributed_unit_forces(mechanism%linkage, state%pose, state%motion, &
+    unit_force = distributed_unit_forces(mechanism%linkage, state%pose, state%coefficients, &
       any(abs(factor) > 0.0_wp, dim=2))
     call solve_reduced(mechanism%linkage, models%continuum, state%pose, state%crank, unit_force, &
       factor, request%modes, want_shapes .and. request%method == by_orders, work%continuum, &
@@ -131,7 +131,7 @@ contains
     integer :: b, i, j, k
 
     occurs = any(abs(factor) > 0.0_wp, dim=2)
-    cases = unit_cases(linkage, state%pose, state%motion, occurs)
+    cases = unit_cases(linkage, state%pose, state%coefficients, occurs)
     unit = 0.0_wp
     do i = 1, case_count
       if (.not. occurs(i)) cycle

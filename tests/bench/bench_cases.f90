@@ -1,8 +1,8 @@
 !> What is timed: one solver on one mesh at a number of positions, and what came of it.
 module bench_cases
-  use vibration_models, only: mode_request_t
   use kinds, only: wp
   use text, only: string_t, word_list
+  use vibration_models, only: mode_request_t
   implicit none (type, external)
   private
 

@@ -1,7 +1,7 @@
 !> Which cases are timed for which table.
 module bench_plans
   use bench_cases, only: add_case, bench_case_t, is_nodal, new_case, plan_t, table_elements, table_modes, table_positions, &
-    table_threads, table_work_precision, with_accuracy, with_deformation, with_dsygv, with_dsygvx, with_band, with_sweep
+    table_threads, table_work_precision, with_accuracy, with_band, with_deformation, with_dsygv, with_dsygvx, with_sweep
   use kinds, only: wp
   implicit none (type, external)
   private

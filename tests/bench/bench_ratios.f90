@@ -3,8 +3,8 @@ module bench_ratios
   use bench_cases, only: median_of, per_turn, plan_t, solver_names, table_work_precision, with_accuracy, with_dsygv, with_sweep
   use errors, only: error_t
   use kinds, only: wp
-  use tables, only: column_t, finish_table, name_cell, name_column, open_table, publish_table, real_cells, real_column, &
-    table_t, write_failure, write_header, write_row
+  use tables, only: column_t, finish_table, name_cell, name_column, open_table, publish_table, real_cells, real_column, table_t, &
+    write_failure, write_header, write_row
   use text, only: string_t, to_string
   implicit none (type, external)
   private

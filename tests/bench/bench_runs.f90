@@ -4,7 +4,6 @@ module bench_runs
   use bench_models, only: base_t, model_of, refusal
   use errors, only: error_t
   use exact_values, only: bench_speed, exact_states, exact_values_t, largest_error
-  use vibration_models, only: by_orders, frequency_models_t, new_frequency_models
   use frequency_study, only: run_sweep, sweep_t
   use kinds, only: long, wp
   use ledger, only: ledger_t
@@ -12,12 +11,13 @@ module bench_runs
   use mechanisms, only: mechanism_t, new_mechanism
   use models, only: model_t
   use nodal_runs, only: solve_nodal_states
-  use position_solver, only: new_position_work, solve_position
   use position_results, only: position_result_t, position_work_t
+  use position_solver, only: new_position_work, solve_position
   use positions, only: by_crank_angle, find_positions, positions_t
   use progress, only: progress_t
   use sweep_journal, only: journal_t
   use text, only: to_string
+  use vibration_models, only: by_orders, frequency_models_t, new_frequency_models
   implicit none (type, external)
   private
 

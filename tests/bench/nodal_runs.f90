@@ -1,10 +1,11 @@
 !> The usual way to the frequencies, as lean as it can be made: matrices in nodal displacements, and a library routine for the lowest
 !! eigenvalues, position by position. No vectors, no checks, no errors told; the program does all of these.
 module nodal_runs
+  use acceleration_fields, only: acceleration_field_t, unit_fields
   use assembly, only: assemble_geometric_stiffness, assemble_mass, assemble_stiffness
   use axial_forces, only: distributed_axial_forces
-  use band_matrix, only: band_matrix_t, full_matrix, order_of
   use band_eigensolver, only: solve_band
+  use band_matrix, only: band_matrix_t, full_matrix, order_of
   use bench_cases, only: with_band, with_dsygv
   use dense_eigensolver, only: solve_dense
   use errors, only: error_t, set_error
@@ -12,7 +13,6 @@ module nodal_runs
   use joint_forces, only: find_joint_forces
   use kinds, only: wp
   use mechanisms, only: mechanism_t
-  use kinematic_coefficients, only: acceleration_field_t, unit_fields
   use positions, only: state_t
   use text, only: to_string
   implicit none (type, external)
@@ -99,7 +99,7 @@ contains
     integer :: i
 
     associate (linkage => mechanism%linkage)
-      fields = unit_fields(linkage, state%pose, state%motion)
+      fields = unit_fields(linkage, state%pose, state%coefficients)
       do i = 1, size(loads)
         loads(i) = distributed_load(linkage%bodies(i), i, state%pose, fields(1))
       end do

@@ -5,7 +5,7 @@ module crank_cycle
   use errors, only: error_t
   use four_bar_limits, only: crank_reach, reach_t
   use kinds, only: wp
-  use kinematic_coefficients, only: find_motion
+  use kinematic_coefficients, only: find_kinematic_coefficients
   use linkages, only: linkage_t
   use load_cases, only: case_count
   use poses, only: find_pose, pose_t
@@ -82,7 +82,7 @@ contains
     part = 0.0_wp
     call find_pose(linkage, crank, pose, error)
     if (allocated(error)) return
-    unit = find_unit_reactions(linkage, elements, pose, find_motion(linkage, pose))
+    unit = find_unit_reactions(linkage, elements, pose, find_kinematic_coefficients(linkage, pose))
     do i = 1, case_count
       part(:, i) = [unit%of_case(i)%shaking_force, unit%of_case(i)%shaking_moment, &
         unit%of_case(i)%joints%torque]

@@ -1,17 +1,15 @@
-!> Masses along links that bend: where they sit, and what they add to the mass of the deformations.
+!> Masses along links that bend: how many there are, and where they sit.
 !!
 !! A mass point bends a link sharply: its shear force jumps there, and the axial force, too. Where
 !! orders are left to the program an element ends at every mass, so that the deformations are smooth
 !! inside and polynomials converge as fast as they do without.
-module link_lumps
-  use deformation_places, only: displacement_row
-  use deformation_shapes, only: deformation_shapes_t
+module body_lumps
   use kinds, only: wp
   use linkages, only: body_t
   implicit none (type, external)
   private
 
-  public :: lump_count, lump_masses, lump_places, pieces_of, add_lumps, element_of_lump
+  public :: lump_count, lump_masses, lump_places, pieces_of, element_of_lump
 
   !> Masses nearer to each other than this share of the length, or to an end, have no element
   !! between them.
@@ -66,31 +64,6 @@ contains
     ends = [ends, 1.0_wp]
   end function pieces_of
 
-  !> Adds the displacements of the masses, each times the root of its mass, to those of the link:
-  !! scalar products are then integrals over the mass of both.
-  pure subroutine add_lumps(body, shapes)
-    type(body_t), intent(in) :: body
-    type(deformation_shapes_t), intent(inout) :: shapes
-
-    real(wp), allocatable :: mass(:), xi(:), displacement(:, :), linear(:, :)
-    integer :: i, rows
-
-    mass = lump_masses(body)
-    if (size(mass) == 0) return
-    xi = lump_places(body)
-    rows = size(shapes%displacement, 1)
-    shapes%lumps = size(mass)
-    allocate (displacement(rows + size(mass), shapes%unknowns), linear(rows + size(mass), 2))
-    displacement(:rows, :) = shapes%displacement
-    linear(:rows, :) = shapes%linear
-    do i = 1, size(mass)
-      displacement(rows + i, :) = sqrt(mass(i))*displacement_row(shapes, xi(i))
-      linear(rows + i, :) = sqrt(mass(i))*[1.0_wp - xi(i), xi(i)]
-    end do
-    call move_alloc(displacement, shapes%displacement)
-    call move_alloc(linear, shapes%linear)
-  end subroutine add_lumps
-
   !> The element of a mesh of equal elements that a mass is in, or at whose last end it sits, and
   !! its place there, from 0 to 1.
   pure subroutine element_of_lump(xi, elements, element, place)
@@ -103,4 +76,4 @@ contains
     place = min(1.0_wp, max(0.0_wp, xi*elements - (element - 1)))
   end subroutine element_of_lump
 
-end module link_lumps
+end module body_lumps

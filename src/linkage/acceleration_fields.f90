@@ -1,0 +1,85 @@
+!> Accelerations of all points of a linkage at a pose, from its kinematic coefficients.
+module acceleration_fields
+  use kinds, only: wp
+  use kinematic_coefficients, only: kinematic_coefficients_t
+  use linkages, only: linkage_t, normal_to
+  use poses, only: pose_t
+  implicit none (type, external)
+  private
+
+  public :: acceleration_field_t, unit_fields, scaled_sum, point_acceleration
+
+  !> Accelerations of all points: those of pins, and along every body `at_first + s slope`, s from
+  !! its first pin.
+  type :: acceleration_field_t
+    real(wp), allocatable :: at_pin(:, :)   !! (2, pins) [m/s²]
+    real(wp), allocatable :: at_first(:, :) !! (2, bodies) [m/s²]
+    real(wp), allocatable :: slope(:, :)    !! (2, bodies) per length [1/s²]
+    real(wp), allocatable :: angular(:)     !! (bodies) [rad/s²]
+  end type acceleration_field_t
+
+contains
+
+  !> The two fields of which every acceleration is made: for ω2² = 1, α2 = 0 and for ω2 = 0, α2 = 1.
+  pure function unit_fields(linkage, pose, coefficients) result(fields)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: coefficients
+    type(acceleration_field_t) :: fields(2)
+
+    fields(1) = field_of(linkage, pose, coefficients%pin_slope, coefficients%turn_slope, &
+      coefficients%turn**2)
+    fields(2) = field_of(linkage, pose, coefficients%pin, coefficients%turn, &
+      0.0_wp*coefficients%turn)
+
+  end function unit_fields
+
+  !> (2.39) to (2.44) for all points: `a = a_first + s (α n − ω² e)`.
+  pure function field_of(linkage, pose, at_pin, angular, squared_velocity) result(field)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    real(wp), intent(in) :: at_pin(:, :)        !! (2, pins) accelerations [m/s²]
+    real(wp), intent(in) :: angular(:)          !! (bodies) α [rad/s²]
+    real(wp), intent(in) :: squared_velocity(:) !! (bodies) ω² [rad²/s²]
+    type(acceleration_field_t) :: field
+
+    integer :: i
+
+    field%at_pin = at_pin
+    field%angular = angular
+    field%at_first = at_pin(:, linkage%bodies%first_pin)
+    allocate (field%slope(2, size(angular)))
+    do i = 1, size(angular)
+      field%slope(:, i) = angular(i)*normal_to(pose%direction(:, i)) - &
+        squared_velocity(i)*pose%direction(:, i)
+    end do
+  end function field_of
+
+  !> `ω2² fields(1) + α2 fields(2)`
+  pure function scaled_sum(fields, speed, acceleration) result(total)
+    type(acceleration_field_t), intent(in) :: fields(2)
+    real(wp), intent(in) :: speed        !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration !! α2 [rad/s²]
+    type(acceleration_field_t) :: total
+
+    total%at_pin = speed**2*fields(1)%at_pin + acceleration*fields(2)%at_pin
+    total%at_first = speed**2*fields(1)%at_first + acceleration*fields(2)%at_first
+    total%slope = speed**2*fields(1)%slope + acceleration*fields(2)%slope
+    total%angular = speed**2*fields(1)%angular + acceleration*fields(2)%angular
+  end function scaled_sum
+
+  !> Acceleration of the point of a body at distance `s` from its first pin, `offset` to the left of
+  !! it [m/s²].
+  pure function point_acceleration(field, body, s, offset) result(acceleration)
+    type(acceleration_field_t), intent(in) :: field
+    integer, intent(in) :: body
+    real(wp), intent(in) :: s                !! [m]
+    real(wp), intent(in), optional :: offset !! [m]
+    real(wp) :: acceleration(2)
+
+    acceleration = field%at_first(:, body) + s*field%slope(:, body)
+    ! What is across the link moves as what is along it, a quarter turn ahead.
+    if (present(offset)) acceleration = acceleration + offset*normal_to(field%slope(:, body))
+  end function point_acceleration
+
+end module acceleration_fields
