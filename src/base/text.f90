@@ -96,8 +96,8 @@ contains
 
     do i = 1, len(string)
       lower(i:i) = string(i:i)
-      if (lge(string(i:i), "A") .and. lle(string(i:i), "Z")) lower(i:i) &
-        = achar(iachar(string(i:i)) + 32)
+      if (lge(string(i:i), "A") .and. lle(string(i:i), "Z")) lower(i:i) = &
+        achar(iachar(string(i:i)) + 32)
     end do
   end function lower_case
 
@@ -109,8 +109,8 @@ contains
 
     do i = 1, len(string)
       upper(i:i) = string(i:i)
-      if (lge(string(i:i), "a") .and. lle(string(i:i), "z")) upper(i:i) &
-        = achar(iachar(string(i:i)) - 32)
+      if (lge(string(i:i), "a") .and. lle(string(i:i), "z")) upper(i:i) = &
+        achar(iachar(string(i:i)) - 32)
     end do
   end function upper_case
 

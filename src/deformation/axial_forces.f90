@@ -13,9 +13,8 @@ module axial_forces
   use inertia_loads, only: load_t, lumped_masses, lumped_stations
   use joint_forces, only: find_joint_forces, joint_forces_t
   use kinds, only: wp
-  use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t, normal_to
-  use load_cases, only: case_count, find_case_loads, load_case_t, unit_cases
+  use load_cases, only: case_count, find_case_loads, unit_loads_t
   use poses, only: pose_t
   use rigid_bodies, only: rigid_body, rigid_body_t
   implicit none (type, external)
@@ -170,40 +169,39 @@ contains
 
   !> Axial forces of links under the unit loads, their masses distributed along them; without loads
   !! there are no force functions.
-  pure function distributed_unit_forces(linkage, pose, coefficients, occurs) result(force)
+  pure function distributed_unit_forces(linkage, pose, unit_loads) result(force)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: coefficients
-    logical, intent(in) :: occurs(case_count)   !! cases that are wanted; the forces of others are
-                                                !! zero
-    real(wp), allocatable :: force(:, :, :)     !! (1, ξ, ξ², jumps; bodies; cases) [N]
+    type(unit_loads_t), intent(in) :: unit_loads !! of this pose
+    real(wp), allocatable :: force(:, :, :)      !! (1, ξ, ξ², jumps; bodies; cases) [N]; zero in
+                                                 !! cases that do not occur
 
-    type(load_case_t) :: cases(case_count)
     type(load_t) :: loads(size(linkage%bodies))
     type(joint_forces_t) :: joints
     real(wp), allocatable :: jump(:)
     real(wp) :: pin_loads(2, size(linkage%pin_mass))
     integer :: b, i
 
-    allocate (force(merge(3 + most_jumps(linkage), 0, any(occurs)), size(linkage%bodies), &
-      case_count))
-    if (.not. any(occurs)) return
+    allocate (force(merge(3 + most_jumps(linkage), 0, any(unit_loads%occurs)), &
+      size(linkage%bodies), case_count))
+    if (.not. any(unit_loads%occurs)) return
     force = 0.0_wp
-    cases = unit_cases(linkage, pose, coefficients, occurs)
     do i = 1, case_count
-      if (.not. occurs(i)) cycle
-      call find_case_loads(linkage, spread(0, 1, size(loads)), pose, cases(i), loads, pin_loads)
-      joints = find_joint_forces(linkage, pose, loads, pin_loads)
-      do b = 1, size(linkage%bodies)
-        if (linkage%bodies(b)%bends) then
-          force(:3, b, i) = link_axial_force(linkage, b, pose, cases(i)%field, joints)
-          if (lump_count(linkage%bodies(b)) == 0) cycle
-          jump = axial_jumps(linkage, b, pose, cases(i)%field)
-          force(4:3 + size(jump), b, i) = jump
-        else
-          force(1, b, i) = mean_axial_force(linkage, b, 0, pose, cases(i)%field, joints)
-        end if
-      end do
+      if (.not. unit_loads%occurs(i)) cycle
+      associate (case => unit_loads%of_case(i))
+        call find_case_loads(linkage, spread(0, 1, size(loads)), pose, case, loads, pin_loads)
+        joints = find_joint_forces(linkage, pose, loads, pin_loads)
+        do b = 1, size(linkage%bodies)
+          if (linkage%bodies(b)%bends) then
+            force(:3, b, i) = link_axial_force(linkage, b, pose, case%field, joints)
+            if (lump_count(linkage%bodies(b)) == 0) cycle
+            jump = axial_jumps(linkage, b, pose, case%field)
+            force(4:3 + size(jump), b, i) = jump
+          else
+            force(1, b, i) = mean_axial_force(linkage, b, 0, pose, case%field, joints)
+          end if
+        end do
+      end associate
     end do
   end function distributed_unit_forces
 

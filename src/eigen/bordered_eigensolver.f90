@@ -4,6 +4,7 @@ module bordered_eigensolver
   use band_matrix, only: band_matrix_t, full_band
   use bordered_matrix, only: all_unknowns, bordered_matrix_t, bordered_times_vector, dense_form, &
     layout_t
+  use bordered_pencil, only: bordered_pencil_t
   use bordered_solver, only: solve_shifted
   use completeness_proof, only: count_limit, count_margin, is_complete, rest_norm
   use dense_eigensolver, only: solve_dense
@@ -31,6 +32,7 @@ module bordered_eigensolver
                                               !! [1/s²]
     real(wp), allocatable :: vector(:, :)     !! (unknowns, modes) with yᵀMy = 1
     real(wp), allocatable :: mass_times(:, :) !! (unknowns, modes) M y
+    real(wp), allocatable :: stiffness_times(:, :) !! (unknowns, modes) (I + G) y
     real(wp), allocatable :: error(:)         !! (modes) relative bound of the error of the
                                               !! eigenvalue of these matrices
     integer, allocatable :: origin(:)         !! (modes) number in the start from which each came
@@ -80,12 +82,9 @@ contains
   !!
   !! Every mode is improved by inverse iteration at its Rayleigh quotient until the error of its
   !! eigenvalue is below rounding. Errors: no start leads to modes that are proven to be complete.
-  subroutine find_bordered_modes(layout, mass, geometric, loaded, wanted, accurate_vectors, start, &
+  subroutine find_bordered_modes(pencil, wanted, accurate_vectors, start, &
     found, error)
-    type(layout_t), intent(in) :: layout
-    type(bordered_matrix_t), intent(in) :: mass      !! M, positive definite [s²]
-    type(bordered_matrix_t), intent(in) :: geometric !! G
-    logical, intent(in) :: loaded                    !! whether there is a G
+    type(bordered_pencil_t), intent(in) :: pencil
     integer, intent(in) :: wanted
     logical, intent(in) :: accurate_vectors          !! vectors to the last digits, too, not only
                                                      !! eigenvalues
@@ -97,37 +96,37 @@ contains
     integer :: guards
     logical :: proven
 
-    if (wanted > layout%unknowns) then
+    if (wanted > pencil%layout%unknowns) then
       call set_error(error, to_string(wanted)//" modes are asked for, and there are only "// &
-        to_string(layout%unknowns)//" unknowns")
+        to_string(pencil%layout%unknowns)//" unknowns")
       return
     end if
     if (start%modes >= wanted) then
-      call improve_all(layout, mass, geometric, loaded, wanted, accurate_vectors, start, found, &
+      call improve_all(pencil, wanted, accurate_vectors, start, found, &
         proven)
       if (proven) return
     end if
-    if (4*(wanted + first_guards) < layout%unknowns) then
-      call solve_dense_start(layout, mass, geometric, loaded, leading_unknowns(layout, wanted), &
+    if (4*(wanted + first_guards) < pencil%layout%unknowns) then
+      call solve_dense_start(pencil, leading_unknowns(pencil%layout, wanted), &
         wanted + first_guards, dense_start, error)
       if (.not. allocated(error)) then
         found%reduced_solutions = found%reduced_solutions + 1
-        call improve_all(layout, mass, geometric, loaded, wanted, accurate_vectors, dense_start, &
+        call improve_all(pencil, wanted, accurate_vectors, dense_start, &
           found, proven)
         if (proven) return
       end if
     end if
     guards = first_guards
     do
-      guards = min(2*guards, layout%unknowns - wanted)
-      call solve_dense_start(layout, mass, geometric, loaded, all_unknowns(layout), &
+      guards = min(2*guards, pencil%layout%unknowns - wanted)
+      call solve_dense_start(pencil, all_unknowns(pencil%layout), &
         wanted + guards, dense_start, error)
       found%full_solutions = found%full_solutions + 1
       if (allocated(error)) return
-      call improve_all(layout, mass, geometric, loaded, wanted, accurate_vectors, dense_start, &
+      call improve_all(pencil, wanted, accurate_vectors, dense_start, &
         found, proven)
       if (proven) return
-      if (guards == layout%unknowns - wanted .or. guards >= most_guards) exit
+      if (guards == pencil%layout%unknowns - wanted .or. guards >= most_guards) exit
     end do
     if (found%rest > 0.0_wp) then
       call set_error(error, "it could not be proven that no mode is missing (norm of the rest "// &
@@ -138,36 +137,27 @@ contains
   end subroutine find_bordered_modes
 
   !> Improves every mode of a start, puts them in order, and looks whether all is well.
-  subroutine improve_all(layout, mass, geometric, loaded, wanted, accurate_vectors, start, found, &
-    proven)
-    type(layout_t), intent(in) :: layout
-    type(bordered_matrix_t), intent(in) :: mass, geometric
-    logical, intent(in) :: loaded
+  subroutine improve_all(pencil, wanted, accurate_vectors, start, found, proven)
+    type(bordered_pencil_t), intent(in) :: pencil
     integer, intent(in) :: wanted
     logical, intent(in) :: accurate_vectors
     type(start_t), intent(in) :: start
     type(bordered_modes_t), intent(inout) :: found
     logical, intent(out) :: proven
 
-    real(wp) :: stiffness_times(layout%unknowns, start%modes)
     integer :: i, number, order(start%modes)
     logical :: converged
 
     proven = .false.
-    if (allocated(found%lambda)) deallocate (found%lambda, found%vector, found%mass_times, &
-      found%error, found%origin)
-    allocate (found%lambda(start%modes), found%error(start%modes), found%origin(start%modes))
-    allocate (found%vector(layout%unknowns, start%modes), found%mass_times(layout%unknowns, &
-      start%modes))
+    call make_room(found, pencil%layout%unknowns, start%modes)
     number = 0
     do i = 1, start%modes
-      call improve(layout, mass, geometric, loaded, accurate_vectors, relative_gap(start%lambda, &
-        i), start%lambda(i), start%direction(:, i), found%lambda(:number), &
-        found%vector(:, :number), found%mass_times(:, :number), found%lambda(number + 1), &
-        found%vector(:, number + 1), found%mass_times(:, number + 1), &
-        stiffness_times(:, number + 1), found%error(number + 1), found%factorizations, converged)
+      found%lambda(number + 1) = start%lambda(i)
+      found%mass_times(:, number + 1) = start%direction(:, i)
+      call improve(pencil, accurate_vectors, relative_gap(start%lambda, i), number + 1, found, &
+        converged)
       if (.not. converged) cycle
-      ! Two starts may lead to one mode. What is lost then, the proof will miss.
+      ! Two starts may lead to one mode. The mode that is lost then is missed by the proof.
       if (overlaps(found%vector(:, number + 1), found%mass_times(:, :number))) cycle
       number = number + 1
       found%origin(number) = i
@@ -176,10 +166,21 @@ contains
     order(:number) = ascending_order(found%lambda(:number))
     if (number < start%modes .or. any(order(2:number) < order(:number - 1))) then
       call choose_modes(found, order(:number))
-      stiffness_times(:, :number) = stiffness_times(:, order(:number))
     end if
-    call check(layout, mass, geometric, loaded, wanted, stiffness_times(:, :number), found, proven)
+    call check(pencil, wanted, found, proven)
   end subroutine improve_all
+
+  !> Room for so many modes; what is there is lost.
+  pure subroutine make_room(found, unknowns, modes)
+    type(bordered_modes_t), intent(inout) :: found
+    integer, intent(in) :: unknowns, modes
+
+    if (allocated(found%lambda)) deallocate (found%lambda, found%vector, found%mass_times, &
+      found%stiffness_times, found%error, found%origin)
+    allocate (found%lambda(modes), found%error(modes), found%origin(modes))
+    allocate (found%vector(unknowns, modes), found%mass_times(unknowns, modes), &
+      found%stiffness_times(unknowns, modes))
+  end subroutine make_room
 
   !> Whether a mode is one of those found.
   pure function overlaps(vector, mass_times)
@@ -204,30 +205,21 @@ contains
     found%origin = found%origin(order)
     found%vector = found%vector(:, order)
     found%mass_times = found%mass_times(:, order)
+    found%stiffness_times = found%stiffness_times(:, order)
   end subroutine choose_modes
 
   !> Inverse iteration at the Rayleigh quotient, from a direction `M y` and an estimate of the
-  !! eigenvalue.
+  !! eigenvalue, which stand in the column of the mode. Its error becomes |r|²/λ, which divided by
+  !! the relative gap is the relative error of λ.
   !!
-  !! Where modes with nearly the same eigenvalue are known, it is kept perpendicular to them:
-  !! rounding alone would decide which of them it leads to.
-  pure subroutine improve(layout, mass, geometric, loaded, accurate_vector, gap_guess, estimate, &
-      direction, known, known_vector, known_mass_times, lambda, vector, mass_times, &
-      stiffness_times, residual_of_lambda, factorizations, converged)
-    type(layout_t), intent(in) :: layout
-    type(bordered_matrix_t), intent(in) :: mass, geometric
-    logical, intent(in) :: loaded, accurate_vector
-    real(wp), intent(in) :: gap_guess      !! relative distance of the nearest other eigenvalue
-    real(wp), intent(in) :: estimate
-    real(wp), intent(in) :: direction(:)
-    real(wp), intent(in) :: known(:)                             !! eigenvalues of modes found
-                                                                 !! before
-    real(wp), intent(in) :: known_vector(:, :), known_mass_times(:, :)
-    real(wp), intent(out) :: lambda
-    real(wp), intent(out) :: vector(:), mass_times(:), stiffness_times(:)
-    real(wp), intent(out) :: residual_of_lambda !! |r|²/λ; divided by the relative gap it is the
-                                                !! relative error of λ
-    integer, intent(inout) :: factorizations
+  !! Where modes with nearly the same eigenvalue stand in the columns before, it is kept
+  !! perpendicular to them: rounding alone would decide which of them it leads to.
+  pure subroutine improve(pencil, accurate_vector, gap_guess, mode, found, converged)
+    type(bordered_pencil_t), intent(in) :: pencil
+    logical, intent(in) :: accurate_vector
+    real(wp), intent(in) :: gap_guess !! relative distance of the nearest other eigenvalue
+    integer, intent(in) :: mode       !! number of its column
+    type(bordered_modes_t), intent(inout) :: found
     logical, intent(out) :: converged
 
     !> Beyond it squares overflow, or are zero.
@@ -235,56 +227,57 @@ contains
     real(wp) :: residual, square, scale, error, previous, largest
     integer :: i, j, pass
 
-    lambda = estimate
-    mass_times = direction
-    previous = huge(previous)
-    ! As it stays where rounding has left nothing of M, or of the direction.
-    converged = .false.
-    residual = 0.0_wp
-    stiffness_times = 0.0_wp
-    do i = 1, most_iterations
-      call solve_shifted(layout, mass, geometric, loaded, lambda, mass_times, vector)
-      factorizations = factorizations + 1
-      ! Normalised before the products, so that nothing overflows.
-      largest = maxval(abs(vector))
-      if (.not. (largest > 0.0_wp .and. largest <= huge(largest))) exit
-      if (abs(exponent(largest)) > most_exponent) vector = vector/largest
-      vector = vector/sqrt(dot_product(vector, vector))
-      ! Twice: what a first pass loses to rounding the second one restores.
-      do pass = 1, 2
-        do j = 1, size(known)
-          if (abs(known(j) - lambda) > same_eigenvalue*abs(lambda)) cycle
-          vector = vector - dot_product(known_mass_times(:, j), vector)*known_vector(:, j)
-          vector = vector/sqrt(dot_product(vector, vector))
+    associate (lambda => found%lambda(mode), vector => found%vector(:, mode), &
+        mass_times => found%mass_times(:, mode), stiffness_times => found%stiffness_times(:, mode))
+      previous = huge(previous)
+      ! As it stays where rounding has left nothing of M, or of the direction.
+      converged = .false.
+      residual = 0.0_wp
+      stiffness_times = 0.0_wp
+      do i = 1, most_iterations
+        call solve_shifted(pencil, lambda, mass_times, vector)
+        found%factorizations = found%factorizations + 1
+        ! Normalised before the products, so that nothing overflows.
+        largest = maxval(abs(vector))
+        if (.not. (largest > 0.0_wp .and. largest <= huge(largest))) exit
+        if (abs(exponent(largest)) > most_exponent) vector = vector/largest
+        vector = vector/sqrt(dot_product(vector, vector))
+        ! Twice: what a first pass loses to rounding the second one restores.
+        do pass = 1, 2
+          do j = 1, mode - 1
+            if (abs(found%lambda(j) - lambda) > same_eigenvalue*abs(lambda)) cycle
+            vector = vector - dot_product(found%mass_times(:, j), vector)*found%vector(:, j)
+            vector = vector/sqrt(dot_product(vector, vector))
+          end do
         end do
+        call bordered_times_vector(pencil%layout, pencil%mass, vector, mass_times)
+        stiffness_times = vector
+        if (pencil%loaded) then
+          call bordered_times_vector(pencil%layout, pencil%geometric, vector, stiffness_times)
+          stiffness_times = stiffness_times + vector
+        end if
+        square = dot_product(vector, mass_times)
+        if (.not. square > 0.0_wp) exit
+        scale = 1.0_wp/sqrt(square)
+        vector = scale*vector
+        mass_times = scale*mass_times
+        stiffness_times = scale*stiffness_times
+        lambda = dot_product(vector, stiffness_times)
+        ! With yᵀMy = 1 and K near I: |y|² = scale² is about λ, and the error of λ about |r|²/gap.
+        residual = sum((stiffness_times - lambda*mass_times)**2)
+        error = residual/max(gap_guess, epsilon(1.0_wp))
+        converged = error <= 0.25_wp*epsilon(1.0_wp)*abs(lambda)
+        if (accurate_vector) converged = converged .and. error <= (1.0e-13_wp*scale)**2
+        if (converged) exit
+        ! Rounding ends the descent of the residual: then this is all there is.
+        if (i > 2 .and. residual >= 0.25_wp*previous) then
+          converged = error <= 1.0e-10_wp*max(abs(lambda), 1.0e-6_wp*scale**2)
+          exit
+        end if
+        previous = residual
       end do
-      call bordered_times_vector(layout, mass, vector, mass_times)
-      stiffness_times = vector
-      if (loaded) then
-        call bordered_times_vector(layout, geometric, vector, stiffness_times)
-        stiffness_times = stiffness_times + vector
-      end if
-      square = dot_product(vector, mass_times)
-      if (.not. square > 0.0_wp) exit
-      scale = 1.0_wp/sqrt(square)
-      vector = scale*vector
-      mass_times = scale*mass_times
-      stiffness_times = scale*stiffness_times
-      lambda = dot_product(vector, stiffness_times)
-      ! With yᵀMy = 1 and K near I: |y|² = scale² is about λ, and the error of λ about |r|²/gap.
-      residual = sum((stiffness_times - lambda*mass_times)**2)
-      error = residual/max(gap_guess, epsilon(1.0_wp))
-      converged = error <= 0.25_wp*epsilon(1.0_wp)*abs(lambda)
-      if (accurate_vector) converged = converged .and. error <= (1.0e-13_wp*scale)**2
-      if (converged) exit
-      ! Rounding ends the descent of the residual: then this is all there is.
-      if (i > 2 .and. residual >= 0.25_wp*previous) then
-        converged = error <= 1.0e-10_wp*max(abs(lambda), 1.0e-6_wp*scale**2)
-        exit
-      end if
-      previous = residual
-    end do
-    residual_of_lambda = residual/max(abs(lambda), tiny(lambda))
+      found%error(mode) = residual/max(abs(lambda), tiny(lambda))
+    end associate
   end subroutine improve
 
   !> Sum of the sizes of the terms of `yᵀKy/yᵀMy`, relative to λ: what rounding is multiplied by.
@@ -317,12 +310,9 @@ contains
   !! projection on its complement. On the complement `K − μM` is positive if `‖P (μM − G) P‖ < 1`:
   !! then no more than k modes lie below μ, which are these. The norm is that of Frobenius, a sum of
   !! squares. Where it is not below 1 a Cholesky factorization may still prove it.
-  subroutine check(layout, mass, geometric, loaded, wanted, stiffness_times, found, proven)
-    type(layout_t), intent(in) :: layout
-    type(bordered_matrix_t), intent(in) :: mass, geometric
-    logical, intent(in) :: loaded
+  subroutine check(pencil, wanted, found, proven)
+    type(bordered_pencil_t), intent(in) :: pencil
     integer, intent(in) :: wanted
-    real(wp), intent(in) :: stiffness_times(:, :)
     type(bordered_modes_t), intent(inout) :: found
     logical, intent(out) :: proven
 
@@ -331,8 +321,8 @@ contains
 
     rest = huge(1.0_wp)
     do i = wanted, size(rest)
-      rest(i) = rest_norm(layout, mass, geometric, loaded, count_limit(found%lambda(i)), &
-        stiffness_times(:, :i))
+      rest(i) = rest_norm(pencil, count_limit(found%lambda(i)), &
+        found%stiffness_times(:, :i))
       if (rest(i) < easy_rest) exit
     end do
     kept = wanted - 1 + minloc(rest(wanted:), dim=1)
@@ -341,7 +331,7 @@ contains
     if (.not. proven) then
       limit = count_limit(found%lambda(wanted))
       below = count(found%lambda < limit)
-      call is_complete(layout, mass, geometric, loaded, limit, found%lambda(:below), &
+      call is_complete(pencil, limit, found%lambda(:below), &
         found%mass_times(:, :below), proven)
       found%factorizations = found%factorizations + 1
       kept = below
@@ -349,8 +339,8 @@ contains
     if (.not. proven) return
     do i = 1, kept
       found%error(i) = found%error(i)/true_gap(found%lambda, i, wanted, found%rest) + &
-        rounding*epsilon(1.0_wp)*cancellation(mass, layout, found%vector(:, i), &
-        stiffness_times(:, i), found%lambda(i))
+        rounding*epsilon(1.0_wp)*cancellation(pencil%mass, pencil%layout, found%vector(:, i), &
+        found%stiffness_times(:, i), found%lambda(i))
     end do
     if (kept < size(found%lambda)) call choose_modes(found, [(i, i=1, kept)])
   end subroutine check
@@ -368,17 +358,15 @@ contains
   end function true_gap
 
   !> Modes of the dense eigenproblem of some unknowns, the others held.
-  subroutine solve_dense_start(layout, mass, geometric, loaded, chosen, modes, start, error)
-    type(layout_t), intent(in) :: layout
-    type(bordered_matrix_t), intent(in) :: mass, geometric
-    logical, intent(in) :: loaded
+  subroutine solve_dense_start(pencil, chosen, modes, start, error)
+    type(bordered_pencil_t), intent(in) :: pencil
     integer, intent(in) :: chosen(:) !! numbers of unknowns
     integer, intent(in) :: modes
     type(start_t), intent(out) :: start
     type(error_t), allocatable, intent(out) :: error
 
     type(band_matrix_t) :: m, k
-    real(wp) :: shift, inverse(modes), full(layout%unknowns)
+    real(wp) :: shift, inverse(modes), full(pencil%layout%unknowns)
     real(wp), allocatable :: vector(:, :), dense(:, :), diagonal(:)
     integer :: i, factorizations
 
@@ -386,16 +374,16 @@ contains
       call set_error(error, to_string(modes)//" modes of "//to_string(size(chosen))//" unknowns")
       return
     end if
-    m = full_band(dense_form(layout, mass, chosen))
+    m = full_band(dense_form(pencil%layout, pencil%mass, chosen))
     allocate (dense(size(chosen), size(chosen)))
     dense = 0.0_wp
-    if (loaded) dense = dense_form(layout, geometric, chosen)
+    if (pencil%loaded) dense = dense_form(pencil%layout, pencil%geometric, chosen)
     do i = 1, size(chosen)
       dense(i, i) = dense(i, i) + 1.0_wp
     end do
     k = full_band(dense)
     shift = 0.0_wp
-    if (loaded) call find_definite_shift(k, m, shift, factorizations)
+    if (pencil%loaded) call find_definite_shift(k, m, shift, factorizations)
     ! The diagonal has the eigenvalues about, and so the size of the last one that is wanted.
     diagonal = m%entry(1, :)/(k%entry(1, :) + shift*m%entry(1, :))
     diagonal = diagonal(ascending_order(diagonal))
@@ -404,11 +392,11 @@ contains
     if (allocated(error)) return
     start%modes = modes
     start%lambda = 1.0_wp/inverse - shift
-    allocate (start%direction(layout%unknowns, modes))
+    allocate (start%direction(pencil%layout%unknowns, modes))
     do i = 1, modes
       full = 0.0_wp
       full(chosen) = vector(:, i)
-      call bordered_times_vector(layout, mass, full, start%direction(:, i))
+      call bordered_times_vector(pencil%layout, pencil%mass, full, start%direction(:, i))
     end do
   end subroutine solve_dense_start
 

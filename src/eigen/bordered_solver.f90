@@ -1,7 +1,7 @@
 !> `(K − μ M) x = b` for a stiffness `K = I + G` and bordered matrices G and M: the step of every
 !! inverse iteration.
 module bordered_solver
-  use bordered_matrix, only: bordered_matrix_t, layout_t
+  use bordered_pencil, only: bordered_pencil_t
   use kinds, only: fineness, wp
   implicit none (type, external)
   private
@@ -10,26 +10,24 @@ module bordered_solver
 
 contains
 
-  !> Eliminates block after block, each with its rows of the border and the right side, then the
-  !! border.
+  !> Solves `(I + G − μ M) x = b`: eliminates block after block, each with its rows of the border
+  !! and the right side, then the border.
   !!
   !! `L D Lᵀ` without pivoting. Nothing rests on its accuracy: whoever uses the solution measures
   !! its residual.
-  pure subroutine solve_shifted(layout, mass, geometric, loaded, shift, right_side, solution)
-    type(layout_t), intent(in) :: layout
-    type(bordered_matrix_t), intent(in) :: mass      !! M, diagonal in its blocks
-    type(bordered_matrix_t), intent(in) :: geometric !! G
-    logical, intent(in) :: loaded                    !! whether there is a G
+  pure subroutine solve_shifted(pencil, shift, right_side, solution)
+    type(bordered_pencil_t), intent(in) :: pencil
     real(wp), intent(in) :: shift                    !! μ
     real(wp), intent(in) :: right_side(:)            !! (unknowns)
     real(wp), intent(out) :: solution(:)             !! (unknowns)
 
-    real(wp) :: panel(layout%border + maxval(layout%size) + 1, merge(maxval(layout%size), 0, &
-      loaded), size(layout%size))
-    real(wp) :: border(layout%border + 1, layout%border), pivot, factor
+    real(wp) :: panel(pencil%layout%border + maxval(pencil%layout%size) + 1, &
+      merge(maxval(pencil%layout%size), 0, pencil%loaded), size(pencil%layout%size))
+    real(wp) :: border(pencil%layout%border + 1, pencil%layout%border), pivot, factor
     integer :: b, i, j, k, first_single
 
-    associate (n => layout%border)
+    associate (n => pencil%layout%border, layout => pencil%layout, mass => pencil%mass, &
+        geometric => pencil%geometric, loaded => pencil%loaded)
       border(:n, :) = -shift*mass%border
       if (loaded) border(:n, :) = border(:n, :) + geometric%border
       do i = 1, n
@@ -40,8 +38,7 @@ contains
       first_single = n + 1
       if (loaded) then
         do b = 1, size(layout%size)
-          call eliminate_block(layout, mass, geometric, shift, right_side, b, panel(:, :, b), &
-            border)
+          call eliminate_block(pencil, shift, right_side, b, panel(:, :, b), border)
         end do
         first_single = n + 1 + sum(layout%size)
       end if
@@ -78,9 +75,8 @@ contains
   end subroutine solve_shifted
 
   !> Eliminates a block and takes what it leaves from the border.
-  pure subroutine eliminate_block(layout, mass, geometric, shift, right_side, b, panel, border)
-    type(layout_t), intent(in) :: layout
-    type(bordered_matrix_t), intent(in) :: mass, geometric
+  pure subroutine eliminate_block(pencil, shift, right_side, b, panel, border)
+    type(bordered_pencil_t), intent(in) :: pencil !! with a G
     real(wp), intent(in) :: shift
     real(wp), intent(in) :: right_side(:)
     integer, intent(in) :: b                 !! number of the block
@@ -91,16 +87,17 @@ contains
     real(wp) :: factor
     integer :: i, j, k, m, n, first
 
-    m = layout%size(b)
-    n = layout%border
-    first = layout%first(b) - 1
+    m = pencil%layout%size(b)
+    n = pencil%layout%border
+    first = pencil%layout%first(b) - 1
     do k = 1, m
       do j = k, m
-        panel(j, k) = geometric%block(j, k, b)
+        panel(j, k) = pencil%geometric%block(j, k, b)
       end do
-      panel(k, k) = 1.0_wp + panel(k, k) - shift*mass%diagonal(first + k)
+      panel(k, k) = 1.0_wp + panel(k, k) - shift*pencil%mass%diagonal(first + k)
       do i = 1, n
-        panel(m + i, k) = geometric%coupling(i, first + k) - shift*mass%coupling(i, first + k)
+        panel(m + i, k) = pencil%geometric%coupling(i, first + k) - shift*pencil%mass%coupling(i, &
+          first + k)
       end do
       panel(m + n + 1, k) = right_side(first + k)
     end do

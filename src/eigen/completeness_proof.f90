@@ -1,8 +1,8 @@
 !> A proof that no mode is missing, by sums of squares only.
 module completeness_proof
   use band_matrix, only: band_matrix_t, full_band
-  use bordered_matrix, only: all_unknowns, bordered_matrix_t, bordered_times_vector, dense_form, &
-    layout_t
+  use bordered_matrix, only: all_unknowns, bordered_times_vector, dense_form
+  use bordered_pencil, only: bordered_pencil_t
   use cholesky_factor, only: factor_band
   use errors, only: error_t
   use kinds, only: wp
@@ -32,10 +32,8 @@ contains
   !> Frobenius norm of `P E P`, `E = μM − G`, P the projection on the complement of some directions.
   !!
   !! `‖P E P‖² = ‖E‖² − 2 ‖E Q‖² + ‖Qᵀ E Q‖²` for an orthonormal basis Q of these directions.
-  pure function rest_norm(layout, mass, geometric, loaded, limit, directions) result(norm)
-    type(layout_t), intent(in) :: layout
-    type(bordered_matrix_t), intent(in) :: mass, geometric
-    logical, intent(in) :: loaded
+  pure function rest_norm(pencil, limit, directions) result(norm)
+    type(bordered_pencil_t), intent(in) :: pencil
     real(wp), intent(in) :: limit              !! μ
     real(wp), intent(in) :: directions(:, :)   !! (unknowns, directions), independent
     real(wp) :: norm
@@ -47,43 +45,42 @@ contains
 
     do i = 1, size(q, 2)
       q(:, i) = perpendicular(directions(:, i), q(:, :i - 1))
-      call bordered_times_vector(layout, mass, q(:, i), product)
+      call bordered_times_vector(pencil%layout, pencil%mass, q(:, i), product)
       e_times_q(:, i) = limit*product
-      if (loaded) then
-        call bordered_times_vector(layout, geometric, q(:, i), product)
+      if (pencil%loaded) then
+        call bordered_times_vector(pencil%layout, pencil%geometric, q(:, i), product)
         e_times_q(:, i) = e_times_q(:, i) - product
       end if
     end do
-    square = squared_norm(layout, mass, geometric, loaded, limit)
+    square = squared_norm(pencil, limit)
     if (loss*square < most_loss) then
       norm = projected_norm(square, q, e_times_q)
     else
       ! With many modes ‖E‖² is so large that the difference has no digits left: the projected
       ! matrix itself is worked out.
-      norm = worked_out_norm(layout, mass, geometric, loaded, limit, q)
+      norm = worked_out_norm(pencil, limit, q)
     end if
   end function rest_norm
 
   !> The same norm, column by column of `P E P`.
-  pure function worked_out_norm(layout, mass, geometric, loaded, limit, q) result(norm)
-    type(layout_t), intent(in) :: layout
-    type(bordered_matrix_t), intent(in) :: mass, geometric
-    logical, intent(in) :: loaded
+  pure function worked_out_norm(pencil, limit, q) result(norm)
+    type(bordered_pencil_t), intent(in) :: pencil
     real(wp), intent(in) :: limit
     real(wp), intent(in) :: q(:, :) !! orthonormal columns
     real(wp) :: norm
 
-    real(wp) :: column(layout%unknowns), product(layout%unknowns), turned(layout%unknowns), square
+    real(wp) :: column(pencil%layout%unknowns), product(pencil%layout%unknowns), &
+      turned(pencil%layout%unknowns), square
     integer :: i
 
     square = 0.0_wp
-    do i = 1, layout%unknowns
+    do i = 1, pencil%layout%unknowns
       column = 0.0_wp
       column(i) = 1.0_wp
       column = column - matmul(q, q(i, :))
-      call bordered_times_vector(layout, mass, column, product)
-      if (loaded) then
-        call bordered_times_vector(layout, geometric, column, turned)
+      call bordered_times_vector(pencil%layout, pencil%mass, column, product)
+      if (pencil%loaded) then
+        call bordered_times_vector(pencil%layout, pencil%geometric, column, turned)
         product = limit*product - turned
       else
         product = limit*product
@@ -135,17 +132,16 @@ contains
   end function projected_norm
 
   !> `‖μM − G‖²` of Frobenius.
-  pure function squared_norm(layout, mass, geometric, loaded, limit) result(square)
-    type(layout_t), intent(in) :: layout
-    type(bordered_matrix_t), intent(in) :: mass, geometric
-    logical, intent(in) :: loaded
+  pure function squared_norm(pencil, limit) result(square)
+    type(bordered_pencil_t), intent(in) :: pencil
     real(wp), intent(in) :: limit
     real(wp) :: square
 
     integer :: b, i, k, first
 
-    associate (n => layout%border)
-      if (.not. loaded) then
+    associate (n => pencil%layout%border, layout => pencil%layout, mass => pencil%mass, &
+        geometric => pencil%geometric)
+      if (.not. pencil%loaded) then
         square = limit**2*(sum(mass%border**2) + 2.0_wp*sum(mass%coupling(:, n + 1:)**2) + &
           sum(mass%diagonal(n + 1:)**2))
         return
@@ -157,16 +153,16 @@ contains
           square = square + 2.0_wp*(limit*mass%coupling(i, k) - geometric%coupling(i, k))**2
         end do
       end do
-    end associate
-    do b = 1, size(layout%size)
-      first = layout%first(b) - 1
-      do k = 1, layout%size(b)
-        square = square - 2.0_wp*limit*mass%diagonal(first + k)*geometric%block(k, k, b)
-        do i = 1, layout%size(b)
-          square = square + geometric%block(i, k, b)**2
+      do b = 1, size(layout%size)
+        first = layout%first(b) - 1
+        do k = 1, layout%size(b)
+          square = square - 2.0_wp*limit*mass%diagonal(first + k)*geometric%block(k, k, b)
+          do i = 1, layout%size(b)
+            square = square + geometric%block(i, k, b)**2
+          end do
         end do
       end do
-    end do
+    end associate
   end function squared_norm
 
   !> The same proof where sums of squares are too rough, under heavy loads: whether no modes but
@@ -177,10 +173,8 @@ contains
   !! these, however rough λ_i and y_i are. A Cholesky factorization that comes to its end, with the
   !! bound of its rounding taken from the diagonal first, proves that it is (Demmel 1989; Rump
   !! 2006).
-  subroutine is_complete(layout, mass, geometric, loaded, limit, lambda, mass_times, proven)
-    type(layout_t), intent(in) :: layout
-    type(bordered_matrix_t), intent(in) :: mass, geometric
-    logical, intent(in) :: loaded
+  subroutine is_complete(pencil, limit, lambda, mass_times, proven)
+    type(bordered_pencil_t), intent(in) :: pencil
     real(wp), intent(in) :: limit            !! μ
     real(wp), intent(in) :: lambda(:)        !! (modes)
     real(wp), intent(in) :: mass_times(:, :) !! (unknowns, modes) M y
@@ -192,16 +186,16 @@ contains
     real(wp) :: margin, lift
     integer :: i, j, n
 
-    n = layout%unknowns
-    dense = dense_form(layout, mass, all_unknowns(layout))
+    n = pencil%layout%unknowns
+    dense = dense_form(pencil%layout, pencil%mass, all_unknowns(pencil%layout))
     ! Sum of the sizes of all terms of the diagonal: what rounding is multiplied by.
     margin = n
     do i = 1, n
       margin = margin + abs(limit)*dense(i, i)
     end do
     dense = -limit*dense
-    if (loaded) then
-      geometric_form = dense_form(layout, geometric, all_unknowns(layout))
+    if (pencil%loaded) then
+      geometric_form = dense_form(pencil%layout, pencil%geometric, all_unknowns(pencil%layout))
       do i = 1, n
         margin = margin + abs(geometric_form(i, i))
       end do

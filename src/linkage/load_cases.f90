@@ -10,7 +10,8 @@ module load_cases
   implicit none (type, external)
   private
 
-  public :: load_case_t, case_count, constant_case, unit_cases, has_constant_loads, find_case_loads
+  public :: load_case_t, unit_loads_t, case_count, constant_case, find_unit_loads, &
+    has_constant_loads, find_case_loads
 
   !> Numbers of the cases: for ω2² = 1, for α2 = 1, and of gravity and the forces and torques from
   !! outside.
@@ -23,6 +24,12 @@ module load_cases
     real(wp), allocatable :: couple(:)       !! (bodies) from outside [N m]
   end type load_case_t
 
+  !> The three cases at a pose, found once for all who ask.
+  type :: unit_loads_t
+    logical :: occurs(case_count) = .true.   !! cases that do not are left empty
+    type(load_case_t) :: of_case(case_count)
+  end type unit_loads_t
+
 contains
 
   !> Whether anything but its motion loads a linkage.
@@ -34,31 +41,30 @@ contains
       any(abs(linkage%couple) > 0.0_wp)
   end function has_constant_loads
 
-  !> The three cases at a pose, or those of them that occur: the others are left empty.
-  pure function unit_cases(linkage, pose, coefficients, occurs) result(cases)
+  !> The three cases at a pose, or those of them that occur.
+  pure function find_unit_loads(linkage, pose, coefficients, occurs) result(loads)
     type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: coefficients
-    logical, intent(in), optional :: occurs(case_count) !! absent: all
-    type(load_case_t) :: cases(case_count)
+    type(pose_t), intent(in) :: pose                            !! away from dead points
+    type(kinematic_coefficients_t), intent(in) :: coefficients  !! of this pose
+    logical, intent(in), optional :: occurs(case_count)         !! absent: all
+    type(unit_loads_t) :: loads
 
     type(acceleration_field_t) :: fields(2)
-    logical :: wanted(case_count)
     integer :: i
 
-    wanted = .true.
-    if (present(occurs)) wanted = occurs
+    if (present(occurs)) loads%occurs = occurs
+    if (.not. any(loads%occurs)) return
     fields = unit_fields(linkage, pose, coefficients)
     do i = 1, 2
-      if (.not. wanted(i)) cycle
-      cases(i)%field = fields(i)
-      allocate (cases(i)%pin_force, mold=linkage%pin_force)
-      allocate (cases(i)%couple, mold=linkage%couple)
-      cases(i)%pin_force = 0.0_wp
-      cases(i)%couple = 0.0_wp
+      if (.not. loads%occurs(i)) cycle
+      loads%of_case(i)%field = fields(i)
+      allocate (loads%of_case(i)%pin_force, mold=linkage%pin_force)
+      allocate (loads%of_case(i)%couple, mold=linkage%couple)
+      loads%of_case(i)%pin_force = 0.0_wp
+      loads%of_case(i)%couple = 0.0_wp
     end do
-    if (.not. wanted(constant_case)) return
-    associate (constant => cases(constant_case))
+    if (.not. loads%occurs(constant_case)) return
+    associate (constant => loads%of_case(constant_case))
       constant%field%at_pin = -spread(linkage%gravity, 2, size(linkage%pin_mass))
       constant%field%at_first = -spread(linkage%gravity, 2, size(linkage%bodies))
       constant%field%slope = 0.0_wp*fields(1)%slope
@@ -66,7 +72,7 @@ contains
       constant%pin_force = linkage%pin_force
       constant%couple = linkage%couple
     end associate
-  end function unit_cases
+  end function find_unit_loads
 
   !> Loads on bodies and pins in one case.
   pure subroutine find_case_loads(linkage, elements, pose, case, body_loads, pin_loads)

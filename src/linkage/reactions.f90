@@ -6,7 +6,7 @@ module reactions
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: cross, linkage_t
-  use load_cases, only: case_count, find_case_loads, load_case_t, unit_cases
+  use load_cases, only: case_count, find_case_loads, find_unit_loads, unit_loads_t
   use poses, only: pose_t
   implicit none (type, external)
   private
@@ -38,14 +38,14 @@ contains
     type(kinematic_coefficients_t), intent(in) :: coefficients
     type(unit_reactions_t) :: unit
 
-    type(load_case_t) :: cases(case_count)
+    type(unit_loads_t) :: loads
     type(load_t) :: body_loads(size(linkage%bodies))
     real(wp) :: pin_loads(2, size(linkage%is_ground))
     integer :: i
 
-    cases = unit_cases(linkage, pose, coefficients)
+    loads = find_unit_loads(linkage, pose, coefficients)
     do i = 1, case_count
-      call find_case_loads(linkage, elements, pose, cases(i), body_loads, pin_loads)
+      call find_case_loads(linkage, elements, pose, loads%of_case(i), body_loads, pin_loads)
       unit%of_case(i)%joints = find_joint_forces(linkage, pose, body_loads, pin_loads)
       ! Gravity and the loads from outside shake nothing: they are no inertia forces.
       if (i < case_count) call add_up(linkage, pose, body_loads, pin_loads, unit%of_case(i))

@@ -83,8 +83,8 @@ contains
     linkage%gravity = model%gravity
     do i = 1, size(model%forces)
       do k = 1, size(model%loop_pins)
-        if (same_word(model%forces(i)%pin%text, model%loop_pins(k)%text)) linkage%pin_force(:, k) &
-          = model%forces(i)%force
+        if (same_word(model%forces(i)%pin%text, model%loop_pins(k)%text)) linkage%pin_force(:, &
+          k) = model%forces(i)%force
       end do
     end do
     do i = 1, size(model%torques)

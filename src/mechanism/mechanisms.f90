@@ -1,30 +1,24 @@
 !> Model → what mechanics works on: the linkage with its masses and loads, its beams, its mesh.
 module mechanisms
   use attached_parts, only: apply_loads, attach_masses, body_point_t, points_of
-  use beam_mesh, only: beam_mesh_t, beam_t, new_beam_mesh
+  use beam_mesh, only: new_beam_mesh
   use kinds, only: wp
   use link_cards, only: has_own_mass, link_t
-  use linkages, only: linkage_t, new_four_bar
+  use linkages, only: new_four_bar
   use models, only: branch_crossed, inertia_lumped, link_line_density, model_t
   use shear, only: link_rotary_inertia, link_shear_stiffness
+  use structures, only: structure_t
   use text, only: same_word, string_t
   use tokens, only: token_texts
   implicit none (type, external)
   private
 
-  public :: mechanism_t, new_mechanism, mesh_with, has_beams, has_mesh
+  public :: mechanism_t, new_mechanism
 
-  type :: mechanism_t
-    type(linkage_t) :: linkage                !! with all it carries and all that loads it
-    type(beam_t), allocatable :: beams(:)     !! (bodies) without stiffness where a rigid link has
-                                              !! no section; empty if a link that bends has no
-                                              !! material or section
-    type(beam_mesh_t) :: mesh                 !! one element on a rigid link; without unknowns if a
-                                              !! link that bends has no mesh
+  !> The structure that a deck describes, with the names that the deck has for its parts.
+  type, extends(structure_t) :: mechanism_t
     real(wp) :: accuracy = 0.0_wp             !! of frequencies, where the deck leaves the mesh to
                                               !! the program; else 0
-    integer, allocatable :: load_elements(:)  !! (bodies) on whose nodes their masses sit as loads;
-                                              !! 0: distributed, and for links that have no nodes
     type(body_point_t), allocatable :: points(:)
     type(string_t), allocatable :: names(:)   !! (bodies) of the links
     type(string_t), allocatable :: pin_names(:) !! (pins)
@@ -47,8 +41,8 @@ contains
     pin_mass = 0.0_wp
     do i = 1, size(model%pin_masses)
       do k = 1, 2
-        if (same_word(model%pin_masses(i)%pin%text, model%loop_pins(k + 1)%text)) pin_mass(k) &
-          = model%pin_masses(i)%mass
+        if (same_word(model%pin_masses(i)%pin%text, model%loop_pins(k + 1)%text)) pin_mass(k) = &
+          model%pin_masses(i)%mass
       end do
     end do
     links = model%links(model%loop)
@@ -140,31 +134,5 @@ contains
         position = model%grounds(n)%position
     end do
   end function ground_at
-
-  !> The same mechanism with another number of elements on each body.
-  pure function mesh_with(mechanism, elements) result(other)
-    type(mechanism_t), intent(in) :: mechanism
-    integer, intent(in) :: elements(:) !! (bodies)
-    type(mechanism_t) :: other
-
-    other = mechanism
-    other%mesh = new_beam_mesh(mechanism%linkage, elements, mechanism%mesh%order, &
-      mechanism%mesh%sheared)
-    where (mechanism%load_elements > 0) other%load_elements = elements
-  end function mesh_with
-
-  pure function has_beams(mechanism) result(has)
-    type(mechanism_t), intent(in) :: mechanism
-    logical :: has
-
-    has = size(mechanism%beams) > 0
-  end function has_beams
-
-  pure function has_mesh(mechanism) result(has)
-    type(mechanism_t), intent(in) :: mechanism
-    logical :: has
-
-    has = mechanism%mesh%unknowns > 0
-  end function has_mesh
 
 end module mechanisms

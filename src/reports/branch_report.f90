@@ -1,11 +1,12 @@
 !> `branches.dat`: frequencies by branch.
 module branch_report
   use frequency_loci, only: branches_t, event_ambiguous, event_crossing, event_start, event_veering
-  use frequency_report, only: effects_notes, failure_at, frequency_of, has_result
-  use frequency_study, only: sweep_t
+  use frequency_report, only: effects_notes
   use models, only: model_t
+  use position_results, only: frequency_of
   use positions, only: positions_t
   use sorting, only: ascending_order
+  use sweeps, only: failure_at, has_result, sweep_t
   use tables, only: append_column, column_t, integer_cell, integer_column, name_cell, real_cells, &
     real_column, table_t, write_failure, write_gap, write_header, write_row
   use text, only: append_string, string_t, to_string

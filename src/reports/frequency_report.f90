@@ -1,15 +1,16 @@
 !> `frequencies.dat` and `shapes.dat`.
 module frequency_report
-  use constants, only: two_pi
-  use frequency_study, only: is_drawn, sweep_t
+  use frequency_study, only: is_drawn
   use kinds, only: wp
   use load_notes, only: acceleration_note
   use mechanisms, only: mechanism_t
   use models, only: effects_static, inertia_distributed, inertia_lumped, is_loaded, is_moving, &
     model_t, needs_loads, report_number
   use poses, only: pose_t
+  use position_results, only: frequency_of
   use positions, only: positions_t
   use request_cards, only: report_shapes
+  use sweeps, only: failure_at, has_result, sweep_t
   use tables, only: append_column, append_real_columns, column_t, integer_cell, integer_column, &
     name_cell, name_column, real_cells, real_column, table_t, write_failure, write_gap, &
     write_header, write_row
@@ -18,34 +19,12 @@ module frequency_report
   implicit none (type, external)
   private
 
-  public :: write_frequencies, write_shapes, frequency_of, failure_at, has_result, effects_notes
+  public :: write_frequencies, write_shapes, effects_notes
 
   !> Rows whose digits are worked out together, by all threads.
   integer, parameter :: rows_at_once = 1024
 
 contains
-
-  !> `sign(λ) sqrt(|λ|)/2π`: negative past a divergence [Hz].
-  elemental function frequency_of(lambda) result(frequency)
-    real(wp), intent(in) :: lambda !! ω² [1/s²]
-    real(wp) :: frequency
-
-    frequency = sign(sqrt(abs(lambda)), lambda)/two_pi
-  end function frequency_of
-
-  !> Why there is no result at a position and speed; empty if there is one.
-  pure function failure_at(positions, sweep, state, speed) result(reason)
-    type(positions_t), intent(in) :: positions
-    type(sweep_t), intent(in) :: sweep
-    integer, intent(in) :: state, speed !! numbers
-    character(len=:), allocatable :: reason
-
-    if (allocated(positions%states(state)%error)) then
-      reason = positions%states(state)%error%message
-    else
-      reason = sweep%results(state)%failure(speed)%text
-    end if
-  end function failure_at
 
   !> One row a position, one block a speed; a single block if the frequencies are static.
   subroutine write_frequencies(table, model, positions, sweep, threads)
@@ -108,17 +87,6 @@ contains
       end do
     end do
   end subroutine write_block
-
-  !> Whether there is a result at a position and speed.
-  pure function has_result(positions, sweep, state, speed) result(has)
-    type(positions_t), intent(in) :: positions
-    type(sweep_t), intent(in) :: sweep
-    integer, intent(in) :: state, speed !! numbers
-    logical :: has
-
-    has = .not. allocated(positions%states(state)%error)
-    if (has) has = len(sweep%results(state)%failure(speed)%text) == 0
-  end function has_result
 
   subroutine fill_row(positions, sweep, row, speed, text)
     type(positions_t), intent(in) :: positions

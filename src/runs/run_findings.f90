@@ -2,8 +2,6 @@
 module run_findings
   use constants, only: degree
   use four_bar_limits, only: crank_reach, grashof_class, limit_angles, reach_t
-  use frequency_report, only: failure_at
-  use frequency_study, only: sweep_t
   use kinds, only: wp
   use mechanisms, only: mechanism_t
   use models, only: model_t, needs_frequencies
@@ -11,6 +9,7 @@ module run_findings
   use poses, only: transmission_angle
   use positions, only: positions_t
   use sorting, only: ascending_order
+  use sweeps, only: failure_at, sweep_t
   use text, only: append_string, plural, string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use vibration_models, only: by_orders

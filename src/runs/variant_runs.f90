@@ -2,7 +2,7 @@
 module variant_runs
   use errors, only: error_t
   use frequency_loci, only: branches_t, follow_branches
-  use frequency_study, only: run_sweep, sweep_t
+  use frequency_study, only: run_sweep
   use interruption, only: was_interrupted
   use kinds, only: long, wp
   use ledger, only: add_ledger, ledger_t
@@ -14,6 +14,7 @@ module variant_runs
   use progress, only: progress_t
   use run_findings, only: find_failures, find_motion_failure, find_warnings, findings_t
   use sweep_journal, only: journal_t
+  use sweeps, only: sweep_t
   implicit none (type, external)
   private
 
@@ -96,8 +97,8 @@ contains
     type(variant_run_t), intent(inout) :: run !! solved
 
     if (needs_frequencies(run%model)) then
-      if (run%sweep%request%follow) call follow_branches(run%mechanism, run%positions, run%sweep, &
-        run%branches)
+      if (run%sweep%request%follow) call follow_branches(run%mechanism%linkage, run%positions, &
+        run%sweep, run%branches)
     end if
     call find_failures(run%model, run%positions, run%sweep, run%findings)
     if (has_motion(run%motion)) call find_motion_failure(run%model, run%motion, run%findings)

@@ -3,35 +3,26 @@ module frequency_study
   use errors, only: error_t
   use interruption, only: was_interrupted
   use kinds, only: wp
-  use ledger, only: add_ledger, ledger_t
+  use ledger, only: add_ledger
   use link_store, only: link_store_t
   use load_cases, only: has_constant_loads
   use mechanisms, only: mechanism_t
-  use models, only: effects_static, inertia_lumped, model_t, needs_loads, report_number
+  use models, only: effects_static, inertia_lumped, model_t, needs_loads, report_number, &
+    solver_band, solver_dense
   use position_results, only: position_result_t, position_work_t
   use position_solver, only: new_position_work, solve_position
   use positions, only: by_crank_angle, positions_t
   use progress, only: progress_t, show_progress
   use request_cards, only: report_branches, report_shapes, report_t
   use sweep_journal, only: journal_t, keep_block, recall_block
+  use sweeps, only: sweep_t
   use value_lists, only: value_list_t, value_number
-  use vibration_models, only: by_band, chosen_method, frequency_models_t, mode_request_t, &
-    new_frequency_models
+  use vibration_models, only: any_method, by_band, by_dense, chosen_method, mode_request_t, &
+    new_vibration_models, vibration_models_t
   implicit none (type, external)
   private
 
-  public :: sweep_t, run_sweep, is_drawn
-
-  !> The results, one a different position.
-  type :: sweep_t
-    type(mode_request_t) :: request
-    type(frequency_models_t) :: models                 !! that serve most positions
-    type(position_result_t), allocatable :: results(:) !! (states); nothing in it where there is no
-                                                       !! pose
-    logical, allocatable :: drawn(:, :)                !! (states, speeds) whether its shapes are
-                                                       !! asked for
-    type(ledger_t) :: counts
-  end type sweep_t
+  public :: run_sweep, is_drawn, method_wanted
 
   !> Positions, neighbours in crank angle, that are solved one after the other. The division into
   !! chunks is the same for any number of threads, and so are the results.
@@ -60,7 +51,7 @@ contains
     type(sweep_t), intent(out) :: sweep
     type(error_t), allocatable, intent(out) :: error
 
-    type(frequency_models_t) :: models
+    type(vibration_models_t) :: models
     integer, allocatable :: states(:)
     logical, allocatable :: known(:) !! (chunks)
     integer :: attempt, i, made
@@ -74,7 +65,7 @@ contains
     call recall_chunks(journal, variant, states, sweep%results, known)
     do attempt = 1, most_attempts
       if (attempt > 1 .or. .not. all(known) .or. variant == 1 .or. sweep%request%follow) then
-        call new_frequency_models(mechanism, positions, states, sweep%request, &
+        call new_vibration_models(mechanism%structure_t, positions, states, sweep%request, &
           sweep%request%accuracy, store, models, sweep%counts, error)
         if (allocated(error)) return
         if (attempt == 1) sweep%models = models
@@ -118,7 +109,7 @@ contains
     type(positions_t), intent(in) :: positions
     integer, intent(in) :: states(:) !! numbers
     logical, intent(in) :: known(:)  !! (chunks) solved already
-    type(frequency_models_t), intent(in) :: models
+    type(vibration_models_t), intent(in) :: models
     integer, intent(in) :: threads
     type(progress_t), intent(inout) :: progress
     type(journal_t), intent(inout) :: journal
@@ -141,7 +132,7 @@ contains
         i = states(k)
         if (was_interrupted()) cycle
         if (allocated(positions%states(i)%error)) cycle
-        call solve_position(mechanism, models, positions%states(i), sweep%request, &
+        call solve_position(mechanism%structure_t, models, positions%states(i), sweep%request, &
           sweep%drawn(i, :), work, result)
         call add_ledger(result%counts, sweep%results(i)%counts)
         sweep%results(i) = result
@@ -171,7 +162,7 @@ contains
     request%axial = needs_loads(model)
     request%constant = has_constant_loads(mechanism%linkage)
     request%lumped = model%inertia == inertia_lumped
-    request%method = chosen_method(model%solver, mechanism%accuracy > 0.0_wp, &
+    request%method = chosen_method(method_wanted(model), mechanism%accuracy > 0.0_wp, &
       mechanism%mesh%elements, mechanism%mesh%order, mechanism%mesh%sheared)
     if (mechanism%accuracy > 0.0_wp) request%accuracy = mechanism%accuracy
     request%follow = report_number(model, report_branches) > 0
@@ -184,6 +175,16 @@ contains
       request%speed = model%speed%value
     end if
   end function request_of
+
+  !> What SOLVER says.
+  pure function method_wanted(model) result(method)
+    type(model_t), intent(in) :: model
+    integer :: method
+
+    method = any_method
+    if (model%solver == solver_dense) method = by_dense
+    if (model%solver == solver_band) method = by_band
+  end function method_wanted
 
   !> Marks the positions and speeds whose shapes are asked for.
   pure subroutine choose_drawn(model, positions, sweep)

@@ -7,7 +7,7 @@
 !! which is far below the margin of the count.
 module chain_solver
   use bordered_eigensolver, only: bordered_modes_t, find_bordered_modes, new_start
-  use bordered_matrix, only: bordered_matrix_t
+  use bordered_pencil, only: bordered_pencil_t
   use chain_projection, only: project_modes
   use completeness_proof, only: count_limit, is_complete
   use deformation_chain, only: deformation_chain_t
@@ -16,7 +16,6 @@ module chain_solver
   use errors, only: error_t, set_error
   use kinds, only: wp
   use reduced_assembly, only: first_axial
-  use speed_solver, only: reduced_work_t
   use subspace_eigensolver, only: find_subspace_modes, subspace_modes_t
   use text, only: to_string
   implicit none (type, external)
@@ -30,17 +29,16 @@ module chain_solver
 contains
 
   !> Errors: no convergence, or a mode may be missing.
-  subroutine find_chain_modes(near, work, loaded, least_geometric, start, wanted, &
-    accurate_vectors, chain, found, error)
+  subroutine find_chain_modes(near, own, least, start, wanted, accurate_vectors, chain, found, &
+      error)
     type(deformation_model_t), intent(in) :: near
-    type(reduced_work_t), intent(in) :: work        !! its matrices at this position and speed
-    logical, intent(in) :: loaded
-    type(bordered_matrix_t), intent(in) :: least_geometric !! its geometric stiffness, nowhere above
-                                                           !! that of the mesh
-    type(bordered_modes_t), intent(in) :: start     !! its modes
+    type(bordered_pencil_t), intent(in) :: own     !! its matrices at this position and speed
+    type(bordered_pencil_t), intent(in) :: least   !! the same, with a geometric stiffness that is
+                                                   !! nowhere above that of the mesh
+    type(bordered_modes_t), intent(in) :: start    !! modes of `own`
     integer, intent(in) :: wanted
-    logical, intent(in) :: accurate_vectors
-    type(deformation_chain_t), intent(in) :: chain  !! at this position and speed
+    logical, intent(in) :: accurate_vectors        !! vectors to the last digits, too
+    type(deformation_chain_t), intent(in) :: chain !! at this position and speed
     type(subspace_modes_t), intent(out) :: found
     type(error_t), allocatable, intent(out) :: error
 
@@ -54,8 +52,8 @@ contains
     do i = 1, size(guards)
       if (wanted + guards(i) > near%layout%unknowns) exit
       if (i > 1) then
-        call find_bordered_modes(near%layout, work%mass, work%geometric, loaded, &
-          wanted + guards(i), accurate_vectors, new_start(), modes, error)
+        call find_bordered_modes(own, wanted + guards(i), accurate_vectors, new_start(), modes, &
+          error)
         if (allocated(error)) return
       end if
       allocate (vectors(chain%unknowns, size(modes%lambda)))
@@ -64,9 +62,8 @@ contains
       products = products + found%products
       found%products = products
       if (allocated(error)) return
-      call is_complete(near%layout, work%mass, least_geometric, loaded, &
-        count_limit(found%lambda(wanted + guards(i))), modes%lambda(:wanted + guards(i)), &
-        modes%mass_times(:, :wanted + guards(i)), proven)
+      call is_complete(least, count_limit(found%lambda(wanted + guards(i))), &
+        modes%lambda(:wanted + guards(i)), modes%mass_times(:, :wanted + guards(i)), proven)
       if (proven) return
       deallocate (vectors)
     end do

@@ -3,22 +3,21 @@ module frequency_loci
   use axial_forces, only: distributed_unit_forces
   use bordered_eigensolver, only: bordered_modes_t
   use errors, only: error_t
-  use frequency_report, only: frequency_of, has_result
-  use frequency_study, only: sweep_t
   use kinds, only: wp
-  use kinematic_coefficients, only: find_kinematic_coefficients
+  use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use ledger, only: ledger_t
   use linkages, only: linkage_t
-  use load_cases, only: case_count
-  use mechanisms, only: mechanism_t
+  use load_cases, only: case_count, find_unit_loads, unit_loads_t
   use modal_assurance, only: likeness, mode_prints_t, new_mode_prints
-  use pin_displacements, only: chords_t
   use poses, only: find_pose, pose_t
+  use position_equations, only: assemble_equations
+  use position_results, only: frequency_of
   use positions, only: positions_t
   use sorting, only: ascending_order
-  use speed_solver, only: new_reduced_work, reduced_work_t, solve_reduced
+  use speed_solver, only: new_speed_work, solve_speeds, speed_work_t
+  use sweeps, only: has_result, sweep_t
   use text, only: string_t
-  use vibration_models, only: frequency_models_t, load_factors, mode_request_t
+  use vibration_models, only: load_factors, mode_request_t, vibration_models_t
   implicit none (type, external)
   private
 
@@ -56,13 +55,13 @@ contains
 
   !> Follows every mode from row to row in the order of crank angles, block after block of speeds;
   !! the first row of a block continues that of the block before.
-  subroutine follow_branches(mechanism, positions, sweep, branches)
-    type(mechanism_t), intent(in) :: mechanism
+  subroutine follow_branches(linkage, positions, sweep, branches)
+    type(linkage_t), intent(in) :: linkage
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(inout) :: sweep !! its ledger counts what is found between the rows
     type(branches_t), intent(out) :: branches
 
-    type(reduced_work_t) :: work
+    type(speed_work_t) :: work
     integer :: order(size(positions%crank)), rows, speeds, modes, i, k, last, first_row
     logical :: apart
 
@@ -76,7 +75,7 @@ contains
     branches%event = event_none
     branches%partner = 0
     order = ascending_order(positions%crank)
-    work = new_reduced_work(sweep%models%continuum, 1)
+    work = new_speed_work(sweep%models%continuum, 1)
     first_row = 0
     do k = 1, speeds
       last = 0
@@ -90,9 +89,9 @@ contains
         if (apart) then
           call start_branches(branches, order(i), k)
         else if (last > 0) then
-          call follow_step(mechanism, positions, [last, k], [order(i), k], work, sweep, branches)
+          call follow_step(linkage, positions, [last, k], [order(i), k], work, sweep, branches)
         else if (first_row > 0 .and. k > 1) then
-          call follow_step(mechanism, positions, [first_row, k - 1], [order(i), k], work, sweep, &
+          call follow_step(linkage, positions, [first_row, k - 1], [order(i), k], work, sweep, &
             branches)
         else
           call start_branches(branches, order(i), k)
@@ -122,11 +121,11 @@ contains
 
   !> From one row to the next: every mode gets the branch of the mode that it continues, or begins a
   !! new one.
-  subroutine follow_step(mechanism, positions, from, to, work, sweep, branches)
-    type(mechanism_t), intent(in) :: mechanism
+  subroutine follow_step(linkage, positions, from, to, work, sweep, branches)
+    type(linkage_t), intent(in) :: linkage
     type(positions_t), intent(in) :: positions
     integer, intent(in) :: from(2), to(2)         !! row and speed
-    type(reduced_work_t), intent(inout) :: work   !! for what lies between them
+    type(speed_work_t), intent(inout) :: work   !! for what lies between them
     type(sweep_t), intent(inout) :: sweep
     type(branches_t), intent(inout) :: branches
 
@@ -138,7 +137,7 @@ contains
         second => sweep%results(positions%state(to(1)))%prints(to(2)))
       place = [positions%crank(from(1)), sweep%request%speed(from(2))]
       target_place = [positions%crank(to(1)), sweep%request%speed(to(2))]
-      call match(mechanism%linkage, sweep%models, sweep%request, first, place, second, &
+      call match(linkage, sweep%models, sweep%request, first, place, second, &
         target_place, most_halvings, work, sweep%counts, next, clear)
       mac = likeness(first, second)
     end associate
@@ -167,12 +166,12 @@ contains
   recursive subroutine match(linkage, models, request, first, place, second, target_place, &
     halvings, work, counts, next, clear)
     type(linkage_t), intent(in) :: linkage
-    type(frequency_models_t), intent(in) :: models
+    type(vibration_models_t), intent(in) :: models
     type(mode_request_t), intent(in) :: request
     type(mode_prints_t), intent(in) :: first, second
     real(wp), intent(in) :: place(2), target_place(2) !! crank angle and speed [deg, rad/s]
     integer, intent(in) :: halvings
-    type(reduced_work_t), intent(inout) :: work
+    type(speed_work_t), intent(inout) :: work
     type(ledger_t), intent(inout) :: counts
     integer, intent(out) :: next(:)
     logical, intent(out) :: clear(:)
@@ -220,18 +219,19 @@ contains
   !> Modes between two rows.
   subroutine prints_at(linkage, models, request, place, work, counts, prints, found)
     type(linkage_t), intent(in) :: linkage
-    type(frequency_models_t), intent(in) :: models
+    type(vibration_models_t), intent(in) :: models
     type(mode_request_t), intent(in) :: request
     real(wp), intent(in) :: place(2) !! crank angle and speed [deg, rad/s]
-    type(reduced_work_t), intent(inout) :: work
+    type(speed_work_t), intent(inout) :: work
     type(ledger_t), intent(inout) :: counts
     type(mode_prints_t), intent(out) :: prints
     logical, intent(out) :: found
 
     type(pose_t) :: pose
+    type(kinematic_coefficients_t) :: coefficients
+    type(unit_loads_t) :: loads
     type(error_t), allocatable :: error
     type(mode_request_t) :: here
-    type(chords_t) :: chords
     type(bordered_modes_t) :: modes(1)
     type(string_t) :: failure(1)
     real(wp) :: factor(case_count, 1)
@@ -245,9 +245,11 @@ contains
     failure(1)%text = ""
     ! Places between two rows come in no order, nor are they told apart by the crank angle alone.
     work%tracks(1)%length = 0
-    call solve_reduced(linkage, models%continuum, pose, place(1), distributed_unit_forces(linkage, &
-      pose, find_kinematic_coefficients(linkage, pose), abs(factor(:, 1)) > 0.0_wp), factor, &
-      request%modes, [.false.], work, chords, modes, failure, counts)
+    coefficients = find_kinematic_coefficients(linkage, pose)
+    loads = find_unit_loads(linkage, pose, coefficients, abs(factor(:, 1)) > 0.0_wp)
+    call assemble_equations(linkage, models%continuum, pose, &
+      distributed_unit_forces(linkage, pose, loads), factor, work%equations, counts)
+    call solve_speeds(place(1), factor, request%modes, [.false.], work, modes, failure, counts)
     found = len(failure(1)%text) == 0
     if (found) prints = new_mode_prints(models%continuum%layout, modes(1), request%modes)
   end subroutine prints_at

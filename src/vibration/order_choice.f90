@@ -10,14 +10,25 @@ module order_choice
   use ledger, only: ledger_t
   use link_store, only: link_store_t
   use linkages, only: body_t, linkage_t
-  use pin_displacements, only: chords_t
+  use load_cases, only: find_unit_loads, unit_loads_t
+  use order_errors, only: order_error
+  use position_equations, only: assemble_equations
   use positions, only: positions_t
-  use speed_solver, only: new_reduced_work, order_error, reduced_work_t, solve_reduced
+  use speed_solver, only: new_speed_work, solve_speeds, speed_work_t
+  use structures, only: structure_t
   use text, only: string_t
   implicit none (type, external)
   private
 
-  public :: choose_orders
+  public :: choose_orders, order_demand_t
+
+  !> What orders are to keep.
+  type :: order_demand_t
+    integer, allocatable :: states(:)     !! numbers of the positions that they are to serve
+    real(wp), allocatable :: factor(:, :) !! (cases, speeds) of the unit loads
+    integer :: modes = 0                  !! how many of the lowest
+    real(wp) :: bound = 0.0_wp            !! relative error of their eigenvalues
+  end type order_demand_t
 
   !> Orders are raised up to this number, 56, plus two thirds of the number of modes (where all
   !! three links bend): more than any accuracy needs that the precision can give, but under loads
@@ -48,59 +59,57 @@ contains
   !! The error of order p is about `((kL/4)^{p−1}/(p−1)!)²` for a wave number k and the length L of
   !! the element; this gives a first guess, which the error told by the model itself then raises.
   !! Errors: those of the model; none for a bound that is not reached at the highest order.
-  subroutine choose_orders(linkage, beams, positions, states, factor, modes, bound, store, model, &
-    counts, error)
-    type(linkage_t), intent(in) :: linkage
-    type(beam_t), intent(in) :: beams(:)
+  subroutine choose_orders(structure, positions, demand, store, model, counts, error)
+    type(structure_t), intent(in) :: structure
     type(positions_t), intent(in) :: positions
-    integer, intent(in) :: states(:)     !! numbers of those that the model is to serve
-    real(wp), intent(in) :: factor(:, :) !! (cases, speeds) of the unit loads
-    integer, intent(in) :: modes
-    real(wp), intent(in) :: bound        !! relative error of eigenvalues
-    type(link_store_t), intent(inout) :: store
+    type(order_demand_t), intent(in) :: demand
+    type(link_store_t), intent(inout) :: store !! of links taken apart before
     type(deformation_model_t), intent(out) :: model
     type(ledger_t), intent(inout) :: counts
     type(error_t), allocatable, intent(out) :: error
 
-    real(wp) :: link_error(size(beams)), highest
-    integer :: order(size(beams)), highest_order(size(beams)), b, bending, pieces
+    real(wp) :: link_error(size(structure%beams)), highest, wave
+    integer :: order(size(structure%beams)), highest_order(size(structure%beams)), b, bending, &
+      pieces
     integer, allocatable :: chosen(:)
-    integer :: between_masses(size(beams))
-    logical :: continuous(size(beams))
+    integer :: between_masses(size(structure%beams))
+    logical :: continuous(size(structure%beams))
 
-    chosen = sample_states(positions, states)
-    bending = count(linkage%bodies%bends)
-    do b = 1, size(beams)
-      pieces = size(pieces_of(linkage%bodies(b))) - 1
-      order(b) = max(least_order, (max(8, (3*modes)/(2*bending) + 6) + pieces - 1)/pieces)
-      highest_order(b) = (spare_orders + (2*modes)/bending + (pieces - 1)*more_orders)/pieces
-    end do
-    between_masses = 0
-    continuous = .false. ! no masses on nodes
-    call new_deformation_model(linkage, beams, between_masses, order, continuous, model, error, &
-      store)
-    if (allocated(error) .or. size(chosen) == 0) return
-    ! One position tells how short the waves are.
-    call try_samples(linkage, model, positions, chosen(size(chosen)/2 + 1:size(chosen)/2 + 1), &
-      factor, modes, link_error, highest, counts)
-    do b = 1, size(beams)
-      if (.not. linkage%bodies(b)%bends) cycle
-      order(b) = guessed_order(longest_piece(linkage%bodies(b))*wave_number(linkage%bodies(b), &
-        beams(b), highest), share*bound, order(b), highest_order(b), modes, bending)
-    end do
-    do
+    associate (linkage => structure%linkage, beams => structure%beams, modes => demand%modes, &
+        link_bound => share*demand%bound)
+      chosen = sample_states(positions, demand%states)
+      bending = count(linkage%bodies%bends)
+      do b = 1, size(beams)
+        pieces = size(pieces_of(linkage%bodies(b))) - 1
+        order(b) = max(least_order, (max(8, (3*modes)/(2*bending) + 6) + pieces - 1)/pieces)
+        highest_order(b) = (spare_orders + (2*modes)/bending + (pieces - 1)*more_orders)/pieces
+      end do
+      between_masses = 0
+      continuous = .false. ! no masses on nodes
       call new_deformation_model(linkage, beams, between_masses, order, continuous, model, error, &
         store)
-      if (allocated(error)) return
-      call try_samples(linkage, model, positions, chosen, factor, modes, link_error, highest, &
-        counts)
-      if (all(link_error <= share*bound .or. order >= highest_order)) exit
+      if (allocated(error) .or. size(chosen) == 0) return
+      ! One position tells how short the waves are.
+      call try_samples(linkage, model, positions, chosen(size(chosen)/2 + 1:size(chosen)/2 + 1), &
+        demand, link_error, highest, counts)
       do b = 1, size(beams)
-        if (link_error(b) <= share*bound) cycle
-        order(b) = raised_order(longest_piece(linkage%bodies(b))*wave_number(linkage%bodies(b), &
-          beams(b), highest), share*bound/link_error(b), order(b), highest_order(b))
+        if (.not. linkage%bodies(b)%bends) cycle
+        wave = longest_piece(linkage%bodies(b))*wave_number(linkage%bodies(b), beams(b), highest)
+        order(b) = guessed_order(wave, link_bound, order(b), highest_order(b), modes, bending)
       end do
-    end do
+      do
+        call new_deformation_model(linkage, beams, between_masses, order, continuous, model, &
+          error, store)
+        if (allocated(error)) return
+        call try_samples(linkage, model, positions, chosen, demand, link_error, highest, counts)
+        if (all(link_error <= link_bound .or. order >= highest_order)) exit
+        do b = 1, size(beams)
+          if (link_error(b) <= link_bound) cycle
+          wave = longest_piece(linkage%bodies(b))*wave_number(linkage%bodies(b), beams(b), highest)
+          order(b) = raised_order(wave, link_bound/link_error(b), order(b), highest_order(b))
+        end do
+      end do
+    end associate
   end subroutine choose_orders
 
   !> Some of the states that have a pose, spread over the list.
@@ -202,47 +211,47 @@ contains
 
   !> The largest error of any mode by link, and the largest eigenvalue, over the samples at the
   !! least and the greatest speed.
-  subroutine try_samples(linkage, model, positions, chosen, factor, modes, link_error, highest, &
-    counts)
+  subroutine try_samples(linkage, model, positions, chosen, demand, link_error, highest, counts)
     type(linkage_t), intent(in) :: linkage
     type(deformation_model_t), intent(in) :: model
     type(positions_t), intent(in) :: positions
-    integer, intent(in) :: chosen(:)
-    real(wp), intent(in) :: factor(:, :)
-    integer, intent(in) :: modes
-    real(wp), intent(out) :: link_error(:)
-    real(wp), intent(out) :: highest
+    integer, intent(in) :: chosen(:)        !! numbers of the samples among the states
+    type(order_demand_t), intent(in) :: demand
+    real(wp), intent(out) :: link_error(:)  !! (bodies) relative, of eigenvalues
+    real(wp), intent(out) :: highest        !! eigenvalue [1/s²]
     type(ledger_t), intent(inout) :: counts
 
-    type(reduced_work_t) :: work
-    type(chords_t) :: chords
+    type(speed_work_t) :: work
+    type(unit_loads_t) :: loads
     type(bordered_modes_t), allocatable :: found(:)
     type(string_t), allocatable :: failure(:)
     real(wp), allocatable :: force(:, :, :), tried(:, :)
     integer :: i, k
 
-    tried = factor(:, [minloc(factor(1, :), dim=1), maxloc(factor(1, :), dim=1)])
+    tried = demand%factor(:, [minloc(demand%factor(1, :), dim=1), maxloc(demand%factor(1, :), &
+      dim=1)])
     if (all(abs(tried(:, 1) - tried(:, 2)) <= 0.0_wp)) tried = tried(:, :1)
     allocate (found(size(tried, 2)), failure(size(tried, 2)))
-    work = new_reduced_work(model, size(tried, 2))
+    work = new_speed_work(model, size(tried, 2))
     link_error = 0.0_wp
     highest = 0.0_wp
     do i = 1, size(chosen)
       associate (state => positions%states(chosen(i)))
-        force = distributed_unit_forces(linkage, state%pose, state%coefficients, &
+        loads = find_unit_loads(linkage, state%pose, state%coefficients, &
           any(abs(tried) > 0.0_wp, dim=2))
+        force = distributed_unit_forces(linkage, state%pose, loads)
         do k = 1, size(failure)
           failure(k)%text = ""
         end do
-        call solve_reduced(linkage, model, state%pose, state%crank, force, tried, modes, &
-          spread(.false., 1, size(found)), work, chords, found, failure, counts)
+        call assemble_equations(linkage, model, state%pose, force, tried, work%equations, counts)
+        call solve_speeds(state%crank, tried, demand%modes, spread(.false., 1, size(found)), work, &
+          found, failure, counts)
       end associate
       do k = 1, size(found)
         if (len(failure(k)%text) > 0) cycle
-        highest = max(highest, maxval(abs(found(k)%lambda(:modes))))
-        link_error = max(link_error, &
-          maxval(order_error(model, chords, total_force(force, tried(:, k)), found(k), modes), &
-          dim=2))
+        highest = max(highest, maxval(abs(found(k)%lambda(:demand%modes))))
+        link_error = max(link_error, maxval(order_error(model, work%equations%chords, &
+          total_force(force, tried(:, k)), found(k), demand%modes), dim=2))
       end do
     end do
   end subroutine try_samples

@@ -5,17 +5,17 @@
 module pose_rounding
   use axial_forces, only: distributed_unit_forces, total_force
   use bordered_eigensolver, only: bordered_modes_t
-  use bordered_matrix, only: bordered_matrix_t, bordered_times_vector, new_bordered_matrix
   use deformation_model, only: deformation_model_t
+  use eigenvalue_sensitivity, only: eigenvalue_change, residual_work
   use errors, only: error_t
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use linkages, only: linkage_t
-  use load_cases, only: case_count
-  use pin_displacements, only: chords_t, find_chords
+  use load_cases, only: case_count, find_unit_loads, unit_loads_t
   use poses, only: find_pose, pose_t
+  use position_equations, only: assemble_mass_at, assemble_stiffness_of, new_position_equations, &
+    position_equations_t
   use positions, only: state_t
-  use reduced_assembly, only: reduced_geometric_stiffness, reduced_mass
   implicit none (type, external)
   private
 
@@ -54,7 +54,8 @@ contains
     integer, intent(in) :: modes
     real(wp), intent(out) :: error(:)  !! (modes) of eigenvalues
 
-    real(wp) :: sine, least_sine, spread, energy, rest(modes), changed(modes)
+    real(wp) :: sine, least_sine, spread, energy, own_work(modes)
+    type(position_equations_t) :: equations
     type(linkage_t) :: other
     integer :: b, i, side
     logical :: reached
@@ -73,20 +74,24 @@ contains
       end do
       return
     end if
-    call rayleigh_quotients(linkage, model, state%crank, factor, found, rest, reached)
+    equations = new_position_equations(model)
+    call assemble_lengths(linkage, model, state%crank, factor, equations, reached)
+    own_work = 0.0_wp
+    if (reached) own_work = residual_work(equations%pencil, found, modes)
     error = 0.0_wp
     do b = 1, size(linkage%bodies)
       do side = 1, -1, -2
         other = linkage
         other%bodies(b)%length = linkage%bodies(b)%length*(1.0_wp + side*small_change*sine**2)
-        call rayleigh_quotients(other, model, state%crank, factor, found, changed, reached)
+        call assemble_lengths(other, model, state%crank, factor, equations, reached)
         if (reached) exit
       end do
       if (.not. reached) then
         error = error + 1.0_wp
         cycle
       end if
-      error = error + near_multiple*epsilon(1.0_wp)*abs(changed - rest)/ &
+      error = error + &
+        near_multiple*epsilon(1.0_wp)*abs(eigenvalue_change(equations%pencil, found, own_work))/ &
         (small_change*sine**2*max(abs(found%lambda(:modes)), tiny(1.0_wp)))
     end do
     error = 2.0_wp*error
@@ -113,48 +118,30 @@ contains
     spread = largest/shortest
   end function length_spread
 
-  !> `yᵀ(I + G − λM)y` of all modes in a linkage whose lengths may differ from those of the modes.
-  subroutine rayleigh_quotients(linkage, model, crank, factor, found, quotient, reached)
+  !> The equations of a linkage whose lengths may differ from those of the model, as one load.
+  subroutine assemble_lengths(linkage, model, crank, factor, equations, reached)
     type(linkage_t), intent(in) :: linkage
     type(deformation_model_t), intent(in) :: model
-    real(wp), intent(in) :: crank      !! [deg]
-    real(wp), intent(in) :: factor(case_count)
-    type(bordered_modes_t), intent(in) :: found
-    real(wp), intent(out) :: quotient(:) !! (modes)
-    logical, intent(out) :: reached
+    real(wp), intent(in) :: crank              !! [deg]
+    real(wp), intent(in) :: factor(case_count) !! of the unit loads
+    type(position_equations_t), intent(inout) :: equations !! of the model
+    logical, intent(out) :: reached            !! whether the linkage closes there
 
     type(pose_t) :: pose
     type(kinematic_coefficients_t) :: coefficients
-    type(chords_t) :: chords
-    type(bordered_matrix_t) :: mass, geometric
+    type(unit_loads_t) :: loads
     type(error_t), allocatable :: error
     real(wp), allocatable :: force(:, :, :)
-    real(wp) :: product(model%layout%unknowns)
-    integer :: i
 
-    quotient = 0.0_wp
     call find_pose(linkage, crank, pose, error)
     reached = .not. allocated(error)
     if (.not. reached) return
+    call assemble_mass_at(linkage, model, pose, equations)
+    if (all(abs(factor) <= 0.0_wp)) return
     coefficients = find_kinematic_coefficients(linkage, pose)
-    chords = find_chords(linkage, model%links, pose)
-    mass = new_bordered_matrix(model%layout, .false.)
-    call reduced_mass(linkage, model%links, model%layout, chords, mass)
-    force = distributed_unit_forces(linkage, pose, coefficients, abs(factor) > 0.0_wp)
-    geometric = new_bordered_matrix(model%layout, .true.)
-    if (size(force) > 0) then
-      call reduced_geometric_stiffness(model%links, model%layout, chords, &
-        total_force(force, factor), geometric)
-    end if
-    do i = 1, size(quotient)
-      associate (y => found%vector(:, i))
-        call bordered_times_vector(model%layout, mass, y, product)
-        quotient(i) = dot_product(y, y) - found%lambda(i)*dot_product(y, product)
-        if (size(force) == 0) cycle
-        call bordered_times_vector(model%layout, geometric, y, product)
-        quotient(i) = quotient(i) + dot_product(y, product)
-      end associate
-    end do
-  end subroutine rayleigh_quotients
+    loads = find_unit_loads(linkage, pose, coefficients, abs(factor) > 0.0_wp)
+    force = distributed_unit_forces(linkage, pose, loads)
+    call assemble_stiffness_of(model, total_force(force, factor), equations)
+  end subroutine assemble_lengths
 
 end module pose_rounding

@@ -1,16 +1,17 @@
 !> What is found at a position, and the room it takes to find it.
 module position_results
+  use constants, only: two_pi
   use deformation_chain, only: deformation_chain_t
   use kinds, only: wp
   use ledger, only: ledger_t
   use modal_assurance, only: mode_prints_t
   use shape_samples, only: shapes_t
-  use speed_solver, only: reduced_work_t
+  use speed_solver, only: speed_work_t
   use text, only: string_t
   implicit none (type, external)
   private
 
-  public :: position_result_t, position_work_t, of_frequency
+  public :: position_result_t, position_work_t, of_frequency, frequency_of, take_mesh_value
 
   !> A frequency is off by half of what its eigenvalue is.
   real(wp), parameter :: of_frequency = 0.5_wp
@@ -32,8 +33,33 @@ module position_results
 
   !> Room for the matrices of the models, and the last positions of a sweep.
   type :: position_work_t
-    type(reduced_work_t) :: continuum, mesh
+    type(speed_work_t) :: continuum, mesh
     type(deformation_chain_t) :: chain
   end type position_work_t
+
+contains
+
+  !> `sign(λ) sqrt(|λ|)/2π`: negative past a divergence [Hz].
+  elemental function frequency_of(lambda) result(frequency)
+    real(wp), intent(in) :: lambda !! ω² [1/s²]
+    real(wp) :: frequency
+
+    frequency = sign(sqrt(abs(lambda)), lambda)/two_pi
+  end function frequency_of
+
+  !> Replaces what the continuous links gave by what the mesh gives; the difference is its error.
+  elemental subroutine take_mesh_value(lambda_of_mesh, own_error, lambda, error)
+    real(wp), intent(in) :: lambda_of_mesh, own_error !! eigenvalue of the mesh, relative error of
+                                                      !! it
+    real(wp), intent(inout) :: lambda, error
+
+    real(wp) :: frequency, exact
+
+    frequency = sign(sqrt(abs(lambda_of_mesh)), lambda_of_mesh)
+    exact = sign(sqrt(abs(lambda)), lambda)
+    error = (abs(frequency - exact) + error*abs(exact))/max(abs(frequency), tiny(frequency)) + &
+      of_frequency*own_error
+    lambda = lambda_of_mesh
+  end subroutine take_mesh_value
 
 end module position_results

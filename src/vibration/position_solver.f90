@@ -7,19 +7,23 @@ module position_solver
   use kinds, only: wp
   use link_modes, only: stations
   use linkages, only: linkage_t
-  use load_cases, only: case_count, load_case_t, unit_cases
-  use mechanisms, only: mechanism_t
-  use mesh_solver, only: solve_long_mesh, solve_mesh, solve_nodal
+  use load_cases, only: case_count, find_unit_loads, unit_loads_t
+  use mesh_solver, only: solve_long_mesh, solve_mesh
   use modal_assurance, only: new_mode_prints
+  use nodal_solver, only: solve_nodal
+  use order_errors, only: order_error
   use pin_displacements, only: chords_t
   use pose_rounding, only: pose_error
+  use poses, only: pose_t
+  use position_equations, only: assemble_equations
   use position_results, only: of_frequency, position_result_t, position_work_t
   use positions, only: state_t
   use reduced_assembly, only: reduced_deflection
   use shape_samples, only: sample_reduced
-  use speed_solver, only: new_reduced_work, order_error, solve_reduced
+  use speed_solver, only: new_speed_work, solve_speeds
+  use structures, only: structure_t
   use vibration_models, only: by_band, by_dense, by_link_modes, by_long_mesh, by_orders, &
-    frequency_models_t, load_factors, mode_request_t
+    load_factors, mode_request_t, vibration_models_t
   implicit none (type, external)
   private
 
@@ -28,13 +32,13 @@ module position_solver
 contains
 
   pure function new_position_work(models, request) result(work)
-    type(frequency_models_t), intent(in) :: models
+    type(vibration_models_t), intent(in) :: models
     type(mode_request_t), intent(in) :: request
     type(position_work_t) :: work
 
-    work%continuum = new_reduced_work(models%continuum, size(request%speed))
+    work%continuum = new_speed_work(models%continuum, size(request%speed))
     if (any(request%method == [by_link_modes, by_long_mesh])) work%mesh = &
-      new_reduced_work(models%mesh, size(request%speed))
+      new_speed_work(models%mesh, size(request%speed))
     if (request%method == by_long_mesh) work%chain = models%chain
   end function new_position_work
 
@@ -43,9 +47,9 @@ contains
   !! Always solved is the structure with continuous links, to the accuracy of `models`. Where the
   !! deck has a mesh of its own, that is solved as well, and written; the error of its frequencies
   !! is their difference.
-  subroutine solve_position(mechanism, models, state, request, want_shapes, work, result)
-    type(mechanism_t), intent(in) :: mechanism
-    type(frequency_models_t), intent(in) :: models
+  subroutine solve_position(structure, models, state, request, want_shapes, work, result)
+    type(structure_t), intent(in) :: structure
+    type(vibration_models_t), intent(in) :: models
     type(state_t), intent(in) :: state       !! with a pose
     type(mode_request_t), intent(in) :: request
     logical, intent(in) :: want_shapes(:)    !! (speeds)
@@ -53,9 +57,9 @@ contains
     type(position_result_t), intent(out) :: result
 
     type(bordered_modes_t) :: found(size(request%speed))
-    type(chords_t) :: chords
+    type(unit_loads_t) :: loads
     real(wp), allocatable :: unit_force(:, :, :)
-    real(wp) :: factor(case_count, size(request%speed)), discretisation(size(mechanism%beams), &
+    real(wp) :: factor(case_count, size(request%speed)), discretisation(size(structure%beams), &
       request%modes)
     real(wp) :: rounding(request%modes)
     integer :: k, n
@@ -63,7 +67,7 @@ contains
     n = size(request%speed)
     allocate (result%lambda(request%modes, n), result%error(request%modes, n), result%failure(n), &
       result%shapes(n))
-    allocate (result%deflection(size(mechanism%beams), n))
+    allocate (result%deflection(size(structure%beams), n))
     result%lambda = 0.0_wp
     result%error = 0.0_wp
     result%deflection = 0.0_wp
@@ -71,71 +75,73 @@ contains
       result%failure(k)%text = ""
     end do
     factor = load_factors(request)
-    unit_force = distributed_unit_forces(mechanism%linkage, state%pose, state%coefficients, &
+    loads = find_unit_loads(structure%linkage, state%pose, state%coefficients, &
       any(abs(factor) > 0.0_wp, dim=2))
-    call solve_reduced(mechanism%linkage, models%continuum, state%pose, state%crank, unit_force, &
-      factor, request%modes, want_shapes .and. request%method == by_orders, work%continuum, &
-      chords, found, result%failure, result%counts)
-    if (size(unit_force) > 0) call find_deflection(mechanism%linkage, models%continuum, chords, &
-      state, factor, result%deflection)
-    do k = 1, n
-      if (len(result%failure(k)%text) > 0) cycle
-      discretisation = order_error(models%continuum, chords, total_force(unit_force, &
-        factor(:, k)), found(k), request%modes)
-      result%order_error = max(result%order_error, maxval(sum(discretisation, dim=1)))
-      result%lambda(:, k) = found(k)%lambda(:request%modes)
-      call pose_error(mechanism%linkage, models%continuum, state, factor(:, k), found(k), &
-        request%modes, rounding)
-      result%error(:, k) = of_frequency*(sum(discretisation, dim=1) + &
-        found(k)%error(:request%modes) + rounding)
-    end do
+    unit_force = distributed_unit_forces(structure%linkage, state%pose, loads)
+    call assemble_equations(structure%linkage, models%continuum, state%pose, unit_force, factor, &
+      work%continuum%equations, result%counts)
+    call solve_speeds(state%crank, factor, request%modes, &
+      want_shapes .and. request%method == by_orders, work%continuum, found, result%failure, &
+      result%counts)
+    associate (chords => work%continuum%equations%chords)
+      if (size(unit_force) > 0) call find_deflection(structure%linkage, models%continuum, chords, &
+        state%pose, loads, factor, result%deflection)
+      do k = 1, n
+        if (len(result%failure(k)%text) > 0) cycle
+        discretisation = order_error(models%continuum, chords, &
+          total_force(unit_force, factor(:, k)), found(k), request%modes)
+        result%order_error = max(result%order_error, maxval(sum(discretisation, dim=1)))
+        result%lambda(:, k) = found(k)%lambda(:request%modes)
+        call pose_error(structure%linkage, models%continuum, state, factor(:, k), found(k), &
+          request%modes, rounding)
+        result%error(:, k) = of_frequency*(sum(discretisation, dim=1) + &
+          found(k)%error(:request%modes) + rounding)
+      end do
+    end associate
     if (request%follow) then
       allocate (result%prints(n))
       do k = 1, n
-        if (len(result%failure(k)%text) == 0) result%prints(k) &
-          = new_mode_prints(models%continuum%layout, found(k), request%modes)
+        if (len(result%failure(k)%text) == 0) result%prints(k) = &
+          new_mode_prints(models%continuum%layout, found(k), request%modes)
       end do
     end if
     select case (request%method)
     case (by_orders)
       do k = 1, n
         if (want_shapes(k) .and. len(result%failure(k)%text) == 0) then
-          call sample_reduced(mechanism%linkage, models%continuum, chords, state, found(k), &
-            request, result%shapes(k))
+          call sample_reduced(structure%linkage, models%continuum, &
+            work%continuum%equations%chords, state, found(k), request, result%shapes(k))
           result%counts%shapes = result%counts%shapes + request%modes
         end if
       end do
     case (by_link_modes)
-      call solve_mesh(mechanism, models%mesh, state, request, factor, want_shapes, work%mesh, &
-        result)
+      call solve_mesh(structure, models%mesh, state, loads, request, factor, want_shapes, &
+        work%mesh, result)
     case (by_long_mesh)
-      call solve_long_mesh(mechanism, models%mesh, state, request, factor, want_shapes, work, &
-        result)
+      call solve_long_mesh(structure, models%mesh, state, loads, request, factor, want_shapes, &
+        work, result)
     case (by_dense, by_band)
-      call solve_nodal(mechanism, state, request, factor, want_shapes, result)
+      call solve_nodal(structure, state, loads, request, factor, want_shapes, result)
     end select
   end subroutine solve_position
 
   !> Largest static deflection of the links at every speed, compared with their lengths.
-  subroutine find_deflection(linkage, model, chords, state, factor, ratio)
+  subroutine find_deflection(linkage, model, chords, pose, loads, factor, ratio)
     type(linkage_t), intent(in) :: linkage
     type(deformation_model_t), intent(in) :: model
-    type(chords_t), intent(in) :: chords
-    type(state_t), intent(in) :: state
-    real(wp), intent(in) :: factor(:, :)  !! (cases, speeds) of the unit loads
-    real(wp), intent(out) :: ratio(:, :)  !! (bodies, speeds)
+    type(chords_t), intent(in) :: chords   !! at this pose
+    type(pose_t), intent(in) :: pose
+    type(unit_loads_t), intent(in) :: loads !! at this pose
+    real(wp), intent(in) :: factor(:, :)   !! (cases, speeds) of the unit loads
+    real(wp), intent(out) :: ratio(:, :)   !! (bodies, speeds)
 
-    type(load_case_t) :: cases(case_count)
     real(wp) :: unit(2, stations, size(linkage%bodies), case_count), displacement(2), squared
-    logical :: occurs(case_count)
     integer :: b, i, j, k
 
-    occurs = any(abs(factor) > 0.0_wp, dim=2)
-    cases = unit_cases(linkage, state%pose, state%coefficients, occurs)
     unit = 0.0_wp
     do i = 1, case_count
-      if (.not. occurs(i)) cycle
-      call reduced_deflection(linkage, model%links, model%layout, chords, state%pose, cases(i), &
+      if (.not. loads%occurs(i)) cycle
+      call reduced_deflection(linkage, model%links, model%layout, chords, pose, loads%of_case(i), &
         unit(:, :, :, i))
     end do
     do k = 1, size(factor, 2)

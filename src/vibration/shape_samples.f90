@@ -6,10 +6,10 @@ module shape_samples
   use deformation_model, only: deformation_model_t
   use kinds, only: wp
   use linkages, only: linkage_t, normal_to
-  use mechanisms, only: mechanism_t
   use pin_displacements, only: chords_t
   use positions, only: state_t
   use reduced_shapes, only: reduced_shape_point
+  use structures, only: structure_t
   use vibration_models, only: mode_request_t
   implicit none (type, external)
   private
@@ -83,28 +83,28 @@ contains
   end subroutine sample_chain
 
   !> The same for nodal displacements.
-  pure subroutine sample_nodal(mechanism, state, vector, request, shapes)
-    type(mechanism_t), intent(in) :: mechanism
+  pure subroutine sample_nodal(structure, state, vector, request, shapes)
+    type(structure_t), intent(in) :: structure
     type(state_t), intent(in) :: state
     real(wp), intent(in) :: vector(:, :) !! (unknowns, modes)
     type(mode_request_t), intent(in) :: request
     type(shapes_t), intent(out) :: shapes
 
-    real(wp) :: middle(3, size(mechanism%linkage%bodies)), length
+    real(wp) :: middle(3, size(structure%linkage%bodies)), length
     integer :: b, i, mode
 
-    allocate (shapes%displacement(3, request%points, size(mechanism%linkage%bodies), request%modes))
+    allocate (shapes%displacement(3, request%points, size(structure%linkage%bodies), request%modes))
     do mode = 1, request%modes
-      do b = 1, size(mechanism%linkage%bodies)
-        length = mechanism%linkage%bodies(b)%length
+      do b = 1, size(structure%linkage%bodies)
+        length = structure%linkage%bodies(b)%length
         do i = 1, request%points
-          shapes%displacement(:, i, b, mode) = shape_point(mechanism%linkage, mechanism%mesh, &
+          shapes%displacement(:, i, b, mode) = shape_point(structure%linkage, structure%mesh, &
             state%pose, vector(:, mode), b, length*(i - 1)/(request%points - 1))
         end do
-        middle(:, b) = shape_point(mechanism%linkage, mechanism%mesh, state%pose, vector(:, mode), &
+        middle(:, b) = shape_point(structure%linkage, structure%mesh, state%pose, vector(:, mode), &
           b, 0.5_wp*length)
       end do
-      shapes%displacement(:, :, :, mode) = mid_link_sign(mechanism%linkage, state, &
+      shapes%displacement(:, :, :, mode) = mid_link_sign(structure%linkage, state, &
         middle)*shapes%displacement(:, :, :, mode)
     end do
   end subroutine sample_nodal

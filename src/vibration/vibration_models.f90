@@ -9,21 +9,23 @@ module vibration_models
   use ledger, only: ledger_t
   use link_store, only: link_store_t
   use load_cases, only: case_count, constant_case
-  use mechanisms, only: mechanism_t
-  use models, only: solver_band, solver_dense
-  use order_choice, only: choose_orders
+  use order_choice, only: choose_orders, order_demand_t
   use positions, only: positions_t
+  use structures, only: structure_t
   implicit none (type, external)
   private
 
-  public :: mode_request_t, frequency_models_t, new_frequency_models, load_factors, chosen_method
-  public :: by_orders, by_link_modes, by_long_mesh, by_dense, by_band
+  public :: mode_request_t, vibration_models_t, new_vibration_models, load_factors, chosen_method
+  public :: by_orders, by_link_modes, by_long_mesh, by_dense, by_band, any_method
 
   !> How the frequencies that are written are found: with orders that the program chooses; on the
   !! mesh of the deck in deformation coordinates, taken apart link by link, or with running sums; on
   !! it in nodal unknowns, with full or with band matrices.
   integer, parameter :: by_orders = 1, by_link_modes = 2, by_long_mesh = 3, by_dense = 4, &
     by_band = 5
+
+  !> The choice is left to the program.
+  integer, parameter :: any_method = 0
 
   !> Links with more unknowns than this are not taken apart into their own modes.
   integer, parameter :: most_link_unknowns = 80
@@ -50,13 +52,13 @@ module vibration_models
                                        !! them
   end type mode_request_t
 
-  type :: frequency_models_t
+  type :: vibration_models_t
     type(deformation_model_t) :: continuum !! one element a link or between masses, of the orders
                                            !! that the accuracy needs
     type(deformation_model_t) :: mesh      !! that of the deck; for `by_long_mesh` with continuous
                                            !! links in place of the long ones
     type(deformation_chain_t) :: chain     !! that of the deck for `by_long_mesh`
-  end type frequency_models_t
+  end type vibration_models_t
 
 contains
 
@@ -74,8 +76,8 @@ contains
   end function load_factors
 
   !> How frequencies are found on a mesh.
-  pure function chosen_method(solver, accurate, elements, order, sheared) result(method)
-    integer, intent(in) :: solver                !! of the deck
+  pure function chosen_method(wanted, accurate, elements, order, sheared) result(method)
+    integer, intent(in) :: wanted                !! by_dense, by_band or any_method
     logical, intent(in) :: accurate              !! the mesh is left to the program
     integer, intent(in) :: elements(:), order(:) !! (bodies)
     logical, intent(in) :: sheared               !! elements have shear strains
@@ -83,10 +85,8 @@ contains
 
     if (accurate) then
       method = by_orders
-    else if (solver == solver_dense) then
-      method = by_dense
-    else if (solver == solver_band) then
-      method = by_band
+    else if (wanted /= any_method) then
+      method = wanted
     else if (any(is_long_link(elements, order, sheared))) then
       method = by_long_mesh
     else
@@ -103,34 +103,39 @@ contains
     is = elements > 1 .and. elements*bending_unknowns(order, sheared) > most_link_unknowns
   end function is_long_link
 
-  !> Errors: the own modes of a link could not be found.
-  subroutine new_frequency_models(mechanism, positions, states, request, bound, store, models, &
-    counts, error)
-    type(mechanism_t), intent(in) :: mechanism
+  !> Chooses orders that keep a bound at the positions that the models are to serve, and makes what
+  !! the method needs beside them. Errors: the own modes of a link could not be found.
+  subroutine new_vibration_models(structure, positions, states, request, bound, store, models, &
+      counts, error)
+    type(structure_t), intent(in) :: structure
     type(positions_t), intent(in) :: positions
-    integer, intent(in) :: states(:) !! numbers of those that they are to serve
+    integer, intent(in) :: states(:)           !! numbers of those that the models are to serve
     type(mode_request_t), intent(in) :: request
-    real(wp), intent(in) :: bound !! relative error of eigenvalues that the orders must keep
-    type(link_store_t), intent(inout) :: store
-    type(frequency_models_t), intent(out) :: models
+    real(wp), intent(in) :: bound              !! relative error of eigenvalues that the orders keep
+    type(link_store_t), intent(inout) :: store !! of links taken apart before
+    type(vibration_models_t), intent(out) :: models
     type(ledger_t), intent(inout) :: counts
     type(error_t), allocatable, intent(out) :: error
 
-    logical :: is_long(size(mechanism%beams))
+    type(order_demand_t) :: demand
+    logical :: is_long(size(structure%beams))
 
-    call choose_orders(mechanism%linkage, mechanism%beams, positions, states, &
-      load_factors(request), request%modes + merge(long_mesh_guards, 0, &
-      request%method == by_long_mesh), bound, store, models%continuum, counts, error)
+    demand%states = states
+    demand%factor = load_factors(request)
+    demand%modes = request%modes
+    if (request%method == by_long_mesh) demand%modes = request%modes + long_mesh_guards
+    demand%bound = bound
+    call choose_orders(structure, positions, demand, store, models%continuum, counts, error)
     if (allocated(error)) return
     if (request%method /= by_link_modes .and. request%method /= by_long_mesh) return
-    associate (mesh => mechanism%mesh)
+    associate (linkage => structure%linkage, beams => structure%beams, mesh => structure%mesh)
       is_long = is_long_link(mesh%elements, mesh%order, mesh%sheared)
-      call new_deformation_model(mechanism%linkage, mechanism%beams, merge(0, mesh%elements, &
-        is_long), merge(models%continuum%order, mesh%order, is_long), request%lumped .and. &
-        request%axial .and. .not. is_long, models%mesh, error, store)
-      if (request%method == by_long_mesh) models%chain = new_deformation_chain(mechanism%linkage, &
-        mechanism%beams, mesh%elements, mesh%order, axial_degree(mesh%order))
+      call new_deformation_model(linkage, beams, merge(0, mesh%elements, is_long), &
+        merge(models%continuum%order, mesh%order, is_long), &
+        request%lumped .and. request%axial .and. .not. is_long, models%mesh, error, store)
+      if (request%method == by_long_mesh) models%chain = new_deformation_chain(linkage, beams, &
+        mesh%elements, mesh%order, axial_degree(mesh%order))
     end associate
-  end subroutine new_frequency_models
+  end subroutine new_vibration_models
 
 end module vibration_models

@@ -4,7 +4,7 @@ module bench_runs
   use bench_models, only: base_t, model_of, refusal
   use errors, only: error_t
   use exact_values, only: bench_speed, exact_states, exact_values_t, largest_error
-  use frequency_study, only: run_sweep, sweep_t
+  use frequency_study, only: run_sweep
   use kinds, only: long, wp
   use ledger, only: ledger_t
   use link_store, only: link_store_t
@@ -16,6 +16,7 @@ module bench_runs
   use positions, only: by_crank_angle, find_positions, positions_t
   use progress, only: progress_t
   use sweep_journal, only: journal_t
+  use sweeps, only: sweep_t
   use text, only: to_string
   use vibration_models, only: by_orders, frequency_models_t, new_frequency_models
   implicit none (type, external)

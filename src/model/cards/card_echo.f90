@@ -40,8 +40,8 @@ contains
     end do
     do i = 1, size(deck%settings%list)
       associate (setting => deck%settings%list(i))
-        if (setting%is_overridden) lines(setting%card) &
-          = overridden_line(deck%written(setting%card), setting, source)
+        if (setting%is_overridden) lines(setting%card) = &
+          overridden_line(deck%written(setting%card), setting, source)
       end associate
     end do
   end function echo_cards

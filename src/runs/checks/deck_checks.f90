@@ -4,13 +4,14 @@ module deck_checks
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use four_bar_limits, only: can_reach, crank_reach, reach_t
   use kinds, only: wp
-  use mechanisms, only: has_beams, has_mesh, mechanism_t, mesh_with, new_mechanism
+  use mechanisms, only: mechanism_t, new_mechanism
   use models, only: model_t, needs_frequencies, solver_band, solver_dense
   use motion_checks, only: check_motion
   use nodal_eigensolver, only: most_round_off
   use rest_eigenvalues, only: lowest_rest_eigenvalues
   use round_off, only: round_off_error
   use sorting, only: ascending_order
+  use structures, only: elements_replaced, has_beams, has_mesh, structure_t
   use text, only: plural, to_string
   use tokens, only: token_t
   use value_lists, only: value_list_t
@@ -238,15 +239,15 @@ contains
     integer :: i, body, samples
 
     samples = min(size(model%crank%value), most_samples)
-    lambda = lowest_rest_eigenvalues(mechanism, &
+    lambda = lowest_rest_eigenvalues(mechanism%structure_t, &
       [(model%crank%value(1 + ((i - 1)*(size(model%crank%value) - 1))/max(1, samples - 1)), i=1, &
       samples)])
     lambda = lambda(ascending_order(lambda))
     do body = 1, size(mechanism%beams)
-      bound = bound_of(mechanism, body, lambda((samples + 1)/2))
+      bound = bound_of(mechanism%structure_t, body, lambda((samples + 1)/2))
       if (bound <= most_round_off) cycle
-      if (bound_of(mesh_with(mechanism, spread(1, 1, size(mechanism%beams))), body, &
-        lambda((samples + 1)/2)) <= most_round_off) then
+      if (bound_of(elements_replaced(mechanism%structure_t, spread(1, 1, size(mechanism%beams))), &
+        body, lambda((samples + 1)/2)) <= most_round_off) then
         fault = "this mesh is too fine for double precision: use fewer elements"
       else
         fault = "link '"//mechanism%names(body)%text//"' is too slender for double precision"
@@ -260,13 +261,13 @@ contains
   end subroutine check_round_off
 
   !> `ε‖K_e‖/(λ‖M_e‖)` of a body's elements.
-  pure function bound_of(mechanism, body, lambda) result(bound)
-    type(mechanism_t), intent(in) :: mechanism
+  pure function bound_of(structure, body, lambda) result(bound)
+    type(structure_t), intent(in) :: structure
     integer, intent(in) :: body
     real(wp), intent(in) :: lambda !! [1/s²]
     real(wp) :: bound
 
-    bound = round_off_error(mechanism%linkage, mechanism%beams, mechanism%mesh, body)/max(lambda, &
+    bound = round_off_error(structure%linkage, structure%beams, structure%mesh, body)/max(lambda, &
       sqrt(tiny(lambda)))
   end function bound_of
 

@@ -7,6 +7,7 @@ module memory_needs
   use beam_element, only: axial_degree, element_unknowns
   use deformation_shapes, only: bending_unknowns
   use diagnostics, only: add_error, diagnostics_t
+  use frequency_study, only: method_wanted
   use kinds, only: wp
   use models, only: effects_static, model_t, needs_frequencies, report_number
   use motion_study, only: motion_rows_of
@@ -169,7 +170,7 @@ contains
     needs(of_mesh)%bytes = sum(real(elements, wp))*(copies*4*maxval(element_unknowns(order, &
       model%shear)) + of_element*number)
     if (.not. needs_frequencies(model)) return
-    select case (chosen_method(model%solver, &
+    select case (chosen_method(method_wanted(model), &
       any(model%meshes(model%links(links)%mesh)%accuracy > 0.0_wp), elements, order, model%shear))
     case (by_dense)
       unknowns = nodal_unknowns(elements, order, model%shear)

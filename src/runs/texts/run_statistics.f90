@@ -2,8 +2,8 @@
 module run_statistics
   use beam_mesh, only: beam_mesh_t
   use deformation_model, only: deformation_model_t
-  use frequency_study, only: sweep_t
   use kinds, only: long, wp
+  use sweeps, only: sweep_t
   use text, only: append_string, plural, string_t, to_string
   use variant_runs, only: run_totals_t
   use vibration_models, only: by_band, by_dense, by_link_modes, by_long_mesh, by_orders

@@ -1,0 +1,50 @@
+!> How eigenvalues change with the matrices of a position.
+!!
+!! A mode of `(I + K_G) y = λ M y` with yᵀMy = 1 changes its eigenvalue, to first order, by
+!! `yᵀ(ΔK_G − λ ΔM) y`. The difference is taken between the works `yᵀ(I + K_G − λM) y` in two sets
+!! of matrices, so that the matrices themselves need not be kept.
+module eigenvalue_sensitivity
+  use bordered_eigensolver, only: bordered_modes_t
+  use bordered_matrix, only: bordered_times_vector
+  use bordered_pencil, only: bordered_pencil_t
+  use kinds, only: wp
+  implicit none (type, external)
+  private
+
+  public :: residual_work, eigenvalue_change
+
+contains
+
+  !> `yᵀ(I + K_G − λM) y` of the lowest modes [1/s²]: zero, but for rounding, in their own matrices.
+  pure function residual_work(pencil, found, modes) result(work)
+    type(bordered_pencil_t), intent(in) :: pencil !! whose matrices may differ from those of the
+                                                  !! modes
+    type(bordered_modes_t), intent(in) :: found   !! modes with yᵀMy = 1 in their own matrices
+    integer, intent(in) :: modes                  !! how many of them
+    real(wp) :: work(modes)
+
+    real(wp) :: product(pencil%layout%unknowns)
+    integer :: i
+
+    do i = 1, modes
+      associate (y => found%vector(:, i))
+        call bordered_times_vector(pencil%layout, pencil%mass, y, product)
+        work(i) = dot_product(y, y) - found%lambda(i)*dot_product(y, product)
+        if (.not. pencil%loaded) cycle
+        call bordered_times_vector(pencil%layout, pencil%geometric, y, product)
+        work(i) = work(i) + dot_product(y, product)
+      end associate
+    end do
+  end function residual_work
+
+  !> `yᵀ(ΔK_G − λ ΔM) y` of the lowest modes [1/s²].
+  pure function eigenvalue_change(changed, found, own_work) result(change)
+    type(bordered_pencil_t), intent(in) :: changed !! the matrices after the change
+    type(bordered_modes_t), intent(in) :: found    !! modes of the matrices before it
+    real(wp), intent(in) :: own_work(:)            !! (modes) their work in these
+    real(wp) :: change(size(own_work))
+
+    change = residual_work(changed, found, size(own_work)) - own_work
+  end function eigenvalue_change
+
+end module eigenvalue_sensitivity

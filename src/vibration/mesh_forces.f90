@@ -1,0 +1,111 @@
+!> Axial forces in the elements of the deck's own mesh under the unit loads.
+module mesh_forces
+  use axial_forces, only: axial_jumps, distributed_axial_forces, link_axial_force, &
+    lumped_axial_forces, mean_axial_force, most_jumps
+  use deformation_model, only: deformation_model_t
+  use inertia_loads, only: load_t
+  use joint_forces, only: find_joint_forces, joint_forces_t
+  use kinds, only: wp
+  use load_cases, only: case_count, find_case_loads, load_case_t, unit_loads_t
+  use positions, only: state_t
+  use structures, only: structure_t
+  implicit none (type, external)
+  private
+
+  public :: find_mesh_forces, find_element_forces, smooth_functions
+
+contains
+
+  !> Axial forces of the unit loads, in the force functions of a model and element by element of the
+  !! mesh.
+  pure subroutine find_mesh_forces(structure, model, state, unit_loads, lumped, force, in_element)
+    type(structure_t), intent(in) :: structure
+    type(deformation_model_t), intent(in) :: model   !! of the mesh, or of a part of it
+    type(state_t), intent(in) :: state               !! with a pose
+    type(unit_loads_t), intent(in) :: unit_loads     !! of this pose
+    logical, intent(in) :: lumped                    !! masses on the nodes of the mesh, or along
+                                                     !! the links
+    real(wp), allocatable, intent(out) :: force(:, :, :)      !! (force functions with jumps,
+                                                              !! bodies, cases) [N]; no functions
+                                                              !! without loads
+    real(wp), allocatable, intent(out) :: in_element(:, :, :) !! (1, ξ, ξ²; elements; cases) [N];
+                                                              !! no elements without loads
+
+    type(joint_forces_t) :: joints
+    real(wp), allocatable :: jump(:)
+    integer :: b, i, first, functions, smooth
+
+    associate (linkage => structure%linkage, mesh => structure%mesh, occurs => unit_loads%occurs)
+      functions = 0
+      if (any(occurs)) functions = max(3, maxval(model%elements, mask=model%lumped)) + &
+        most_jumps(linkage)
+      allocate (force(functions, size(model%links), case_count))
+      allocate (in_element(3, merge(sum(mesh%elements), 0, any(occurs)), case_count))
+      force = 0.0_wp
+      in_element = 0.0_wp
+      do i = 1, case_count
+        if (.not. occurs(i)) cycle
+        associate (case => unit_loads%of_case(i))
+          call find_element_forces(structure, state, case, lumped, in_element(:, :, i), joints)
+          do b = 1, size(model%links)
+            first = mesh%first_element(b)
+            if (.not. model%links(b)%bends) then
+              force(1, b, i) = in_element(1, first, i)
+              cycle
+            end if
+            smooth = smooth_functions(model, b)
+            if (model%lumped(b)) then
+              force(:smooth, b, i) = in_element(1, first:first + smooth - 1, i)
+            else
+              force(:smooth, b, i) = link_axial_force(linkage, b, state%pose, case%field, joints)
+            end if
+            jump = axial_jumps(linkage, b, state%pose, case%field)
+            force(smooth + 1:smooth + size(jump), b, i) = jump
+          end do
+        end associate
+      end do
+    end associate
+  end subroutine find_mesh_forces
+
+  !> Force functions of a body without the jumps, which follow them.
+  pure function smooth_functions(model, body) result(number)
+    type(deformation_model_t), intent(in) :: model
+    integer, intent(in) :: body
+    integer :: number
+
+    number = merge(model%elements(body), 3, model%lumped(body))
+  end function smooth_functions
+
+  !> Axial forces in all elements under one of the unit loads; of a link that does not bend the
+  !! mean, in its first element.
+  pure subroutine find_element_forces(structure, state, case, lumped, in_element, joints)
+    type(structure_t), intent(in) :: structure
+    type(state_t), intent(in) :: state        !! with a pose
+    type(load_case_t), intent(in) :: case
+    logical, intent(in) :: lumped             !! masses on the nodes, or along the links
+    real(wp), intent(out) :: in_element(:, :) !! (1, ξ, ξ²; elements) [N]
+    type(joint_forces_t), intent(out) :: joints
+
+    type(load_t) :: loads(size(structure%linkage%bodies))
+    real(wp) :: pin_loads(2, size(structure%linkage%pin_mass))
+    integer :: elements(size(loads)), b
+
+    associate (linkage => structure%linkage, mesh => structure%mesh)
+      elements = 0
+      if (lumped) elements = structure%load_elements
+      call find_case_loads(linkage, elements, state%pose, case, loads, pin_loads)
+      joints = find_joint_forces(linkage, state%pose, loads, pin_loads)
+      if (lumped) then
+        in_element = lumped_axial_forces(linkage, mesh, state%pose, case%field, joints)
+      else
+        in_element = distributed_axial_forces(linkage, mesh, state%pose, case%field, joints)
+      end if
+      do b = 1, size(loads)
+        if (linkage%bodies(b)%bends) cycle
+        in_element(:, mesh%first_element(b)) = [mean_axial_force(linkage, b, elements(b), &
+          state%pose, case%field, joints), 0.0_wp, 0.0_wp]
+      end do
+    end associate
+  end subroutine find_element_forces
+
+end module mesh_forces

@@ -1,0 +1,115 @@
+!> The equations of a structure at a position, in its links' own deformations.
+!!
+!! `M ÿ + (I + K_G) y = 0` with `K_G = K_const + ω2² K_ω + α2 K_α`: the mass matrix and the three
+!! unit matrices of the geometric stiffness are found once a position and serve every speed. What
+!! else a position brings into the equations (velocity terms, damping, loads) belongs here, too.
+module position_equations
+  use bordered_matrix, only: add_scaled, bordered_matrix_t
+  use bordered_pencil, only: bordered_pencil_t, new_bordered_pencil
+  use deformation_model, only: deformation_model_t
+  use kinds, only: wp
+  use ledger, only: ledger_t
+  use linkages, only: linkage_t
+  use load_cases, only: case_count
+  use pin_displacements, only: chords_t, find_chords
+  use poses, only: pose_t
+  use reduced_assembly, only: reduced_geometric_stiffness, reduced_mass
+  implicit none (type, external)
+  private
+
+  public :: position_equations_t, new_position_equations
+  public :: assemble_equations, assemble_mass_at, assemble_stiffness_of, set_speed
+
+  !> Made once for a model, filled at every position.
+  type :: position_equations_t
+    type(chords_t) :: chords                 !! what the border does to the pins and chords
+    type(bordered_pencil_t) :: pencil        !! M, and K_G at one speed
+    type(bordered_matrix_t) :: unit_stiffness(case_count) !! K_G of each unit load [-]
+    logical :: occurs(case_count) = .false.  !! unit loads whose matrices are those of this position
+  end type position_equations_t
+
+contains
+
+  !> Room for the equations of a model.
+  pure function new_position_equations(model) result(equations)
+    type(deformation_model_t), intent(in) :: model
+    type(position_equations_t) :: equations
+
+    integer :: i
+
+    equations%pencil = new_bordered_pencil(model%layout)
+    do i = 1, case_count
+      equations%unit_stiffness(i) = equations%pencil%geometric
+    end do
+  end function new_position_equations
+
+  !> All that a position needs for a number of speeds: chords, M, and K_G of every unit load that
+  !! occurs at any of them.
+  pure subroutine assemble_equations(linkage, model, pose, unit_force, factor, equations, counts)
+    type(linkage_t), intent(in) :: linkage
+    type(deformation_model_t), intent(in) :: model
+    type(pose_t), intent(in) :: pose            !! away from dead points
+    real(wp), intent(in) :: unit_force(:, :, :) !! (force functions, bodies, cases) of the unit
+                                                !! loads [N]; no functions: no loads
+    real(wp), intent(in) :: factor(:, :)        !! (cases, speeds) of the unit loads: ω2², α2, 1
+    type(position_equations_t), intent(inout) :: equations !! of this model
+    type(ledger_t), intent(inout) :: counts
+
+    integer :: i
+
+    call assemble_mass_at(linkage, model, pose, equations)
+    counts%mass_matrices = counts%mass_matrices + 1
+    do i = 1, case_count
+      equations%occurs(i) = size(unit_force, 1) > 0 .and. any(abs(factor(i, :)) > 0.0_wp)
+      if (.not. equations%occurs(i)) cycle
+      call reduced_geometric_stiffness(model%links, model%layout, equations%chords, &
+        unit_force(:, :, i), equations%unit_stiffness(i))
+      counts%geometric_matrices = counts%geometric_matrices + 1
+    end do
+  end subroutine assemble_equations
+
+  !> Chords and mass matrix at a pose; nothing loads the structure.
+  pure subroutine assemble_mass_at(linkage, model, pose, equations)
+    type(linkage_t), intent(in) :: linkage
+    type(deformation_model_t), intent(in) :: model
+    type(pose_t), intent(in) :: pose                       !! away from dead points
+    type(position_equations_t), intent(inout) :: equations !! of this model
+
+    equations%chords = find_chords(linkage, model%links, pose)
+    call reduced_mass(linkage, model%links, model%layout, equations%chords, equations%pencil%mass)
+    equations%occurs = .false.
+    equations%pencil%loaded = .false.
+  end subroutine assemble_mass_at
+
+  !> K_G of one load by itself, in place of that of a speed.
+  pure subroutine assemble_stiffness_of(model, force, equations)
+    type(deformation_model_t), intent(in) :: model
+    real(wp), intent(in) :: force(:, :) !! (force functions, bodies) [N]
+    type(position_equations_t), intent(inout) :: equations !! with the chords of this position
+
+    equations%pencil%loaded = .true.
+    call reduced_geometric_stiffness(model%links, model%layout, equations%chords, force, &
+      equations%pencil%geometric)
+  end subroutine assemble_stiffness_of
+
+  !> `K_G = K_const + ω2² K_ω + α2 K_α` of a speed, from the unit matrices.
+  pure subroutine set_speed(equations, factor)
+    type(position_equations_t), intent(inout) :: equations
+    real(wp), intent(in) :: factor(case_count) !! of the unit loads: ω2², α2, 1
+
+    integer :: i
+
+    equations%pencil%loaded = any(equations%occurs .and. abs(factor) > 0.0_wp)
+    if (.not. equations%pencil%loaded) return
+    associate (geometric => equations%pencil%geometric)
+      geometric%border = 0.0_wp
+      geometric%coupling = 0.0_wp
+      geometric%block = 0.0_wp
+      do i = 1, case_count
+        if (abs(factor(i)) > 0.0_wp) call add_scaled(geometric, factor(i), &
+          equations%unit_stiffness(i))
+      end do
+    end associate
+  end subroutine set_speed
+
+end module position_equations
