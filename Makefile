@@ -176,10 +176,10 @@ endif
 found   := $(wildcard src/*.f90 src/*/*.f90 src/*/*/*.f90)
 sources := $(filter-out $(addprefix %/,$(notdir $(instead))),$(found)) $(instead)
 modules := $(patsubst %.f90,$(build)/%.o,$(filter-out main.f90,$(notdir $(sources))))
-# What only tests use; it is one of the modules of the quadruple build.
-test_modules := $(filter-out $(modules),$(build)/symmetric_eigensolver.o)
+# What only tests use; the first is one of the modules of the quadruple build.
+test_modules := $(filter-out $(modules),$(build)/symmetric_eigensolver.o) $(build)/computed_decks.o
 # Of two files of one name the first is meant.
-vpath %.f90 $(sort $(dir $(instead))) $(sort $(dir $(sources))) tests/quad
+vpath %.f90 $(sort $(dir $(instead))) $(sort $(dir $(sources))) tests/quad $(support)
 
 # Found anew at every call (it takes milliseconds), so that dependencies are never older than the sources.
 $(shell mkdir -p $(build)/funit $(build)/pfunit && makedepf90 -b '$$(build)' $(sources) > $(build)/dependencies.mk)
@@ -246,6 +246,7 @@ used = $(shell sed -n 's/^ *use  *\([a-z0-9_]*\).*/\1/p' $(1))
 uses = $(filter $(modules) $(test_modules),$(patsubst %,$(build)/%.o,$(call used,$(1))))
 objects = $(foreach way,funit pfunit,$(build)/$(way)/$(basename $(notdir $(1))).o)
 $(foreach file,$(test_files),$(eval $(call objects,$(file)): $(call uses,$(file))))
+$(build)/computed_decks.o: $(call uses,$(support)/computed_decks.f90)
 
 $(build)/funit/test_%.o: $(build)/funit/test_%.F90 $(build)/funit/funit.o $(build)/command
 	@echo "$(FC) ($(kind)) test_$*"

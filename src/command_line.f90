@@ -1,22 +1,25 @@
 !> The command line as a value.
 module command_line
-  use deck_runs, only: run_options_t
-  use errors, only: error_t, set_error
+  use errors, only: error_of_input, error_t, set_error
   use numbers, only: read_integer
   use program_version, only: program_name, version_number
   use spelling, only: suggestion
   use text, only: same_word, string_t, word_list
-  use tokens, only: name_problem
+  use tokens, only: check_name
   implicit none (type, external)
   private
 
   public :: command_t, read_command_line, help_text, version_text
 
   type :: command_t
-    type(run_options_t) :: run
+    character(len=:), allocatable :: folder    !! of `--out`
+    integer :: threads = 1
     type(string_t), allocatable :: decks(:)
     type(string_t), allocatable :: settings(:) !! of `--set`, each `name=value`
     logical :: check_only = .false.
+    logical :: quiet = .false.
+    logical :: resume = .false.
+    logical :: csv = .false.                   !! tables as comma-separated values too
     logical :: stats = .false.
     logical :: json = .false.
     logical :: help = .false.
@@ -41,7 +44,7 @@ contains
     logical :: options_ended, input_taken
 
     words = arguments()
-    command%run%folder = "outputs"
+    command%folder = "outputs"
     command%valued = " "
     allocate (command%decks(0), command%settings(0))
     options_ended = .false.
@@ -50,7 +53,7 @@ contains
     do while (i <= size(words) .and. .not. allocated(error))
       associate (word => words(i)%text)
         if (word == "-" .and. input_taken) then
-          call set_error(error, "standard input can be read only once")
+          call set_error(error, error_of_input, "standard input can be read only once")
         else if (options_ended .or. word == "-" .or. index(word, "-") /= 1) then
           command%decks = [command%decks, words(i)]
           input_taken = input_taken .or. word == "-"
@@ -65,7 +68,7 @@ contains
     ! Where the line goes wrong before `--json`, that is still how the answer is wanted.
     if (allocated(error)) command%json = any([(words(i)%text == "--json", i=1, size(words))])
     if (allocated(error) .or. command%help .or. command%version) return
-    if (size(command%decks) == 0) call set_error(error, &
+    if (size(command%decks) == 0) call set_error(error, error_of_input, &
       "no deck given; flexmech --help tells how to run one")
   end subroutine read_command_line
 
@@ -109,11 +112,11 @@ contains
         value = ""
       end if
       if (len(value) == 0) then
-        call set_error(error, "option "//name//" needs a value")
+        call set_error(error, error_of_input, "option "//name//" needs a value")
       else if (name == "--set") then
         call take_setting(value, command%settings, error)
       else if (index(command%valued, " "//name//" ") > 0) then
-        call set_error(error, "option "//name//" is given twice")
+        call set_error(error, error_of_input, "option "//name//" is given twice")
       else
         command%valued = command%valued//name//" "
         call read_option_value(name, value, command, error)
@@ -125,9 +128,9 @@ contains
     case ("--check")
       command%check_only = .true.
     case ("--quiet")
-      command%run%quiet = .true.
+      command%quiet = .true.
     case ("--resume")
-      command%run%resume = .true.
+      command%resume = .true.
     case ("--stats")
       command%stats = .true.
     case ("--json")
@@ -137,7 +140,8 @@ contains
     case ("--help", "-h")
       command%help = .true.
     case default
-      call set_error(error, "unknown option '"//name//"'"//suggestion(name, word_list(known)))
+      call set_error(error, error_of_input, "unknown option '"//name//"'"//suggestion(name, &
+        word_list(known)))
     end select
   end subroutine read_option
 
@@ -152,21 +156,23 @@ contains
 
     sign = index(word, "=")
     if (sign < 2 .or. sign == len(word)) then
-      call set_error(error, "option --set needs a name and a value, as in --set L=100mm, not '"// &
-        word//"'")
+      call set_error(error, error_of_input, &
+        "option --set needs a name and a value, as in --set L=100mm, not '"//word//"'")
       return
     end if
     name = word(:sign - 1)
     value = word(sign + 1:)
-    if (len(name_problem(name)) > 0) then
-      call set_error(error, "option --set: "//name_problem(name))
+    call check_name(name, error)
+    if (allocated(error)) then
+      error%text = "option --set: "//error%text
     else if (scan(value, " =!#&"//achar(9)//line_feed) > 0) then
-      call set_error(error, "option --set: '"//value//"' is not one value, as a SET card has it")
+      call set_error(error, error_of_input, "option --set: '"//value// &
+        "' is not one value, as a SET card has it")
     end if
     do i = 1, size(settings)
       if (.not. same_word(settings(i)%text(:index(settings(i)%text, "=") - 1), name)) cycle
-      call set_error(error, "option --set gives '"//name//"' twice: "//settings(i)%text//" and "// &
-        word)
+      call set_error(error, error_of_input, "option --set gives '"//name//"' twice: "// &
+        settings(i)%text//" and "//word)
     end do
     settings = [settings, string_t(word)]
   end subroutine take_setting
@@ -177,21 +183,22 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     character(len=*), parameter :: formats = "plain csv"
-    character(len=:), allocatable :: problem
+    type(error_t), allocatable :: problem
 
     select case (name)
     case ("--out")
-      command%run%folder = value
+      command%folder = value
     case ("--threads")
-      call read_integer(value, command%run%threads, problem)
-      if (len(problem) > 0 .or. command%run%threads < 1 .or. command%run%threads > most_threads) &
+      call read_integer(value, command%threads, problem)
+      if (allocated(problem) .or. command%threads < 1 .or. command%threads > most_threads) &
         then
-        call set_error(error, "option --threads needs a number from 1 to 1024, not '"//value//"'")
+        call set_error(error, error_of_input, &
+          "option --threads needs a number from 1 to 1024, not '"//value//"'")
       end if
     case ("--format")
-      command%run%csv = value == "csv"
+      command%csv = value == "csv"
       if (value /= "csv" .and. value /= "plain") then
-        call set_error(error, "unknown format '"//value//"'"//suggestion(value, &
+        call set_error(error, error_of_input, "unknown format '"//value//"'"//suggestion(value, &
           word_list(formats))//"; --format is plain or csv")
       end if
     end select

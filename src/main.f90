@@ -4,9 +4,9 @@ program main
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
   use command_line, only: command_t, help_text, read_command_line, version_text
   use deck_readings, only: deck_t, read_deck
-  use deck_runs, only: run_deck
-  use errors, only: error_t
-  use interruption, only: was_interrupted, watch_for_interruption
+  use deck_runs, only: run_deck, run_options_t
+  use errors, only: error_of_interruption, error_t, rendered
+  use interruption, only: watch_for_interruption
   use run_document, only: deck_outcome_t, document_text
   use text, only: string_t
   implicit none (type, external)
@@ -14,15 +14,16 @@ program main
   type(command_t) :: command
   type(deck_t), allocatable :: decks(:)
   type(deck_outcome_t), allocatable :: outcomes(:)
+  type(run_options_t) :: options
   type(error_t), allocatable :: error
   integer :: i, j
   logical :: refused
 
   call read_command_line(command, error)
   if (allocated(error)) then
-    call say("flexmech: error: "//error%message//achar(10))
+    call say("flexmech: "//rendered(error)//achar(10))
     allocate (decks(0), outcomes(0))
-    call finish(2, error%message)
+    call finish(2, error%text)
   end if
   if (command%help) then
     write (output_unit, "(a)", advance="no") help_text()
@@ -35,8 +36,8 @@ program main
   allocate (decks(size(command%decks)), outcomes(size(command%decks)))
   refused = .false.
   do i = 1, size(decks)
-    call read_deck(command%decks(i)%text, command%run%threads, decks(i), command%settings)
-    if (.not. command%run%quiet) call say(decks(i)%warnings)
+    call read_deck(command%decks(i)%text, command%threads, decks(i), command%settings)
+    if (.not. command%quiet) call say(decks(i)%warnings)
     call say(decks(i)%errors)
     if (len(decks(i)%errors) > 0) outcomes(i)%exit_status = 2
     do j = 1, i - 1
@@ -55,16 +56,21 @@ program main
   end if
 
   call watch_for_interruption()
+  options%folder = command%folder
+  options%threads = command%threads
+  options%quiet = command%quiet
+  options%resume = command%resume
+  options%csv = command%csv
   do i = 1, size(decks)
-    call run_deck(decks(i), command%run, outcomes(i)%result, error)
+    call run_deck(decks(i), options, outcomes(i)%result, error)
     if (allocated(error)) then
-      call say(error%message//achar(10))
-      call complain(outcomes(i), error%message)
-      if (was_interrupted()) outcomes(i)%exit_status = 130
+      call say(rendered(error)//achar(10))
+      call complain(outcomes(i), rendered(error))
+      if (error%kind == error_of_interruption) outcomes(i)%exit_status = 130
       call finish(outcomes(i)%exit_status, "")
     end if
     associate (result => outcomes(i)%result)
-      if (.not. command%run%quiet .or. result%failed) call say(result%messages)
+      if (.not. command%quiet .or. result%failed) call say(result%messages)
       if (command%stats) call say(result%statistics)
       outcomes(i)%exit_status = merge(1, 0, result%failed)
     end associate

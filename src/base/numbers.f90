@@ -5,6 +5,7 @@
 module numbers
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_overflow, ieee_set_flag, &
     ieee_set_halting_mode
+  use errors, only: error_of_input, error_t, set_error
   use kinds, only: long, wp
   use text, only: to_string
   implicit none (type, external)
@@ -66,11 +67,11 @@ contains
 
   !> Reads a text that is a number and nothing else.
   !!
-  !! `problem` is empty, or says in words why the text is not a number that a double can hold.
-  pure subroutine read_real(string, value, problem)
+  !! Errors: the text is not a number that a double can hold.
+  pure subroutine read_real(string, value, error)
     character(len=*), intent(in) :: string
-    real(wp), intent(out) :: value
-    character(len=:), allocatable, intent(out) :: problem
+    real(wp), intent(out) :: value !! 0 where the text is no such number
+    type(error_t), allocatable, intent(out) :: error
 
     character(len=len(string)) :: digits
     character(len=32) :: form
@@ -79,15 +80,14 @@ contains
 
     value = 0.0_wp
     if (number_length(string) /= len(string) .or. len(string) == 0) then
-      problem = "'"//string//"' is not a number"
+      call set_error(error, error_of_input, "'"//string//"' is not a number")
       return
     end if
     if (scan(string(len(string):), "+-") == 1) then
-      problem = "the exponent of '"//string//"' has no digits"
+      call set_error(error, error_of_input, "the exponent of '"//string//"' has no digits")
       return
     end if
     call read_short(string, value, done)
-    problem = ""
     if (done) return
     do i = 1, len(string)
       digits(i:i) = string(i:i)
@@ -101,12 +101,10 @@ contains
     call ieee_set_flag(ieee_overflow, .false.)
     call ieee_set_halting_mode(ieee_overflow, halts)
     if (status /= 0 .or. abs(value) > huge(value)) then
-      problem = "'"//string//"' is too large for a number"
+      call set_error(error, error_of_input, "'"//string//"' is too large for a number")
       value = 0.0_wp
     else if (abs(value) < tiny(value) .and. has_significant_digit(digits)) then
-      problem = "'"//string//"' is too small for a number"
-    else
-      problem = ""
+      call set_error(error, error_of_input, "'"//string//"' is too small for a number")
     end if
   end subroutine read_real
 
@@ -172,13 +170,13 @@ contains
     real(wp), intent(in) :: value
     character(len=:), allocatable :: string
 
-    character(len=:), allocatable :: problem
+    type(error_t), allocatable :: error
     real(wp) :: again
     integer :: digits
 
     do digits = 15, 17
       string = to_string(value, digits)
-      call read_real(string, again, problem)
+      call read_real(string, again, error)
       if (abs(again - value) <= 0.0_wp) return
     end do
   end function shortest_text
@@ -195,11 +193,11 @@ contains
     has = scan(digits(:mantissa_end), "123456789") > 0
   end function has_significant_digit
 
-  !> Reads a text that is a whole number and nothing else; `problem` as for `read_real`.
-  pure subroutine read_integer(string, value, problem)
+  !> Reads a text that is a whole number and nothing else. Errors: it is none, or too large.
+  pure subroutine read_integer(string, value, error)
     character(len=*), intent(in) :: string
-    integer, intent(out) :: value
-    character(len=:), allocatable, intent(out) :: problem
+    integer, intent(out) :: value !! 0 where the text is no such number
+    type(error_t), allocatable, intent(out) :: error
 
     character(len=32) :: form
     integer :: first, status
@@ -210,16 +208,14 @@ contains
       if (scan(string(1:1), "+-") == 1) first = 2
     end if
     if (len(string) == 0 .or. digit_count(string, first) /= len(string) - first + 1) then
-      problem = "'"//string//"' is not a whole number"
+      call set_error(error, error_of_input, "'"//string//"' is not a whole number")
       return
     end if
     write (form, "(a,i0,a)") "(i", len(string), ")"
     read (string, form, iostat=status) value
-    problem = ""
-    if (status /= 0) then
-      value = 0
-      problem = "'"//string//"' is too large for a whole number"
-    end if
+    if (status == 0) return
+    value = 0
+    call set_error(error, error_of_input, "'"//string//"' is too large for a whole number")
   end subroutine read_integer
 
 end module numbers

@@ -18,6 +18,8 @@ contains
     logical :: take_left
 
     order = [(i, i=1, size(values))]
+    ! Most lists are in order already.
+    if (all(values(2:) >= values(:size(values) - 1))) return
     width = 1
     do while (width < size(values))
       do first = 1, size(values), 2*width

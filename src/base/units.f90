@@ -4,6 +4,7 @@
 !! becomes the double nearest to 0.254 m and comes back as 254 mm.
 module units
   use constants, only: pi
+  use errors, only: error_of_input, error_t, set_error
   use kinds, only: wp
   use spelling, only: suggestion
   use text, only: string_t, to_string
@@ -11,7 +12,7 @@ module units
   private
 
   public :: unit_t, unit_system_t, dimension_name, wrong_unit, read_unit, new_unit_system, &
-    coherent_unit, coherent_factor, to_si, from_si, serves_for
+    si_units, coherent_unit, coherent_factor, to_si, from_si, serves_for
   public :: dimension_none, dimension_length, dimension_mass, dimension_time, dimension_angle, &
     dimension_rate
   public :: dimension_angular_acceleration, dimension_velocity, dimension_acceleration, &
@@ -114,36 +115,35 @@ contains
   !> Reads `mm`, `kg/m3`, `N/mm^2`, `lbf*s2/in`, …
   !!
   !! Powers are whole numbers behind a name, with or without `^`; after a `/` everything up to the
-  !! next `*` divides. Names keep the case in which they are written. `problem` is empty, or names
-  !! the part that is not a unit and offers the nearest of the dimension that is wanted.
-  pure subroutine read_unit(text, wanted, measure, problem)
+  !! next `*` divides. Names keep the case in which they are written. Errors: a part is not a unit;
+  !! the message offers the nearest of the dimension that is wanted.
+  pure subroutine read_unit(text, wanted, measure, error)
     character(len=*), intent(in) :: text
-    integer, intent(in) :: wanted(4)
+    integer, intent(in) :: wanted(4) !! dimension; that of the unit may be another
     type(unit_t), intent(out) :: measure
-    character(len=:), allocatable, intent(out) :: problem
+    type(error_t), allocatable, intent(out) :: error
 
     integer :: first, last, step
 
-    problem = ""
     measure = unit(text, dimension_none, 1.0_wp, 1.0_wp)
     first = 1
     step = 1
     do
       last = first - 1 + scan(text(first:)//"*", "*/") - 1
-      call multiply_by_power(measure, text(first:last), step, wanted, problem)
-      if (len(problem) > 0 .or. last >= len(text)) return
+      call multiply_by_power(measure, text(first:last), step, wanted, error)
+      if (allocated(error) .or. last >= len(text)) return
       step = merge(-1, 1, text(last + 1:last + 1) == "/")
       first = last + 2
     end do
   end subroutine read_unit
 
   !> Multiplies (`step = 1`) or divides (`step = -1`) a unit by a named unit to a power.
-  pure subroutine multiply_by_power(measure, factor, step, wanted, problem)
+  pure subroutine multiply_by_power(measure, factor, step, wanted, error)
     type(unit_t), intent(inout) :: measure
     character(len=*), intent(in) :: factor
     integer, intent(in) :: step
     integer, intent(in) :: wanted(4) !! dimension of the whole
-    character(len=:), allocatable, intent(inout) :: problem
+    type(error_t), allocatable, intent(inout) :: error
 
     type(unit_t), allocatable :: known(:)
     character(len=:), allocatable :: name
@@ -170,8 +170,9 @@ contains
       call multiply(measure, known(i), step*power)
       return
     end do
-    problem = "unknown unit '"//factor//"'"//suggestion(name, names_of_dimension(known, wanted))// &
-      "; expected a unit of "//dimension_noun(wanted)
+    call set_error(error, error_of_input, "unknown unit '"//factor//"'"// &
+      suggestion(name, names_of_dimension(known, wanted))//"; expected a unit of "// &
+      dimension_noun(wanted))
   end subroutine multiply_by_power
 
   !> Names of the units of a dimension; of all units if none has it.
@@ -202,6 +203,17 @@ contains
     system%mass = mass
     system%time = time
   end function new_unit_system
+
+  !> Metre, kilogram and second.
+  pure function si_units() result(system)
+    type(unit_system_t) :: system
+
+    type(error_t), allocatable :: error
+
+    call read_unit("m", dimension_length, system%length, error)
+    call read_unit("kg", dimension_mass, system%mass, error)
+    call read_unit("s", dimension_time, system%time, error)
+  end function si_units
 
   !> The unit in which a deck means a bare number of the given dimension.
   !!
@@ -373,18 +385,18 @@ contains
   end function serves_for
 
   !> Why a unit does not serve where another dimension is wanted.
-  pure function wrong_unit(measure, wanted) result(problem)
+  pure function wrong_unit(measure, wanted) result(reason)
     type(unit_t), intent(in) :: measure
     integer, intent(in) :: wanted(4)
-    character(len=:), allocatable :: problem
+    character(len=:), allocatable :: reason
 
     if (len(dimension_noun(measure%dimension)) == 0) then
-      problem = "'"//measure%name//"' is not a unit of "//dimension_noun(wanted)
+      reason = "'"//measure%name//"' is not a unit of "//dimension_noun(wanted)
     else if (all(wanted == dimension_none)) then
-      problem = "'"//measure%name//"' is a unit of "//dimension_noun(measure%dimension)// &
+      reason = "'"//measure%name//"' is a unit of "//dimension_noun(measure%dimension)// &
         "; expected a number without unit"
     else
-      problem = "'"//measure%name//"' is a unit of "//dimension_noun(measure%dimension)// &
+      reason = "'"//measure%name//"' is a unit of "//dimension_noun(measure%dimension)// &
         "; expected a unit of "//dimension_noun(wanted)
     end if
   end function wrong_unit

@@ -5,7 +5,7 @@
 !! people looks up which file it is in.
 module deck_source
   use, intrinsic :: iso_fortran_env, only: input_unit, iostat_end, iostat_eor
-  use errors, only: error_t, set_error
+  use errors, only: error_of_files, error_t, set_error
   use file_system, only: is_directory
   use text, only: character_count, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
@@ -43,61 +43,47 @@ contains
 
   !> Reads a whole deck; the path `-` is standard input.
   !!
-  !! Errors (their message begins with the path): no such file, a folder, a file that cannot be read
-  !! or is not text.
+  !! Errors: no such file, a folder, a file that cannot be read or is not text.
   subroutine read_source(path, source, error)
     character(len=*), intent(in) :: path
     type(source_t), intent(out) :: source
     type(error_t), allocatable, intent(out) :: error
 
     type(text_buffer_t) :: buffer
-    character(len=:), allocatable :: problem, place
     integer :: status
     character(len=256) :: message
 
-    if (path == "-") then
-      message = ""
-      call read_lines(input_unit, buffer, status, message)
-      source = source_from_text(standard_input, buffer_text(buffer))
-      if (status == 0) then
-        call find_binary(source, problem, place)
-      else
-        problem = unreadable//trim(message)
-        place = ""
-      end if
-    else
-      call read_file(path, source, problem, place)
+    if (path /= "-") then
+      call read_file(path, source, error)
+      return
     end if
-    if (len(problem) == 0) return
-    ! Standard input has a name of its own as soon as it has lines.
-    if (len(place) > 0) then
-      call set_error(error, source%path//place//": error: "//problem)
+    message = ""
+    call read_lines(input_unit, buffer, status, message)
+    source = source_from_text(standard_input, buffer_text(buffer))
+    if (status == 0) then
+      call find_binary(source, error)
     else
-      call set_error(error, path//": error: "//problem)
+      call set_error(error, error_of_files, unreadable//trim(message), path)
     end if
   end subroutine read_source
 
-  !> Reads a file; `problem` is empty, or says why it cannot be done.
-  subroutine read_file(path, source, problem, place)
+  !> Reads a file. Errors: as for `read_source`.
+  subroutine read_file(path, source, error)
     character(len=*), intent(in) :: path
     type(source_t), intent(out) :: source
-    character(len=:), allocatable, intent(out) :: problem
-    character(len=:), allocatable, intent(out) :: place !! `:line:column` of the problem, empty if
-                                                        !! it has none
+    type(error_t), allocatable, intent(out) :: error
 
     type(text_buffer_t) :: buffer
     integer :: unit, status
     character(len=256) :: message
     logical :: exists
 
-    problem = ""
-    place = ""
     inquire (file=path, exist=exists)
     if (is_directory(path)) then
-      problem = "this is a folder, not a deck"
+      call set_error(error, error_of_files, "this is a folder, not a deck", path)
       return
     else if (.not. exists) then
-      problem = "no such file"
+      call set_error(error, error_of_files, "no such file", path)
       return
     end if
     open (newunit=unit, file=path, status="old", action="read", access="sequential", &
@@ -107,11 +93,11 @@ contains
       close (unit)
     end if
     if (status /= 0) then
-      problem = unreadable//trim(message)
+      call set_error(error, error_of_files, unreadable//trim(message), path)
       return
     end if
     source = source_from_text(path, buffer_text(buffer))
-    call find_binary(source, problem, place)
+    call find_binary(source, error)
   end subroutine read_file
 
   !> Reads to the end of a file, lines of any length.
@@ -306,25 +292,22 @@ contains
     if (index(path, source%path(:folder)) == 1) seen = path(folder + 1:)
   end function path_from_deck
 
-  !> Finds the first control character: no text has one.
-  pure subroutine find_binary(source, problem, place)
+  !> Errors: there is a control character, which no text has; the first one is named.
+  pure subroutine find_binary(source, error)
     type(source_t), intent(in) :: source
-    character(len=:), allocatable, intent(out) :: problem !! empty if there is none
-    character(len=:), allocatable, intent(out) :: place   !! `:line:column`
+    type(error_t), allocatable, intent(out) :: error
 
     integer :: i, line
     character(len=2) :: code
 
-    problem = ""
-    place = ""
     do i = 1, len(source%text)
       if (iachar(source%text(i:i)) >= 32 .and. iachar(source%text(i:i)) /= 127) cycle
       if (source%text(i:i) == line_feed .or. source%text(i:i) == tab) cycle
       line = count(source%line_start <= i)
       write (code, "(z2.2)") iachar(source%text(i:i))
-      place = ":"//to_string(line)//":"// &
-        to_string(character_count(source%text(source%line_start(line):i)))
-      problem = "byte 0x"//code//" is no part of a text; is this a deck?"
+      call set_error(error, error_of_files, &
+        "byte 0x"//code//" is no part of a text; is this a deck?", source%path, line, &
+        character_count(source%text(source%line_start(line):i)))
       return
     end do
   end subroutine find_binary

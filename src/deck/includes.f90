@@ -3,6 +3,7 @@ module includes
   use cards, only: card_t, read_cards
   use deck_source, only: append_source, file_of_line, read_file, source_t
   use diagnostics, only: add_error, diagnostics_t
+  use errors, only: error_of_input, error_t, set_error
   use file_system, only: real_path
   use text, only: same_word, string_t, to_string
   implicit none (type, external)
@@ -100,23 +101,26 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
 
     type(source_t) :: more
-    character(len=:), allocatable :: path, problem, place
+    type(error_t), allocatable :: error
+    character(len=:), allocatable :: path
+    logical :: fine
 
     allocate (cards(1))
     cards(1) = card
-    call read_path(source, card, path, diagnostics)
-    if (len(path) == 0) return
-    problem = loop_problem(source, chain(:level), path, card%keyword%line)
-    if (level == most_levels) problem = "files include each other more than "// &
-      to_string(most_levels)//" levels deep"
-    if (size(source%files) > most_files) problem = "more than "//to_string(most_files)// &
-      " files are included"
-    if (len(problem) == 0) then
-      call read_file(path, more, problem, place)
-      if (len(problem) > 0) problem = "'"//path//place//"' cannot be included: "//problem
+    call read_path(source, card, path, fine, diagnostics)
+    if (.not. fine) return
+    call refuse_loop(source, chain(:level), path, card%keyword%line, error)
+    if (level == most_levels) call set_error(error, error_of_input, &
+      "files include each other more than "//to_string(most_levels)//" levels deep")
+    if (size(source%files) > most_files) call set_error(error, error_of_input, &
+      "more than "//to_string(most_files)//" files are included")
+    if (.not. allocated(error)) then
+      call read_file(path, more, error)
+      if (allocated(error)) error%text = "'"//path//numbers_of(error)//"' cannot be included: "// &
+        error%text
     end if
-    if (len(problem) > 0) then
-      call add_error(diagnostics, card%words(1), problem)
+    if (allocated(error)) then
+      call add_error(diagnostics, card%words(1), error%text)
       return
     end if
     call append_source(source, more, card%keyword%line)
@@ -126,17 +130,27 @@ contains
     call insert_files(source, chain, level + 1, cards, diagnostics)
   end subroutine read_included
 
-  !> The path on an INCLUDE card, relative to the file that the card is in; empty if the card is
-  !! wrong.
-  subroutine read_path(source, card, path, diagnostics)
+  !> `:line:column` of an error in a file; empty where it is about the file as a whole.
+  pure function numbers_of(error) result(numbers)
+    type(error_t), intent(in) :: error
+    character(len=:), allocatable :: numbers
+
+    numbers = ""
+    if (error%place%line > 0) numbers = ":"//to_string(error%place%line)//":"// &
+      to_string(error%place%column)
+  end function numbers_of
+
+  !> The path on an INCLUDE card, relative to the file that the card is in.
+  subroutine read_path(source, card, path, fine, diagnostics)
     type(source_t), intent(in) :: source
     type(card_t), intent(in) :: card
     character(len=:), allocatable, intent(out) :: path
+    logical, intent(out) :: fine !! whether there is one; else the card is wrong
     type(diagnostics_t), intent(inout) :: diagnostics
 
     character(len=:), allocatable :: name
 
-    path = ""
+    fine = .false.
     if (size(card%entries) > 0) then
       call add_error(diagnostics, card%entries(1)%key, &
         "a file name with an equals sign needs quotes; expected: "//pattern)
@@ -161,6 +175,7 @@ contains
       call add_error(diagnostics, card%words(1), "a file name is missing here")
       return
     end if
+    fine = .true.
     path = name
     associate (file => source%files(file_of_line(source, card%keyword%line)))
       if (index(name, "/") /= 1) path = file%path(:index(file%path, "/", back=.true.))//name
@@ -169,34 +184,33 @@ contains
     if (path == "-") path = "./-"
   end subroutine read_path
 
-  !> Why a file cannot be included that is being read already; empty if it is not.
-  function loop_problem(source, chain, path, line) result(problem)
+  !> Errors: a file cannot be included that is being read already.
+  subroutine refuse_loop(source, chain, path, line, error)
     type(source_t), intent(in) :: source
     type(string_t), intent(in) :: chain(0:)
     character(len=*), intent(in) :: path
     integer, intent(in) :: line !! of the INCLUDE card
-    character(len=:), allocatable :: problem
+    type(error_t), allocatable, intent(out) :: error
 
-    character(len=:), allocatable :: absolute
+    character(len=:), allocatable :: absolute, way
     integer :: level, above, at
 
-    problem = ""
     absolute = real_path(path)
     if (len(absolute) == 0) return
     do level = ubound(chain, 1), 0, -1
       if (chain(level)%text /= absolute) cycle
-      problem = path
+      way = path
       at = line
       do above = ubound(chain, 1), level, -1
         associate (file => source%files(file_of_line(source, at)))
-          problem = file%path//" -> "//problem
+          way = file%path//" -> "//way
           at = file%include_line
         end associate
       end do
-      problem = "this file includes itself: "//problem
+      call set_error(error, error_of_input, "this file includes itself: "//way)
       return
     end do
-  end function loop_problem
+  end subroutine refuse_loop
 
   !> UNITS belongs to the deck: a file that others include cannot know their units, and must not
   !! change them.

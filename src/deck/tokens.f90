@@ -1,10 +1,12 @@
 !> Words of a deck that remember where they stand.
 module tokens
+  use errors, only: error_of_input, error_t, set_error
   use text, only: character_count, string_t
   implicit none (type, external)
   private
 
-  public :: token_t, split_words, token_part, list_items, token_texts, code_length, name_problem
+  public :: token_t, split_words, token_part, list_items, token_texts, code_length, is_name, &
+    check_name
 
   !> A word. Where `$name` stands in the deck, it has the text that `$name` stands for, and knows
   !! both places.
@@ -128,15 +130,21 @@ contains
     end do
   end function token_texts
 
-  !> Why a word cannot be a name; empty if it can.
-  pure function name_problem(word) result(problem)
+  !> Whether a word can be a name.
+  pure function is_name(word)
     character(len=*), intent(in) :: word
-    character(len=:), allocatable :: problem
+    logical :: is_name
 
-    problem = ""
-    if (verify(word, name_characters) > 0) then
-      problem = "'"//word//"' is not a name (letters, digits and _ - . ' make one)"
-    end if
-  end function name_problem
+    is_name = verify(word, name_characters) == 0
+  end function is_name
+
+  !> Errors: a word cannot be a name.
+  pure subroutine check_name(word, error)
+    character(len=*), intent(in) :: word
+    type(error_t), allocatable, intent(inout) :: error
+
+    if (.not. is_name(word)) call set_error(error, error_of_input, "'"//word// &
+      "' is not a name (letters, digits and _ - . ' make one)")
+  end subroutine check_name
 
 end module tokens

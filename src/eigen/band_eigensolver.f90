@@ -2,7 +2,7 @@
 module band_eigensolver
   use band_matrix, only: band_matrix_t, band_times_vector, order_of
   use cholesky_factor, only: factor_band, solve_with_factor
-  use errors, only: error_t, set_error
+  use errors, only: error_of_numerics, error_t, set_error
   use kinds, only: wp
   use lapack, only: dsaupd, dseupd
   use sorting, only: ascending_order
@@ -44,7 +44,8 @@ contains
     if (allocated(error)) return
     n = order_of(stiffness)
     if (modes > n - 2) then
-      call set_error(error, "ARPACK finds at least two modes fewer than there are unknowns")
+      call set_error(error, error_of_numerics, &
+        "ARPACK finds at least two modes fewer than there are unknowns")
       return
     end if
     ! A basis of the whole space leaves no residual, and ARPACK divides by it.
@@ -70,7 +71,8 @@ contains
     end if
     !$omp end critical (arpack)
     if (info /= 0) then
-      call set_error(error, "ARPACK did not converge (info = "//to_string(info)//")")
+      call set_error(error, error_of_numerics, "ARPACK did not converge (info = "// &
+        to_string(info)//")")
       return
     end if
     call sort_modes(lambda, z, want_vectors, inverse, vectors)

@@ -9,7 +9,7 @@ module bordered_eigensolver
   use completeness_proof, only: count_limit, count_margin, is_complete, rest_norm
   use dense_eigensolver, only: solve_dense
   use eigenvalue_gaps, only: relative_gap
-  use errors, only: error_t, set_error
+  use errors, only: error_of_numerics, error_t, set_error
   use kinds, only: wp
   use nodal_eigensolver, only: find_definite_shift
   use sorting, only: ascending_order
@@ -97,8 +97,8 @@ contains
     logical :: proven
 
     if (wanted > pencil%layout%unknowns) then
-      call set_error(error, to_string(wanted)//" modes are asked for, and there are only "// &
-        to_string(pencil%layout%unknowns)//" unknowns")
+      call set_error(error, error_of_numerics, to_string(wanted)// &
+        " modes are asked for, and there are only "//to_string(pencil%layout%unknowns)//" unknowns")
       return
     end if
     if (start%modes >= wanted) then
@@ -129,10 +129,11 @@ contains
       if (guards == pencil%layout%unknowns - wanted .or. guards >= most_guards) exit
     end do
     if (found%rest > 0.0_wp) then
-      call set_error(error, "it could not be proven that no mode is missing (norm of the rest "// &
+      call set_error(error, error_of_numerics, &
+        "it could not be proven that no mode is missing (norm of the rest "// &
         to_string(found%rest, 3)//")")
     else
-      call set_error(error, "fewer modes were found than are wanted")
+      call set_error(error, error_of_numerics, "fewer modes were found than are wanted")
     end if
   end subroutine find_bordered_modes
 
@@ -371,7 +372,8 @@ contains
     integer :: i, factorizations
 
     if (modes > size(chosen)) then
-      call set_error(error, to_string(modes)//" modes of "//to_string(size(chosen))//" unknowns")
+      call set_error(error, error_of_numerics, to_string(modes)//" modes of "// &
+        to_string(size(chosen))//" unknowns")
       return
     end if
     m = full_band(dense_form(pencil%layout, pencil%mass, chosen))

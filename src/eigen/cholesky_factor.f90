@@ -1,7 +1,7 @@
 !> Cholesky factors of symmetric positive definite band matrices, with errors in words.
 module cholesky_factor
   use band_matrix, only: band_matrix_t, half_bandwidth_of, order_of
-  use errors, only: error_t, set_error
+  use errors, only: error_of_numerics, error_t, set_error
   use kinds, only: wp
   use lapack, only: dpbtrf, dpbtrs
   use text, only: to_string
@@ -22,7 +22,7 @@ contains
 
     call dpbtrf("L", order_of(matrix), half_bandwidth_of(matrix), matrix%entry, &
       size(matrix%entry, 1), info)
-    if (info /= 0) call set_error(error, &
+    if (info /= 0) call set_error(error, error_of_numerics, &
       "the stiffness matrix is not positive definite at unknown "//to_string(info))
   end subroutine factor_band
 

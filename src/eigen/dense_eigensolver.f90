@@ -1,7 +1,7 @@
 !> Lowest modes from full matrices, by LAPACK.
 module dense_eigensolver
   use band_matrix, only: band_matrix_t, full_matrix, order_of
-  use errors, only: error_t, set_error
+  use errors, only: error_of_numerics, error_t, set_error
   use kinds, only: wp
   use lapack, only: dsygvx
   use text, only: to_string
@@ -57,13 +57,14 @@ contains
        w, z, n, work, size(work), iwork, ifail, info)
     allocate (vectors(n, 0))
     if (info > n) then
-      call set_error(error, "the stiffness matrix is not positive definite at unknown "// &
-        to_string(info - n))
+      call set_error(error, error_of_numerics, &
+        "the stiffness matrix is not positive definite at unknown "//to_string(info - n))
     else if (info > 0 .and. present(tolerance)) then
       ! Some vectors come out only beside an eigenvalue that has all its digits.
       call solve_dense(stiffness, mass, modes, want_vectors, inverse, vectors, error)
     else if (info > 0 .or. found /= modes) then
-      call set_error(error, "dsygvx did not converge (info = "//to_string(info)//")")
+      call set_error(error, error_of_numerics, "dsygvx did not converge (info = "// &
+        to_string(info)//")")
     else
       inverse = w(modes:1:-1)
       if (want_vectors) vectors = z(:, modes:1:-1)

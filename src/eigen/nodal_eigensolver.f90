@@ -3,7 +3,7 @@ module nodal_eigensolver
   use band_eigensolver, only: solve_band
   use band_matrix, only: band_matrix_t, band_times_vector, order_of
   use dense_eigensolver, only: solve_dense
-  use errors, only: error_t, set_error
+  use errors, only: error_of_numerics, error_t, set_error
   use kinds, only: wp
   use sturm_count, only: count_below, shifted
   use text, only: to_string
@@ -68,7 +68,8 @@ contains
 
     if (.not. (all(abs(stiffness%entry) <= huge(1.0_wp)) .and. &
       all(abs(mass%entry) <= huge(1.0_wp)))) then
-      call set_error(error, "the matrices hold numbers beyond the range of double precision")
+      call set_error(error, error_of_numerics, &
+        "the matrices hold numbers beyond the range of double precision")
       return
     end if
     shift = 0.0_wp
@@ -143,14 +144,14 @@ contains
       found%factorizations = found%factorizations + 2
       if (relative_width > widest_bracket .or. (i == 1 .and. roundoff > most_round_off*size_of)) &
         then
-        call set_error(error, "round-off leaves mode "//to_string(i)//" uncertain by "// &
-          to_string(0.5_wp*relative_width, 2)//" of its frequency")
+        call set_error(error, error_of_numerics, "round-off leaves mode "//to_string(i)// &
+          " uncertain by "//to_string(0.5_wp*relative_width, 2)//" of its frequency")
       else if (below > i - 1) then
-        call set_error(error, "a mode is missing: "//to_string(below)// &
+        call set_error(error, error_of_numerics, "a mode is missing: "//to_string(below)// &
           " eigenvalues are counted below mode "//to_string(i))
       else if (up_to < i) then
-        call set_error(error, "mode "//to_string(i)//" is not confirmed: only "// &
-          to_string(up_to)//" eigenvalues are counted up to it")
+        call set_error(error, error_of_numerics, "mode "//to_string(i)// &
+          " is not confirmed: only "//to_string(up_to)//" eigenvalues are counted up to it")
       end if
       if (allocated(error)) return
     end do
@@ -180,8 +181,8 @@ contains
         (found%lambda(1) + shift)
       ! Not `residual > tolerance`: NaN must not pass.
       if (.not. residual <= tolerance) then
-        call set_error(error, "the residual of mode "//to_string(i)//" is "//to_string(residual, &
-          2)//", above "//to_string(tolerance, 2))
+        call set_error(error, error_of_numerics, "the residual of mode "//to_string(i)//" is "// &
+          to_string(residual, 2)//", above "//to_string(tolerance, 2))
         return
       end if
       found%residual = max(found%residual, residual)
@@ -189,7 +190,7 @@ contains
         product_of = abs(dot_product(found%vector(:, j), mass_times) - merge(1.0_wp, 0.0_wp, &
           i == j))
         if (.not. product_of <= most_orthogonality) then
-          call set_error(error, "modes "//to_string(j)//" and "//to_string(i)// &
+          call set_error(error, error_of_numerics, "modes "//to_string(j)//" and "//to_string(i)// &
             " are orthogonal only to "//to_string(product_of, 2)//", above "// &
             to_string(most_orthogonality))
           return

@@ -1,6 +1,6 @@
 !> Singular vectors to their own last digits, however small their values are beside the largest.
 module singular_vectors
-  use errors, only: error_t, set_error
+  use errors, only: error_of_numerics, error_t, set_error
   use kinds, only: wp
   use sorting, only: ascending_order
   use text, only: to_string
@@ -61,7 +61,7 @@ contains
       if (.not. turned) exit
     end do
     if (turned .and. n > 1) then
-      call set_error(error, "the own vibrations of a link were not found in "// &
+      call set_error(error, error_of_numerics, "the own vibrations of a link were not found in "// &
         to_string(most_sweeps)//" sweeps of rotations")
       return
     end if

@@ -4,7 +4,7 @@ module subspace_eigensolver
   use band_matrix, only: band_matrix_t, band_times_vector, new_band_matrix
   use dense_eigensolver, only: solve_dense
   use eigenvalue_gaps, only: relative_gap
-  use errors, only: error_t, set_error
+  use errors, only: error_of_numerics, error_t, set_error
   use kinds, only: fineness, wp
   use long_sums, only: long_dot
   use nodal_eigensolver, only: find_definite_shift
@@ -64,7 +64,7 @@ contains
       call extend(pencil, start(:, i), basis, mass_times, stiffness_times, number, found%products)
     end do
     if (number < modes) then
-      call set_error(error, "the starts of two modes are the same")
+      call set_error(error, error_of_numerics, "the starts of two modes are the same")
       return
     end if
     do step = 1, most_steps
@@ -92,7 +92,8 @@ contains
       if (all(converged)) exit
     end do
     if (.not. all(converged)) then
-      call set_error(error, "no convergence in "//to_string(most_steps)//" steps on the long mesh")
+      call set_error(error, error_of_numerics, "no convergence in "//to_string(most_steps)// &
+        " steps on the long mesh")
       return
     end if
     found%error = [(squared(i)*long_dot(found%vector(:, i), found%vector(:, i))/(gap(found%lambda, &

@@ -7,7 +7,7 @@ module acceleration_fields
   implicit none (type, external)
   private
 
-  public :: acceleration_field_t, unit_fields, scaled_sum, point_acceleration
+  public :: acceleration_field_t, unit_fields, find_unit_field, scaled_sum, point_acceleration
 
   !> Accelerations of all points: those of pins, and along every body `at_first + s slope`, s from
   !! its first pin.
@@ -24,36 +24,43 @@ contains
   pure function unit_fields(linkage, pose, coefficients) result(fields)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: coefficients
+    type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
     type(acceleration_field_t) :: fields(2)
-
-    fields(1) = field_of(linkage, pose, coefficients%pin_slope, coefficients%turn_slope, &
-      coefficients%turn**2)
-    fields(2) = field_of(linkage, pose, coefficients%pin, coefficients%turn, &
-      0.0_wp*coefficients%turn)
-
-  end function unit_fields
-
-  !> (2.39) to (2.44) for all points: `a = a_first + s (α n − ω² e)`.
-  pure function field_of(linkage, pose, at_pin, angular, squared_velocity) result(field)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    real(wp), intent(in) :: at_pin(:, :)        !! (2, pins) accelerations [m/s²]
-    real(wp), intent(in) :: angular(:)          !! (bodies) α [rad/s²]
-    real(wp), intent(in) :: squared_velocity(:) !! (bodies) ω² [rad²/s²]
-    type(acceleration_field_t) :: field
 
     integer :: i
 
-    field%at_pin = at_pin
-    field%angular = angular
-    field%at_first = at_pin(:, linkage%bodies%first_pin)
-    allocate (field%slope(2, size(angular)))
-    do i = 1, size(angular)
-      field%slope(:, i) = angular(i)*normal_to(pose%direction(:, i)) - &
-        squared_velocity(i)*pose%direction(:, i)
+    do i = 1, 2
+      call find_unit_field(linkage, pose, coefficients, i, fields(i))
     end do
-  end function field_of
+  end function unit_fields
+
+  !> One of them: (2.39) to (2.44) for all points, `a = a_first + s (α n − ω² e)`.
+  pure subroutine find_unit_field(linkage, pose, coefficients, number, field)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
+    integer, intent(in) :: number                              !! 1: ω2² = 1; 2: α2 = 1
+    type(acceleration_field_t), intent(inout) :: field
+
+    real(wp) :: squared_velocity
+    integer :: i
+
+    if (number == 1) then
+      field%at_pin = coefficients%pin_slope
+      field%angular = coefficients%turn_slope
+    else
+      field%at_pin = coefficients%pin
+      field%angular = coefficients%turn
+    end if
+    field%at_first = field%at_pin(:, linkage%bodies%first_pin)
+    allocate (field%slope(2, size(field%angular)))
+    squared_velocity = 0.0_wp
+    do i = 1, size(field%angular)
+      if (number == 1) squared_velocity = coefficients%turn(i)**2
+      field%slope(:, i) = field%angular(i)*normal_to(pose%direction(:, i)) - &
+        squared_velocity*pose%direction(:, i)
+    end do
+  end subroutine find_unit_field
 
   !> `ω2² fields(1) + α2 fields(2)`
   pure function scaled_sum(fields, speed, acceleration) result(total)

@@ -112,7 +112,11 @@ contains
     type(acceleration_field_t), intent(in) :: field
     real(wp) :: force(2, size(linkage%pin_mass))
 
-    force = -spread(linkage%pin_mass, 1, 2)*field%at_pin
+    integer :: i
+
+    do i = 1, size(force, 2)
+      force(:, i) = -linkage%pin_mass(i)*field%at_pin(:, i)
+    end do
   end function pin_load
 
 end module inertia_loads

@@ -1,7 +1,7 @@
 !> The three loads of which every load of a moving linkage is made: `constant + ω2² of turning + α2
 !! of speeding up`.
 module load_cases
-  use acceleration_fields, only: acceleration_field_t, unit_fields
+  use acceleration_fields, only: acceleration_field_t, find_unit_field
   use inertia_loads, only: distributed_load, load_t, lumped_load, pin_load
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
@@ -49,15 +49,13 @@ contains
     logical, intent(in), optional :: occurs(case_count)         !! absent: all
     type(unit_loads_t) :: loads
 
-    type(acceleration_field_t) :: fields(2)
     integer :: i
 
     if (present(occurs)) loads%occurs = occurs
     if (.not. any(loads%occurs)) return
-    fields = unit_fields(linkage, pose, coefficients)
     do i = 1, 2
       if (.not. loads%occurs(i)) cycle
-      loads%of_case(i)%field = fields(i)
+      call find_unit_field(linkage, pose, coefficients, i, loads%of_case(i)%field)
       allocate (loads%of_case(i)%pin_force, mold=linkage%pin_force)
       allocate (loads%of_case(i)%couple, mold=linkage%couple)
       loads%of_case(i)%pin_force = 0.0_wp
@@ -65,10 +63,16 @@ contains
     end do
     if (.not. loads%occurs(constant_case)) return
     associate (constant => loads%of_case(constant_case))
-      constant%field%at_pin = -spread(linkage%gravity, 2, size(linkage%pin_mass))
-      constant%field%at_first = -spread(linkage%gravity, 2, size(linkage%bodies))
-      constant%field%slope = 0.0_wp*fields(1)%slope
-      constant%field%angular = 0.0_wp*fields(1)%angular
+      allocate (constant%field%at_pin(2, size(linkage%pin_mass)), &
+        constant%field%at_first(2, size(linkage%bodies)), &
+        constant%field%slope(2, size(linkage%bodies)), &
+        constant%field%angular(size(linkage%bodies)))
+      do i = 1, 2
+        constant%field%at_pin(i, :) = -linkage%gravity(i)
+        constant%field%at_first(i, :) = -linkage%gravity(i)
+      end do
+      constant%field%slope = 0.0_wp
+      constant%field%angular = 0.0_wp
       constant%pin_force = linkage%pin_force
       constant%couple = linkage%couple
     end associate

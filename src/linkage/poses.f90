@@ -1,7 +1,7 @@
 !> Where the links are at a crank angle.
 module poses
   use constants, only: degree
-  use errors, only: error_t, set_error
+  use errors, only: error_of_dead_point, error_of_reach, error_t, set_error
   use kinds, only: wp
   use linkages, only: cross, dyad_t, linkage_t, normal_to
   use text, only: to_string
@@ -43,8 +43,8 @@ contains
     if (allocated(error)) return
     do i = 1, size(pose%sine)
       if (abs(pose%sine(i)) >= dead_point_sine) cycle
-      call set_error(error, "dead point: |sin(theta4 - theta3)| = "//to_string(abs(pose%sine(i)), &
-        3)//" is below "//to_string(dead_point_sine))
+      call set_error(error, error_of_dead_point, "dead point: |sin(theta4 - theta3)| = "// &
+        to_string(abs(pose%sine(i)), 3)//" is below "//to_string(dead_point_sine))
       return
     end do
   end subroutine find_pose
@@ -123,12 +123,13 @@ contains
     four_areas_squared = (r(1) + r(2) + distance)*(r(1) + r(2) - distance)*(distance + r(1) - &
       r(2))*(distance - r(1) + r(2))
     if (four_areas_squared < -limit_slack*maxval([r, distance])**4) then
-      call set_error(error, "the position is out of reach")
+      call set_error(error, error_of_reach, "the position is out of reach")
       return
     end if
     ! At a dead point with both bases at one place nothing says where the dyad is.
     if (distance <= 0.0_wp) then
-      call set_error(error, "dead point: the pins that carry the dyad coincide")
+      call set_error(error, error_of_dead_point, &
+        "dead point: the pins that carry the dyad coincide")
       return
     end if
     unit = base/distance

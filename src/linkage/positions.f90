@@ -9,13 +9,13 @@ module positions
   implicit none (type, external)
   private
 
-  public :: positions_t, state_t, find_positions, by_crank_angle
+  public :: positions_t, state_t, find_positions, list_positions, find_state, by_crank_angle
 
   !> The linkage at one crank angle.
   type :: state_t
     real(wp) :: crank = 0.0_wp !! [deg]
-    type(pose_t) :: pose
-    type(kinematic_coefficients_t) :: coefficients
+    type(pose_t), allocatable :: pose
+    type(kinematic_coefficients_t), allocatable :: coefficients
     type(error_t), allocatable :: error !! why there is no pose
   end type state_t
 
@@ -27,11 +27,24 @@ module positions
 
 contains
 
-  !> Solves position and motion once for every different angle.
+  !> Solves position and kinematic coefficients once for every different angle.
   pure function find_positions(linkage, crank) result(positions)
     type(linkage_t), intent(in) :: linkage
     real(wp), intent(in) :: crank(:) !! [deg]
     type(positions_t) :: positions
+
+    integer :: i
+
+    call list_positions(crank, positions)
+    do i = 1, size(positions%states)
+      call find_state(linkage, positions%states(i))
+    end do
+  end function find_positions
+
+  !> The different angles of a list, none of them solved. Whole turns make no difference.
+  pure subroutine list_positions(crank, positions)
+    real(wp), intent(in) :: crank(:) !! [deg]
+    type(positions_t), intent(out) :: positions
 
     real(wp) :: reduced(size(crank))
     integer :: order(size(crank)), i, states
@@ -59,14 +72,20 @@ contains
       end if
       states = states + 1
       positions%state(i) = states
-      associate (state => positions%states(states))
-        state%crank = crank(i)
-        call find_pose(linkage, crank(i), state%pose, state%error)
-        if (.not. allocated(state%error)) state%coefficients = &
-          find_kinematic_coefficients(linkage, state%pose)
-      end associate
+      positions%states(states)%crank = crank(i)
     end do
-  end function find_positions
+  end subroutine list_positions
+
+  !> The linkage at the crank angle of a state, or why it cannot be there.
+  pure subroutine find_state(linkage, state)
+    type(linkage_t), intent(in) :: linkage
+    type(state_t), intent(inout) :: state !! with its crank angle
+
+    allocate (state%pose, state%coefficients)
+    call find_pose(linkage, state%crank, state%pose, state%error)
+    if (.not. allocated(state%error)) state%coefficients = &
+      find_kinematic_coefficients(linkage, state%pose)
+  end subroutine find_state
 
   !> The numbers of all states in the order of their crank angles.
   pure function by_crank_angle(positions) result(states)

@@ -31,12 +31,12 @@ contains
 
   !> Reactions at a pose, once for all speeds: (2.47) to (2.49) of Ulker (2010) for each load by
   !! itself.
-  pure function find_unit_reactions(linkage, elements, pose, coefficients) result(unit)
+  pure subroutine find_unit_reactions(linkage, elements, pose, coefficients, unit)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: elements(:)  !! (bodies) on whose nodes their masses sit; 0: distributed
     type(pose_t), intent(in) :: pose    !! away from dead points
     type(kinematic_coefficients_t), intent(in) :: coefficients
-    type(unit_reactions_t) :: unit
+    type(unit_reactions_t), intent(out) :: unit
 
     type(unit_loads_t) :: loads
     type(load_t) :: body_loads(size(linkage%bodies))
@@ -50,7 +50,7 @@ contains
       ! Gravity and the loads from outside shake nothing: they are no inertia forces.
       if (i < case_count) call add_up(linkage, pose, body_loads, pin_loads, unit%of_case(i))
     end do
-  end function find_unit_reactions
+  end subroutine find_unit_reactions
 
   !> Resultant of loads, and their moment about the ground pivot of the driven body.
   pure subroutine add_up(linkage, pose, body_loads, pin_loads, total)

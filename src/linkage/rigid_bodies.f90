@@ -2,11 +2,13 @@
 !! in a plane.
 module rigid_bodies
   use kinds, only: wp
-  use linkages, only: body_t, linkage_t
+  use linkages, only: body_t, linkage_t, normal_to
+  use poses, only: pose_t
   implicit none (type, external)
   private
 
-  public :: rigid_body_t, rigid_body, rigid_bodies_of, mass_centre, central_inertia
+  public :: rigid_body_t, rigid_body, rigid_bodies_of, mass_centre, central_inertia, &
+    total_mass, linkage_mass_centre
 
   type :: rigid_body_t
     real(wp) :: mass = 0.0_wp            !! [kg]
@@ -78,5 +80,41 @@ contains
 
     inertia = rigid%inertia - dot_product(rigid%first_moment, mass_centre(rigid))
   end function central_inertia
+
+  !> Mass of all that moves [kg].
+  pure function total_mass(linkage, rigid) result(mass)
+    type(linkage_t), intent(in) :: linkage
+    type(rigid_body_t), intent(in) :: rigid(:) !! (bodies) of the linkage
+    real(wp) :: mass
+
+    mass = sum(rigid%mass) + sum(linkage%pin_mass, mask=.not. linkage%is_ground)
+  end function total_mass
+
+  !> Place of the mass centre of a linkage; of one without mass the place of its driven body's pivot
+  !! [m].
+  pure function linkage_mass_centre(linkage, rigid, pose) result(centre)
+    type(linkage_t), intent(in) :: linkage
+    type(rigid_body_t), intent(in) :: rigid(:) !! (bodies) of the linkage
+    type(pose_t), intent(in) :: pose
+    real(wp) :: centre(2)
+
+    real(wp) :: mass
+    integer :: i
+
+    mass = total_mass(linkage, rigid)
+    centre = pose%pin(:, linkage%bodies(1)%first_pin)
+    if (mass <= 0.0_wp) return
+    centre = 0.0_wp
+    do i = 1, size(rigid)
+      associate (body => linkage%bodies(i), axis => pose%direction(:, i))
+        centre = centre + rigid(i)%mass*pose%pin(:, body%first_pin) + &
+          rigid(i)%first_moment(1)*axis + rigid(i)%first_moment(2)*normal_to(axis)
+      end associate
+    end do
+    do i = 1, size(linkage%pin_mass)
+      if (.not. linkage%is_ground(i)) centre = centre + linkage%pin_mass(i)*pose%pin(:, i)
+    end do
+    centre = centre/mass
+  end function linkage_mass_centre
 
 end module rigid_bodies

@@ -5,6 +5,7 @@ module model_reader
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use effect_cards, only: effects_axial, effects_static, effects_t, read_effects
+  use errors, only: error_of_input, error_t, set_error
   use kinds, only: wp
   use linkage_cards, only: set_default_mesh
   use loop_finder, only: find_loop
@@ -13,13 +14,14 @@ module model_reader
   use name_checks, only: check_names
   use numbers, only: read_integer
   use part_reader, only: read_parts
+  use report_kinds, only: report_kind_t
   use request_cards, only: read_crank, read_speed
   use request_checks, only: card_names, check_requests, check_required
   use shear, only: check_shear
   use spelling, only: suggestion
   use text, only: lower_case, same_word, string_t, to_string, word_list
   use tokens, only: token_t
-  use units, only: dimension_length, dimension_mass, dimension_time, new_unit_system, read_unit, &
+  use units, only: dimension_length, dimension_mass, dimension_time, read_unit, si_units, &
     unit_system_t, unit_t, wrong_unit
   implicit none (type, external)
   private
@@ -31,8 +33,9 @@ contains
   !> Turns cards into a model and checks all that can be checked without mechanics.
   !!
   !! The model is complete only if `diagnostics` has no errors afterwards.
-  subroutine read_model(cards, diagnostics, model)
+  subroutine read_model(cards, reports, diagnostics, model)
     type(card_t), intent(in) :: cards(:)
+    type(report_kind_t), intent(in) :: reports(:) !! that there are
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(out) :: model
 
@@ -54,14 +57,14 @@ contains
     call check_keywords(cards, diagnostics)
     call refuse_second_cards(cards, diagnostics)
     call read_units(cards, diagnostics, model%units)
-    call read_parts(cards, diagnostics, model)
+    call read_parts(cards, reports, diagnostics, model)
     call read_requests(cards, diagnostics, model)
     if (size(model%meshes) == 0 .and. needs_mesh(model)) then
       deallocate (model%meshes)
       allocate (model%meshes(1))
       call set_default_mesh(model%meshes(1))
     end if
-    call check_required(cards, diagnostics, model)
+    call check_required(cards, reports, diagnostics, model)
     call check_names(diagnostics, model)
     call check_bodies(diagnostics, model)
     call find_loop(diagnostics, model)
@@ -120,24 +123,19 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(unit_system_t), intent(out) :: system
 
-    type(unit_t) :: length, mass, time
     integer :: i
     logical :: fine
-    character(len=:), allocatable :: problem
 
-    call read_unit("m", dimension_length, length, problem)
-    call read_unit("kg", dimension_mass, mass, problem)
-    call read_unit("s", dimension_time, time, problem)
+    system = si_units()
     do i = 1, size(cards)
       if (.not. same_word(cards(i)%keyword%text, "UNITS")) cycle
       call check_form(cards(i), 3, 3, "", "UNITS length mass time", diagnostics, fine)
       if (.not. fine) exit
-      call read_one(cards(i)%words(1), dimension_length, length)
-      call read_one(cards(i)%words(2), dimension_mass, mass)
-      call read_one(cards(i)%words(3), dimension_time, time)
+      call read_one(cards(i)%words(1), dimension_length, system%length)
+      call read_one(cards(i)%words(2), dimension_mass, system%mass)
+      call read_one(cards(i)%words(3), dimension_time, system%time)
       exit
     end do
-    system = new_unit_system(length, mass, time)
 
   contains
 
@@ -147,10 +145,11 @@ contains
       type(unit_t), intent(inout) :: measure
 
       type(unit_t) :: candidate
+      type(error_t), allocatable :: error
 
-      call read_unit(word%text, dimension, candidate, problem)
-      if (len(problem) > 0) then
-        call add_error(diagnostics, word, problem)
+      call read_unit(word%text, dimension, candidate, error)
+      if (allocated(error)) then
+        call add_error(diagnostics, word, error%text)
       else if (any(candidate%dimension /= dimension)) then
         call add_error(diagnostics, word, wrong_unit(candidate, dimension))
       else
@@ -239,17 +238,17 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(inout) :: model
 
-    character(len=:), allocatable :: problem
+    type(error_t), allocatable :: error
     logical :: fine
     integer :: modes
 
     call check_form(card, 1, 1, "", "MODES number", diagnostics, fine)
     if (.not. fine) return
-    call read_integer(card%words(1)%text, modes, problem)
-    if (len(problem) == 0 .and. modes < 1) &
-      problem = "the number of modes must be at least 1, not "//to_string(modes)
-    if (len(problem) > 0) then
-      call add_error(diagnostics, card%words(1), problem)
+    call read_integer(card%words(1)%text, modes, error)
+    if (.not. allocated(error) .and. modes < 1) call set_error(error, error_of_input, &
+      "the number of modes must be at least 1, not "//to_string(modes))
+    if (allocated(error)) then
+      call add_error(diagnostics, card%words(1), error%text)
     else
       model%modes = modes
       model%modes_word = card%words(1)

@@ -9,9 +9,7 @@ module models
   use load_cards, only: force_card_t, torque_card_t
   use materials, only: material_t
   use motor_cards, only: motor_t, resistance_t
-  use request_cards, only: report_balance, report_branches, report_frequencies, report_inertia, &
-    report_lagrange, report_linkage, report_mesh, report_motion, report_reactions, report_shapes, &
-    report_t
+  use report_cards, only: report_t
   use sections, only: section_t
   use tokens, only: token_t
   use units, only: unit_system_t
@@ -19,9 +17,9 @@ module models
   implicit none (type, external)
   private
 
-  public :: model_t, report_number, needs_positions, is_moving, is_loaded, needs_loads, &
-    needs_inertia, needs_frequencies, needs_beams, needs_masses, needs_mesh, report_of_masses, &
-    bears_lumped_masses, link_mass, link_line_density
+  public :: model_t, report_number, needs_study, needs_positions, is_moving, is_loaded, &
+    needs_loads, needs_inertia, needs_frequencies, needs_beams, needs_masses, needs_mesh, &
+    report_of_masses, bears_lumped_masses, link_mass, link_line_density
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
@@ -75,17 +73,17 @@ module models
 
 contains
 
-  !> Number of the report of a kind in the model's list; 0 if it is not asked for.
-  pure function report_number(model, kind) result(number)
+  !> Number of the report of a name in the model's list; 0 if it is not asked for.
+  pure function report_number(model, name) result(number)
     type(model_t), intent(in) :: model
-    integer, intent(in) :: kind
+    character(len=*), intent(in) :: name
     integer :: number
 
     integer :: i
 
     number = 0
     do i = 1, size(model%reports)
-      if (model%reports(i)%kind == kind) number = i
+      if (model%reports(i)%kind%name == name) number = i
     end do
   end function report_number
 
@@ -95,10 +93,7 @@ contains
     type(model_t), intent(in) :: model
     logical :: needs
 
-    associate (kind => model%reports%kind)
-      needs = size(kind) == 0 .or. any(kind /= 0 .and. kind /= report_linkage .and. &
-        kind /= report_motion)
-    end associate
+    needs = size(model%reports) == 0 .or. any(model%reports%kind%positions)
   end function needs_positions
 
   !> Whether any speed or the acceleration is not zero.
@@ -128,8 +123,7 @@ contains
     type(model_t), intent(in) :: model
     logical :: needs
 
-    needs = report_number(model, report_frequencies) > 0 .or. &
-      report_number(model, report_shapes) > 0 .or. report_number(model, report_branches) > 0
+    needs = any(model%reports%kind%frequencies)
   end function needs_frequencies
 
   !> Whether links are asked for as beams.
@@ -137,7 +131,7 @@ contains
     type(model_t), intent(in) :: model
     logical :: needs
 
-    needs = needs_frequencies(model) .or. report_number(model, report_mesh) > 0
+    needs = any(model%reports%kind%beams)
   end function needs_beams
 
   !> Number of the first report that is about masses and their loads; 0 if none is asked for.
@@ -146,13 +140,25 @@ contains
     integer :: number
 
     do number = 1, size(model%reports)
-      select case (model%reports(number)%kind)
-      case (report_inertia, report_reactions, report_lagrange, report_balance, report_motion)
-        return
-      end select
+      if (model%reports(number)%kind%masses) return
     end do
     number = 0
   end function report_of_masses
+
+  !> Whether a study is needed by any report.
+  pure function needs_study(model, study) result(needs)
+    type(model_t), intent(in) :: model
+    character(len=*), intent(in) :: study !! name
+    logical :: needs
+
+    integer :: i
+
+    needs = .false.
+    do i = 1, size(model%reports)
+      needs = needs .or. &
+        index(" "//model%reports(i)%kind%studies, " "//trim(study)//" ") > 0
+    end do
+  end function needs_study
 
   pure function needs_masses(model) result(needs)
     type(model_t), intent(in) :: model

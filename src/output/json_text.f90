@@ -1,6 +1,7 @@
 !> Values as JSON (RFC 8259).
 module json_text
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use errors, only: error_t
   use kinds, only: long, wp
   use numbers, only: read_real
   use text, only: is_continuation_byte, to_string
@@ -85,7 +86,7 @@ contains
     real(wp), intent(in) :: number
     character(len=:), allocatable :: value
 
-    character(len=:), allocatable :: problem
+    type(error_t), allocatable :: error
     real(wp) :: back
     integer :: digits
 
@@ -93,8 +94,8 @@ contains
     if (.not. ieee_is_finite(number)) return
     do digits = precision(number), precision(number) + 2
       value = to_string(number, digits)
-      call read_real(value, back, problem)
-      if (len(problem) == 0 .and. .not. abs(back - number) > 0.0_wp) return
+      call read_real(value, back, error)
+      if (.not. allocated(error) .and. .not. abs(back - number) > 0.0_wp) return
     end do
   end function json_number
 

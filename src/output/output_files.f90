@@ -4,7 +4,7 @@
 !! full disk shows nowhere else), and only then renamed. Until then the file of an earlier run stays
 !! as it was.
 module output_files
-  use errors, only: error_t, set_error
+  use errors, only: error_of_files, error_t, set_error
   use file_system, only: joined_path, remove_file, rename_file
   use kinds, only: long
   use text_buffer, only: append_text, text_buffer_t
@@ -39,8 +39,8 @@ contains
     open (newunit=file%unit, file=file%path//temporary, status="replace", action="write", &
       access="stream", form="unformatted", iostat=status)
     file%is_open = status == 0
-    if (status /= 0) call set_error(error, file%path//temporary// &
-      ": error: this file cannot be written")
+    if (status /= 0) call set_error(error, error_of_files, "this file cannot be written", &
+      file%path//temporary)
   end subroutine open_output
 
   !> Appends text as it is.
@@ -78,8 +78,8 @@ contains
     file%sound = file%sound .and. status == 0
     inquire (file=file%path//temporary, size=size_on_disk)
     if (.not. file%sound .or. size_on_disk /= file%bytes) then
-      call set_error(error, &
-        file%path//": error: the file could not be written completely; is the disk full?")
+      call set_error(error, error_of_files, &
+        "the file could not be written completely; is the disk full?", file%path)
     end if
   end subroutine finish_output
 
@@ -91,7 +91,8 @@ contains
     logical :: done
 
     call rename_file(file%path//temporary, file%path, done)
-    if (.not. done) call set_error(error, file%path//": error: the file cannot be put in place")
+    if (.not. done) call set_error(error, error_of_files, "the file cannot be put in place", &
+      file%path)
   end subroutine publish_output
 
   !> Removes a file that is no longer asked for, and what an earlier run that was killed may have

@@ -7,13 +7,14 @@ module tables
   use number_text, only: number_width, scientific
   use output_files, only: append_output, discard_output, finish_output, open_output, &
     output_file_t, publish_output
+  use table_rows, only: item_failure, item_gap, item_row, next_item, row_item_t, rows_t
   use text, only: string_t, to_string, word_list
   implicit none (type, external)
   private
 
   public :: table_t, open_table, begin_variant, finish_table, publish_table, discard_table
   public :: column_t, real_column, integer_column, name_column, append_column, append_real_columns
-  public :: write_header, write_row, write_gap, write_failure
+  public :: write_header, write_notes, write_rows
   public :: real_cells, integer_cell, name_cell, has_unit
 
   type :: column_t
@@ -176,9 +177,23 @@ contains
     end do
   end subroutine append_real_columns
 
+  !> Writes what the head of a table has to say of another variant than the first: empty lines, and
+  !! those notes that the header does not have.
+  subroutine write_notes(table, notes)
+    type(table_t), intent(inout) :: table !! with its header
+    type(string_t), intent(in) :: notes(:)
+
+    integer :: i
+
+    call write_gap(table, 2)
+    do i = 1, size(notes)
+      if (any_same(table%notes, notes(i)%text)) cycle
+      call append_output(table%plain, "# "//notes(i)%text//line_feed)
+    end do
+  end subroutine write_notes
+
   !> Writes the `#` lines: title, notes, names of the columns, their units; in CSV the names of the
-  !! columns alone. Where there is a header already, another variant begins: empty lines, and those
-  !! notes that the header does not have.
+  !! columns alone.
   subroutine write_header(table, title, notes, columns)
     type(table_t), intent(inout) :: table
     character(len=*), intent(in) :: title
@@ -188,14 +203,6 @@ contains
     character(len=:), allocatable :: names, units, fields
     integer :: i
 
-    if (allocated(table%columns)) then
-      call write_gap(table, 2)
-      do i = 1, size(notes)
-        if (any_same(table%notes, notes(i)%text)) cycle
-        call append_output(table%plain, "# "//notes(i)%text//line_feed)
-      end do
-      return
-    end if
     table%notes = notes
     table%columns = [table%parameters, columns]
     call append_output(table%plain, "# "//title_line(title)//line_feed)
@@ -238,6 +245,30 @@ contains
     line = title
     if (len(title) == 0) line = "(no title)"
   end function title_line
+
+  !> Writes rows, gaps and failures in their order.
+  subroutine write_rows(table, rows)
+    type(table_t), intent(inout) :: table !! with its header
+    type(rows_t), intent(in) :: rows
+
+    type(row_item_t) :: item
+    integer :: at
+    logical :: found
+
+    at = 1
+    do
+      call next_item(rows, at, item, found)
+      if (.not. found) exit
+      select case (item%kind)
+      case (item_row)
+        call write_row(table, item%text)
+      case (item_gap)
+        call write_gap(table, item%lines)
+      case (item_failure)
+        call write_failure(table, item%place, item%text)
+      end select
+    end do
+  end subroutine write_rows
 
   subroutine write_row(table, cells)
     type(table_t), intent(inout) :: table

@@ -3,298 +3,195 @@
 module balance_report
   use attached_parts, only: place_on_body
   use constants, only: degree
-  use counterweights, only: balanced_linkage, counterweight_lump, counterweight_t, &
-    find_counterweights, linkage_mass_centre, total_mass
-  use crank_cycle, only: cycle_t, cycle_values, drive_torque, largest_values, quantity_count, &
-    quantity_names, shaking_moment, turns_freely, usual_values
-  use harmonics, only: highest_harmonic, spectrum_of, spectrum_t
-  use interruption, only: was_interrupted
+  use harmonics_study, only: is_moment, quantity_count, quantity_names
   use kinds, only: wp
-  use linkages, only: linkage_t, lump_t
   use load_notes, only: acceleration_note
-  use mechanisms, only: mechanism_t
-  use models, only: model_t
   use numbers, only: shortest_text
-  use positions, only: positions_t, state_t
-  use reactions, only: find_unit_reactions, reactions_at, reactions_t
-  use settled_cycles, only: find_settled_cycles, least_share
-  use tables, only: append_column, append_real_columns, column_t, name_cell, name_column, &
-    real_cells, real_column, table_t, write_failure, write_gap, write_header, write_row
+  use reactions_study, only: reactions_at_speed, reactions_result_t, shaking_values, torque_value
+  use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
+    table_unit
+  use table_rows, only: add_gap, add_row, rows_t
+  use tables, only: name_cell, real_cells
   use text, only: append_string, string_t, to_string, trimmed_list
-  use units, only: coherent_unit, dimension_force, dimension_length, dimension_mass, &
-    dimension_moment, from_si, unit_system_t, unit_t
+  use units, only: from_si, unit_t
+  use variant_results, only: variant_results_t
   implicit none (type, external)
   private
 
-  public :: write_balance, write_harmonics
-
-  !> The units of the tables.
-  type :: measures_t
-    type(unit_t) :: length, mass, first_moment, force, moment
-  end type measures_t
+  public :: balance_notes, add_balance, harmonics_notes, harmonics_words, add_harmonics
 
   character(len=*), parameter :: linkage_names(2) = [character(len=8) :: "given", "balanced"]
 
+  !> A change of harmonics with the number of samples that is more than what rounding does.
+  real(wp), parameter :: unsettled = 1.0e-10_wp
+
 contains
 
-  !> One row a position, one block a speed.
-  subroutine write_balance(table, model, mechanism, positions)
-    type(table_t), intent(inout) :: table
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
-    type(positions_t), intent(in) :: positions
-
-    type(measures_t) :: measures
-    type(counterweight_t) :: weights(2)
-    type(linkage_t) :: balanced
-    integer :: i, k
-
-    measures = measures_of(model%units)
-    weights = find_counterweights(mechanism%linkage, mechanism%load_elements)
-    balanced = balanced_linkage(mechanism%linkage, weights)
-    call write_header(table, model%title, balance_remarks(model, mechanism, weights, measures), &
-      balance_columns(measures))
-    do k = 1, size(model%speed%value)
-      if (k > 1) call write_gap(table, 2)
-      do i = 1, size(positions%crank)
-        associate (state => positions%states(positions%state(i)), speed => model%speed%value(k))
-          if (allocated(state%error)) then
-            call write_failure(table, [speed, positions%crank(i)], state%error%message)
-          else
-            call write_row(table, &
-              real_cells([speed, positions%crank(i), &
-              from_si(linkage_mass_centre(mechanism%linkage, mechanism%load_elements, state%pose), &
-              measures%length), reactions_of(mechanism%linkage, mechanism%load_elements, state, &
-              speed, model%acceleration, measures), reactions_of(balanced, &
-              mechanism%load_elements, state, speed, model%acceleration, measures)]))
-          end if
-        end associate
-      end do
-    end do
-  end subroutine write_balance
-
-  pure function measures_of(system) result(measures)
-    type(unit_system_t), intent(in) :: system
-    type(measures_t) :: measures
-
-    measures%length = coherent_unit(system, dimension_length)
-    measures%mass = coherent_unit(system, dimension_mass)
-    measures%first_moment = coherent_unit(system, dimension_mass + dimension_length)
-    measures%force = coherent_unit(system, dimension_force)
-    measures%moment = coherent_unit(system, dimension_moment)
-  end function measures_of
-
-  pure function balance_columns(measures) result(columns)
-    type(measures_t), intent(in) :: measures
-    type(column_t), allocatable :: columns(:)
-
-    call append_column(columns, real_column("speed", "rad/s"))
-    call append_column(columns, real_column("crank", "deg"))
-    call append_real_columns(columns, "xG yG", measures%length%name)
-    call append_real_columns(columns, "shaking_x shaking_y", measures%force%name)
-    call append_real_columns(columns, "shaking_moment torque", measures%moment%name)
-    call append_real_columns(columns, "balanced_x balanced_y", measures%force%name)
-    call append_real_columns(columns, "balanced_moment balanced_torque", measures%moment%name)
-  end function balance_columns
-
-  !> Shaking force and moment and driving torque at a position and speed, in the units of the table.
-  pure function reactions_of(linkage, elements, state, speed, acceleration, measures) result(cells)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: elements(:)
-    type(state_t), intent(in) :: state
-    real(wp), intent(in) :: speed, acceleration !! of the crank [rad/s, rad/s²]
-    type(measures_t), intent(in) :: measures
-    real(wp) :: cells(4)
-
-    type(reactions_t) :: reactions
-
-    reactions = reactions_at(find_unit_reactions(linkage, elements, state%pose, &
-      state%coefficients), speed, acceleration)
-    cells = [from_si(reactions%shaking_force, measures%force), &
-      from_si([reactions%shaking_moment, reactions%joints%torque], measures%moment)]
-  end function reactions_of
-
   !> What the columns are, masses and counterweights.
-  pure function balance_remarks(model, mechanism, weights, measures) result(list)
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
-    type(counterweight_t), intent(in) :: weights(:)
-    type(measures_t), intent(in) :: measures
-    type(string_t), allocatable :: list(:)
+  pure subroutine balance_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant
+    type(string_t), allocatable, intent(out) :: notes(:)
 
+    type(unit_t) :: mass
     integer :: i
 
-    list = quantity_remarks(model, mechanism)
-    call append_string(list, "G: mass centre of the moving masses, without counterweights")
-    call append_string(list, &
-      "total mass: "//to_string(from_si(total_mass(mechanism%linkage, mechanism%load_elements), &
-      measures%mass), 12)//" "//measures%mass%name)
-    do i = 1, size(weights)
-      call add_counterweight(model, mechanism, weights(i), measures, list)
+    mass = table_unit("mass", variant%model%units)
+    notes = quantity_notes(variant)
+    call append_string(notes, "G: mass centre of the moving masses, without counterweights")
+    call append_string(notes, "total mass: "// &
+      to_string(from_si(variant%found%balance%mass, mass), 12)//" "//mass%name)
+    do i = 1, size(variant%found%balance%weights)
+      call append_counterweight(variant, i, notes)
     end do
-  end function balance_remarks
+  end subroutine balance_notes
 
   !> What both tables have to say of their quantities.
-  pure function quantity_remarks(model, mechanism) result(list)
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
+  pure function quantity_notes(variant) result(list)
+    type(variant_results_t), intent(in) :: variant
     type(string_t), allocatable :: list(:)
 
-    call append_string(list, &
-      "shaking force: sum of the inertia forces -m a; shaking moment: that of these and of all "// &
-      "-I alpha, about "//mechanism%pin_names(1)%text//"; torque: of the drive on link "// &
-      mechanism%names(1)%text//", with gravity and loads")
-    call append_string(list, &
-      "balanced: with the counterweights of balance.dat, each as far from its ground pivot as "// &
-      "its link is long")
-    call append_string(list, acceleration_note(model))
-  end function quantity_remarks
+    associate (mechanism => variant%mechanism)
+      call append_string(list, "shaking force: sum of the inertia forces -m a; shaking moment: "// &
+        "that of these and of all -I alpha, about "//mechanism%pin_names(1)%text// &
+        "; torque: of the drive on link "//mechanism%names(1)%text//", with gravity and loads")
+    end associate
+    call append_string(list, "balanced: with the counterweights of balance.dat, each as far "// &
+      "from its ground pivot as its link is long")
+    call append_string(list, acceleration_note(variant%model))
+  end function quantity_notes
 
   !> Mass × radius and angle, and the card that makes it.
-  pure subroutine add_counterweight(model, mechanism, weight, measures, list)
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
-    type(counterweight_t), intent(in) :: weight
-    type(measures_t), intent(in) :: measures
+  pure subroutine append_counterweight(variant, number, list)
+    type(variant_results_t), intent(in) :: variant
+    integer, intent(in) :: number !! of the counterweight
     type(string_t), allocatable, intent(inout) :: list(:)
 
-    type(lump_t) :: lump
+    type(unit_t) :: mass, first_moment
     real(wp) :: place(2)
     character(len=:), allocatable :: from, to
 
-    associate (body => mechanism%linkage%bodies(weight%body), &
-      name => mechanism%names(weight%body)%text)
-      if (.not. weight%needed) then
-        call append_string(list, "link "//name//" needs no counterweight")
+    mass = table_unit("mass", variant%model%units)
+    first_moment = table_unit("first_moment", variant%model%units)
+    associate (weight => variant%found%balance%weights(number), &
+        lump => variant%found%balance%lumps(number), mechanism => variant%mechanism)
+      associate (body => mechanism%linkage%bodies(weight%body), &
+          name => mechanism%names(weight%body)%text)
+        if (.not. weight%needed) then
+          call append_string(list, "link "//name//" needs no counterweight")
+          return
+        end if
+        from = mechanism%pin_names(merge(body%first_pin, body%last_pin, body%sense > 0.0_wp))%text
+        to = mechanism%pin_names(merge(body%last_pin, body%first_pin, body%sense > 0.0_wp))%text
+        call append_string(list, "counterweight of link "//name//": mass x radius "// &
+          shortest_text(from_si(norm2(weight%first_moment), first_moment))//" "// &
+          first_moment%name//", at "//shortest_text(atan2(weight%first_moment(2), &
+          weight%first_moment(1))/degree)//" deg from "//from//" -> "//to)
+        ! Going from card to body and back is the same.
+        place = from_si(place_on_body(variant%model, weight%body, lump%place), &
+          table_unit("length", variant%model%units)) + 0.0_wp
+        call append_string(list, "card, with the link's length for a radius (the shaking force "// &
+          "depends on mass x radius only, moment and torque on the radius too):")
+        call append_string(list, "MASS "//name//" at="//shortest_text(place(1))//" offset="// &
+          shortest_text(place(2))//" "//shortest_text(from_si(lump%mass, mass))//mass%name)
+      end associate
+    end associate
+  end subroutine append_counterweight
+
+  !> The row of a position and speed.
+  subroutine add_balance(variant, layout, position, speed, rows)
+    type(variant_results_t), intent(in) :: variant
+    type(table_layout_t), intent(in) :: layout
+    integer, intent(in) :: position, speed !! numbers
+    type(rows_t), intent(inout) :: rows
+
+    associate (omega => variant%model%speed%value(speed), positions => variant%found%positions, &
+        balance => variant%found%balance, state => variant%found%positions%state(position))
+      call add_row(rows, cells(layout, 1, [omega, positions%crank(position), &
+        balance%centre(:, state), quantities(variant%found%reactions), &
+        quantities(balance%balanced)]))
+    end associate
+
+  contains
+
+    !> Shaking force and moment, and driving torque.
+    pure function quantities(reactions) result(values)
+      type(reactions_result_t), intent(in) :: reactions
+      real(wp) :: values(4)
+
+      real(wp) :: all(16)
+
+      all = reactions_at_speed(reactions, variant%found%positions%state(position), &
+        variant%model%speed%value(speed), variant%model%acceleration)
+      values = [all(shaking_values), all(torque_value)]
+    end function quantities
+
+  end subroutine add_balance
+
+  !> What the columns are, and how sure they are.
+  pure subroutine harmonics_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant
+    type(string_t), allocatable, intent(out) :: notes(:)
+
+    type(unit_t) :: force, moment
+
+    notes = quantity_notes(variant)
+    force = table_unit("force", variant%model%units)
+    moment = table_unit("moment", variant%model%units)
+    associate (found => variant%found%harmonics)
+      if (.not. found%has_cycle) then
+        call append_string(notes, "no rows: the crank does not turn fully, or comes to a dead "// &
+          "point, and there is no cycle")
         return
       end if
-      from = mechanism%pin_names(merge(body%first_pin, body%last_pin, body%sense > 0.0_wp))%text
-      to = mechanism%pin_names(merge(body%last_pin, body%first_pin, body%sense > 0.0_wp))%text
-      call append_string(list, "counterweight of link "//name//": mass x radius "// &
-        shortest_text(from_si(norm2(weight%first_moment), measures%first_moment))//" "// &
-        measures%first_moment%name//", at "// &
-        shortest_text(atan2(weight%first_moment(2), weight%first_moment(1))/degree)// &
-        " deg from "//from//" -> "//to)
-      lump = counterweight_lump(weight, body, body%length)
-      ! Going from card to body and back is the same.
-      place = from_si(place_on_body(model, weight%body, lump%place), measures%length) + 0.0_wp
-      call append_string(list, &
-        "card, with the link's length for a radius (the shaking force depends on mass x radius "// &
-        "only, "//"moment and torque on the radius too):")
-      call append_string(list, "MASS "//name//" at="//shortest_text(place(1))//" offset="// &
-        shortest_text(place(2))//" "//shortest_text(from_si(lump%mass, measures%mass))// &
-        measures%mass%name)
+      call append_string(notes, "over a whole turn of the crank: largest absolute value, root "// &
+        "of the mean square, mean, and mean + sum of h_k cos(k crank + phase_k); "// &
+        "speed and acceleration are the same all round")
+      call append_string(notes, "forces in "//force%name//", moments and torques in "// &
+        moment%name//", phases in deg; a phase is 0 where its h is only rounding")
+      call append_string(notes, "samples: "//to_string(found%samples)//"; every second of them "// &
+        "gives the same to "//to_string(found%change, 2)//" of the largest value")
+      if (found%change > unsettled) call append_string(notes, "harmonics have not settled: the "// &
+        "crank passes next to a dead point, or the shaking force through zero")
     end associate
-  end subroutine add_counterweight
+  end subroutine harmonics_notes
+
+  !> The words in the columns `linkage` and `quantity`.
+  pure function harmonics_words() result(lists)
+    type(name_list_t) :: lists(2)
+
+    lists(1)%column = "linkage"
+    lists(1)%names = trimmed_list(linkage_names)
+    lists(2)%column = "quantity"
+    lists(2)%names = trimmed_list(quantity_names)
+  end function harmonics_words
 
   !> One row a quantity of a linkage, one block a speed; none where there is no whole turn.
-  subroutine write_harmonics(table, model, mechanism)
-    type(table_t), intent(inout) :: table
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
+  subroutine add_harmonics(variant, layout, rows)
+    type(variant_results_t), intent(in) :: variant
+    type(table_layout_t), intent(in) :: layout
+    type(rows_t), intent(inout) :: rows
 
-    type(measures_t) :: measures
-    type(column_t), allocatable :: columns(:)
-    type(string_t), allocatable :: remarks(:)
-    type(linkage_t) :: linkages(2)
-    type(cycle_t) :: turns(2)
-    ! More than this is not what rounding does.
-    real(wp), parameter :: unsettled = 1.0e-10_wp
-    real(wp) :: change
-    integer :: k
+    real(wp) :: unit_value
+    integer :: i, k, q
 
-    measures = measures_of(model%units)
-    columns = harmonic_columns()
-    remarks = quantity_remarks(model, mechanism)
-    if (.not. turns_freely(mechanism%linkage)) then
-      call append_string(remarks, &
-        "no rows: the crank does not turn fully, or comes to a dead point, and there is no cycle")
-      call write_header(table, model%title, remarks, columns)
-      return
-    end if
-    linkages(1) = mechanism%linkage
-    linkages(2) = balanced_linkage(linkages(1), find_counterweights(linkages(1), &
-      mechanism%load_elements))
-    call find_settled_cycles(linkages, mechanism%load_elements, model%speed%value, &
-      model%acceleration, turns, change)
-    call append_string(remarks, &
-      "over a whole turn of the crank: largest absolute value, root of the mean square, mean, "// &
-      "and "// &
-      "mean + sum of h_k cos(k crank + phase_k); speed and acceleration are the same all round")
-    call append_string(remarks, "forces in "//measures%force%name//", moments and torques in "// &
-      measures%moment%name//", phases in deg; a phase is 0 where its h is only rounding")
-    call append_string(remarks, "samples: "//to_string(size(turns(1)%part, 3))// &
-      "; every second of them gives the same to "//to_string(change, 2)//" of the largest value")
-    if (change > unsettled) call append_string(remarks, &
-      "harmonics have not settled: the crank passes next to a dead point, "// &
-      "or the shaking force through zero")
-    call write_header(table, model%title, remarks, columns)
-    do k = 1, size(model%speed%value)
-      if (was_interrupted()) return
-      if (k > 1) call write_gap(table, 2)
-      call write_speed(table, mechanism, linkages, turns, model%speed%value(k), &
-        model%acceleration, measures, columns)
-    end do
-  end subroutine write_harmonics
-
-  pure function harmonic_columns() result(columns)
-    type(column_t), allocatable :: columns(:)
-
-    integer :: i
-
-    call append_column(columns, real_column("speed", "rad/s"))
-    call append_column(columns, name_column("linkage", trimmed_list(linkage_names)))
-    call append_column(columns, name_column("quantity", trimmed_list(quantity_names)))
-    ! Their units are those of the quantity of the row.
-    call append_real_columns(columns, "largest rms mean", "-")
-    do i = 1, highest_harmonic
-      call append_column(columns, real_column("h"//to_string(i), "-"))
-    end do
-    do i = 1, highest_harmonic
-      call append_column(columns, real_column("phase"//to_string(i), "deg"))
-    end do
-  end function harmonic_columns
-
-  !> The rows of a speed.
-  subroutine write_speed(table, mechanism, linkages, turns, speed, acceleration, measures, columns)
-    type(table_t), intent(inout) :: table
-    type(mechanism_t), intent(in) :: mechanism
-    type(linkage_t), intent(in) :: linkages(:)
-    type(cycle_t), intent(in) :: turns(:)
-    real(wp), intent(in) :: speed, acceleration !! of the crank [rad/s, rad/s²]
-    type(measures_t), intent(in) :: measures
-    type(column_t), intent(in) :: columns(:)
-
-    ! Harmonics smaller than this share of what is usual have no digit that tells where they begin.
-    real(wp), parameter :: unknown_phase = 1.0e-12_wp
-    real(wp), allocatable :: values(:, :)
-    real(wp) :: largest(quantity_count, 2), phase(highest_harmonic), unit_value, &
-      usual(quantity_count)
-    type(spectrum_t) :: spectrum
-    integer :: i, q
-
-    do i = 1, size(linkages)
-      largest(:, i) = largest_values(linkages(i), mechanism%load_elements, turns(i), speed, &
-        acceleration)
-    end do
-    usual = max(maxval(largest, dim=2), least_share*usual_values(linkages(1), &
-      mechanism%load_elements, speed, acceleration))
-    do i = 1, size(linkages)
-      values = cycle_values(turns(i), speed, acceleration)
-      do q = 1, quantity_count
-        spectrum = spectrum_of(values(:, q))
-        phase = 0.0_wp
-        where (abs(spectrum%coefficient) > unknown_phase*usual(q)) &
-          phase = atan2(aimag(spectrum%coefficient), real(spectrum%coefficient))/degree
-        unit_value = from_si(1.0_wp, measures%force)
-        if (q == shaking_moment .or. q == drive_torque) unit_value = from_si(1.0_wp, &
-          measures%moment)
-        call write_row(table, real_cells([speed])//name_cell(trim(linkage_names(i)), &
-          columns(2)%width)//name_cell(trim(quantity_names(q)), columns(3)%width)// &
-          real_cells([unit_value*[largest(q, i), spectrum%rms, spectrum%mean, &
-          abs(spectrum%coefficient)], phase]))
+    if (.not. variant%found%harmonics%has_cycle) return
+    do k = 1, size(variant%model%speed%value)
+      if (k > 1) call add_gap(rows, 2)
+      do i = 1, size(linkage_names)
+        do q = 1, quantity_count
+          ! Their units are those of the quantity of the row.
+          unit_value = from_si(1.0_wp, table_factor(trim(merge("moment", "force ", is_moment(q))), &
+            variant%model%units))
+          associate (this => variant%found%harmonics%of(q, i, k))
+            call add_row(rows, cells(layout, 1, [variant%model%speed%value(k)])// &
+              name_cell(trim(linkage_names(i)), column_width(layout, 2))// &
+              name_cell(trim(quantity_names(q)), column_width(layout, 3))// &
+              real_cells([unit_value*[this%largest, this%rms, this%mean, this%amplitude], &
+              this%phase]))
+          end associate
+        end do
       end do
     end do
-  end subroutine write_speed
+  end subroutine add_harmonics
 
 end module balance_report

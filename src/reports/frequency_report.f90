@@ -1,104 +1,36 @@
 !> `frequencies.dat` and `shapes.dat`.
 module frequency_report
-  use frequency_study, only: is_drawn
+  use errors, only: error_t
+  use frequency_study, only: failure_at, frequency_values, has_result, station_on_link
   use kinds, only: wp
   use load_notes, only: acceleration_note
-  use mechanisms, only: mechanism_t
   use models, only: effects_static, inertia_distributed, inertia_lumped, is_loaded, is_moving, &
     model_t, needs_loads, report_number
-  use poses, only: pose_t
-  use position_results, only: frequency_of
-  use positions, only: positions_t
-  use request_cards, only: report_shapes
-  use sweeps, only: failure_at, has_result, sweep_t
-  use tables, only: append_column, append_real_columns, column_t, integer_cell, integer_column, &
-    name_cell, name_column, real_cells, real_column, table_t, write_failure, write_gap, &
-    write_header, write_row
-  use text, only: append_string, string_t, to_string
-  use units, only: coherent_unit, dimension_length, dimension_mass, from_si, to_si, unit_t
+  use report_cards, only: report_t
+  use table_columns, only: cells, column_width, table_factor, table_layout_t
+  use table_rows, only: add_failure, add_gap, add_row, rows_t
+  use tables, only: integer_cell, name_cell
+  use text, only: append_string, string_t
+  use units, only: to_si, unit_t
+  use value_lists, only: value_list_t, value_number
+  use variant_results, only: variant_results_t
   implicit none (type, external)
   private
 
-  public :: write_frequencies, write_shapes, effects_notes
-
-  !> Rows whose digits are worked out together, by all threads.
-  integer, parameter :: rows_at_once = 1024
+  public :: frequency_notes, add_frequencies, shape_notes, add_shapes, drawn_rows, effects_notes, &
+    is_drawn
 
 contains
 
-  !> One row a position, one block a speed; a single block if the frequencies are static.
-  subroutine write_frequencies(table, model, positions, sweep, threads)
-    type(table_t), intent(inout) :: table
-    type(model_t), intent(in) :: model
-    type(positions_t), intent(in) :: positions
-    type(sweep_t), intent(in) :: sweep
-    integer, intent(in) :: threads
+  !> What the frequencies are, and their errors.
+  pure subroutine frequency_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant
+    type(string_t), allocatable, intent(out) :: notes(:)
 
-    type(column_t), allocatable :: columns(:)
-    type(string_t), allocatable :: notes(:)
-    integer :: i, k
-
-    allocate (columns(2*model%modes + 2))
-    columns(1) = real_column("speed", "rad/s")
-    columns(2) = real_column("crank", "deg")
-    do i = 1, model%modes
-      columns(2 + i) = real_column("f"//to_string(i), "Hz")
-      columns(2 + model%modes + i) = real_column("error"//to_string(i), "-")
-    end do
-    notes = effects_notes(model)
+    notes = effects_notes(variant%model)
     call append_string(notes, &
       "error1 and so on: how far off each frequency may be, of itself: mesh and rounding")
-    call write_header(table, model%title, notes, columns)
-    do k = 1, size(sweep%request%speed)
-      if (k > 1) call write_gap(table, 2)
-      call write_block(table, positions, sweep, k, threads, sum(columns%width))
-    end do
-  end subroutine write_frequencies
-
-  !> All rows of a speed. Their digits are worked out by all threads, a number of rows at a time,
-  !! and written in order.
-  subroutine write_block(table, positions, sweep, speed, threads, width)
-    type(table_t), intent(inout) :: table
-    type(positions_t), intent(in) :: positions
-    type(sweep_t), intent(in) :: sweep
-    integer, intent(in) :: speed   !! number
-    integer, intent(in) :: threads
-    integer, intent(in) :: width   !! of a row
-
-    character(len=width) :: rows(rows_at_once)
-    integer :: i, first, last
-
-    do first = 1, size(positions%crank), rows_at_once
-      last = min(first + rows_at_once - 1, size(positions%crank))
-      !$omp parallel do num_threads(threads) default(shared) private(i)
-      do i = first, last
-        if (has_result(positions, sweep, positions%state(i), speed)) then
-          call fill_row(positions, sweep, i, speed, rows(i - first + 1))
-        end if
-      end do
-      !$omp end parallel do
-      do i = first, last
-        if (has_result(positions, sweep, positions%state(i), speed)) then
-          call write_row(table, rows(i - first + 1))
-        else
-          call write_failure(table, [sweep%request%speed(speed), positions%crank(i)], &
-            failure_at(positions, sweep, positions%state(i), speed))
-        end if
-      end do
-    end do
-  end subroutine write_block
-
-  subroutine fill_row(positions, sweep, row, speed, text)
-    type(positions_t), intent(in) :: positions
-    type(sweep_t), intent(in) :: sweep
-    integer, intent(in) :: row, speed !! numbers
-    character(len=*), intent(out) :: text
-
-    associate (result => sweep%results(positions%state(row)))
-      text = real_cells([sweep%request%speed(speed), positions%crank(row), &
-        frequency_of(result%lambda(:, speed)), result%error(:, speed)])
-    end associate
-  end subroutine fill_row
+  end subroutine frequency_notes
 
   !> What the frequencies are, in words.
   pure function effects_notes(model) result(notes)
@@ -116,9 +48,8 @@ contains
         "frequencies of the instantaneous structure with the axial forces of its "// &
         loads_in_words(model))
       call append_string(notes, acceleration_note(model))
-      call append_string(notes, &
-        "a negative frequency stands for sqrt(-lambda)/(2 pi) of a negative eigenvalue: static "// &
-        "divergence")
+      call append_string(notes, "a negative frequency stands for sqrt(-lambda)/(2 pi) of a "// &
+        "negative eigenvalue: static divergence")
     end if
     if (model%rotary .and. model%shear) then
       call append_string(notes, "links with rotary inertia and shear (Timoshenko)")
@@ -141,94 +72,148 @@ contains
     if (model%inertia == inertia_distributed) words = words//"; distributed inertia"
   end function loads_in_words
 
-  !> Rows along every link of every mode; an empty line between links, two between modes.
-  subroutine write_shapes(table, model, mechanism, positions, sweep)
-    type(table_t), intent(inout) :: table
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
-    type(positions_t), intent(in) :: positions
-    type(sweep_t), intent(in) :: sweep
+  !> The row of a position and speed.
+  subroutine add_frequencies(variant, layout, position, speed, rows)
+    type(variant_results_t), intent(in) :: variant
+    type(table_layout_t), intent(in) :: layout
+    integer, intent(in) :: position, speed !! numbers
+    type(rows_t), intent(inout) :: rows
 
-    type(column_t), allocatable :: columns(:)
-    type(string_t), allocatable :: notes(:)
-    type(unit_t) :: length, mass
-    character(len=:), allocatable :: reason
-    integer :: i, k, mode
-    logical :: first
+    associate (found => variant%found, state => variant%found%positions%state(position))
+      associate (place => [found%sweep%request%speed(speed), found%positions%crank(position)])
+        if (has_result(found%positions, found%sweep, state, speed)) then
+          call add_row(rows, cells(layout, 1, [place, frequency_values(found%sweep, state, speed)]))
+        else
+          call add_failed(variant, position, speed, rows)
+        end if
+      end associate
+    end associate
+  end subroutine add_frequencies
 
-    length = coherent_unit(model%units, dimension_length)
-    mass = coherent_unit(model%units, dimension_mass)
-    call append_column(columns, real_column("speed", "rad/s"))
-    call append_column(columns, real_column("crank", "deg"))
-    call append_column(columns, integer_column("mode"))
-    call append_column(columns, real_column("frequency", "Hz"))
-    call append_column(columns, name_column("link", mechanism%names))
-    call append_real_columns(columns, "s x y", length%name)
-    call append_real_columns(columns, "ux uy", mass%name//"^-0.5")
-    call append_column(columns, real_column("rotation", "rad."//mass%name//"^-0.5."//length%name// &
-      "^-1"))
-    notes = effects_notes(model)
-    call append_string(notes, &
-      "shapes are normalised: phi' M phi = 1; s runs along each link round the loop from "// &
-      mechanism%pin_names(1)%text//" to "//mechanism%pin_names(4)%text)
-    call write_header(table, model%title, notes, columns)
-    first = .true.
-    associate (report => model%reports(report_number(model, report_shapes)))
-      do k = 1, size(sweep%request%speed)
-        do i = 1, size(positions%crank)
-          if (.not. is_drawn(report, positions%crank(i), sweep%request%speed(k))) cycle
-          if (.not. first) call write_gap(table, 2)
-          first = .false.
-          reason = failure_at(positions, sweep, positions%state(i), k)
-          if (len(reason) > 0) then
-            call write_failure(table, [sweep%request%speed(k), positions%crank(i)], reason)
-            cycle
-          end if
-          do mode = 1, model%modes
-            if (mode > 1) call write_gap(table, 2)
-            associate (state => positions%states(positions%state(i)), &
-              result => sweep%results(positions%state(i)))
-              call write_mode(table, mechanism, columns(5)%width, length, mass, state%pose, &
-                result%shapes(k)%displacement(:, :, :, mode), [sweep%request%speed(k), &
-                positions%crank(i)], mode, frequency_of(result%lambda(mode, k)))
-            end associate
-          end do
+  !> A row without a result.
+  subroutine add_failed(variant, position, speed, rows)
+    type(variant_results_t), intent(in) :: variant
+    integer, intent(in) :: position, speed !! numbers
+    type(rows_t), intent(inout) :: rows
+
+    type(error_t) :: error
+
+    associate (found => variant%found)
+      error = failure_at(found%positions, found%sweep, found%positions%state(position), speed)
+      call add_failure(rows, [found%sweep%request%speed(speed), &
+        found%positions%crank(position)], error%text)
+    end associate
+  end subroutine add_failed
+
+  !> What the shapes are.
+  pure subroutine shape_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant
+    type(string_t), allocatable, intent(out) :: notes(:)
+
+    notes = effects_notes(variant%model)
+    associate (pins => variant%mechanism%pin_names)
+      call append_string(notes, "shapes are normalised: phi' M phi = 1; s runs along each link "// &
+        "round the loop from "//pins(1)%text//" to "//pins(4)%text)
+    end associate
+  end subroutine shape_notes
+
+  !> Positions and speeds whose shapes are asked for, in the order of the table.
+  pure function drawn_rows(variant) result(list)
+    type(variant_results_t), intent(in) :: variant
+    integer, allocatable :: list(:, :) !! (position and speed, rows)
+
+    integer :: all(2, size(variant%found%positions%crank)*size(variant%found%sweep%request%speed))
+    integer :: i, k, n
+
+    n = 0
+    associate (crank => variant%found%positions%crank, speed => variant%found%sweep%request%speed, &
+        report => variant%model%reports(report_number(variant%model, "shapes")))
+      do k = 1, size(speed)
+        do i = 1, size(crank)
+          if (.not. is_drawn(report, crank(i), speed(k))) cycle
+          n = n + 1
+          all(:, n) = [i, k]
         end do
       end do
     end associate
-  end subroutine write_shapes
+    list = all(:, :n)
+  end function drawn_rows
 
-  subroutine write_mode(table, mechanism, name_width, length, mass, pose, shape, place, mode, &
-    frequency)
-    type(table_t), intent(inout) :: table
-    type(mechanism_t), intent(in) :: mechanism
-    integer, intent(in) :: name_width
-    type(unit_t), intent(in) :: length, mass
-    type(pose_t), intent(in) :: pose
-    real(wp), intent(in) :: shape(:, :, :) !! (x, y and rotation; points; bodies) [kg^-1/2]
-    real(wp), intent(in) :: place(2)       !! speed and crank angle [rad/s, deg]
-    integer, intent(in) :: mode
-    real(wp), intent(in) :: frequency      !! [Hz]
+  !> Whether a report of shapes asks for a position and speed; without `crank=` and `speed=` it asks
+  !! for all.
+  pure function is_drawn(report, crank, speed) result(is)
+    type(report_t), intent(in) :: report
+    real(wp), intent(in) :: crank !! [deg]
+    real(wp), intent(in) :: speed !! [rad/s]
+    logical :: is
 
-    real(wp) :: s, displacement(3), scale
-    integer :: body, i
+    is = is_chosen(report%crank, crank) .and. is_chosen(report%speed, speed)
+  end function is_drawn
+
+  !> Whether a list has a value; an empty list has them all.
+  pure function is_chosen(list, value) result(is)
+    type(value_list_t), intent(in) :: list
+    real(wp), intent(in) :: value
+    logical :: is
+
+    is = size(list%value) == 0
+    if (.not. is) is = value_number(list, value) > 0
+  end function is_chosen
+
+  !> Rows along every link of every mode at a position and speed; an empty line between links, two
+  !! between modes.
+  subroutine add_shapes(variant, layout, position, speed, rows)
+    type(variant_results_t), intent(in) :: variant
+    type(table_layout_t), intent(in) :: layout
+    integer, intent(in) :: position, speed !! numbers
+    type(rows_t), intent(inout) :: rows
+
+    real(wp), allocatable :: frequencies(:)
+    integer :: mode
+
+    associate (found => variant%found, state => variant%found%positions%state(position))
+      if (.not. has_result(found%positions, found%sweep, state, speed)) then
+        call add_failed(variant, position, speed, rows)
+        return
+      end if
+      frequencies = frequency_values(found%sweep, state, speed)
+      do mode = 1, variant%model%modes
+        if (mode > 1) call add_gap(rows, 2)
+        call add_mode(variant, layout, position, speed, mode, frequencies(mode), rows)
+      end do
+    end associate
+  end subroutine add_shapes
+
+  subroutine add_mode(variant, layout, position, speed, mode, frequency, rows)
+    type(variant_results_t), intent(in) :: variant
+    type(table_layout_t), intent(in) :: layout
+    integer, intent(in) :: position, speed, mode
+    real(wp), intent(in) :: frequency !! [Hz]
+    type(rows_t), intent(inout) :: rows
+
+    type(unit_t) :: length
+    real(wp) :: displacement(3), scale, station(3), place(2)
+    integer :: body, i, state
 
     ! Displacements of a normalised mode have the unit mass^(-1/2).
-    scale = sqrt(to_si(1.0_wp, mass))
-    do body = 1, size(mechanism%names)
-      associate (this => mechanism%linkage%bodies(body))
-        if (body > 1) call write_gap(table, 1)
+    scale = sqrt(to_si(1.0_wp, table_factor("mass", variant%model%units)))
+    length = table_factor("length", variant%model%units)
+    state = variant%found%positions%state(position)
+    place = [variant%found%sweep%request%speed(speed), variant%found%positions%crank(position)]
+    associate (shape => variant%found%sweep%results(state)%shapes(speed)%displacement)
+      do body = 1, size(variant%mechanism%names)
+        if (body > 1) call add_gap(rows, 1)
         do i = 1, size(shape, 2)
-          s = this%length*(i - 1)/(size(shape, 2) - 1)
-          displacement = scale*shape(:, i, body)
+          displacement = scale*shape(:, i, body, mode)
           displacement(3) = to_si(displacement(3), length)
-          call write_row(table, real_cells(place)//integer_cell(mode, "mode")// &
-            real_cells([frequency])//name_cell(mechanism%names(body)%text, name_width)// &
-            real_cells([from_si([s, pose%pin(:, this%first_pin) + s*pose%direction(:, body)], &
-            length), displacement]))
+          station = station_on_link(variant%mechanism%structure_t, &
+            variant%found%positions%states(state), body, i, size(shape, 2))
+          call add_row(rows, cells(layout, 1, place)//integer_cell(mode, "mode")// &
+            cells(layout, 4, [frequency])//name_cell(variant%mechanism%names(body)%text, &
+            column_width(layout, 5))//cells(layout, 6, [station, displacement]))
         end do
-      end associate
-    end do
-  end subroutine write_mode
+      end do
+    end associate
+  end subroutine add_mode
 
 end module frequency_report

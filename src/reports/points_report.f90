@@ -1,101 +1,71 @@
 !> `points.dat`: paths, velocities and accelerations of points fixed to links.
 module points_report
   use body_lines, only: place_words
-  use body_points, only: find_point_coefficients, point_coefficients_t, point_total_acceleration, &
-    point_velocity
-  use kinds, only: wp
   use load_notes, only: acceleration_note
-  use mechanisms, only: mechanism_t
-  use models, only: model_t
-  use positions, only: positions_t, state_t
-  use tables, only: append_column, append_real_columns, column_t, name_cell, name_column, &
-    real_cells, real_column, table_t, write_failure, write_gap, write_header, write_row
+  use points_study, only: point_at_speed
+  use table_columns, only: cells, column_width, name_list_t, table_layout_t, table_unit
+  use table_rows, only: add_row, rows_t
+  use tables, only: name_cell
   use text, only: append_string, string_t
-  use units, only: coherent_unit, dimension_acceleration, dimension_length, dimension_velocity, &
-    from_si, unit_t
+  use variant_results, only: variant_results_t
   implicit none (type, external)
   private
 
-  public :: write_points
-
-  !> The units of the table.
-  type :: measures_t
-    type(unit_t) :: length, velocity, acceleration
-  end type measures_t
+  public :: points_notes, point_names, add_points
 
 contains
 
-  !> One row a position and point, one block a speed.
-  subroutine write_points(table, model, mechanism, positions)
-    type(table_t), intent(inout) :: table
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
-    type(positions_t), intent(in) :: positions
+  !> Where the points are.
+  pure subroutine points_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant
+    type(string_t), allocatable, intent(out) :: notes(:)
 
-    type(measures_t) :: measures
-    type(column_t), allocatable :: columns(:)
-    type(string_t), allocatable :: names(:), notes(:)
-    integer :: i, k
-
-    measures%length = coherent_unit(model%units, dimension_length)
-    measures%velocity = coherent_unit(model%units, dimension_velocity)
-    measures%acceleration = coherent_unit(model%units, dimension_acceleration)
-    allocate (names(0), notes(0))
-    do i = 1, size(mechanism%points)
-      call append_string(names, mechanism%points(i)%name)
-      associate (point => model%points(i))
-        call append_string(notes, "point "//point%name%text//": on link "// &
-          model%links(point%link)%name%text//", "//place_words(point%place, measures%length)// &
-          " from "//model%links(point%link)%pin(1)%text)
-      end associate
-    end do
-    call append_string(notes, "global axes; "//acceleration_note(model))
-    call append_column(columns, real_column("speed", "rad/s"))
-    call append_column(columns, real_column("crank", "deg"))
-    call append_column(columns, name_column("point", names))
-    call append_real_columns(columns, "x y", measures%length%name)
-    call append_real_columns(columns, "vx vy", measures%velocity%name)
-    call append_real_columns(columns, "ax ay", measures%acceleration%name)
-    call write_header(table, model%title, notes, columns)
-    do k = 1, size(model%speed%value)
-      if (k > 1) call write_gap(table, 2)
-      do i = 1, size(positions%crank)
-        associate (state => positions%states(positions%state(i)), place => [model%speed%value(k), &
-          positions%crank(i)])
-          if (allocated(state%error)) then
-            call write_failure(table, place, state%error%message)
-          else
-            call write_position(table, mechanism, measures, columns(3)%width, state, place, &
-              model%acceleration)
-          end if
-        end associate
-      end do
-    end do
-  end subroutine write_points
-
-  !> All points at one position and speed.
-  subroutine write_position(table, mechanism, measures, width, state, place, acceleration)
-    type(table_t), intent(inout) :: table
-    type(mechanism_t), intent(in) :: mechanism
-    type(measures_t), intent(in) :: measures
-    integer, intent(in) :: width             !! of the column of names
-    type(state_t), intent(in) :: state
-    real(wp), intent(in) :: place(2)         !! speed and crank angle [rad/s, deg]
-    real(wp), intent(in) :: acceleration     !! of the crank [rad/s²]
-
-    type(point_coefficients_t) :: point
     integer :: i
 
-    do i = 1, size(mechanism%points)
-      associate (this => mechanism%points(i))
-        point = find_point_coefficients(mechanism%linkage, state%pose, state%coefficients, &
-          this%body, this%place)
-        call write_row(table, real_cells(place)//name_cell(this%name, width)// &
-          real_cells([from_si(point%place, measures%length), &
-          from_si(point_velocity(point, place(1)), measures%velocity), &
-          from_si(point_total_acceleration(point, place(1), acceleration), measures%acceleration)]))
-      end associate
+    associate (model => variant%model)
+      do i = 1, size(model%points)
+        associate (point => model%points(i), link => model%links(model%points(i)%link))
+          call append_string(notes, "point "//point%name%text//": on link "//link%name%text// &
+            ", "//place_words(point%place, table_unit("length", model%units))//" from "// &
+            link%pin(1)%text)
+        end associate
+      end do
+      call append_string(notes, "global axes; "//acceleration_note(model))
+    end associate
+  end subroutine points_notes
+
+  !> The names in the column `point`.
+  pure function point_names(variant) result(list)
+    type(variant_results_t), intent(in) :: variant
+    type(name_list_t) :: list
+
+    integer :: i
+
+    list%column = "point"
+    allocate (list%names(size(variant%mechanism%points)))
+    do i = 1, size(list%names)
+      list%names(i)%text = variant%mechanism%points(i)%name
     end do
-  end subroutine write_position
+  end function point_names
+
+  !> The rows of a position and speed: one a point.
+  subroutine add_points(variant, layout, position, speed, rows)
+    type(variant_results_t), intent(in) :: variant
+    type(table_layout_t), intent(in) :: layout
+    integer, intent(in) :: position, speed !! numbers
+    type(rows_t), intent(inout) :: rows
+
+    integer :: p
+
+    associate (omega => variant%model%speed%value(speed), positions => variant%found%positions, &
+        points => variant%mechanism%points)
+      do p = 1, size(points)
+        call add_row(rows, cells(layout, 1, [omega, positions%crank(position)])// &
+          name_cell(points(p)%name, column_width(layout, 3))//cells(layout, 4, &
+          point_at_speed(variant%found%points(p, positions%state(position)), omega, &
+          variant%model%acceleration)))
+      end do
+    end associate
+  end subroutine add_points
 
 end module points_report

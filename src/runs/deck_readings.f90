@@ -7,12 +7,13 @@ module deck_readings
   use deck_source, only: read_source, source_from_text, source_t
   use diagnostics, only: add_error, add_warning, diagnostic_t, diagnostics_t, errors_of, &
     has_errors, render_errors, render_warnings, warning_texts, warnings_of
-  use errors, only: error_t, set_error
+  use errors, only: error_of_input, error_t, rendered, set_error
   use file_system, only: base_name
   use includes, only: read_all_cards
   use memory_needs, only: check_memory
   use model_reader, only: read_model
   use models, only: model_t
+  use report_table, only: reports
   use text, only: string_t, to_string
   use variants, only: deck_cards_t, read_deck_cards, take_variant, variant_count, variant_text, &
     variant_values
@@ -28,8 +29,7 @@ module deck_readings
     type(model_t) :: model                         !! of the first variant, of the only one where
                                                    !! nothing varies
     type(diagnostics_t) :: diagnostics
-    character(len=:), allocatable :: refusal       !! why it could not be read at all, with its
-                                                   !! path; empty if it could
+    type(error_t), allocatable :: refusal          !! why it could not be read at all
     character(len=:), allocatable :: base          !! name of its output folder
     character(len=:), allocatable :: errors        !! ready for standard error; empty if there are
                                                    !! none
@@ -50,30 +50,28 @@ contains
     type(card_t), allocatable :: cards(:)
     type(available_memory_t) :: available
     type(string_t) :: none(0)
-    type(error_t), allocatable :: error
-
     deck%base = base_name(path)
     if (path == "-") deck%base = "stdin"
-    deck%refusal = ""
     deck%errors = ""
     deck%warnings = ""
     deck%warning_lines = ""
-    call read_source(path, deck%source, error)
-    if (.not. allocated(error) .and. (deck%base == "" .or. deck%base == "." .or. &
+    call read_source(path, deck%source, deck%refusal)
+    if (.not. allocated(deck%refusal) .and. (deck%base == "" .or. deck%base == "." .or. &
       deck%base == "..")) then
-      call set_error(error, path//": error: this name gives no folder for the results")
+      call set_error(deck%refusal, error_of_input, "this name gives no folder for the results", &
+        path)
     end if
-    if (allocated(error)) then
+    if (allocated(deck%refusal)) then
       deck%source = source_from_text(path, "")
-      deck%refusal = error%message
-      deck%errors = error%message//achar(10)
+      deck%errors = rendered(deck%refusal)//achar(10)
       return
     end if
     call read_all_cards(deck%source, cards, deck%diagnostics)
     if (present(settings)) then
-      call read_deck_cards(cards, settings, deck%source, deck%diagnostics, deck%cards)
+      call read_deck_cards(cards, settings, deck%source, reports, deck%diagnostics, &
+        deck%cards)
     else
-      call read_deck_cards(cards, none, deck%source, deck%diagnostics, deck%cards)
+      call read_deck_cards(cards, none, deck%source, reports, deck%diagnostics, deck%cards)
     end if
     available = find_available_memory(threads)
     call read_variant(deck%cards, 1, cards, deck%diagnostics, deck%model)
@@ -99,7 +97,7 @@ contains
     type(model_t), intent(out) :: model
 
     call take_variant(deck_cards, number, cards)
-    call read_model(cards, diagnostics, model)
+    call read_model(cards, reports, diagnostics, model)
     if (has_errors(diagnostics)) return
     model%variant = variant_text(deck_cards, number)
     model%varied = variant_values(deck_cards, number)

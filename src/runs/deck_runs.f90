@@ -8,32 +8,38 @@ module deck_runs
   use deck_summary, only: summary_text
   use diagnostics, only: diagnostics_t
   use echo, only: echo_text
-  use errors, only: error_t, set_error
+  use errors, only: error_of_interruption, error_t, set_error
   use file_system, only: file_name, joined_path
+  use findings_texts, only: findings_log, findings_messages
   use interruption, only: was_interrupted
+  use kinds, only: wp
   use link_store, only: link_store_t
-  use models, only: solver_band
+  use linkage_notes, only: notes_on_linkage
+  use models, only: model_t, solver_band
   use motion_report, only: motion_log
-  use motion_study, only: has_motion, motion_rows_of
-  use omp_lib, only: omp_get_thread_num
   use program_version, only: version_number
   use progress, only: end_progress, progress_t, show_progress, start_progress
-  use run_findings, only: add_findings, findings_log, findings_messages, findings_t, linkage_notes
+  use result_failures, only: find_failures
+  use result_warnings, only: find_warnings
+  use run_findings, only: add_findings, findings_t
   use run_log, only: model_summary
-  use run_statistics, only: accuracy_summary, start_stopwatch, statistics_text, stop_stage, &
-    stopwatch_t, sweep_summary
-  use sweep_journal, only: close_journal, journal_t, open_journal, remove_journal
+  use run_statistics, only: accuracy_summary, run_times_t, statistics_text, sweep_summary
+  use run_totals, only: add_totals, run_totals_t, totals_of
+  use stopwatch, only: lap, start_stopwatch, stopwatch_t
+  use study_requests, only: motion_instants_of
   use tables, only: column_t, real_column
+  use task_journal, only: close_journal, journal_t, open_journal, remove_journal
   use text, only: plural, string_t, to_string
-  use variant_runs, only: add_totals, finish_variant, prepare_variant, run_totals_t, run_variant, &
-    solve_variant, totals_of, variant_run_t
+  use variant_results, only: variant_results_t
+  use variant_runs, only: begin_variant_run, compute_variant, variant_run_t
+  use variant_tasks, only: run_variant_tasks, variant_job_t
   use variants, only: parameter_names, variant_count, variant_text
   implicit none (type, external)
   private
 
   public :: run_options_t, run_result_t, run_deck
 
-  !> What the command line says about every run.
+  !> What the user says about every run.
   type :: run_options_t
     character(len=:), allocatable :: folder !! that holds the output folders
     integer :: threads = 1
@@ -50,28 +56,18 @@ module deck_runs
     type(findings_t) :: findings                !! what the messages tell
   end type run_result_t
 
-  !> Why a variant could not be computed, if it could not.
-  type :: problem_t
-    type(error_t), allocatable :: error
-  end type problem_t
-
   !> What a deck's variants have in common while they are computed.
   type :: session_t
     type(outputs_t) :: outputs
     type(journal_t) :: journal
     type(progress_t) :: progress
-    type(column_t), allocatable :: parameters(:) !! columns of what varies
     type(run_totals_t) :: totals
     type(findings_t) :: findings
     character(len=:), allocatable :: log         !! of the first variant
     integer :: method = 0                        !! by which its frequencies were found
   end type session_t
 
-  !> Variants that are computed at a time have about so many rows together, and there are no more of
-  !! them than the second.
-  integer, parameter :: rows_at_a_time = 8192, most_at_a_time = 256
-
-  !> Variants with more positions than this keep all threads busy by themselves.
+  !> A variant with more positions than this keeps all threads busy by itself.
   integer, parameter :: many_positions = 1024
 
   character(len=*), parameter :: line_feed = achar(10)
@@ -89,37 +85,39 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     type(session_t) :: session
+    type(run_times_t) :: times
     type(stopwatch_t) :: watch
     integer :: blocks, variants
 
     variants = variant_count(deck%cards)
-    call start_stopwatch(watch)
-    call open_outputs(joined_path(options%folder, deck%base), deck%model, options%csv, &
-      session%outputs, error)
+    call open_outputs(joined_path(options%folder, deck%base), deck%model, parameter_columns(deck), &
+      options%csv, session%outputs, error)
     if (.not. allocated(error)) then
       call open_journal(session%outputs%folder, journal_title(deck), options%resume, &
         session%journal, blocks)
-      session%parameters = parameter_columns(deck)
       call start_progress(session%progress, deck%base, &
         trim(merge("variants ", "positions", variants > 1)), .not. options%quiet)
-      call run_first_variant(deck, options, watch, session, error)
+      call run_whole_variant(deck, 1, options%threads, session, error)
+      times%first_computing = session%totals%computing
+      times%first_writing = session%totals%writing
+      call start_stopwatch(watch)
       if (variants > 1 .and. .not. allocated(error)) then
-        call run_other_variants(deck, options, session, error)
-        call stop_stage(watch, "other variants")
+        call run_other_variants(deck, options%threads, session, error)
+        call lap(watch, times%others)
       end if
       call end_progress(session%progress)
     end if
     if (.not. allocated(error)) call publish(deck, session, error)
-    call stop_stage(watch, "files")
     if (allocated(error)) then
       call discard_outputs(session%outputs)
       return
     end if
+    call lap(watch, times%files)
     result%findings = session%findings
     result%failed = result%findings%failures > 0
     result%messages = resumption_message(deck, options%resume, blocks)// &
       findings_messages(result%findings, deck%source%path)
-    result%statistics = statistics_text(watch, deck%base, session%totals)
+    result%statistics = statistics_text(deck%base, session%totals, times)
   end subroutine run_deck
 
   !> What must be the same for a run to go on from the results of another: program, compiler, and
@@ -168,87 +166,83 @@ contains
     end do
   end function parameter_columns
 
-  !> Computes the first variant and writes its rows; the log tells more of it than of the others.
-  subroutine run_first_variant(deck, options, watch, session, error)
+  !> Computes a variant on all threads and writes its rows; the log has more of the first one than
+  !! of the others. Errors: the own modes of a link could not be found.
+  subroutine run_whole_variant(deck, number, threads, session, error)
     type(deck_t), intent(in) :: deck
-    type(run_options_t), intent(in) :: options
-    type(stopwatch_t), intent(inout) :: watch
+    integer, intent(in) :: number !! of the variant, from 1
+    integer, intent(in) :: threads
     type(session_t), intent(inout) :: session
     type(error_t), allocatable, intent(out) :: error
 
     type(variant_run_t) :: run
+    type(model_t) :: model
+    type(card_t), allocatable :: cards(:)
+    type(diagnostics_t) :: none
     type(link_store_t) :: store
-    type(progress_t) :: silent
+    type(findings_t) :: findings
+    type(run_totals_t) :: totals
+    type(stopwatch_t) :: watch
+    real(wp) :: computing, writing
 
-    run%model = deck%model
-    if (size(session%parameters) == 0) then
-      call run_variant(1, options%threads, session%progress, session%journal, store, run, error)
+    call start_stopwatch(watch)
+    if (number == 1) then
+      call begin_variant_run(run, deck%model)
     else
-      call run_variant(1, options%threads, silent, session%journal, store, run, error)
+      call read_variant(deck%cards, number, cards, none, model)
+      call begin_variant_run(run, model)
     end if
-    call stop_stage(watch, "motion and modes")
+    if (variant_count(deck%cards) == 1) run%progress = session%progress
+    call compute_variant(run, threads, session%journal, number, store, error)
+    if (variant_count(deck%cards) == 1) session%progress = run%progress
+    call lap(watch, computing)
     if (allocated(error) .or. was_interrupted()) return
-    call write_variant(session%outputs, session%parameters, run, options%threads)
-    call stop_stage(watch, "tables")
-    call add_totals(session%totals, totals_of(run))
-    call add_findings(session%findings, run%findings)
-    session%log = first_log(run)
-    if (allocated(run%sweep%results)) session%method = run%sweep%request%method
-  end subroutine run_first_variant
+    call write_variant(session%outputs, run%results, threads)
+    call lap(watch, writing)
+    totals = totals_of(run%results)
+    totals%computing = computing
+    totals%writing = writing
+    call add_totals(session%totals, totals)
+    call find_failures(run%results, findings)
+    call find_warnings(run%results, findings)
+    call add_findings(session%findings, findings)
+    if (number > 1) return
+    session%log = first_log(run%results)
+    if (totals%has_frequencies) session%method = run%results%found%sweep%request%method
+  end subroutine run_whole_variant
 
-  !> Computes all other variants, many at a time, and writes their rows in order. That they are
-  !! sound has been checked.
-  subroutine run_other_variants(deck, options, session, error)
-    type(deck_t), intent(in) :: deck
-    type(run_options_t), intent(in) :: options
-    type(session_t), intent(inout) :: session
+  !> Computes all other variants and writes their rows in order: several at a time if one of them
+  !! has not enough for all threads.
+  subroutine run_other_variants(deck, threads, session, error)
+    type(deck_t), intent(in), target :: deck
+    integer, intent(in) :: threads
+    type(session_t), intent(inout), target :: session
     type(error_t), allocatable, intent(out) :: error
 
-    type(card_t), allocatable :: cards(:)
-    type(diagnostics_t) :: diagnostics
-    type(variant_run_t), allocatable :: runs(:)
-    type(problem_t), allocatable :: problems(:)  !! (as runs)
-    type(link_store_t), allocatable :: stores(:) !! (threads)
-    type(progress_t) :: silent
-    integer :: first, last, at_a_time, outer, i
+    type(variant_job_t) :: job
+    integer :: i
 
-    at_a_time = max(1, &
-      min(most_at_a_time, &
-      rows_at_a_time/max(1, size(deck%model%crank%value)*size(deck%model%speed%value) + &
-      motion_rows_of(deck%model))))
-    outer = options%threads
-    ! ARPACK serves one thread at a time.
-    if (size(deck%model%crank%value) > many_positions .or. deck%model%solver == solver_band) &
-      outer = 1
-    allocate (stores(0:outer - 1))
-    do first = 2, variant_count(deck%cards), at_a_time*outer
-      last = min(first + at_a_time*outer - 1, variant_count(deck%cards))
-      allocate (runs(first:last), problems(first:last))
-      do i = first, last
-        call read_variant(deck%cards, i, cards, diagnostics, runs(i)%model)
-        call prepare_variant(runs(i))
-      end do
-      !$omp parallel do schedule(dynamic) num_threads(outer) default(shared) private(i)
-      do i = first, last
-        if (was_interrupted()) cycle
-        call solve_variant(i, merge(options%threads, 1, outer == 1), silent, session%journal, &
-          stores(omp_get_thread_num()), runs(i), problems(i)%error)
-      end do
-      !$omp end parallel do
-      do i = first, last
-        if (was_interrupted()) return
-        if (allocated(problems(i)%error)) then
-          call move_alloc(problems(i)%error, error)
-          return
-        end if
-        call finish_variant(runs(i))
-        call write_variant(session%outputs, session%parameters, runs(i), 1)
-        call add_findings(session%findings, runs(i)%findings)
-        call add_totals(session%totals, totals_of(runs(i)))
-      end do
-      deallocate (runs, problems)
-      call show_progress(session%progress, last, variant_count(deck%cards))
-    end do
+    associate (model => deck%model)
+      ! ARPACK serves one thread at a time.
+      if (size(model%crank%value) > many_positions .or. model%solver == solver_band) then
+        do i = 2, variant_count(deck%cards)
+          call run_whole_variant(deck, i, threads, session, error)
+          if (allocated(error) .or. was_interrupted()) return
+          call show_progress(session%progress, i, variant_count(deck%cards))
+        end do
+        return
+      end if
+      job%deck => deck
+      job%outputs => session%outputs
+      job%findings = session%findings
+      job%totals = session%totals
+      job%progress = session%progress
+      call run_variant_tasks(job, size(model%crank%value)*size(model%speed%value) + &
+        motion_instants_of(model), threads, session%journal, error)
+      session%findings = job%findings
+      session%totals = job%totals
+      session%progress = job%progress
+    end associate
   end subroutine run_other_variants
 
   !> Writes what comes after the tables, and puts all files in place. Errors: the run was
@@ -263,8 +257,8 @@ contains
     ! Asked once, before the files are put in place: from there on the run is done.
     if (was_interrupted()) then
       call close_journal(session%journal, blocks)
-      call set_error(error, deck%source%path//": interrupted; its earlier results are untouched"// &
-        resume_hint(blocks))
+      call set_error(error, error_of_interruption, &
+        "interrupted; its earlier results are untouched"//resume_hint(blocks), deck%source%path)
       return
     end if
     call write_texts(session%outputs, echo_text(deck%model), log_text(deck, session), &
@@ -288,20 +282,23 @@ contains
   end function resume_hint
 
   !> What the deck describes and how its frequencies were found.
-  function first_log(run) result(text)
-    type(variant_run_t), intent(in) :: run
+  function first_log(variant) result(text)
+    type(variant_results_t), intent(in) :: variant
     character(len=:), allocatable :: text
 
     type(string_t), allocatable :: notes(:)
     integer :: i
 
-    text = model_summary(run%model)
-    notes = linkage_notes(run%mechanism, run%positions)
+    text = model_summary(variant%model)
+    notes = notes_on_linkage(variant)
     do i = 1, size(notes)
       text = text//notes(i)%text//line_feed
     end do
-    if (has_motion(run%motion)) text = text//motion_log(run%motion)
-    if (allocated(run%sweep%results)) text = text//sweep_summary(run%sweep, run%mechanism%mesh)
+    associate (found => variant%found)
+      if (allocated(found%motion%samples)) text = text//motion_log(found%motion)
+      if (allocated(found%sweep%results)) text = text//sweep_summary(found%sweep, &
+        variant%mechanism%mesh)
+    end associate
   end function first_log
 
   !> The text of `run.log`: what the deck describes, how sure its results are, what to beware of.

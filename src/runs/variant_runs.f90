@@ -1,148 +1,204 @@
 !> One variant of a deck computed; a deck without VARY has just one.
 module variant_runs
   use errors, only: error_t
-  use frequency_loci, only: branches_t, follow_branches
-  use frequency_study, only: run_sweep
+  use frequency_study, only: begin_sweep, block_count, block_of, finish_sweep, missed_states, &
+    most_attempts, solve_block
   use interruption, only: was_interrupted
-  use kinds, only: long, wp
-  use ledger, only: add_ledger, ledger_t
+  use kinds, only: wp
   use link_store, only: link_store_t
-  use mechanisms, only: mechanism_t, new_mechanism
-  use models, only: model_t, needs_frequencies, needs_positions
-  use motion_study, only: has_motion, motion_run_t, run_motion
-  use positions, only: find_positions, positions_t
-  use progress, only: progress_t
-  use run_findings, only: find_failures, find_motion_failure, find_warnings, findings_t
-  use sweep_journal, only: journal_t
-  use sweeps, only: sweep_t
+  use linkage_study, only: classify_linkage
+  use loci_study, only: follow_loci
+  use mechanisms, only: new_mechanism
+  use models, only: model_t, needs_positions, needs_study
+  use motion_study, only: begin_motion, continue_motion, finish_motion, motion_under_way_t
+  use position_study, only: find_all_positions
+  use positions, only: by_crank_angle
+  use progress, only: progress_t, show_progress
+  use report_table, only: find_study, study_names
+  use study_requests, only: drawn_states, mode_request_of, motion_request_of
+  use sweep_bytes, only: get_result, put_result
+  use task_journal, only: journal_t
+  use tasks, only: job_t, run_tasks
+  use text_buffer, only: text_buffer_t
+  use variant_results, only: variant_results_t
+  use vibration_models, only: by_band, mode_request_t, new_vibration_models, vibration_models_t
   implicit none (type, external)
   private
 
-  public :: variant_run_t, run_totals_t, run_variant, prepare_variant, solve_variant, &
-    finish_variant, totals_of, add_totals
+  public :: variant_run_t, begin_variant_run, compute_variant
 
-  !> What was computed. Empty parts were not asked for.
-  type :: variant_run_t
-    type(model_t) :: model
-    type(mechanism_t) :: mechanism
-    type(positions_t) :: positions
-    type(sweep_t) :: sweep
-    type(branches_t) :: branches
-    type(motion_run_t) :: motion
-    type(findings_t) :: findings
+  !> A variant as it is computed. Its tasks are the blocks of its sweep.
+  type, extends(job_t) :: variant_run_t
+    type(variant_results_t) :: results
+    type(progress_t) :: progress                  !! silent unless it is started
+    type(vibration_models_t), private :: models   !! that serve the states
+    integer, allocatable, private :: states(:)    !! of the sweep, by crank angle
+    integer, private :: solved = 0                !! states
+  contains
+    procedure :: run => run_block
+    procedure :: pack => pack_block
+    procedure :: unpack => unpack_block
+    procedure :: finish => finish_block
   end type variant_run_t
 
-  !> How much was computed, over all variants.
-  type :: run_totals_t
-    integer :: variants = 0
-    integer(long) :: rows = 0_long      !! positions as the decks list them
-    integer(long) :: positions = 0_long !! different ones
-    integer :: speeds = 0               !! of the first variant
-    integer(long) :: motion_steps = 0_long !! of forward motions
-    logical :: has_frequencies = .false.
-    type(ledger_t) :: counts
-    real(wp) :: largest_error = -1.0_wp !! relative, of any frequency found; below 0 there is none
-  end type run_totals_t
+  !> Instants of a motion after which the progress is shown.
+  integer, parameter :: instants_at_a_time = 100
 
 contains
 
-  !> Computes what a model asks for. Errors: the models of its links could not be made.
-  subroutine run_variant(number, threads, progress, journal, store, run, error)
-    integer, intent(in) :: number !! of the variant, from 1
+  !> What a model describes in the terms of mechanics.
+  subroutine begin_variant_run(run, model)
+    type(variant_run_t), intent(inout) :: run
+    type(model_t), intent(in) :: model
+
+    run%results%model = model
+    run%results%mechanism = new_mechanism(model)
+  end subroutine begin_variant_run
+
+  !> Makes all studies that a variant asks for. Several variants may be computed at the same time.
+  !!
+  !! Errors: the own modes of a link could not be found.
+  subroutine compute_variant(run, threads, journal, group, store, error)
+    type(variant_run_t), intent(inout) :: run    !! begun
     integer, intent(in) :: threads
-    type(progress_t), intent(inout) :: progress
     type(journal_t), intent(inout) :: journal
-    type(link_store_t), intent(inout) :: store
-    type(variant_run_t), intent(inout) :: run !! with its model
+    integer, intent(in) :: group                 !! of the blocks in the journal; below 0: they are
+                                                 !! not kept
+    type(link_store_t), intent(inout) :: store   !! of links taken apart before
     type(error_t), allocatable, intent(out) :: error
 
-    call prepare_variant(run)
-    call solve_variant(number, threads, progress, journal, store, run, error)
-    if (.not. allocated(error) .and. .not. was_interrupted()) call finish_variant(run)
-  end subroutine run_variant
+    real(wp) :: none(0)
+    integer :: i
 
-  !> Mechanism and motion.
-  subroutine prepare_variant(run)
-    type(variant_run_t), intent(inout) :: run !! with its model
+    associate (model => run%results%model, linkage => run%results%mechanism%linkage, &
+        found => run%results%found)
+      ! Crank angles that no report asks about cannot fail.
+      if (needs_positions(model)) then
+        call find_all_positions(linkage, model%crank%value, threads, found%positions)
+      else
+        call find_all_positions(linkage, none, threads, found%positions)
+      end if
+      call classify_linkage(linkage, found%class)
+      call find_study("kinematics", threads, run%results)
+      do i = 1, size(study_names)
+        if (study_names(i) == "kinematics" .or. .not. needs_study(model, study_names(i))) cycle
+        if (was_interrupted()) return
+        select case (study_names(i))
+        case ("motion")
+          call compute_motion(run)
+        case ("frequencies")
+          call compute_sweep(run, threads, journal, group, store, error)
+          if (allocated(error)) return
+        case ("loci")
+          call follow_loci(linkage, found%positions, found%sweep, found%loci)
+        case default
+          call find_study(study_names(i), threads, run%results)
+        end select
+      end do
+    end associate
+  end subroutine compute_variant
 
-    run%mechanism = new_mechanism(run%model)
-    ! Crank angles that no report asks about cannot fail.
-    if (needs_positions(run%model)) then
-      run%positions = find_positions(run%mechanism%linkage, run%model%crank%value)
-    else
-      run%positions = find_positions(run%mechanism%linkage, [real(wp) ::])
-    end if
-  end subroutine prepare_variant
+  !> Forward motion, a number of instants at a time.
+  subroutine compute_motion(run)
+    type(variant_run_t), intent(inout) :: run
 
-  !> Forward motion and frequencies, nearly all of the work. Variants may be solved at the same
-  !! time: here are no texts, which gfortran 12 gives lengths that all threads share. Errors: as
-  !! above.
-  subroutine solve_variant(number, threads, progress, journal, store, run, error)
-    integer, intent(in) :: number !! of the variant, from 1
+    type(motion_under_way_t) :: under_way
+
+    associate (mechanism => run%results%mechanism, motion => run%results%found%motion)
+      call begin_motion(motion_request_of(run%results%model), mechanism%linkage, &
+        mechanism%load_elements, under_way, motion)
+      do while (.not. under_way%is_over)
+        call continue_motion(under_way, instants_at_a_time, motion)
+        call show_progress(run%progress, motion%count, size(motion%samples))
+      end do
+      call finish_motion(under_way, motion)
+    end associate
+  end subroutine compute_motion
+
+  !> Frequencies at every position that has a pose. Where positions need more than the samples by
+  !! which orders were chosen, orders are chosen anew for these.
+  subroutine compute_sweep(run, threads, journal, group, store, error)
+    type(variant_run_t), intent(inout) :: run
     integer, intent(in) :: threads
-    type(progress_t), intent(inout) :: progress
     type(journal_t), intent(inout) :: journal
+    integer, intent(in) :: group
     type(link_store_t), intent(inout) :: store
-    type(variant_run_t), intent(inout) :: run !! prepared
     type(error_t), allocatable, intent(out) :: error
 
-    call run_motion(run%model, run%mechanism, progress, run%motion)
-    if (.not. needs_frequencies(run%model)) return
-    call run_sweep(run%model, run%mechanism, run%positions, threads, progress, journal, number, &
-      store, run%sweep, error)
-  end subroutine solve_variant
+    type(mode_request_t) :: request
+    integer :: attempt, made
 
-  !> Branches, failed rows and warnings.
-  subroutine finish_variant(run)
-    type(variant_run_t), intent(inout) :: run !! solved
+    associate (model => run%results%model, mechanism => run%results%mechanism, &
+        positions => run%results%found%positions, sweep => run%results%found%sweep)
+      request = mode_request_of(model, mechanism)
+      call begin_sweep(request, drawn_states(model, positions, request%speed), &
+        size(positions%states), sweep)
+      run%states = by_crank_angle(positions)
+      made = store%made
+      do attempt = 1, most_attempts
+        call new_vibration_models(mechanism%structure_t, positions, run%states, sweep%request, &
+          sweep%request%accuracy, store, run%models, sweep%counts, error)
+        if (allocated(error)) return
+        if (attempt == 1) sweep%models = run%models
+        run%solved = size(positions%states) - size(run%states)
+        ! ARPACK serves one thread at a time: more of them would only wait.
+        call run_tasks(run, 1, block_count(size(run%states)), &
+          merge(1, threads, sweep%request%method == by_band), journal, &
+          merge(group, -1, attempt == 1))
+        run%states = missed_states(sweep, run%states)
+        if (size(run%states) == 0 .or. was_interrupted()) exit
+      end do
+      sweep%counts%link_models = store%made - made
+      call finish_sweep(sweep)
+    end associate
+  end subroutine compute_sweep
 
-    if (needs_frequencies(run%model)) then
-      if (run%sweep%request%follow) call follow_branches(run%mechanism%linkage, run%positions, &
-        run%sweep, run%branches)
-    end if
-    call find_failures(run%model, run%positions, run%sweep, run%findings)
-    if (has_motion(run%motion)) call find_motion_failure(run%model, run%motion, run%findings)
-    call find_warnings(run%model, run%mechanism, run%positions, run%sweep, run%findings)
-  end subroutine finish_variant
+  !> Solves a block of the sweep.
+  subroutine run_block(self, number)
+    class(variant_run_t), intent(inout) :: self
+    integer, intent(in) :: number
 
-  pure function totals_of(run) result(totals)
-    type(variant_run_t), intent(in) :: run
-    type(run_totals_t) :: totals
+    call solve_block(self%results%mechanism%structure_t, self%results%found%positions, &
+      self%models, block_of(self%states, number), self%results%found%sweep)
+  end subroutine run_block
 
-    integer :: i, k
+  !> The results of a block.
+  subroutine pack_block(self, number, bytes)
+    class(variant_run_t), intent(in) :: self
+    integer, intent(in) :: number
+    type(text_buffer_t), intent(inout) :: bytes
 
-    totals%variants = 1
-    totals%rows = size(run%positions%crank)
-    totals%positions = size(run%positions%states)
-    totals%motion_steps = run%motion%steps
-    totals%has_frequencies = allocated(run%sweep%results)
-    if (.not. totals%has_frequencies) return
-    totals%speeds = size(run%sweep%request%speed)
-    totals%counts = run%sweep%counts
-    do i = 1, size(run%sweep%results)
-      associate (result => run%sweep%results(i))
-        if (.not. allocated(result%failure)) cycle
-        do k = 1, size(result%failure)
-          if (len(result%failure(k)%text) == 0) totals%largest_error = max(totals%largest_error, &
-            maxval(result%error(:, k)))
-        end do
-      end associate
+    integer, allocatable :: block(:)
+    integer :: i
+
+    block = block_of(self%states, number)
+    do i = 1, size(block)
+      call put_result(bytes, self%results%found%sweep%results(block(i)))
     end do
-  end function totals_of
+  end subroutine pack_block
 
-  !> Adds the totals of variants to those of others before them.
-  pure subroutine add_totals(totals, more)
-    type(run_totals_t), intent(inout) :: totals
-    type(run_totals_t), intent(in) :: more
+  subroutine unpack_block(self, number, bytes)
+    class(variant_run_t), intent(inout) :: self
+    integer, intent(in) :: number
+    character(len=*), intent(in) :: bytes
 
-    if (totals%variants == 0) totals%speeds = more%speeds
-    totals%variants = totals%variants + more%variants
-    totals%rows = totals%rows + more%rows
-    totals%positions = totals%positions + more%positions
-    totals%motion_steps = totals%motion_steps + more%motion_steps
-    totals%has_frequencies = totals%has_frequencies .or. more%has_frequencies
-    call add_ledger(totals%counts, more%counts)
-    totals%largest_error = max(totals%largest_error, more%largest_error)
-  end subroutine add_totals
+    integer, allocatable :: block(:)
+    integer :: i, at
+
+    block = block_of(self%states, number)
+    at = 1
+    do i = 1, size(block)
+      call get_result(bytes, at, self%results%found%sweep%results(block(i)))
+    end do
+  end subroutine unpack_block
+
+  !> Tells how far the sweep has come.
+  subroutine finish_block(self, number)
+    class(variant_run_t), intent(inout) :: self
+    integer, intent(in) :: number
+
+    self%solved = self%solved + size(block_of(self%states, number))
+    call show_progress(self%progress, self%solved, size(self%results%found%sweep%results))
+  end subroutine finish_block
 
 end module variant_runs

@@ -1,178 +1,153 @@
-!> Forward dynamics of a model: its motion from a start on, kept at the instants that are to be
-!! written.
+!> How a four-bar moves by itself: forward dynamics from a start on, kept at equal steps of time.
 module motion_study
-  use attached_parts, only: body_of
   use drives, only: motor_drive_t, resistances_t
-  use errors, only: error_t
-  use forward_motions, only: end_motion, forward_motion_t, motion_sample_t, move_until, &
-    sample_motion, start_motion, turning_point_t
+  use errors, only: error_of_dead_point, error_of_numerics, error_t, set_error
+  use forward_motions, only: end_motion, forward_motion_t, motion_sample_t, motion_tolerance, &
+    move_until, sample_motion, start_motion, turning_point_t
   use four_bar_rates, only: no_stop, stop_change_point, stop_many_steps, stop_no_inertia, &
     stop_too_fast
   use interruption, only: was_interrupted
   use kinds, only: long, wp
+  use linkages, only: linkage_t
   use loop_curves, only: change_point_message
-  use mechanisms, only: mechanism_t
-  use models, only: model_t, report_number
-  use progress, only: progress_t, show_progress
-  use request_cards, only: report_motion, report_t
   use rigid_bodies, only: rigid_bodies_of
   implicit none (type, external)
   private
 
-  public :: motion_run_t, run_motion, has_motion, motion_rows_of, motion_failed, motion_failure
+  public :: motion_request_t, motion_result_t, motion_under_way_t, begin_motion, continue_motion, &
+    finish_motion, motion_instants
+  public :: motion_tolerance
 
   !> The end of a motion is one of its instants when it is hit within this share of a step.
   real(wp), parameter :: hit = 1.0e-9_wp
 
-  type :: motion_run_t
+  type :: motion_request_t
+    real(wp) :: start_angle = 0.0_wp !! of the crank [deg]
+    real(wp) :: start_speed = 0.0_wp !! of the crank [rad/s]
+    real(wp) :: end_time = 0.0_wp    !! [s]
+    real(wp) :: time_step = 0.0_wp   !! between instants [s]
+    type(motor_drive_t) :: drive     !! of the crank
+    type(resistances_t) :: resistances !! of all links
+  end type motion_request_t
+
+  type :: motion_result_t
     integer :: count = 0                               !! of instants that the motion has reached
-    type(motion_sample_t), allocatable :: samples(:)   !! (all instants); not allocated: no motion
-                                                       !! is asked for
+    type(motion_sample_t), allocatable :: samples(:)   !! (all instants)
     type(turning_point_t), allocatable :: turnings(:)  !! where the crank turns back
     type(motion_sample_t) :: last                      !! where it ends
-    type(error_t), allocatable :: error                !! why it does not begin
-    integer :: stop = no_stop                          !! why it does not go on
+    type(error_t), allocatable :: error                !! why it has not reached its end
+    logical :: has_begun = .false.
     integer(long) :: steps = 0_long                    !! of the integration
     real(wp) :: energy = 0.0_wp                        !! kinetic and potential, at the start [J]
-  end type motion_run_t
+  end type motion_result_t
+
+  !> A motion that is being computed.
+  type :: motion_under_way_t
+    type(motion_request_t), private :: request
+    type(forward_motion_t), private :: motion
+    integer, private :: next = 1        !! instant
+    logical :: is_over = .false.
+  end type motion_under_way_t
 
 contains
 
-  !> Computes the motion that a model asks for, if it does. Its failures are part of the result.
-  subroutine run_motion(model, mechanism, progress, run)
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
-    type(progress_t), intent(inout) :: progress
-    type(motion_run_t), intent(inout) :: run
+  !> Starts a motion. That it does not begin is a part of the result.
+  subroutine begin_motion(request, linkage, elements, under_way, result)
+    type(motion_request_t), intent(in) :: request
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: elements(:) !! (bodies) on whose nodes their masses sit; 0: distributed
+    type(motion_under_way_t), intent(out) :: under_way
+    type(motion_result_t), intent(out) :: result
 
-    type(forward_motion_t) :: motion
-    integer :: i, number
+    under_way%request = request
+    allocate (result%samples(motion_instants(request%end_time, request%time_step)), &
+      result%turnings(0))
+    result%last%angle(1) = request%start_angle
+    call start_motion(linkage, rigid_bodies_of(linkage, elements), request%drive, &
+      request%resistances, request%start_angle, request%start_speed, request%end_time, &
+      under_way%motion, result%error)
+    result%has_begun = .not. allocated(result%error)
+    under_way%is_over = allocated(result%error)
+  end subroutine begin_motion
 
-    number = report_number(model, report_motion)
-    if (number == 0) return
-    associate (asked => model%reports(number))
-      allocate (run%samples(motion_rows(asked)), run%turnings(0))
-      run%last%angle(1) = asked%start_angle
-      call start_motion(mechanism%linkage, rigid_bodies_of(mechanism%linkage, &
-        mechanism%load_elements), drive_of(model), resistances_of(model), asked%start_angle, &
-        asked%start_speed, asked%end_time, motion, run%error)
-      if (allocated(run%error)) return
-      do i = 1, size(run%samples)
-        call move_until(motion, instant(asked, i))
-        if (was_interrupted()) exit
-        run%last = sample_motion(motion)
-        if (motion%stop /= no_stop) exit
-        run%samples(i) = run%last
-        run%count = i
-        call show_progress(progress, i, size(run%samples))
-      end do
+  !> Goes on to the next instants, so many of them at most.
+  subroutine continue_motion(under_way, instants, result)
+    type(motion_under_way_t), intent(inout) :: under_way
+    integer, intent(in) :: instants
+    type(motion_result_t), intent(inout) :: result
+
+    integer :: i
+
+    do i = under_way%next, min(under_way%next + instants - 1, size(result%samples))
+      if (under_way%is_over) return
+      call move_until(under_way%motion, instant(under_way%request, i))
+      under_way%is_over = was_interrupted()
+      if (under_way%is_over) return
+      result%last = sample_motion(under_way%motion)
+      under_way%is_over = under_way%motion%stop /= no_stop
+      if (under_way%is_over) return
+      result%samples(i) = result%last
+      result%count = i
+    end do
+    under_way%next = i
+    under_way%is_over = under_way%next > size(result%samples)
+  end subroutine continue_motion
+
+  !> Ends a motion and says how it went.
+  subroutine finish_motion(under_way, result)
+    type(motion_under_way_t), intent(inout) :: under_way
+    type(motion_result_t), intent(inout) :: result
+
+    if (.not. result%has_begun) return
+    associate (motion => under_way%motion)
+      result%turnings = motion%turnings(:motion%turning_count)
+      result%steps = motion%integrator%steps
+      result%energy = motion%energy
+      call explain_stop(motion%stop, result%error)
     end associate
-    run%turnings = motion%turnings(:motion%turning_count)
-    run%stop = motion%stop
-    run%steps = motion%integrator%steps
-    run%energy = motion%energy
-    call end_motion(motion)
-  end subroutine run_motion
+    call end_motion(under_way%motion)
+  end subroutine finish_motion
 
   !> Number of instants `0, step, 2 step, …` up to the end.
-  pure function motion_rows(asked) result(rows)
-    type(report_t), intent(in) :: asked !! REPORT motion
-    integer :: rows
+  pure function motion_instants(end_time, time_step) result(instants)
+    real(wp), intent(in) :: end_time, time_step !! [s]
+    integer :: instants
 
-    rows = 1 + int(asked%end_time/asked%time_step + hit)
-  end function motion_rows
-
-  !> The same for what a model asks for, which may be no motion.
-  pure function motion_rows_of(model) result(rows)
-    type(model_t), intent(in) :: model
-    integer :: rows
-
-    integer :: number
-
-    rows = 0
-    number = report_number(model, report_motion)
-    if (number > 0) rows = motion_rows(model%reports(number))
-  end function motion_rows_of
+    instants = 1 + int(end_time/time_step + hit)
+  end function motion_instants
 
   !> An instant by its number, from 1 [s].
-  pure function instant(asked, number) result(time)
-    type(report_t), intent(in) :: asked !! REPORT motion
+  pure function instant(request, number) result(time)
+    type(motion_request_t), intent(in) :: request
     integer, intent(in) :: number
     real(wp) :: time
 
-    time = (number - 1)*asked%time_step
-    if (abs(time - asked%end_time) <= hit*asked%time_step) time = asked%end_time
+    time = (number - 1)*request%time_step
+    if (abs(time - request%end_time) <= hit*request%time_step) time = request%end_time
   end function instant
 
-  !> The motor on the driven link; none pulls with nothing.
-  pure function drive_of(model) result(drive)
-    type(model_t), intent(in) :: model
-    type(motor_drive_t) :: drive
+  !> Errors: a motion has stopped before its end.
+  pure subroutine explain_stop(stop, error)
+    integer, intent(in) :: stop !! as in `four_bar_rates`
+    type(error_t), allocatable, intent(inout) :: error
 
-    associate (motor => model%motor)
-      drive%stall = merge(motor%stall, motor%torque, motor%is_line)
-      if (motor%is_line) drive%slope = motor%stall/motor%noload
-    end associate
-  end function drive_of
-
-  !> What the LOAD cards, at most one a link, take from the bodies.
-  pure function resistances_of(model) result(resistances)
-    type(model_t), intent(in) :: model
-    type(resistances_t) :: resistances
-
-    integer :: i, body
-
-    do i = 1, size(model%resistances)
-      associate (resistance => model%resistances(i))
-        body = body_of(model, resistance%link)
-        resistances%taken(body) = resistance%torque
-        resistances%damping(body) = resistance%damping
-      end associate
-    end do
-  end function resistances_of
-
-  !> Whether a motion was asked for.
-  pure function has_motion(run) result(has)
-    type(motion_run_t), intent(in) :: run
-    logical :: has
-
-    has = allocated(run%samples)
-  end function has_motion
-
-  !> Whether it has not reached its end.
-  pure function motion_failed(run) result(failed)
-    type(motion_run_t), intent(in) :: run
-    logical :: failed
-
-    failed = allocated(run%error) .or. run%stop /= no_stop
-  end function motion_failed
-
-  !> Why not; empty if it has.
-  pure function motion_failure(run) result(reason)
-    type(motion_run_t), intent(in) :: run
-    character(len=:), allocatable :: reason
-
-    reason = ""
-    if (allocated(run%error)) then
-      reason = run%error%message
-      return
-    end if
-    select case (run%stop)
+    select case (stop)
     case (no_stop)
       return
     case (stop_change_point)
-      reason = change_point_message
+      call set_error(error, error_of_dead_point, change_point_message)
     case (stop_no_inertia)
-      reason = "nothing that has a mass moves here with the linkage: there is no inertia"
+      call set_error(error, error_of_numerics, &
+        "nothing that has a mass moves here with the linkage: there is no inertia")
     case (stop_too_fast)
-      reason = "the links turn too fast to be followed"
+      call set_error(error, error_of_numerics, "the links turn too fast to be followed")
     case (stop_many_steps)
-      reason = "a million steps of the integration do not reach the next row: 'step=' or "// &
-        "'end=' is too long for a motion as "// &
-        "fast as this, or motor or damping too strong for the masses"
+      call set_error(error, error_of_numerics, "a million steps of the integration do not "// &
+        "reach the next row: 'step=' or 'end=' is too long for a motion as fast as this, or "// &
+        "motor or damping too strong for the masses")
     case default
-      reason = "the steps of the integration shrink to nothing"
+      call set_error(error, error_of_numerics, "the steps of the integration shrink to nothing")
     end select
-  end function motion_failure
+  end subroutine explain_stop
 
 end module motion_study

@@ -13,7 +13,7 @@ module chain_solver
   use deformation_chain, only: deformation_chain_t
   use deformation_model, only: deformation_model_t
   use deformation_shapes, only: deformation_shapes_t
-  use errors, only: error_t, set_error
+  use errors, only: error_of_numerics, error_t, set_error
   use kinds, only: wp
   use reduced_assembly, only: first_axial
   use subspace_eigensolver, only: find_subspace_modes, subspace_modes_t
@@ -67,8 +67,9 @@ contains
       if (proven) return
       deallocate (vectors)
     end do
-    call set_error(error, "it could not be proven that no mode is missing among the "// &
-      to_string(wanted)//" of the long mesh")
+    call set_error(error, error_of_numerics, &
+      "it could not be proven that no mode is missing among the "//to_string(wanted)// &
+      " of the long mesh")
   end subroutine find_chain_modes
 
   !> The modes of the near model on the mesh.

@@ -2,7 +2,7 @@
 module frequency_loci
   use axial_forces, only: distributed_unit_forces
   use bordered_eigensolver, only: bordered_modes_t
-  use errors, only: error_t
+  use errors, only: error_t, outcome_t
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use ledger, only: ledger_t
@@ -16,27 +16,26 @@ module frequency_loci
   use sorting, only: ascending_order
   use speed_solver, only: new_speed_work, solve_speeds, speed_work_t
   use sweeps, only: has_result, sweep_t
-  use text, only: string_t
   use vibration_models, only: load_factors, mode_request_t, vibration_models_t
   implicit none (type, external)
   private
 
-  public :: branches_t, follow_branches, event_none, event_start, event_crossing, event_veering, &
+  public :: loci_t, follow_loci, event_none, event_start, event_crossing, event_veering, &
     event_ambiguous
 
   integer, parameter :: event_none = 0, event_start = 1, event_crossing = 2, event_veering = 3, &
     event_ambiguous = 4
 
-  type :: branches_t
-    integer :: count = 0                         !! branches in all
-    integer, allocatable :: branch(:, :, :)      !! (modes, rows, speeds) number of the branch that
+  type :: loci_t
+    integer :: count = 0                         !! loci in all
+    integer, allocatable :: locus(:, :, :)      !! (modes, rows, speeds) number of the locus that
                                                  !! a mode belongs to; 0: failed row
     real(wp), allocatable :: mac(:, :, :)        !! (modes, rows, speeds) likeness to the same
-                                                 !! branch on the row before; 1 at a start
+                                                 !! locus on the row before; 1 at a start
     integer, allocatable :: event(:, :, :)       !! (modes, rows, speeds)
-    integer, allocatable :: partner(:, :, :)     !! (modes, rows, speeds) branch that is crossed or
+    integer, allocatable :: partner(:, :, :)     !! (modes, rows, speeds) locus that is crossed or
                                                  !! veered from; else 0
-  end type branches_t
+  end type loci_t
 
   !> Shapes are the same above the first and different below the second; between them a step is
   !! halved, this often at most.
@@ -55,11 +54,11 @@ contains
 
   !> Follows every mode from row to row in the order of crank angles, block after block of speeds;
   !! the first row of a block continues that of the block before.
-  subroutine follow_branches(linkage, positions, sweep, branches)
+  subroutine follow_loci(linkage, positions, sweep, loci)
     type(linkage_t), intent(in) :: linkage
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(inout) :: sweep !! its ledger counts what is found between the rows
-    type(branches_t), intent(out) :: branches
+    type(loci_t), intent(out) :: loci
 
     type(speed_work_t) :: work
     integer :: order(size(positions%crank)), rows, speeds, modes, i, k, last, first_row
@@ -68,12 +67,12 @@ contains
     rows = size(positions%crank)
     speeds = size(sweep%request%speed)
     modes = sweep%request%modes
-    allocate (branches%branch(modes, rows, speeds), branches%mac(modes, rows, speeds))
-    allocate (branches%event(modes, rows, speeds), branches%partner(modes, rows, speeds))
-    branches%branch = 0
-    branches%mac = 1.0_wp
-    branches%event = event_none
-    branches%partner = 0
+    allocate (loci%locus(modes, rows, speeds), loci%mac(modes, rows, speeds))
+    allocate (loci%event(modes, rows, speeds), loci%partner(modes, rows, speeds))
+    loci%locus = 0
+    loci%mac = 1.0_wp
+    loci%event = event_none
+    loci%partner = 0
     order = ascending_order(positions%crank)
     work = new_speed_work(sweep%models%continuum, 1)
     first_row = 0
@@ -81,53 +80,53 @@ contains
       last = 0
       apart = .false.
       do i = 1, rows
-        ! Beyond a dead point the linkage may have another form: nobody could tell which branch goes
+        ! Beyond a dead point the linkage may have another form: nobody could say which locus goes
         ! on there.
         if (last > 0 .and. allocated(positions%states(positions%state(order(i)))%error)) &
           apart = .true.
         if (.not. has_result(positions, sweep, positions%state(order(i)), k)) cycle
         if (apart) then
-          call start_branches(branches, order(i), k)
+          call start_loci(loci, order(i), k)
         else if (last > 0) then
-          call follow_step(linkage, positions, [last, k], [order(i), k], work, sweep, branches)
+          call follow_step(linkage, positions, [last, k], [order(i), k], work, sweep, loci)
         else if (first_row > 0 .and. k > 1) then
           call follow_step(linkage, positions, [first_row, k - 1], [order(i), k], work, sweep, &
-            branches)
+            loci)
         else
-          call start_branches(branches, order(i), k)
+          call start_loci(loci, order(i), k)
         end if
         apart = .false.
         if (last == 0) first_row = order(i)
         last = order(i)
       end do
       if (last == 0) first_row = 0
-      call mark_veerings(positions, sweep, order, k, branches)
+      call mark_veerings(positions, sweep, order, k, loci)
     end do
-  end subroutine follow_branches
+  end subroutine follow_loci
 
-  !> A new branch for every mode.
-  pure subroutine start_branches(branches, row, speed)
-    type(branches_t), intent(inout) :: branches
+  !> A new locus for every mode.
+  pure subroutine start_loci(loci, row, speed)
+    type(loci_t), intent(inout) :: loci
     integer, intent(in) :: row, speed
 
     integer :: i
 
-    do i = 1, size(branches%branch, 1)
-      branches%branch(i, row, speed) = branches%count + i
-      branches%event(i, row, speed) = event_start
+    do i = 1, size(loci%locus, 1)
+      loci%locus(i, row, speed) = loci%count + i
+      loci%event(i, row, speed) = event_start
     end do
-    branches%count = branches%count + size(branches%branch, 1)
-  end subroutine start_branches
+    loci%count = loci%count + size(loci%locus, 1)
+  end subroutine start_loci
 
-  !> From one row to the next: every mode gets the branch of the mode that it continues, or begins a
+  !> From one row to the next: every mode gets the locus of the mode that it continues, or begins a
   !! new one.
-  subroutine follow_step(linkage, positions, from, to, work, sweep, branches)
+  subroutine follow_step(linkage, positions, from, to, work, sweep, loci)
     type(linkage_t), intent(in) :: linkage
     type(positions_t), intent(in) :: positions
     integer, intent(in) :: from(2), to(2)         !! row and speed
     type(speed_work_t), intent(inout) :: work   !! for what lies between them
     type(sweep_t), intent(inout) :: sweep
-    type(branches_t), intent(inout) :: branches
+    type(loci_t), intent(inout) :: loci
 
     integer :: next(sweep%request%modes), i, j
     real(wp) :: mac(sweep%request%modes, sweep%request%modes), place(2), target_place(2)
@@ -144,18 +143,18 @@ contains
     do j = 1, size(next)
       i = findloc(next, j, dim=1)
       if (i > 0) then
-        branches%branch(j, to(1), to(2)) = branches%branch(i, from(1), from(2))
-        branches%mac(j, to(1), to(2)) = mac(i, j)
+        loci%locus(j, to(1), to(2)) = loci%locus(i, from(1), from(2))
+        loci%mac(j, to(1), to(2)) = mac(i, j)
       else
-        branches%count = branches%count + 1
-        branches%branch(j, to(1), to(2)) = branches%count
+        loci%count = loci%count + 1
+        loci%locus(j, to(1), to(2)) = loci%count
         ! A mode that nothing leads to comes from beyond the modes computed, or is one that some
         ! other may have become.
-        branches%event(j, to(1), to(2)) = merge(event_start, event_ambiguous, all(clear))
-        branches%mac(j, to(1), to(2)) = maxval(mac(:, j))
+        loci%event(j, to(1), to(2)) = merge(event_start, event_ambiguous, all(clear))
+        loci%mac(j, to(1), to(2)) = maxval(mac(:, j))
       end if
     end do
-    call mark_crossings(branches, next, to)
+    call mark_crossings(loci, next, to)
   end subroutine follow_step
 
   !> For every mode of one place the mode of another place that continues it; 0 if it leaves the
@@ -233,7 +232,7 @@ contains
     type(error_t), allocatable :: error
     type(mode_request_t) :: here
     type(bordered_modes_t) :: modes(1)
-    type(string_t) :: failure(1)
+    type(outcome_t) :: outcome(1)
     real(wp) :: factor(case_count, 1)
 
     found = .false.
@@ -242,21 +241,20 @@ contains
     here = request
     here%speed = place(2:2)
     factor = load_factors(here)
-    failure(1)%text = ""
     ! Places between two rows come in no order, nor are they told apart by the crank angle alone.
     work%tracks(1)%length = 0
     coefficients = find_kinematic_coefficients(linkage, pose)
     loads = find_unit_loads(linkage, pose, coefficients, abs(factor(:, 1)) > 0.0_wp)
     call assemble_equations(linkage, models%continuum, pose, &
       distributed_unit_forces(linkage, pose, loads), factor, work%equations, counts)
-    call solve_speeds(place(1), factor, request%modes, [.false.], work, modes, failure, counts)
-    found = len(failure(1)%text) == 0
+    call solve_speeds(place(1), factor, request%modes, [.false.], work, modes, outcome, counts)
+    found = .not. allocated(outcome(1)%error)
     if (found) prints = new_mode_prints(models%continuum%layout, modes(1), request%modes)
   end subroutine prints_at
 
-  !> Two branches that have changed places since the row before have crossed.
-  pure subroutine mark_crossings(branches, next, to)
-    type(branches_t), intent(inout) :: branches
+  !> Two loci that have changed places since the row before have crossed.
+  pure subroutine mark_crossings(loci, next, to)
+    type(loci_t), intent(inout) :: loci
     integer, intent(in) :: next(:) !! (modes of the row before) mode that continues each; 0: none
     integer, intent(in) :: to(2)   !! row and speed
 
@@ -265,21 +263,21 @@ contains
     do i = 1, size(next)
       do j = i + 1, size(next)
         if (next(i) == 0 .or. next(j) == 0 .or. next(i) < next(j)) cycle
-        branches%event(next([i, j]), to(1), to(2)) = event_crossing
-        branches%partner(next(i), to(1), to(2)) = branches%branch(next(j), to(1), to(2))
-        branches%partner(next(j), to(1), to(2)) = branches%branch(next(i), to(1), to(2))
+        loci%event(next([i, j]), to(1), to(2)) = event_crossing
+        loci%partner(next(i), to(1), to(2)) = loci%locus(next(j), to(1), to(2))
+        loci%partner(next(j), to(1), to(2)) = loci%locus(next(i), to(1), to(2))
       end do
     end do
   end subroutine mark_crossings
 
-  !> Two neighbouring branches that come near, exchange their shapes and part again have veered:
+  !> Two neighbouring loci that come near, exchange their shapes and part again have veered:
   !! marked where they are nearest.
-  pure subroutine mark_veerings(positions, sweep, order, speed, branches)
+  pure subroutine mark_veerings(positions, sweep, order, speed, loci)
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
     integer, intent(in) :: order(:) !! rows by crank angle
     integer, intent(in) :: speed
-    type(branches_t), intent(inout) :: branches
+    type(loci_t), intent(inout) :: loci
 
     real(wp) :: distance(size(order))
     integer :: i, mode, left, right
@@ -297,11 +295,11 @@ contains
         left = edge(distance, i, -1)
         right = edge(distance, i, 1)
         if (left == 0 .or. right == 0) cycle
-        if (.not. have_exchanged(positions, sweep, branches, mode, speed, order(left), &
+        if (.not. have_exchanged(positions, sweep, loci, mode, speed, order(left), &
           order(right))) cycle
-        branches%event(mode:mode + 1, order(i), speed) = event_veering
-        branches%partner(mode, order(i), speed) = branches%branch(mode + 1, order(i), speed)
-        branches%partner(mode + 1, order(i), speed) = branches%branch(mode, order(i), speed)
+        loci%event(mode:mode + 1, order(i), speed) = event_veering
+        loci%partner(mode, order(i), speed) = loci%locus(mode + 1, order(i), speed)
+        loci%partner(mode + 1, order(i), speed) = loci%locus(mode, order(i), speed)
       end do
     end do
   end subroutine mark_veerings
@@ -328,17 +326,17 @@ contains
   end function edge
 
   !> Whether a mode of one row looks like the next higher one of another, and the other way round,
-  !! though their branches do not.
-  pure function have_exchanged(positions, sweep, branches, mode, speed, from, to) result(have)
+  !! though their loci do not.
+  pure function have_exchanged(positions, sweep, loci, mode, speed, from, to) result(have)
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
-    type(branches_t), intent(in) :: branches
+    type(loci_t), intent(in) :: loci
     integer, intent(in) :: mode, speed, from, to
     logical :: have
 
     real(wp) :: mac(sweep%request%modes, sweep%request%modes)
 
-    have = all(branches%branch(mode:mode + 1, from, speed) == branches%branch(mode:mode + 1, to, &
+    have = all(loci%locus(mode:mode + 1, from, speed) == loci%locus(mode:mode + 1, to, &
       speed))
     if (.not. have) return
     mac = likeness(sweep%results(positions%state(from))%prints(speed), &

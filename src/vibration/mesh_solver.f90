@@ -48,9 +48,9 @@ contains
     call assemble_equations(structure%linkage, model, state%pose, unit_force, factor, &
       work%equations, result%counts)
     call solve_speeds(state%crank, factor, request%modes, want_shapes, work, found, &
-      result%failure, result%counts)
+      result%outcome, result%counts)
     do k = 1, size(factor, 2)
-      if (len(result%failure(k)%text) > 0) cycle
+      if (allocated(result%outcome(k)%error)) cycle
       call take_mesh_value(found(k)%lambda(:request%modes), found(k)%error(:request%modes), &
         result%lambda(:, k), result%error(:, k))
       if (.not. want_shapes(k)) cycle
@@ -87,10 +87,10 @@ contains
     call assemble_equations(structure%linkage, near, state%pose, unit_force, factor, &
       work%mesh%equations, result%counts)
     call solve_speeds(state%crank, factor, request%modes, want_shapes, work%mesh, start, &
-      result%failure, result%counts)
+      result%outcome, result%counts)
     work%chain%chords = work%mesh%equations%chords
     do k = 1, size(factor, 2)
-      if (len(result%failure(k)%text) > 0) cycle
+      if (allocated(result%outcome(k)%error)) cycle
       call set_speed(work%mesh%equations, factor(:, k))
       own = work%mesh%equations%pencil
       elements = merge(size(in_element, 2), 0, own%loaded)
@@ -107,7 +107,7 @@ contains
       result%counts%operator_products = result%counts%operator_products + found%products
       result%counts%factorizations = result%counts%factorizations + 1
       if (allocated(error)) then
-        result%failure(k)%text = error%message
+        call move_alloc(error, result%outcome(k)%error)
         cycle
       end if
       call take_mesh_value(found%lambda(:request%modes), found%error(:request%modes), &

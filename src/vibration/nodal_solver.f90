@@ -61,7 +61,7 @@ contains
       result%counts%geometric_matrices = result%counts%geometric_matrices + 1
     end do
     do k = 1, size(factor, 2)
-      if (len(result%failure(k)%text) > 0) cycle
+      if (allocated(result%outcome(k)%error)) cycle
       total = stiffness
       do i = 1, case_count
         if (abs(factor(i, k)) > 0.0_wp) total%entry = total%entry + &
@@ -73,7 +73,7 @@ contains
       result%counts%factorizations = result%counts%factorizations + found%factorizations
       result%counts%full_solutions = result%counts%full_solutions + 1
       if (allocated(error)) then
-        result%failure(k)%text = error%message
+        call move_alloc(error, result%outcome(k)%error)
         cycle
       end if
       call take_mesh_value(found%lambda, 0.0_wp, result%lambda(:, k), result%error(:, k))

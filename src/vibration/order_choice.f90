@@ -5,7 +5,7 @@ module order_choice
   use body_lumps, only: pieces_of
   use bordered_eigensolver, only: bordered_modes_t
   use deformation_model, only: deformation_model_t, new_deformation_model
-  use errors, only: error_t
+  use errors, only: clear_outcome, error_t, outcome_t
   use kinds, only: wp
   use ledger, only: ledger_t
   use link_store, only: link_store_t
@@ -16,7 +16,6 @@ module order_choice
   use positions, only: positions_t
   use speed_solver, only: new_speed_work, solve_speeds, speed_work_t
   use structures, only: structure_t
-  use text, only: string_t
   implicit none (type, external)
   private
 
@@ -224,14 +223,14 @@ contains
     type(speed_work_t) :: work
     type(unit_loads_t) :: loads
     type(bordered_modes_t), allocatable :: found(:)
-    type(string_t), allocatable :: failure(:)
+    type(outcome_t), allocatable :: outcome(:)
     real(wp), allocatable :: force(:, :, :), tried(:, :)
     integer :: i, k
 
     tried = demand%factor(:, [minloc(demand%factor(1, :), dim=1), maxloc(demand%factor(1, :), &
       dim=1)])
     if (all(abs(tried(:, 1) - tried(:, 2)) <= 0.0_wp)) tried = tried(:, :1)
-    allocate (found(size(tried, 2)), failure(size(tried, 2)))
+    allocate (found(size(tried, 2)), outcome(size(tried, 2)))
     work = new_speed_work(model, size(tried, 2))
     link_error = 0.0_wp
     highest = 0.0_wp
@@ -240,15 +239,13 @@ contains
         loads = find_unit_loads(linkage, state%pose, state%coefficients, &
           any(abs(tried) > 0.0_wp, dim=2))
         force = distributed_unit_forces(linkage, state%pose, loads)
-        do k = 1, size(failure)
-          failure(k)%text = ""
-        end do
+        call clear_outcome(outcome)
         call assemble_equations(linkage, model, state%pose, force, tried, work%equations, counts)
         call solve_speeds(state%crank, tried, demand%modes, spread(.false., 1, size(found)), work, &
-          found, failure, counts)
+          found, outcome, counts)
       end associate
       do k = 1, size(found)
-        if (len(failure(k)%text) > 0) cycle
+        if (allocated(outcome(k)%error)) cycle
         highest = max(highest, maxval(abs(found(k)%lambda(:demand%modes))))
         link_error = max(link_error, maxval(order_error(model, work%equations%chords, &
           total_force(force, tried(:, k)), found(k), demand%modes), dim=2))

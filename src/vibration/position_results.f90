@@ -2,12 +2,12 @@
 module position_results
   use constants, only: two_pi
   use deformation_chain, only: deformation_chain_t
+  use errors, only: outcome_t
   use kinds, only: wp
   use ledger, only: ledger_t
   use modal_assurance, only: mode_prints_t
   use shape_samples, only: shapes_t
   use speed_solver, only: speed_work_t
-  use text, only: string_t
   implicit none (type, external)
   private
 
@@ -20,7 +20,7 @@ module position_results
   type :: position_result_t
     real(wp), allocatable :: lambda(:, :)      !! (modes, speeds) ω² [1/s²]
     real(wp), allocatable :: error(:, :)       !! (modes, speeds) relative error of the frequency
-    type(string_t), allocatable :: failure(:)  !! (speeds) empty, or why there is no result
+    type(outcome_t), allocatable :: outcome(:) !! (speeds) whether there is a result, or why not
     real(wp), allocatable :: deflection(:, :)  !! (bodies, speeds) largest static deflection under
                                                !! the loads, of the length [-]
     type(shapes_t), allocatable :: shapes(:)   !! (speeds) where they are wanted

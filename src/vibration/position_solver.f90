@@ -65,15 +65,12 @@ contains
     integer :: k, n
 
     n = size(request%speed)
-    allocate (result%lambda(request%modes, n), result%error(request%modes, n), result%failure(n), &
+    allocate (result%lambda(request%modes, n), result%error(request%modes, n), result%outcome(n), &
       result%shapes(n))
     allocate (result%deflection(size(structure%beams), n))
     result%lambda = 0.0_wp
     result%error = 0.0_wp
     result%deflection = 0.0_wp
-    do k = 1, n
-      result%failure(k)%text = ""
-    end do
     factor = load_factors(request)
     loads = find_unit_loads(structure%linkage, state%pose, state%coefficients, &
       any(abs(factor) > 0.0_wp, dim=2))
@@ -81,13 +78,13 @@ contains
     call assemble_equations(structure%linkage, models%continuum, state%pose, unit_force, factor, &
       work%continuum%equations, result%counts)
     call solve_speeds(state%crank, factor, request%modes, &
-      want_shapes .and. request%method == by_orders, work%continuum, found, result%failure, &
+      want_shapes .and. request%method == by_orders, work%continuum, found, result%outcome, &
       result%counts)
     associate (chords => work%continuum%equations%chords)
       if (size(unit_force) > 0) call find_deflection(structure%linkage, models%continuum, chords, &
         state%pose, loads, factor, result%deflection)
       do k = 1, n
-        if (len(result%failure(k)%text) > 0) cycle
+        if (allocated(result%outcome(k)%error)) cycle
         discretisation = order_error(models%continuum, chords, &
           total_force(unit_force, factor(:, k)), found(k), request%modes)
         result%order_error = max(result%order_error, maxval(sum(discretisation, dim=1)))
@@ -101,14 +98,14 @@ contains
     if (request%follow) then
       allocate (result%prints(n))
       do k = 1, n
-        if (len(result%failure(k)%text) == 0) result%prints(k) = &
+        if (.not. allocated(result%outcome(k)%error)) result%prints(k) = &
           new_mode_prints(models%continuum%layout, found(k), request%modes)
       end do
     end if
     select case (request%method)
     case (by_orders)
       do k = 1, n
-        if (want_shapes(k) .and. len(result%failure(k)%text) == 0) then
+        if (want_shapes(k) .and. .not. allocated(result%outcome(k)%error)) then
           call sample_reduced(structure%linkage, models%continuum, &
             work%continuum%equations%chords, state, found(k), request, result%shapes(k))
           result%counts%shapes = result%counts%shapes + request%modes

@@ -3,7 +3,7 @@
 module rest_eigenvalues
   use bordered_eigensolver, only: bordered_modes_t
   use deformation_model, only: deformation_model_t, new_deformation_model
-  use errors, only: error_t
+  use errors, only: clear_outcome, error_t, outcome_t
   use kinds, only: wp
   use ledger, only: ledger_t
   use load_cases, only: case_count
@@ -11,7 +11,6 @@ module rest_eigenvalues
   use positions, only: find_positions, positions_t
   use speed_solver, only: new_speed_work, solve_speeds, speed_work_t
   use structures, only: structure_t
-  use text, only: string_t
   implicit none (type, external)
   private
 
@@ -32,7 +31,7 @@ contains
     type(deformation_model_t) :: model
     type(speed_work_t) :: work
     type(bordered_modes_t) :: found(1)
-    type(string_t) :: failure(1)
+    type(outcome_t) :: outcome(1)
     type(ledger_t) :: counts
     type(error_t), allocatable :: error
     real(wp) :: no_forces(0, size(structure%beams), case_count), at_rest(case_count, 1)
@@ -52,13 +51,13 @@ contains
           lambda(i) = huge(lambda)
           cycle
         end if
-        failure(1)%text = ""
+        call clear_outcome(outcome)
         call assemble_equations(structure%linkage, model, state%pose, no_forces, at_rest, &
           work%equations, counts)
-        call solve_speeds(state%crank, at_rest, 1, [.false.], work, found, failure, counts)
+        call solve_speeds(state%crank, at_rest, 1, [.false.], work, found, outcome, counts)
       end associate
       lambda(i) = huge(lambda)
-      if (len(failure(1)%text) == 0) lambda(i) = found(1)%lambda(1)
+      if (.not. allocated(outcome(1)%error)) lambda(i) = found(1)%lambda(1)
     end do
   end function lowest_rest_eigenvalues
 

@@ -2,12 +2,11 @@
 module speed_solver
   use bordered_eigensolver, only: bordered_modes_t, find_bordered_modes, start_t
   use deformation_model, only: deformation_model_t
-  use errors, only: error_t
+  use errors, only: error_t, outcome_t
   use kinds, only: wp
   use ledger, only: ledger_t
   use position_equations, only: new_position_equations, position_equations_t, set_speed
   use start_extrapolation, only: extrapolated_start, remember, track_t
-  use text, only: string_t
   implicit none (type, external)
   private
 
@@ -35,14 +34,14 @@ contains
   end function new_speed_work
 
   !> Solves `(I + K_G) y = λ M y` for every speed, from the modes of the last positions.
-  subroutine solve_speeds(place, factor, modes, accurate_vectors, work, found, failure, counts)
+  subroutine solve_speeds(place, factor, modes, accurate_vectors, work, found, outcome, counts)
     real(wp), intent(in) :: place              !! of the position among its neighbours [deg]
     real(wp), intent(in) :: factor(:, :)       !! (cases, speeds) of the unit loads
     integer, intent(in) :: modes               !! how many are wanted
     logical, intent(in) :: accurate_vectors(:) !! (speeds) vectors to the last digits, too
     type(speed_work_t), intent(inout) :: work  !! with the equations of this position
     type(bordered_modes_t), intent(out) :: found(:) !! (speeds)
-    type(string_t), intent(inout) :: failure(:)     !! (speeds)
+    type(outcome_t), intent(inout) :: outcome(:)    !! (speeds) keeps an error that is there already
     type(ledger_t), intent(inout) :: counts
 
     type(start_t) :: start
@@ -59,7 +58,7 @@ contains
       counts%reduced_solutions = counts%reduced_solutions + found(k)%reduced_solutions
       counts%full_solutions = counts%full_solutions + found(k)%full_solutions
       if (allocated(error)) then
-        if (len(failure(k)%text) == 0) failure(k)%text = error%message
+        if (.not. allocated(outcome(k)%error)) call move_alloc(error, outcome(k)%error)
         work%tracks(k)%length = 0
         cycle
       end if

@@ -1,5 +1,6 @@
 !> The results of a sweep over positions and speeds.
 module sweeps
+  use errors, only: error_t
   use ledger, only: ledger_t
   use position_results, only: position_result_t
   use positions, only: positions_t
@@ -30,20 +31,20 @@ contains
     logical :: has
 
     has = .not. allocated(positions%states(state)%error)
-    if (has) has = len(sweep%results(state)%failure(speed)%text) == 0
+    if (has) has = .not. allocated(sweep%results(state)%outcome(speed)%error)
   end function has_result
 
-  !> Why there is no result at a position and speed; empty if there is one.
-  pure function failure_at(positions, sweep, state, speed) result(reason)
+  !> Why there is no result at a position and speed where there is none.
+  pure function failure_at(positions, sweep, state, speed) result(error)
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
     integer, intent(in) :: state, speed !! numbers
-    character(len=:), allocatable :: reason
+    type(error_t) :: error
 
     if (allocated(positions%states(state)%error)) then
-      reason = positions%states(state)%error%message
+      error = positions%states(state)%error
     else
-      reason = sweep%results(state)%failure(speed)%text
+      error = sweep%results(state)%outcome(speed)%error
     end if
   end function failure_at
 

@@ -11,7 +11,7 @@ program bench
   use bench_ratios, only: write_ratios
   use bench_runs, only: prepare_case, seconds_since, time_case
   use bench_tables, only: write_plan, write_times
-  use errors, only: error_t
+  use errors, only: error_t, rendered
   use exact_values, only: exact_values_t, read_exact_values
   use file_system, only: make_directories
   use kinds, only: long, wp
@@ -116,7 +116,7 @@ contains
   subroutine give_up_on(failure)
     type(error_t), allocatable, intent(in) :: failure
 
-    if (allocated(failure)) call give_up(failure%message)
+    if (allocated(failure)) call give_up(rendered(failure))
   end subroutine give_up_on
 
   subroutine give_up(message)

@@ -5,12 +5,12 @@ module bench_models
   use deck_readings, only: deck_t, read_deck
   use deck_source, only: source_t
   use diagnostics, only: diagnostics_t, has_errors, render_errors
-  use errors, only: error_t, set_error
+  use errors, only: error_of_input, error_t, set_error
   use exact_values, only: bench_speed
   use kinds, only: wp
   use linkage_cards, only: mesh_t
   use models, only: effects_axial, effects_static, model_t, report_number, solver_auto, solver_band, solver_dense
-  use request_cards, only: report_frequencies, report_t
+  use report_cards, only: report_t
   implicit none (type, external)
   private
 
@@ -37,14 +37,14 @@ contains
 
     call read_deck(path, 1, deck)
     if (len(deck%errors) > 0) then
-      call set_error(error, deck%errors)
+      call set_error(error, error_of_input, "this deck is refused:"//achar(10)//deck%errors, path)
       return
     end if
     base%model = deck%model
     base%source = deck%source
     associate (model => base%model)
       allocate (reports(1))
-      reports(1) = model%reports(report_number(model, report_frequencies))
+      reports(1) = model%reports(report_number(model, "frequencies"))
       call move_alloc(reports, model%reports)
       ! A mesh for every link.
       allocate (meshes(size(model%links)))

@@ -3,8 +3,9 @@ module bench_ratios
   use bench_cases, only: median_of, per_turn, plan_t, solver_names, table_work_precision, with_accuracy, with_dsygv, with_sweep
   use errors, only: error_t
   use kinds, only: wp
+  use table_rows, only: add_failure, add_row, rows_t
   use tables, only: column_t, finish_table, name_cell, name_column, open_table, publish_table, real_cells, real_column, table_t, &
-    write_failure, write_header, write_row
+    write_header, write_rows
   use text, only: string_t, to_string
   implicit none (type, external)
   private
@@ -24,6 +25,7 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     type(table_t) :: file
+    type(rows_t) :: rows
     type(column_t) :: columns(5)
     type(string_t), allocatable :: solvers(:)
     real(wp) :: ours, theirs
@@ -45,15 +47,16 @@ contains
         do solver = with_dsygv, with_sweep
           theirs = least_time(plan, solver, load == 2, wanted(i))
           if (theirs < huge(theirs) .and. ours < huge(ours)) then
-            call write_row(file, name_cell(trim(merge("axial ", "static", load == 2)), columns(1)%width)// &
+            call add_row(rows, name_cell(trim(merge("axial ", "static", load == 2)), columns(1)%width)// &
               name_cell(solvers(solver)%text, columns(2)%width)//real_cells([wanted(i), theirs, theirs/ours]))
           else
-            call write_failure(file, [real(wp) ::], "load="//trim(merge("axial ", "static", load == 2))//" solver="// &
+            call add_failure(rows, [real(wp) ::], "load="//trim(merge("axial ", "static", load == 2))//" solver="// &
               solvers(solver)%text//" wanted="//to_string(wanted(i))//": no run came below that error")
           end if
         end do
       end do
     end do
+    call write_rows(file, rows)
     call finish_table(file, error)
     if (.not. allocated(error)) call publish_table(file, error)
   end subroutine write_ratios

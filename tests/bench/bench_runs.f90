@@ -4,7 +4,6 @@ module bench_runs
   use bench_models, only: base_t, model_of, refusal
   use errors, only: error_t
   use exact_values, only: bench_speed, exact_states, exact_values_t, largest_error
-  use frequency_study, only: run_sweep
   use kinds, only: long, wp
   use ledger, only: ledger_t
   use link_store, only: link_store_t
@@ -14,11 +13,10 @@ module bench_runs
   use position_results, only: position_result_t, position_work_t
   use position_solver, only: new_position_work, solve_position
   use positions, only: by_crank_angle, find_positions, positions_t
-  use progress, only: progress_t
-  use sweep_journal, only: journal_t
-  use sweeps, only: sweep_t
+  use task_journal, only: journal_t
   use text, only: to_string
-  use vibration_models, only: by_orders, frequency_models_t, new_frequency_models
+  use variant_runs, only: begin_variant_run, compute_variant, variant_run_t
+  use vibration_models, only: by_orders, new_vibration_models, vibration_models_t
   implicit none (type, external)
   private
 
@@ -72,7 +70,8 @@ contains
       this%unknowns = mechanism%mesh%unknowns
       call prepare_nodal(mechanism, positions, exact, this, lambda)
     else
-      call prepare_sweep(model, mechanism, positions, this, lambda)
+      this%unknowns = mechanism%mesh%unknowns
+      call prepare_sweep(model, this, lambda)
     end if
     this%is_long = .not. is_nodal(this%solver) .and. seconds_since(start) > is_long
     if (len(this%failure) > 0) return
@@ -105,7 +104,7 @@ contains
       this%solver, 1, lambda, error)
     one = seconds_since(start)/size(numbers)
     if (allocated(error)) then
-      this%failure = error%message
+      this%failure = error%text
       return
     end if
     this%timed = spread_states(this%states, int(most_seconds*this%threads/one))
@@ -123,38 +122,39 @@ contains
   end function spread_states
 
   !> Solves all positions as the program does.
-  subroutine prepare_sweep(model, mechanism, positions, this, lambda)
+  subroutine prepare_sweep(model, this, lambda)
     type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
-    type(positions_t), intent(in) :: positions
     type(bench_case_t), intent(inout) :: this
     real(wp), intent(inout) :: lambda(:, :)
 
-    type(sweep_t) :: sweep
-    type(progress_t) :: progress
-    type(journal_t) :: journal
+    type(variant_run_t) :: run
+    type(journal_t) :: no_journal
     type(link_store_t) :: store
     type(error_t), allocatable :: error
     integer(long) :: start
     integer :: i
 
+    call begin_variant_run(run, model)
     call system_clock(start)
-    call run_sweep(model, mechanism, positions, this%threads, progress, journal, 1, store, sweep, error)
+    call compute_variant(run, this%threads, no_journal, -1, store, error)
     if (this%solver == with_deformation) this%timed = spread_states(this%states, int(most_seconds*this%states/seconds_since(start)))
     if (allocated(error)) then
-      this%failure = error%message
+      this%failure = error%text
       return
     end if
-    this%request = sweep%request
-    this%unknowns = mechanism%mesh%unknowns
-    if (this%request%method == by_orders) then
-      this%unknowns = sweep%models%continuum%layout%unknowns
-      this%order = sweep%models%continuum%order
-    end if
-    do i = 1, this%states
-      if (len(sweep%results(i)%failure(1)%text) > 0) this%failure = sweep%results(i)%failure(1)%text
-      lambda(:, i) = sweep%results(i)%lambda(:, 1)
-    end do
+    associate (sweep => run%results%found%sweep)
+      this%request = sweep%request
+      if (this%request%method == by_orders) then
+        this%unknowns = sweep%models%continuum%layout%unknowns
+        this%order = sweep%models%continuum%order
+      end if
+      do i = 1, this%states
+        associate (result => sweep%results(i))
+          if (allocated(result%outcome(1)%error)) this%failure = result%outcome(1)%error%text
+          lambda(:, i) = result%lambda(:, 1)
+        end associate
+      end do
+    end associate
   end subroutine prepare_sweep
 
   pure function speed_of(this) result(speed)
@@ -217,7 +217,7 @@ contains
 
     type(mechanism_t) :: mechanism
     type(positions_t) :: positions
-    type(frequency_models_t) :: models
+    type(vibration_models_t) :: models
     type(position_work_t) :: work
     type(position_result_t) :: result
     type(ledger_t) :: counts
@@ -230,8 +230,8 @@ contains
     positions = find_positions(mechanism%linkage, model%crank%value)
     rest = seconds_since(start)*(real(size(this%timed), wp)/this%states)
     call system_clock(start)
-    call new_frequency_models(mechanism, positions, by_crank_angle(positions), this%request, this%request%accuracy, store, &
-      models, counts, error)
+    call new_vibration_models(mechanism%structure_t, positions, by_crank_angle(positions), &
+      this%request, this%request%accuracy, store, models, counts, error)
     setup = seconds_since(start)
     if (allocated(error)) return
     call system_clock(start)
@@ -239,40 +239,40 @@ contains
     do i = 1, size(this%timed)
       work%continuum%tracks%length = 0
       if (allocated(work%mesh%tracks)) work%mesh%tracks%length = 0
-      call solve_position(mechanism, models, positions%states(this%timed(i)), this%request, [.false.], work, result)
+      call solve_position(mechanism%structure_t, models, positions%states(this%timed(i)), &
+        this%request, [.false.], work, result)
     end do
     rest = rest + seconds_since(start)
   end subroutine time_each_alone
 
-  !> The program's own way. What its models take is measured by making them once more.
+  !> The program's own way: all that it computes for such a deck, of which frequencies are nearly
+  !! all. What its models take is measured by making them once more.
   subroutine time_sweep(model, this, setup, rest, error)
     type(model_t), intent(in) :: model
     type(bench_case_t), intent(in) :: this
     real(wp), intent(out) :: setup, rest !! [s]
     type(error_t), allocatable, intent(out) :: error
 
-    type(mechanism_t) :: mechanism
-    type(positions_t) :: positions
-    type(frequency_models_t) :: models
-    type(sweep_t) :: sweep
-    type(progress_t) :: progress
-    type(journal_t) :: journal
+    type(variant_run_t) :: run
+    type(vibration_models_t) :: models
+    type(journal_t) :: no_journal
     type(link_store_t) :: store
     type(ledger_t) :: counts
     integer(long) :: start
     real(wp) :: total
 
     call system_clock(start)
-    mechanism = new_mechanism(model)
-    positions = find_positions(mechanism%linkage, model%crank%value)
-    call run_sweep(model, mechanism, positions, this%threads, progress, journal, 1, store, sweep, error)
+    call begin_variant_run(run, model)
+    call compute_variant(run, this%threads, no_journal, -1, store, error)
     total = seconds_since(start)
     setup = 0.0_wp
     rest = total
     if (allocated(error)) return
-    call system_clock(start)
-    call new_frequency_models(mechanism, positions, by_crank_angle(positions), this%request, this%request%accuracy, store, &
-      models, counts, error)
+    associate (positions => run%results%found%positions)
+      call system_clock(start)
+      call new_vibration_models(run%results%mechanism%structure_t, positions, &
+        by_crank_angle(positions), this%request, this%request%accuracy, store, models, counts, error)
+    end associate
     setup = min(total, seconds_since(start))
     rest = total - setup
   end subroutine time_sweep

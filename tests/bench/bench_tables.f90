@@ -4,8 +4,9 @@ module bench_tables
     table_names, table_threads, table_work_precision, with_accuracy, with_sweep
   use errors, only: error_t
   use kinds, only: wp
+  use table_rows, only: add_failure, add_row, rows_t
   use tables, only: column_t, finish_table, integer_cell, integer_column, name_cell, name_column, open_table, publish_table, &
-    real_cells, real_column, table_t, write_failure, write_header, write_row
+    real_cells, real_column, table_t, write_header, write_rows
   use text, only: string_t, to_string
   implicit none (type, external)
   private
@@ -26,6 +27,7 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     type(table_t) :: file
+    type(rows_t) :: rows
     type(string_t), allocatable :: names(:)
     type(column_t), allocatable :: columns(:)
     integer :: i
@@ -45,12 +47,13 @@ contains
       associate (this => plan%cases(i))
         if (this%table /= table) cycle
         if (len(this%failure) > 0) then
-          call write_failure(file, [real(wp) ::], place_of(this)//": "//this%failure)
+          call add_failure(rows, [real(wp) ::], place_of(this)//": "//this%failure)
         else
-          call write_row(file, row_of(plan, this, columns))
+          call add_row(rows, row_of(plan, this, columns))
         end if
       end associate
     end do
+    call write_rows(file, rows)
     call finish_table(file, error)
     if (.not. allocated(error)) call publish_table(file, error)
   end subroutine write_plan
@@ -199,6 +202,7 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     type(table_t) :: file
+    type(rows_t) :: rows
     type(column_t) :: columns(4)
     integer :: i
 
@@ -210,9 +214,10 @@ contains
     columns(4) = real_column("minimum", "s")
     call write_header(file, "whole processes: started by a shell, deck read, tables written", notes, columns)
     do i = 1, size(jobs)
-      call write_row(file, name_cell(jobs(i)%text, columns(1)%width)//integer_cell(size(times, 2), "repetitions")// &
+      call add_row(rows, name_cell(jobs(i)%text, columns(1)%width)//integer_cell(size(times, 2), "repetitions")// &
         real_cells([median_of(times(i, :)), minval(times(i, :))]))
     end do
+    call write_rows(file, rows)
     call finish_table(file, error)
     if (.not. allocated(error)) call publish_table(file, error)
   end subroutine write_times

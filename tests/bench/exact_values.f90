@@ -1,7 +1,7 @@
 !> The exact frequencies of the first mechanism (tests/exact/mechanism1.dat), and how far others are from them.
 module exact_values
   use constants, only: two_pi
-  use errors, only: error_t, set_error
+  use errors, only: error_of_files, error_t, set_error
   use kinds, only: wp
   use positions, only: positions_t
   implicit none (type, external)
@@ -35,7 +35,7 @@ contains
     allocate (exact%speed(0), exact%crank(0), exact%frequency(5, 0))
     open (newunit=unit, file=path, status="old", action="read", iostat=status)
     if (status /= 0) then
-      call set_error(error, path//": this file cannot be read")
+      call set_error(error, error_of_files, "this file cannot be read", path)
       return
     end if
     do
@@ -49,7 +49,8 @@ contains
       exact%frequency = reshape([exact%frequency, row(3:)], [5, size(exact%speed)])
     end do
     close (unit)
-    if (status > 0 .or. size(exact%speed) == 0) call set_error(error, path//": these are not rows of speed, crank, f1 to f5")
+    if (status > 0 .or. size(exact%speed) == 0) call set_error(error, error_of_files, &
+      "these are not rows of speed, crank, f1 to f5", path)
   end subroutine read_exact_values
 
   !> The numbers of the different positions of a turn at which a speed has exact values.

@@ -8,7 +8,7 @@ module nodal_runs
   use band_matrix, only: band_matrix_t, full_matrix, order_of
   use bench_cases, only: with_band, with_dsygv
   use dense_eigensolver, only: solve_dense
-  use errors, only: error_t, set_error
+  use errors, only: error_of_numerics, error_t, set_error
   use inertia_loads, only: distributed_load, load_t, pin_load
   use joint_forces, only: find_joint_forces
   use kinds, only: wp
@@ -51,7 +51,7 @@ contains
       call solve_state(mechanism, states(numbers(i)), speed, modes, solver, lambda(:, numbers(i)), failure)
       if (.not. allocated(failure)) cycle
       !$omp critical (keep_failure)
-      call set_error(error, failure%message)
+      call set_error(error, failure%kind, failure%text)
       !$omp end critical (keep_failure)
     end do
     !$omp end parallel do
@@ -129,7 +129,8 @@ contains
     work = 0.0_wp
     call dsygv(1, "N", "L", n, a, n, b, n, w, work, size(work), info)
     inverse = w(n:n - size(inverse) + 1:-1)
-    if (info /= 0) call set_error(error, "dsygv failed (info = "//to_string(info)//")")
+    if (info /= 0) call set_error(error, error_of_numerics, &
+      "dsygv failed (info = "//to_string(info)//")")
   end subroutine solve_all
 
 end module nodal_runs

@@ -7,7 +7,7 @@
 module adaptive_integration
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_funptr, &
     c_int, c_loc, c_null_funptr, c_null_ptr, c_ptr, c_size_t
-  use errors, only: error_t, set_error
+  use errors, only: error_of_numerics, error_t, set_error
   use kinds, only: long, wp
   implicit none (type, external)
   private
@@ -170,7 +170,7 @@ contains
     if (c_associated(integrator%stepper) .and. c_associated(integrator%control) .and. &
       c_associated(integrator%evolution)) return
     call close_integrator(integrator)
-    call set_error(error, "there is no memory for the integration")
+    call set_error(error, error_of_numerics, "there is no memory for the integration")
   end subroutine open_integrator
 
   !> The method of order 8, read where the library keeps it.
@@ -228,7 +228,7 @@ contains
       c_loc(library_system), library_time, real(limit, c_double), step, library_state)
     integrator%evaluations = integrator%evaluations + request%evaluations
     if (status /= success) then
-      call set_error(error, "the steps of the integration shrink to nothing")
+      call set_error(error, error_of_numerics, "the steps of the integration shrink to nothing")
       return
     end if
     integrator%steps = integrator%steps + 1_long
@@ -266,7 +266,7 @@ contains
       library_state, estimate, c_null_ptr, c_null_ptr, c_loc(library_system))
     integrator%evaluations = integrator%evaluations + request%evaluations
     if (status /= success) then
-      call set_error(error, "a step of the integration fails")
+      call set_error(error, error_of_numerics, "a step of the integration fails")
       return
     end if
     state = real(library_state, wp)

@@ -3,11 +3,12 @@
 module card_reader
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
+  use errors, only: error_of_input, error_t, set_error
   use kinds, only: wp
   use numbers, only: number_length, read_integer, read_real
   use spelling, only: suggestion
   use text, only: joined, same_word, string_t, to_string, word_list
-  use tokens, only: name_problem, token_part, token_t
+  use tokens, only: check_name, token_part, token_t
   use units, only: coherent_factor, dimension_name, read_unit, serves_for, to_si, unit_system_t, &
     unit_t, wrong_unit
   implicit none (type, external)
@@ -100,7 +101,10 @@ contains
     type(token_t), intent(in) :: word
     type(diagnostics_t), intent(inout) :: diagnostics
 
-    if (len(name_problem(word%text)) > 0) call add_error(diagnostics, word, name_problem(word%text))
+    type(error_t), allocatable :: error
+
+    call check_name(word%text, error)
+    if (allocated(error)) call add_error(diagnostics, word, error%text)
   end subroutine read_name
 
   !> Reads a number with or without a unit of its own; what a bare number means is the caller's to
@@ -114,7 +118,7 @@ contains
     type(unit_t), intent(out) :: measure        !! its unit
     logical, intent(out) :: fine
 
-    character(len=:), allocatable :: problem
+    type(error_t), allocatable :: error
     type(token_t) :: place
     integer :: length
 
@@ -128,52 +132,54 @@ contains
         dimension_name(dimension))
       return
     end if
-    call read_real(word%text(:length), value, problem)
-    if (len(problem) > 0) then
-      problem = problem//"; expected "//dimension_name(dimension)
+    call read_real(word%text(:length), value, error)
+    if (allocated(error)) then
+      error%text = error%text//"; expected "//dimension_name(dimension)
     else if (length < len(word%text)) then
       if (word%text(length + 1:length + 1) == ",") then
-        problem = "'"//word%text//"' is not a number: no commas here; expected "// &
-          dimension_name(dimension)
+        call set_error(error, error_of_input, "'"//word%text//"' is not a number: no commas "// &
+          "here; expected "//dimension_name(dimension))
       else if (scan(word%text(length + 1:length + 1), ".*/+-0123456789") == 1) then
-        problem = "'"//word%text//"' is not a number; expected "//dimension_name(dimension)
+        call set_error(error, error_of_input, "'"//word%text//"' is not a number; expected "// &
+          dimension_name(dimension))
       else
-        call read_unit(word%text(length + 1:), dimension, measure, problem)
-        if (len(problem) == 0 .and. .not. serves_for(measure, dimension)) &
-          problem = wrong_unit(measure, dimension)
+        call read_unit(word%text(length + 1:), dimension, measure, error)
+        if (.not. allocated(error) .and. .not. serves_for(measure, dimension)) &
+          call set_error(error, error_of_input, wrong_unit(measure, dimension))
         place = token_part(word, length + 1, len(word%text))
       end if
     end if
-    if (len(problem) == 0) then
-      problem = range_problem(word%text, value, measure)
-      if (len(problem) > 0) place = word
+    if (.not. allocated(error)) then
+      call check_range(word%text, value, measure, error)
+      if (allocated(error)) place = word
     end if
-    fine = len(problem) == 0
+    fine = .not. allocated(error)
     if (fine) return
-    call add_error(diagnostics, place, problem)
+    call add_error(diagnostics, place, error%text)
   end subroutine read_measure
 
-  !> Why a number is beyond reason; empty if it is not.
+  !> Errors: a number is beyond reason.
   !!
   !! The limits are far from any mechanism, and near enough to keep products such as EI/L³ and their
   !! squares from overflowing.
-  pure function range_problem(text, value, measure) result(problem)
+  pure subroutine check_range(text, value, measure, error)
     character(len=*), intent(in) :: text
     real(wp), intent(in) :: value        !! as written
     type(unit_t), intent(in) :: measure
-    character(len=:), allocatable :: problem
+    type(error_t), allocatable, intent(inout) :: error
 
     real(wp), parameter :: largest = 1.0e30_wp, smallest = 1.0e-40_wp
 
-    problem = ""
     ! Before the conversion, which may overflow.
     if (abs(value) > largest*measure%denominator/measure%numerator) then
-      problem = "'"//text//"' is too large: numbers up to 1e30 (in SI units) are taken"
+      call set_error(error, error_of_input, "'"//text// &
+        "' is too large: numbers up to 1e30 (in SI units) are taken")
     else if (abs(value) > 0.0_wp .and. abs(value) < smallest*measure%denominator/ &
       measure%numerator) then
-      problem = "'"//text//"' is too small: numbers from 1e-40 (in SI units) are taken"
+      call set_error(error, error_of_input, "'"//text// &
+        "' is too small: numbers from 1e-40 (in SI units) are taken")
     end if
-  end function range_problem
+  end subroutine check_range
 
   !> Reads a quantity in SI.
   pure subroutine read_quantity(word, dimension, system, diagnostics, value, fine)
@@ -269,7 +275,7 @@ contains
     integer, intent(out) :: value
     logical, intent(out) :: fine !! whether the key is there and its value right
 
-    character(len=:), allocatable :: problem
+    type(error_t), allocatable :: error
     integer :: i
 
     value = least
@@ -277,9 +283,9 @@ contains
     i = entry_number(card, key)
     if (i == 0) return
     associate (word => card%entries(i)%value)
-      call read_integer(word%text, value, problem)
-      if (len(problem) > 0) then
-        call add_error(diagnostics, word, problem//"; expected a whole number from "// &
+      call read_integer(word%text, value, error)
+      if (allocated(error)) then
+        call add_error(diagnostics, word, error%text//"; expected a whole number from "// &
           to_string(least)//" up")
       else if (value < least) then
         call add_error(diagnostics, word, "'"//key//"=' must be at least "//to_string(least)// &

@@ -4,10 +4,11 @@ module settings
   use cards, only: card_t
   use deck_source, only: append_source, line_count, source_from_text, source_t
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
+  use errors, only: error_t
   use name_index, only: find_name, name_index_t, new_name_index
   use spelling, only: nearest_word, suggestion
   use text, only: character_count, same_word, string_t
-  use tokens, only: name_problem, token_t, token_texts
+  use tokens, only: is_name, token_t, token_texts
   use units, only: dimension_none, read_unit, unit_t
   implicit none (type, external)
   private
@@ -86,7 +87,7 @@ contains
     end if
     if (size(card%words) == 0) return
     call read_name(card%words(1), diagnostics)
-    if (len(name_problem(card%words(1)%text)) > 0) return
+    if (.not. is_name(card%words(1)%text)) return
     count = count + 1
     list(count)%name = card%words(1)
     list(count)%card = number
@@ -210,7 +211,7 @@ contains
     if (word%text == "$") then
       call add_error(diagnostics, word, "a name belongs to this '$': that of a SET or VARY card")
       return
-    else if (index(word%text, "$") /= 1 .or. len(name_problem(word%text(2:))) > 0) then
+    else if (index(word%text, "$") /= 1 .or. .not. is_name(word%text(2:))) then
       call add_error(diagnostics, word, &
         "'"//word%text//"' has a '$' with something joined to it; '$name' is a whole value, "// &
         "and its sign and its unit stand in the value, as in SET name -100mm")
@@ -235,14 +236,14 @@ contains
     character(len=:), allocatable :: hint
 
     type(unit_t) :: measure
-    character(len=:), allocatable :: problem
+    type(error_t), allocatable :: error
     integer :: length
 
     hint = ""
     do length = len(name) - 1, 1, -1
       if (find_name(settings%names, name(:length)) == 0) cycle
-      call read_unit(name(length + 1:), dimension_none, measure, problem)
-      if (len(problem) > 0) cycle
+      call read_unit(name(length + 1:), dimension_none, measure, error)
+      if (allocated(error)) cycle
       hint = "; '$"//name(:length)// &
         "' is a whole value, and its unit stands in the value, as in SET "//name(:length)// &
         " 100"//name(length + 1:)

@@ -3,6 +3,7 @@ module value_lists
   use card_reader, only: entry_number, read_measure, read_quantity
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
+  use errors, only: error_t
   use kinds, only: wp
   use numbers, only: number_length
   use sorting, only: ascending_order
@@ -173,15 +174,15 @@ contains
     integer, intent(inout) :: count
 
     type(unit_t) :: measure
-    character(len=:), allocatable :: problem
+    type(error_t), allocatable :: error
 
     if (count < 2) return
     if (number_length(words(count)%text) > 0 .or. same_word(words(count)%text, "to") .or. &
       same_word(words(count)%text, "step") .or. same_word(words(count - 1)%text, "to") .or. &
       same_word(words(count - 1)%text, "step")) return
-    call read_unit(words(count)%text, dimension, measure, problem)
-    if (len(problem) > 0) then
-      call add_error(diagnostics, words(count), problem)
+    call read_unit(words(count)%text, dimension, measure, error)
+    if (allocated(error)) then
+      call add_error(diagnostics, words(count), error%text)
     else if (any(measure%dimension /= dimension)) then
       call add_error(diagnostics, words(count), wrong_unit(measure, dimension))
     else
@@ -200,14 +201,14 @@ contains
     logical, intent(out) :: fine
 
     type(unit_t) :: measure, degrees
-    character(len=:), allocatable :: problem
+    type(error_t), allocatable :: error
 
     call read_measure(word, dimension, bare, diagnostics, value, measure, fine)
     if (.not. fine) return
     if (any(dimension /= dimension_angle)) then
       value = to_si(value, measure)
     else if (measure%name /= "deg") then
-      call read_unit("deg", dimension_angle, degrees, problem)
+      call read_unit("deg", dimension_angle, degrees, error)
       value = from_si(to_si(value, measure), degrees)
     end if
   end subroutine read_value

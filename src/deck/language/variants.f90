@@ -5,6 +5,7 @@ module variants
   use deck_source, only: source_t
   use diagnostics, only: add_error, diagnostics_t, has_errors
   use kinds, only: long, wp
+  use report_kinds, only: report_kind_t
   use settings, only: read_settings, settings_t, warn_of_unused_settings
   use substitution, only: put_value, slot_t, substitute
   use text, only: same_word, string_t, to_string
@@ -32,11 +33,12 @@ module variants
 contains
 
   !> Takes over the cards of a deck, reads its SET and VARY cards, and finds every `$name`.
-  pure subroutine read_deck_cards(cards, options, source, diagnostics, deck)
+  pure subroutine read_deck_cards(cards, options, source, reports, diagnostics, deck)
     type(card_t), allocatable, intent(inout) :: cards(:) !! moved into `deck`
     type(string_t), intent(in) :: options(:)             !! of the command line, each `name=value`
     type(source_t), intent(inout) :: source              !! the options are appended to it, to be
                                                          !! pointed at
+    type(report_kind_t), intent(in) :: reports(:)        !! that there are
     type(diagnostics_t), intent(inout) :: diagnostics
     type(deck_cards_t), intent(out) :: deck
 
@@ -46,13 +48,14 @@ contains
     deck%fixed = deck%written
     call substitute(deck%fixed, deck%settings, diagnostics, deck%slots)
     call warn_of_unused_settings(deck%settings, diagnostics)
-    call read_variations(deck, diagnostics)
+    call read_variations(deck, reports, diagnostics)
   end subroutine read_deck_cards
 
   !> Reads the VARY cards that the command line leaves, and joins them to the places where their
   !! values go.
-  pure subroutine read_variations(deck, diagnostics)
+  pure subroutine read_variations(deck, reports, diagnostics)
     type(deck_cards_t), intent(inout) :: deck
+    type(report_kind_t), intent(in) :: reports(:)
     type(diagnostics_t), intent(inout) :: diagnostics
 
     type(variation_t), allocatable :: list(:)
@@ -70,7 +73,8 @@ contains
       associate (setting => deck%settings%list(i))
         if (.not. setting%is_varied .or. size(deck%fixed(setting%card)%words) < 2) cycle
         count = count + 1
-        call read_variation(deck%fixed(setting%card), i, deck%fixed, diagnostics, list(count))
+        call read_variation(deck%fixed(setting%card), i, deck%fixed, reports, diagnostics, &
+          list(count))
         if (.not. any(deck%slots%setting == i) .and. all_found) then
           call add_error(diagnostics, setting%name, "no card uses '$"//setting%name%text// &
             "': all variants would be the same")

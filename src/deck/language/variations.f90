@@ -4,10 +4,10 @@ module variations
   use diagnostics, only: add_error, diagnostics_t, error_count
   use kinds, only: wp
   use numbers, only: number_length, shortest_text
+  use report_kinds, only: is_column_of, kind_named, report_kind_t
   use text, only: lower_case, same_word
   use tokens, only: token_part, token_t
-  use units, only: dimension_length, dimension_mass, dimension_none, dimension_time, &
-    new_unit_system, read_unit, unit_system_t, unit_t
+  use units, only: dimension_none, si_units
   use value_lists, only: read_values, value_list_t
   implicit none (type, external)
   private
@@ -24,14 +24,18 @@ module variations
                                            !! the same double, and its place
   end type variation_t
 
+  !> The column of every CSV table that says why a row has failed.
+  character(len=*), parameter :: csv_failure = "failure"
+
 contains
 
   !> Reads `VARY name a to b step s` and lists of numbers, as on the CRANK card. There are no values
   !! if the card is wrong.
-  pure subroutine read_variation(card, setting, cards, diagnostics, variation)
+  pure subroutine read_variation(card, setting, cards, reports, diagnostics, variation)
     type(card_t), intent(in) :: card !! of two words at least, with values in place of `$name`
     integer, intent(in) :: setting
     type(card_t), intent(in) :: cards(:) !! of the deck
+    type(report_kind_t), intent(in) :: reports(:) !! that there are
     type(diagnostics_t), intent(inout) :: diagnostics
     type(variation_t), intent(out) :: variation
 
@@ -46,8 +50,8 @@ contains
     allocate (variation%value(0), variation%word(0))
     words = card%words(2:)
     errors = error_count(diagnostics)
-    if (is_column(variation%name%text, cards)) call add_error(diagnostics, variation%name, &
-      "'"//variation%name%text// &
+    if (is_column(variation%name%text, cards, reports)) call add_error(diagnostics, &
+      variation%name, "'"//variation%name%text// &
       "' is a column of the tables; what varies needs a name of its own, for it becomes a "// &
       "column, too")
     call take_unit(words, diagnostics, variation%unit, fine)
@@ -63,60 +67,26 @@ contains
     end do
   end subroutine read_variation
 
-  !> Whether a name stands at the head of a column of some table. That of the newer reports is told
+  !> Whether a name stands at the head of a column of some table. That of some reports is refused
   !! only where they are asked for: `M`, `load` or `time` may vary elsewhere.
-  pure function is_column(name, cards) result(is)
+  pure function is_column(name, cards, reports) result(is)
     character(len=*), intent(in) :: name
     type(card_t), intent(in) :: cards(:) !! of the deck
+    type(report_kind_t), intent(in) :: reports(:)
     logical :: is
 
-    character(len=*), parameter :: columns = &
-      " speed crank theta3 theta4 omega3 omega4 alpha3 alpha4 Ax Ay Bx By "// &
-      "transmission_angle mass link x y ax ay Fx Fy m moment element node_a node_b xa ya xb yb "// &
-      "mass_a mass_b mode frequency s "//"ux uy rotation branch mac event failure "
-    integer :: i
+    integer :: i, k
 
-    is = index(columns, " "//name//" ") > 0 .or. is_numbered(name, "f") .or. &
-      is_numbered(name, "error")
+    is = name == csv_failure
+    do k = 1, size(reports)
+      if (reports(k)%reserved) is = is .or. is_column_of(reports(k), name)
+    end do
     do i = 1, size(cards)
       if (.not. same_word(cards(i)%keyword%text, "REPORT") .or. size(cards(i)%words) == 0) cycle
-      is = is .or. index(columns_of(lower_case(cards(i)%words(1)%text)), " "//name//" ") > 0
-      if (same_word(cards(i)%words(1)%text, "balance")) is = is .or. is_numbered(name, "h") .or. &
-        is_numbered(name, "phase")
+      k = kind_named(reports, lower_case(cards(i)%words(1)%text))
+      if (k > 0) is = is .or. is_column_of(reports(k), name)
     end do
   end function is_column
-
-  !> Columns of the tables of rigid dynamics.
-  pure function columns_of(report) result(columns)
-    character(len=*), intent(in) :: report
-    character(len=:), allocatable :: columns
-
-    columns = ""
-    select case (report)
-    case ("reactions")
-      columns = " O2x O2y A2x A2y A3x A3y B3x B3y B4x B4y O4x O4y torque shaking_x shaking_y "// &
-        "shaking_moment "
-    case ("points")
-      columns = " point vx vy "
-    case ("lagrange")
-      columns = " M dM V gravity load torque kinetic potential "
-    case ("balance")
-      columns = " xG yG shaking_x shaking_y shaking_moment torque balanced_x balanced_y "// &
-        "balanced_moment balanced_torque "//"linkage quantity largest rms mean "
-    case ("motion")
-      columns = " time omega2 torque kinetic potential work energy_error closure "
-    end select
-  end function columns_of
-
-  !> Whether a name is a word with a number behind it.
-  pure function is_numbered(name, word) result(is)
-    character(len=*), intent(in) :: name, word
-    logical :: is
-
-    is = .false.
-    if (len(name) > len(word) .and. index(name, word) == 1) is = verify(name(len(word) + 1:), &
-      "0123456789") == 0
-  end function is_numbered
 
   !> Takes the unit off the numbers: all have the same one, or none has, or it stands behind them
   !! all.
@@ -182,18 +152,5 @@ contains
 
     is = same_word(word%text, "to") .or. same_word(word%text, "step")
   end function is_range_word
-
-  !> Units for numbers that have none: any will do.
-  pure function si_units() result(system)
-    type(unit_system_t) :: system
-
-    type(unit_t) :: length, mass, time
-    character(len=:), allocatable :: problem
-
-    call read_unit("m", dimension_length, length, problem)
-    call read_unit("kg", dimension_mass, mass, problem)
-    call read_unit("s", dimension_time, time, problem)
-    system = new_unit_system(length, mass, time)
-  end function si_units
 
 end module variations

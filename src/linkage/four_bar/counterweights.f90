@@ -7,14 +7,12 @@
 !! linkage stands still.
 module counterweights
   use kinds, only: wp
-  use linkages, only: body_t, linkage_t, lump_t, normal_to
-  use poses, only: pose_t
+  use linkages, only: body_t, linkage_t, lump_t
   use rigid_bodies, only: rigid_bodies_of, rigid_body_t
   implicit none (type, external)
   private
 
-  public :: counterweight_t, find_counterweights, counterweight_lump, balanced_linkage, &
-    total_mass, linkage_mass_centre
+  public :: counterweight_t, find_counterweights, counterweight_lump, balanced_linkage
 
   !> A counterweight on a link that turns about a ground pivot.
   type :: counterweight_t
@@ -95,46 +93,5 @@ contains
       end associate
     end do
   end function balanced_linkage
-
-  !> Mass of all that moves [kg].
-  pure function total_mass(linkage, elements) result(mass)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: elements(:) !! (bodies) as above
-    real(wp) :: mass
-
-    type(rigid_body_t) :: rigid(size(linkage%bodies))
-
-    rigid = rigid_bodies_of(linkage, elements)
-    mass = sum(rigid%mass) + sum(linkage%pin_mass, mask=.not. linkage%is_ground)
-  end function total_mass
-
-  !> Place of the mass centre of a linkage; of one without mass the place of its driven body's pivot
-  !! [m].
-  pure function linkage_mass_centre(linkage, elements, pose) result(centre)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: elements(:) !! (bodies) as above
-    type(pose_t), intent(in) :: pose
-    real(wp) :: centre(2)
-
-    type(rigid_body_t) :: rigid(size(linkage%bodies))
-    real(wp) :: mass
-    integer :: i
-
-    mass = total_mass(linkage, elements)
-    centre = pose%pin(:, linkage%bodies(1)%first_pin)
-    if (mass <= 0.0_wp) return
-    rigid = rigid_bodies_of(linkage, elements)
-    centre = 0.0_wp
-    do i = 1, size(rigid)
-      associate (body => linkage%bodies(i), axis => pose%direction(:, i))
-        centre = centre + rigid(i)%mass*pose%pin(:, body%first_pin) + &
-          rigid(i)%first_moment(1)*axis + rigid(i)%first_moment(2)*normal_to(axis)
-      end associate
-    end do
-    do i = 1, size(linkage%pin_mass)
-      if (.not. linkage%is_ground(i)) centre = centre + linkage%pin_mass(i)*pose%pin(:, i)
-    end do
-    centre = centre/mass
-  end function linkage_mass_centre
 
 end module counterweights

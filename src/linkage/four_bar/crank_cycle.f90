@@ -1,19 +1,19 @@
 !> A whole turn of the crank: what the linkage does to the ground and asks of its drive, as periodic
 !! quantities.
 module crank_cycle
-  use counterweights, only: total_mass
   use errors, only: error_t
   use four_bar_limits, only: crank_reach, reach_t
   use kinds, only: wp
-  use kinematic_coefficients, only: find_kinematic_coefficients
+  use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use linkages, only: linkage_t
   use load_cases, only: case_count
   use poses, only: find_pose, pose_t
   use reactions, only: find_unit_reactions, unit_reactions_t
+  use rigid_bodies, only: rigid_bodies_of, rigid_body_t, total_mass
   implicit none (type, external)
   private
 
-  public :: cycle_t, turns_freely, find_cycle, cycle_values, largest_values, usual_values
+  public :: cycle_t, turns_freely, parts_at, cycle_values, largest_values, usual_values
   public :: quantity_names, quantity_count, shaking_x, shaking_y, shaking_force, shaking_moment, &
     drive_torque
 
@@ -52,37 +52,25 @@ contains
     end do
   end function turns_freely
 
-  !> Samples a turn evenly, from the crank angle 0.
-  pure function find_cycle(linkage, elements, samples) result(turn)
+  !> Forces, moment and torque at a sample of a turn, for each of the three loads.
+  pure function parts_at(linkage, elements, crank) result(part)
     type(linkage_t), intent(in) :: linkage !! whose crank turns freely
     integer, intent(in) :: elements(:)     !! (bodies) on whose nodes their masses sit; 0:
                                            !! distributed
-    integer, intent(in) :: samples
-    type(cycle_t) :: turn
-
-    integer :: i
-
-    allocate (turn%part(4, case_count, samples))
-    do i = 1, samples
-      turn%part(:, :, i) = parts_at(linkage, elements, 360.0_wp*real(i - 1, wp)/samples)
-    end do
-  end function find_cycle
-
-  pure function parts_at(linkage, elements, crank) result(part)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: elements(:)
-    real(wp), intent(in) :: crank !! [deg]
-    real(wp) :: part(4, case_count)
+    real(wp), intent(in) :: crank          !! [deg]
+    real(wp) :: part(4, case_count)        !! as in `cycle_t`
 
     type(pose_t) :: pose
     type(error_t), allocatable :: error
+    type(kinematic_coefficients_t) :: coefficients
     type(unit_reactions_t) :: unit
     integer :: i
 
     part = 0.0_wp
     call find_pose(linkage, crank, pose, error)
     if (allocated(error)) return
-    unit = find_unit_reactions(linkage, elements, pose, find_kinematic_coefficients(linkage, pose))
+    coefficients = find_kinematic_coefficients(linkage, pose)
+    call find_unit_reactions(linkage, elements, pose, coefficients, unit)
     do i = 1, case_count
       part(:, i) = [unit%of_case(i)%shaking_force, unit%of_case(i)%shaking_moment, &
         unit%of_case(i)%joints%torque]
@@ -125,10 +113,12 @@ contains
     real(wp), intent(in) :: acceleration !! α2 [rad/s²]
     real(wp) :: values(quantity_count)
 
+    type(rigid_body_t) :: rigid(size(linkage%bodies))
     real(wp) :: length, force
 
+    rigid = rigid_bodies_of(linkage, elements)
     length = sum(linkage%bodies%length)
-    force = total_mass(linkage, elements)*((speed**2 + abs(acceleration))*length + &
+    force = total_mass(linkage, rigid)*((speed**2 + abs(acceleration))*length + &
       norm2(linkage%gravity))
     values = force
     values([shaking_moment, drive_torque]) = force*length

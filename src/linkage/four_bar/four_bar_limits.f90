@@ -96,12 +96,12 @@ contains
       reach%ground + reach%most]
   end function limit_angles
 
-  !> Grashof class in words (shortest + longest against the other two; the shortest link decides the
-  !! kind).
+  !> Grashof class in words, with blanks behind them (shortest + longest against the other two; the
+  !! shortest link decides the kind).
   pure function grashof_class(ground_length, length) result(class)
     real(wp), intent(in) :: ground_length !! r1 [m]
     real(wp), intent(in) :: length(3)     !! crank, coupler, follower [m]
-    character(len=:), allocatable :: class
+    character(len=72) :: class
 
     real(wp) :: all_lengths(4), excess
 

@@ -9,7 +9,7 @@ module forward_motions
   use constants, only: degree, two_pi
   use curve_dynamics, only: find_inertia, new_curve_dynamics, potential_energy
   use drives, only: drive_t, resistances_t
-  use errors, only: error_t, set_error
+  use errors, only: error_of_dead_point, error_t, set_error
   use four_bar_rates, only: moving_four_bar_t, no_stop, rate_number, stop_many_steps, &
     stop_no_inertia, stop_steps, unknown_count, work_number
   use interruption, only: was_interrupted
@@ -112,7 +112,7 @@ contains
     motion%is_open = point%sine > 0.0_wp
     if (abs(point%sine) < dead_point_sine) then
       motion%is_open = linkage%dyads(1)%side > 0.0_wp
-      if (abs(speed) > 0.0_wp) call set_error(error, &
+      if (abs(speed) > 0.0_wp) call set_error(error, error_of_dead_point, &
         "dead point: at a limit position the crank turns back and can have no "// &
         "speed; expected speed=0")
       if (allocated(error)) return

@@ -5,7 +5,7 @@
 !! on. It ends being smooth only at change points, where all links lie in one line.
 module loop_curves
   use constants, only: pi, two_pi
-  use errors, only: error_t, set_error
+  use errors, only: error_of_dead_point, error_t, set_error
   use kinds, only: wp
   use linkages, only: cross, linkage_t, normal_to
   use poses, only: arm_to_middle, dead_point_sine, place_links, pose_t
@@ -74,7 +74,7 @@ contains
     if (allocated(error)) return
     if (max(abs(cross(e(:, 1), e(:, 2))), abs(cross(e(:, 1), e(:, 3))), &
       abs(cross(e(:, 2), e(:, 3)))) < change_point_sine) then
-      call set_error(error, change_point_message)
+      call set_error(error, error_of_dead_point, change_point_message)
     else if (abs(pose%sine(1)) < dead_point_sine) then
       ! The crank angle of a limit position, rounded, may be a little out of reach.
       call project(new_loop_curve(linkage), angle)

@@ -10,7 +10,8 @@ module part_reader
   use materials, only: read_material
   use models, only: model_t
   use motor_cards, only: read_motor, read_resistance
-  use request_cards, only: read_report
+  use report_cards, only: read_report
+  use report_kinds, only: report_kind_t
   use sections, only: read_section
   use text, only: lower_case, same_word
   implicit none (type, external)
@@ -21,8 +22,9 @@ module part_reader
 contains
 
   !> Reads the cards of which there may be many, and the loads.
-  pure subroutine read_parts(cards, diagnostics, model)
+  pure subroutine read_parts(cards, reports, diagnostics, model)
     type(card_t), intent(in) :: cards(:)
+    type(report_kind_t), intent(in) :: reports(:) !! that there are
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(inout) :: model !! with its units
 
@@ -33,7 +35,7 @@ contains
     allocate (model%masses(number_of(cards, "MASS")), model%points(number_of(cards, "POINT")), &
       model%forces(number_of(cards, "FORCE")), model%torques(number_of(cards, "TORQUE")), &
       model%resistances(number_of(cards, "LOAD")))
-    call read_linkage_parts(cards, diagnostics, model)
+    call read_linkage_parts(cards, reports, diagnostics, model)
     call read_body_parts(cards, diagnostics, model)
   end subroutine read_parts
 
@@ -51,8 +53,9 @@ contains
   end function number_of
 
   !> The linkage, what it is made of, and the reports.
-  pure subroutine read_linkage_parts(cards, diagnostics, model)
+  pure subroutine read_linkage_parts(cards, reports, diagnostics, model)
     type(card_t), intent(in) :: cards(:)
+    type(report_kind_t), intent(in) :: reports(:)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(inout) :: model
 
@@ -87,7 +90,7 @@ contains
         call read_mesh(cards(i), model%units, diagnostics, model%meshes(mesh))
       case ("report")
         report = report + 1
-        call read_report(cards(i), model%units, diagnostics, model%reports(report))
+        call read_report(cards(i), reports, model%units, diagnostics, model%reports(report))
       end select
     end do
   end subroutine read_linkage_parts

@@ -4,7 +4,6 @@ module name_checks
   use link_cards, only: link_t
   use models, only: model_t
   use name_index, only: find_name, name_index_t, new_name_index
-  use request_cards, only: report_kind_count
   use spelling, only: suggestion
   use text, only: same_word, string_t
   use tokens, only: token_t, token_texts
@@ -12,6 +11,9 @@ module name_checks
   private
 
   public :: check_names, look_up, link_ends
+
+  !> There are fewer kinds of reports than this.
+  integer, parameter :: most_reports = 100
 
 contains
 
@@ -45,8 +47,9 @@ contains
     call refuse_same(model%torques%link_name, "torque on link")
     call refuse_same(model%resistances%link_name, "load on link")
     do i = 2, size(model%reports)
-      do j = 1, min(i - 1, report_kind_count + 1)
-        if (model%reports(i)%kind == 0 .or. model%reports(i)%kind /= model%reports(j)%kind) cycle
+      do j = 1, min(i - 1, most_reports)
+        if (len_trim(model%reports(i)%kind%name) == 0 .or. &
+          model%reports(i)%kind%name /= model%reports(j)%kind%name) cycle
         call add_error(diagnostics, model%reports(i)%keyword, "this report is asked for twice", &
           model%reports(j)%keyword, "first asked for here")
         exit

@@ -4,7 +4,6 @@ module report_needs
   use link_cards, only: has_own_mass, link_t
   use models, only: bears_lumped_masses, inertia_lumped, inertia_none, is_moving, model_t, &
     needs_beams, needs_frequencies, needs_inertia, needs_masses, report_number, report_of_masses
-  use request_cards, only: report_branches, report_frequencies, report_points, report_shapes
   use text, only: joined, word_list
   implicit none (type, external)
   private
@@ -24,7 +23,7 @@ contains
       call check_link(diagnostics, model, model%links(i))
     end do
     call check_inertia_card(diagnostics, model)
-    points = report_number(model, report_points)
+    points = report_number(model, "points")
     if (points == 0 .or. size(model%points) > 0) return
     call add_error(diagnostics, model%reports(points)%keyword, &
       "this report has a row for every POINT card, and there is none; "// &
@@ -79,8 +78,7 @@ contains
       call add_error(diagnostics, model%reports(report)%keyword, &
         "this report uses inertia loads"//expected)
     else
-      report = max(report_number(model, report_frequencies), report_number(model, report_shapes), &
-        report_number(model, report_branches))
+      report = findloc(model%reports%kind%frequencies, .true., dim=1, back=.true.)
       call add_error(diagnostics, model%reports(report)%keyword, &
         "frequencies under the loads of "// &
         trim(merge("the motion", "gravity   ", is_moving(model)))//" are asked for"//expected)

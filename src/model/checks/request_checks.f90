@@ -5,8 +5,8 @@ module request_checks
   use kinds, only: wp
   use models, only: effects_static, is_loaded, is_moving, model_t, needs_frequencies, &
     needs_positions, report_number
+  use report_kinds, only: report_kind_t, report_names
   use report_needs, only: check_report_needs
-  use request_cards, only: report_kinds, report_motion, report_shapes
   use spelling, only: nearest_word
   use text, only: joined, same_word, string_t, to_string, upper_case, word_list
   use tokens, only: token_t
@@ -29,8 +29,9 @@ module request_checks
 contains
 
   !> Cards that no deck can do without.
-  subroutine check_required(cards, diagnostics, model)
+  subroutine check_required(cards, reports, diagnostics, model)
     type(card_t), intent(in) :: cards(:)
+    type(report_kind_t), intent(in) :: reports(:) !! that there are
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model !! with its reports
 
@@ -53,7 +54,7 @@ contains
     end if
     if (.not. has_card(cards, "REPORT")) then
       call missing("there is no REPORT card; expected REPORT and one of: "// &
-        joined(word_list(report_kinds)))
+        joined(word_list(report_names(reports))))
     end if
 
   contains
@@ -135,7 +136,7 @@ contains
 
     integer :: i, number
 
-    number = report_number(model, report_shapes)
+    number = report_number(model, "shapes")
     if (number == 0) return
     associate (report => model%reports(number))
       call check_values(report%crank, model%crank, "crank angle", "CRANK")
@@ -218,7 +219,7 @@ contains
 
     integer :: i
 
-    if (report_number(model, report_motion) > 0) return
+    if (report_number(model, "motion") > 0) return
     if (model%motor%keyword%line > 0) call warn_of_idle_card(diagnostics, model%motor%keyword)
     do i = 1, size(model%resistances)
       call warn_of_idle_card(diagnostics, model%resistances(i)%keyword)

@@ -2,9 +2,7 @@
 module vibration_checks
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
-  use models, only: model_t, needs_beams, needs_frequencies, report_number, solver_band, &
-    solver_dense
-  use request_cards, only: report_branches, report_frequencies, report_mesh, report_shapes
+  use models, only: model_t, needs_beams, needs_frequencies, solver_band, solver_dense
   use text, only: lower_case
   implicit none (type, external)
   private
@@ -22,8 +20,7 @@ contains
 
     if (.not. needs_beams(model) .or. size(model%links) == 0) return
     if (all(model%links%rigid)) then
-      report = max(report_number(model, report_frequencies), report_number(model, report_shapes), &
-        report_number(model, report_branches), report_number(model, report_mesh))
+      report = findloc(model%reports%kind%beams, .true., dim=1, back=.true.)
       call add_error(diagnostics, model%reports(report)%keyword, &
         "all links are rigid: nothing bends", model%links(1)%rigid_word, "the first rigid link")
       return

@@ -1,4 +1,4 @@
-!> The memory that a run will take, told before it takes any.
+!> The memory that a run will take, estimated before it takes any.
 !!
 !! An estimate on the safe side from the sizes of what is kept, and constants measured with the peak
 !! of the process.
@@ -7,11 +7,9 @@ module memory_needs
   use beam_element, only: axial_degree, element_unknowns
   use deformation_shapes, only: bending_unknowns
   use diagnostics, only: add_error, diagnostics_t
-  use frequency_study, only: method_wanted
   use kinds, only: wp
   use models, only: effects_static, model_t, needs_frequencies, report_number
-  use motion_study, only: motion_rows_of
-  use request_cards, only: report_branches, report_motion, report_shapes
+  use study_requests, only: method_wanted, motion_instants_of
   use text, only: plural, to_string
   use tokens, only: token_t
   use vibration_models, only: by_band, by_dense, by_long_mesh, chosen_method
@@ -78,7 +76,8 @@ contains
     needs(of_results)%place = model%reports(1)%keyword
     if (size(model%crank%words) > 0) needs(of_results)%place = model%crank%words(1)
     needs(of_results)%what = "the results at "//plural(size(model%crank%value), "position")
-    needs(of_results)%bytes = size(model%crank%value)*of_pose
+    needs(of_results)%bytes = size(model%crank%value)*(of_pose + &
+      number*sum(model%reports%kind%numbers))
     call add_motion(model, needs(of_motion))
     if (any(model%links%mesh > 0) .and. all(model%links%mesh > 0 .or. model%links%rigid)) &
       call add_mesh(model, threads, needs)
@@ -98,11 +97,11 @@ contains
     integer, parameter :: numbers = 16 !! of a sample, rounded up
     integer :: report
 
-    report = report_number(model, report_motion)
+    report = report_number(model, "motion")
     if (report == 0) return
     need%place = model%reports(report)%keyword
-    need%what = "the "//plural(motion_rows_of(model), "instant")//" of the motion"
-    need%bytes = numbers*number*motion_rows_of(model)
+    need%what = "the "//plural(motion_instants_of(model), "instant")//" of the motion"
+    need%bytes = numbers*number*motion_instants_of(model)
   end subroutine add_motion
 
   !> Displacements at the points of all links in every mode, kept until they are written.
@@ -114,7 +113,7 @@ contains
     real(wp) :: drawn
     integer :: report
 
-    report = report_number(model, report_shapes)
+    report = report_number(model, "shapes")
     if (report == 0) return
     associate (asked => model%reports(report))
       drawn = merge(size(asked%crank%value), size(model%crank%value), size(asked%crank%value) > 0)
@@ -137,7 +136,7 @@ contains
     real(wp) :: kept
     integer :: report
 
-    report = report_number(model, report_branches)
+    report = report_number(model, "branches")
     if (report == 0) return
     kept = size(model%links) + 1 + size(model%links)*(2.0_wp*model%modes + 2)
     need%place = model%reports(report)%keyword

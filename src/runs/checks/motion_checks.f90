@@ -7,7 +7,6 @@ module motion_checks
   use linkages, only: linkage_t
   use mechanisms, only: mechanism_t
   use models, only: model_t, report_number
-  use request_cards, only: report_motion
   use rigid_bodies, only: rigid_bodies_of, rigid_body_t
   use text, only: to_string
   implicit none (type, external)
@@ -27,7 +26,7 @@ contains
 
     integer :: number
 
-    number = report_number(model, report_motion)
+    number = report_number(model, "motion")
     if (number == 0) return
     associate (report => model%reports(number))
       if (.not. can_reach(reach, report%start_angle)) then

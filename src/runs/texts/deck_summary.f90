@@ -8,11 +8,11 @@ module deck_summary
     json_value
   use models, only: model_t, needs_frequencies
   use program_version, only: program_name, version_number
-  use run_findings, only: failure_t, findings_t
+  use run_findings, only: at_position, failure_t, findings_t, in_motion
+  use run_totals, only: run_totals_t
   use tables, only: column_t, has_unit, table_t
   use text, only: character_count, plural, string_t
   use tokens, only: token_t
-  use variant_runs, only: run_totals_t
   implicit none (type, external)
   private
 
@@ -249,23 +249,24 @@ contains
       call add_member(varied, parameters(i)%text, json_value(failure%varied(i)))
     end do
     call add_member(object, "parameters", json_object(varied))
-    if (failure%of_motion) then
+    select case (failure%stage)
+    case (in_motion)
       call add_member(object, "stage", json_value("motion"))
       call add_member(object, "speed", json_null)
-    else if (failure%at_every_speed) then
+    case (at_position)
       call add_member(object, "stage", json_value("position"))
       call add_member(object, "speed", json_null)
-    else
+    case default
       call add_member(object, "stage", json_value("frequencies"))
       call add_member(object, "speed", json_value(failure%speed))
-    end if
+    end select
     call add_member(object, "crank", json_value(failure%crank))
-    if (failure%of_motion) then
+    if (failure%stage == in_motion) then
       call add_member(object, "time", json_value(failure%time))
     else
       call add_member(object, "time", json_null)
     end if
-    call add_member(object, "reason", json_value(failure%reason))
+    call add_member(object, "reason", json_value(failure%error%text))
     value = json_object(object)
   end function failure_object
 

@@ -6,7 +6,6 @@ module run_document
   use deck_summary, only: add_plain_message, error_list, failure_array, warning_list
   use json_text, only: add_item, add_member, json_array, json_list_t, json_null, json_object, &
     json_value
-  use numbers, only: read_integer
   use program_version, only: program_name, version_number
   use text, only: string_t
   use variants, only: parameter_names
@@ -78,7 +77,14 @@ contains
       call add_member(object, "exit_status", json_value(outcome%exit_status))
     end if
     errors = error_list(deck%diagnostics, deck%source, file)
-    if (len(deck%refusal) > 0) call add_refusal(errors, file, deck%refusal)
+    if (allocated(deck%refusal)) then
+      if (deck%refusal%place%line > 0) then
+        call add_plain_message(errors, file, deck%refusal%text, deck%refusal%place%line, &
+          deck%refusal%place%column)
+      else
+        call add_plain_message(errors, file, deck%refusal%text)
+      end if
+    end if
     if (allocated(outcome%complaints)) then
       do i = 1, size(outcome%complaints)
         call add_plain_message(errors, file, outcome%complaints(i)%text)
@@ -91,26 +97,5 @@ contains
       parameter_names(deck%cards)))
     value = json_object(object)
   end function deck_object
-
-  !> Appends `file: error: message` or `file:line:column: error: message`, taken apart.
-  pure subroutine add_refusal(errors, file, refusal)
-    type(json_list_t), intent(inout) :: errors
-    character(len=*), intent(in) :: file, refusal
-
-    character(len=*), parameter :: mark = ": error: "
-    character(len=:), allocatable :: place, problem
-    integer :: at, colon, line, column
-
-    at = len(file) + index(refusal(len(file) + 1:), mark)
-    place = refusal(len(file) + 2:at - 1)
-    colon = index(place, ":")
-    if (colon == 0) then
-      call add_plain_message(errors, file, refusal(at + len(mark):))
-    else
-      call read_integer(place(:colon - 1), line, problem)
-      call read_integer(place(colon + 1:), column, problem)
-      call add_plain_message(errors, file, refusal(at + len(mark):), line, column)
-    end if
-  end subroutine add_refusal
 
 end module run_document

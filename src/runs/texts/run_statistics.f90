@@ -1,55 +1,36 @@
-!> What a run computed, and how long its stages took.
+!> What a run computed, and how long it took.
 module run_statistics
   use beam_mesh, only: beam_mesh_t
   use deformation_model, only: deformation_model_t
   use kinds, only: long, wp
+  use run_totals, only: run_totals_t
   use sweeps, only: sweep_t
-  use text, only: append_string, plural, string_t, to_string
-  use variant_runs, only: run_totals_t
+  use text, only: plural, to_string
   use vibration_models, only: by_band, by_dense, by_link_modes, by_long_mesh, by_orders
   implicit none (type, external)
   private
 
-  public :: stopwatch_t, start_stopwatch, stop_stage, statistics_text, sweep_summary, &
+  public :: run_times_t, statistics_text, sweep_summary, &
     accuracy_summary
 
-  !> Seconds of one stage after another.
-  type :: stopwatch_t
-    integer(long), private :: last = 0_long
-    type(string_t), allocatable, private :: stages(:)
-  end type stopwatch_t
+  !> How long the parts of a run took, besides what its totals know.
+  type :: run_times_t
+    real(wp) :: first_computing = 0.0_wp !! studies of the first variant [s]
+    real(wp) :: first_writing = 0.0_wp   !! its rows found and written [s]
+    real(wp) :: others = 0.0_wp          !! all other variants [s]
+    real(wp) :: files = 0.0_wp           !! texts written, files put in place [s]
+  end type run_times_t
 
 contains
 
-  subroutine start_stopwatch(watch)
-    type(stopwatch_t), intent(out) :: watch
-
-    allocate (watch%stages(0))
-    call system_clock(watch%last)
-  end subroutine start_stopwatch
-
-  !> Ends a stage and begins the next.
-  subroutine stop_stage(watch, name)
-    type(stopwatch_t), intent(inout) :: watch
-    character(len=*), intent(in) :: name
-
-    integer(long) :: now, rate
-
-    call system_clock(now, rate)
-    call append_string(watch%stages, name//" "//to_string(1000.0_wp*real(now - watch%last, &
-      wp)/real(rate, wp), 3)//" ms")
-    watch%last = now
-  end subroutine stop_stage
-
   !> The ledger of `--stats`.
-  pure function statistics_text(watch, name, totals) result(text)
-    type(stopwatch_t), intent(in) :: watch
+  pure function statistics_text(name, totals, times) result(text)
     character(len=*), intent(in) :: name !! of the deck
     type(run_totals_t), intent(in) :: totals
+    type(run_times_t), intent(in) :: times
     character(len=:), allocatable :: text
 
     character(len=*), parameter :: line_feed = achar(10)
-    integer :: i
 
     text = name//":"
     if (totals%variants > 1) text = text//" variants "//to_string(totals%variants)//","
@@ -64,13 +45,23 @@ contains
       text = text//name//": skipped beams, matrices and eigenproblems: no report needs them"// &
         line_feed
     end if
-    text = text//name//":"
-    do i = 1, size(watch%stages)
-      text = text//" "//watch%stages(i)%text
-      if (i < size(watch%stages)) text = text//","
-    end do
-    text = text//line_feed
+    text = text//name//": computing "//milliseconds(times%first_computing)//", writing "// &
+      milliseconds(times%first_writing)
+    if (totals%variants > 1) then
+      text = text//", other variants "//milliseconds(times%others)// &
+        " (all threads: computing "//milliseconds(totals%computing - times%first_computing)// &
+        ", writing "//milliseconds(totals%writing - times%first_writing)//")"
+    end if
+    text = text//", files "//milliseconds(times%files)//line_feed
   end function statistics_text
+
+  !> `12.3 ms`
+  pure function milliseconds(seconds) result(text)
+    real(wp), intent(in) :: seconds
+    character(len=:), allocatable :: text
+
+    text = to_string(1000.0_wp*seconds, 3)//" ms"
+  end function milliseconds
 
   !> What frequencies took, and what was not needed.
   pure function frequency_lines(name, totals) result(text)

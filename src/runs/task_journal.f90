@@ -5,17 +5,16 @@
 !! cut off is known for what it is. Results are kept to the last bit: a run that goes on writes the
 !! same bytes as one that nobody disturbed. The first lines are the deck as it was understood, and
 !! the program that computed it: a journal of anything else is not used.
-module sweep_journal
+module task_journal
+  use byte_streams, only: get_integers, put_integers
   use file_system, only: joined_path, remove_file
   use kinds, only: long, wp
-  use position_results, only: position_result_t
-  use result_bytes, only: get_integers, get_result, put_integers, put_result
-  use text_buffer, only: buffer_text, text_buffer_t
+  use text_buffer, only: text_buffer_t
   implicit none (type, external)
   private
 
-  public :: journal_t, open_journal, recall_block, keep_block, close_journal, remove_journal, &
-    journal_name
+  public :: journal_t, open_journal, recall_task, keeps_tasks, keep_task, close_journal, &
+    remove_journal, journal_name
 
   character(len=*), parameter :: journal_name = "resume.part"
 
@@ -25,11 +24,12 @@ module sweep_journal
   !> Bytes are handed to the system after so much time: that much of a killed run is lost [s].
   real(wp), parameter :: flush_time = 0.25_wp
 
-  !> A mark before and after every block: its variant, its number, its length in bytes.
+  !> A mark before and after every task: its group, its number, its length in bytes.
   integer, parameter :: mark_bytes = 3*storage_size(1)/8
 
   type :: block_t
-    integer :: variant = 0, number = 0, length = 0
+    integer :: task(2) = 0 !! group and number
+    integer :: length = 0
     integer(long) :: place = 0_long !! of its first byte
   end type block_t
 
@@ -127,7 +127,7 @@ contains
 
     at = 1
     call get_integers(mark, at, numbers)
-    enters = all(numbers > 0)
+    enters = all(numbers(:2) >= 0) .and. numbers(3) > 0
     if (enters) enters = place + numbers(3) + mark_bytes - 1 <= bytes
     if (.not. enters) return
     if (journal%blocks == size(journal%list)) then
@@ -135,73 +135,73 @@ contains
       larger(:size(journal%list)) = journal%list
       call move_alloc(larger, journal%list)
     end if
-    journal%list(journal%blocks + 1) = block_t(numbers(1), numbers(2), numbers(3), place)
+    journal%list(journal%blocks + 1) = block_t(numbers(:2), numbers(3), place)
   end function enters
 
-  !> Gives the results of a block that the earlier run has computed.
-  subroutine recall_block(journal, variant, number, states, results, found)
+  !> Gives the bytes of a task that the earlier run has done.
+  subroutine recall_task(journal, task, bytes, found)
     type(journal_t), intent(inout) :: journal
-    integer, intent(in) :: variant, number !! from 1
-    integer, intent(in) :: states(:)       !! of the block: numbers in `results`
-    type(position_result_t), intent(inout) :: results(:)
+    integer, intent(in) :: task(2) !! group and number
+    character(len=:), allocatable, intent(out) :: bytes
     logical, intent(out) :: found
 
-    character(len=:), allocatable :: bytes
-    integer :: i, k, at, status
+    integer :: i, k, status
 
     found = .false.
     do k = 1, journal%blocks
-      ! Blocks are asked for nearly in the order in which they were kept.
+      ! Tasks are asked for nearly in the order in which they were kept.
       i = 1 + modulo(journal%last + k - 1, journal%blocks)
       associate (block => journal%list(i))
-        if (block%variant /= variant .or. block%number /= number) cycle
+        if (any(block%task /= task)) cycle
         allocate (character(len=block%length) :: bytes)
         read (journal%unit, pos=block%place, iostat=status) bytes
       end associate
-      if (status /= 0) return
-      at = 1
+      found = status == 0
       journal%last = i
-      found = .true.
-      exit
+      return
     end do
-    if (.not. found) return
-    do i = 1, size(states)
-      call get_result(bytes, at, results(states(i)))
-    end do
-  end subroutine recall_block
+  end subroutine recall_task
 
-  !> Appends a block of results, once the run has taken long enough.
-  subroutine keep_block(journal, variant, number, states, results)
+  !> Whether what a task gives is kept now: only once the run has taken long enough.
+  function keeps_tasks(journal) result(keeps)
     type(journal_t), intent(inout) :: journal
-    integer, intent(in) :: variant, number !! from 1
-    integer, intent(in) :: states(:)       !! of the block: numbers in `results`
-    type(position_result_t), intent(in) :: results(:)
+    logical :: keeps
 
-    type(text_buffer_t) :: payload, mark
     integer(long) :: now, rate
-    integer :: i, status
 
+    keeps = .false.
     if (journal%broken .or. .not. allocated(journal%path)) return
-    call system_clock(now, rate)
     if (.not. journal%is_open) then
+      call system_clock(now, rate)
       if (real(now - journal%clock, wp) < least_time*real(rate, wp)) return
       call begin_journal(journal)
-      if (journal%broken) return
     end if
-    do i = 1, size(states)
-      call put_result(payload, results(states(i)))
-    end do
-    call put_integers(mark, [variant, number, payload%length])
-    write (journal%unit, pos=journal%next, iostat=status) buffer_text(mark), &
-      payload%storage(:payload%length), buffer_text(mark)
+    keeps = .not. journal%broken
+  end function keeps_tasks
+
+  !> Appends the bytes of a task.
+  subroutine keep_task(journal, task, bytes)
+    type(journal_t), intent(inout) :: journal
+    integer, intent(in) :: task(2)            !! group and number
+    type(text_buffer_t), intent(in) :: bytes
+
+    type(text_buffer_t) :: mark
+    integer(long) :: now, rate
+    integer :: status
+
+    if (.not. keeps_tasks(journal)) return
+    call put_integers(mark, [task, bytes%length])
+    write (journal%unit, pos=journal%next, iostat=status) mark%storage(:mark%length), &
+      bytes%storage(:bytes%length), mark%storage(:mark%length)
     journal%broken = status /= 0
     if (journal%broken) return
-    journal%next = journal%next + 2*mark%length + payload%length
+    journal%next = journal%next + 2*mark%length + bytes%length
     journal%kept = journal%kept + 1
+    call system_clock(now, rate)
     if (real(now - journal%clock, wp) < flush_time*real(rate, wp)) return
     flush (journal%unit, iostat=status)
     journal%clock = now
-  end subroutine keep_block
+  end subroutine keep_task
 
   subroutine begin_journal(journal)
     type(journal_t), intent(inout) :: journal
@@ -242,4 +242,4 @@ contains
     if (allocated(journal%path)) call remove_file(journal%path)
   end subroutine remove_journal
 
-end module sweep_journal
+end module task_journal

@@ -1,0 +1,100 @@
+!> Values as bytes and back, to the last bit: what is kept of a run, and what goes from one task to
+!! another.
+module byte_streams
+  use kinds, only: wp
+  use text_buffer, only: append_text, text_buffer_t
+  implicit none (type, external)
+  private
+
+  public :: put_integers, put_logicals, put_reals, put_string
+  public :: get_integers, get_logicals, get_reals, get_string
+
+  integer, parameter :: real_bytes = storage_size(1.0_wp)/8, integer_bytes = storage_size(1)/8
+
+contains
+
+  !> Appends whole numbers to a buffer.
+  pure subroutine put_integers(buffer, values)
+    type(text_buffer_t), intent(inout) :: buffer
+    integer, intent(in) :: values(:)
+
+    character(len=integer_bytes*size(values)) :: bytes
+
+    bytes = transfer(values, bytes)
+    call append_text(buffer, bytes)
+  end subroutine put_integers
+
+  !> Appends answers to a buffer.
+  pure subroutine put_logicals(buffer, values)
+    type(text_buffer_t), intent(inout) :: buffer
+    logical, intent(in) :: values(:)
+
+    call put_integers(buffer, merge(1, 0, values))
+  end subroutine put_logicals
+
+  !> Appends numbers to a buffer.
+  pure subroutine put_reals(buffer, values)
+    type(text_buffer_t), intent(inout) :: buffer
+    real(wp), intent(in) :: values(:)
+
+    character(len=real_bytes*size(values)) :: bytes
+
+    bytes = transfer(values, bytes)
+    call append_text(buffer, bytes)
+  end subroutine put_reals
+
+  !> Appends a text with its length to a buffer.
+  pure subroutine put_string(buffer, text)
+    type(text_buffer_t), intent(inout) :: buffer
+    character(len=*), intent(in) :: text
+
+    call put_integers(buffer, [len(text)])
+    call append_text(buffer, text)
+  end subroutine put_string
+
+  !> Reads whole numbers; `at` moves past them.
+  pure subroutine get_integers(bytes, at, values)
+    character(len=*), intent(in) :: bytes
+    integer, intent(inout) :: at !! place of the next byte
+    integer, intent(out) :: values(:)
+
+    values = transfer(bytes(at:at + integer_bytes*size(values) - 1), values)
+    at = at + integer_bytes*size(values)
+  end subroutine get_integers
+
+  !> Reads answers; `at` moves past them.
+  pure subroutine get_logicals(bytes, at, values)
+    character(len=*), intent(in) :: bytes
+    integer, intent(inout) :: at
+    logical, intent(out) :: values(:)
+
+    integer :: numbers(size(values))
+
+    call get_integers(bytes, at, numbers)
+    values = numbers /= 0
+  end subroutine get_logicals
+
+  !> Reads numbers; `at` moves past them.
+  pure subroutine get_reals(bytes, at, values)
+    character(len=*), intent(in) :: bytes
+    integer, intent(inout) :: at
+    real(wp), intent(out) :: values(:)
+
+    values = transfer(bytes(at:at + real_bytes*size(values) - 1), values)
+    at = at + real_bytes*size(values)
+  end subroutine get_reals
+
+  !> Reads a text; `at` moves past it.
+  pure subroutine get_string(bytes, at, text)
+    character(len=*), intent(in) :: bytes
+    integer, intent(inout) :: at
+    character(len=:), allocatable, intent(out) :: text
+
+    integer :: length(1)
+
+    call get_integers(bytes, at, length)
+    text = bytes(at:at + length(1) - 1)
+    at = at + length(1)
+  end subroutine get_string
+
+end module byte_streams

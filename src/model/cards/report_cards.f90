@@ -1,0 +1,135 @@
+!> REPORT: a table, or several, that is asked for.
+module report_cards
+  use card_reader, only: check_form, entry_number, has_key, read_choice, read_entry_count, &
+    read_entry_quantity, require_positive
+  use cards, only: card_t
+  use diagnostics, only: add_error, diagnostics_t
+  use kinds, only: wp
+  use report_kinds, only: report_kind_t, report_names
+  use text, only: joined, to_string, word_list
+  use tokens, only: token_t
+  use units, only: dimension_angle, dimension_rate, dimension_time, unit_system_t
+  use value_lists, only: empty_list, read_entry_list, value_list_t
+  implicit none (type, external)
+  private
+
+  public :: report_t, read_report
+
+  !> One REPORT card.
+  type :: report_t
+    type(token_t) :: keyword
+    type(report_kind_t) :: kind  !! without a name if it is unknown
+    type(value_list_t) :: crank  !! of `crank=` [deg]; empty: every position
+    type(value_list_t) :: speed  !! of `speed=` [rad/s]; empty: every speed
+    integer :: points = 21       !! of `points=`, along each link
+    ! Of REPORT motion, each with its word; the words have no line if the deck does not say.
+    real(wp) :: start_angle = 0.0_wp !! of the crank [deg]
+    real(wp) :: start_speed = 0.0_wp !! of the crank [rad/s]
+    real(wp) :: end_time = 0.0_wp    !! [s]
+    real(wp) :: time_step = 0.0_wp   !! between rows [s]
+    type(token_t) :: start_angle_word, start_speed_word, end_time_word, time_step_word
+  end type report_t
+
+  !> More rows of a motion than this are a slip of the pen.
+  integer, parameter :: most_rows = 1000000
+
+contains
+
+  !> Reads `REPORT kind`, for shapes with `crank=`, `speed=` and `points=`, for a motion with its
+  !! start and its times.
+  pure subroutine read_report(card, reports, system, diagnostics, report)
+    type(card_t), intent(in) :: card
+    type(report_kind_t), intent(in) :: reports(:) !! that there are
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(report_t), intent(out) :: report
+
+    character(len=:), allocatable :: pattern
+    integer :: number
+    logical :: fine, known_keys
+
+    report%keyword = card%keyword
+    report%crank = empty_list()
+    report%speed = empty_list()
+    report%start_angle_word = token_t("", 0, 0)
+    report%start_speed_word = token_t("", 0, 0)
+    report%end_time_word = token_t("", 0, 0)
+    report%time_step_word = token_t("", 0, 0)
+    pattern = "REPORT "//joined(word_list(report_names(reports)), "|")
+    number = 0
+    if (size(card%words) > 0) then
+      call read_choice(card%words(1), report_names(reports), diagnostics, number)
+      if (number == 0) return
+      report%kind = reports(number)
+      if (len_trim(report%kind%pattern) > 0) pattern = trim(report%kind%pattern)
+    end if
+    call check_form(card, 1, 1, trim(report%kind%keys), pattern, diagnostics, fine, known_keys)
+    select case (report%kind%name)
+    case ("shapes")
+      call read_shapes(card, system, diagnostics, report)
+    case ("motion")
+      call read_motion(card, known_keys, system, diagnostics, report)
+    end select
+  end subroutine read_report
+
+  !> Reads `REPORT shapes [crank=a,b,...] [speed=...] [points=]`.
+  pure subroutine read_shapes(card, system, diagnostics, report)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(report_t), intent(inout) :: report
+
+    integer :: points
+    logical :: fine
+
+    call read_entry_list(card, "crank", dimension_angle, system, diagnostics, report%crank)
+    call read_entry_list(card, "speed", dimension_rate, system, diagnostics, report%speed)
+    call read_entry_count(card, "points", 2, diagnostics, points, fine)
+    if (fine) report%points = points
+  end subroutine read_shapes
+
+  !> Reads `REPORT motion crank= [speed=0] end= step=`.
+  pure subroutine read_motion(card, known_keys, system, diagnostics, report)
+    type(card_t), intent(in) :: card
+    logical, intent(in) :: known_keys !! no key is unknown
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(report_t), intent(inout) :: report
+
+    type(value_list_t) :: angle
+    logical :: fine, ends, steps
+
+    if (known_keys .and. .not. has_key(card, "crank")) then
+      call add_error(diagnostics, card%keyword, &
+        "'crank=' is missing; expected the angle at which the motion starts")
+    end if
+    call read_entry_list(card, "crank", dimension_angle, system, diagnostics, angle)
+    if (size(angle%value) > 1) then
+      call add_error(diagnostics, angle%words(2), &
+        "a motion starts at one crank angle, not at several")
+    else if (size(angle%value) == 1) then
+      report%start_angle = angle%value(1)
+      report%start_angle_word = angle%words(1)
+    end if
+    call read_entry_quantity(card, "speed", dimension_rate, system, .false., diagnostics, &
+      report%start_speed, fine)
+    if (fine) report%start_speed_word = card%entries(entry_number(card, "speed"))%value
+    call read_entry_quantity(card, "end", dimension_time, system, known_keys, diagnostics, &
+      report%end_time, ends)
+    if (ends) report%end_time_word = card%entries(entry_number(card, "end"))%value
+    call read_entry_quantity(card, "step", dimension_time, system, known_keys, diagnostics, &
+      report%time_step, steps)
+    if (steps) report%time_step_word = card%entries(entry_number(card, "step"))%value
+    if (ends) call require_positive(card, "end", report%end_time, diagnostics)
+    if (steps) call require_positive(card, "step", report%time_step, diagnostics)
+    if (report%end_time <= 0.0_wp .or. report%time_step <= 0.0_wp) return
+    if (report%time_step > report%end_time) then
+      call add_error(diagnostics, report%time_step_word, "'step=' must be at most 'end=', "// &
+        report%end_time_word%text//", not "//report%time_step_word%text)
+    else if (report%end_time > most_rows*report%time_step) then
+      call add_error(diagnostics, report%time_step_word, "a motion of more than "// &
+        to_string(most_rows)//" steps is asked for")
+    end if
+  end subroutine read_motion
+
+end module report_cards

@@ -1,0 +1,137 @@
+!> `branches.dat`: frequencies followed by their shapes from position to position.
+!!
+!! What the deck and the table call a branch is a locus here: a branch of the linkage is another
+!! thing.
+module loci_report
+  use errors, only: error_t
+  use frequency_report, only: effects_notes
+  use frequency_study, only: failure_at
+  use loci_study, only: event_ambiguous, event_crossing, event_start, event_veering, failed_rows, &
+    is_empty, locus_row_t, rows_of_locus
+  use table_columns, only: cells, name_list_t, table_layout_t
+  use table_rows, only: add_failure, add_gap, add_row, rows_t
+  use tables, only: integer_cell, name_cell
+  use text, only: append_string, string_t, to_string
+  use variant_results, only: variant_results_t
+  implicit none (type, external)
+  private
+
+  public :: loci_notes, locus_words, add_loci
+
+  integer, parameter :: event_width = 18
+
+contains
+
+  !> What `mac` and the events mean.
+  pure subroutine loci_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant
+    type(string_t), allocatable, intent(out) :: notes(:)
+
+    notes = effects_notes(variant%model)
+    call append_string(notes, &
+      "modes followed by their shapes; mac: likeness to the row before, "// &
+      "in the mass inner product, from 0 to 1")
+    call append_string(notes, "event: - or start, crossing:BRANCH, veering:BRANCH, ambiguous "// &
+      "(shapes do not tell which branch goes on: a new one begins)")
+  end subroutine loci_notes
+
+  !> The words in the column `event`, which is as wide as the longest of them.
+  pure function locus_words() result(list)
+    type(name_list_t) :: list
+
+    list%column = "event"
+    allocate (list%names(1))
+    list%names(1)%text = repeat("x", event_width - 1)
+  end function locus_words
+
+  !> One row a position and locus; a block a speed, within it locus after locus, each along the
+  !! crank angle.
+  subroutine add_loci(variant, layout, rows)
+    type(variant_results_t), intent(in) :: variant
+    type(table_layout_t), intent(in) :: layout
+    type(rows_t), intent(inout) :: rows
+
+    integer :: locus, k
+    logical :: first
+
+    associate (found => variant%found)
+      do k = 1, size(found%sweep%request%speed)
+        if (k > 1) call add_gap(rows, 2)
+        call add_failures(variant, k, rows)
+        first = .true.
+        do locus = 1, found%loci%count
+          if (is_empty(found%loci, locus, k)) cycle
+          if (.not. first) call add_gap(rows, 1)
+          first = .false.
+          call add_locus(variant, layout, locus, k, rows)
+        end do
+      end do
+    end associate
+  end subroutine add_loci
+
+  !> The failed rows of a speed, in the order of their crank angles.
+  subroutine add_failures(variant, speed, rows)
+    type(variant_results_t), intent(in) :: variant
+    integer, intent(in) :: speed !! number
+    type(rows_t), intent(inout) :: rows
+
+    type(error_t) :: error
+    integer, allocatable :: failed(:)
+    integer :: i
+
+    associate (found => variant%found)
+      failed = failed_rows(found%positions, found%sweep, speed)
+      do i = 1, size(failed)
+        error = failure_at(found%positions, found%sweep, found%positions%state(failed(i)), speed)
+        call add_failure(rows, [found%sweep%request%speed(speed), &
+          found%positions%crank(failed(i))], error%text)
+      end do
+    end associate
+  end subroutine add_failures
+
+  !> The rows of one locus at one speed; where it is interrupted by a failed row, so is its curve.
+  subroutine add_locus(variant, layout, locus, speed, rows)
+    type(variant_results_t), intent(in) :: variant
+    type(table_layout_t), intent(in) :: layout
+    integer, intent(in) :: locus, speed !! numbers
+    type(rows_t), intent(inout) :: rows
+
+    type(locus_row_t), allocatable :: list(:)
+    integer :: i
+
+    associate (found => variant%found)
+      list = rows_of_locus(found%positions, found%sweep, found%loci, locus, speed)
+      do i = 1, size(list)
+        if (list(i)%is_broken) then
+          ! One empty line breaks a curve; two would end the block.
+          call add_gap(rows, 1)
+          cycle
+        end if
+        call add_row(rows, cells(layout, 1, [found%sweep%request%speed(speed), &
+          found%positions%crank(list(i)%position)])//integer_cell(locus, "branch")// &
+          integer_cell(list(i)%mode, "mode")//cells(layout, 5, [list(i)%frequency, &
+          list(i)%mac])//name_cell(trim(event_name(list(i)%event, list(i)%partner)), &
+          event_width))
+      end do
+    end associate
+  end subroutine add_locus
+
+  pure function event_name(event, partner) result(name)
+    integer, intent(in) :: event, partner
+    character(len=24) :: name
+
+    select case (event)
+    case (event_start)
+      name = "start"
+    case (event_crossing)
+      name = "crossing:"//to_string(partner)
+    case (event_veering)
+      name = "veering:"//to_string(partner)
+    case (event_ambiguous)
+      name = "ambiguous"
+    case default
+      name = "-"
+    end select
+  end function event_name
+
+end module loci_report

@@ -1,0 +1,45 @@
+!> The rows of a table, found on all threads and put in order.
+module report_rows
+  use report_table, only: add_item, table_plan_t
+  use table_rows, only: append_rows, rows_t
+  use variant_results, only: variant_results_t
+  implicit none (type, external)
+  private
+
+  public :: find_rows
+
+contains
+
+  !> Appends the rows of some items.
+  subroutine find_rows(plan, variant, first, last, threads, rows)
+    type(table_plan_t), intent(in) :: plan
+    type(variant_results_t), intent(in) :: variant
+    integer, intent(in) :: first, last !! numbers of the items
+    integer, intent(in) :: threads
+    type(rows_t), intent(inout) :: rows
+
+    type(rows_t), allocatable :: pieces(:)
+    integer :: items, piece, count, i
+
+    if (threads == 1) then
+      do i = first, last
+        call add_item(plan, variant, i, rows)
+      end do
+      return
+    end if
+    items = last - first + 1
+    count = max(1, min(4*threads, items))
+    allocate (pieces(count))
+    !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(piece, i)
+    do piece = 1, count
+      do i = first + ((piece - 1)*items)/count, first + (piece*items)/count - 1
+        call add_item(plan, variant, i, pieces(piece))
+      end do
+    end do
+    !$omp end parallel do
+    do piece = 1, count
+      call append_rows(rows, pieces(piece))
+    end do
+  end subroutine find_rows
+
+end module report_rows

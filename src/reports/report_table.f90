@@ -1,0 +1,319 @@
+!> The table of reports: what each is called, what its columns are, what it needs, how it is
+!! computed and how it is written.
+!!
+!! A new report is a record in `report_table`, a line in `find_study` for each study of its own, a
+!! component of `study_results_t` for what that finds, and a line for its notes and its rows.
+!!
+!! Rows come in items, each found by itself: a position at a speed, or all rows of a small table.
+!! Items may be found at the same time; therefore nothing that `add_item` calls has a result of
+!! deferred length, which gfortran 12 keeps in one place for all threads.
+module report_table
+  use balance_report, only: add_balance, add_harmonics, balance_notes, harmonics_notes, &
+    harmonics_words
+  use balance_study, only: find_balance
+  use frequency_report, only: add_frequencies, add_shapes, drawn_rows, frequency_notes, shape_notes
+  use harmonics_study, only: find_harmonics, highest_harmonic
+  use inertia_report, only: add_inertia, has_moments, inertia_notes, inertia_owners
+  use inertia_study, only: find_inertia_loads
+  use kinematics_report, only: add_kinematics, kinematics_notes
+  use kinematics_study, only: find_kinematics
+  use lagrange_report, only: add_lagrange, lagrange_notes
+  use lagrange_study, only: find_lagrange_terms
+  use link_cards, only: has_own_mass
+  use linkage_report, only: add_linkage, linkage_remarks, linkage_words
+  use linkage_study, only: find_linkage
+  use loci_report, only: add_loci, loci_notes, locus_words
+  use mesh_report, only: add_mesh, mesh_notes
+  use motion_report, only: add_motion, motion_notes, motion_words
+  use points_report, only: add_points, point_names, points_notes
+  use points_study, only: find_points
+  use reactions_report, only: add_reactions, reactions_notes
+  use reactions_study, only: find_reactions
+  use report_kinds, only: report_kind_t, table_kind_t
+  use table_columns, only: name_list_t, new_layout, table_layout_t
+  use table_rows, only: add_failure, add_gap, rows_t
+  use text, only: string_t
+  use variant_results, only: variant_results_t
+  implicit none (type, external)
+  private
+
+  public :: table_plan_t, reports, study_names, find_study, plan_table, table_notes, add_item
+
+  !> A table as it is to be written.
+  type :: table_plan_t
+    character(len=:), allocatable :: name
+    type(table_layout_t) :: layout
+    integer :: items = 0                          !! pieces in which its rows are found
+    integer, private :: positions = 0, speeds = 0 !! of a table with items for each
+    integer, allocatable, private :: drawn(:, :)  !! (position and speed, items) of shapes
+  end type table_plan_t
+
+  !> All studies in the order in which they are made: some take what others have found. The last
+  !! three are made block by block, or step by step, by whoever runs them.
+  character(len=*), parameter :: study_names(11) = [character(len=12) :: "kinematics", "inertia", &
+    "points", "reactions", "lagrange", "balance", "harmonics", "linkage", "motion", "frequencies", &
+    "loci"]
+
+  type(report_kind_t), parameter :: reports(*) = [ &
+    report_kind_t(name="kinematics", help="how the links move", studies="kinematics", &
+      positions=.true., reserved=.true., numbers=11, tables=[ &
+      table_kind_t("kinematics", "speed:rad/s crank,theta3,theta4:deg omega3,omega4:rad/s "// &
+        "alpha3,alpha4:rad/s2 Ax,Ay,Bx,By:length transmission_angle:deg"), table_kind_t()]), &
+    report_kind_t(name="inertia", help="masses, their accelerations and inertia forces", &
+      studies="inertia", positions=.true., masses=.true., reserved=.true., numbers=46, tables=[ &
+      table_kind_t("inertia", "speed:rad/s crank:deg mass:# link:name x,y:length "// &
+        "ax,ay:acceleration Fx,Fy:force m:mass moment?:moment"), table_kind_t()]), &
+    report_kind_t(name="mesh", help="the finite element model", positions=.true., beams=.true., &
+      reserved=.true., tables=[ &
+      table_kind_t("mesh", "crank:deg link:name element,node_a,node_b:# xa,ya,xb,yb:length "// &
+        "mass_a,mass_b:mass"), table_kind_t()]), &
+    report_kind_t(name="frequencies", help="natural frequencies with their errors", &
+      studies="frequencies", positions=.true., beams=.true., frequencies=.true., reserved=.true., &
+      tables=[ &
+      table_kind_t("frequencies", "speed:rad/s crank:deg f*:Hz error*:-"), table_kind_t()]), &
+    report_kind_t(name="shapes", help="mode shapes along the links", keys="crank speed points", &
+      pattern="REPORT shapes [crank=a,b,...] [speed=...] [points=]", default="points=21", &
+      studies="frequencies", positions=.true., beams=.true., frequencies=.true., reserved=.true., &
+      tables=[ &
+      table_kind_t("shapes", "speed:rad/s crank:deg mode:# frequency:Hz link:name s,x,y:length "// &
+        "ux,uy:mass^-1/2 rotation:rotation"), table_kind_t()]), &
+    report_kind_t(name="branches", help="frequencies followed by their shapes", &
+      studies="frequencies loci", positions=.true., beams=.true., frequencies=.true., &
+      reserved=.true., tables=[ &
+      table_kind_t("branches", "speed:rad/s crank:deg branch,mode:# frequency:Hz mac:- "// &
+        "event:name"), table_kind_t()]), &
+    report_kind_t(name="reactions", help="forces in the pins, torque, shaking force and moment", &
+      studies="reactions", positions=.true., masses=.true., numbers=48, tables=[ &
+      table_kind_t("reactions", "speed:rad/s crank:deg "// &
+        "O2x,O2y,A2x,A2y,A3x,A3y,B3x,B3y,B4x,B4y,O4x,O4y:force torque:moment "// &
+        "shaking_x,shaking_y:force shaking_moment:moment"), table_kind_t()]), &
+    report_kind_t(name="points", help="paths, velocities and accelerations of points", &
+      studies="points", positions=.true., tables=[ &
+      table_kind_t("points", "speed:rad/s crank:deg point:name x,y:length vx,vy:velocity "// &
+        "ax,ay:acceleration"), table_kind_t()]), &
+    report_kind_t(name="lagrange", help="the torque by energies", studies="lagrange", &
+      positions=.true., masses=.true., numbers=5, tables=[ &
+      table_kind_t("lagrange", "speed:rad/s crank:deg M,dM:inertia "// &
+        "V,gravity,load,torque,kinetic,potential:moment"), table_kind_t()]), &
+    report_kind_t(name="linkage", help="class, limits and special positions", studies="linkage", &
+      tables=[ &
+      table_kind_t("linkage", "branch,event:name crank,theta3,theta4,transmission_angle:deg"), &
+      table_kind_t()]), &
+    report_kind_t(name="balance", help="shaking force, counterweights, harmonics", &
+      studies="reactions balance harmonics", positions=.true., masses=.true., numbers=98, tables=[ &
+      table_kind_t("balance", "speed:rad/s crank:deg xG,yG:length shaking_x,shaking_y:force "// &
+        "shaking_moment,torque:moment balanced_x,balanced_y:force "// &
+        "balanced_moment,balanced_torque:moment"), &
+      table_kind_t("harmonics", "speed:rad/s linkage,quantity:name largest,rms,mean:- h*:- "// &
+        "phase*:deg")]), &
+    report_kind_t(name="motion", help="how the linkage moves by itself", &
+      keys="crank speed end step", pattern="REPORT motion crank= [speed=0] end= step=", &
+      default="speed=0", studies="motion", masses=.true., tables=[ &
+      table_kind_t("motion", "time:time crank,theta3,theta4:deg omega2,omega3,omega4:rad/s "// &
+        "torque,kinetic,potential,work,energy_error:moment closure:length branch:name"), &
+      table_kind_t()])]
+
+contains
+
+  !> Makes one of the studies that are made in one piece. What others it takes has been found.
+  subroutine find_study(study, threads, variant)
+    character(len=*), intent(in) :: study !! name
+    integer, intent(in) :: threads
+    type(variant_results_t), intent(inout) :: variant
+
+    integer :: i
+
+    associate (linkage => variant%mechanism%linkage, elements => variant%mechanism%load_elements, &
+        model => variant%model, points => variant%mechanism%points, found => variant%found)
+      select case (study)
+      case ("kinematics")
+        call find_kinematics(linkage, found%positions, threads, found%kinematics)
+      case ("inertia")
+        call find_inertia_loads(linkage, elements, has_own_mass(model%links(model%loop)), &
+          found%positions, threads, found%inertia)
+      case ("points")
+        call find_points(linkage, points%body, &
+          reshape([(points(i)%place, i=1, size(points))], [2, size(points)]), found%positions, &
+          threads, found%points)
+      case ("reactions")
+        call find_reactions(linkage, elements, found%positions, threads, found%reactions)
+      case ("lagrange")
+        call find_lagrange_terms(linkage, elements, found%positions, threads, found%lagrange)
+      case ("balance")
+        call find_balance(linkage, elements, found%positions, threads, found%balance)
+      case ("harmonics")
+        call find_harmonics(linkage, elements, model%speed%value, model%acceleration, threads, &
+          found%harmonics)
+      case ("linkage")
+        call find_linkage(linkage, found%linkage)
+      end select
+    end associate
+  end subroutine find_study
+
+  !> Columns and items of a table.
+  subroutine plan_table(table, variant, plan)
+    type(table_kind_t), intent(in) :: table
+    type(variant_results_t), intent(in) :: variant
+    type(table_plan_t), intent(out) :: plan
+
+    type(name_list_t) :: names(2)
+    integer :: count
+    logical :: optional
+
+    plan%name = trim(table%name)
+    names(1)%column = ""
+    names(2)%column = ""
+    count = 0
+    optional = .false.
+    plan%speeds = size(variant%model%speed%value)
+    plan%positions = size(variant%found%positions%crank)
+    plan%items = plan%positions*plan%speeds
+    select case (plan%name)
+    case ("inertia")
+      names(1) = inertia_owners(variant)
+      optional = has_moments(variant)
+    case ("mesh")
+      names(1) = link_names(variant)
+      plan%items = plan%positions
+    case ("frequencies")
+      count = variant%model%modes
+      plan%speeds = size(variant%found%sweep%request%speed)
+      plan%items = plan%positions*plan%speeds
+    case ("shapes")
+      names(1) = link_names(variant)
+      plan%drawn = drawn_rows(variant)
+      plan%items = size(plan%drawn, 2)
+    case ("branches")
+      names(1) = locus_words()
+      plan%items = 1
+    case ("points")
+      names(1) = point_names(variant)
+    case ("linkage")
+      names = linkage_words()
+      plan%items = 1
+    case ("harmonics")
+      names = harmonics_words()
+      count = highest_harmonic
+      plan%items = 1
+    case ("motion")
+      names(1) = motion_words()
+      plan%items = 1
+    end select
+    call new_layout(table, variant%model%units, count, optional, names, plan%layout)
+  end subroutine plan_table
+
+  !> The names in a column `link`.
+  pure function link_names(variant) result(list)
+    type(variant_results_t), intent(in) :: variant
+    type(name_list_t) :: list
+
+    list%column = "link"
+    list%names = variant%mechanism%names
+  end function link_names
+
+  !> What stands at the head of a table, besides its title and columns.
+  subroutine table_notes(table, variant, notes)
+    character(len=*), intent(in) :: table !! name
+    type(variant_results_t), intent(in) :: variant
+    type(string_t), allocatable, intent(out) :: notes(:)
+
+    select case (table)
+    case ("kinematics")
+      call kinematics_notes(variant, notes)
+    case ("inertia")
+      call inertia_notes(variant, notes)
+    case ("mesh")
+      call mesh_notes(variant, notes)
+    case ("frequencies")
+      call frequency_notes(variant, notes)
+    case ("shapes")
+      call shape_notes(variant, notes)
+    case ("branches")
+      call loci_notes(variant, notes)
+    case ("reactions")
+      call reactions_notes(variant, notes)
+    case ("points")
+      call points_notes(variant, notes)
+    case ("lagrange")
+      call lagrange_notes(variant, notes)
+    case ("linkage")
+      call linkage_remarks(variant, notes)
+    case ("balance")
+      call balance_notes(variant, notes)
+    case ("harmonics")
+      call harmonics_notes(variant, notes)
+    case ("motion")
+      call motion_notes(variant, notes)
+    end select
+  end subroutine table_notes
+
+  !> The rows of an item.
+  subroutine add_item(plan, variant, number, rows)
+    type(table_plan_t), intent(in) :: plan
+    type(variant_results_t), intent(in) :: variant
+    integer, intent(in) :: number         !! of the item, from 1
+    type(rows_t), intent(inout) :: rows
+
+    integer :: position, speed
+
+    select case (plan%name)
+    case ("linkage")
+      call add_linkage(variant, plan%layout, rows)
+    case ("harmonics")
+      call add_harmonics(variant, plan%layout, rows)
+    case ("motion")
+      call add_motion(variant, plan%layout, rows)
+    case ("branches")
+      call add_loci(variant, plan%layout, rows)
+    case ("shapes")
+      if (number > 1) call add_gap(rows, 2)
+      call add_shapes(variant, plan%layout, plan%drawn(1, number), plan%drawn(2, number), rows)
+    case default
+      ! A block a speed, in it position after position.
+      position = 1 + mod(number - 1, plan%positions)
+      speed = 1 + (number - 1)/plan%positions
+      if (position == 1 .and. speed > 1) call add_gap(rows, 2)
+      call add_position(plan%name, variant, plan%layout, position, speed, rows)
+    end select
+  end subroutine add_item
+
+  !> The rows of a position and speed; those of a mesh have no speed.
+  subroutine add_position(table, variant, layout, position, speed, rows)
+    character(len=*), intent(in) :: table
+    type(variant_results_t), intent(in) :: variant
+    type(table_layout_t), intent(in) :: layout
+    integer, intent(in) :: position, speed !! numbers
+    type(rows_t), intent(inout) :: rows
+
+    associate (positions => variant%found%positions)
+      associate (state => positions%states(positions%state(position)), &
+          crank => positions%crank(position))
+        if (table == "frequencies") then
+          call add_frequencies(variant, layout, position, speed, rows)
+        else if (allocated(state%error) .and. table == "mesh") then
+          call add_failure(rows, [crank], state%error%text)
+        else if (allocated(state%error)) then
+          call add_failure(rows, [variant%model%speed%value(speed), crank], state%error%text)
+        else
+          select case (table)
+          case ("kinematics")
+            call add_kinematics(variant, layout, position, speed, rows)
+          case ("inertia")
+            call add_inertia(variant, layout, position, speed, rows)
+          case ("mesh")
+            call add_mesh(variant, layout, position, rows)
+          case ("reactions")
+            call add_reactions(variant, layout, position, speed, rows)
+          case ("points")
+            call add_points(variant, layout, position, speed, rows)
+          case ("lagrange")
+            call add_lagrange(variant, layout, position, speed, rows)
+          case ("balance")
+            call add_balance(variant, layout, position, speed, rows)
+          end select
+        end if
+      end associate
+    end associate
+  end subroutine add_position
+
+end module report_table

@@ -1,0 +1,190 @@
+!> Columns as the table of reports lists them → columns with the units of a deck, and cells in them.
+module table_columns
+  use kinds, only: wp
+  use number_text, only: number_width
+  use report_kinds, only: column_kind_t, columns_of, table_kind_t
+  use tables, only: append_column, column_t, integer_column, name_column, real_cells, real_column
+  use text, only: string_t, to_string
+  use units, only: coherent_factor, coherent_unit, dimension_acceleration, dimension_force, &
+    dimension_inertia, dimension_length, dimension_mass, dimension_moment, dimension_none, &
+    dimension_time, dimension_velocity, from_si, unit_system_t, unit_t
+  implicit none (type, external)
+  private
+
+  public :: table_layout_t, name_list_t, new_layout, cells, column_width, table_unit, table_factor
+
+  !> The columns of one table, with what turns numbers in SI into those of each.
+  type :: table_layout_t
+    type(column_t), allocatable :: columns(:)
+    type(unit_t), allocatable, private :: measures(:) !! (columns)
+  end type table_layout_t
+
+  !> The names that may stand in a column.
+  type :: name_list_t
+    character(len=:), allocatable :: column
+    type(string_t), allocatable :: names(:)
+  end type name_list_t
+
+contains
+
+  !> The columns of a table in the units of a deck.
+  pure subroutine new_layout(table, system, count, optional, names, layout)
+    type(table_kind_t), intent(in) :: table
+    type(unit_system_t), intent(in) :: system
+    integer, intent(in) :: count             !! how many columns a numbered one stands for
+    logical, intent(in) :: optional          !! whether optional columns are there
+    type(name_list_t), intent(in) :: names(:) !! of the columns of names
+    type(table_layout_t), intent(out) :: layout
+
+    type(column_kind_t), allocatable :: kinds(:)
+    type(unit_t) :: measure
+    integer :: i, j, filled, total
+
+    call columns_of(table, kinds)
+    total = 0
+    do i = 1, size(kinds)
+      total = total + columns_for(kinds(i), count, optional)
+    end do
+    allocate (layout%measures(total))
+    filled = 0
+    do i = 1, size(kinds)
+      associate (kind => kinds(i))
+        measure = table_unit(kind%unit, system)
+        do j = 1, columns_for(kind, count, optional)
+          filled = filled + 1
+          layout%measures(filled) = measure
+          if (kind%unit == "#") then
+            call append_column(layout%columns, integer_column(kind%name))
+          else if (kind%unit == "name") then
+            call append_column(layout%columns, name_column(kind%name, names_for(kind%name, names)))
+          else if (kind%is_numbered) then
+            call append_column(layout%columns, real_column(kind%name//to_string(j), measure%name))
+          else
+            call append_column(layout%columns, real_column(kind%name, measure%name))
+          end if
+        end do
+      end associate
+    end do
+  end subroutine new_layout
+
+  !> How many columns one of the list stands for.
+  pure function columns_for(kind, count, optional) result(number)
+    type(column_kind_t), intent(in) :: kind
+    integer, intent(in) :: count
+    logical, intent(in) :: optional
+    integer :: number
+
+    number = 1
+    if (kind%is_numbered) number = count
+    if (kind%is_optional .and. .not. optional) number = 0
+  end function columns_for
+
+  pure function names_for(column, names) result(list)
+    character(len=*), intent(in) :: column
+    type(name_list_t), intent(in) :: names(:)
+    type(string_t), allocatable :: list(:)
+
+    integer :: i
+
+    allocate (list(0))
+    do i = 1, size(names)
+      if (names(i)%column == column) list = names(i)%names
+    end do
+  end function names_for
+
+  !> The unit that stands for a word of the list: that of a quantity in the deck's units, else the
+  !! word itself, for numbers that stay as they are.
+  pure function table_unit(word, system) result(measure)
+    character(len=*), intent(in) :: word
+    type(unit_system_t), intent(in) :: system
+    type(unit_t) :: measure
+
+    type(unit_t) :: mass, length
+
+    mass = coherent_unit(system, dimension_mass)
+    length = coherent_unit(system, dimension_length)
+    select case (word)
+    case ("mass^-1/2")
+      measure%name = mass%name//"^-0.5"
+    case ("rotation")
+      measure%name = "rad."//mass%name//"^-0.5."//length%name//"^-1"
+    case default
+      if (is_quantity(word)) then
+        measure = coherent_unit(system, dimension_of(word))
+      else
+        measure%name = word
+      end if
+    end select
+  end function table_unit
+
+  !> The unit of a quantity without its name: threads may ask for it at the same time.
+  pure function table_factor(quantity, system) result(measure)
+    character(len=*), intent(in) :: quantity !! `length`, `force`, …
+    type(unit_system_t), intent(in) :: system
+    type(unit_t) :: measure
+
+    measure = coherent_factor(system, dimension_of(quantity))
+  end function table_factor
+
+  pure function is_quantity(word) result(is)
+    character(len=*), intent(in) :: word
+    logical :: is
+
+    is = any(dimension_of(word) /= dimension_none)
+  end function is_quantity
+
+  !> The dimension of a quantity; none of other words.
+  pure function dimension_of(word) result(dimension)
+    character(len=*), intent(in) :: word
+    integer :: dimension(4)
+
+    select case (word)
+    case ("length")
+      dimension = dimension_length
+    case ("mass")
+      dimension = dimension_mass
+    case ("time")
+      dimension = dimension_time
+    case ("velocity")
+      dimension = dimension_velocity
+    case ("acceleration")
+      dimension = dimension_acceleration
+    case ("force")
+      dimension = dimension_force
+    case ("moment")
+      dimension = dimension_moment
+    case ("inertia")
+      dimension = dimension_inertia
+    case ("first_moment")
+      dimension = dimension_mass + dimension_length
+    case default
+      dimension = dimension_none
+    end select
+  end function dimension_of
+
+  !> Numbers in SI as the cells of neighbouring columns.
+  function cells(layout, first, values) result(text)
+    type(table_layout_t), intent(in) :: layout
+    integer, intent(in) :: first          !! number of the first column
+    real(wp), intent(in) :: values(:)     !! [SI]
+    character(len=number_width*size(values)) :: text
+
+    real(wp) :: converted(size(values))
+    integer :: i
+
+    do i = 1, size(values)
+      converted(i) = from_si(values(i), layout%measures(first + i - 1))
+    end do
+    text = real_cells(converted)
+  end function cells
+
+  !> How wide a column is.
+  pure function column_width(layout, column) result(width)
+    type(table_layout_t), intent(in) :: layout
+    integer, intent(in) :: column
+    integer :: width
+
+    width = layout%columns(column)%width
+  end function column_width
+
+end module table_columns

@@ -1,0 +1,64 @@
+!> Rows of a variant that could not be computed.
+module result_failures
+  use errors, only: error_t
+  use frequency_study, only: has_result
+  use kinds, only: wp
+  use models, only: needs_frequencies
+  use run_findings, only: add_failure, at_frequencies, at_position, failure_t, findings_t, in_motion
+  use variant_results, only: variant_results_t
+  implicit none (type, external)
+  private
+
+  public :: find_failures
+
+contains
+
+  !> Collects every position and speed without a result, and a motion that has ended too soon.
+  pure subroutine find_failures(variant, findings)
+    type(variant_results_t), intent(in) :: variant
+    type(findings_t), intent(inout) :: findings
+
+    integer :: i, k
+
+    associate (found => variant%found, crank => variant%found%positions%crank)
+      do i = 1, size(crank)
+        associate (state => found%positions%state(i))
+          if (allocated(found%positions%states(state)%error)) then
+            call add(variant, at_position, found%positions%states(state)%error, crank(i), 0.0_wp, &
+              0.0_wp, findings)
+          else if (needs_frequencies(variant%model)) then
+            do k = 1, size(found%sweep%request%speed)
+              if (has_result(found%positions, found%sweep, state, k)) cycle
+              call add(variant, at_frequencies, found%sweep%results(state)%outcome(k)%error, &
+                crank(i), found%sweep%request%speed(k), 0.0_wp, findings)
+            end do
+          end if
+        end associate
+      end do
+      if (allocated(found%motion%error)) call add(variant, in_motion, found%motion%error, &
+        found%motion%last%angle(1), 0.0_wp, found%motion%last%time, findings)
+    end associate
+  end subroutine find_failures
+
+  pure subroutine add(variant, stage, error, crank, speed, time, findings)
+    type(variant_results_t), intent(in) :: variant
+    integer, intent(in) :: stage     !! at_position, at_frequencies or in_motion
+    type(error_t), intent(in) :: error
+    real(wp), intent(in) :: crank    !! [deg]
+    real(wp), intent(in) :: speed    !! [rad/s]
+    real(wp), intent(in) :: time     !! [s]
+    type(findings_t), intent(inout) :: findings
+
+    type(failure_t) :: failure
+
+    failure%stage = stage
+    failure%crank = crank
+    failure%speed = speed
+    failure%time = time
+    failure%error = error
+    failure%variant = variant%model%variant
+    failure%varied = variant%model%varied
+    call add_failure(findings, failure)
+  end subroutine add
+
+end module result_failures

@@ -1,0 +1,167 @@
+!> Results of a variant that need a warning: divergences, large deflections, an accuracy that is not
+!! reached.
+module result_warnings
+  use kinds, only: wp
+  use mechanisms, only: mechanism_t
+  use models, only: needs_frequencies
+  use positions, only: positions_t
+  use run_findings, only: add_warnings, findings_t, place_in_words
+  use sweeps, only: has_result, sweep_t
+  use text, only: append_string, plural, string_t, to_string
+  use variant_results, only: variant_results_t
+  use vibration_models, only: by_orders
+  implicit none (type, external)
+  private
+
+  public :: find_warnings
+
+  !> The axial frequencies assume that the loads bend the links little; this is the share of a
+  !! link's length that is still little.
+  real(wp), parameter :: most_deflection = 0.01_wp
+
+contains
+
+  !> Collects divergences and large deflections.
+  pure subroutine find_warnings(variant, findings)
+    type(variant_results_t), intent(in) :: variant
+    type(findings_t), intent(inout) :: findings
+
+    type(string_t), allocatable :: more(:)
+    integer :: k
+
+    ! Function results by themselves: as arguments gfortran 12 would lose their memory.
+    if (.not. needs_frequencies(variant%model)) return
+    associate (model => variant%model, positions => variant%found%positions, &
+        sweep => variant%found%sweep)
+      do k = 1, size(sweep%request%speed)
+        more = divergences(positions, sweep, k)
+        call add_warnings(findings, model%variant, more)
+      end do
+      if (sweep%request%axial) then
+        more = deflections(variant%mechanism, positions, sweep)
+        call add_warnings(findings, model%variant, more)
+      end if
+      if (sweep%request%method == by_orders) then
+        more = missed_accuracy(positions, sweep)
+        call add_warnings(findings, model%variant, more)
+      end if
+    end associate
+  end subroutine find_warnings
+
+  !> The crank angles at which an eigenvalue is negative at one speed, neighbours of the deck's list
+  !! drawn together.
+  pure function divergences(positions, sweep, speed) result(warning)
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    integer, intent(in) :: speed !! number
+    type(string_t), allocatable :: warning(:)
+
+    character(len=:), allocatable :: ranges
+    integer :: i, first
+
+    allocate (warning(0))
+    ranges = ""
+    first = 0
+    do i = 1, size(positions%crank)
+      if (diverges(positions, sweep, i, speed) .and. first == 0) first = i
+      if (first == 0) cycle
+      if (i < size(positions%crank)) then
+        if (diverges(positions, sweep, i + 1, speed)) cycle
+      end if
+      if (len(ranges) > 0) ranges = ranges//", "
+      ranges = ranges//to_string(positions%crank(first), 10)
+      if (i > first) ranges = ranges//" to "//to_string(positions%crank(i), 10)
+      first = 0
+    end do
+    if (len(ranges) == 0) return
+    call append_string(warning, "static divergence at speed "// &
+      to_string(sweep%request%speed(speed), 10)//" rad/s, crank "//ranges// &
+      " deg: an eigenvalue is negative, and so the frequency written")
+
+  end function divergences
+
+  !> Whether the lowest eigenvalue of a position and speed, both by number, is negative.
+  pure function diverges(positions, sweep, position, speed)
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    integer, intent(in) :: position, speed
+    logical :: diverges
+
+    associate (state => positions%state(position))
+      diverges = has_result(positions, sweep, state, speed)
+      if (diverges) diverges = sweep%results(state)%lambda(1, speed) < 0.0_wp
+    end associate
+  end function diverges
+
+  !> The largest static deflection under the loads, if it is too large for the theory.
+  pure function deflections(mechanism, positions, sweep) result(warning)
+    type(mechanism_t), intent(in) :: mechanism
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    type(string_t), allocatable :: warning(:)
+
+    real(wp) :: largest
+    integer :: i, body, speed, at_body, at_speed, at_position
+
+    allocate (warning(0))
+    largest = 0.0_wp
+    at_body = 1
+    at_speed = 1
+    at_position = 1
+    do i = 1, size(positions%crank)
+      if (allocated(positions%states(positions%state(i))%error)) cycle
+      do speed = 1, size(sweep%request%speed)
+        do body = 1, size(mechanism%names)
+          ! A hair more, so that equal positions (0 and 360) name the first of them.
+          if (sweep%results(positions%state(i))%deflection(body, &
+            speed) <= largest*(1.0_wp + 1.0e-12_wp)) cycle
+          largest = sweep%results(positions%state(i))%deflection(body, speed)
+          at_body = body
+          at_speed = speed
+          at_position = i
+        end do
+      end do
+    end do
+    if (largest <= most_deflection) return
+    call append_string(warning, "the "//trim(merge("loads        ", "inertia loads", &
+      sweep%request%constant))//" at "// &
+      place_in_words(positions%crank(at_position), sweep%request%speed(at_speed))// &
+      " deflect link '"//mechanism%names(at_body)%text//"' by "//to_string(100.0_wp*largest, 3)// &
+      " % of its length: above "//to_string(100.0_wp*most_deflection)// &
+      " % the axial frequencies begin to mislead")
+  end function deflections
+
+  !> Where a frequency is not as accurate as the deck asks for, mostly because of rounding.
+  pure function missed_accuracy(positions, sweep) result(warning)
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    type(string_t), allocatable :: warning(:)
+
+    real(wp) :: worst, error
+    integer :: i, k, rows, at_position, at_speed
+
+    allocate (warning(0))
+    worst = 0.0_wp
+    rows = 0
+    at_position = 1
+    at_speed = 1
+    do i = 1, size(positions%crank)
+      do k = 1, size(sweep%request%speed)
+        if (.not. has_result(positions, sweep, positions%state(i), k)) cycle
+        error = maxval(sweep%results(positions%state(i))%error(:, k))
+        if (error <= sweep%request%accuracy) cycle
+        rows = rows + 1
+        if (error <= worst) cycle
+        worst = error
+        at_position = i
+        at_speed = k
+      end do
+    end do
+    if (rows == 0) return
+    call append_string(warning, "the accuracy "//to_string(sweep%request%accuracy)// &
+      " is not reached in "//plural(rows, "row")//": the error is up to "//to_string(worst, 2)// &
+      ", at "//place_in_words(positions%crank(at_position), sweep%request%speed(at_speed))// &
+      " (near a dead point or a divergence digits are lost; the error columns tell how many)")
+  end function missed_accuracy
+
+end module result_warnings

@@ -1,0 +1,112 @@
+!> What a variant leaves when it has been computed: the rows of its tables, what it found and how
+!! much it took. As bytes it goes into the journal of a run.
+module variant_rows
+  use byte_streams, only: get_integers, get_reals, get_string, put_integers, put_reals, put_string
+  use kinds, only: wp
+  use report_kinds, only: table_kind_t
+  use report_rows, only: find_rows
+  use report_table, only: plan_table, table_notes, table_plan_t
+  use result_failures, only: find_failures
+  use result_warnings, only: find_warnings
+  use run_findings, only: findings_t, get_findings, put_findings
+  use run_totals, only: get_totals, put_totals, run_totals_t, totals_of
+  use table_rows, only: get_rows, put_rows, rows_t
+  use text, only: string_t
+  use text_buffer, only: text_buffer_t
+  use variant_results, only: variant_results_t
+  implicit none (type, external)
+  private
+
+  public :: variant_rows_t, table_part_t, find_variant_rows, put_variant_rows, get_variant_rows
+
+  !> The part of a table that a variant brings.
+  type :: table_part_t
+    type(string_t), allocatable :: notes(:)
+    type(rows_t) :: rows
+  end type table_part_t
+
+  type :: variant_rows_t
+    real(wp), allocatable :: varied(:)           !! values of what varies
+    type(table_part_t), allocatable :: tables(:) !! in the order of the deck's tables
+    type(findings_t) :: findings
+    type(run_totals_t) :: totals
+  end type variant_rows_t
+
+contains
+
+  !> Rows, findings and totals of a variant that has been computed. Several variants may be asked
+  !! for at the same time.
+  subroutine find_variant_rows(tables, variant, rows)
+    type(table_kind_t), intent(in) :: tables(:)
+    type(variant_results_t), intent(in) :: variant
+    type(variant_rows_t), intent(out) :: rows
+
+    type(table_plan_t) :: plans(size(tables))
+    integer :: i
+
+    allocate (rows%tables(size(tables)))
+    ! Texts are made by one thread at a time: gfortran 12 gives the lengths of results a place that
+    ! all threads share.
+    !$omp critical (one_at_a_time)
+    rows%varied = variant%model%varied
+    rows%totals = totals_of(variant)
+    call find_failures(variant, rows%findings)
+    call find_warnings(variant, rows%findings)
+    do i = 1, size(tables)
+      call plan_table(tables(i), variant, plans(i))
+      call table_notes(plans(i)%name, variant, rows%tables(i)%notes)
+    end do
+    !$omp end critical (one_at_a_time)
+    do i = 1, size(tables)
+      call find_rows(plans(i), variant, 1, plans(i)%items, 1, rows%tables(i)%rows)
+    end do
+  end subroutine find_variant_rows
+
+  !> Appends what a variant leaves to a buffer as bytes.
+  pure subroutine put_variant_rows(buffer, rows)
+    type(text_buffer_t), intent(inout) :: buffer
+    type(variant_rows_t), intent(in) :: rows
+
+    integer :: i, k
+
+    call put_integers(buffer, [size(rows%varied), size(rows%tables)])
+    call put_reals(buffer, rows%varied)
+    do k = 1, size(rows%tables)
+      associate (table => rows%tables(k))
+        call put_integers(buffer, [size(table%notes)])
+        do i = 1, size(table%notes)
+          call put_string(buffer, table%notes(i)%text)
+        end do
+        call put_rows(buffer, table%rows)
+      end associate
+    end do
+    call put_findings(buffer, rows%findings)
+    call put_totals(buffer, rows%totals)
+  end subroutine put_variant_rows
+
+  !> Reads what `put_variant_rows` wrote.
+  pure subroutine get_variant_rows(bytes, at, rows)
+    character(len=*), intent(in) :: bytes
+    integer, intent(inout) :: at !! place of the first byte; moves past the last
+    type(variant_rows_t), intent(out) :: rows
+
+    integer :: counts(2), notes(1), i, k
+
+    call get_integers(bytes, at, counts)
+    allocate (rows%varied(counts(1)), rows%tables(counts(2)))
+    call get_reals(bytes, at, rows%varied)
+    do k = 1, size(rows%tables)
+      associate (table => rows%tables(k))
+        call get_integers(bytes, at, notes)
+        allocate (table%notes(notes(1)))
+        do i = 1, size(table%notes)
+          call get_string(bytes, at, table%notes(i)%text)
+        end do
+        call get_rows(bytes, at, table%rows)
+      end associate
+    end do
+    call get_findings(bytes, at, rows%findings)
+    call get_totals(bytes, at, rows%totals)
+  end subroutine get_variant_rows
+
+end module variant_rows

@@ -1,0 +1,175 @@
+!> Where the masses of a linkage are, how they accelerate, and the inertia forces that they exert.
+module inertia_study
+  use acceleration_fields, only: acceleration_field_t, unit_fields
+  use inertia_loads, only: lumped_masses, lumped_stations
+  use kinds, only: wp
+  use linkages, only: body_t, linkage_t, normal_to
+  use positions, only: positions_t, state_t
+  implicit none (type, external)
+  private
+
+  public :: mass_t, inertia_result_t, mass_load_t, find_inertia_loads, loads_at_speed
+  public :: of_link, of_body, on_link, at_pin
+
+  !> What a mass belongs to: it is that of a beam, or a part of it on a node; that of a link that
+  !! has a mass of its own; fixed to a link; at a pin.
+  integer, parameter :: of_link = 1, of_body = 2, on_link = 3, at_pin = 4
+
+  type :: mass_t
+    integer :: kind = 0
+    integer :: number = 0             !! of its body or pin
+    real(wp) :: mass = 0.0_wp         !! [kg]
+    real(wp) :: place(2) = 0.0_wp     !! on a body, from its first pin, in its axes [m]
+    real(wp) :: inertia = 0.0_wp      !! about its own mass centre [kg m²]
+    real(wp) :: rotary_inertia = 0.0_wp !! of cross-sections, besides [kg m²]
+  end type mass_t
+
+  !> Masses, and the accelerations of which all are made; zeros where there is no pose.
+  type :: inertia_result_t
+    type(mass_t), allocatable :: masses(:)
+    real(wp), allocatable :: unit(:, :, :) !! (numbers of a field, ω2² = 1 or α2 = 1, states)
+    integer :: pins = 0, bodies = 0
+  end type inertia_result_t
+
+  !> A mass at a position and speed.
+  type :: mass_load_t
+    real(wp) :: place(2) = 0.0_wp        !! in global axes [m]
+    real(wp) :: acceleration(2) = 0.0_wp !! [m/s²]
+    real(wp) :: force(2) = 0.0_wp        !! −m a (2.45) [N]
+    real(wp) :: moment = 0.0_wp          !! −I α (2.46) [N m]
+  end type mass_load_t
+
+contains
+
+  !> Masses and unit accelerations, once for all speeds.
+  subroutine find_inertia_loads(linkage, elements, has_own_mass, positions, threads, found)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: elements(:)      !! (bodies) on whose nodes their masses sit; 0:
+                                            !! distributed
+    logical, intent(in) :: has_own_mass(:)  !! (bodies) the first lump is the link itself
+    type(positions_t), intent(in) :: positions
+    integer, intent(in) :: threads
+    type(inertia_result_t), intent(out) :: found
+
+    integer :: i
+
+    found%masses = masses_of(linkage, elements, has_own_mass)
+    found%pins = size(linkage%is_ground)
+    found%bodies = size(linkage%bodies)
+    allocate (found%unit(2*found%pins + 5*found%bodies, 2, size(positions%states)))
+    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i)
+    do i = 1, size(positions%states)
+      found%unit(:, :, i) = 0.0_wp
+      if (.not. allocated(positions%states(i)%error)) found%unit(:, :, i) = &
+        unit_numbers(linkage, positions%states(i), size(found%unit, 1))
+    end do
+    !$omp end parallel do
+  end subroutine find_inertia_loads
+
+  !> All masses: body after body what the link has and what is fixed to it, then those of pins.
+  pure function masses_of(linkage, elements, has_own_mass) result(masses)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: elements(:)
+    logical, intent(in) :: has_own_mass(:)
+    type(mass_t), allocatable :: masses(:)
+
+    integer :: b, i, pin
+
+    allocate (masses(0))
+    do b = 1, size(linkage%bodies)
+      associate (body => linkage%bodies(b))
+        if (body%line_density > 0.0_wp) masses = [masses, uniform_masses(body, b, elements(b))]
+        do i = 1, size(body%lumps)
+          associate (lump => body%lumps(i))
+            masses = [masses, mass_t(merge(of_body, on_link, i == 1 .and. has_own_mass(b)), b, &
+              lump%mass, lump%place, lump%inertia)]
+          end associate
+        end do
+      end associate
+    end do
+    do pin = 1, size(linkage%pin_mass)
+      if (linkage%pin_mass(pin) <= 0.0_wp) cycle
+      masses = [masses, mass_t(at_pin, pin, linkage%pin_mass(pin))]
+    end do
+  end function masses_of
+
+  !> The uniform mass of a link: on its nodes, or as a whole.
+  pure function uniform_masses(body, number, elements) result(masses)
+    type(body_t), intent(in) :: body
+    integer, intent(in) :: number, elements
+    type(mass_t), allocatable :: masses(:)
+
+    allocate (masses(elements + 1))
+    masses%kind = of_link
+    masses%number = number
+    if (elements > 0) then
+      masses%mass = lumped_masses(body, elements)
+      masses%place(1) = lumped_stations(body, elements)
+      return
+    end if
+    ! (2.46) with I_G = m L²/12, and ρI L where rotary inertia is asked for
+    masses(1)%mass = body%line_density*body%length
+    masses(1)%place = [0.5_wp*body%length, 0.0_wp]
+    masses(1)%inertia = masses(1)%mass*body%length**2/12.0_wp
+    masses(1)%rotary_inertia = body%rotary_inertia*body%length
+  end function uniform_masses
+
+  !> The two unit fields as numbers: of the pins, then of the bodies at their first pin, along them,
+  !! and turning.
+  pure function unit_numbers(linkage, state, numbers) result(unit)
+    type(linkage_t), intent(in) :: linkage
+    type(state_t), intent(in) :: state
+    integer, intent(in) :: numbers
+    real(wp) :: unit(numbers, 2)
+
+    type(acceleration_field_t) :: fields(2)
+    integer :: i
+
+    fields = unit_fields(linkage, state%pose, state%coefficients)
+    do i = 1, 2
+      unit(:, i) = [fields(i)%at_pin, fields(i)%at_first, fields(i)%slope, fields(i)%angular]
+    end do
+  end function unit_numbers
+
+  !> Places, accelerations and loads of all masses at a position and speed.
+  pure subroutine loads_at_speed(linkage, found, state, number, speed, acceleration, loads)
+    type(linkage_t), intent(in) :: linkage
+    type(inertia_result_t), intent(in) :: found
+    type(state_t), intent(in) :: state       !! with a pose
+    integer, intent(in) :: number            !! of the state
+    real(wp), intent(in) :: speed            !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration     !! α2 [rad/s²]
+    type(mass_load_t), intent(out) :: loads(:) !! (masses)
+
+    real(wp) :: field(size(found%unit, 1)), slope(2), angular
+    integer :: i, first, along, turning
+
+    field = speed**2*found%unit(:, 1, number) + acceleration*found%unit(:, 2, number)
+    do i = 1, size(found%masses)
+      associate (mass => found%masses(i), load => loads(i))
+        if (mass%kind == at_pin) then
+          load%place = state%pose%pin(:, mass%number)
+          load%acceleration = field(2*mass%number - 1:2*mass%number)
+          load%force = -mass%mass*load%acceleration
+          cycle
+        end if
+        first = 2*found%pins + 2*mass%number - 1
+        along = first + 2*found%bodies
+        turning = 2*found%pins + 4*found%bodies + mass%number
+        slope = field(along:along + 1)
+        angular = field(turning)
+        associate (axis => state%pose%direction(:, mass%number), &
+          body => linkage%bodies(mass%number))
+          load%place = state%pose%pin(:, body%first_pin) + mass%place(1)*axis + &
+            mass%place(2)*normal_to(axis)
+        end associate
+        load%acceleration = field(first:first + 1) + mass%place(1)*slope + &
+          mass%place(2)*normal_to(slope)
+        load%force = -mass%mass*load%acceleration
+        load%moment = -mass%inertia*angular
+        if (mass%rotary_inertia > 0.0_wp) load%moment = load%moment - mass%rotary_inertia*angular
+      end associate
+    end do
+  end subroutine loads_at_speed
+
+end module inertia_study

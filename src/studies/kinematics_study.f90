@@ -1,0 +1,99 @@
+!> How the links of a four-bar move: angles, their rates, the moving pins, the transmission angle.
+module kinematics_study
+  use constants, only: degree
+  use kinds, only: wp
+  use linkages, only: linkage_t
+  use poses, only: body_angle, transmission_angle
+  use positions, only: positions_t
+  implicit none (type, external)
+  private
+
+  public :: kinematics_result_t, find_kinematics, kinematics_at, kinematic_values
+
+  !> Numbers of `kinematics_at`.
+  integer, parameter :: kinematic_values = 11
+
+  !> What does not depend on the speed; zeros where there is no pose. In the order coupler,
+  !! follower.
+  type :: kinematics_result_t
+    real(wp), allocatable :: angle(:, :)        !! (2, states) θ3 and θ4 [deg]
+    real(wp), allocatable :: turn(:, :)         !! (2, states) h [-]
+    real(wp), allocatable :: turn_slope(:, :)   !! (2, states) h' [-]
+    real(wp), allocatable :: pin(:, :)          !! (4, states) A and B [m]
+    real(wp), allocatable :: transmission(:)    !! (states) between coupler and follower [deg]
+    integer :: at_least = 0, at_most = 0        !! positions, as listed, where the transmission
+                                                !! angle is least and greatest; 0: there is none
+  end type kinematics_result_t
+
+contains
+
+  !> Kinematics at all positions. Ulker 2010 (2.1) to (2.38), found by `poses` and
+  !! `kinematic_coefficients`.
+  subroutine find_kinematics(linkage, positions, threads, found)
+    type(linkage_t), intent(in) :: linkage
+    type(positions_t), intent(in) :: positions
+    integer, intent(in) :: threads
+    type(kinematics_result_t), intent(out) :: found
+
+    integer :: i, n
+
+    n = size(positions%states)
+    allocate (found%angle(2, n), found%turn(2, n), found%turn_slope(2, n), found%pin(4, n), &
+      found%transmission(n))
+    found%angle = 0.0_wp
+    found%turn = 0.0_wp
+    found%turn_slope = 0.0_wp
+    found%pin = 0.0_wp
+    found%transmission = 0.0_wp
+    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i)
+    do i = 1, n
+      associate (state => positions%states(i))
+        if (allocated(state%error)) cycle
+        found%angle(:, i) = [body_angle(linkage, state%pose, 2), &
+          body_angle(linkage, state%pose, 3)]/degree
+        found%turn(:, i) = state%coefficients%turn(2:3)
+        found%turn_slope(:, i) = state%coefficients%turn_slope(2:3)
+        found%pin(:, i) = [state%pose%pin(:, 2), state%pose%pin(:, 3)]
+        found%transmission(i) = transmission_angle(linkage, state%pose, 1)/degree
+      end associate
+    end do
+    !$omp end parallel do
+    call find_extremes(positions, found)
+  end subroutine find_kinematics
+
+  !> Where the transmission angle is least and greatest, of equal ones the first listed.
+  pure subroutine find_extremes(positions, found)
+    type(positions_t), intent(in) :: positions
+    type(kinematics_result_t), intent(inout) :: found
+
+    real(wp) :: least, most
+    integer :: i
+
+    least = huge(least)
+    most = -1.0_wp
+    do i = 1, size(positions%crank)
+      if (allocated(positions%states(positions%state(i))%error)) cycle
+      associate (angle => found%transmission(positions%state(i)))
+        if (angle < least) found%at_least = i
+        if (angle > most) found%at_most = i
+        least = min(least, angle)
+        most = max(most, angle)
+      end associate
+    end do
+  end subroutine find_extremes
+
+  !> At a speed: θ3, θ4 [deg], ω3, ω4 [rad/s], α3, α4 [rad/s²], A, B [m], transmission angle [deg].
+  pure function kinematics_at(found, state, speed, acceleration) result(values)
+    type(kinematics_result_t), intent(in) :: found
+    integer, intent(in) :: state         !! number
+    real(wp), intent(in) :: speed        !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration !! α2 [rad/s²]
+    real(wp) :: values(kinematic_values)
+
+    associate (h => found%turn(:, state), slope => found%turn_slope(:, state))
+      values = [found%angle(:, state), h*speed, h*acceleration + slope*speed**2, &
+        found%pin(:, state), found%transmission(state)]
+    end associate
+  end function kinematics_at
+
+end module kinematics_study

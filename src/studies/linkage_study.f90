@@ -1,0 +1,76 @@
+!> What a four-bar can do at all: its class, limits and special positions on both branches.
+module linkage_study
+  use branch_ranges, only: branch_range_t, find_branch_ranges
+  use four_bar_limits, only: crank_reach, grashof_class, limit_angles
+  use kinds, only: wp
+  use linkages, only: linkage_t, mobility
+  use sorting, only: ascending_order
+  use special_positions, only: event_names, find_change_points, find_special_positions, &
+    special_position_t
+  implicit none (type, external)
+  private
+
+  public :: linkage_class_t, linkage_result_t, branch_result_t, classify_linkage, find_linkage, &
+    event_names, branch_range_t, special_position_t
+
+  !> The two branches: open and crossed.
+  real(wp), parameter :: sides(2) = [1.0_wp, -1.0_wp]
+
+  !> What to know of a linkage before anything else.
+  type :: linkage_class_t
+    character(len=:), allocatable :: grashof !! in words
+    real(wp), allocatable :: limits(:)       !! crank angles at which the crank must turn back, from
+                                             !! 0 to below 360, ascending; none if it turns fully
+                                             !! [deg]
+  end type linkage_class_t
+
+  type :: branch_result_t
+    type(branch_range_t), allocatable :: ranges(:)        !! of crank and follower
+    type(special_position_t), allocatable :: positions(:) !! by crank angle
+  end type branch_result_t
+
+  type :: linkage_result_t
+    integer :: links = 0    !! the ground among them
+    integer :: mobility = 0 !! by counting links and pins
+    character(len=:), allocatable :: grashof !! class in words
+    type(branch_result_t) :: branches(2)     !! open, crossed
+    type(special_position_t), allocatable :: change_points(:)
+  end type linkage_result_t
+
+contains
+
+  !> Grashof class and limit positions.
+  pure subroutine classify_linkage(linkage, class)
+    type(linkage_t), intent(in) :: linkage !! a four-bar
+    type(linkage_class_t), intent(out) :: class
+
+    associate (ground => linkage%ground_position(:, [1, 4]), length => linkage%bodies%length)
+      class%grashof = trim(grashof_class(norm2(ground(:, 2) - ground(:, 1)), length))
+      class%limits = modulo(limit_angles(crank_reach(ground, length)), 360.0_wp)
+    end associate
+    class%limits = class%limits(ascending_order(class%limits))
+  end subroutine classify_linkage
+
+  !> Class, mobility, ranges and special positions of both branches, whichever the linkage is on.
+  pure subroutine find_linkage(linkage, found)
+    type(linkage_t), intent(in) :: linkage !! a four-bar
+    type(linkage_result_t), intent(out) :: found
+
+    type(special_position_t), allocatable :: positions(:)
+    real(wp) :: ground(2, 2), length(3)
+    integer :: i
+
+    ground = linkage%ground_position(:, [1, 4])
+    length = linkage%bodies%length
+    found%links = size(linkage%bodies) + 1
+    found%mobility = mobility(linkage)
+    found%grashof = trim(grashof_class(norm2(ground(:, 2) - ground(:, 1)), length))
+    do i = 1, size(sides)
+      found%branches(i)%ranges = find_branch_ranges(ground, length, sides(i))
+      positions = find_special_positions(ground, length, sides(i))
+      found%branches(i)%positions = positions(ascending_order(positions%crank))
+    end do
+    found%change_points = find_change_points(ground, length)
+  end subroutine find_linkage
+
+end module linkage_study

@@ -1,0 +1,87 @@
+!> Forces in the pins, driving torque, shaking force and moment.
+module reactions_study
+  use kinds, only: wp
+  use linkages, only: linkage_t
+  use load_cases, only: case_count
+  use positions, only: positions_t
+  use reactions, only: find_unit_reactions, unit_reactions_t
+  implicit none (type, external)
+  private
+
+  public :: reactions_result_t, find_reactions, reactions_at_speed, reaction_values, &
+    pin_forces, torque_value, shaking_values
+
+  !> Numbers of `reactions_at_speed`: force on every body at its first pin and at its last one, the
+  !! torque, the shaking force, the shaking moment.
+  integer, parameter :: pin_forces = 12, torque_value = 13, shaking_values(3) = [14, 15, 16]
+  integer, parameter :: reaction_values = 16
+
+  !> Reactions to each of the three loads of which all are made: for ω2² = 1, for α2 = 1, and the
+  !! constant ones; zeros where there is no pose.
+  type :: reactions_result_t
+    real(wp), allocatable :: unit(:, :, :) !! (values, cases, states) [N, N m]
+  end type reactions_result_t
+
+contains
+
+  !> Reactions at all positions, once for all speeds: Ulker 2010 (2.47) to (2.49).
+  subroutine find_reactions(linkage, elements, positions, threads, found)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: elements(:) !! (bodies) on whose nodes their masses sit; 0: distributed
+    type(positions_t), intent(in) :: positions
+    integer, intent(in) :: threads
+    type(reactions_result_t), intent(out) :: found
+
+    type(unit_reactions_t) :: unit
+    integer :: i
+
+    allocate (found%unit(reaction_values, case_count, size(positions%states)))
+    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i, unit)
+    do i = 1, size(positions%states)
+      found%unit(:, :, i) = 0.0_wp
+      associate (state => positions%states(i))
+        if (allocated(state%error)) cycle
+        call find_unit_reactions(linkage, elements, state%pose, state%coefficients, unit)
+        found%unit(:, :, i) = as_values(unit)
+      end associate
+    end do
+    !$omp end parallel do
+  end subroutine find_reactions
+
+  !> Unit reactions as numbers in the order of the table.
+  pure function as_values(reactions) result(unit)
+    type(unit_reactions_t), intent(in) :: reactions
+    real(wp) :: unit(reaction_values, case_count)
+
+    integer :: b, i
+
+    do i = 1, case_count
+      associate (part => reactions%of_case(i))
+        do b = 1, 3
+          unit(4*b - 3:4*b, i) = [part%joints%on_first(:, b), part%joints%on_last(:, b)]
+        end do
+        unit(torque_value, i) = part%joints%torque
+        unit(shaking_values, i) = [part%shaking_force, part%shaking_moment]
+      end associate
+    end do
+  end function as_values
+
+  !> `ω2² of turning + α2 of speeding up + constant` [N, N m].
+  pure function reactions_at_speed(found, state, speed, acceleration) result(values)
+    type(reactions_result_t), intent(in) :: found
+    integer, intent(in) :: state         !! number
+    real(wp), intent(in) :: speed        !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration !! α2 [rad/s²]
+    real(wp) :: values(reaction_values)
+
+    real(wp) :: factor(case_count)
+    integer :: i
+
+    factor = [speed**2, acceleration, 1.0_wp]
+    values = 0.0_wp
+    do i = 1, case_count
+      values = values + factor(i)*found%unit(:, i, state)
+    end do
+  end function reactions_at_speed
+
+end module reactions_study

@@ -1,0 +1,147 @@
+!> Turns of the crank sampled so closely that their harmonics do not change with more samples.
+module settled_cycles
+  use crank_cycle, only: cycle_t, cycle_values, parts_at, quantity_count, usual_values
+  use harmonics, only: spectrum_of, spectrum_t
+  use interruption, only: was_interrupted
+  use kinds, only: fineness, wp
+  use linkages, only: linkage_t
+  use load_cases, only: case_count
+  implicit none (type, external)
+  private
+
+  public :: find_settled_cycles, least_share
+
+  integer, parameter :: fewest_samples = 64, most_samples = 65536
+
+  !> Quantities that something balances to less than this share of the usual are judged by this
+  !! share: what is left may be rounding.
+  real(wp), parameter :: least_share = 1.0e-3_wp
+
+contains
+
+  !> Doubles the samples of a turn until harmonics, mean and rms of all quantities are to 1e-13 of
+  !! the largest value what every second sample gives, or until there are 65,536 of them.
+  !!
+  !! They converge like a geometric series, the slower the nearer the crank comes to a dead point;
+  !! the error of all samples is about the square of that of half of them. Many speeds next to a
+  !! dead point take minutes: an interrupted run gets what there is.
+  subroutine find_settled_cycles(linkages, elements, speed, acceleration, threads, turns, change)
+    type(linkage_t), intent(in) :: linkages(:) !! of the same motion, and bodies with different
+                                               !! masses; the crank turns freely
+    integer, intent(in) :: elements(:)         !! (bodies) on whose nodes their masses sit; 0:
+                                               !! distributed
+    real(wp), intent(in) :: speed(:)           !! ω2, all that are wanted [rad/s]
+    real(wp), intent(in) :: acceleration       !! α2 [rad/s²]
+    integer, intent(in) :: threads
+    type(cycle_t), intent(out) :: turns(:)     !! (linkages)
+    real(wp), intent(out) :: change            !! by which every second sample differs, by the
+                                               !! largest value
+
+    real(wp), parameter :: settled = 1.0e-13_wp*fineness
+    real(wp) :: enough
+    integer :: samples, i
+
+    samples = fewest_samples
+    do
+      do i = 1, size(linkages)
+        call sample_turn(linkages(i), elements, samples, threads, turns(i))
+      end do
+      ! One speed that asks for more samples is enough to take them; what the last samples give is
+      ! the result.
+      enough = merge(settled, huge(enough), samples < most_samples)
+      change = largest_change(linkages, elements, turns, speed, acceleration, enough, threads)
+      if (change <= settled .or. samples >= most_samples .or. was_interrupted()) exit
+      samples = 2*samples
+    end do
+  end subroutine find_settled_cycles
+
+  !> Samples a turn evenly, from the crank angle 0. Every second sample of a turn that has half as
+  !! many is there already.
+  subroutine sample_turn(linkage, elements, samples, threads, turn)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: elements(:), samples, threads
+    type(cycle_t), intent(inout) :: turn
+
+    real(wp), allocatable :: part(:, :, :)
+    integer :: i, step
+
+    allocate (part(4, case_count, samples))
+    step = 1
+    if (allocated(turn%part)) then
+      step = 2
+      part(:, :, 1::2) = turn%part
+    end if
+    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i)
+    do i = step, samples, step
+      part(:, :, i) = parts_at(linkage, elements, 360.0_wp*real(i - 1, wp)/samples)
+    end do
+    !$omp end parallel do
+    call move_alloc(part, turn%part)
+  end subroutine sample_turn
+
+  !> The greatest difference between the spectra of all samples and of every second, by the largest
+  !! value of each quantity; one above `enough`, if there is any.
+  function largest_change(linkages, elements, turns, speed, acceleration, enough, threads) &
+    result(change)
+    type(linkage_t), intent(in) :: linkages(:)
+    integer, intent(in) :: elements(:)
+    type(cycle_t), intent(in) :: turns(:)
+    real(wp), intent(in) :: speed(:), acceleration
+    real(wp), intent(in) :: enough !! [-]
+    integer, intent(in) :: threads
+    real(wp) :: change
+
+    real(wp) :: mine
+    integer :: k
+    logical :: is_enough
+
+    change = 0.0_wp
+    is_enough = .false.
+    !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k, mine) &
+    !$omp   reduction(max: change)
+    do k = 1, size(speed)
+      if (is_enough .or. was_interrupted()) cycle
+      mine = change_at(linkages, elements, turns, speed(k), acceleration)
+      change = max(change, mine)
+      !$omp critical (change_is_enough)
+      is_enough = is_enough .or. mine > enough
+      !$omp end critical (change_is_enough)
+    end do
+    !$omp end parallel do
+  end function largest_change
+
+  !> The same at one speed.
+  function change_at(linkages, elements, turns, speed, acceleration) result(change)
+    type(linkage_t), intent(in) :: linkages(:)
+    integer, intent(in) :: elements(:)
+    type(cycle_t), intent(in) :: turns(:)
+    real(wp), intent(in) :: speed, acceleration
+    real(wp) :: change
+
+    real(wp), allocatable :: values(:, :)
+    real(wp) :: largest(quantity_count), difference(quantity_count)
+    integer :: i, q
+
+    largest = least_share*usual_values(linkages(1), elements, speed, acceleration)
+    difference = 0.0_wp
+    do i = 1, size(turns)
+      values = cycle_values(turns(i), speed, acceleration)
+      largest = max(largest, maxval(abs(values), dim=1))
+      do q = 1, quantity_count
+        difference(q) = max(difference(q), distance(spectrum_of(values(:, q)), &
+          spectrum_of(values(::2, q))))
+      end do
+    end do
+    ! Where there is no value there is no difference either.
+    change = maxval(difference/max(largest, tiny(largest)))
+  end function change_at
+
+  pure function distance(a, b)
+    type(spectrum_t), intent(in) :: a, b
+    real(wp) :: distance
+
+    distance = max(abs(a%mean - b%mean), abs(a%rms - b%rms), &
+      maxval(abs(a%coefficient - b%coefficient)))
+  end function distance
+
+end module settled_cycles

@@ -1,0 +1,36 @@
+!> What the studies of one variant have found; parts that no report needs are empty.
+module study_results
+  use balance_study, only: balance_result_t
+  use body_points, only: point_coefficients_t
+  use harmonics_study, only: harmonics_result_t
+  use inertia_study, only: inertia_result_t
+  use kinematics_study, only: kinematics_result_t
+  use lagrange, only: lagrange_t
+  use linkage_study, only: linkage_class_t, linkage_result_t
+  use loci_study, only: loci_t
+  use motion_study, only: motion_result_t
+  use positions, only: positions_t
+  use reactions_study, only: reactions_result_t
+  use sweeps, only: sweep_t
+  implicit none (type, external)
+  private
+
+  public :: study_results_t
+
+  type :: study_results_t
+    type(positions_t) :: positions
+    type(linkage_class_t) :: class
+    type(kinematics_result_t) :: kinematics
+    type(inertia_result_t) :: inertia
+    type(point_coefficients_t), allocatable :: points(:, :) !! (points, states)
+    type(reactions_result_t) :: reactions
+    type(lagrange_t), allocatable :: lagrange(:)            !! (states)
+    type(balance_result_t) :: balance
+    type(harmonics_result_t) :: harmonics
+    type(linkage_result_t) :: linkage
+    type(motion_result_t) :: motion
+    type(sweep_t) :: sweep
+    type(loci_t) :: loci
+  end type study_results_t
+
+end module study_results
