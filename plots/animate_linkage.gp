@@ -9,16 +9,22 @@ eval smaller(0.65)
 eval answer(table, "facts")
 low = low_crank
 high = high_crank
-call plots."linkage.gp" table table_of_points
+call plots."linkage.gp" table_of_points
+set print angles
+print low
+unset print
+load poses_as("lowest")
+eval pivots
 eval middle_of_coupler
 
 # Evenly in the crank's angle, or slower towards both ends of its way.
 turning = turns_fully && high - low >= 240
 pictures = turning ? 72 : 60
 crank_of(k) = turning ? low + 360.0*k/pictures : 0.5*(low + high) - 0.5*(high - low)*cos(2*pi*k/pictures)
-set print $poses
-do for [k=0:2*pictures - 1] { print pose_at(radians*crank_of(k)) }
+set print angles
+do for [k=0:2*pictures - 1] { print sprintf("%.17g", crank_of(k)) }
 unset print
+load poses_as("poses")
 
 note = ""
 caption(row) = "θ₂ = ".sprintf("%d°", floor(word(row, 1)) % 360)

@@ -1,11 +1,11 @@
 # The motion of motion.dat as fast as it is, or slower if it lasts less than a second or two; the first six seconds of a long one.
-#   gnuplot -c animate_motion.gp motion.dat OUT kinematics.dat [points.dat [FIGURE [REMARK]]]
+#   gnuplot -c animate_motion.gp motion.dat OUT [points.dat [FIGURE [REMARK]]]
 
 load ARG0[1 : strlen(ARG0) - strlen("animate_motion.gp")]."style.gp"
-table = ARG1; out = ARG2; kinematics = ARG3; table_of_points = argument(4); figure = argument(5); remark = argument(6)
+table = ARG1; out = ARG2; table_of_points = argument(3); figure = argument(4); remark = argument(5)
 eval smaller(0.65)
 
-call plots."linkage.gp" kinematics table_of_points
+call plots."linkage.gp" table_of_points
 eval middle_of_coupler
 eval answer(table, "facts")
 
@@ -21,15 +21,18 @@ hundredths = every_row*step*100
 delay = hundredths < 2 ? 2 : floor(hundredths + 0.5)
 
 shown = (pictures - 1)*every_row + 1
-array theta[3*shown]
+array crank[shown]
+array branch[shown]
 array seconds[shown]
 array rates[shown]
-keep_pose(n) = n > shown ? NaN : (seconds[n] = field("time"), rates[n] = field("omega2"), \
-    theta[3*n - 2] = radians*field("crank"), theta[3*n - 1] = radians*field("theta3"), theta[3*n] = radians*field("theta4"), n)
+keep_pose(n) = n > shown ? NaN : (seconds[n] = field("time"), rates[n] = field("omega2"), crank[n] = field("crank"), \
+    branch[n] = strcol(col_branch), n)
 stats table using (keep_pose(int(column(0)) + 1)) nooutput
-set print $poses
-do for [k=1:shown] { print pose(theta[3*k - 2], theta[3*k - 1], theta[3*k]) }
+set print angles
+do for [k=1:shown] { print sprintf("%.17g %s", crank[k], branch[k]) }
 unset print
+load poses_as("poses")
+eval pivots
 
 note = slower == 1 ? "" : sprintf("slowed down %g times", slower)
 caption(row) = sprintf("t = %.2f %s,  ω₂ = %.1f %s", seconds[now], unit_time, rates[now], unit_omega2)

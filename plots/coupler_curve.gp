@@ -1,27 +1,34 @@
 # The paths of the points of points.dat, and the mechanism at several positions.
-#   gnuplot -c coupler_curve.gp points.dat OUT kinematics.dat CRANK [balance.dat [FIGURE [REMARK]]]
+#   gnuplot -c coupler_curve.gp points.dat OUT CRANK [balance.dat [FIGURE [REMARK]]]
 # The mechanism is drawn as bodies at CRANK; with balance.dat the path of the mass centre is drawn too.
 
 load ARG0[1 : strlen(ARG0) - strlen("coupler_curve.gp")]."style.gp"
-table = ARG1; out = ARG2; kinematics = ARG3; crank = ARG4 + 0; masses = argument(5); figure = argument(6); remark = argument(7)
+table = ARG1; out = ARG2; crank = ARG3 + 0; masses = argument(4); figure = argument(5); remark = argument(6)
 
-eval answer(kinematics, "facts")
+eval answer(table, "facts")
 low = low_crank
 high = high_crank
-call plots."linkage.gp" kinematics table
+call plots."linkage.gp" table
+set print angles
+print sprintf("%.17g", crank)
+unset print
+load poses_as("there")
+eval pivots
+shown = $there[1]
 turning = turns_fully && high - low >= 240
 positions = turning ? 8 : 5
 crank_of(k, n) = turning ? crank + 360.0*k/n : low + (high - low)*k/(n - 1.0)
 
 # The paths, with a dot every 10 degrees; the ghosts; the mechanism.
-set print $paths
-do for [k=0:turning ? 360 : 180] { print pose_at(radians*(turning ? k : low + (high - low)*k/180.0)) }
+set print angles
+do for [k=0:turning ? 360 : 180] { print sprintf("%.17g", turning ? k : low + (high - low)*k/180.0) }
 unset print
+load poses_as("paths")
 dots = turning ? 10 : ceil(10*180/(high - low))
-set print $ghosts
-do for [k=0:positions - 1] { print pose_at(radians*crank_of(k, positions)) }
+set print angles
+do for [k=0:positions - 1] { print sprintf("%.17g", crank_of(k, positions)) }
 unset print
-shown = pose_at(radians*crank)
+load poses_as("ghosts")
 centre_of_mass = ""
 poses = "$paths"
 eval extent

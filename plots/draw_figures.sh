@@ -32,6 +32,14 @@ done
 PLOTS=$(CDPATH='' cd "$(dirname "$script")" && pwd) || exit 1
 export PLOTS
 
+# Linkages are placed by the program: the one of this checkout, the one installed with these scripts, any other.
+for FLEXMECH in "${FLEXMECH-}" "$PLOTS/../build/release/flexmech" "$PLOTS/../../../bin/flexmech" \
+    "$(command -v flexmech)" ''; do
+    [ -n "$FLEXMECH" ] && [ -x "$FLEXMECH" ] && break
+done
+case $FLEXMECH in '' | /*) ;; *) FLEXMECH=$(pwd)/$FLEXMECH ;; esac
+export FLEXMECH
+
 cd "$outdir" || fail "cannot enter $outdir"
 deck=$(basename "$(pwd)")
 new=.figures.$$
@@ -111,8 +119,15 @@ plan_kinematics() {
         add kinematics_accelerations kinematics.gp kinematics.dat accelerations
 }
 
-# The pivots are known if kinematics.dat has several positions.
-pivots_known() { [ -f kinematics.dat ] && [ "$(ask 'distinct crank' kinematics.dat | wc -l)" -gt 1 ]; }
+# The program can place the linkage anew.
+can_place() {
+    [ -n "$FLEXMECH" ] && [ -f echo.deck ] && return 0
+    echo 'draw_figures.sh: linkages are drawn only with the program flexmech (FLEXMECH=PATH says where it is) and echo.deck' >&2
+    return 1
+}
+
+# several TABLE: it has more positions than one.
+several() { [ "$(ask 'distinct crank' "$1" | wc -l)" -gt 1 ]; }
 
 # An animation is made of pictures that pngcairo draws.
 can_animate() {
@@ -122,20 +137,20 @@ can_animate() {
     esac
 }
 
-# Linkages as such need the pivots. The shaking force is drawn once, with counterweights if they are known.
+# The shaking force is drawn once, with counterweights if they are known.
 plan_rigid_dynamics() {
     balance=
     have balance.dat && balance=balance.dat
     if have points.dat; then
         plan_speeds point_rates points.dat
-        if pivots_known; then
-            add coupler_curve coupler_curve.gp points.dat kinematics.dat "$(telling_crank points.dat)" "$balance"
-            can_animate && add linkage animate_linkage.gp kinematics.dat points.dat
-        else
-            echo 'draw_figures.sh: paths of points are drawn only with kinematics.dat of several positions (REPORT kinematics)' >&2
+        if ! several points.dat; then
+            echo 'draw_figures.sh: paths of points are drawn only of several positions' >&2
+        elif can_place; then
+            add coupler_curve coupler_curve.gp points.dat "$(telling_crank points.dat)" "$balance"
+            can_animate && add linkage animate_linkage.gp points.dat points.dat
         fi
     fi
-    pivots_known && have linkage.dat && add special_positions special_positions.gp linkage.dat kinematics.dat
+    have linkage.dat && can_place && add special_positions special_positions.gp linkage.dat
     have reactions.dat && plan_speeds reactions reactions.dat
     [ -n "$balance" ] || ! have reactions.dat || plan_speeds shaking_force reactions.dat
     [ -z "$balance" ] || { plan_speeds shaking_force balance.dat; plan_speeds balance balance.dat; }
@@ -144,25 +159,26 @@ plan_rigid_dynamics() {
     have motion.dat && add motion motion.gp motion.dat
 }
 
-# Modes swing; a linkage turns, and moves as its motor makes it. Its pivots are known from kinematics.dat.
+# Modes swing; a linkage turns, and moves as its motor makes it.
 plan_animations() {
     can_animate || fail 'this gnuplot has not both of the terminals pngcairo and gif: nothing can be animated'
     have shapes.dat && animate=animate_mode.gp plan_modes
     points=
     have points.dat && points=points.dat
     have kinematics.dat || return
-    if ! pivots_known; then
+    if ! several kinematics.dat; then
         echo 'draw_figures.sh: a linkage is animated if kinematics.dat has more than one position' >&2
         return
     fi
+    can_place || return
     add linkage animate_linkage.gp kinematics.dat "$points"
-    have motion.dat && add motion animate_motion.gp motion.dat kinematics.dat "$points"
+    have motion.dat && add motion animate_motion.gp motion.dat "$points"
 }
 
 # A deck with VARY: its rows belong to many mechanisms, and only its frequencies are drawn, against what was varied.
 varied=
-for table in frequencies kinematics inertia mesh shapes branches reactions points lagrange linkage balance harmonics motion; do
-    [ -z "$varied" ] && [ -f $table.dat ] && varied=$(ask varied $table.dat)
+for table in *.dat; do
+    [ -z "$varied" ] && [ -f "$table" ] && varied=$(ask varied "$table")
 done
 
 : > "$new/plan"

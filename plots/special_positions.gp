@@ -1,31 +1,32 @@
 # The special positions of linkage.dat side by side, on both branches.
-#   gnuplot -c special_positions.gp linkage.dat OUT kinematics.dat [FIGURE [REMARK]]
+#   gnuplot -c special_positions.gp linkage.dat OUT [FIGURE [REMARK]]
 
 load ARG0[1 : strlen(ARG0) - strlen("special_positions.gp")]."style.gp"
-table = ARG1; out = ARG2; kinematics = ARG3; figure = argument(4); remark = argument(5)
+table = ARG1; out = ARG2; figure = argument(3); remark = argument(4)
 
-call plots."linkage.gp" kinematics ""
+call plots."linkage.gp" ""
 eval answer(table, "facts")
-rows_found = answer(table, "distinct branch event crank theta3 theta4 transmission_angle")
-n = words(rows_found)/6
+rows_found = answer(table, "distinct branch event =crank transmission_angle")
+n = words(rows_found)/4
 
 # Where a limit is the place of the least or the greatest transmission angle too, one drawing is enough.
-place_of(k) = word(rows_found, 6*k - 5)." ".word(rows_found, 6*k - 3)
-event_of(k) = word(rows_found, 6*k - 4)
+place_of(k) = word(rows_found, 4*k - 3).sprintf(" %.12g", word(rows_found, 4*k - 1) + 0)
+event_of(k) = word(rows_found, 4*k - 2)
 places = ""
 do for [k=1:n] {
     repeated = 0
     if (event_of(k)[1:12] eq "transmission") {
         do for [m=1:n] { if (event_of(m)[1:12] ne "transmission" && place_of(m) eq place_of(k)) { repeated = 1 } }
     }
-    if (!repeated) { do for [m=6*k - 5:6*k] { places = places." ".word(rows_found, m) } }
+    if (!repeated) { do for [m=4*k - 3:4*k] { places = places." ".word(rows_found, m) } }
 }
-n = words(places)/6
-of_place(k, column) = word(places, 6*(k - 1) + column)
-degrees_of(k, column) = radians*of_place(k, column)
-set print $places
-do for [k=1:n] { print pose(degrees_of(k, 3), degrees_of(k, 4), degrees_of(k, 5)) }
+n = words(places)/4
+of_place(k, column) = word(places, 4*(k - 1) + column)
+set print angles
+do for [k=1:n] { print of_place(k, 3)." ".of_place(k, 1) }
 unset print
+load poses_as("places")
+eval pivots
 poses = "$places"
 eval extent
 call plots."bodies.gp" sprintf("%g", 0.022*span)
@@ -66,7 +67,7 @@ do for [k=1:n] {
     set bmargin at screen down(down_it + tile_height)
     set label 905 of_place(k, 1).": ".words_of(of_place(k, 2)) at screen across(across_it + tile_width/2.0), \
         down(down_it + tile_height + 18) center noenhanced font ",17"
-    set label 906 sprintf("θ₂ = %.4g°,  μ = %.4g°", of_place(k, 3) + 0, of_place(k, 6) + 0) \
+    set label 906 sprintf("θ₂ = %.4g°,  μ = %.4g°", of_place(k, 3) + 0, of_place(k, 4) + 0) \
         at screen across(across_it + tile_width/2.0), down(down_it + tile_height + 46) center noenhanced font ",17"
     eval "plot ".mechanism($places[k])."NaN"
 }

@@ -1,7 +1,7 @@
 # Answers a question about one of the program's tables, read from standard input:
 #   want=facts                     title, the note that names links 3 and 4, number of rows, and of every column its
 #                                  place, unit, least and greatest value, as gnuplot assignments
-#   want="distinct crank speed"    the distinct values of these columns, a line each, in the table's order
+#   want="distinct crank speed"    the distinct values of these columns, a line each, in the table's order; =crank with all digits
 #   want="range f1 f2"             the least and the greatest value found in these columns
 #   want="positive error1 error2"  the same of values above zero; nothing if there are none
 #   want="change f1 0"             speed, crank and f1's change in percent against the rows of speed 0
@@ -14,8 +14,9 @@
 #   want="branches 20"             the branches of branches.dat at speed 20, an index a branch, an empty line where rows
 #                                  have failed: crank, frequency, branch, 1 on its first row, 1 where a mark is drawn
 #   want="varied"                  the columns of varied parameters: those before the table's own
-#   want="linkage"                 the linkage that kinematics.dat belongs to, as gnuplot assignments: ground pivots, lengths of
-#                                  links 2 to 4, and whether B lies to the left (1) or to the right (-1) of the line from A to O4
+#   want="poses"                   the positions of geometry.dat, a line each: the crank angle, then for every
+#                                  pin of a link the link's number (0 the ground), its name, x and y, for every point the
+#                                  same with the number below 0
 #   want="band L"                  where the other parameters and the speed are those of the first row: L, then the least and the
 #                                  greatest value over all positions of f1, of f2, …
 #   want="events 20"               what befalls them: 1 crossing, 2 veering, 3 ambiguous; crank; the lower and the higher
@@ -54,7 +55,7 @@ header {
 
 asked[1] == "distinct" {
     line = ""
-    for (i = 2; i <= n_asked; i++) line = line (i > 2 ? " " : "") short($at[asked[i]])
+    for (i = 2; i <= n_asked; i++) line = line (i > 2 ? " " : "") cell(asked[i])
     if (!(line in seen)) print line
     seen[line] = 1
 }
@@ -102,7 +103,15 @@ asked[1] == "change" {
     if (!(crank[points] in place)) place[crank[points]] = ++places
 }
 
-asked[1] == "linkage" { to_circles($at["crank"], $at["theta4"], $at["Ax"], $at["Ay"], $at["Bx"], $at["By"]) }
+asked[1] == "poses" {
+    if ($at["link"] == "-" && link_drawn != "-") {
+        if (pose) print pose
+        pose = sprintf("%.17g", $at["crank"])
+        links = 0
+    } else if ($at["link"] != link_drawn) links++
+    link_drawn = $at["link"]
+    pose = pose " " ($at["part"] == "point" ? -links : links) " " $at["place"] " " $at["x"] " " $at["y"]
+}
 
 asked[1] == "band" {
     if (rows == 1) for (i = 1; i <= at["speed"]; i++) first_row[i] = $i
@@ -140,7 +149,7 @@ END {
     if (asked[1] == "shape") print_link()
     if (asked[1] == "change") print_change()
     if (asked[1] == "varied") for (i = 1; i <= n_columns && name[i] !~ /^(speed|crank|time|branch)$/; i++) print name[i]
-    if (asked[1] == "linkage") print_linkage()
+    if (asked[1] == "poses" && pose) print pose
     if (asked[1] == "band") print_bands()
     if (asked[1] == "nodes" || asked[1] == "masses") print_nodes()
     if (datablock) print "EOD"
@@ -162,39 +171,6 @@ function print_facts(    i) {
         }
     }
     print ""
-}
-
-# Pins A and B move on circles about the ground pivots: z = O + r exp(i theta), in the mean and of least squares.
-function to_circles(theta2, theta4, ax, ay, bx, by) {
-    to_circle(2, theta2 * 3.14159265358979323846 / 180, ax, ay)
-    to_circle(4, theta4 * 3.14159265358979323846 / 180, bx, by)
-    coupler = sqrt((bx - ax) ^ 2 + (by - ay) ^ 2)
-}
-
-function to_circle(k, theta, x, y) {
-    angle_of[k, rows] = theta; x_of[k, rows] = x; y_of[k, rows] = y
-    sum_c[k] += cos(theta); sum_s[k] += sin(theta); sum_x[k] += x; sum_y[k] += y
-}
-
-function print_linkage(    k, i, c, s, above, below, side) {
-    for (k = 2; k <= 4; k += 2) {
-        above = below = 0
-        for (i = 1; i <= rows; i++) {
-            c = cos(angle_of[k, i]) - sum_c[k] / rows
-            s = sin(angle_of[k, i]) - sum_s[k] / rows
-            above += c * (x_of[k, i] - sum_x[k] / rows) + s * (y_of[k, i] - sum_y[k] / rows)
-            below += c * c + s * s
-        }
-        if (below < 1e-12) return       # a single position does not tell where the pivots are
-        radius[k] = above / below
-        pivot_x[k] = (sum_x[k] - radius[k] * sum_c[k]) / rows
-        pivot_y[k] = (sum_y[k] - radius[k] * sum_s[k]) / rows
-    }
-    side = 0
-    for (i = 1; i <= rows; i++)
-        side += (pivot_x[4] - x_of[2, i]) * (y_of[4, i] - y_of[2, i]) - (pivot_y[4] - y_of[2, i]) * (x_of[4, i] - x_of[2, i])
-    printf "O2 = {%.12g, %.12g}; O4 = {%.12g, %.12g}; r2 = %.12g; r3 = %.12g; r4 = %.12g; side = %d\n", \
-        pivot_x[2], pivot_y[2], pivot_x[4], pivot_y[4], radius[2], coupler, radius[4], side < 0 ? -1 : 1
 }
 
 function band(value,    k) {
@@ -359,6 +335,8 @@ function turned(angle) { return atan2(sin(angle), cos(angle)) }
 function smaller(a, b) { return a < b ? a : b }
 
 function quoted(text) { gsub(/'/, "''", text); return "'" text "'" }
+
+function cell(column) { return column ~ /^=/ ? $at[substr(column, 2)] : short($at[column]) }
 
 function short(text) { return text ~ /^[-+.]*[0-9]/ ? sprintf("%.12g", text) : text }
 

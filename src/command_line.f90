@@ -23,6 +23,7 @@ module command_line
     logical :: stats = .false.
     logical :: json = .false.
     logical :: help = .false.
+    logical :: help_cards = .false.
     logical :: version = .false.
     character(len=:), allocatable, private :: valued !! the options with a value that were given,
                                                      !! between blanks
@@ -67,7 +68,7 @@ contains
     end do
     ! Where the line goes wrong before `--json`, that is still how the answer is wanted.
     if (allocated(error)) command%json = any([(words(i)%text == "--json", i=1, size(words))])
-    if (allocated(error) .or. command%help .or. command%version) return
+    if (allocated(error) .or. command%help .or. command%help_cards .or. command%version) return
     if (size(command%decks) == 0) call set_error(error, error_of_input, &
       "no deck given; flexmech --help tells how to run one")
   end subroutine read_command_line
@@ -94,7 +95,8 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     character(len=*), parameter :: known = &
-      "--check --out --set --threads --format --resume --quiet --stats --json --version --help"
+      "--check --out --set --threads --format --resume --quiet --stats --json --version --help "// &
+      "--help-cards"
     character(len=:), allocatable :: name, value
     integer :: k
 
@@ -139,6 +141,8 @@ contains
       command%version = .true.
     case ("--help", "-h")
       command%help = .true.
+    case ("--help-cards")
+      command%help_cards = .true.
     case default
       call set_error(error, error_of_input, "unknown option '"//name//"'"//suggestion(name, &
         word_list(known)))
@@ -213,21 +217,29 @@ contains
   pure function help_text() result(text)
     character(len=:), allocatable :: text
 
+    character(len=*), parameter :: options(*) = &
+      [character(len=96) :: "--check      read and check the decks only", &
+      "--out DIR    write to DIR/<deck base name>/", &
+      "--set N=V    put V in place of the value that SET or VARY gives the name N; may be "// &
+      "repeated", "--threads N  compute N positions at a time (1)", &
+      "--format csv write every table as comma-separated values too (plain)", &
+      "--resume     go on where an earlier run of the deck was killed or interrupted", &
+      "--quiet      no warnings, no progress; errors are still told", &
+      "--stats      tell what was computed and how long it took", &
+      "--json       on standard output: errors, warnings and failed rows of all decks as JSON", &
+      "--version    the program's version", "--help       this text", &
+      "--help-cards every card and report of a deck in two lines"]
+    integer :: i
+
     text = "usage: flexmech [options] DECK..."//line_feed//line_feed// &
       "Computes motion, forces, balance, natural frequencies and mode shapes of flexible "// &
       "linkages."//line_feed// &
       "For every deck the tables are written to outputs/<deck base name>/. A deck named - is "// &
-      "standard input."//line_feed//line_feed//"  --check      read and check the decks only"// &
-      line_feed//"  --out DIR    write to DIR/<deck base name>/"//line_feed// &
-      "  --set N=V    put V in place of the value that SET or VARY gives the name N; may be "// &
-      "repeated"//line_feed//"  --threads N  compute N positions at a time (1)"//line_feed// &
-      "  --format csv write every table as comma-separated values too (plain)"//line_feed// &
-      "  --resume     go on where an earlier run of the deck was killed or interrupted"// &
-      line_feed//"  --quiet      no warnings, no progress; errors are still told"//line_feed// &
-      "  --stats      tell what was computed and how long it took"//line_feed// &
-      "  --json       on standard output: errors, warnings and failed rows of all decks as JSON"// &
-      line_feed//"  --version    the program's version"//line_feed//"  --help       this text"// &
-      line_feed//line_feed// &
+      "standard input."//line_feed//line_feed
+    do i = 1, size(options)
+      text = text//"  "//trim(options(i))//line_feed
+    end do
+    text = text//line_feed// &
       "Exit status: 0 done; 1 some position or mode could not be computed (the rest is "// &
       "written);"//line_feed//"2 bad deck or command line, nothing written."//line_feed
   end function help_text

@@ -2,6 +2,7 @@
 !! status.
 program main
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+  use card_help, only: card_help_text
   use command_line, only: command_t, help_text, read_command_line, version_text
   use deck_readings, only: deck_t, read_deck
   use deck_runs, only: run_deck, run_options_t
@@ -27,6 +28,9 @@ program main
   end if
   if (command%help) then
     write (output_unit, "(a)", advance="no") help_text()
+    stop 0, quiet=.true.
+  else if (command%help_cards) then
+    write (output_unit, "(a)", advance="no") card_help_text()
     stop 0, quiet=.true.
   else if (command%version) then
     write (output_unit, "(a)") version_text()

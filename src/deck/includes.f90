@@ -1,5 +1,6 @@
 !> INCLUDE: the cards of other files in place of the card that names them.
 module includes
+  use card_table, only: pattern_of
   use cards, only: card_t, read_cards
   use deck_source, only: append_source, file_of_line, read_file, source_t
   use diagnostics, only: add_error, diagnostics_t
@@ -14,7 +15,6 @@ module includes
   !> Nobody nests files deeper by hand, and a file may be included many times, but not without end.
   integer, parameter :: most_levels = 50, most_files = 1000
 
-  character(len=*), parameter :: pattern = "INCLUDE file"
 
 contains
 
@@ -153,14 +153,15 @@ contains
     fine = .false.
     if (size(card%entries) > 0) then
       call add_error(diagnostics, card%entries(1)%key, &
-        "a file name with an equals sign needs quotes; expected: "//pattern)
+        "a file name with an equals sign needs quotes; expected: "//pattern_of("INCLUDE"))
       return
     else if (size(card%words) == 0) then
-      call add_error(diagnostics, card%keyword, "this card is too short; expected: "//pattern)
+      call add_error(diagnostics, card%keyword, "this card is too short; expected: "// &
+        pattern_of("INCLUDE"))
       return
     else if (size(card%words) > 1) then
       call add_error(diagnostics, card%words(2), "unexpected '"//card%words(2)%text// &
-        "'; expected: "//pattern//" (a name with blanks needs quotes)")
+        "'; expected: "//pattern_of("INCLUDE")//" (a name with blanks needs quotes)")
       return
     end if
     name = card%words(1)%text

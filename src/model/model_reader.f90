@@ -1,28 +1,32 @@
 !> Cards → model.
 module model_reader
+  use body_cards, only: read_mass, read_point
   use body_checks, only: check_bodies
-  use card_reader, only: check_form, read_choice
+  use card_table, only: card_kind_number, card_kinds, card_names
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use effect_cards, only: effects_axial, effects_static, effects_t, read_effects
-  use errors, only: error_of_input, error_t, set_error
   use kinds, only: wp
-  use linkage_cards, only: set_default_mesh
+  use link_cards, only: read_link
+  use linkage_cards, only: read_ground, read_mesh, read_pin_mass, set_default_mesh
+  use load_cards, only: read_force, read_gravity, read_torque
   use loop_finder, only: find_loop
+  use materials, only: read_material
   use mesh_checks, only: check_meshes
   use models, only: is_loaded, is_moving, model_t, needs_mesh
+  use motor_cards, only: read_motor, read_resistance
   use name_checks, only: check_names
-  use numbers, only: read_integer
-  use part_reader, only: read_parts
+  use report_cards, only: read_report
   use report_kinds, only: report_kind_t
-  use request_cards, only: read_crank, read_speed
-  use request_checks, only: card_names, check_requests, check_required
+  use request_cards, only: read_crank, read_drive, read_modes, read_option, read_speed, read_title
+  use request_checks, only: check_requests, check_required
+  use sections, only: read_section
   use shear, only: check_shear
   use spelling, only: suggestion
-  use text, only: lower_case, same_word, string_t, to_string, word_list
+  use text, only: same_word, string_t
   use tokens, only: token_t
-  use units, only: dimension_length, dimension_mass, dimension_time, read_unit, si_units, &
-    unit_system_t, unit_t, wrong_unit
+  use unit_cards, only: read_units
+  use units, only: si_units, unit_system_t
   implicit none (type, external)
   private
 
@@ -54,11 +58,13 @@ contains
     model%speed%word = [0]
     allocate (model%speed%words(0))
 
+    model%effects = 0
     call check_keywords(cards, diagnostics)
     call refuse_second_cards(cards, diagnostics)
-    call read_units(cards, diagnostics, model%units)
-    call read_parts(cards, reports, diagnostics, model)
-    call read_requests(cards, diagnostics, model)
+    call read_system(cards, diagnostics, model%units)
+    call read_cards(cards, reports, diagnostics, model)
+    if (model%effects == 0) model%effects = merge(effects_axial, effects_static, &
+      is_moving(model) .or. is_loaded(model))
     if (size(model%meshes) == 0 .and. needs_mesh(model)) then
       deallocate (model%meshes)
       allocate (model%meshes(1))
@@ -79,12 +85,12 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
 
     type(string_t), allocatable :: known(:)
-    integer :: i, k
+    integer :: i
 
-    known = word_list(card_names)
+    known = card_names()
     do i = 1, size(cards)
       associate (keyword => cards(i)%keyword)
-        if (any([(same_word(known(k)%text, keyword%text), k=1, size(known))])) cycle
+        if (card_kind_number(keyword%text) > 0) cycle
         call add_error(diagnostics, keyword, "unknown card '"//keyword%text//"'"// &
           suggestion(keyword%text, known))
       end associate
@@ -96,163 +102,155 @@ contains
     type(card_t), intent(in) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
 
-    character(len=*), parameter :: single = &
-      "TITLE UNITS GRAVITY MOTOR BRANCH CRANK SPEED INERTIA EFFECTS SOLVER MODES"
-    type(string_t), allocatable :: names(:)
-    integer :: i, k, first
+    integer :: first(size(card_kinds)), i, kind
 
-    names = word_list(single)
-    do k = 1, size(names)
-      first = 0
-      do i = 1, size(cards)
-        if (.not. same_word(cards(i)%keyword%text, names(k)%text)) cycle
-        if (first > 0) then
-          call add_error(diagnostics, cards(i)%keyword, "a second "//names(k)%text//" card", &
-            cards(first)%keyword, "the first is here")
-        else
-          first = i
-        end if
-      end do
+    first = 0
+    do i = 1, size(cards)
+      kind = card_kind_number(cards(i)%keyword%text)
+      if (kind == 0) cycle
+      if (first(kind) == 0) then
+        first(kind) = i
+      else if (card_kinds(kind)%is_single) then
+        call add_error(diagnostics, cards(i)%keyword, &
+          "a second "//trim(card_kinds(kind)%keyword)//" card", cards(first(kind))%keyword, &
+          "the first is here")
+      end if
     end do
   end subroutine refuse_second_cards
 
-  !> Reads `UNITS length mass time`, which may stand anywhere. A deck without it is read on in SI,
-  !! to find its other errors.
-  subroutine read_units(cards, diagnostics, system)
+  !> Reads the UNITS card, which may stand anywhere. A deck without it is read on in SI, to find its
+  !! other errors.
+  subroutine read_system(cards, diagnostics, system)
     type(card_t), intent(in) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(unit_system_t), intent(out) :: system
 
     integer :: i
-    logical :: fine
 
     system = si_units()
     do i = 1, size(cards)
       if (.not. same_word(cards(i)%keyword%text, "UNITS")) cycle
-      call check_form(cards(i), 3, 3, "", "UNITS length mass time", diagnostics, fine)
-      if (.not. fine) exit
-      call read_one(cards(i)%words(1), dimension_length, system%length)
-      call read_one(cards(i)%words(2), dimension_mass, system%mass)
-      call read_one(cards(i)%words(3), dimension_time, system%time)
-      exit
+      call read_units(cards(i), diagnostics, system)
+      return
     end do
+  end subroutine read_system
 
-  contains
-
-    subroutine read_one(word, dimension, measure)
-      type(token_t), intent(in) :: word
-      integer, intent(in) :: dimension(4)
-      type(unit_t), intent(inout) :: measure
-
-      type(unit_t) :: candidate
-      type(error_t), allocatable :: error
-
-      call read_unit(word%text, dimension, candidate, error)
-      if (allocated(error)) then
-        call add_error(diagnostics, word, error%text)
-      else if (any(candidate%dimension /= dimension)) then
-        call add_error(diagnostics, word, wrong_unit(candidate, dimension))
-      else
-        measure = candidate
-      end if
-    end subroutine read_one
-
-  end subroutine read_units
-
-  !> Reads the cards that say what to compute, and settles what follows from what they leave out.
-  subroutine read_requests(cards, diagnostics, model)
+  !> Reads all cards that say something of the model or ask for something.
+  subroutine read_cards(cards, reports, diagnostics, model)
     type(card_t), intent(in) :: cards(:)
+    type(report_kind_t), intent(in) :: reports(:) !! that there are
     type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(inout) :: model
+    type(model_t), intent(inout) :: model         !! with its units
+
+    integer :: so_far(size(card_kinds)), i, kind
+
+    allocate (model%materials(number_of(cards, "MATERIAL")), &
+      model%sections(number_of(cards, "SECTION")), model%grounds(number_of(cards, "GROUND")), &
+      model%links(number_of(cards, "LINK")), model%pin_masses(number_of(cards, "PINMASS")), &
+      model%meshes(number_of(cards, "MESH")), model%reports(number_of(cards, "REPORT")))
+    allocate (model%masses(number_of(cards, "MASS")), model%points(number_of(cards, "POINT")), &
+      model%forces(number_of(cards, "FORCE")), model%torques(number_of(cards, "TORQUE")), &
+      model%resistances(number_of(cards, "LOAD")))
+    so_far = 0
+    do i = 1, size(cards)
+      kind = card_kind_number(cards(i)%keyword%text)
+      if (kind == 0) cycle
+      so_far(kind) = so_far(kind) + 1
+      call read_card(cards(i), trim(card_kinds(kind)%keyword), so_far(kind), reports, diagnostics, &
+        model)
+    end do
+  end subroutine read_cards
+
+  pure function number_of(cards, keyword) result(number)
+    type(card_t), intent(in) :: cards(:)
+    character(len=*), intent(in) :: keyword
+    integer :: number
 
     integer :: i
-    type(effects_t) :: effects
-    logical :: fine
 
-    effects%shear_word = token_t("", 0, 0)
+    number = 0
     do i = 1, size(cards)
-      select case (lower_case(cards(i)%keyword%text))
-      case ("title")
-        if (size(cards(i)%words) == 0) cycle
-        model%title = cards(i)%words(1)%text
-        if (cards(i)%words(1)%column == cards(i)%keyword%column + len("TITLE")) then
-          call add_error(diagnostics, cards(i)%words(1), &
-            "a blank must stand between TITLE and its text")
-        end if
-      case ("drive")
-        call check_form(cards(i), 1, 1, "", "DRIVE link", diagnostics, fine)
-        if (.not. fine) cycle
-        if (model%drive%line > 0) then
-          call add_error(diagnostics, cards(i)%words(1), &
-            "the linkage is driven twice; it has one driven link", model%drive, "first driven here")
-        else
-          model%drive = cards(i)%words(1)
-        end if
-      case ("branch")
-        call read_option(cards(i), "BRANCH open|crossed", "open crossed", model%branch)
-      case ("crank")
-        call read_crank(cards(i), model%units, diagnostics, model%crank)
-      case ("speed")
-        call read_speed(cards(i), model%units, diagnostics, model%speed, model%acceleration)
-      case ("inertia")
-        call read_option(cards(i), "INERTIA lumped|distributed", "lumped distributed", &
-          model%inertia, model%inertia_word)
-      case ("effects")
-        call read_effects(cards(i), diagnostics, effects)
-      case ("solver")
-        call read_option(cards(i), "SOLVER auto|deformation|dense|band", &
-          "auto deformation dense band", model%solver, model%solver_word)
-      case ("modes")
-        call read_modes(cards(i), diagnostics, model)
-      end select
+      if (same_word(cards(i)%keyword%text, keyword)) number = number + 1
     end do
-    model%effects = effects%loads
-    if (effects%loads == 0) model%effects = merge(effects_axial, effects_static, &
-      is_moving(model) .or. is_loaded(model))
-    model%rotary = effects%rotary
-    model%shear = effects%shear
-    model%shear_word = effects%shear_word
+  end function number_of
 
-  contains
+  !> Reads one card. UNITS, INCLUDE, SET and VARY have been read before.
+  subroutine read_card(card, keyword, number, reports, diagnostics, model)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: keyword       !! as in the table of cards
+    integer, intent(in) :: number                 !! of the card among those of its keyword
+    type(report_kind_t), intent(in) :: reports(:) !! that there are
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(inout) :: model         !! with its units, and room for all parts
 
-    subroutine read_option(card, pattern, choices, option, word)
-      type(card_t), intent(in) :: card
-      character(len=*), intent(in) :: pattern, choices
-      integer, intent(inout) :: option
-      type(token_t), intent(inout), optional :: word
+    associate (system => model%units)
+      select case (keyword)
+      case ("TITLE")
+        call read_title(card, diagnostics, model%title)
+      case ("MATERIAL")
+        call read_material(card, system, diagnostics, model%materials(number))
+      case ("SECTION")
+        call read_section(card, system, diagnostics, model%sections(number))
+      case ("GROUND")
+        call read_ground(card, system, diagnostics, model%grounds(number))
+      case ("LINK")
+        call read_link(card, system, diagnostics, model%links(number))
+      case ("DRIVE")
+        call read_drive(card, diagnostics, model%drive)
+      case ("BRANCH")
+        call read_option(card, diagnostics, model%branch)
+      case ("PINMASS")
+        call read_pin_mass(card, system, diagnostics, model%pin_masses(number))
+      case ("MESH")
+        call read_mesh(card, system, diagnostics, model%meshes(number))
+      case ("MASS")
+        call read_mass(card, system, diagnostics, model%masses(number))
+      case ("POINT")
+        call read_point(card, system, diagnostics, model%points(number))
+      case ("GRAVITY")
+        model%gravity_word = card%keyword
+        call read_gravity(card, system, diagnostics, model%gravity)
+      case ("FORCE")
+        call read_force(card, system, diagnostics, model%forces(number))
+      case ("TORQUE")
+        call read_torque(card, system, diagnostics, model%torques(number))
+      case ("MOTOR")
+        call read_motor(card, system, diagnostics, model%motor)
+      case ("LOAD")
+        call read_resistance(card, system, diagnostics, model%resistances(number))
+      case ("CRANK")
+        call read_crank(card, system, diagnostics, model%crank)
+      case ("SPEED")
+        call read_speed(card, system, diagnostics, model%speed, model%acceleration)
+      case ("INERTIA")
+        call read_option(card, diagnostics, model%inertia, model%inertia_word)
+      case ("EFFECTS")
+        call take_effects(card, diagnostics, model)
+      case ("SOLVER")
+        call read_option(card, diagnostics, model%solver, model%solver_word)
+      case ("MODES")
+        call read_modes(card, diagnostics, model%modes, model%modes_word)
+      case ("REPORT")
+        call read_report(card, reports, system, diagnostics, model%reports(number))
+      end select
+    end associate
+  end subroutine read_card
 
-      integer :: choice
-
-      call check_form(card, 1, 1, "", pattern, diagnostics, fine)
-      if (.not. fine) return
-      call read_choice(card%words(1), choices, diagnostics, choice)
-      if (choice == 0) return
-      option = choice
-      if (present(word)) word = card%words(1)
-    end subroutine read_option
-
-  end subroutine read_requests
-
-  pure subroutine read_modes(card, diagnostics, model)
+  !> Reads an EFFECTS card into a model.
+  subroutine take_effects(card, diagnostics, model)
     type(card_t), intent(in) :: card
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(inout) :: model
 
-    type(error_t), allocatable :: error
-    logical :: fine
-    integer :: modes
+    type(effects_t) :: effects
 
-    call check_form(card, 1, 1, "", "MODES number", diagnostics, fine)
-    if (.not. fine) return
-    call read_integer(card%words(1)%text, modes, error)
-    if (.not. allocated(error) .and. modes < 1) call set_error(error, error_of_input, &
-      "the number of modes must be at least 1, not "//to_string(modes))
-    if (allocated(error)) then
-      call add_error(diagnostics, card%words(1), error%text)
-    else
-      model%modes = modes
-      model%modes_word = card%words(1)
-    end if
-  end subroutine read_modes
+    effects%loads = model%effects
+    effects%shear_word = model%shear_word
+    call read_effects(card, diagnostics, effects)
+    model%effects = effects%loads
+    model%rotary = effects%rotary
+    model%shear = effects%shear
+    model%shear_word = effects%shear_word
+  end subroutine take_effects
 
 end module model_reader

@@ -12,6 +12,8 @@ module report_table
     harmonics_words
   use balance_study, only: find_balance
   use frequency_report, only: add_frequencies, add_shapes, drawn_rows, frequency_notes, shape_notes
+  use geometry_report, only: add_geometry, geometry_notes, geometry_words
+  use geometry_study, only: find_geometry
   use harmonics_study, only: find_harmonics, highest_harmonic
   use inertia_report, only: add_inertia, has_moments, inertia_notes, inertia_owners
   use inertia_study, only: find_inertia_loads
@@ -24,6 +26,7 @@ module report_table
   use linkage_study, only: find_linkage
   use loci_report, only: add_loci, loci_notes, locus_words
   use mesh_report, only: add_mesh, mesh_notes
+  use models, only: report_number
   use motion_report, only: add_motion, motion_notes, motion_words
   use points_report, only: add_points, point_names, points_notes
   use points_study, only: find_points
@@ -50,68 +53,71 @@ module report_table
 
   !> All studies in the order in which they are made: some take what others have found. The last
   !! three are made block by block, or step by step, by whoever runs them.
-  character(len=*), parameter :: study_names(11) = [character(len=12) :: "kinematics", "inertia", &
-    "points", "reactions", "lagrange", "balance", "harmonics", "linkage", "motion", "frequencies", &
-    "loci"]
+  character(len=*), parameter :: study_names(12) = [character(len=12) :: "kinematics", "geometry", &
+    "inertia", "points", "reactions", "lagrange", "balance", "harmonics", "linkage", "motion", &
+    "frequencies", "loci"]
 
-  type(report_kind_t), parameter :: reports(*) = [ &
-    report_kind_t(name="kinematics", help="how the links move", studies="kinematics", &
-      positions=.true., reserved=.true., numbers=11, tables=[ &
-      table_kind_t("kinematics", "speed:rad/s crank,theta3,theta4:deg omega3,omega4:rad/s "// &
-        "alpha3,alpha4:rad/s2 Ax,Ay,Bx,By:length transmission_angle:deg"), table_kind_t()]), &
+  type(report_kind_t), parameter :: reports(*) = [report_kind_t(name="kinematics", &
+    help="how the links move", studies="kinematics", positions=.true., reserved=.true., &
+    numbers=11, &
+    tables=[table_kind_t("kinematics", &
+    "speed:rad/s crank,theta3,theta4:deg omega3,omega4:rad/s "// &
+    "alpha3,alpha4:rad/s2 Ax,Ay,Bx,By:length transmission_angle:deg"), table_kind_t()]), &
     report_kind_t(name="inertia", help="masses, their accelerations and inertia forces", &
-      studies="inertia", positions=.true., masses=.true., reserved=.true., numbers=46, tables=[ &
-      table_kind_t("inertia", "speed:rad/s crank:deg mass:# link:name x,y:length "// &
-        "ax,ay:acceleration Fx,Fy:force m:mass moment?:moment"), table_kind_t()]), &
+    studies="inertia", positions=.true., masses=.true., reserved=.true., numbers=46, &
+    tables=[table_kind_t("inertia", "speed:rad/s crank:deg mass:# link:name x,y:length "// &
+    "ax,ay:acceleration Fx,Fy:force m:mass moment?:moment"), table_kind_t()]), &
     report_kind_t(name="mesh", help="the finite element model", positions=.true., beams=.true., &
-      reserved=.true., tables=[ &
-      table_kind_t("mesh", "crank:deg link:name element,node_a,node_b:# xa,ya,xb,yb:length "// &
-        "mass_a,mass_b:mass"), table_kind_t()]), &
-    report_kind_t(name="frequencies", help="natural frequencies with their errors", &
-      studies="frequencies", positions=.true., beams=.true., frequencies=.true., reserved=.true., &
-      tables=[ &
-      table_kind_t("frequencies", "speed:rad/s crank:deg f*:Hz error*:-"), table_kind_t()]), &
-    report_kind_t(name="shapes", help="mode shapes along the links", keys="crank speed points", &
-      pattern="REPORT shapes [crank=a,b,...] [speed=...] [points=]", default="points=21", &
-      studies="frequencies", positions=.true., beams=.true., frequencies=.true., reserved=.true., &
-      tables=[ &
-      table_kind_t("shapes", "speed:rad/s crank:deg mode:# frequency:Hz link:name s,x,y:length "// &
-        "ux,uy:mass^-1/2 rotation:rotation"), table_kind_t()]), &
-    report_kind_t(name="branches", help="frequencies followed by their shapes", &
-      studies="frequencies loci", positions=.true., beams=.true., frequencies=.true., &
-      reserved=.true., tables=[ &
-      table_kind_t("branches", "speed:rad/s crank:deg branch,mode:# frequency:Hz mac:- "// &
-        "event:name"), table_kind_t()]), &
-    report_kind_t(name="reactions", help="forces in the pins, torque, shaking force and moment", &
-      studies="reactions", positions=.true., masses=.true., numbers=48, tables=[ &
-      table_kind_t("reactions", "speed:rad/s crank:deg "// &
-        "O2x,O2y,A2x,A2y,A3x,A3y,B3x,B3y,B4x,B4y,O4x,O4y:force torque:moment "// &
-        "shaking_x,shaking_y:force shaking_moment:moment"), table_kind_t()]), &
+    reserved=.true., &
+    tables=[table_kind_t("mesh", &
+    "crank:deg link:name element,node_a,node_b:# xa,ya,xb,yb:length "//"mass_a,mass_b:mass"), &
+    table_kind_t()]), report_kind_t(name="frequencies", &
+    help="natural frequencies with their errors", studies="frequencies", positions=.true., &
+    beams=.true., frequencies=.true., reserved=.true., &
+    tables=[table_kind_t("frequencies", "speed:rad/s crank:deg f*:Hz error*:-"), table_kind_t()]), &
+    report_kind_t(name="shapes", help="mode shapes along the links", &
+    pattern="REPORT shapes [crank=a,b,...] [speed=...] [points=]", default="points=21", &
+    studies="frequencies", positions=.true., beams=.true., frequencies=.true., reserved=.true., &
+    tables=[table_kind_t("shapes", &
+    "speed:rad/s crank:deg mode:# frequency:Hz link:name s,x,y:length "// &
+    "ux,uy:mass^-1/2 rotation:rotation"), table_kind_t()]), report_kind_t(name="branches", &
+    help="frequencies followed by their shapes", studies="frequencies loci", positions=.true., &
+    beams=.true., frequencies=.true., reserved=.true., &
+    tables=[table_kind_t("branches", "speed:rad/s crank:deg branch,mode:# frequency:Hz mac:- "// &
+    "event:name"), table_kind_t()]), report_kind_t(name="reactions", &
+    help="forces in the pins, torque, shaking force and moment", studies="reactions", &
+    positions=.true., masses=.true., numbers=48, &
+    tables=[table_kind_t("reactions", &
+    "speed:rad/s crank:deg "// &
+    "O2x,O2y,A2x,A2y,A3x,A3y,B3x,B3y,B4x,B4y,O4x,O4y:force torque:moment "// &
+    "shaking_x,shaking_y:force shaking_moment:moment"), table_kind_t()]), &
     report_kind_t(name="points", help="paths, velocities and accelerations of points", &
-      studies="points", positions=.true., tables=[ &
-      table_kind_t("points", "speed:rad/s crank:deg point:name x,y:length vx,vy:velocity "// &
-        "ax,ay:acceleration"), table_kind_t()]), &
-    report_kind_t(name="lagrange", help="the torque by energies", studies="lagrange", &
-      positions=.true., masses=.true., numbers=5, tables=[ &
-      table_kind_t("lagrange", "speed:rad/s crank:deg M,dM:inertia "// &
-        "V,gravity,load,torque,kinetic,potential:moment"), table_kind_t()]), &
+    studies="points", positions=.true., &
+    tables=[table_kind_t("points", "speed:rad/s crank:deg point:name x,y:length vx,vy:velocity "// &
+    "ax,ay:acceleration"), table_kind_t()]), report_kind_t(name="lagrange", &
+    help="the torque by energies", studies="lagrange", positions=.true., masses=.true., numbers=5, &
+    tables=[table_kind_t("lagrange", "speed:rad/s crank:deg M,dM:inertia "// &
+    "V,gravity,load,torque,kinetic,potential:moment"), table_kind_t()]), &
     report_kind_t(name="linkage", help="class, limits and special positions", studies="linkage", &
-      tables=[ &
-      table_kind_t("linkage", "branch,event:name crank,theta3,theta4,transmission_angle:deg"), &
-      table_kind_t()]), &
+    tables=[table_kind_t("linkage", &
+    "branch,event:name crank,theta3,theta4,transmission_angle:deg"), table_kind_t()]), &
     report_kind_t(name="balance", help="shaking force, counterweights, harmonics", &
-      studies="reactions balance harmonics", positions=.true., masses=.true., numbers=98, tables=[ &
-      table_kind_t("balance", "speed:rad/s crank:deg xG,yG:length shaking_x,shaking_y:force "// &
-        "shaking_moment,torque:moment balanced_x,balanced_y:force "// &
-        "balanced_moment,balanced_torque:moment"), &
-      table_kind_t("harmonics", "speed:rad/s linkage,quantity:name largest,rms,mean:- h*:- "// &
-        "phase*:deg")]), &
+    studies="reactions balance harmonics", positions=.true., masses=.true., numbers=98, &
+    tables=[table_kind_t("balance", &
+    "speed:rad/s crank:deg xG,yG:length shaking_x,shaking_y:force "// &
+    "shaking_moment,torque:moment balanced_x,balanced_y:force "// &
+    "balanced_moment,balanced_torque:moment"), table_kind_t("harmonics", &
+    "speed:rad/s linkage,quantity:name largest,rms,mean:- h*:- "//"phase*:deg")]), &
+    report_kind_t(name="geometry", help="where pins, links and points are, for drawings", &
+      pattern="REPORT geometry crank=a,b,...", offered=.false., studies="geometry", tables=[ &
+      table_kind_t("geometry", "crank:deg link,part,place:name x,y:length"), table_kind_t()]), &
     report_kind_t(name="motion", help="how the linkage moves by itself", &
-      keys="crank speed end step", pattern="REPORT motion crank= [speed=0] end= step=", &
-      default="speed=0", studies="motion", masses=.true., tables=[ &
-      table_kind_t("motion", "time:time crank,theta3,theta4:deg omega2,omega3,omega4:rad/s "// &
-        "torque,kinetic,potential,work,energy_error:moment closure:length branch:name"), &
-      table_kind_t()])]
+    & pattern="REPORT motion crank= [speed=0] end= step=", default="speed=0", studies="motion", &
+    masses=.true., &
+    tables=[table_kind_t("motion", &
+    "time:time crank,theta3,theta4:deg omega2,omega3,omega4:rad/s "// &
+    "torque,kinetic,potential,work,energy_error:moment closure:length branch:name"), &
+    table_kind_t()])]
 
 contains
 
@@ -135,6 +141,10 @@ contains
         call find_points(linkage, points%body, &
           reshape([(points(i)%place, i=1, size(points))], [2, size(points)]), found%positions, &
           threads, found%points)
+      case ("geometry")
+        call find_geometry(linkage, points%body, &
+          reshape([(points(i)%place, i=1, size(points))], [2, size(points)]), &
+          model%reports(report_number(model, "geometry"))%crank%value, threads, found%geometry)
       case ("reactions")
         call find_reactions(linkage, elements, found%positions, threads, found%reactions)
       case ("lagrange")
@@ -156,13 +166,14 @@ contains
     type(variant_results_t), intent(in) :: variant
     type(table_plan_t), intent(out) :: plan
 
-    type(name_list_t) :: names(2)
+    type(name_list_t) :: names(3)
     integer :: count
     logical :: optional
 
     plan%name = trim(table%name)
     names(1)%column = ""
     names(2)%column = ""
+    names(3)%column = ""
     count = 0
     optional = .false.
     plan%speeds = size(variant%model%speed%value)
@@ -188,11 +199,14 @@ contains
       plan%items = 1
     case ("points")
       names(1) = point_names(variant)
+    case ("geometry")
+      names = geometry_words(variant)
+      plan%items = size(variant%found%geometry%crank)
     case ("linkage")
-      names = linkage_words()
+      names(:2) = linkage_words()
       plan%items = 1
     case ("harmonics")
-      names = harmonics_words()
+      names(:2) = harmonics_words()
       count = highest_harmonic
       plan%items = 1
     case ("motion")
@@ -236,6 +250,8 @@ contains
       call points_notes(variant, notes)
     case ("lagrange")
       call lagrange_notes(variant, notes)
+    case ("geometry")
+      call geometry_notes(variant, notes)
     case ("linkage")
       call linkage_remarks(variant, notes)
     case ("balance")
@@ -257,6 +273,8 @@ contains
     integer :: position, speed
 
     select case (plan%name)
+    case ("geometry")
+      call add_geometry(variant, plan%layout, number, rows)
     case ("linkage")
       call add_linkage(variant, plan%layout, rows)
     case ("harmonics")

@@ -77,7 +77,8 @@ contains
     call read_variant(deck%cards, 1, cards, deck%diagnostics, deck%model)
     call check_variant(deck%model, threads, available, deck%diagnostics)
     if (.not. has_errors(deck%diagnostics)) then
-      deck%model%echo = echo_cards(deck%cards, cards, deck%model%effects, deck%source)
+      deck%model%echo = echo_cards(deck%cards, cards, deck%model%effects, reports, &
+        deck%source)
       call check_variants(deck%cards, cards, deck%model, threads, available, deck%diagnostics)
     end if
     deck%errors = render_errors(deck%diagnostics, deck%source)

@@ -73,9 +73,10 @@ contains
     !$omp   private(i, k)
     do k = 1, size(speed)
       do i = 1, 2
-        call find_spectra(turns(i), speed(k), acceleration, largest(:, i, k), &
-          max(maxval(largest(:, :, k), dim=2), least_share*usual_values(linkages(1), elements, &
-          speed(k), acceleration)), found%of(:, i, k))
+        if (.not. was_interrupted()) &
+          call find_spectra(turns(i), speed(k), acceleration, largest(:, i, k), &
+            max(maxval(largest(:, :, k), dim=2), least_share*usual_values(linkages(1), &
+            elements, speed(k), acceleration)), found%of(:, i, k))
       end do
     end do
     !$omp end parallel do

@@ -2,6 +2,7 @@
 module study_results
   use balance_study, only: balance_result_t
   use body_points, only: point_coefficients_t
+  use geometry_study, only: geometry_result_t
   use harmonics_study, only: harmonics_result_t
   use inertia_study, only: inertia_result_t
   use kinematics_study, only: kinematics_result_t
@@ -21,6 +22,7 @@ module study_results
     type(positions_t) :: positions
     type(linkage_class_t) :: class
     type(kinematics_result_t) :: kinematics
+    type(geometry_result_t) :: geometry
     type(inertia_result_t) :: inertia
     type(point_coefficients_t), allocatable :: points(:, :) !! (points, states)
     type(reactions_result_t) :: reactions

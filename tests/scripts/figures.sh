@@ -115,27 +115,77 @@ nothing_to_animate() {
   says "has nothing to animate" && absent "$scratch/out/still/animations"
 }
 
-# What kinematics.dat tells of the linkage of inputs/kinematics.deck, at the origin of which there is no pivot.
-pivots() {
+# What the program says of the linkage of inputs/kinematics.deck, which has no pivot at the origin, and where it is: the lengths of
+# its links, whatever the order of angles and however near to each other; another branch mirrors it in the line of its pivots.
+placed() {
   run 0 --quiet --out "$scratch/out" inputs/kinematics.deck || return 1
-  found=$(awk -v want=linkage -f plots/tables.awk <"$scratch/out/kinematics/kinematics.dat")
-  expected="O2 = {0.1, 0.05}; O4 = {0.5, 0.2}; r2 = 0.15; r3 = 0.4; r4 = 0.35; side = -1"
-  [ "$found" = "$expected" ] || echo "not '$expected' but '$found'"
-  [ "$found" = "$expected" ]
+  printf '%s\n' 0 350 10 10.00000000000001 '10 open' '10 crossed' >"$scratch/angles"
+  rm -rf "$scratch/angles.d"
+  (cd "$scratch/out/kinematics" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/geometry.sh" placed "$scratch/angles") \
+    >"$scratch/stdout" 2>"$scratch/stderr" || { cat "$scratch/stderr"; return 1; }
+  silent || return 1
+  python3 - "$scratch/stdout" <<'END_OF_PYTHON'
+import math
+import sys
+
+with open(sys.argv[1], encoding="utf-8") as file:
+    lines = file.read().splitlines()
+assert lines[0] == "turns_fully = 1", lines[0]
+assert lines[1] == "O2 = {0.1, 0.05}; O4 = {0.5, 0.2}", lines[1]
+assert lines[2] == "$placed << EOD" and lines[-1] == "EOD", (lines[2], lines[-1])
+rows = [[float(word) for word in line.split()] for line in lines[3:-1]]
+assert [row[0] for row in rows] == [0, 350, 10, 10, 10, 10], rows
+ground, other = (0.1, 0.05), (0.5, 0.2)
+for _, ax, ay, bx, by, *middle in rows:
+    lengths = math.dist(ground, (ax, ay)), math.dist((ax, ay), (bx, by)), math.dist(other, (bx, by))
+    assert all(abs(a - b) < 1e-6 for a, b in zip(lengths, (0.15, 0.4, 0.35))), lengths
+    assert all(abs(a - b) < 1e-6 for a, b in zip(middle, ((ax + bx)/2, (ay + by)/2))), middle
+
+def side(row):
+    ax, ay, bx, by = row[1:5]
+    return (other[0] - ax)*(by - ay) - (other[1] - ay)*(bx - ax)
+
+assert rows[2][1:] == rows[3][1:], "angles nearer than the program tells apart are one"
+assert side(rows[2]) < 0 < side(rows[4]) and rows[2][1:] == rows[5][1:], "the deck says crossed"
+END_OF_PYTHON
+}
+
+# At a dead point, where a linkage has no velocities, it has its place: there it is drawn.
+dead_point() {
+  { sed '/^REPORT/d' "$scratch/dead.deck" && echo "REPORT geometry crank=0,90"; } >"$scratch/drawn.deck"
+  run 0 --quiet --out "$scratch/out" "$scratch/drawn.deck" || return 1
+  awk -v want=poses -f plots/tables.awk <"$scratch/out/drawn/geometry.dat" >"$scratch/poses"
+  [ "$(cut -d' ' -f1 "$scratch/poses" | paste -s -d' ' -)" = '0 90' ] || { cat "$scratch/poses"; return 1; }
+}
+
+# Without the program what needs no linkage is drawn, and why the rest is missing is said.
+without_program() {
+  rm -rf "$scratch/share"
+  cp -R plots "$scratch/share" || return 1
+  run 0 --quiet --out "$scratch/out" inputs/rigid.deck || return 1
+  FLEXMECH=/nowhere timeout 300 sh "$scratch/share/draw_figures.sh" "$scratch/out/rigid" >"$scratch/stdout" 2>"$scratch/stderr" ||
+    { cat "$scratch/stderr"; return 1; }
+  says "linkages are drawn only with the program flexmech" && grep -q /motion.png "$scratch/stdout" || return 1
+  ! grep -q -e special_positions -e coupler_curve "$scratch/stdout"
 }
 
 # A copy of the scripts, called through a link.
 installed_plots() {
+  rm -rf "$scratch/share" "$scratch/draw"
   cp -R plots "$scratch/share" && ln -s share/draw_figures.sh "$scratch/draw" || return 1
-  timeout 300 sh "$scratch/draw" "$scratch/out/kinematics" >"$scratch/stdout" 2>"$scratch/stderr" ||
+  FLEXMECH=$program timeout 300 sh "$scratch/draw" "$scratch/out/kinematics" >"$scratch/stdout" 2>"$scratch/stderr" ||
     { cat "$scratch/stderr"; return 1; }
   silent && [ "$(wc -l <"$scratch/stdout")" -eq 3 ]
 }
+
+root=$(pwd)
 
 check "figures of inputs/rigid.deck" rigid_figures
 check "animations of inputs/rigid.deck" rigid_animations
 check "figures of failed rows, of one position, of names with apostrophes" odd_tables
 check "a mode swings" modes_swing
 check "nothing to animate" nothing_to_animate
-check "pivots and lengths from a table" pivots
+check "a linkage is placed by the program" placed
+check "a linkage at its dead point" dead_point
+check "no program, no linkage" without_program
 check "installed scripts" installed_plots

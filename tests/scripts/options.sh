@@ -75,7 +75,9 @@ told() {
 
 # Motion alone builds no beam.
 stats() {
-  run 0 --stats --out "$out" "$deck" && says "four: rows 13, positions 12, kinematic solutions 12" && says "four: motion " || return 1
+  run 0 --stats --out "$out" "$deck" && says "four: rows 13, positions 12, kinematic solutions 12" &&
+    says "four: computing " && says ", writing " && says ", files " || return 1
+  ! says "other variants" >/dev/null || { echo "it tells of variants"; return 1; }
   ! grep -q -e 'mass matri' -e link -e begun "$scratch/stderr" || { echo "it tells of beams"; return 1; }
 }
 

@@ -134,6 +134,12 @@ def layers():
     group.end()
 
 
+def documents():
+    group = Group("documents")
+    group.lines(execute([sys.executable, "-B", os.path.join("tests", "support", "check_documents.py")]))
+    group.end()
+
+
 def refused_decks(build):
     group = Group(f"refused decks, {build}")
     folder = os.path.join("tests", "decks")
@@ -238,6 +244,7 @@ def main(tests):
     for build in BUILDS if tests.startswith("funit") else ("release",):
         assertions(build, tests)
     layers()
+    documents()
     for build in BUILDS:
         refused_decks(build)
     for build in BUILDS:

@@ -23,6 +23,7 @@ import sys
 from collections import Counter
 
 import fuzz_decks
+from deck_language import language
 from fuzz_decks import Dice
 
 FAILED = os.path.join("build", "fuzz")
@@ -47,8 +48,6 @@ RUN_TIME = re.compile(r"Fortran runtime|Backtrace|SIG[A-Z]{3}|At line \d+ of fil
 NOT_A_NUMBER = re.compile(r"\b(?:NaN|[-+]?Inf(?:inity)?)\b|\*{4,}|is not a number$")
 REAL = re.compile(r"-?\d\.\d+E[-+]\d{3}$")
 PLACE = re.compile(r"(?P<deck>.*?):(?P<line>\d+):(?P<column>\d+): (?:error|warning|note): .")
-TABLES = {"kinematics.dat", "inertia.dat", "mesh.dat", "frequencies.dat", "shapes.dat", "branches.dat", "reactions.dat", "points.dat",
-          "lagrange.dat", "linkage.dat", "balance.dat", "harmonics.dat", "motion.dat"}
 WORDS = {"link", "event", "point", "linkage", "quantity"}  # columns of words; and `branch`, but for branches.dat
 OTHERS = {"echo.deck", "run.log", "summary.json"}
 # What a deck may include.
@@ -129,12 +128,13 @@ def fault_of_files(files, deck):
     if lacking:
         return f"there is no {' '.join(sorted(lacking))}"
     as_csv = {name[:-4] + ".dat" for name in files if name.endswith(".csv")}
-    strange = {name for name in set(files) - TABLES - OTHERS if not name.endswith(".csv")}
-    if strange or not TABLES & set(files) or as_csv - set(files):
+    tables = set(language().tables)
+    strange = {name for name in set(files) - tables - OTHERS if not name.endswith(".csv")}
+    if strange or not tables & set(files) or as_csv - set(files):
         return f"the files are {' '.join(sorted(files))}"
     for name, content in files.items():
         text = content.decode("utf-8", "replace")
-        if name in TABLES:
+        if name in language().tables:
             fault = fault_of_table(name, text)
             if fault:
                 return fault
@@ -179,7 +179,7 @@ def fault_of_again(program, folder, status, files):
             return f"{' '.join(words)} ended with status {run.returncode}, not {status}: {run.stderr[-400:].decode('utf-8', 'replace')}"
         again = tree(os.path.join(folder, out))
         for name in sorted(set(files) | set(again)):
-            if name in TABLES and files.get(name) != again.get(name):
+            if name in language().tables and files.get(name) != again.get(name):
                 return f"{' '.join(words)} gives another {name}"
     return None
 

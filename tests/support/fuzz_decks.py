@@ -9,6 +9,8 @@ import random
 import re
 from glob import glob
 
+from deck_language import language
+
 NUMBER = re.compile(rb"(?<![A-Za-z_0-9.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?")
 WORD = re.compile(rb"[A-Za-z][A-Za-z_0-9.'*-]*")
 RANGE = re.compile(rb"([-+0-9.eEdD]+)[a-z/]*(\s+to\s+)([-+0-9.eEdD]+)[a-z/]*(\s+step\s+)([-+0-9.eEdD]+)", re.IGNORECASE)
@@ -19,20 +21,12 @@ EXTREMES = ["0", "-0", "0.0", "1", "-1", "1e-300", "1e-320", "1e-41", "1e-39", "
 UNITS = ["m", "mm", "cm", "in", "ft", "kg", "g", "tonne", "lbm", "slug", "slinch", "s", "ms", "N", "kN", "lbf", "Pa", "kPa", "MPa",
          "GPa", "psi", "ksi", "kg/m3", "g/cm^3", "lbm/in3", "mm2", "in4", "mm^4", "deg", "rad", "rad/s", "rpm", "rad/s2", "N/mm2", "m/s2",
          "N*m", "lbf*in", "kg*m2", "kg*mm2", "N*m*s", "N*m*s/rad", "N*m/rpm"]
-KEYWORDS = ["TITLE", "UNITS", "MATERIAL", "SECTION", "GROUND", "LINK", "DRIVE", "BRANCH", "PINMASS", "MESH", "CRANK", "SPEED",
-            "INERTIA", "EFFECTS", "SOLVER", "MODES", "REPORT", "END", "INCLUDE", "SET", "VARY", "MASS", "POINT", "GRAVITY", "FORCE", "TORQUE",
-            "MOTOR", "LOAD"]
-KEYS = ["E", "density", "nu", "thickness", "width", "diameter", "outer", "inner", "A", "I", "depth", "length", "material", "section",
-        "elements", "order", "accuracy", "alpha", "crank", "speed", "points", "shear_coefficient", "mass", "inertia", "center", "at",
-        "offset", "along", "torque", "stall", "noload", "damping", "end", "step"]
-WORDS = ["rectangle", "circle", "tube", "general", "open", "crossed", "lumped", "distributed", "static", "axial", "rotary", "shear",
-         "auto", "deformation", "dense", "band", "kinematics", "inertia", "mesh", "frequencies", "shapes", "branches", "to", "step", "*",
-         "rigid", "reactions", "points", "lagrange", "linkage", "balance", "motion"]
 PIECES = [b"\0", b"\t", b"\r", b"\n", b"\r\n", b"&", b" & \n", b"!", b"#", b"=", b"==", b",", b",,", b"$", b"$x", b'"', b"'", b"\\",
           b"\xc3\xb6", b"\xef\xbb\xbf", b"\xe2\x82\xac", b"\xff\xfe", b"\x80", b"\x1b[31m", b"\x7f", b"\xf0\x9f\x94\xa7", b" "*300,
           b"x"*5000, b"\n"*50, b"\nINCLUDE part.deck\n", b"\nINCLUDE d.deck\n", b"\nSET x 1\n", b"\nVARY x 1 2\n", b"$half", b"&\n"*20, b"%s%n", b"{", b"()", b"END\n", b"NaN", b"*****"]
-REPORTS = ["kinematics", "inertia", "mesh", "frequencies", "shapes", "branches"]
-RIGID_REPORTS = ["reactions", "points", "lagrange", "linkage", "balance"]
+# Reports that a sound deck with beams asks for, and those that need a card of their own or keys; all others fit any deck.
+BEAM_REPORTS = ["kinematics", "inertia", "mesh", "frequencies", "shapes", "branches"]
+OWN_CARD_REPORTS = ["motion"]
 LENGTHS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "in": 0.0254, "ft": 0.3048}
 MASSES = {"kg": 1.0, "g": 1e-3, "tonne": 1e3, "lbm": 0.45359237, "slug": 14.593903, "slinch": 175.126835}
 TIMES = {"s": 1.0, "ms": 1e-3}
@@ -151,7 +145,7 @@ def bodies(dice, links, pins, scale, mass, speed, bare):
         end = min(2.0, dice.between(0.5, 9.0)/speed)
         cards.append(f"REPORT motion crank={dice.choice([0, 30, 45, 90, 200])} speed={speed*dice.between(-1, 1):.4g}rad/s "
                      f"end={quantity(dice, end, bare[2], TIMES)} step={number(dice, end/dice.choice([1, 7, 40])/bare[2]*0.999)}")
-    kinds = [kind for kind in RIGID_REPORTS if dice.chance(0.3)]
+    kinds = [kind for kind in language().reports if kind not in BEAM_REPORTS + OWN_CARD_REPORTS and dice.chance(0.3)]
     if not any(card.startswith("POINT") for card in cards) and dice.chance(0.9):
         kinds = [kind for kind in kinds if kind != "points"]
     return cards + ["REPORT " + kind for kind in kinds], bool(rigid)
@@ -177,7 +171,7 @@ def requests(dice, by_accuracy, own_speed, rigid):
             cards.append(card)
     if dice.chance(0.5):
         cards.append("SOLVER " + dice.choice(["auto", "deformation"] if (by_accuracy or rigid) and not careless else ["dense", "band"]))
-    for kind in [kind for kind in REPORTS if dice.chance(0.4)] or ["frequencies"]:
+    for kind in [kind for kind in BEAM_REPORTS if dice.chance(0.4)] or ["frequencies"]:
         if kind == "inertia" and not any(card.startswith("INERTIA") for card in cards) and not careless:
             continue
         more = f" points={dice.choice([2, 3, 7, 40])}" if kind == "shapes" and dice.chance(0.3) else ""
@@ -286,8 +280,8 @@ def change_word(dice, text):
         return text
     place = dice.choice(places)
     old = place[0].decode("latin-1")
-    new = dice.choice([dice.choice(places)[0].decode("latin-1"), dice.choice(KEYWORDS), dice.choice(KEYS), dice.choice(WORDS), old.swapcase(),
-                       old[1:], old + old[-1], old[::-1], ""])
+    new = dice.choice([dice.choice(places)[0].decode("latin-1"), dice.choice(language().keywords), dice.choice(language().keys),
+                       dice.choice(language().words), old.swapcase(), old[1:], old + old[-1], old[::-1], ""])
     return text[:place.start()] + new.encode("latin-1") + text[place.end():]
 
 

@@ -1,6 +1,7 @@
 !> What every card needs when its words become values: names, quantities with units, keys, and clear
 !! complaints.
 module card_reader
+  use card_table, only: card_kind_t, keys_of, kind_of_card
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_of_input, error_t, set_error
@@ -14,16 +15,32 @@ module card_reader
   implicit none (type, external)
   private
 
-  public :: check_form, has_key, entry_number, read_name, read_quantity, read_measure, &
-    require_positive, refuse_negative
+  public :: check_form, check_words, has_key, entry_number, read_name, read_quantity, &
+    read_measure, require_positive, refuse_negative
   public :: read_entry_quantity, read_entry_count, read_choice
 
 contains
 
-  !> Checks the number of a card's words and its keys. `fine` tells whether the words are as many as
-  !! they should be, `known_keys` whether all keys are known: beside a key that is not, one that is
-  !! missing need not be told.
-  pure subroutine check_form(card, least, most, keys, pattern, diagnostics, fine, known_keys)
+  !> Checks the number of a card's words and its keys by the table of cards. `fine` tells whether
+  !! the words are as many as they should be, `known_keys` whether all keys are known: beside a key
+  !! that is not, one that is missing need not be told.
+  pure subroutine check_form(card, diagnostics, fine, known_keys, form)
+    type(card_t), intent(in) :: card     !! whose keyword is known
+    type(diagnostics_t), intent(inout) :: diagnostics
+    logical, intent(out) :: fine
+    logical, intent(out), optional :: known_keys
+    character(len=*), intent(in), optional :: form !! the card's second word, where that makes its
+                                                   !! form
+
+    type(card_kind_t) :: kind
+
+    kind = kind_of_card(card%keyword%text, form)
+    call check_words(card, kind%least, kind%most, keys_of(kind), trim(kind%pattern), diagnostics, &
+      fine, known_keys)
+  end subroutine check_form
+
+  !> The same for a card whose form does not stand in the table of cards.
+  pure subroutine check_words(card, least, most, keys, pattern, diagnostics, fine, known_keys)
     type(card_t), intent(in) :: card
     integer, intent(in) :: least, most        !! words besides the keyword
     character(len=*), intent(in) :: keys      !! allowed keys, separated by single blanks
@@ -65,7 +82,7 @@ contains
         end do
       end associate
     end do
-  end subroutine check_form
+  end subroutine check_words
 
   pure function any_same(list, word) result(any_is)
     type(string_t), intent(in) :: list(:)

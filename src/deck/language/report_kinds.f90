@@ -24,14 +24,15 @@ module report_kinds
   type :: report_kind_t
     character(len=12) :: name = ""
     character(len=64) :: help = ""     !! in one line
-    character(len=28) :: keys = ""     !! that its card takes, separated by blanks
-    character(len=56) :: pattern = ""  !! the card as it should be; blank: the name alone
+    character(len=56) :: pattern = ""  !! the card as it should be, its keys end with `=`; blank:
+                                       !! the name alone
     character(len=12) :: default = ""  !! what its card says if the user does not; blank: nothing
     character(len=32) :: studies = ""  !! that it takes its rows from
     logical :: positions = .false.     !! it has rows for every crank angle
     logical :: masses = .false.        !! it is about masses and their loads
     logical :: beams = .false.         !! it takes links as beams
     logical :: frequencies = .false.
+    logical :: offered = .true.        !! to whoever has misspelt a report
     logical :: reserved = .false.      !! its columns may not vary in decks without it, either
     integer :: numbers = 0             !! that its studies keep for each position
     type(table_kind_t) :: tables(2)    !! those with a name
@@ -46,7 +47,7 @@ module report_kinds
 
 contains
 
-  !> The names of all reports, separated by blanks.
+  !> The names of all reports that are offered, separated by blanks.
   pure function report_names(kinds) result(names)
     type(report_kind_t), intent(in) :: kinds(:)
     character(len=:), allocatable :: names
@@ -55,7 +56,7 @@ contains
 
     names = trim(kinds(1)%name)
     do i = 2, size(kinds)
-      names = names//" "//trim(kinds(i)%name)
+      if (kinds(i)%offered) names = names//" "//trim(kinds(i)%name)
     end do
   end function report_names
 

@@ -80,10 +80,9 @@ contains
     logical :: fine
 
     if (is_varied) then
-      call check_form(card, 2, huge(1), "", &
-        "VARY name a to b step s, or VARY name and a list of values", diagnostics, fine)
+      call check_form(card, diagnostics, fine)
     else
-      call check_form(card, 2, 2, "", "SET name value", diagnostics, fine)
+      call check_form(card, diagnostics, fine)
     end if
     if (size(card%words) == 0) return
     call read_name(card%words(1), diagnostics)

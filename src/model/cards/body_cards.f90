@@ -42,8 +42,7 @@ contains
 
     mass%link_name = token_t("", 0, 0)
     mass%place_word = card%keyword
-    call check_form(card, 2, 2, "at offset", "MASS link at= [offset=] mass", diagnostics, fine, &
-      known_keys)
+    call check_form(card, diagnostics, fine, known_keys)
     if (size(card%words) > 0) mass%link_name = card%words(1)
     call read_place(card, "at", known_keys, system, diagnostics, mass%place, mass%place_word)
     if (.not. fine) return
@@ -66,8 +65,7 @@ contains
 
     point%name = token_t("", 0, 0)
     point%link_name = token_t("", 0, 0)
-    call check_form(card, 2, 2, "along offset", "POINT name link along= [offset=]", diagnostics, &
-      fine, known_keys)
+    call check_form(card, diagnostics, fine, known_keys)
     if (size(card%words) > 0) then
       point%name = card%words(1)
       call read_name(point%name, diagnostics)

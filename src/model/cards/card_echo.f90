@@ -1,9 +1,11 @@
 !> Cards written out again in one form, with the user's own words, for `echo.deck`.
 module card_echo
   use card_reader, only: entry_number
+  use card_table, only: card_kind_t, kind_of_card
   use cards, only: card_t
   use deck_source, only: line_origin, source_t
   use effect_cards, only: effect_words
+  use report_kinds, only: kind_named, report_kind_t
   use settings, only: setting_t
   use text, only: lower_case, same_word, upper_case
   use text_buffer, only: append_text, buffer_text, text_buffer_t
@@ -23,18 +25,19 @@ contains
 
   !> The cards in the order of the deck. A `$name` stays as it is, with its SET or VARY card; what
   !! the command line says is a SET card, so that the echo needs nothing but itself.
-  pure function echo_cards(deck, cards, loads, source) result(lines)
+  pure function echo_cards(deck, cards, loads, reports, source) result(lines)
     type(deck_cards_t), intent(in) :: deck
     type(card_t), intent(in) :: cards(:) !! of one of its variants
     integer, intent(in) :: loads         !! `effects_static` or `effects_axial`: what EFFECTS is,
                                          !! said or not
+    type(report_kind_t), intent(in) :: reports(:) !! that there are
     type(source_t), intent(in) :: source !! that the cards are from
     type(echo_line_t) :: lines(size(cards))
 
     integer :: i
 
     do i = 1, size(cards)
-      lines(i) = echo_card(deck%written(i), cards(i), source)
+      lines(i) = echo_card(deck%written(i), cards(i), reports, source)
       if (same_word(cards(i)%keyword%text, "EFFECTS")) call complete_effects(cards(i), loads, &
         lines(i))
     end do
@@ -63,28 +66,28 @@ contains
   end function overridden_line
 
   !> A card with its defaults written out.
-  pure function echo_card(written, card, source) result(line)
+  pure function echo_card(written, card, reports, source) result(line)
     type(card_t), intent(in) :: written  !! as it stands in the deck
     type(card_t), intent(in) :: card     !! with values in place of its `$name`s
+    type(report_kind_t), intent(in) :: reports(:) !! that there are
     type(source_t), intent(in) :: source !! that the card is from
     type(echo_line_t) :: line
 
+    type(card_kind_t) :: kind
+    integer :: number
+
     line%text = card_text(written)
     line%origin = line_origin(source, card%keyword%line)
-    select case (lower_case(card%keyword%text))
-    case ("title")
+    if (same_word(card%keyword%text, "TITLE")) then
       line%origin = ""
-    case ("mesh")
-      if (entry_number(card, "order") == 0 .and. entry_number(card, "accuracy") == 0) &
-        call append_default(line, "order=3")
-    case ("mass", "point")
-      if (entry_number(card, "offset") == 0) call append_default(line, "offset=0")
-    case ("report")
-      if (same_word(card%words(1)%text, "shapes") .and. entry_number(card, "points") == 0) &
-        call append_default(line, "points=21")
-      if (same_word(card%words(1)%text, "motion") .and. entry_number(card, "speed") == 0) &
-        call append_default(line, "speed=0")
-    end select
+    else if (.not. same_word(card%keyword%text, "REPORT")) then
+      kind = kind_of_card(card%keyword%text)
+      ! `accuracy=` leaves the order to the program.
+      if (entry_number(card, "accuracy") == 0) call complete(card, trim(kind%entry), line)
+    else
+      number = kind_named(reports, lower_case(card%words(1)%text))
+      call complete(card, trim(reports(number)%default), line)
+    end if
   end function echo_card
 
   !> A card in one form: words first, single blanks.
@@ -119,6 +122,16 @@ contains
     end do
     call append_default(line, effect_words(loads, .false., .false.))
   end subroutine complete_effects
+
+  !> Adds a `key=value` if a card does not have the key.
+  pure subroutine complete(card, entry, line)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: entry !! empty: nothing
+    type(echo_line_t), intent(inout) :: line
+
+    if (len(entry) == 0) return
+    if (entry_number(card, entry(:index(entry, "=") - 1)) == 0) call append_default(line, entry)
+  end subroutine complete
 
   !> Adds what a card leaves out.
   pure subroutine append_default(line, entry)

@@ -1,6 +1,7 @@
 !> EFFECTS: what the frequencies feel.
 module effect_cards
   use card_reader, only: check_form, read_choice
+  use card_table, only: card_kind_t, kind_of_card
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use text, only: lower_case
@@ -20,8 +21,6 @@ module effect_cards
     type(token_t) :: shear_word !! without a line if the deck does not ask for it
   end type effects_t
 
-  character(len=*), parameter :: words = "static axial rotary shear"
-
 contains
 
   !> Reads `EFFECTS [static|axial] [rotary] [shear]`, in any order.
@@ -31,13 +30,14 @@ contains
     type(effects_t), intent(inout) :: effects
 
     logical :: fine
+    type(card_kind_t) :: kind
     integer :: first(4), choice, other, i !! `first`: where each word stands
 
-    call check_form(card, 1, size(first), "", "EFFECTS [static|axial] [rotary] [shear]", &
-      diagnostics, fine)
+    call check_form(card, diagnostics, fine)
+    kind = kind_of_card(card%keyword%text)
     first = 0
     do i = 1, min(size(card%words), size(first))
-      call read_choice(card%words(i), words, diagnostics, choice)
+      call read_choice(card%words(i), trim(kind%choices), diagnostics, choice)
       if (choice == 0) cycle
       if (first(choice) > 0) then
         call add_error(diagnostics, card%words(i), "'"//lower_case(card%words(i)%text)// &

@@ -2,6 +2,7 @@
 module link_cards
   use card_reader, only: check_form, entry_number, has_key, read_entry_quantity, read_name, &
     refuse_negative, require_positive
+  use card_table, only: pattern_of
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
@@ -39,10 +40,6 @@ module link_cards
                                       !! none
   end type link_t
 
-  character(len=*), parameter :: pattern = &
-    "LINK name pin pin [rigid] length= [material= section=] [mass= inertia= "// &
-    "center=along,offset]"
-
 contains
 
   !> Reads `LINK name pin pin [rigid] length= [material= section=] [mass= inertia=
@@ -56,8 +53,7 @@ contains
     type(token_t) :: nowhere
     logical :: fine, known_keys
 
-    call check_form(card, 3, 4, "length material section mass inertia center", pattern, &
-      diagnostics, fine, known_keys)
+    call check_form(card, diagnostics, fine, known_keys)
     link%name = card%keyword
     nowhere = token_t("", 0, 0)
     link%pin(:) = nowhere
@@ -98,7 +94,7 @@ contains
       link%rigid_word = word
     else
       call add_error(diagnostics, word, "unexpected '"//word%text//"'"//suggestion(word%text, &
-        word_list("rigid"))//"; expected: "//pattern)
+        word_list("rigid"))//"; expected: "//pattern_of("LINK"))
     end if
   end subroutine read_rigid
 

@@ -61,7 +61,7 @@ contains
     logical :: fine
 
     ground%pin = token_t("", 0, 0)
-    call check_form(card, 3, 3, "", "GROUND name x y", diagnostics, fine)
+    call check_form(card, diagnostics, fine)
     if (size(card%words) > 0) then
       ground%pin = card%words(1)
       call read_name(ground%pin, diagnostics)
@@ -83,7 +83,7 @@ contains
     logical :: fine
 
     pin_mass%pin = token_t("", 0, 0)
-    call check_form(card, 2, 2, "", "PINMASS pin mass", diagnostics, fine)
+    call check_form(card, diagnostics, fine)
     if (size(card%words) > 0) pin_mass%pin = card%words(1)
     if (.not. fine) return
     call read_quantity(card%words(2), dimension_mass, system, diagnostics, pin_mass%mass, fine)
@@ -100,9 +100,7 @@ contains
 
     logical :: fine, known_keys
 
-    call check_form(card, 1, huge(1), "elements order accuracy", &
-      "MESH link ... elements= [order=3], or MESH link ... accuracy=, with * for all other links", &
-      diagnostics, fine, known_keys)
+    call check_form(card, diagnostics, fine, known_keys)
     mesh%keyword = card%keyword
     mesh%link_names = card%words
     mesh%accuracy_word = token_t("", 0, 0)

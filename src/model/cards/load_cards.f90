@@ -36,7 +36,7 @@ contains
     logical :: fine
 
     gravity = 0.0_wp
-    call check_form(card, 2, 2, "", "GRAVITY gx gy", diagnostics, fine)
+    call check_form(card, diagnostics, fine)
     if (.not. fine) return
     call read_quantity(card%words(1), dimension_acceleration, system, diagnostics, gravity(1), fine)
     call read_quantity(card%words(2), dimension_acceleration, system, diagnostics, gravity(2), fine)
@@ -52,7 +52,7 @@ contains
     logical :: fine
 
     force%pin = token_t("", 0, 0)
-    call check_form(card, 3, 3, "", "FORCE pin fx fy", diagnostics, fine)
+    call check_form(card, diagnostics, fine)
     if (size(card%words) > 0) force%pin = card%words(1)
     if (.not. fine) return
     call read_quantity(card%words(2), dimension_force, system, diagnostics, force%force(1), fine)
@@ -69,7 +69,7 @@ contains
     logical :: fine
 
     torque%link_name = token_t("", 0, 0)
-    call check_form(card, 2, 2, "", "TORQUE link torque", diagnostics, fine)
+    call check_form(card, diagnostics, fine)
     if (size(card%words) > 0) torque%link_name = card%words(1)
     if (fine) call read_quantity(card%words(2), dimension_moment, system, diagnostics, &
       torque%torque, fine)

@@ -38,8 +38,7 @@ contains
     logical :: fine, known_keys, has_modulus, has_density
     real(wp) :: wave_speed
 
-    call check_form(card, 1, 1, "E density nu", "MATERIAL name E= density= [nu=]", diagnostics, &
-      fine, known_keys)
+    call check_form(card, diagnostics, fine, known_keys)
     material%name = card%keyword
     if (fine) then
       material%name = card%words(1)

@@ -2,6 +2,7 @@
 !! looked up.
 module motor_cards
   use card_reader, only: check_form, entry_number, has_key, read_entry_quantity, refuse_negative
+  use card_table, only: pattern_of
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
@@ -43,8 +44,7 @@ contains
     logical :: fine, known_keys, stalls, runs
 
     motor%keyword = card%keyword
-    call check_form(card, 0, 0, "torque stall noload", "MOTOR torque=, or MOTOR stall= noload=", &
-      diagnostics, fine, known_keys)
+    call check_form(card, diagnostics, fine, known_keys)
     motor%is_line = has_key(card, "stall") .or. has_key(card, "noload")
     if (has_key(card, "torque") .and. motor%is_line) then
       call refuse_mixture(card, diagnostics)
@@ -52,7 +52,7 @@ contains
     end if
     if (known_keys .and. .not. has_key(card, "torque") .and. .not. motor%is_line) then
       call add_error(diagnostics, card%keyword, &
-        "the torque of the motor is missing; expected: MOTOR torque=, or "//"MOTOR stall= noload=")
+        "the torque of the motor is missing; expected: "//pattern_of("MOTOR"))
     end if
     call read_entry_quantity(card, "torque", dimension_moment, system, .false., diagnostics, &
       motor%torque, fine)
@@ -111,8 +111,7 @@ contains
 
     resistance%keyword = card%keyword
     resistance%link_name = token_t("", 0, 0)
-    call check_form(card, 1, 1, "torque damping", "LOAD link [torque=] [damping=]", diagnostics, &
-      fine, known_keys)
+    call check_form(card, diagnostics, fine, known_keys)
     if (size(card%words) > 0) resistance%link_name = card%words(1)
     if (known_keys .and. .not. has_key(card, "torque") .and. .not. has_key(card, "damping")) then
       call add_error(diagnostics, card%keyword, &

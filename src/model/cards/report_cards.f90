@@ -1,12 +1,13 @@
 !> REPORT: a table, or several, that is asked for.
 module report_cards
-  use card_reader, only: check_form, entry_number, has_key, read_choice, read_entry_count, &
+  use card_reader, only: check_words, entry_number, has_key, read_choice, read_entry_count, &
     read_entry_quantity, require_positive
+  use card_table, only: keys_in
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
-  use report_kinds, only: report_kind_t, report_names
-  use text, only: joined, to_string, word_list
+  use report_kinds, only: kind_named, report_kind_t, report_names
+  use text, only: joined, lower_case, to_string, word_list
   use tokens, only: token_t
   use units, only: dimension_angle, dimension_rate, dimension_time, unit_system_t
   use value_lists, only: empty_list, read_entry_list, value_list_t
@@ -35,8 +36,8 @@ module report_cards
 
 contains
 
-  !> Reads `REPORT kind`, for shapes with `crank=`, `speed=` and `points=`, for a motion with its
-  !! start and its times.
+  !> Reads `REPORT kind`, for shapes with `crank=`, `speed=` and `points=`, for a drawing with its
+  !! crank angles, for a motion with its start and its times.
   pure subroutine read_report(card, reports, system, diagnostics, report)
     type(card_t), intent(in) :: card
     type(report_kind_t), intent(in) :: reports(:) !! that there are
@@ -58,15 +59,20 @@ contains
     pattern = "REPORT "//joined(word_list(report_names(reports)), "|")
     number = 0
     if (size(card%words) > 0) then
-      call read_choice(card%words(1), report_names(reports), diagnostics, number)
-      if (number == 0) return
+      number = kind_named(reports, lower_case(card%words(1)%text))
+      if (number == 0) then
+        call read_choice(card%words(1), report_names(reports), diagnostics, number)
+        return
+      end if
       report%kind = reports(number)
       if (len_trim(report%kind%pattern) > 0) pattern = trim(report%kind%pattern)
     end if
-    call check_form(card, 1, 1, trim(report%kind%keys), pattern, diagnostics, fine, known_keys)
+    call check_words(card, 1, 1, keys_in(pattern), pattern, diagnostics, fine, known_keys)
     select case (report%kind%name)
     case ("shapes")
       call read_shapes(card, system, diagnostics, report)
+    case ("geometry")
+      call read_geometry(card, known_keys, system, diagnostics, report)
     case ("motion")
       call read_motion(card, known_keys, system, diagnostics, report)
     end select
@@ -87,6 +93,21 @@ contains
     call read_entry_count(card, "points", 2, diagnostics, points, fine)
     if (fine) report%points = points
   end subroutine read_shapes
+
+  !> Reads `REPORT geometry crank=a,b,...`.
+  pure subroutine read_geometry(card, known_keys, system, diagnostics, report)
+    type(card_t), intent(in) :: card
+    logical, intent(in) :: known_keys !! no key is unknown
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(report_t), intent(inout) :: report
+
+    if (known_keys .and. .not. has_key(card, "crank")) then
+      call add_error(diagnostics, card%keyword, &
+        "'crank=' is missing; expected the angles at which the linkage is to be drawn")
+    end if
+    call read_entry_list(card, "crank", dimension_angle, system, diagnostics, report%crank)
+  end subroutine read_geometry
 
   !> Reads `REPORT motion crank= [speed=0] end= step=`.
   pure subroutine read_motion(card, known_keys, system, diagnostics, report)

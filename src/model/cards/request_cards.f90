@@ -1,17 +1,74 @@
-!> CRANK and SPEED: the positions and speeds that are computed.
+!> What is computed: TITLE, DRIVE, CRANK, SPEED, MODES, and the cards that choose one word of
+!! several.
 module request_cards
-  use card_reader, only: check_form, read_entry_quantity
+  use card_reader, only: check_form, read_choice, read_entry_quantity
+  use card_table, only: card_kind_t, kind_of_card
   use cards, only: card_t
-  use diagnostics, only: diagnostics_t
+  use diagnostics, only: add_error, diagnostics_t
+  use errors, only: error_of_input, error_t, set_error
   use kinds, only: wp
+  use numbers, only: read_integer
+  use text, only: to_string
+  use tokens, only: token_t
   use units, only: dimension_angle, dimension_angular_acceleration, dimension_rate, unit_system_t
   use value_lists, only: read_values, value_list_t
   implicit none (type, external)
   private
 
-  public :: read_crank, read_speed
+  public :: read_title, read_drive, read_option, read_crank, read_speed, read_modes
 
 contains
+
+  !> Reads `TITLE text`.
+  pure subroutine read_title(card, diagnostics, title)
+    type(card_t), intent(in) :: card
+    type(diagnostics_t), intent(inout) :: diagnostics
+    character(len=:), allocatable, intent(inout) :: title
+
+    if (size(card%words) == 0) return
+    title = card%words(1)%text
+    if (card%words(1)%column == card%keyword%column + len("TITLE")) call add_error(diagnostics, &
+      card%words(1), "a blank must stand between TITLE and its text")
+  end subroutine read_title
+
+  !> Reads `DRIVE link`.
+  pure subroutine read_drive(card, diagnostics, drive)
+    type(card_t), intent(in) :: card
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(token_t), intent(inout) :: drive !! name of the driven link; without a line before
+
+    logical :: fine
+
+    call check_form(card, diagnostics, fine)
+    if (.not. fine) return
+    if (drive%line > 0) then
+      call add_error(diagnostics, card%words(1), &
+        "the linkage is driven twice; it has one driven link", drive, "first driven here")
+    else
+      drive = card%words(1)
+    end if
+  end subroutine read_drive
+
+  !> Reads a card of one word, such as `BRANCH open|crossed`.
+  pure subroutine read_option(card, diagnostics, option, word)
+    type(card_t), intent(in) :: card
+    type(diagnostics_t), intent(inout) :: diagnostics
+    integer, intent(inout) :: option             !! number among the words of the table of cards;
+                                                 !! as it was if the word is none of them
+    type(token_t), intent(inout), optional :: word
+
+    type(card_kind_t) :: kind
+    integer :: choice
+    logical :: fine
+
+    call check_form(card, diagnostics, fine)
+    if (.not. fine) return
+    kind = kind_of_card(card%keyword%text)
+    call read_choice(card%words(1), trim(kind%choices), diagnostics, choice)
+    if (choice == 0) return
+    option = choice
+    if (present(word)) word = card%words(1)
+  end subroutine read_option
 
   !> Reads `CRANK` angles [deg]: numbers and ranges `a to b step s`, perhaps with one unit at the
   !! end for all of them.
@@ -23,8 +80,7 @@ contains
 
     logical :: fine
 
-    call check_form(card, 1, huge(1), "", "CRANK a to b step s, or a list of angles", diagnostics, &
-      fine)
+    call check_form(card, diagnostics, fine)
     call read_values(card%words, dimension_angle, system, "crank angle", diagnostics, crank)
   end subroutine read_crank
 
@@ -38,11 +94,34 @@ contains
 
     logical :: fine
 
-    call check_form(card, 1, huge(1), "alpha", &
-      "SPEED a list or range of speeds [rad/s|rpm] [alpha=]", diagnostics, fine)
+    call check_form(card, diagnostics, fine)
     call read_values(card%words, dimension_rate, system, "speed", diagnostics, speed)
     call read_entry_quantity(card, "alpha", dimension_angular_acceleration, system, .false., &
       diagnostics, acceleration, fine)
   end subroutine read_speed
+
+  !> Reads `MODES number`.
+  pure subroutine read_modes(card, diagnostics, modes, word)
+    type(card_t), intent(in) :: card
+    type(diagnostics_t), intent(inout) :: diagnostics
+    integer, intent(inout) :: modes      !! as it was if the number is none
+    type(token_t), intent(inout) :: word !! likewise
+
+    type(error_t), allocatable :: error
+    logical :: fine
+    integer :: number
+
+    call check_form(card, diagnostics, fine)
+    if (.not. fine) return
+    call read_integer(card%words(1)%text, number, error)
+    if (.not. allocated(error) .and. number < 1) call set_error(error, error_of_input, &
+      "the number of modes must be at least 1, not "//to_string(number))
+    if (allocated(error)) then
+      call add_error(diagnostics, card%words(1), error%text)
+    else
+      modes = number
+      word = card%words(1)
+    end if
+  end subroutine read_modes
 
 end module request_cards

@@ -2,6 +2,7 @@
 module sections
   use card_reader, only: check_form, entry_number, has_key, read_choice, read_entry_quantity, &
     read_name, require_positive
+  use card_table, only: card_kind_t, kind_of_card
   use cards, only: card_t
   use constants, only: pi
   use diagnostics, only: add_error, diagnostics_t
@@ -25,7 +26,6 @@ module sections
     type(token_t) :: shear_word        !! where it stands
   end type section_t
 
-  character(len=*), parameter :: shapes = "rectangle circle tube general"
   integer, parameter :: shape_rectangle = 1, shape_circle = 2, shape_tube = 3, shape_general = 4
 
 contains
@@ -38,6 +38,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(section_t), intent(out) :: section
 
+    type(card_kind_t) :: kind
     logical :: fine
 
     section%name = card%keyword
@@ -47,12 +48,11 @@ contains
       call read_name(section%name, diagnostics)
     end if
     if (size(card%words) < 2) then
-      call check_form(card, 2, 2, &
-        "thickness width diameter outer inner A I depth shear_coefficient", &
-        "SECTION name rectangle|circle|tube|general ...", diagnostics, fine)
+      call check_form(card, diagnostics, fine)
       return
     end if
-    call read_choice(card%words(2), shapes, diagnostics, section%shape)
+    kind = kind_of_card(card%keyword%text)
+    call read_choice(card%words(2), trim(kind%choices), diagnostics, section%shape)
     select case (section%shape)
     case (shape_rectangle)
       call read_rectangle(card, system, diagnostics, section)
@@ -96,9 +96,7 @@ contains
     real(wp) :: thickness, width
     logical :: fine, known_keys
 
-    call check_form(card, 2, 2, "thickness width shear_coefficient", &
-      "SECTION name rectangle thickness= width= [shear_coefficient=]", diagnostics, fine, &
-      known_keys)
+    call check_form(card, diagnostics, fine, known_keys, form="rectangle")
     call read_positive(card, "thickness", dimension_length, system, known_keys, diagnostics, &
       thickness)
     call read_positive(card, "width", dimension_length, system, known_keys, diagnostics, width)
@@ -117,8 +115,7 @@ contains
     real(wp) :: diameter
     logical :: fine, known_keys
 
-    call check_form(card, 2, 2, "diameter shear_coefficient", &
-      "SECTION name circle diameter= [shear_coefficient=]", diagnostics, fine, known_keys)
+    call check_form(card, diagnostics, fine, known_keys, form="circle")
     call read_positive(card, "diameter", dimension_length, system, known_keys, diagnostics, &
       diameter)
     section%area = pi*diameter**2/4.0_wp
@@ -136,8 +133,7 @@ contains
     real(wp) :: outer, inner
     logical :: fine, known_keys
 
-    call check_form(card, 2, 2, "outer inner shear_coefficient", &
-      "SECTION name tube outer= inner= [shear_coefficient=]", diagnostics, fine, known_keys)
+    call check_form(card, diagnostics, fine, known_keys, form="tube")
     call read_positive(card, "outer", dimension_length, system, known_keys, diagnostics, outer)
     call read_positive(card, "inner", dimension_length, system, known_keys, diagnostics, inner)
     if (outer > 0.0_wp .and. inner >= outer) then
@@ -161,8 +157,7 @@ contains
 
     logical :: fine, known_keys
 
-    call check_form(card, 2, 2, "A I depth shear_coefficient", &
-      "SECTION name general A= I= [depth=] [shear_coefficient=]", diagnostics, fine, known_keys)
+    call check_form(card, diagnostics, fine, known_keys, form="general")
     call read_positive(card, "A", dimension_area, system, known_keys, diagnostics, section%area)
     call read_positive(card, "I", dimension_second_moment, system, known_keys, diagnostics, &
       section%second_moment)

@@ -1,5 +1,6 @@
 !> What the reports asked for need, and whether the deck has it.
 module report_needs
+  use card_table, only: pattern_of
   use diagnostics, only: add_error, diagnostics_t
   use link_cards, only: has_own_mass, link_t
   use models, only: bears_lumped_masses, inertia_lumped, inertia_none, is_moving, model_t, &
@@ -27,7 +28,7 @@ contains
     if (points == 0 .or. size(model%points) > 0) return
     call add_error(diagnostics, model%reports(points)%keyword, &
       "this report has a row for every POINT card, and there is none; "// &
-      "expected: POINT name link along= [offset=]")
+      "expected: "//pattern_of("POINT"))
   end subroutine check_report_needs
 
   !> What a link lacks: as a beam, or as a body with a mass.

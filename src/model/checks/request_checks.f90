@@ -1,5 +1,6 @@
 !> What is asked for: whether the deck has all it takes, and whether it makes sense.
 module request_checks
+  use card_table, only: card_names, pattern_of
   use cards, only: card_t
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use kinds, only: wp
@@ -15,11 +16,7 @@ module request_checks
   implicit none (type, external)
   private
 
-  public :: check_required, check_requests, has_card, card_names
-
-  character(len=*), parameter :: card_names = &
-    "TITLE UNITS INCLUDE SET VARY MATERIAL SECTION GROUND LINK DRIVE BRANCH PINMASS MESH MASS "// &
-    "POINT GRAVITY FORCE TORQUE "//"MOTOR LOAD CRANK SPEED INERTIA EFFECTS SOLVER MODES REPORT"
+  public :: check_required, check_requests, has_card
 
   !> A link stockier than this is no slender beam: shear and rotary inertia decide.
   real(wp), parameter :: least_slenderness = 10.0_wp
@@ -36,7 +33,7 @@ contains
     type(model_t), intent(in) :: model !! with its reports
 
     if (.not. has_card(cards, "UNITS")) &
-      call missing("there is no UNITS card; expected: UNITS length mass time")
+      call missing("there is no UNITS card; expected: "//pattern_of("UNITS"))
     ! What a file holds that cannot be included is not missing from the deck.
     if (has_card(cards, "INCLUDE")) return
     if (.not. has_card(cards, "GROUND") .or. .not. has_card(cards, "LINK")) then
@@ -45,12 +42,12 @@ contains
     end if
     if (.not. has_card(cards, "DRIVE") .and. model%motor%keyword%line > 0) then
       call add_error(diagnostics, model%motor%keyword, &
-        "a motor needs a driven link; expected: DRIVE link")
+        "a motor needs a driven link; expected: "//pattern_of("DRIVE"))
     else if (.not. has_card(cards, "DRIVE")) then
-      call missing("the linkage is not driven; expected: DRIVE link")
+      call missing("the linkage is not driven; expected: "//pattern_of("DRIVE"))
     end if
     if (needs_positions(model) .and. .not. has_card(cards, "CRANK")) then
-      call missing("there is no CRANK card; expected: CRANK a to b step s, or a list of angles")
+      call missing("there is no CRANK card; expected: "//pattern_of("CRANK"))
     end if
     if (.not. has_card(cards, "REPORT")) then
       call missing("there is no REPORT card; expected REPORT and one of: "// &
@@ -80,7 +77,7 @@ contains
     do i = 1, size(cards)
       if (same_word(cards(i)%keyword%text, keyword)) return
     end do
-    known = word_list(card_names)
+    known = card_names()
     do i = 1, size(cards)
       if (means(cards(i)%keyword%text, keyword, known)) return
     end do

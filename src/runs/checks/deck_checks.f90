@@ -5,7 +5,7 @@ module deck_checks
   use four_bar_limits, only: can_reach, crank_reach, reach_t
   use kinds, only: wp
   use mechanisms, only: mechanism_t, new_mechanism
-  use models, only: model_t, needs_frequencies, solver_band, solver_dense
+  use models, only: model_t, needs_frequencies, report_number, solver_band, solver_dense
   use motion_checks, only: check_motion
   use nodal_eigensolver, only: most_round_off
   use rest_eigenvalues, only: lowest_rest_eigenvalues
@@ -58,6 +58,7 @@ contains
       return
     end if
     call check_reach(model, reach, diagnostics)
+    call check_geometry(model, reach, diagnostics)
     call check_motion(model, mechanism, reach, reachable(reach), diagnostics)
     if (.not. needs_frequencies(model) .or. .not. has_mesh(mechanism) .or. &
       .not. has_beams(mechanism)) return
@@ -117,6 +118,26 @@ contains
       message//"; the linkage closes "//reachable(reach)//": "// &
       ready_card(reach, step_of(model%crank)))
   end subroutine check_reach
+
+  !> Positions out of reach that REPORT geometry asks for.
+  subroutine check_geometry(model, reach, diagnostics)
+    type(model_t), intent(in) :: model
+    type(reach_t), intent(in) :: reach
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: number, i
+
+    number = report_number(model, "geometry")
+    if (number == 0) return
+    associate (crank => model%reports(number)%crank)
+      do i = 1, size(crank%value)
+        if (can_reach(reach, crank%value(i))) cycle
+        call add_error(diagnostics, crank%words(crank%word(i)), "the crank angle "// &
+          to_string(crank%value(i), 10)//" deg is out of reach; the linkage closes "// &
+          reachable(reach))
+      end do
+    end associate
+  end subroutine check_geometry
 
   !> The step that the user has in mind: that of the first range, or 5 degrees.
   pure function step_of(crank) result(step)

@@ -2,10 +2,12 @@
 module echo
   use body_lines, only: place_words
   use card_echo, only: echo_line_t
+  use card_table, only: card_kind_t, card_kinds
+  use effect_cards, only: effect_words
   use kinds, only: wp
   use link_bodies, only: link_center, link_inertia
   use link_cards, only: has_own_mass
-  use models, only: effects_axial, link_mass, model_t
+  use models, only: link_mass, model_t
   use shear, only: link_rotary_inertia, link_shear_stiffness, shear_coefficient
   use text, only: character_count, same_word, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
@@ -33,15 +35,10 @@ contains
     do i = 1, size(model%echo)
       call append_card(buffer, model%echo(i))
     end do
-    call append_default(buffer, model, "BRANCH", "open")
-    ! A model without MESH cards has a mesh only where a report needs one.
-    if (size(model%meshes) > 0) call append_default(buffer, model, "MESH", &
-      "* accuracy="//to_string(model%meshes(1)%accuracy))
-    call append_default(buffer, model, "SPEED", "0")
-    call append_default(buffer, model, "EFFECTS", &
-      trim(merge("axial ", "static", model%effects == effects_axial)))
-    call append_default(buffer, model, "SOLVER", "auto")
-    call append_default(buffer, model, "MODES", "3")
+    do i = 1, size(card_kinds)
+      if (len_trim(card_kinds(i)%default) > 0) call append_default_card(buffer, model, &
+        card_kinds(i))
+    end do
     call append_derived(buffer, model)
     text = buffer_text(buffer)
   end function echo_text
@@ -57,6 +54,25 @@ contains
     end if
     call append_text(buffer, achar(10))
   end subroutine append_card
+
+  !> Writes a card with a default if the deck leaves it out.
+  pure subroutine append_default_card(buffer, model, kind)
+    type(text_buffer_t), intent(inout) :: buffer
+    type(model_t), intent(in) :: model
+    type(card_kind_t), intent(in) :: kind
+
+    select case (kind%keyword)
+    case ("MESH")
+      ! A model without MESH cards has a mesh only where a report needs one.
+      if (size(model%meshes) > 0) call append_default(buffer, model, trim(kind%keyword), &
+        trim(kind%default))
+    case ("EFFECTS")
+      call append_default(buffer, model, trim(kind%keyword), effect_words(model%effects, .false., &
+        .false.))
+    case default
+      call append_default(buffer, model, trim(kind%keyword), trim(kind%default))
+    end select
+  end subroutine append_default_card
 
   !> Writes a card that the deck leaves out.
   pure subroutine append_default(buffer, model, keyword, value)

@@ -1,0 +1,183 @@
+!> The table of cards: what each looks like, what it says if the user does not, what it is for.
+!!
+!! A new card is a record here, a file in `model/cards` that reads it, and a case in `model_reader`.
+!! Messages, `echo.deck`, `flexmech --help-cards`, the fuzzer and the check of docs/deck.md take
+!! what they need from this table.
+module card_table
+  use text, only: append_string, joined, same_word, string_t
+  implicit none (type, external)
+  private
+
+  public :: card_kind_t, card_kinds, many, card_names, card_kind_number, kind_of_card, keys_in, &
+    keys_of, pattern_of
+
+  !> A card, or one of the forms that it has.
+  type :: card_kind_t
+    character(len=8) :: keyword = ""
+    character(len=9) :: form = ""       !! the second word, where it makes the form
+    logical :: is_single = .false.      !! a deck has one at most
+    integer :: least = 0, most = 0      !! words besides the keyword
+    character(len=128) :: pattern = ""  !! the card as it should be; its keys end with `=`
+    character(len=72) :: keys = ""      !! where the pattern does not name them all
+    character(len=32) :: choices = ""   !! words that it takes
+    character(len=10) :: entry = ""     !! `key=value` that it says if the user does not
+    character(len=16) :: default = ""   !! what it says in a deck that does not have it
+    character(len=88) :: help = ""      !! in one line
+  end type card_kind_t
+
+  !> As many words as the user likes.
+  integer, parameter :: many = huge(1)
+
+  !> The forms of a card stand side by side, the one without a word first.
+  type(card_kind_t), parameter :: card_kinds(*) = [ &
+    card_kind_t("TITLE", is_single=.true., pattern="TITLE text", &
+      help="stands at the head of tables and figures"), &
+    card_kind_t("UNITS", is_single=.true., least=3, most=3, pattern="UNITS length mass time", &
+      help="what bare numbers mean; required"), &
+    card_kind_t("INCLUDE", least=1, most=1, pattern="INCLUDE file", &
+      help="the cards of another file"), &
+    card_kind_t("SET", least=2, most=2, pattern="SET name value", help="a value for $name"), &
+    card_kind_t("VARY", least=2, most=many, &
+      pattern="VARY name a to b step s, or VARY name and a list of values", &
+      help="values for $name, one after the other: the variants of the deck"), &
+    card_kind_t("MATERIAL", least=1, most=1, pattern="MATERIAL name E= density= [nu=]", &
+      help="what links are made of; EFFECTS shear needs nu"), &
+    card_kind_t("SECTION", least=2, most=2, &
+      pattern="SECTION name rectangle|circle|tube|general ...", &
+      keys="thickness width diameter outer inner A I depth shear_coefficient", &
+      choices="rectangle circle tube general", help="the cross-section of links"), &
+    card_kind_t("SECTION", "rectangle", least=2, most=2, &
+      pattern="SECTION name rectangle thickness= width= [shear_coefficient=]", &
+      help="the thickness lies in the plane of motion"), &
+    card_kind_t("SECTION", "circle", least=2, most=2, &
+      pattern="SECTION name circle diameter= [shear_coefficient=]", help="a round bar"), &
+    card_kind_t("SECTION", "tube", least=2, most=2, &
+      pattern="SECTION name tube outer= inner= [shear_coefficient=]", help="by its diameters"), &
+    card_kind_t("SECTION", "general", least=2, most=2, &
+      pattern="SECTION name general A= I= [depth=] [shear_coefficient=]", &
+      help="I about the axis normal to the plane; the depth serves a warning only"), &
+    card_kind_t("GROUND", least=3, most=3, pattern="GROUND name x y", help="a fixed pivot"), &
+    card_kind_t("LINK", least=3, most=4, &
+      pattern="LINK name pin pin [rigid] length= [material= section=] [mass= inertia= "// &
+      "center=along,offset]", choices="rigid", &
+      help="a straight uniform link, or a rigid body of any shape"), &
+    card_kind_t("DRIVE", least=1, most=1, pattern="DRIVE link", &
+      help="the link whose angle is given; required"), &
+    card_kind_t("BRANCH", is_single=.true., least=1, most=1, pattern="BRANCH open|crossed", &
+      choices="open crossed", default="open", &
+      help="on which side of the line from A to O4 pin B lies: open is to the left"), &
+    card_kind_t("PINMASS", least=2, most=2, pattern="PINMASS pin mass", &
+      help="a mass at a moving pin"), &
+    card_kind_t("MESH", least=1, most=many, &
+      pattern="MESH link ... elements= [order=3], or MESH link ... accuracy=, with * for all "// &
+      "other links", entry="order=3", default="* accuracy=1e-8", &
+      help="how links are divided, or how accurate frequencies are to be"), &
+    card_kind_t("MASS", least=2, most=2, pattern="MASS link at= [offset=] mass", &
+      entry="offset=0", help="a mass fixed to a link"), &
+    card_kind_t("POINT", least=2, most=2, pattern="POINT name link along= [offset=]", &
+      entry="offset=0", help="a point of a link, for REPORT points"), &
+    card_kind_t("GRAVITY", is_single=.true., least=2, most=2, pattern="GRAVITY gx gy", &
+      help="acceleration of gravity in global axes"), &
+    card_kind_t("FORCE", least=3, most=3, pattern="FORCE pin fx fy", &
+      help="a constant force on a moving pin"), &
+    card_kind_t("TORQUE", least=2, most=2, pattern="TORQUE link torque", &
+      help="a constant torque on a link"), &
+    card_kind_t("MOTOR", is_single=.true., pattern="MOTOR torque=, or MOTOR stall= noload=", &
+      help="what turns the driven link in REPORT motion"), &
+    card_kind_t("LOAD", least=1, most=1, pattern="LOAD link [torque=] [damping=]", &
+      help="what a link has to overcome in REPORT motion"), &
+    card_kind_t("CRANK", is_single=.true., least=1, most=many, &
+      pattern="CRANK a to b step s, or a list of angles", help="the positions"), &
+    card_kind_t("SPEED", is_single=.true., least=1, most=many, &
+      pattern="SPEED a list or range of speeds [rad/s|rpm] [alpha=]", default="0", &
+      help="of the crank; alpha is its angular acceleration at all of them"), &
+    card_kind_t("INERTIA", is_single=.true., least=1, most=1, &
+      pattern="INERTIA lumped|distributed", choices="lumped distributed", &
+      help="how the mass of links makes loads: on the nodes of the mesh, or along the links"), &
+    card_kind_t("EFFECTS", is_single=.true., least=1, most=4, &
+      pattern="EFFECTS [static|axial] [rotary] [shear]", choices="static axial rotary shear", &
+      default="static|axial", &
+      help="what frequencies take account of; axial if anything moves or loads the linkage"), &
+    card_kind_t("SOLVER", is_single=.true., least=1, most=1, &
+      pattern="SOLVER auto|deformation|dense|band", choices="auto deformation dense band", &
+      default="auto", help="how frequencies are found; auto is deformation"), &
+    card_kind_t("MODES", is_single=.true., least=1, most=1, pattern="MODES number", default="3", &
+      help="how many of the lowest frequencies"), &
+    card_kind_t("REPORT", least=1, most=1, pattern="REPORT name ...", &
+      help="a table that is wanted; required, one or more")]
+
+contains
+
+  !> The keywords of all cards, each once.
+  pure function card_names() result(names)
+    type(string_t), allocatable :: names(:)
+
+    integer :: i
+
+    allocate (names(0))
+    do i = 1, size(card_kinds)
+      if (card_kinds(i)%form == "") call append_string(names, trim(card_kinds(i)%keyword))
+    end do
+  end function card_names
+
+  !> Number of a card's form in the table; 0 if there is no such card.
+  pure function card_kind_number(keyword, form) result(number)
+    character(len=*), intent(in) :: keyword        !! in capitals or small letters
+    character(len=*), intent(in), optional :: form !! absent: the one without a word
+    integer :: number
+
+    character(len=len(card_kinds%form)) :: wanted
+
+    wanted = ""
+    if (present(form)) wanted = form
+    do number = 1, size(card_kinds)
+      if (card_kinds(number)%form /= wanted) cycle
+      if (same_word(trim(card_kinds(number)%keyword), keyword)) return
+    end do
+    number = 0
+  end function card_kind_number
+
+  !> A card's record.
+  pure function kind_of_card(keyword, form) result(kind)
+    character(len=*), intent(in) :: keyword        !! of a card that there is
+    character(len=*), intent(in), optional :: form !! absent: the one without a word
+    type(card_kind_t) :: kind
+
+    kind = card_kinds(card_kind_number(keyword, form))
+  end function kind_of_card
+
+  !> A card as it should be.
+  pure function pattern_of(keyword) result(pattern)
+    character(len=*), intent(in) :: keyword !! of a card that there is
+    character(len=:), allocatable :: pattern
+
+    pattern = trim(card_kinds(card_kind_number(keyword))%pattern)
+  end function pattern_of
+
+  !> The keys that a card takes, separated by blanks.
+  pure function keys_of(kind) result(keys)
+    type(card_kind_t), intent(in) :: kind
+    character(len=:), allocatable :: keys
+
+    keys = trim(kind%keys)
+    if (len(keys) == 0) keys = keys_in(trim(kind%pattern))
+  end function keys_of
+
+  !> The words before the equals signs of a pattern, separated by blanks.
+  pure function keys_in(pattern) result(keys)
+    character(len=*), intent(in) :: pattern
+    character(len=:), allocatable :: keys
+
+    type(string_t), allocatable :: list(:)
+    integer :: i, first
+
+    allocate (list(0))
+    do i = 1, len(pattern)
+      if (pattern(i:i) /= "=") cycle
+      first = scan(pattern(:i - 1), " [,", back=.true.) + 1
+      call append_string(list, pattern(first:i - 1))
+    end do
+    keys = joined(list, " ")
+  end function keys_in
+
+end module card_table

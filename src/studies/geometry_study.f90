@@ -1,0 +1,69 @@
+!> Where pins and points are, at any crank angles: what a drawing of a linkage is made of.
+module geometry_study
+  use errors, only: error_t, outcome_t
+  use kinds, only: wp
+  use linkages, only: linkage_t, normal_to
+  use poses, only: place_links, pose_t
+  implicit none (type, external)
+  private
+
+  public :: geometry_result_t, find_geometry
+
+  !> Zeros where the linkage cannot be placed.
+  type :: geometry_result_t
+    real(wp), allocatable :: crank(:)          !! (positions) [deg]
+    type(outcome_t), allocatable :: outcome(:) !! (positions)
+    real(wp), allocatable :: pin(:, :, :)      !! (2, pins, positions) in global axes [m]
+    real(wp), allocatable :: point(:, :, :)    !! (2, points, positions) in global axes [m]
+  end type geometry_result_t
+
+contains
+
+  !> Places the links at every angle, at dead points too: nothing has to move.
+  subroutine find_geometry(linkage, body, place, crank, threads, found)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: body(:)      !! (points) that each is fixed to
+    real(wp), intent(in) :: place(:, :) !! (2, points) from the first pin of its body, in its axes
+                                        !! [m]
+    real(wp), intent(in) :: crank(:)    !! [deg]
+    integer, intent(in) :: threads
+    type(geometry_result_t), intent(out) :: found
+
+    integer :: i
+
+    found%crank = crank
+    allocate (found%outcome(size(crank)), found%pin(2, size(linkage%is_ground), size(crank)), &
+      found%point(2, size(body), size(crank)))
+    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i)
+    do i = 1, size(crank)
+      call place_all(linkage, body, place, crank(i), found%pin(:, :, i), found%point(:, :, i), &
+        found%outcome(i)%error)
+    end do
+    !$omp end parallel do
+  end subroutine find_geometry
+
+  !> One position.
+  pure subroutine place_all(linkage, body, place, crank, pin, point, error)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: body(:)
+    real(wp), intent(in) :: place(:, :), crank
+    real(wp), intent(out) :: pin(:, :), point(:, :)
+    type(error_t), allocatable, intent(out) :: error
+
+    type(pose_t) :: pose
+    integer :: p
+
+    pin = 0.0_wp
+    point = 0.0_wp
+    call place_links(linkage, crank, pose, error)
+    if (allocated(error)) return
+    pin = pose%pin
+    do p = 1, size(body)
+      associate (axis => pose%direction(:, body(p)))
+        point(:, p) = pose%pin(:, linkage%bodies(body(p))%first_pin) + place(1, p)*axis + &
+          place(2, p)*normal_to(axis)
+      end associate
+    end do
+  end subroutine place_all
+
+end module geometry_study
