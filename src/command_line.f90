@@ -34,11 +34,11 @@ module command_line
 
 contains
 
-  !> Reads the arguments of the program. Errors: an unknown option, an option without its value, a
-  !! setting that is none or is given twice, no deck, one deck twice.
+  !> Reads the arguments of the program. Errors: an unknown option, an option without its value or
+  !! given twice, a malformed setting or one given twice, no deck, standard input twice.
   subroutine read_command_line(command, error)
-    type(command_t), intent(out) :: command
-    type(error_t), allocatable, intent(out) :: error
+    type(command_t), intent(out) :: command          !! with an error, only `json` is of use
+    type(error_t), allocatable, intent(out) :: error !! without a place
 
     type(string_t), allocatable :: words(:)
     integer :: i
@@ -61,12 +61,12 @@ contains
         else if (word == "--") then
           options_ended = .true.
         else
-          call read_option(words, i, command, error)
+          call read_command_option(words, i, command, error)
         end if
       end associate
       i = i + 1
     end do
-    ! Where the line goes wrong before `--json`, that is still how the answer is wanted.
+    ! `--json` holds even if the command line is wrong before it.
     if (allocated(error)) command%json = any([(words(i)%text == "--json", i=1, size(words))])
     if (allocated(error) .or. command%help .or. command%help_cards .or. command%version) return
     if (size(command%decks) == 0) call set_error(error, error_of_input, &
@@ -88,7 +88,7 @@ contains
 
   !> Reads one option; `i` moves on to its value if it has one. `--out=DIR` is as good as `--out
   !! DIR`.
-  subroutine read_option(words, i, command, error)
+  subroutine read_command_option(words, i, command, error)
     type(string_t), intent(in) :: words(:)
     integer, intent(inout) :: i
     type(command_t), intent(inout) :: command
@@ -147,7 +147,7 @@ contains
       call set_error(error, error_of_input, "unknown option '"//name//"'"//suggestion(name, &
         word_list(known)))
     end select
-  end subroutine read_option
+  end subroutine read_command_option
 
   !> Takes `name=value`; that the decks have the name is checked when they are read.
   pure subroutine take_setting(word, settings, error)
@@ -187,14 +187,14 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     character(len=*), parameter :: formats = "plain csv"
-    type(error_t), allocatable :: problem
+    type(error_t), allocatable :: not_a_number
 
     select case (name)
     case ("--out")
       command%folder = value
     case ("--threads")
-      call read_integer(value, command%threads, problem)
-      if (allocated(problem) .or. command%threads < 1 .or. command%threads > most_threads) &
+      call read_integer(value, command%threads, not_a_number)
+      if (allocated(not_a_number) .or. command%threads < 1 .or. command%threads > most_threads) &
         then
         call set_error(error, error_of_input, &
           "option --threads needs a number from 1 to 1024, not '"//value//"'")
@@ -208,12 +208,14 @@ contains
     end select
   end subroutine read_option_value
 
+  !> The text of `--version`.
   pure function version_text() result(text)
     character(len=:), allocatable :: text
 
     text = program_name//" "//version_number
   end function version_text
 
+  !> The text of `--help`.
   pure function help_text() result(text)
     character(len=:), allocatable :: text
 

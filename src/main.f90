@@ -1,5 +1,5 @@
-!> FLEXMECH: rigid dynamics and vibration of flexible mechanisms. Arguments, one call a deck, exit
-!! status.
+!> FLEXMECH: rigid dynamics and vibration of flexible mechanisms. Reads the arguments, runs each
+!! deck and sets the exit status.
 program main
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
   use card_help, only: card_help_text
@@ -83,10 +83,10 @@ program main
 
 contains
 
-  !> Ends the program, with the document that a program reads if that is asked for.
+  !> Ends the program; before, writes the JSON document if requested.
   subroutine finish(status, complaint)
-    integer, intent(in) :: status
-    character(len=*), intent(in) :: complaint !! what is wrong with the command line
+    integer, intent(in) :: status             !! of the program
+    character(len=*), intent(in) :: complaint !! error of the command line; empty: none
 
     if (command%json) then
       write (output_unit, "(a)", advance="no") document_text(status, complaint, command%decks, &
@@ -95,7 +95,7 @@ contains
     stop status, quiet=.true.
   end subroutine finish
 
-  !> Keeps what is wrong with a deck as a whole.
+  !> Keeps an error that concerns a deck as a whole.
   subroutine complain(outcome, complaint)
     type(deck_outcome_t), intent(inout) :: outcome
     character(len=*), intent(in) :: complaint
@@ -105,7 +105,7 @@ contains
     outcome%exit_status = 2
   end subroutine complain
 
-  !> Writes to standard error; the text brings its own line ends.
+  !> Writes to standard error. The text contains its own line ends.
   subroutine say(text)
     character(len=*), intent(in) :: text
 

@@ -1,5 +1,4 @@
-!> How much memory a run may take, as far as the system tells (Linux: the files of /proc and of
-!! control groups).
+!> How much memory a run may take, where the system reports it (Linux: /proc and control groups).
 module available_memory
   use kinds, only: long, wp
   use text, only: to_string
@@ -9,8 +8,8 @@ module available_memory
   public :: available_memory_t, find_available_memory, memory_text
 
   type :: available_memory_t
-    real(wp) :: bytes = huge(1.0_wp)      !! that may still be taken; huge if nobody knows
-    character(len=:), allocatable :: told !! the same in words, the clause of a message
+    real(wp) :: bytes = huge(1.0_wp)        !! that may still be taken; huge if unknown
+    character(len=:), allocatable :: clause !! the same in words, for a message
   end type available_memory_t
 
   !> Address space that every thread beyond the first takes for its stack, used or not [bytes].
@@ -24,12 +23,12 @@ contains
   !> The least of what the machine has free, what its control groups leave, and what the limit of
   !! address space leaves.
   function find_available_memory(threads) result(available)
-    integer, intent(in) :: threads
+    integer, intent(in) :: threads !! of the run
     type(available_memory_t) :: available
 
     real(wp) :: limit, taken
 
-    available%told = ""
+    available%clause = ""
     limit = number_after("/proc/meminfo", "MemAvailable:")
     if (limit >= 0.0_wp) call lower(kibibyte*limit, "this machine has", "free")
     call lower(left_by_groups(), "its control group leaves", "")
@@ -48,14 +47,14 @@ contains
 
       if (bytes >= available%bytes) return
       available%bytes = bytes
-      available%told = trim(before//" "//memory_text(bytes)//" "//after)
+      available%clause = trim(before//" "//memory_text(bytes)//" "//after)
     end subroutine lower
 
   end function find_available_memory
 
-  !> `7.8 GB`: two digits are enough.
+  !> `7.8 GB`, to two digits; below 0.995 GB in MB, at least 1.0 MB.
   pure function memory_text(bytes) result(text)
-    real(wp), intent(in) :: bytes
+    real(wp), intent(in) :: bytes !! [bytes]
     character(len=:), allocatable :: text
 
     if (bytes < 0.995e9_wp) then

@@ -1,5 +1,5 @@
-!> Values as bytes and back, to the last bit: what is kept of a run, and what goes from one task to
-!! another.
+!> Converts values to bytes and back without loss, for data kept from a run and data passed between
+!! tasks.
 module byte_streams
   use kinds, only: wp
   use text_buffer, only: append_text, text_buffer_t
@@ -13,10 +13,10 @@ module byte_streams
 
 contains
 
-  !> Appends whole numbers to a buffer.
+  !> Appends integers to a buffer.
   pure subroutine put_integers(buffer, values)
-    type(text_buffer_t), intent(inout) :: buffer
-    integer, intent(in) :: values(:)
+    type(text_buffer_t), intent(inout) :: buffer !! bytes so far
+    integer, intent(in) :: values(:)             !! appended in their order
 
     character(len=integer_bytes*size(values)) :: bytes
 
@@ -24,18 +24,18 @@ contains
     call append_text(buffer, bytes)
   end subroutine put_integers
 
-  !> Appends answers to a buffer.
+  !> Appends logical values to a buffer, as integers 0 and 1.
   pure subroutine put_logicals(buffer, values)
-    type(text_buffer_t), intent(inout) :: buffer
-    logical, intent(in) :: values(:)
+    type(text_buffer_t), intent(inout) :: buffer !! bytes so far
+    logical, intent(in) :: values(:)             !! appended in their order
 
     call put_integers(buffer, merge(1, 0, values))
   end subroutine put_logicals
 
-  !> Appends numbers to a buffer.
+  !> Appends real numbers to a buffer.
   pure subroutine put_reals(buffer, values)
-    type(text_buffer_t), intent(inout) :: buffer
-    real(wp), intent(in) :: values(:)
+    type(text_buffer_t), intent(inout) :: buffer !! bytes so far
+    real(wp), intent(in) :: values(:)            !! appended in their order
 
     character(len=real_bytes*size(values)) :: bytes
 
@@ -43,30 +43,30 @@ contains
     call append_text(buffer, bytes)
   end subroutine put_reals
 
-  !> Appends a text with its length to a buffer.
+  !> Appends a text and, before it, its length to a buffer.
   pure subroutine put_string(buffer, text)
-    type(text_buffer_t), intent(inout) :: buffer
-    character(len=*), intent(in) :: text
+    type(text_buffer_t), intent(inout) :: buffer !! bytes so far
+    character(len=*), intent(in) :: text         !! of any length
 
     call put_integers(buffer, [len(text)])
     call append_text(buffer, text)
   end subroutine put_string
 
-  !> Reads whole numbers; `at` moves past them.
+  !> Reads integers; `at` moves past them.
   pure subroutine get_integers(bytes, at, values)
-    character(len=*), intent(in) :: bytes
-    integer, intent(inout) :: at !! place of the next byte
-    integer, intent(out) :: values(:)
+    character(len=*), intent(in) :: bytes !! as filled by the put_… procedures
+    integer, intent(inout) :: at          !! place of the next byte, from 1
+    integer, intent(out) :: values(:)     !! as many as were written
 
     values = transfer(bytes(at:at + integer_bytes*size(values) - 1), values)
     at = at + integer_bytes*size(values)
   end subroutine get_integers
 
-  !> Reads answers; `at` moves past them.
+  !> Reads logical values; `at` moves past them.
   pure subroutine get_logicals(bytes, at, values)
-    character(len=*), intent(in) :: bytes
-    integer, intent(inout) :: at
-    logical, intent(out) :: values(:)
+    character(len=*), intent(in) :: bytes !! as filled by the put_… procedures
+    integer, intent(inout) :: at          !! place of the next byte, from 1
+    logical, intent(out) :: values(:)     !! as many as were written
 
     integer :: numbers(size(values))
 
@@ -74,11 +74,11 @@ contains
     values = numbers /= 0
   end subroutine get_logicals
 
-  !> Reads numbers; `at` moves past them.
+  !> Reads real numbers; `at` moves past them.
   pure subroutine get_reals(bytes, at, values)
-    character(len=*), intent(in) :: bytes
-    integer, intent(inout) :: at
-    real(wp), intent(out) :: values(:)
+    character(len=*), intent(in) :: bytes !! as filled by the put_… procedures
+    integer, intent(inout) :: at          !! place of the next byte, from 1
+    real(wp), intent(out) :: values(:)    !! as many as were written
 
     values = transfer(bytes(at:at + real_bytes*size(values) - 1), values)
     at = at + real_bytes*size(values)
@@ -86,9 +86,9 @@ contains
 
   !> Reads a text; `at` moves past it.
   pure subroutine get_string(bytes, at, text)
-    character(len=*), intent(in) :: bytes
-    integer, intent(inout) :: at
-    character(len=:), allocatable, intent(out) :: text
+    character(len=*), intent(in) :: bytes              !! as filled by the put_… procedures
+    integer, intent(inout) :: at                       !! place of the next byte, from 1
+    character(len=:), allocatable, intent(out) :: text !! without its length
 
     integer :: length(1)
 

@@ -8,37 +8,37 @@ module errors
   public :: error_of_input, error_of_files, error_of_interruption, error_of_reach, &
     error_of_dead_point, error_of_numerics
 
-  !> What kind of thing went wrong: what the user wrote, the files of a run, an interruption, a
-  !! position out of reach, a dead point, a computation that does not come to its end.
+  !> Kinds of errors: wrong input, files of a run that cannot be read or written, an interruption, a
+  !! position out of reach, a dead point, a numerical failure.
   integer, parameter :: error_of_input = 1, error_of_files = 2, error_of_interruption = 3, &
     error_of_reach = 4, error_of_dead_point = 5, error_of_numerics = 6
 
-  !> Where it went wrong; without a file it is for the caller to say.
+  !> The place of an error. Without a file, the caller knows it.
   type :: place_t
     character(len=:), allocatable :: file
-    integer :: line = 0, column = 0 !! 0: the file as a whole
+    integer :: line = 0, column = 0 !! from 1; 0: the file, or the line, as a whole
   end type place_t
 
   type :: error_t
-    integer :: kind = error_of_input
+    integer :: kind = error_of_input      !! one of the error_of_… numbers
     type(place_t) :: place
-    character(len=:), allocatable :: text
+    character(len=:), allocatable :: text !! without the place
   end type error_t
 
-  !> Of many things that may fail, what has become of one: allocated if it has failed.
+  !> An element of an array of tasks that may fail one by one: allocated if it has failed.
   type :: outcome_t
     type(error_t), allocatable :: error
   end type outcome_t
 
 contains
 
-  !> Makes `error` say `text`; what it said before is lost.
+  !> Makes an error; it replaces an earlier one.
   pure subroutine set_error(error, kind, text, file, line, column)
-    type(error_t), allocatable, intent(inout) :: error
+    type(error_t), allocatable, intent(inout) :: error !! allocated on return
     integer, intent(in) :: kind                    !! one of the error_of_… numbers
-    character(len=*), intent(in) :: text
+    character(len=*), intent(in) :: text           !! without the place
     character(len=*), intent(in), optional :: file !! path
-    integer, intent(in), optional :: line, column  !! from 1; of a file
+    integer, intent(in), optional :: line, column  !! from 1, in the file
 
     if (allocated(error)) deallocate (error)
     allocate (error)
@@ -49,15 +49,15 @@ contains
     if (present(column)) error%place%column = column
   end subroutine set_error
 
-  !> Nothing has failed yet.
+  !> Makes outcomes those of tasks that have not failed.
   elemental subroutine clear_outcome(outcome)
-    type(outcome_t), intent(out) :: outcome
+    type(outcome_t), intent(out) :: outcome !! of one task
   end subroutine clear_outcome
 
-  !> `my.deck:7:44: error: text`, with as much of the place as is known; an interruption is no
-  !! error.
+  !> `my.deck:7:44: error: text`, with as much of the place as is known. An interruption is rendered
+  !! without the word `error`.
   pure function rendered(error) result(message)
-    type(error_t), intent(in) :: error
+    type(error_t), intent(in) :: error !! with its text
     character(len=:), allocatable :: message
 
     character(len=32) :: numbers
@@ -66,8 +66,9 @@ contains
     if (error%kind /= error_of_interruption) message = "error: "//message
     if (.not. allocated(error%place%file)) return
     numbers = ""
-    if (error%place%line > 0) write (numbers, "(a,i0,a,i0)") ":", error%place%line, ":", &
-      error%place%column
+    if (error%place%line > 0) write (numbers, "(a,i0)") ":", error%place%line
+    if (error%place%line > 0 .and. error%place%column > 0) write (numbers, "(a,i0,a,i0)") ":", &
+      error%place%line, ":", error%place%column
     message = error%place%file//trim(numbers)//": "//message
   end function rendered
 

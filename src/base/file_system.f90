@@ -1,4 +1,4 @@
-!> The few calls of the operating system that Fortran does not have.
+!> The few operating system calls that Fortran lacks.
 module file_system
   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_ptr
   use text, only: string_t
@@ -21,8 +21,8 @@ module file_system
       integer(c_int) :: status
     end function c_closedir
 
-    !> `mode_t` is an unsigned integer of 16 or 32 bits on every system that has it; passed by value
-    !! both arrive as `int`.
+    !> `mode_t` is an unsigned integer of 16 or 32 bits wherever it exists; passed by value, both
+    !! arrive as `int`.
     function c_mkdir(path, mode) bind(c, name="mkdir") result(status)
       import :: c_char, c_int
       character(kind=c_char), intent(in) :: path(*)
@@ -48,7 +48,7 @@ module file_system
       integer(c_int) :: status
     end function c_rmdir
 
-    !> Into a buffer of PATH_MAX bytes at least, 4096 on the systems that have the most.
+    !> `resolved` needs at least PATH_MAX bytes, which is 4096 at most.
     function c_realpath(path, resolved) bind(c, name="realpath") result(found)
       import :: c_char, c_ptr
       character(kind=c_char), intent(in) :: path(*)
@@ -65,8 +65,9 @@ module file_system
 
 contains
 
+  !> Whether a path leads to a folder that can be opened.
   function is_directory(path) result(is)
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! absolute or from the working folder
     logical :: is
 
     type(c_ptr) :: directory
@@ -76,15 +77,14 @@ contains
     if (is) is = c_closedir(directory) == 0
   end function is_directory
 
-  !> Makes a folder and those above it.
+  !> Makes a folder and all missing folders above it.
   subroutine make_directories(path, made, is_new)
-    character(len=*), intent(in) :: path
-    logical, intent(out) :: made                        !! whether the folder is there in the end
-    type(string_t), allocatable, intent(out) :: is_new(:) !! the folders that were not there before,
+    character(len=*), intent(in) :: path                  !! of the innermost folder
+    logical, intent(out) :: made                          !! whether the folder exists in the end
+    type(string_t), allocatable, intent(out) :: is_new(:) !! folders that did not exist before,
                                                           !! outermost first
 
-    integer(c_int), parameter :: everybody = int(o'777', c_int) ! less what the user's umask takes
-                                                                ! away
+    integer(c_int), parameter :: everybody = int(o'777', c_int) ! less the bits of the user's umask
     integer :: at, count
 
     allocate (is_new(len(path)))
@@ -102,25 +102,27 @@ contains
     made = is_directory(path)
   end subroutine make_directories
 
+  !> Renames a file; a file of the new name is replaced.
   subroutine rename_file(from, to, done)
-    character(len=*), intent(in) :: from, to
-    logical, intent(out) :: done
+    character(len=*), intent(in) :: from !! current path
+    character(len=*), intent(in) :: to   !! new path
+    logical, intent(out) :: done         !! false: the operating system refused
 
     done = c_rename(from//c_null_char, to//c_null_char) == 0
   end subroutine rename_file
 
-  !> Removes a file; that it is not there is as good.
+  !> Removes a file if it exists. Failures are ignored.
   subroutine remove_file(path)
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the file
 
     integer(c_int) :: status
 
     status = c_unlink(path//c_null_char)
   end subroutine remove_file
 
-  !> Removes a folder if nothing is in it.
+  !> Removes a folder if it is empty. Failures are ignored.
   subroutine remove_empty_directory(path)
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of the folder
 
     integer(c_int) :: status
 
@@ -129,7 +131,7 @@ contains
 
   !> The last part of a path without its last extension: `inputs/one.deck` gives `one`.
   pure function base_name(path) result(name)
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of a file
     character(len=:), allocatable :: name
 
     integer :: dot
@@ -141,14 +143,16 @@ contains
 
   !> The last part of a path: `inputs/one.deck` gives `one.deck`.
   pure function file_name(path) result(name)
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of a file
     character(len=:), allocatable :: name
 
     name = path(index(path, "/", back=.true.) + 1:)
   end function file_name
 
+  !> `folder/name`, without a second slash if the folder ends with one.
   pure function joined_path(folder, name) result(path)
-    character(len=*), intent(in) :: folder, name
+    character(len=*), intent(in) :: folder !! may end with a slash
+    character(len=*), intent(in) :: name   !! of a file in it
     character(len=:), allocatable :: path
 
     path = folder//"/"//name
@@ -157,10 +161,10 @@ contains
     end if
   end function joined_path
 
-  !> The one absolute path of a file, whatever links and dots lead to it; empty if there is no such
-  !! file.
+  !> The absolute path of a file with all symbolic links and dots resolved; empty if the file does
+  !! not exist.
   function real_path(path) result(absolute)
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! of a file or folder
     character(len=:), allocatable :: absolute
 
     integer, parameter :: longest = 8192
@@ -177,6 +181,7 @@ contains
     end do
   end function real_path
 
+  !> Whether standard error is a terminal, not a file or a pipe.
   function standard_error_is_terminal() result(is)
     logical :: is
 

@@ -1,7 +1,7 @@
-!> Notices Ctrl-C and a request to end, so that a run can stop between two positions and leave
+!> Catches Ctrl-C and termination requests, so that a run can stop between two positions and leave
 !! nothing half done.
 !!
-!! The one module with a variable of its own: a signal handler has nowhere else to leave its news.
+!! The only module with a variable of its own: a signal handler has no other place for its result.
 module interruption
   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int
   implicit none (type, external)
@@ -9,7 +9,7 @@ module interruption
 
   public :: watch_for_interruption, was_interrupted
 
-  !> SIGINT, SIGTERM in POSIX
+  !> SIGINT and SIGTERM of POSIX.
   integer(c_int), parameter :: interrupt_signal = 2_c_int, terminate_signal = 15_c_int
 
   integer(c_int), volatile :: last_signal = 0_c_int
@@ -25,6 +25,7 @@ module interruption
 
 contains
 
+  !> Installs the handler of both signals.
   subroutine watch_for_interruption()
     type(c_funptr) :: previous
 
@@ -32,6 +33,7 @@ contains
     previous = c_signal(terminate_signal, c_funloc(note_signal))
   end subroutine watch_for_interruption
 
+  !> Whether one of the signals has arrived since then.
   function was_interrupted() result(was)
     logical :: was
 

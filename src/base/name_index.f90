@@ -1,4 +1,4 @@
-!> A list of names that can be searched quickly, whatever the case of their letters.
+!> A list of names with fast, case-insensitive search.
 module name_index
   use kinds, only: long
   use text, only: lower_case, same_word, string_t
@@ -7,17 +7,18 @@ module name_index
 
   public :: name_index_t, new_name_index, find_name
 
-  !> Names with a chained hash table beside them.
+  !> Names with a chained hash table.
   type :: name_index_t
-    type(string_t), allocatable :: name(:)   !! as the user spells them
-    integer, allocatable, private :: head(:) !! first name of every bucket, 0 for none
-    integer, allocatable, private :: next(:) !! the name after this one in its bucket
+    type(string_t), allocatable :: name(:)   !! (names) as the user spells them
+    integer, allocatable, private :: head(:) !! (buckets) first name of each, 0 for none
+    integer, allocatable, private :: next(:) !! (names) the next one in its bucket, 0 for none
   end type name_index_t
 
 contains
 
+  !> Builds the hash table of a list of names.
   pure function new_name_index(names) result(list)
-    type(string_t), intent(in) :: names(:)
+    type(string_t), intent(in) :: names(:) !! equal ones are allowed
     type(name_index_t) :: list
 
     integer :: i, bucket
@@ -25,8 +26,8 @@ contains
     allocate (list%name(size(names)), list%head(max(1, 2*size(names))), list%next(size(names)))
     list%name = names
     list%head = 0
-    ! Backwards, so that every chain begins with its earliest name and equal names are found in
-    ! their own order.
+    ! Backwards, so that every chain begins with its earliest name: of equal names, the first is
+    ! found.
     do i = size(names), 1, -1
       bucket = bucket_of(names(i)%text, size(list%head))
       list%next(i) = list%head(bucket)
@@ -34,10 +35,10 @@ contains
     end do
   end function new_name_index
 
-  !> Number of the first name in the list that equals `name`; 0 if there is none.
+  !> Number of the first name in the list that equals `name`, ignoring case; 0 if there is none.
   pure function find_name(list, name) result(number)
-    type(name_index_t), intent(in) :: list
-    character(len=*), intent(in) :: name
+    type(name_index_t), intent(in) :: list !! to search
+    character(len=*), intent(in) :: name   !! in any case of letters
     integer :: number
 
     number = list%head(bucket_of(name, size(list%head)))

@@ -1,4 +1,4 @@
-!> Numbers as text with all their digits.
+!> Numbers as text with all their significant digits.
 module number_text
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_null_char, c_size_t
   use kinds, only: wp
@@ -9,7 +9,7 @@ module number_text
 
   interface
     !> `snprintf` for one double (ISO/IEC TS 18661-1, in the C library): three times as fast as a
-    !! formatted write, which is most of the time a large table takes.
+    !! formatted write, which takes most of the time of writing a large table.
     function c_strfromd(text, size, format, value) bind(c, name="strfromd") result(length)
       import :: c_char, c_double, c_int, c_size_t
       character(kind=c_char), intent(out) :: text(*)
@@ -26,11 +26,11 @@ module number_text
 
 contains
 
-  !> A finite number with 17 digits and a three-digit exponent, at the right end of a field: what
-  !! `es25.16e3` gives.
+  !> A number with 17 digits and a three-digit exponent, right-aligned in a field, as `es25.16e3`
+  !! writes it.
   function scientific(value, width) result(text)
-    real(wp), intent(in) :: value
-    integer, intent(in) :: width
+    real(wp), intent(in) :: value !! finite
+    integer, intent(in) :: width  !! of the field [characters], at least 24
     character(len=width) :: text
 
     character(kind=c_char) :: digits(longest)

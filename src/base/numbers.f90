@@ -21,7 +21,7 @@ contains
   !! exponent. The letter is an exponent only before a digit or a sign, so that `10deg` is 10 and a
   !! unit.
   pure function number_length(string) result(length)
-    character(len=*), intent(in) :: string
+    character(len=*), intent(in) :: string !! that may go on with a unit
     integer :: length
 
     integer :: at, whole, fraction, exponent_start
@@ -31,12 +31,12 @@ contains
     if (at <= len(string)) then
       if (scan(string(at:at), "+-") == 1) at = at + 1
     end if
-    whole = digit_count(string, at)
+    whole = count_digits(string, at)
     at = at + whole
     fraction = 0
     if (at <= len(string)) then
       if (string(at:at) == ".") then
-        fraction = digit_count(string, at + 1)
+        fraction = count_digits(string, at + 1)
         at = at + 1 + fraction
       end if
     end if
@@ -47,13 +47,13 @@ contains
     if (scan(string(at:at), "eEdD") == 0) return
     exponent_start = at + 1
     if (scan(string(at + 1:at + 1), "+-") == 1) exponent_start = at + 2
-    if (exponent_start > at + 1 .or. digit_count(string, exponent_start) > 0) then
-      length = exponent_start - 1 + digit_count(string, exponent_start)
+    if (exponent_start > at + 1 .or. count_digits(string, exponent_start) > 0) then
+      length = exponent_start - 1 + count_digits(string, exponent_start)
     end if
   end function number_length
 
   !> Number of consecutive decimal digits from position `start` on.
-  pure function digit_count(string, start) result(count)
+  pure function count_digits(string, start) result(count)
     character(len=*), intent(in) :: string
     integer, intent(in) :: start
     integer :: count
@@ -63,15 +63,15 @@ contains
       if (scan(string(start + count:start + count), "0123456789") == 0) exit
       count = count + 1
     end do
-  end function digit_count
+  end function count_digits
 
   !> Reads a text that is a number and nothing else.
   !!
   !! Errors: the text is not a number that a double can hold.
   pure subroutine read_real(string, value, error)
-    character(len=*), intent(in) :: string
-    real(wp), intent(out) :: value !! 0 where the text is no such number
-    type(error_t), allocatable, intent(out) :: error
+    character(len=*), intent(in) :: string !! with e, E, d or D before its exponent
+    real(wp), intent(out) :: value         !! 0 if there is an error
+    type(error_t), allocatable, intent(out) :: error !! without a place
 
     character(len=len(string)) :: digits
     character(len=32) :: form
@@ -94,7 +94,7 @@ contains
       if (scan(string(i:i), "dD") == 1) digits(i:i) = "e"
     end do
     write (form, "(a,i0,a)") "(f", len(string), ".0)"
-    ! A number out of range is the user's slip, not ours to die of, even where overflow traps.
+    ! A number out of range is an error of the user: no trap, even where overflow traps.
     call ieee_get_halting_mode(ieee_overflow, halts)
     call ieee_set_halting_mode(ieee_overflow, .false.)
     read (digits, form, iostat=status) value
@@ -105,6 +105,7 @@ contains
       value = 0.0_wp
     else if (abs(value) < tiny(value) .and. has_significant_digit(digits)) then
       call set_error(error, error_of_input, "'"//string//"' is too small for a number")
+      value = 0.0_wp
     end if
   end subroutine read_real
 
@@ -167,7 +168,7 @@ contains
   !> A number in as few digits, from 15 on, as read back to the same double; trailing zeros are
   !! dropped.
   pure function shortest_text(value) result(string)
-    real(wp), intent(in) :: value
+    real(wp), intent(in) :: value !! finite
     character(len=:), allocatable :: string
 
     type(error_t), allocatable :: error
@@ -195,9 +196,9 @@ contains
 
   !> Reads a text that is a whole number and nothing else. Errors: it is none, or too large.
   pure subroutine read_integer(string, value, error)
-    character(len=*), intent(in) :: string
-    integer, intent(out) :: value !! 0 where the text is no such number
-    type(error_t), allocatable, intent(out) :: error
+    character(len=*), intent(in) :: string           !! digits, with or without a sign
+    integer, intent(out) :: value                    !! 0 if there is an error
+    type(error_t), allocatable, intent(out) :: error !! without a place
 
     character(len=32) :: form
     integer :: first, status
@@ -207,7 +208,7 @@ contains
     if (len(string) > 1) then
       if (scan(string(1:1), "+-") == 1) first = 2
     end if
-    if (len(string) == 0 .or. digit_count(string, first) /= len(string) - first + 1) then
+    if (len(string) == 0 .or. count_digits(string, first) /= len(string) - first + 1) then
       call set_error(error, error_of_input, "'"//string//"' is not a whole number")
       return
     end if

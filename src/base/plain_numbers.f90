@@ -1,4 +1,4 @@
-!> Numbers in the shortest of the forms that people write, in texts of fixed length.
+!> Numbers in the shortest common form, in texts of fixed length.
 module plain_numbers
   use kinds, only: long, wp
   implicit none (type, external)
@@ -6,15 +6,14 @@ module plain_numbers
 
   public :: digit_count, real_length, write_real, usual_digits, longest_real
 
-  !> Significant digits where nobody asks for a number of them; characters that a real number takes
-  !! at most.
+  !> Significant digits where their number is not given; most characters of a real number.
   integer, parameter :: usual_digits = 6, longest_real = 56
 
 contains
 
-  !> Characters of a whole number.
+  !> Characters of a whole number, its sign included.
   pure function digit_count(value) result(count)
-    integer(long), intent(in) :: value
+    integer(long), intent(in) :: value !! of either sign
     integer :: count
 
     character(len=24) :: buffer
@@ -23,10 +22,10 @@ contains
     count = len_trim(buffer)
   end function digit_count
 
-  !> Characters of a real number.
+  !> Characters that `write_real` uses for a number.
   pure function real_length(value, digits) result(length)
-    real(wp), intent(in) :: value
-    integer, intent(in) :: digits
+    real(wp), intent(in) :: value !! any
+    integer, intent(in) :: digits !! significant digits, from 1
     integer :: length
 
     character(len=longest_real) :: buffer
@@ -34,12 +33,14 @@ contains
     call write_real(value, digits, buffer, length)
   end function real_length
 
-  !> Writes a real number into the first `length` characters of a buffer.
+  !> Writes a real number into the first `length` characters of a buffer, without trailing zeros. It
+  !! has an exponent only below 1e-4 and where its whole part has more digits than both `digits` and
+  !! `usual_digits`. NaN and infinities are `not a number`.
   pure subroutine write_real(value, digits, buffer, length)
-    real(wp), intent(in) :: value
-    integer, intent(in) :: digits
-    character(len=*), intent(out) :: buffer
-    integer, intent(out) :: length
+    real(wp), intent(in) :: value           !! any
+    integer, intent(in) :: digits           !! significant digits, from 1
+    character(len=*), intent(out) :: buffer !! of `longest_real` characters; the rest is blank
+    integer, intent(out) :: length          !! characters in use
 
     character(len=16) :: form
     character(len=8) :: exponent
@@ -69,7 +70,7 @@ contains
     length = len_trim(buffer)
   end subroutine write_real
 
-  !> `-.5` as `-0.5`: compilers leave the zero out under `f0`.
+  !> `-.5` as `-0.5`: compilers omit the zero with `f0`.
   pure subroutine put_leading_zero(number)
     character(len=*), intent(inout) :: number
 

@@ -1,4 +1,4 @@
-!> What the program calls itself.
+!> Name and version of the program.
 module program_version
   implicit none (type, external)
   private

@@ -8,17 +8,17 @@ module sorting
 
 contains
 
-  !> The permutation that puts `values` in ascending order; equal values keep their own order (merge
-  !! sort).
+  !> The permutation that sorts `values` in ascending order, by merge sort; equal values keep their
+  !! order.
   pure function ascending_order(values) result(order)
-    real(wp), intent(in) :: values(:)
+    real(wp), intent(in) :: values(:) !! to be sorted
     integer :: order(size(values))
 
     integer :: merged(size(values)), i, width, first, middle, last, left, right, k
     logical :: take_left
 
     order = [(i, i=1, size(values))]
-    ! Most lists are in order already.
+    ! Most lists are already sorted.
     if (all(values(2:) >= values(:size(values) - 1))) return
     width = 1
     do while (width < size(values))

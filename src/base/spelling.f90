@@ -1,4 +1,4 @@
-!> Nearest spelling of a misspelt word.
+!> Suggestions for misspelt words.
 module spelling
   use text, only: lower_case, string_t
   implicit none (type, external)
@@ -6,15 +6,15 @@ module spelling
 
   public :: nearest_word, suggestion, edit_distance
 
-  !> Words longer than this are not compared: no name of a deck is, and the comparison is quadratic.
+  !> Longer words are not compared: no name in a deck is that long, and the time is quadratic.
   integer, parameter :: longest_compared = 64
 
 contains
 
-  !> ` (did you mean 'steel'?)` if one of the candidates is near enough, else nothing.
+  !> ` (did you mean 'steel'?)` if one of the candidates is near enough, else an empty text.
   pure function suggestion(word, candidates) result(phrase)
-    character(len=*), intent(in) :: word
-    type(string_t), intent(in) :: candidates(:)
+    character(len=*), intent(in) :: word        !! as written
+    type(string_t), intent(in) :: candidates(:) !! known words
     character(len=:), allocatable :: phrase
 
     integer :: nearest
@@ -24,11 +24,11 @@ contains
     if (nearest > 0) phrase = " (did you mean '"//candidates(nearest)%text//"'?)"
   end function suggestion
 
-  !> Number of the candidate nearest to `word`; 0 if none is within a third of its length (one
-  !! letter at least).
+  !> Number of the candidate nearest to `word`, ignoring case; 0 if none is within an edit distance
+  !! of a third of its length, rounded up.
   pure function nearest_word(word, candidates) result(nearest)
-    character(len=*), intent(in) :: word
-    type(string_t), intent(in) :: candidates(:)
+    character(len=*), intent(in) :: word        !! as written
+    type(string_t), intent(in) :: candidates(:) !! known words
     integer :: nearest
 
     integer :: i, distance, best
@@ -39,12 +39,12 @@ contains
     do i = 1, size(candidates)
       if (abs(len(candidates(i)%text) - len(word)) > best) cycle
       distance = edit_distance(lower_case(word), lower_case(candidates(i)%text))
-      ! A word of one or two letters is near everything; only a slip in one letter of more, or of
-      ! case, is a spelling.
+      ! A word of one or two letters is near everything. Unless the words differ in case only, at
+      ! least one letter must be right.
       if (distance > 0 .and. distance >= max(len(word), len(candidates(i)%text))) cycle
       if (distance == best .and. nearest > 0) then
-        ! Of two as near, the one of the same length: a slip of the finger is likelier than a letter
-        ! left out.
+        ! Of two equally near candidates, the one of equal length: a wrong letter is likelier than a
+        ! missing one.
         if (len(candidates(i)%text) == len(word) .and. len(candidates(nearest)%text) /= len(word)) &
           nearest = i
       else if (distance < best) then
@@ -55,11 +55,9 @@ contains
   end function nearest_word
 
   !> Smallest number of insertions, deletions, replacements and swaps of neighbours that turn `a`
-  !! into `b`.
-  !!
-  !! Optimal string alignment distance (Damerau 1964).
+  !! into `b`: the optimal string alignment distance (Damerau 1964).
   pure function edit_distance(a, b) result(distance)
-    character(len=*), intent(in) :: a, b
+    character(len=*), intent(in) :: a, b !! any text; case counts
     integer :: distance
 
     integer :: cost(0:len(a), 0:len(b)), i, j, replacement

@@ -1,4 +1,4 @@
-!> Seconds from one moment to the next.
+!> Elapsed time.
 module stopwatch
   use kinds, only: long, wp
   implicit none (type, external)
@@ -7,22 +7,22 @@ module stopwatch
   public :: stopwatch_t, start_stopwatch, lap
 
   type :: stopwatch_t
-    integer(long), private :: last = 0_long !! clock ticks when it was started, or at the last lap
+    integer(long), private :: last = 0_long !! clock ticks at the start or the last lap
   end type stopwatch_t
 
 contains
 
-  !> Starts to count.
+  !> Starts the first lap.
   subroutine start_stopwatch(watch)
-    type(stopwatch_t), intent(out) :: watch
+    type(stopwatch_t), intent(out) :: watch !! may have been started before
 
     call system_clock(watch%last)
   end subroutine start_stopwatch
 
-  !> Seconds since the start or the last lap; a new lap begins.
+  !> Ends a lap and starts the next one.
   subroutine lap(watch, seconds)
-    type(stopwatch_t), intent(inout) :: watch
-    real(wp), intent(out) :: seconds
+    type(stopwatch_t), intent(inout) :: watch !! started
+    real(wp), intent(out) :: seconds          !! since the start or the last lap [s]
 
     integer(long) :: now, rate
 

@@ -1,4 +1,4 @@
-!> Small helpers for text: case, numbers as text, lists as prose, lengths in characters rather than
+!> Small helpers for text: case, numbers as text, lists of words, lengths in characters rather than
 !! bytes.
 module text
   use kinds, only: long, wp
@@ -10,12 +10,12 @@ module text
     same_word
   public :: append_string, character_count, is_continuation_byte
 
-  !> A line, a word, a name: what an array of texts of different lengths is made of.
+  !> A line, a word or a name: an element of arrays of texts of different lengths.
   type :: string_t
     character(len=:), allocatable :: text
   end type string_t
 
-  !> A number as text without blanks; a real number in the shortest of the forms that people write.
+  !> A number as text without blanks; a real number in the shortest common form.
   interface to_string
     module procedure :: integer_to_string
     module procedure :: long_to_string
@@ -26,11 +26,11 @@ module text
 contains
 
   !> Lengthens a list by one text. The constructor `[list, string_t(text)]` does the same, but
-  !! gfortran 12 loses the memory of what function results and structure constructors leave in an
-  !! array constructor.
+  !! gfortran 12 leaks the memory of function results and structure constructors inside an array
+  !! constructor.
   pure subroutine append_string(list, text)
-    type(string_t), allocatable, intent(inout) :: list(:) !! not allocated is as good as empty
-    character(len=*), intent(in) :: text
+    type(string_t), allocatable, intent(inout) :: list(:) !! not allocated is treated as empty
+    character(len=*), intent(in) :: text                  !! new last element
 
     type(string_t), allocatable :: longer(:)
     integer :: i, n
@@ -45,9 +45,9 @@ contains
     call move_alloc(longer, list)
   end subroutine append_string
 
-  ! Lengths are worked out before the texts: gfortran 12 keeps the length of a function result of
-  ! deferred length in one place for all threads, so that such a function must not be called where
-  ! several threads may (a failed position is told from inside a sweep).
+  ! Lengths are computed before the texts: gfortran 12 keeps the length of a function result of
+  ! deferred length in one place for all threads, so several threads must not call such a function
+  ! at the same time (failed positions are reported from inside a parallel sweep).
 
   pure function integer_to_string(value) result(string)
     integer, intent(in) :: value
@@ -88,8 +88,9 @@ contains
     string = buffer(:length)
   end function rounded_to_string
 
+  !> A text with the letters A–Z replaced by a–z.
   pure function lower_case(string) result(lower)
-    character(len=*), intent(in) :: string
+    character(len=*), intent(in) :: string !! any text
     character(len=len(string)) :: lower
 
     integer :: i
@@ -101,8 +102,9 @@ contains
     end do
   end function lower_case
 
+  !> A text with the letters a–z replaced by A–Z.
   pure function upper_case(string) result(upper)
-    character(len=*), intent(in) :: string
+    character(len=*), intent(in) :: string !! any text
     character(len=len(string)) :: upper
 
     integer :: i
@@ -114,9 +116,9 @@ contains
     end do
   end function upper_case
 
-  !> Whether two words are the same but for the case of their letters.
+  !> Whether two words are equal, ignoring case.
   elemental function same_word(a, b) result(same)
-    character(len=*), intent(in) :: a, b
+    character(len=*), intent(in) :: a, b !! without trailing blanks
     logical :: same
 
     same = len(a) == len(b)
@@ -125,8 +127,8 @@ contains
 
   !> `1 mode`, `3 modes`.
   pure function plural(count, noun) result(phrase)
-    integer, intent(in) :: count
-    character(len=*), intent(in) :: noun
+    integer, intent(in) :: count         !! 1 takes the singular
+    character(len=*), intent(in) :: noun !! singular; its plural ends with s
     character(len=:), allocatable :: phrase
 
     phrase = to_string(count)//" "//noun
@@ -135,7 +137,7 @@ contains
 
   !> Number of characters in UTF-8 text.
   pure function character_count(string) result(count)
-    character(len=*), intent(in) :: string
+    character(len=*), intent(in) :: string !! UTF-8
     integer :: count
 
     integer :: i
@@ -146,9 +148,9 @@ contains
     end do
   end function character_count
 
-  !> Whether a byte continues a UTF-8 character that an earlier byte began.
+  !> Whether a byte continues a UTF-8 character that began with an earlier byte.
   elemental function is_continuation_byte(byte) result(continues)
-    character(len=1), intent(in) :: byte
+    character(len=1), intent(in) :: byte !! of UTF-8 text
     logical :: continues
 
     continues = iand(ichar(byte), 192) == 128
@@ -170,9 +172,9 @@ contains
     end do
   end function word_list
 
-  !> The words of an array, without the blanks behind them.
+  !> The elements of an array without their trailing blanks.
   pure function trimmed_list(words) result(list)
-    character(len=*), intent(in) :: words(:)
+    character(len=*), intent(in) :: words(:) !! padded with blanks
     type(string_t), allocatable :: list(:)
 
     integer :: i
@@ -183,10 +185,10 @@ contains
     end do
   end function trimmed_list
 
-  !> `a, b, c`, or with another separator.
+  !> The texts of a list in one: `a, b, c`.
   pure function joined(list, separator) result(phrase)
-    type(string_t), intent(in) :: list(:)
-    character(len=*), intent(in), optional :: separator
+    type(string_t), intent(in) :: list(:)               !! may be empty
+    character(len=*), intent(in), optional :: separator !! absent: comma and blank
     character(len=:), allocatable :: phrase
 
     integer :: i

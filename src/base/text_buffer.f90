@@ -1,4 +1,4 @@
-!> Text that grows at its end, without copying all of it for every piece.
+!> Text that grows at its end without being copied for every piece.
 module text_buffer
   implicit none (type, external)
   private
@@ -6,15 +6,16 @@ module text_buffer
   public :: text_buffer_t, append_text, buffer_text
 
   type :: text_buffer_t
-    integer :: length = 0                      !! bytes in use
-    character(len=:), allocatable :: storage   !! (at least length bytes)
+    integer :: length = 0                    !! bytes in use
+    character(len=:), allocatable :: storage !! (at least `length` bytes)
   end type text_buffer_t
 
 contains
 
+  !> Appends a piece; the storage grows by doubling.
   pure subroutine append_text(buffer, piece)
-    type(text_buffer_t), intent(inout) :: buffer
-    character(len=*), intent(in) :: piece
+    type(text_buffer_t), intent(inout) :: buffer !! lengthened
+    character(len=*), intent(in) :: piece        !! may be empty
 
     character(len=:), allocatable :: larger
 
@@ -28,8 +29,9 @@ contains
     buffer%length = buffer%length + len(piece)
   end subroutine append_text
 
+  !> The whole text of a buffer.
   pure function buffer_text(buffer) result(text)
-    type(text_buffer_t), intent(in) :: buffer
+    type(text_buffer_t), intent(in) :: buffer !! may be empty
     character(len=:), allocatable :: text
 
     text = ""

@@ -1,7 +1,7 @@
 !> Units of measurement: names, dimensions and exact factors to SI.
 !!
-!! A factor is kept as a fraction of whole numbers (mm = 1/1000, in = 254/10000), so that 254 mm
-!! becomes the double nearest to 0.254 m and comes back as 254 mm.
+!! A factor is stored as a fraction of whole numbers (mm = 1/1000, in = 254/10000), so that 254 mm
+!! becomes the double nearest to 0.254 m and converts back to 254 mm.
 module units
   use constants, only: pi
   use errors, only: error_of_input, error_t, set_error
@@ -22,7 +22,7 @@ module units
   public :: dimension_inertia, dimension_damping
 
   !> Exponents of length, mass, time and angle. An angle counts as a dimension here, so that rpm and
-  !! 1/s stay apart.
+  !! 1/s are distinct.
   integer, parameter :: dimension_none(4) = [0, 0, 0, 0]
   integer, parameter :: dimension_length(4) = [1, 0, 0, 0]
   integer, parameter :: dimension_mass(4) = [0, 1, 0, 0]
@@ -39,22 +39,22 @@ module units
   integer, parameter :: dimension_rotary_inertia(4) = [1, 1, 0, 0] !! per length of a link
   integer, parameter :: dimension_inertia(4) = [2, 1, 0, 0]
   integer, parameter :: dimension_damping(4) = [2, 1, -1, 0]       !! moment per angular velocity,
-                                                                   !! the angle left out
+                                                                   !! without the angle
   integer, parameter :: dimension_area(4) = [2, 0, 0, 0]
   integer, parameter :: dimension_second_moment(4) = [4, 0, 0, 0]
 
   type :: unit_t
-    character(len=:), allocatable :: name
-    integer :: dimension(4) = 0         !! exponents of length, mass, time, angle
-    real(wp) :: numerator = 1.0_wp      !! value in SI = value × numerator/denominator
+    character(len=:), allocatable :: name !! `mm`, `lbf*s2/in`, …
+    integer :: dimension(4) = 0           !! exponents of length, mass, time, angle
+    real(wp) :: numerator = 1.0_wp        !! value in SI = value × numerator/denominator
     real(wp) :: denominator = 1.0_wp
   end type unit_t
 
-  !> What bare numbers of a deck mean.
+  !> Units of the bare numbers in a deck, from its UNITS card.
   type :: unit_system_t
-    type(unit_t) :: length
-    type(unit_t) :: mass
-    type(unit_t) :: time
+    type(unit_t) :: length !! base unit
+    type(unit_t) :: mass   !! base unit
+    type(unit_t) :: time   !! base unit
   end type unit_system_t
 
   !> 1 lbf = 1 lbm × 9.80665 m/s²; 1 lbm = 0.45359237 kg; 1 in = 0.0254 m: all exact by definition.
@@ -63,11 +63,11 @@ module units
 
 contains
 
-  !> Every unit that has a name of its own; the others are products of their powers.
+  !> All named units; all other units are products of their powers.
   pure function named_units() result(list)
     type(unit_t), allocatable :: list(:)
 
-    ! Not an array constructor, in which gfortran 12 would lose the memory of every name.
+    ! No array constructor: gfortran 12 would leak the memory of every name.
     allocate (list(25))
     list(1) = unit("m", dimension_length, 1.0_wp, 1.0_wp)
     list(2) = unit("mm", dimension_length, 1.0_wp, 1000.0_wp)
@@ -114,14 +114,17 @@ contains
 
   !> Reads `mm`, `kg/m3`, `N/mm^2`, `lbf*s2/in`, …
   !!
-  !! Powers are whole numbers behind a name, with or without `^`; after a `/` everything up to the
-  !! next `*` divides. Names keep the case in which they are written. Errors: a part is not a unit;
-  !! the message offers the nearest of the dimension that is wanted.
+  !! Powers are whole numbers behind a name, with or without `^`. A factor behind `*` multiplies, a
+  !! factor behind `/` divides. Names are case-sensitive.
+  !!
+  !! Errors: a part is not a unit; the message suggests the nearest one of the wanted dimension.
   pure subroutine read_unit(text, wanted, measure, error)
-    character(len=*), intent(in) :: text
-    integer, intent(in) :: wanted(4) !! dimension; that of the unit may be another
-    type(unit_t), intent(out) :: measure
-    type(error_t), allocatable, intent(out) :: error
+    character(len=*), intent(in) :: text             !! without blanks
+    integer, intent(in) :: wanted(4)                 !! dimension for suggestions; that of the unit
+                                                     !! may differ
+    type(unit_t), intent(out) :: measure             !! its name is `text`; incomplete after an
+                                                     !! error
+    type(error_t), allocatable, intent(out) :: error !! names the unknown part
 
     integer :: first, last, step
 
@@ -167,7 +170,7 @@ contains
       if (len(known(i)%name) /= len(name)) cycle
       if (known(i)%name /= name) cycle
       measure%dimension = measure%dimension + step*power*known(i)%dimension
-      call multiply(measure, known(i), step*power)
+      call multiply_unit(measure, known(i), step*power)
       return
     end do
     call set_error(error, error_of_input, "unknown unit '"//factor//"'"// &
@@ -175,7 +178,7 @@ contains
       dimension_noun(wanted))
   end subroutine multiply_by_power
 
-  !> Names of the units of a dimension; of all units if none has it.
+  !> Names of the units of a dimension; of all units if none has this dimension.
   pure function names_of_dimension(known, wanted) result(names)
     type(unit_t), intent(in) :: known(:)
     integer, intent(in) :: wanted(4)
@@ -195,8 +198,9 @@ contains
     end do
   end function names_of_dimension
 
+  !> A unit system from its base units.
   pure function new_unit_system(length, mass, time) result(system)
-    type(unit_t), intent(in) :: length, mass, time
+    type(unit_t), intent(in) :: length, mass, time !! base unit
     type(unit_system_t) :: system
 
     system%length = length
@@ -215,23 +219,23 @@ contains
     call read_unit("s", dimension_time, system%time, error)
   end function si_units
 
-  !> The unit in which a deck means a bare number of the given dimension.
+  !> The unit of a bare number of the given dimension in a deck.
   !!
-  !! Angles are degrees and speeds rad/s whatever the UNITS card says; everything else follows from
-  !! it.
+  !! Angles are in degrees and angular velocities in rad/s whatever the UNITS card says; all other
+  !! units follow from it.
   pure function coherent_unit(system, dimension) result(measure)
-    type(unit_system_t), intent(in) :: system
-    integer, intent(in) :: dimension(4)
+    type(unit_system_t), intent(in) :: system !! from the UNITS card
+    integer, intent(in) :: dimension(4)       !! exponents of length, mass, time, angle
     type(unit_t) :: measure
 
     measure = coherent_factor(system, dimension)
     if (dimension(4) == 0) measure%name = coherent_name(system, measure)
   end function coherent_unit
 
-  !> The same without its name, which takes longer to find than all the rest.
+  !> As `coherent_unit`, but without the name, which takes longer to find than the rest.
   pure function coherent_factor(system, dimension) result(measure)
-    type(unit_system_t), intent(in) :: system
-    integer, intent(in) :: dimension(4)
+    type(unit_system_t), intent(in) :: system !! from the UNITS card
+    integer, intent(in) :: dimension(4)       !! exponents of length, mass, time, angle
     type(unit_t) :: measure
 
     if (dimension(4) /= 0) then
@@ -242,13 +246,13 @@ contains
       return
     end if
     measure = unit("", dimension, 1.0_wp, 1.0_wp)
-    call multiply(measure, system%length, dimension(1))
-    call multiply(measure, system%mass, dimension(2))
-    call multiply(measure, system%time, dimension(3))
+    call multiply_unit(measure, system%length, dimension(1))
+    call multiply_unit(measure, system%mass, dimension(2))
+    call multiply_unit(measure, system%time, dimension(3))
   end function coherent_factor
 
-  !> Multiplies the factor of a unit by that of another to a power of either sign.
-  pure subroutine multiply(measure, factor, power)
+  !> Multiplies the factor of a unit by a power, positive or negative, of that of another.
+  pure subroutine multiply_unit(measure, factor, power)
     type(unit_t), intent(inout) :: measure
     type(unit_t), intent(in) :: factor
     integer, intent(in) :: power
@@ -260,9 +264,9 @@ contains
       measure%numerator = measure%numerator*factor%denominator**(-power)
       measure%denominator = measure%denominator*factor%numerator**(-power)
     end if
-  end subroutine multiply
+  end subroutine multiply_unit
 
-  !> `N` where the unit has such a name of its own, else `lbm.in/s2` or the like.
+  !> `N` if the unit has a name of its own, else a product such as `lbm.in/s2`.
   pure function coherent_name(system, measure) result(name)
     type(unit_system_t), intent(in) :: system
     type(unit_t), intent(in) :: measure
@@ -309,7 +313,7 @@ contains
       a%denominator*b%denominator)
   end function product_of
 
-  !> `tonne.mm2`: the factors of positive power, mass first.
+  !> `tonne.mm2`: the base units with positive exponents, mass first.
   pure function factors_name(system, exponents) result(name)
     type(unit_system_t), intent(in) :: system
     integer, intent(in) :: exponents(3) !! of length, mass and time
@@ -332,7 +336,7 @@ contains
     end do
   end function factors_name
 
-  !> A dimension in a word, for messages; empty if it has none.
+  !> The name of a dimension, for messages; empty for a dimension without a name.
   pure function dimension_noun(dimension) result(noun)
     integer, intent(in) :: dimension(4)
     character(len=:), allocatable :: noun
@@ -357,9 +361,9 @@ contains
     if (all(dimension == dimension_damping)) noun = "moment per angular velocity"
   end function dimension_noun
 
-  !> `a length`, `an area`: what a value should have been.
+  !> `a length`, `an area`: the expected quantity in messages.
   pure function dimension_name(dimension) result(name)
-    integer, intent(in) :: dimension(4)
+    integer, intent(in) :: dimension(4) !! exponents of length, mass, time, angle
     character(len=:), allocatable :: name
 
     name = dimension_noun(dimension)
@@ -372,11 +376,11 @@ contains
     end if
   end function dimension_name
 
-  !> Whether a unit measures what is wanted. Damping may be written with its angle, `N*m*s/rad`, or
+  !> Whether a unit has the wanted dimension. Damping may be written with its angle, `N*m*s/rad`, or
   !! without, `N*m*s`.
   pure function serves_for(measure, wanted) result(serves)
-    type(unit_t), intent(in) :: measure
-    integer, intent(in) :: wanted(4) !! dimension
+    type(unit_t), intent(in) :: measure !! as read
+    integer, intent(in) :: wanted(4)    !! exponents of length, mass, time, angle
     logical :: serves
 
     serves = all(measure%dimension == wanted)
@@ -384,10 +388,10 @@ contains
       all(measure%dimension == wanted - dimension_angle)
   end function serves_for
 
-  !> Why a unit does not serve where another dimension is wanted.
+  !> The text of an error about a unit of the wrong dimension.
   pure function wrong_unit(measure, wanted) result(reason)
-    type(unit_t), intent(in) :: measure
-    integer, intent(in) :: wanted(4)
+    type(unit_t), intent(in) :: measure !! as read
+    integer, intent(in) :: wanted(4)    !! exponents of length, mass, time, angle
     character(len=:), allocatable :: reason
 
     if (len(dimension_noun(measure%dimension)) == 0) then
@@ -401,19 +405,19 @@ contains
     end if
   end function wrong_unit
 
-  !> A value in the given unit, in SI.
+  !> Converts a value to SI.
   elemental function to_si(value, measure) result(si)
-    real(wp), intent(in) :: value
-    type(unit_t), intent(in) :: measure
+    real(wp), intent(in) :: value       !! in the given unit
+    type(unit_t), intent(in) :: measure !! the given unit
     real(wp) :: si
 
     si = value*measure%numerator/measure%denominator
   end function to_si
 
-  !> A value in SI, in the given unit.
+  !> Converts a value from SI.
   elemental function from_si(si, measure) result(value)
-    real(wp), intent(in) :: si
-    type(unit_t), intent(in) :: measure
+    real(wp), intent(in) :: si          !! in SI units
+    type(unit_t), intent(in) :: measure !! the unit of the result
     real(wp) :: value
 
     value = si*measure%denominator/measure%numerator

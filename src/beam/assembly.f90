@@ -1,4 +1,5 @@
-!> Matrices of the whole linkage.
+!> Stiffness, mass and geometric stiffness matrices of the whole linkage, assembled from nodal beam
+!! elements.
 module assembly
   use band_matrix, only: add_to_band, band_matrix_t, new_band_matrix
   use beam_element, only: element_geometric_stiffness, element_mass, element_stiffness
@@ -16,12 +17,12 @@ module assembly
 
 contains
 
-  !> Elastic stiffness K of (2.88).
+  !> Elastic stiffness K of Ulker 2010 (2.88), from the element matrices of (2.79).
   pure function assemble_stiffness(linkage, beams, mesh, pose) result(stiffness)
-    type(linkage_t), intent(in) :: linkage
-    type(beam_t), intent(in) :: beams(:) !! (bodies)
-    type(beam_mesh_t), intent(in) :: mesh
-    type(pose_t), intent(in) :: pose
+    type(linkage_t), intent(in) :: linkage !! lengths of its bodies
+    type(beam_t), intent(in) :: beams(:)   !! (bodies) stiffnesses
+    type(beam_mesh_t), intent(in) :: mesh  !! elements and unknowns
+    type(pose_t), intent(in) :: pose       !! directions of the bodies
     type(band_matrix_t) :: stiffness
 
     real(wp), allocatable :: element(:, :)
@@ -38,11 +39,12 @@ contains
     end do
   end function assemble_stiffness
 
-  !> Consistent mass M of (2.88), with the masses of the pins and those along the links.
+  !> Consistent mass M of Ulker 2010 (2.88), including the masses of the pins and those along the
+  !! links.
   pure function assemble_mass(linkage, mesh, pose) result(mass)
-    type(linkage_t), intent(in) :: linkage
-    type(beam_mesh_t), intent(in) :: mesh
-    type(pose_t), intent(in) :: pose
+    type(linkage_t), intent(in) :: linkage !! masses of bodies, lumps and pins
+    type(beam_mesh_t), intent(in) :: mesh  !! elements and unknowns
+    type(pose_t), intent(in) :: pose       !! directions of the bodies
     type(band_matrix_t) :: mass
 
     real(wp), allocatable :: element(:, :)
@@ -65,7 +67,7 @@ contains
     end do
   end function assemble_mass
 
-  !> `m NᵀN` of every mass along a link, where it is in its element.
+  !> Adds `m NᵀN` of every mass along a link, at its place in its element.
   pure subroutine add_lump_masses(linkage, mesh, pose, body, mass)
     type(linkage_t), intent(in) :: linkage
     type(beam_mesh_t), intent(in) :: mesh
@@ -88,11 +90,12 @@ contains
     end do
   end subroutine add_lump_masses
 
-  !> Geometric stiffness of the axial forces, as (2.84) in every element.
+  !> Geometric stiffness of the axial forces: Ulker 2010 (2.84) in every element, generalized to
+  !! forces that vary along it.
   pure function assemble_geometric_stiffness(linkage, mesh, pose, axial_force) result(stiffness)
-    type(linkage_t), intent(in) :: linkage
-    type(beam_mesh_t), intent(in) :: mesh
-    type(pose_t), intent(in) :: pose
+    type(linkage_t), intent(in) :: linkage     !! lengths of its bodies
+    type(beam_mesh_t), intent(in) :: mesh      !! elements and unknowns
+    type(pose_t), intent(in) :: pose           !! directions of the bodies
     real(wp), intent(in) :: axial_force(0:, :) !! (0:2, elements) coefficients of 1, ξ, ξ² [N]
     type(band_matrix_t) :: stiffness
 
@@ -109,14 +112,15 @@ contains
     end do
   end function assemble_geometric_stiffness
 
-  !> Adds that of forces which act from the first pin of a body up to each mass along it.
+  !> Adds the geometric stiffness of constant axial forces, each acting from the first pin of a body
+  !! up to one of the masses along it.
   pure subroutine add_axial_jumps(linkage, mesh, pose, body, jump, stiffness)
-    type(linkage_t), intent(in) :: linkage
-    type(beam_mesh_t), intent(in) :: mesh
-    type(pose_t), intent(in) :: pose
-    integer, intent(in) :: body
-    real(wp), intent(in) :: jump(:) !! (lumps) [N]
-    type(band_matrix_t), intent(inout) :: stiffness
+    type(linkage_t), intent(in) :: linkage          !! lengths and lumps of its bodies
+    type(beam_mesh_t), intent(in) :: mesh           !! elements and unknowns
+    type(pose_t), intent(in) :: pose                !! directions of the bodies
+    integer, intent(in) :: body                     !! number, from 1
+    real(wp), intent(in) :: jump(:)                 !! (lumps) tension positive [N]
+    type(band_matrix_t), intent(inout) :: stiffness !! to add to
 
     real(wp), allocatable :: xi(:), element(:, :)
     real(wp) :: place

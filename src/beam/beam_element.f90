@@ -1,21 +1,22 @@
-!> One beam element of any order p ≥ 3: degree p across the link, degree q along it. Order 3 is the
-!! element of the thesis.
+!> One beam element of any order p ≥ 3: transverse displacement of degree p, axial displacement of
+!! degree q. Order 3 is the element of the thesis.
 !!
-!! Unknowns {u1 v1 θ1 | bubbles across 1 … p−3 | bubbles along 1 … q−1 | u2 v2 θ2}: along and across
-!! the element and the rotation, at either node, as in (2.72), and between them what is zero at
-!! both. With ξ from 0 to 1 the bubbles are made of Legendre polynomials on that interval: those
-!! across have `d²v/dξ² = P_j` for j = 2 … p−2 and neither value nor slope at the ends, those along
-!! have `du/dξ = P_j` for j = 1 … q−1. So no stiffness couples a bubble with another unknown.
-!! Bubbles are lengths [m].
+!! Unknowns {u1 v1 θ1 | transverse bubbles 1 … p−3 | axial bubbles 1 … q−1 | u2 v2 θ2}: at each node
+!! the displacements along and across the element and the rotation, as in (2.72); between them the
+!! bubbles, which vanish at both nodes. With ξ from 0 to 1, bubbles are built from Legendre
+!! polynomials on that interval. Transverse ones have `d²v/dξ² = P_j`, j = 2 … p−2, with zero value
+!! and slope at the ends; axial ones have `du/dξ = P_j`, j = 1 … q−1. The stiffness matrix therefore
+!! couples no bubble with any other unknown. Bubbles are lengths [m].
 !!
-!! With shear, θ is the rotation of cross-sections, the unknowns above bend without shear strain (θ
-!! = v'), and p − 1 others follow the bubbles along: shear strains `γ = v' − θ = P_j/length`, j = 0
-!! … p−2. For j ≥ 1 they turn nothing and v vanishes at the nodes; the uniform one comes with the
-!! curvature `6 P_1/length²` that brings v and θ back to zero there. As the shear stiffness grows
-!! these unknowns stiffen like axial ones, and the slender element remains: nothing locks.
+!! With shear, θ is the rotation of the cross-section. The unknowns above bend without shear strain
+!! (θ = v'). After the axial bubbles come p − 1 more unknowns, the shear strains
+!! `γ = v' − θ = P_j/length`, j = 0 … p−2. For j ≥ 1 they rotate no cross-section, and v vanishes at
+!! the nodes. The uniform one, j = 0, includes the curvature `6 P_1/length²`, which brings v and θ
+!! back to zero at the nodes. As the shear stiffness grows, these unknowns stiffen like axial ones
+!! and the slender element remains: there is no shear locking.
 !!
-!! Matrices are made of the Legendre coefficients of the shapes: integrals are then sums over
-!! orthogonal polynomials, exact but for rounding whatever the order. Values come from the
+!! Matrices are built from the Legendre coefficients of the shapes. Integrals are then sums over
+!! orthogonal polynomials, exact but for rounding at any order. Values of polynomials come from the
 !! recurrence. Powers of ξ would lose all digits at high orders.
 module beam_element
   use kinds, only: wp
@@ -26,28 +27,27 @@ module beam_element
   public :: reference_element_t, new_reference_element, axial_degree, element_unknowns
   public :: element_mass, element_stiffness, element_geometric_stiffness, interpolate, with_lengths
 
-  !> Everything about an element that depends on its order only: length 1, rotations multiplied by
-  !! the length.
+  !> Everything about an element that depends on its order only, for length 1 and with rotations
+  !! multiplied by the length.
   type :: reference_element_t
-    integer :: order = 0                          !! p
-    logical :: sheared = .false.
-    real(wp), allocatable :: mass(:, :)           !! (unknowns, unknowns) ∫ u² + v² dξ
-    real(wp), allocatable :: axial(:, :)          !! (unknowns, unknowns) ∫ (du/dξ)² dξ
-    real(wp), allocatable :: bending(:, :)        !! (unknowns, unknowns) ∫ (d²v/dξ²)² dξ
-    real(wp), allocatable :: rotary(:, :)         !! (unknowns, unknowns) ∫ θ² dξ
-    real(wp), allocatable :: shear(:, :)          !! (unknowns, unknowns) ∫ γ² dξ; not allocated
-                                                  !! without shear
-    real(wp), allocatable :: geometric(:, :, :)   !! (unknowns, unknowns, 0:2) ∫ ξⁱ (dv/dξ)² dξ
-    real(wp), allocatable :: shape(:, :, :)       !! (0:p, unknowns, 3) Legendre coefficients of u,
-                                                  !! v and dv/dξ
+    integer :: order = 0                        !! p
+    logical :: sheared = .false.                !! has shear strains
+    real(wp), allocatable :: mass(:, :)         !! (unknowns, unknowns) ∫ u² + v² dξ
+    real(wp), allocatable :: axial(:, :)        !! (unknowns, unknowns) ∫ (du/dξ)² dξ
+    real(wp), allocatable :: bending(:, :)      !! (unknowns, unknowns) ∫ (d²v/dξ²)² dξ
+    real(wp), allocatable :: rotary(:, :)       !! (unknowns, unknowns) ∫ θ² dξ
+    real(wp), allocatable :: shear(:, :)        !! (unknowns, unknowns) ∫ γ² dξ; only with shear
+    real(wp), allocatable :: geometric(:, :, :) !! (unknowns, unknowns, 0:2) ∫ ξⁱ (dv/dξ)² dξ
+    real(wp), allocatable :: shape(:, :, :)     !! (0:p, unknowns, 3) Legendre coefficients of u, v
+                                                !! and dv/dξ
   end type reference_element_t
 
 contains
 
-  !> Degree q of the displacement along an element that is of degree p across it.
+  !> Degree q of the axial displacement of an element of order p.
   !!
-  !! Order 3 is the thesis's element, linear along it. Beyond, about a third of p is as good as the
-  !! full degree: at the frequencies of bending a link is short compared with its axial waves.
+  !! Order 3 is linear along the element, as in the thesis. Beyond, about a third of p is as good as
+  !! the full degree: at bending frequencies a link is short compared with its axial waves.
   elemental function axial_degree(order) result(degree)
     integer, intent(in) :: order !! p
     integer :: degree
@@ -55,9 +55,10 @@ contains
     degree = merge(1, order/3 + 1, order == 3)
   end function axial_degree
 
-  !> Six at the nodes, p − 3 bubbles across and q − 1 along; with shear p − 1 more.
+  !> Number of unknowns: six at the nodes, p − 3 transverse and q − 1 axial bubbles; with shear
+  !! p − 1 more.
   elemental function element_unknowns(order, sheared) result(unknowns)
-    integer, intent(in) :: order
+    integer, intent(in) :: order !! p
     logical, intent(in), optional :: sheared !! absent: no
     integer :: unknowns
 
@@ -66,8 +67,8 @@ contains
     if (sheared) unknowns = unknowns + order - 1
   end function element_unknowns
 
-  !> Makes the matrices of an order. Shapes are integrated from their strains, with 1 added where u,
-  !! v or θ begins with 1.
+  !> Builds the matrices of an order. Shapes are integrated from their strains; 1 is added to the u,
+  !! v or θ that is 1 at the first node.
   pure function new_reference_element(order, sheared) result(element)
     integer, intent(in) :: order !! p, at least 3
     logical, intent(in), optional :: sheared !! absent: no
@@ -81,7 +82,7 @@ contains
     element%order = order
     if (present(sheared)) element%sheared = sheared
     n = element_unknowns(order, element%sheared)
-    ! On assignment alone they would begin with 1.
+    ! Allocation by assignment alone would set the lower bound to 1.
     allocate (strain(0:order, n), curvature(0:order, n), along(0:order, n), across(0:order, n), &
       turn(0:order, n), slope(0:order, n))
     strain = strain_coefficients(order, n)
@@ -129,7 +130,7 @@ contains
     end do
   end function strain_coefficients
 
-  !> Legendre coefficients of dθ/dξ for each unknown; the nodal ones are those of (2.71): 6(2ξ − 1),
+  !> Legendre coefficients of dθ/dξ for each unknown. Those of the nodes are (2.71): 6(2ξ − 1),
   !! −1 + 3(2ξ − 1), …
   pure function curvature_coefficients(order, unknowns) result(curvature)
     integer, intent(in) :: order, unknowns
@@ -160,7 +161,7 @@ contains
     end do
   end function shear_coefficients
 
-  !> Number of the uniform shear strain among the unknowns, where there is one.
+  !> Number of the uniform shear strain among the unknowns of an element with shear.
   elemental function first_shear(order) result(first)
     integer, intent(in) :: order
     integer :: first
@@ -168,8 +169,8 @@ contains
     first = element_unknowns(order) - 2
   end function first_shear
 
-  !> Coefficients of `∫ f dξ` from 0: `∫ P_j = (P_{j+1} − P_{j−1})/(2(2j + 1))` and `∫ P_0 = (P_0 +
-  !! P_1)/2`.
+  !> Legendre coefficients of `∫ f dξ` from 0, by `∫ P_j = (P_{j+1} − P_{j−1})/(2(2j + 1))` and
+  !! `∫ P_0 = (P_0 + P_1)/2`.
   pure function integrated(coefficients) result(integral)
     real(wp), intent(in) :: coefficients(0:, :) !! (0:p, functions), zero for P_p
     real(wp) :: integral(0:ubound(coefficients, 1), size(coefficients, 2))
@@ -185,7 +186,8 @@ contains
     end do
   end function integrated
 
-  !> Coefficients of `ξ f`, ξ = (1 + x)/2 and `(2j + 1) x P_j = (j + 1) P_{j+1} + j P_{j−1}`.
+  !> Legendre coefficients of `ξ f`, by ξ = (1 + x)/2 and
+  !! `(2j + 1) x P_j = (j + 1) P_{j+1} + j P_{j−1}`.
   pure function times_xi(coefficients) result(product_of)
     real(wp), intent(in) :: coefficients(0:, :) !! (0:p, functions), zero for P_p
     real(wp) :: product_of(0:ubound(coefficients, 1), size(coefficients, 2))
@@ -199,7 +201,8 @@ contains
     end do
   end function times_xi
 
-  !> `∫ f_i g_j dξ` of functions for which this is symmetric; `∫ P_j² dξ = 1/(2j + 1)`.
+  !> `∫ f_i g_j dξ` for functions for which this is symmetric in i and j, by
+  !! `∫ P_j² dξ = 1/(2j + 1)`.
   pure function products(f, g) result(matrix)
     real(wp), intent(in) :: f(0:, :), g(0:, :) !! (0:p, functions) Legendre coefficients
     real(wp) :: matrix(size(f, 2), size(f, 2))
@@ -216,12 +219,12 @@ contains
     end do
   end function products
 
-  !> Consistent mass matrix; Ulker 2010 (2.78) for order 3.
+  !> Consistent mass matrix; Ulker 2010 (2.78) for order 3. Rotary inertia adds `∫ ρI θ² dx`.
   pure function element_mass(reference, line_density, length, rotary_inertia) result(mass)
-    type(reference_element_t), intent(in) :: reference
-    real(wp), intent(in) :: line_density !! ρA [kg/m]
-    real(wp), intent(in) :: length       !! [m]
-    real(wp), intent(in), optional :: rotary_inertia !! ρI [kg m]; absent: none
+    type(reference_element_t), intent(in) :: reference !! of the element's order
+    real(wp), intent(in) :: line_density               !! ρA [kg/m]
+    real(wp), intent(in) :: length                     !! [m]
+    real(wp), intent(in), optional :: rotary_inertia   !! ρI [kg m]; absent: none
     real(wp) :: mass(size(reference%mass, 1), size(reference%mass, 2)) !! [kg, kg m, kg m²]
 
     mass = line_density*length*with_lengths(reference%mass, length)
@@ -232,11 +235,11 @@ contains
 
   !> Stiffness matrix; Ulker 2010 (2.79) with entry (3, 6) = +2EI/L for order 3.
   pure function element_stiffness(reference, axial, bending, length, shear) result(stiffness)
-    type(reference_element_t), intent(in) :: reference
-    real(wp), intent(in) :: axial        !! EA [N]
-    real(wp), intent(in) :: bending      !! EI [N m²]
-    real(wp), intent(in) :: length       !! [m]
-    real(wp), intent(in), optional :: shear !! kGA of an element with shear [N]
+    type(reference_element_t), intent(in) :: reference !! of the element's order
+    real(wp), intent(in) :: axial                      !! EA [N]
+    real(wp), intent(in) :: bending                    !! EI [N m²]
+    real(wp), intent(in) :: length                     !! [m]
+    real(wp), intent(in), optional :: shear            !! kGA [N]; not used without shear strains
     real(wp) :: stiffness(size(reference%axial, 1), size(reference%axial, 2)) !! [N/m, N, N m]
 
     stiffness = axial/length*reference%axial + bending/length**3*reference%bending
@@ -244,12 +247,12 @@ contains
     stiffness = with_lengths(stiffness, length)
   end function element_stiffness
 
-  !> Geometric stiffness `∫ N v'² dx` of an axial force `N(ξ) = n0 + n1 ξ + n2 ξ²`, ξ from 0 to 1
-  !! along the element.
+  !> Geometric stiffness `∫ N v'² dx` of an axial force `N(ξ) = n0 + n1 ξ + n2 ξ²`, with ξ
+  !! from 0 to 1 along the element.
   !!
   !! For order 3 and n1 = n2 = 0 this is (2.84) of Ulker (2010).
   pure function element_geometric_stiffness(reference, force, length) result(stiffness)
-    type(reference_element_t), intent(in) :: reference
+    type(reference_element_t), intent(in) :: reference !! of the element's order
     real(wp), intent(in) :: force(0:2) !! n0, n1, n2, tension positive [N]
     real(wp), intent(in) :: length     !! [m]
     !> [N/m, N, N m]
@@ -260,10 +263,11 @@ contains
       length)
   end function element_geometric_stiffness
 
-  !> Gives rotations, which the reference element has as L θ, their length.
+  !> Turns the L θ of a reference element into θ: multiplies rows and columns of rotations by the
+  !! length.
   pure function with_lengths(matrix, length) result(scaled)
-    real(wp), intent(in) :: matrix(:, :)
-    real(wp), intent(in) :: length
+    real(wp), intent(in) :: matrix(:, :) !! (unknowns, unknowns) for L θ
+    real(wp), intent(in) :: length       !! of the element [m]
     real(wp) :: scaled(size(matrix, 1), size(matrix, 2))
 
     integer :: n
@@ -274,15 +278,16 @@ contains
     scaled(:, [3, n]) = scaled(:, [3, n])*length
   end function with_lengths
 
-  !> Displacement inside the element: along it, across it, and the rotation of its cross-section.
-  !! Equation (2.71), bubbles, and with shear what its strains do.
+  !> Displacement inside an element: along it [m], across it [m], and the rotation of the
+  !! cross-section [rad], from (2.71), the bubbles and, with shear, the shear strains.
   !!
-  !! Bubbles are differences of polynomials that are equal at the ends to the last bit, so that the
-  !! nodes are met exactly.
+  !! Bubbles are differences of polynomials that are equal at the ends to the last bit, so that
+  !! nodal values are reproduced exactly.
   pure function interpolate(order, local, length, xi) result(displacement)
-    integer, intent(in) :: order
-    real(wp), intent(in) :: local(:) !! (unknowns) in the element's own axes
-    real(wp), intent(in) :: length   !! [m]
+    integer, intent(in) :: order     !! p
+    real(wp), intent(in) :: local(:) !! (unknowns) in the element's own axes; their number implies
+                                     !! shear
+    real(wp), intent(in) :: length   !! of the element [m]
     real(wp), intent(in) :: xi       !! from 0 to 1 along the element
     real(wp) :: displacement(3)
 

@@ -1,11 +1,11 @@
 !> Nodes, elements and unknowns of a linkage of beams.
 !!
-!! Nodes are numbered round the loop as in the thesis: every body has its own nodes, so that a pin
-!! between two bodies is two nodes in one place. Unknowns are numbered along the same way; at a pin
-!! the rotation of the body that ends comes before the displacements that both share, and these
-!! before the rotation of the body that begins. Bubbles and shear strains come between the nodes of
-!! their element. So the half bandwidth of a chain of bodies is one less than the unknowns of its
-!! largest element, 5 for order 3, whatever the number of elements.
+!! Nodes are numbered round the loop as in the thesis. Every body has its own nodes, so that a pin
+!! between two bodies is two nodes at one place. Unknowns are numbered in the same order. At a pin,
+!! the rotation of the body that ends there comes first, then the displacements shared by both
+!! bodies, then the rotation of the body that begins there. Bubbles and shear strains come between
+!! the nodes of their element. The half bandwidth of a chain of bodies is therefore one less than
+!! the number of unknowns of its largest element, 5 for order 3, whatever the number of elements.
 module beam_mesh
   use beam_element, only: element_unknowns, new_reference_element, reference_element_t
   use kinds, only: wp
@@ -15,40 +15,42 @@ module beam_mesh
 
   public :: beam_t, beam_mesh_t, new_beam_mesh, element_count, element_length, moving_unknowns
 
-  !> What a body is made of, as a beam.
+  !> Stiffnesses of a body as a beam.
   type :: beam_t
     real(wp) :: axial_stiffness = 0.0_wp   !! EA [N]
     real(wp) :: bending_stiffness = 0.0_wp !! EI [N m²]
     real(wp) :: shear_stiffness = 0.0_wp   !! kGA [N]; 0: rigid in shear
   end type beam_t
 
+  !> Division of all bodies into elements, and the numbers of their unknowns.
   type :: beam_mesh_t
-    integer, allocatable :: elements(:)       !! (bodies) elements of each body, all of one length
-    integer, allocatable :: order(:)          !! (bodies) of its elements
-    logical :: sheared = .false.              !! elements have shear strains
-    integer, allocatable :: first_element(:)  !! (bodies) number of its first element
-    integer, allocatable :: first_node(:)     !! (bodies) number of its first node; its element i
-                                              !! joins nodes i and i + 1 from here
-    !> (largest element, elements) of u1 v1 θ1, bubbles, shear strains, u2 v2 θ2 as in the element,
-    !! nodal displacements in global axes; 0: held. An element has as many as its order asks for,
-    !! and zeros beyond.
+    integer, allocatable :: elements(:)      !! (bodies) elements of each body, equal in length
+    integer, allocatable :: order(:)         !! (bodies) p of its elements
+    logical :: sheared = .false.             !! elements have shear strains
+    integer, allocatable :: first_element(:) !! (bodies) number of its first element
+    integer, allocatable :: first_node(:)    !! (bodies) number of its first node; its element i
+                                             !! joins nodes first_node + i − 1 and first_node + i
+    !> (largest element, elements) numbers of u1 v1 θ1, bubbles, shear strains, u2 v2 θ2 in the
+    !! order of the element, nodal displacements in global axes; 0: held. Zero beyond the unknowns
+    !! of an element.
     integer, allocatable :: unknown(:, :)
-    integer, allocatable :: pin_unknown(:, :) !! (2, pins) of the displacements of pins; 0: held
-    type(reference_element_t), allocatable :: reference(:) !! (bodies) what its elements have in
-                                                           !! common
-    integer :: unknowns = 0
-    integer :: half_bandwidth = 0
+    integer, allocatable :: pin_unknown(:, :) !! (2, pins) numbers of the pins' displacements;
+                                              !! 0: held
+    type(reference_element_t), allocatable :: reference(:) !! (bodies) matrices common to all
+                                                           !! elements of a body
+    integer :: unknowns = 0       !! in all
+    integer :: half_bandwidth = 0 !! of the assembled matrices
   end type beam_mesh_t
 
 contains
 
-  !> Numbers nodes and unknowns. The driven body is clamped at its first pin, the other grounds hold
-  !! their pin (thesis, 3.2.2).
+  !> Numbers nodes and unknowns. The driven body is clamped at its first pin; the other ground pins
+  !! are held but free to rotate (thesis, 3.2.2).
   pure function new_beam_mesh(linkage, elements, orders, sheared) result(mesh)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: elements(:) !! (bodies)
-    integer, intent(in) :: orders(:)   !! (bodies) at least 3
-    logical, intent(in), optional :: sheared !! absent: no
+    type(linkage_t), intent(in) :: linkage   !! pins and bodies
+    integer, intent(in) :: elements(:)       !! (bodies) number, at least 1
+    integer, intent(in) :: orders(:)         !! (bodies) p, at least 3
+    logical, intent(in), optional :: sheared !! elements have shear strains; absent: no
     type(beam_mesh_t) :: mesh
 
     integer :: body, i
@@ -78,13 +80,13 @@ contains
     end do
   end function new_beam_mesh
 
-  !> Numbers the unknowns of a body: bubbles between the nodes of their element, so that every
-  !! element has a run of its own.
+  !> Numbers the unknowns of a body. Bubbles come between the nodes of their element, which keeps
+  !! the numbers of an element together.
   pure subroutine number_body(mesh, linkage, body, placed)
     type(beam_mesh_t), intent(inout) :: mesh
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: body
-    logical, intent(inout) :: placed(:) !! (pins)
+    logical, intent(inout) :: placed(:) !! (pins) whose displacements are numbered or held
 
     integer :: i, n, node(3), last_node(3), &
       bubble(element_unknowns(mesh%order(body), mesh%sheared) - 6)
@@ -109,7 +111,7 @@ contains
     end associate
   end subroutine number_body
 
-  !> Gives the next numbers to unknowns.
+  !> Gives the next free numbers to unknowns.
   pure subroutine add_unknowns(mesh, unknown)
     type(beam_mesh_t), intent(inout) :: mesh
     integer, intent(out) :: unknown(:)
@@ -124,29 +126,30 @@ contains
   pure subroutine place_pin(mesh, pin, placed)
     type(beam_mesh_t), intent(inout) :: mesh
     integer, intent(in) :: pin
-    logical, intent(inout) :: placed(:) !! (pins) grounds are placed from the beginning
+    logical, intent(inout) :: placed(:) !! (pins) ground pins from the beginning
 
     if (placed(pin)) return
     call add_unknowns(mesh, mesh%pin_unknown(:, pin))
     placed(pin) = .true.
   end subroutine place_pin
 
+  !> Number of elements in all bodies.
   pure function element_count(mesh) result(count)
-    type(beam_mesh_t), intent(in) :: mesh
+    type(beam_mesh_t), intent(in) :: mesh !! of the whole linkage
     integer :: count
 
     count = size(mesh%unknown, 2)
   end function element_count
 
-  !> How many modes of a finite frequency a mesh has.
+  !> Number of modes of a mesh that have a finite frequency.
   !!
-  !! A link that does not bend has none: every other one brings the unknowns of its elements but
-  !! those of one node each. With shear and without rotary inertia cross-sections that turn, the
-  !! axis at rest, move no mass: θ = −γ, continuous along a link and of degree p − 2 in its
-  !! elements, zero at the clamp.
+  !! Every link that bends adds the unknowns of its elements less those of one node each; a rigid
+  !! link adds none. With shear but without rotary inertia, deformations that rotate cross-sections
+  !! while the axis stays at rest move no mass and are not counted: θ = −γ, continuous along a link,
+  !! of degree p − 2 in its elements, and zero at the clamp.
   pure function moving_unknowns(mesh, linkage) result(number)
-    type(beam_mesh_t), intent(in) :: mesh
-    type(linkage_t), intent(in) :: linkage
+    type(beam_mesh_t), intent(in) :: mesh  !! elements and orders
+    type(linkage_t), intent(in) :: linkage !! which links bend, and rotary inertia
     integer :: number
 
     number = sum(mesh%elements*(element_unknowns(mesh%order, mesh%sheared) - 3), &
@@ -158,9 +161,9 @@ contains
 
   !> Length of the elements of a body [m].
   pure function element_length(mesh, linkage, body) result(length)
-    type(beam_mesh_t), intent(in) :: mesh
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: body
+    type(beam_mesh_t), intent(in) :: mesh  !! number of elements
+    type(linkage_t), intent(in) :: linkage !! lengths of its bodies
+    integer, intent(in) :: body            !! number, from 1
     real(wp) :: length
 
     length = linkage%bodies(body)%length/mesh%elements(body)

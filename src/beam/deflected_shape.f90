@@ -13,15 +13,15 @@ module deflected_shape
 
 contains
 
-  !> Displacement of the point of a body at distance `s` from its first pin: x, y and rotation, in
-  !! global axes.
+  !> Displacement of the point of a body at distance `s` from its first pin, in global axes: x and
+  !! y [m], rotation [rad].
   pure function shape_point(linkage, mesh, pose, vector, body, s) result(displacement)
-    type(linkage_t), intent(in) :: linkage
-    type(beam_mesh_t), intent(in) :: mesh
-    type(pose_t), intent(in) :: pose
-    real(wp), intent(in) :: vector(:) !! (unknowns)
-    integer, intent(in) :: body
-    real(wp), intent(in) :: s         !! [m]
+    type(linkage_t), intent(in) :: linkage !! lengths of its bodies
+    type(beam_mesh_t), intent(in) :: mesh  !! elements and unknowns
+    type(pose_t), intent(in) :: pose       !! directions of the bodies
+    real(wp), intent(in) :: vector(:)      !! (unknowns) of the mesh
+    integer, intent(in) :: body            !! number, from 1
+    real(wp), intent(in) :: s              !! [m]
     real(wp) :: displacement(3)
 
     real(wp) :: local(3), length, position
@@ -37,7 +37,7 @@ contains
     end associate
   end function shape_point
 
-  !> Unknowns of the i-th element of a body; those that are held are zero.
+  !> Unknowns of the i-th element of a body; held ones are zero.
   pure function element_vector(mesh, vector, body, i) result(values)
     type(beam_mesh_t), intent(in) :: mesh
     real(wp), intent(in) :: vector(:)

@@ -1,4 +1,4 @@
-!> Elements in global axes.
+!> Transforms element matrices and vectors between the element's axes and the global ones.
 module element_axes
   use kinds, only: wp
   implicit none (type, external)
@@ -8,10 +8,10 @@ module element_axes
 
 contains
 
-  !> An element matrix in the global axes: `Tᵀ A T`, T made of the transpose of (2.75) at either
-  !! node. Bubbles do not turn.
+  !> An element matrix in global axes: `Tᵀ A T`, where T has the transpose of (2.75) at each node.
+  !! Bubbles and shear strains keep the element's axes.
   pure function turned_to_global(matrix, direction) result(turned)
-    real(wp), intent(in) :: matrix(:, :)
+    real(wp), intent(in) :: matrix(:, :) !! (unknowns, unknowns) in the element's axes
     real(wp), intent(in) :: direction(2) !! unit vector along the element
     real(wp) :: turned(size(matrix, 1), size(matrix, 2))
 
@@ -29,10 +29,10 @@ contains
     end do
   end function turned_to_global
 
-  !> Unknowns of an element with nodal displacements in global axes, seen in the element's own.
+  !> Unknowns of an element in its own axes, from nodal displacements in global axes.
   pure function to_local(displacement, direction) result(local)
-    real(wp), intent(in) :: displacement(:)
-    real(wp), intent(in) :: direction(2)
+    real(wp), intent(in) :: displacement(:) !! (unknowns) nodal displacements in global axes
+    real(wp), intent(in) :: direction(2)    !! unit vector along the element
     real(wp) :: local(size(displacement))
 
     integer :: first(2), k
@@ -45,7 +45,7 @@ contains
     end do
   end function to_local
 
-  !> Where the displacements of either node stand among the unknowns of an element.
+  !> Index of the first displacement of each node among the unknowns of an element.
   pure function first_of_nodes(unknowns) result(first)
     integer, intent(in) :: unknowns
     integer :: first(2)
@@ -53,6 +53,7 @@ contains
     first = [1, unknowns - 2]
   end function first_of_nodes
 
+  !> Matrix that turns global components into those along and across the element.
   pure function rotation(direction) result(t)
     real(wp), intent(in) :: direction(2)
     real(wp) :: t(2, 2)

@@ -1,4 +1,4 @@
-!> What a mass or a force somewhere in a beam element adds to its matrices.
+!> Contributions to the matrices of a beam element from a mass or a force at a place inside it.
 module element_places
   use beam_element, only: reference_element_t, with_lengths
   use kinds, only: wp
@@ -10,12 +10,12 @@ module element_places
 
 contains
 
-  !> `NᵀN` of the displacements along and across the element at a place: its mass matrix for a unit
+  !> `NᵀN` of the displacements along and across the element at a place: the mass matrix of a unit
   !! mass there.
   pure function element_point_mass(reference, length, xi) result(mass)
-    type(reference_element_t), intent(in) :: reference
-    real(wp), intent(in) :: length !! [m]
-    real(wp), intent(in) :: xi     !! from 0 to 1 along the element
+    type(reference_element_t), intent(in) :: reference !! of the element's order
+    real(wp), intent(in) :: length !! of the element [m]
+    real(wp), intent(in) :: xi     !! place, from 0 to 1 along the element
     real(wp) :: mass(size(reference%mass, 1), size(reference%mass, 2)) !! [-, m, m²]
 
     real(wp) :: p(0:reference%order)
@@ -25,11 +25,12 @@ contains
       square(matmul(p, reference%shape(:, :, 2))), length)
   end function element_point_mass
 
-  !> Geometric stiffness `∫ v'² dx` of a unit force from the first node up to a place.
+  !> Geometric stiffness `∫ v'² dx` of a unit axial force that acts from the first node up to a
+  !! place.
   pure function element_part_stiffness(reference, length, xi) result(stiffness)
-    type(reference_element_t), intent(in) :: reference
-    real(wp), intent(in) :: length !! [m]
-    real(wp), intent(in) :: xi     !! from 0 to 1 along the element
+    type(reference_element_t), intent(in) :: reference !! of the element's order
+    real(wp), intent(in) :: length !! of the element [m]
+    real(wp), intent(in) :: xi     !! place, from 0 to 1 along the element
     real(wp) :: stiffness(size(reference%mass, 1), size(reference%mass, 2)) !! [1/m, -, m]
 
     real(wp) :: x(reference%order + 1), w(reference%order + 1)

@@ -1,4 +1,4 @@
-!> How much the rounding of assembled matrices can disturb eigenvalues.
+!> Effect of rounding in assembled matrices on eigenvalues.
 module round_off
   use beam_mesh, only: beam_mesh_t, beam_t, element_length
   use kinds, only: wp
@@ -10,20 +10,20 @@ module round_off
 
 contains
 
-  !> `ε ‖K_e‖/‖M_e‖`, the largest over all bodies: the error of an eigenvalue λ from the rounding of
-  !! K alone [1/s²].
+  !> Error of an eigenvalue λ from the rounding of K alone: `ε ‖K_e‖/‖M_e‖`, the largest over all
+  !! bodies [1/s²].
   !!
   !! Element stiffnesses grow without bound as elements shrink, and in a smooth mode nearly all of
-  !! them cancels. A solver in nodal unknowns cannot undo it, and residuals and counts of the same
-  !! matrices do not show it. The order of an element does not matter: its nodal stiffness is that
-  !! of order 3, and bubbles stand alone on the diagonal, so that nothing of theirs can cancel. So
-  !! do shear strains but the uniform one, whose share of the bending stiffness, 12EI/h³, is below
-  !! that of a node.
+  !! them cancels. A solver in nodal unknowns cannot recover the lost digits; residuals and inertia
+  !! counts of the same matrices do not show the loss. The order of an element does not matter: its
+  !! nodal stiffness is that of order 3, and bubbles stand alone on the diagonal, where nothing can
+  !! cancel. The same holds for all shear strains except the uniform one, whose share of the bending
+  !! stiffness, 12EI/h³, is below that of a node.
   pure function round_off_error(linkage, beams, mesh, body) result(error)
-    type(linkage_t), intent(in) :: linkage
-    type(beam_t), intent(in) :: beams(:) !! (bodies)
-    type(beam_mesh_t), intent(in) :: mesh
-    integer, intent(in), optional :: body !! of this body only
+    type(linkage_t), intent(in) :: linkage !! lengths and line densities
+    type(beam_t), intent(in) :: beams(:)   !! (bodies) stiffnesses
+    type(beam_mesh_t), intent(in) :: mesh  !! number of elements
+    integer, intent(in), optional :: body  !! only this one; absent: all
     real(wp) :: error
 
     real(wp) :: length, stiffness

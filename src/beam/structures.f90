@@ -1,4 +1,5 @@
-!> A linkage whose links bend as beams: what vibrates at a position, with its driven link clamped.
+!> The structure that vibrates at a position: a linkage whose links bend as beams, with its driven
+!! link clamped.
 module structures
   use beam_mesh, only: beam_mesh_t, beam_t, new_beam_mesh
   use linkages, only: linkage_t
@@ -7,21 +8,23 @@ module structures
 
   public :: structure_t, has_beams, has_mesh, elements_replaced
 
+  !> A linkage with the beams and the mesh of its links.
   type :: structure_t
-    type(linkage_t) :: linkage
-    type(beam_t), allocatable :: beams(:)    !! (bodies); of a rigid link without stiffness; empty
+    type(linkage_t) :: linkage               !! pins, bodies, loads
+    type(beam_t), allocatable :: beams(:)    !! (bodies) stiffnesses, zero for a rigid link; empty
                                              !! if a link that bends has no material or section
-    type(beam_mesh_t) :: mesh                !! one element on a rigid link; without unknowns if a
-                                             !! link that bends has no mesh
-    integer, allocatable :: load_elements(:) !! (bodies) on whose nodes their masses sit as loads;
-                                             !! 0: distributed, and for links that have no nodes
+    type(beam_mesh_t) :: mesh                !! one element on a rigid link; no unknowns if a link
+                                             !! that bends has no mesh
+    integer, allocatable :: load_elements(:) !! (bodies) elements whose nodes carry the lumped mass
+                                             !! in inertia loads; 0: distributed mass, and links
+                                             !! without nodes
   end type structure_t
 
 contains
 
-  !> Whether all links that bend have stiffnesses, and any link bends.
+  !> Whether any link bends, and all that bend have stiffnesses.
   pure function has_beams(structure) result(has)
-    class(structure_t), intent(in) :: structure
+    class(structure_t), intent(in) :: structure !! with or without beams
     logical :: has
 
     has = size(structure%beams) > 0
@@ -29,16 +32,16 @@ contains
 
   !> Whether all links that bend are divided into elements.
   pure function has_mesh(structure) result(has)
-    class(structure_t), intent(in) :: structure
+    class(structure_t), intent(in) :: structure !! with or without mesh
     logical :: has
 
     has = structure%mesh%unknowns > 0
   end function has_mesh
 
-  !> The same structure with another number of elements on each body.
+  !> The same structure with other numbers of elements; lumped loads follow them.
   pure function elements_replaced(structure, elements) result(other)
-    type(structure_t), intent(in) :: structure
-    integer, intent(in) :: elements(:) !! (bodies)
+    type(structure_t), intent(in) :: structure !! with a mesh
+    integer, intent(in) :: elements(:)         !! (bodies) number, at least 1
     type(structure_t) :: other
 
     other = structure

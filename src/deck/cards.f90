@@ -10,28 +10,32 @@ module cards
   public :: card_t, entry_t, read_cards
 
   type :: entry_t
-    type(token_t) :: key
-    type(token_t) :: value
-    type(token_t), allocatable :: items(:) !! of a list with a `$name` in it, each with its own
-                                           !! place; else not allocated
+    type(token_t) :: key                   !! before the equals sign
+    type(token_t) :: value                 !! behind it; empty text: missing, reported as an error
+    type(token_t), allocatable :: items(:) !! (items) of a list that contains a `$name`, each with
+                                           !! its own place; else not allocated
   end type entry_t
 
   type :: card_t
-    type(token_t) :: keyword
-    type(token_t), allocatable :: words(:)
-    type(entry_t), allocatable :: entries(:)
+    type(token_t) :: keyword                 !! first word of the card
+    type(token_t), allocatable :: words(:)   !! (words) without keyword and entries
+    type(entry_t), allocatable :: entries(:) !! (entries) `key=value`, in the order of the card
   end type card_t
 
 contains
 
-  !> Reads all cards of a deck, or of another file of its source; what is wrong with the form of a
-  !! line is noted in `diagnostics`.
+  !> Reads all cards of a deck or of a file that it includes.
+  !!
+  !! Errors: a card behind END, END in an included file or not alone on its line, `&` within a line
+  !! or without a next line, `=` without a key or a value, a quote that is not closed. The cards are
+  !! read as far as possible.
   pure subroutine read_cards(source, cards, diagnostics, file)
-    type(source_t), intent(in) :: source
-    type(card_t), allocatable, intent(out) :: cards(:)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    integer, intent(in), optional :: file !! number in the source of a file that is included;
-                                          !! absent: the deck itself
+    type(source_t), intent(in) :: source               !! the deck and the files included so far
+    type(card_t), allocatable, intent(out) :: cards(:) !! (cards) in the order of the file, without
+                                                       !! END
+    type(diagnostics_t), intent(inout) :: diagnostics  !! errors are added
+    integer, intent(in), optional :: file              !! number of an included file in the source;
+                                                       !! absent: the deck itself
 
     type(card_t), allocatable :: found(:), larger(:)
     type(token_t), allocatable :: words(:)
@@ -52,7 +56,7 @@ contains
     do while (line <= last)
       call read_logical_line(source, last, line, words, diagnostics)
       if (size(words) == 0) cycle
-      ! What follows is read all the same: its cards would otherwise be told as missing.
+      ! Cards behind END are read nevertheless; they would otherwise be reported as missing.
       if (ended .and. .not. told) then
         call add_error(diagnostics, words(1), "nothing may follow END", end_card, &
           "the deck ends here")
@@ -80,7 +84,7 @@ contains
     cards = found(:count)
   end subroutine read_cards
 
-  !> Reads the words of one card: a line and those that continue it. `line` moves past them.
+  !> Reads the words of one card: a line and its continuation lines. `line` moves past them.
   pure subroutine read_logical_line(source, file_end, line, words, diagnostics)
     type(source_t), intent(in) :: source
     integer, intent(in) :: file_end !! number of the last line of the file
@@ -100,7 +104,7 @@ contains
     do while (line <= file_end)
       text = source_line(source, line)
       if (.not. continued) then
-        call read_title(text, line, words, found)
+        call read_title_line(text, line, words, found)
         if (.not. found) call read_quoted_include(text, line, words, found, diagnostics)
         if (found) then
           line = line + 1
@@ -133,7 +137,7 @@ contains
     if (continued) call add_error(diagnostics, ampersand, "no line follows to continue this card")
   end subroutine read_logical_line
 
-  !> Appends words; the array grows by doubling, since a card may go on over many lines.
+  !> Appends words; the array grows by doubling, since a card may continue over many lines.
   pure subroutine append_words(words, count, more)
     type(token_t), allocatable, intent(inout) :: words(:)
     integer, intent(inout) :: count !! words in use
@@ -150,8 +154,8 @@ contains
     count = count + size(more)
   end subroutine append_words
 
-  !> A TITLE takes the rest of its line as it stands, comment characters and all.
-  pure subroutine read_title(text, line, words, found)
+  !> A TITLE takes the rest of its line unchanged, including comment characters.
+  pure subroutine read_title_line(text, line, words, found)
     character(len=*), intent(in) :: text
     integer, intent(in) :: line
     type(token_t), allocatable, intent(inout) :: words(:)
@@ -177,10 +181,10 @@ contains
     title%line = line
     title%column = 1 + character_count(text(:start - 1))
     words = [words, title]
-  end subroutine read_title
+  end subroutine read_title_line
 
-  !> An INCLUDE whose file name is in quotes: the name may hold blanks and all other characters. The
-  !! quotes stay in its word.
+  !> An INCLUDE whose file name is in quotes: the name may contain blanks and any other characters.
+  !! The quotes remain in its word.
   pure subroutine read_quoted_include(text, line, words, found, diagnostics)
     character(len=*), intent(in) :: text
     integer, intent(in) :: line
@@ -218,7 +222,7 @@ contains
     words = [words, more]
   end subroutine read_quoted_include
 
-  !> Tells words from entries: what stands before an equals sign is a key, what stands behind it its
+  !> Separates words from entries: the word before an equals sign is a key, the word behind it its
   !! value.
   pure subroutine sort_words(words, card, diagnostics)
     type(token_t), intent(in) :: words(:)
@@ -255,8 +259,8 @@ contains
     end do
   end subroutine sort_words
 
-  !> Whether a value follows the key at `words(i)` and its equals sign. A word with an equals sign
-  !! behind it is the next key.
+  !> Whether a value follows the key at `words(i)` and its equals sign. A word followed by an equals
+  !! sign is the next key.
   pure function has_value(words, i) result(has)
     type(token_t), intent(in) :: words(:)
     integer, intent(in) :: i

@@ -1,8 +1,8 @@
 !> The text of a deck and of the files it includes, line by line, as the user wrote it.
 !!
-!! Lines are numbered through all files: those of the deck first, then those of each file in the
-!! order of its reading. So a line number is a place whatever the file, and only what is written for
-!! people looks up which file it is in.
+!! Lines are numbered continuously through all files: first those of the deck, then those of each
+!! file in the order of reading. A line number is thus a unique place, and only messages need to
+!! look up the file.
 module deck_source
   use, intrinsic :: iso_fortran_env, only: input_unit, iostat_end, iostat_eor
   use errors, only: error_of_files, error_t, set_error
@@ -17,20 +17,20 @@ module deck_source
   public :: source_line, file_of_line, first_line, last_line, line_place, line_origin, &
     path_from_deck
 
-  !> One of the files that a source is made of.
+  !> One file of a source.
   type :: source_file_t
-    character(len=:), allocatable :: path !! as the user gave it, or where it is seen from the
+    character(len=:), allocatable :: path !! as given by the user; of an included file, from the
                                           !! working folder
     integer :: first_line = 1             !! number of its first line in the source
-    integer :: include_line = 0           !! line of the INCLUDE card that names it; 0 for none
+    integer :: include_line = 0           !! line of the INCLUDE card that names it; 0: none
   end type source_file_t
 
   type :: source_t
-    character(len=:), allocatable :: path !! of the deck, as the user gave it
-    character(len=:), allocatable :: text !! every line ends in a line feed
-    integer, allocatable :: line_start(:) !! byte at which each line begins, and one past the end of
-                                          !! the text
-    type(source_file_t), allocatable :: files(:)
+    character(len=:), allocatable :: path        !! of the deck, as given by the user
+    character(len=:), allocatable :: text        !! every line ends with a line feed
+    integer, allocatable :: line_start(:)        !! (lines + 1) byte at which each line begins, and
+                                                 !! one past the end of the text
+    type(source_file_t), allocatable :: files(:) !! (files) the deck first
   end type source_t
 
   character(len=*), parameter :: standard_input = "<standard input>" !! in place of a path
@@ -45,9 +45,9 @@ contains
   !!
   !! Errors: no such file, a folder, a file that cannot be read or is not text.
   subroutine read_source(path, source, error)
-    character(len=*), intent(in) :: path
-    type(source_t), intent(out) :: source
-    type(error_t), allocatable, intent(out) :: error
+    character(len=*), intent(in) :: path             !! `-` for standard input
+    type(source_t), intent(out) :: source            !! the deck alone; not for use after an error
+    type(error_t), allocatable, intent(out) :: error !! of the kind `error_of_files`
 
     type(text_buffer_t) :: buffer
     integer :: status
@@ -67,11 +67,13 @@ contains
     end if
   end subroutine read_source
 
-  !> Reads a file. Errors: as for `read_source`.
+  !> Reads a file.
+  !!
+  !! Errors: as for `read_source`.
   subroutine read_file(path, source, error)
-    character(len=*), intent(in) :: path
-    type(source_t), intent(out) :: source
-    type(error_t), allocatable, intent(out) :: error
+    character(len=*), intent(in) :: path             !! of the file
+    type(source_t), intent(out) :: source            !! this file alone; not for use after an error
+    type(error_t), allocatable, intent(out) :: error !! of the kind `error_of_files`
 
     type(text_buffer_t) :: buffer
     integer :: unit, status
@@ -104,7 +106,7 @@ contains
   subroutine read_lines(unit, buffer, status, message)
     integer, intent(in) :: unit
     type(text_buffer_t), intent(inout) :: buffer
-    integer, intent(out) :: status !! 0, or what went wrong
+    integer, intent(out) :: status !! 0, or an error status
     character(len=*), intent(inout) :: message
 
     character(len=8192) :: piece
@@ -116,8 +118,8 @@ contains
       length = 0
       read (unit, "(a)", advance="no", size=length, iostat=status, iomsg=message) piece
       if (length > 0) call append_text(buffer, piece(:length))
-      ! An endless device must not fill the memory: a NUL byte is no text, and nobody writes a deck
-      ! of half a gigabyte.
+      ! An endless device must not fill the memory: reading ends at a NUL byte, which is no text, or
+      ! at half a gigabyte, more than any deck.
       if (index(piece(:length), achar(0)) > 0) then
         call append_text(buffer, line_feed)
         status = 0
@@ -141,10 +143,11 @@ contains
     end do
   end subroutine read_lines
 
-  !> A source from text already at hand: cuts it into lines, drops a byte order mark and carriage
-  !! returns.
+  !> A source from a text in memory: splits it into lines and drops a byte order mark and the
+  !! carriage returns at the ends of lines.
   pure function source_from_text(path, text) result(source)
-    character(len=*), intent(in) :: path, text
+    character(len=*), intent(in) :: path !! for messages
+    character(len=*), intent(in) :: text !! the last line may lack its line feed
     type(source_t) :: source
 
     character(len=:), allocatable :: kept
@@ -187,11 +190,11 @@ contains
     source%files(1)%path = path
   end function source_from_text
 
-  !> Appends the lines of a file that `include_line` asks for (0: nobody does).
+  !> Appends the lines of another file.
   pure subroutine append_source(source, more, include_line)
-    type(source_t), intent(inout) :: source
-    type(source_t), intent(in) :: more !! one file
-    integer, intent(in) :: include_line
+    type(source_t), intent(inout) :: source !! the deck and the files included so far
+    type(source_t), intent(in) :: more      !! one file
+    integer, intent(in) :: include_line     !! of the INCLUDE card that names it; 0: none
 
     type(source_file_t), allocatable :: files(:)
     integer :: count
@@ -207,27 +210,27 @@ contains
     source%text = source%text//more%text
   end subroutine append_source
 
-  !> Number of all lines, those of the files included among them.
+  !> Number of all lines, including those of included files.
   pure function line_count(source) result(count)
-    type(source_t), intent(in) :: source
+    type(source_t), intent(in) :: source !! the deck and its files
     integer :: count
 
     count = size(source%line_start) - 1
   end function line_count
 
-  !> The text of a line, without its end.
+  !> The text of a line, without its line feed.
   pure function source_line(source, number) result(line)
-    type(source_t), intent(in) :: source
-    integer, intent(in) :: number
+    type(source_t), intent(in) :: source !! the deck and its files
+    integer, intent(in) :: number        !! of the line, from 1
     character(len=:), allocatable :: line
 
     line = source%text(source%line_start(number):source%line_start(number + 1) - 2)
   end function source_line
 
-  !> Number of the file that a line is in.
+  !> Number of the file that contains a line; 1 is the deck.
   pure function file_of_line(source, line) result(file)
-    type(source_t), intent(in) :: source
-    integer, intent(in) :: line
+    type(source_t), intent(in) :: source !! the deck and its files
+    integer, intent(in) :: line          !! from 1
     integer :: file
 
     do file = size(source%files), 2, -1
@@ -236,28 +239,29 @@ contains
     file = 1
   end function file_of_line
 
-  !> Numbers of the first and last line of a file; an empty file's last comes before its first.
+  !> Number of the first line of a file.
   pure function first_line(source, file) result(line)
-    type(source_t), intent(in) :: source
-    integer, intent(in) :: file
+    type(source_t), intent(in) :: source !! the deck and its files
+    integer, intent(in) :: file          !! from 1, the deck
     integer :: line
 
     line = source%files(file)%first_line
   end function first_line
 
+  !> Number of the last line of a file; of an empty file, one less than that of its first.
   pure function last_line(source, file) result(line)
-    type(source_t), intent(in) :: source
-    integer, intent(in) :: file
+    type(source_t), intent(in) :: source !! the deck and its files
+    integer, intent(in) :: file          !! from 1, the deck
     integer :: line
 
     line = line_count(source)
     if (file < size(source%files)) line = source%files(file + 1)%first_line - 1
   end function last_line
 
-  !> `path:line`, as the user finds it.
+  !> `path:line` with the line's number in its own file.
   pure function line_place(source, line) result(place)
-    type(source_t), intent(in) :: source
-    integer, intent(in) :: line
+    type(source_t), intent(in) :: source !! the deck and its files
+    integer, intent(in) :: line          !! number in the source
     character(len=:), allocatable :: place
 
     associate (file => source%files(file_of_line(source, line)))
@@ -265,11 +269,11 @@ contains
     end associate
   end function line_place
 
-  !> Where a line stands, as seen from the deck: `line 7`, or `parts/steel.deck:7` in a file that it
+  !> The place of a line as seen from the deck: `line 7`, or `parts/steel.deck:7` in a file that it
   !! includes.
   pure function line_origin(source, line) result(origin)
-    type(source_t), intent(in) :: source
-    integer, intent(in) :: line
+    type(source_t), intent(in) :: source !! the deck and its files
+    integer, intent(in) :: line          !! number in the source
     character(len=:), allocatable :: origin
 
     if (file_of_line(source, line) == 1) then
@@ -279,10 +283,10 @@ contains
     end if
   end function line_origin
 
-  !> A path as seen from the folder of the deck, if it is below it.
+  !> A path relative to the folder of the deck, if it lies within it; else unchanged.
   pure function path_from_deck(source, path) result(seen)
-    type(source_t), intent(in) :: source
-    character(len=*), intent(in) :: path
+    type(source_t), intent(in) :: source !! whose first file is the deck
+    character(len=*), intent(in) :: path !! from the working folder, or absolute
     character(len=:), allocatable :: seen
 
     integer :: folder
@@ -292,7 +296,7 @@ contains
     if (index(path, source%path(:folder)) == 1) seen = path(folder + 1:)
   end function path_from_deck
 
-  !> Errors: there is a control character, which no text has; the first one is named.
+  !> Errors: the file contains a control character, so it is no text; the first one is reported.
   pure subroutine find_binary(source, error)
     type(source_t), intent(in) :: source
     type(error_t), allocatable, intent(out) :: error

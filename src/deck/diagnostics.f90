@@ -1,4 +1,4 @@
-!> Messages about a deck, with the place they are about and its text under a caret.
+!> Errors and warnings about a deck, each with its place and the line of text over a caret.
 module diagnostics
   use deck_source, only: file_of_line, last_line, line_origin, line_place, source_line, source_t
   use kinds, only: wp
@@ -13,19 +13,19 @@ module diagnostics
     render_warnings, warning_texts
   public :: diagnostic_t, errors_of, warnings_of, untold_errors, untold_warnings
 
-  !> One message. A place without a line stands for what the deck lacks.
+  !> One message. Its place has no line if something is missing from the deck.
   type :: diagnostic_t
-    character(len=:), allocatable :: message
-    type(token_t) :: place
-    character(len=:), allocatable :: note !! about the second place
-    type(token_t) :: second_place
+    character(len=:), allocatable :: message !! one line, without place and severity
+    type(token_t) :: place                   !! the word it is about
+    character(len=:), allocatable :: note    !! about the second place; empty: none
+    type(token_t) :: second_place            !! a word that explains the error
   end type diagnostic_t
 
   !> Messages of one severity.
   type :: message_list_t
-    integer :: total = 0 !! also those beyond what is kept
-    integer :: kept = 0
-    type(diagnostic_t), allocatable :: list(:)
+    integer :: total = 0                       !! including those beyond `most_kept`
+    integer :: kept = 0                        !! at most `most_kept`
+    type(diagnostic_t), allocatable :: list(:) !! (most_kept) in the order in which they were added
   end type message_list_t
 
   !> All messages about one deck.
@@ -34,41 +34,45 @@ module diagnostics
     type(message_list_t), private :: warnings
   end type diagnostics_t
 
-  !> A file that is no deck at all has an error a line; nobody reads more than this.
+  !> Most messages kept of each severity: a file that is no deck at all has an error in every line.
   integer, parameter :: most_kept = 100
 
-  !> Longest part of a line that is shown.
+  !> Longest part of a line that is shown [characters].
   integer, parameter :: window = 150
 
 contains
 
-  !> Notes an error at a word of the deck, perhaps with a second word that explains it.
+  !> Adds an error at a word of the deck, optionally with a second word that explains it. Words
+  !! marked as unknown are skipped: their error has been reported.
   pure subroutine add_error(diagnostics, place, message, second_place, note)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(token_t), intent(in) :: place
-    character(len=*), intent(in) :: message
-    type(token_t), intent(in), optional :: second_place
-    character(len=*), intent(in), optional :: note
+    type(diagnostics_t), intent(inout) :: diagnostics   !! of the deck
+    type(token_t), intent(in) :: place                  !! the word; without a line: something is
+                                                        !! missing
+    character(len=*), intent(in) :: message             !! without place and severity
+    type(token_t), intent(in), optional :: second_place !! shown with `note`
+    character(len=*), intent(in), optional :: note      !! about the second place
 
-    call add(diagnostics%errors, place, message, second_place, note)
+    call add_diagnostic(diagnostics%errors, place, message, second_place, note)
   end subroutine add_error
 
+  !> Adds a warning at a word of the deck.
   pure subroutine add_warning(diagnostics, place, message)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(token_t), intent(in) :: place
-    character(len=*), intent(in) :: message
+    type(diagnostics_t), intent(inout) :: diagnostics !! of the deck
+    type(token_t), intent(in) :: place                !! the word; without a line: something is
+                                                      !! missing
+    character(len=*), intent(in) :: message           !! without place and severity
 
-    call add(diagnostics%warnings, place, message)
+    call add_diagnostic(diagnostics%warnings, place, message)
   end subroutine add_warning
 
-  pure subroutine add(messages, place, message, second_place, note)
+  pure subroutine add_diagnostic(messages, place, message, second_place, note)
     type(message_list_t), intent(inout) :: messages
     type(token_t), intent(in) :: place
     character(len=*), intent(in) :: message
     type(token_t), intent(in), optional :: second_place
     character(len=*), intent(in), optional :: note
 
-    ! A word whose `$name` could not be looked up has been complained of.
+    ! An unknown `$name` has been reported already.
     if (place%set_line < 0) return
     messages%total = messages%total + 1
     if (.not. allocated(messages%list)) allocate (messages%list(most_kept))
@@ -81,46 +85,47 @@ contains
       if (present(second_place)) new%second_place = second_place
       if (present(note)) new%note = note
     end associate
-  end subroutine add
+  end subroutine add_diagnostic
 
+  !> Whether there are errors.
   pure function has_errors(diagnostics) result(has)
-    type(diagnostics_t), intent(in) :: diagnostics
+    type(diagnostics_t), intent(in) :: diagnostics !! of the deck
     logical :: has
 
     has = diagnostics%errors%total > 0
   end function has_errors
 
-  !> Number of errors, also of those that are not told.
+  !> Number of errors, including those that are not kept.
   pure function error_count(diagnostics) result(count)
-    type(diagnostics_t), intent(in) :: diagnostics
+    type(diagnostics_t), intent(in) :: diagnostics !! of the deck
     integer :: count
 
     count = diagnostics%errors%total
   end function error_count
 
-  !> All errors, in the order of the deck's lines, ready for standard error; empty if there are
-  !! none.
+  !> All errors kept, in the order of the deck's lines, and the number of those not kept, ready for
+  !! standard error; empty if there are none.
   pure function render_errors(diagnostics, source) result(text)
-    type(diagnostics_t), intent(in) :: diagnostics
-    type(source_t), intent(in) :: source
+    type(diagnostics_t), intent(in) :: diagnostics !! of the deck
+    type(source_t), intent(in) :: source           !! that their places refer to
     character(len=:), allocatable :: text
 
-    text = rendered(diagnostics%errors, source, "error")
+    text = rendered_list(diagnostics%errors, source, "error")
   end function render_errors
 
-  !> All warnings, like the errors.
+  !> All warnings, as `render_errors` does for errors.
   pure function render_warnings(diagnostics, source) result(text)
-    type(diagnostics_t), intent(in) :: diagnostics
-    type(source_t), intent(in) :: source
+    type(diagnostics_t), intent(in) :: diagnostics !! of the deck
+    type(source_t), intent(in) :: source           !! that their places refer to
     character(len=:), allocatable :: text
 
-    text = rendered(diagnostics%warnings, source, "warning")
+    text = rendered_list(diagnostics%warnings, source, "warning")
   end function render_warnings
 
-  !> The warnings without path and caret, a line each, for the log.
+  !> The warnings without path and caret, one per line, for the log.
   pure function warning_texts(diagnostics, source) result(text)
-    type(diagnostics_t), intent(in) :: diagnostics
-    type(source_t), intent(in) :: source
+    type(diagnostics_t), intent(in) :: diagnostics !! of the deck
+    type(source_t), intent(in) :: source           !! that their places refer to
     character(len=:), allocatable :: text
 
     integer :: i
@@ -136,32 +141,33 @@ contains
     end associate
   end function warning_texts
 
-  !> The errors that are kept, in the order of the deck's lines.
+  !> The errors kept, in the order of the deck's lines.
   pure function errors_of(diagnostics) result(list)
-    type(diagnostics_t), intent(in) :: diagnostics
+    type(diagnostics_t), intent(in) :: diagnostics !! of the deck
     type(diagnostic_t), allocatable :: list(:)
 
     list = in_order(diagnostics%errors)
   end function errors_of
 
-  !> The warnings likewise.
+  !> The warnings kept, in the order of the deck's lines.
   pure function warnings_of(diagnostics) result(list)
-    type(diagnostics_t), intent(in) :: diagnostics
+    type(diagnostics_t), intent(in) :: diagnostics !! of the deck
     type(diagnostic_t), allocatable :: list(:)
 
     list = in_order(diagnostics%warnings)
   end function warnings_of
 
-  !> Number of errors beyond those that are kept.
+  !> Number of errors beyond those kept.
   pure function untold_errors(diagnostics) result(count)
-    type(diagnostics_t), intent(in) :: diagnostics
+    type(diagnostics_t), intent(in) :: diagnostics !! of the deck
     integer :: count
 
     count = diagnostics%errors%total - diagnostics%errors%kept
   end function untold_errors
 
+  !> Number of warnings beyond those kept.
   pure function untold_warnings(diagnostics) result(count)
-    type(diagnostics_t), intent(in) :: diagnostics
+    type(diagnostics_t), intent(in) :: diagnostics !! of the deck
     integer :: count
 
     count = diagnostics%warnings%total - diagnostics%warnings%kept
@@ -175,7 +181,7 @@ contains
     integer :: i, order(messages%kept)
 
     do i = 1, messages%kept
-      ! What has no place stands for the deck's end, and comes last.
+      ! Messages without a place refer to the deck's end and come last.
       place(i) = huge(place)
       if (messages%list(i)%place%line > 0) place(i) = messages%list(i)%place%line*1.0e9_wp + &
         messages%list(i)%place%column
@@ -187,7 +193,7 @@ contains
     end do
   end function in_order
 
-  pure function rendered(messages, source, severity) result(text)
+  pure function rendered_list(messages, source, severity) result(text)
     type(message_list_t), intent(in) :: messages
     type(source_t), intent(in) :: source
     character(len=*), intent(in) :: severity
@@ -211,9 +217,9 @@ contains
         "more "//severity)//achar(10))
     end if
     text = buffer_text(buffer)
-  end function rendered
+  end function rendered_list
 
-  !> Appends where the text of a word is set that stands as `$name` on its card.
+  !> For a word that stands as `$name` on its card, appends the place where its text is set.
   pure subroutine append_setting(buffer, source, place)
     type(text_buffer_t), intent(inout) :: buffer
     type(source_t), intent(in) :: source
@@ -233,8 +239,8 @@ contains
     call append_place(buffer, source, setting, "note", note)
   end subroutine append_setting
 
-  !> Appends `path:line:column: severity: message`, the line and the caret, and who includes the
-  !! file.
+  !> Appends `path:line:column: severity: message`, the line, the caret, and the INCLUDE cards that
+  !! lead to the file.
   pure subroutine append_place(buffer, source, place, severity, message)
     type(text_buffer_t), intent(inout) :: buffer
     type(source_t), intent(in) :: source
@@ -245,7 +251,7 @@ contains
     integer :: first, marks, file
 
     if (place%line < 1) then
-      ! Something is missing from the deck: there is no word to point at, only its end.
+      ! Something is missing from the deck, so the message points at its end.
       call append_text(buffer, source%path//":"//to_string(max(1, last_line(source, 1)))//":1: "// &
         severity//": "//message//achar(10))
       return
@@ -271,7 +277,7 @@ contains
     end do
   end subroutine append_place
 
-  !> A word as it stands in the deck: its text, unless it has another one there, as `$name` has.
+  !> A word as it stands in the deck: its text or, where a value has replaced it, its `$name`.
   pure function written_word(source, place) result(word)
     type(source_t), intent(in) :: source
     type(token_t), intent(in) :: place
@@ -286,12 +292,12 @@ contains
     if (index(rest, word) == 1) return
     length = scan(rest, " ="//achar(9)) - 1
     if (length < 0) length = len(rest)
-    ! A `$name` ends where a list goes on; its value may be a list itself.
+    ! In a list, a `$name` ends at the comma; its value may be a list itself.
     if (index(rest, "$") == 1 .and. index(rest(:length), ",") > 0) length = index(rest, ",") - 1
     word = rest(:length)
   end function written_word
 
-  !> A tab counts as one character, so it is shown as one.
+  !> Replaces each tab by one blank: a tab counts as one character in columns.
   pure function blank_tabs(line) result(shown)
     character(len=*), intent(in) :: line
     character(len=len(line)) :: shown
@@ -304,7 +310,8 @@ contains
     end do
   end function blank_tabs
 
-  !> At most `most` characters of UTF-8 text, from character number `first` on.
+  !> At most `most` characters of a UTF-8 text from character number `first`, without trailing
+  !! blanks.
   pure function characters(line, first, most) result(part)
     character(len=*), intent(in) :: line
     integer, intent(in) :: first, most

@@ -1,4 +1,4 @@
-!> INCLUDE: the cards of other files in place of the card that names them.
+!> INCLUDE: replaces the card by the cards of the file that it names.
 module includes
   use card_table, only: pattern_of
   use cards, only: card_t, read_cards
@@ -12,21 +12,22 @@ module includes
 
   public :: read_all_cards
 
-  !> Nobody nests files deeper by hand, and a file may be included many times, but not without end.
+  !> Far more than in decks written by hand. A file may be included many times, but not endlessly.
   integer, parameter :: most_levels = 50, most_files = 1000
-
 
 contains
 
-  !> Reads the cards of a deck, with those of the files that it includes in the places of their
-  !! INCLUDE cards.
+  !> Reads the cards of a deck, with the cards of included files in place of their INCLUDE cards.
   !!
-  !! The lines of the files are appended to `source`, so that every word has its place. What cannot
-  !! be included is noted in `diagnostics`; the cards that are there are read all the same.
+  !! The lines of the files are appended to `source`, so that every word has its place. Errors:
+  !! those of `read_cards`, an INCLUDE card of the wrong form, a file that cannot be read, files
+  !! that include themselves, are nested too deep or are too many, UNITS in an included file. All
+  !! cards that can be found are read.
   subroutine read_all_cards(source, cards, diagnostics)
-    type(source_t), intent(inout) :: source !! the deck
-    type(card_t), allocatable, intent(out) :: cards(:)
-    type(diagnostics_t), intent(inout) :: diagnostics
+    type(source_t), intent(inout) :: source            !! the deck; included files are appended
+    type(card_t), allocatable, intent(out) :: cards(:) !! (cards) INCLUDE cards remain only where a
+                                                       !! file cannot be included
+    type(diagnostics_t), intent(inout) :: diagnostics  !! errors are added
 
     type(string_t) :: chain(0:most_levels)
 
@@ -48,12 +49,12 @@ contains
     end do
   end function any_include
 
-  !> Puts the cards of the files in place of the INCLUDE cards of one file.
+  !> Replaces the INCLUDE cards of one file by the cards of their files.
   recursive subroutine insert_files(source, chain, level, cards, diagnostics)
     type(source_t), intent(inout) :: source
-    type(string_t), intent(inout) :: chain(0:) !! the files under way, the deck first, as absolute
-                                               !! paths
-    integer, intent(in) :: level               !! of the file whose cards these are; 0 is the deck
+    type(string_t), intent(inout) :: chain(0:) !! (0:levels) absolute paths of the files being read,
+                                               !! the deck first
+    integer, intent(in) :: level               !! of the file with these cards; 0 is the deck
     type(card_t), allocatable, intent(inout) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
 
@@ -90,8 +91,8 @@ contains
     count = count + size(more)
   end subroutine append_cards
 
-  !> Reads the file that an INCLUDE card names. If it cannot be done, the card stays: it stands for
-  !! cards that nobody knows.
+  !> Reads the file that an INCLUDE card names. If that fails, the card remains, in place of the
+  !! unknown cards.
   recursive subroutine read_included(source, chain, level, card, cards, diagnostics)
     type(source_t), intent(inout) :: source
     type(string_t), intent(inout) :: chain(0:)
@@ -116,7 +117,7 @@ contains
       "more than "//to_string(most_files)//" files are included")
     if (.not. allocated(error)) then
       call read_file(path, more, error)
-      if (allocated(error)) error%text = "'"//path//numbers_of(error)//"' cannot be included: "// &
+      if (allocated(error)) error%text = "'"//path//place_of(error)//"' cannot be included: "// &
         error%text
     end if
     if (allocated(error)) then
@@ -130,22 +131,22 @@ contains
     call insert_files(source, chain, level + 1, cards, diagnostics)
   end subroutine read_included
 
-  !> `:line:column` of an error in a file; empty where it is about the file as a whole.
-  pure function numbers_of(error) result(numbers)
+  !> `:line:column` of an error in a file; empty if the error concerns the file as a whole.
+  pure function place_of(error) result(numbers)
     type(error_t), intent(in) :: error
     character(len=:), allocatable :: numbers
 
     numbers = ""
     if (error%place%line > 0) numbers = ":"//to_string(error%place%line)//":"// &
       to_string(error%place%column)
-  end function numbers_of
+  end function place_of
 
-  !> The path on an INCLUDE card, relative to the file that the card is in.
+  !> The path on an INCLUDE card, which is relative to the file with the card.
   subroutine read_path(source, card, path, fine, diagnostics)
     type(source_t), intent(in) :: source
     type(card_t), intent(in) :: card
-    character(len=:), allocatable, intent(out) :: path
-    logical, intent(out) :: fine !! whether there is one; else the card is wrong
+    character(len=:), allocatable, intent(out) :: path !! from the working folder, or absolute
+    logical, intent(out) :: fine                       !! false: the card is wrong
     type(diagnostics_t), intent(inout) :: diagnostics
 
     character(len=:), allocatable :: name
@@ -181,11 +182,11 @@ contains
     associate (file => source%files(file_of_line(source, card%keyword%line)))
       if (index(name, "/") /= 1) path = file%path(:index(file%path, "/", back=.true.))//name
     end associate
-    ! A file of this name, not standard input.
+    ! This is a file named `-`, not standard input.
     if (path == "-") path = "./-"
   end subroutine read_path
 
-  !> Errors: a file cannot be included that is being read already.
+  !> Errors: the file is already being read, so it would include itself.
   subroutine refuse_loop(source, chain, path, line, error)
     type(source_t), intent(in) :: source
     type(string_t), intent(in) :: chain(0:)
@@ -213,8 +214,8 @@ contains
     end do
   end subroutine refuse_loop
 
-  !> UNITS belongs to the deck: a file that others include cannot know their units, and must not
-  !! change them.
+  !> Removes UNITS cards from an included file. UNITS belongs to the deck: an included file cannot
+  !! know the deck's units and must not change them.
   pure subroutine drop_units(cards, diagnostics)
     type(card_t), allocatable, intent(inout) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics

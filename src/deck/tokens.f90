@@ -1,4 +1,4 @@
-!> Words of a deck that remember where they stand.
+!> Words of a deck with their places.
 module tokens
   use errors, only: error_of_input, error_t, set_error
   use text, only: character_count, string_t
@@ -8,15 +8,16 @@ module tokens
   public :: token_t, split_words, token_part, list_items, token_texts, code_length, is_name, &
     check_name
 
-  !> A word. Where `$name` stands in the deck, it has the text that `$name` stands for, and knows
-  !! both places.
+  !> A word and its place. In place of a `$name` it has the text of the value, the place of the
+  !! `$name` and the place of the value.
   type :: token_t
-    character(len=:), allocatable :: text
-    integer :: line = 0       !! in the deck, from 1
-    integer :: column = 0     !! of its first character, from 1; a tab is one character
-    integer :: set_line = 0   !! where the text of a `$name` is set; 0: it stands here; negative:
-                              !! unknown, which is told
-    integer :: set_column = 0
+    character(len=:), allocatable :: text !! as written, or the value of a `$name`
+    integer :: line = 0                   !! in the source, from 1; 0: no place
+    integer :: column = 0                 !! of its first character, from 1; a tab is one character
+    integer :: set_line = 0               !! where the value of a `$name` is set; 0: this is no
+                                          !! `$name`; negative: unknown, already reported as an
+                                          !! error
+    integer :: set_column = 0             !! of the first character of this value
   end type token_t
 
   character(len=*), parameter :: blanks = " "//achar(9)
@@ -25,19 +26,19 @@ module tokens
 
 contains
 
-  !> How much of a line stands before its comment.
+  !> Length of a line without its comment [bytes].
   pure function code_length(line) result(length)
-    character(len=*), intent(in) :: line
+    character(len=*), intent(in) :: line !! of a deck
     integer :: length
 
     length = scan(line, "!#") - 1
     if (length < 0) length = len(line)
   end function code_length
 
-  !> Splits a line at blanks; an equals sign is a word of its own.
+  !> Splits a line at blanks and tabs; an equals sign is a word of its own.
   pure function split_words(line, number) result(words)
     character(len=*), intent(in) :: line !! without its comment
-    integer, intent(in) :: number        !! of the line in the deck
+    integer, intent(in) :: number        !! of the line in the source
     type(token_t), allocatable :: words(:)
 
     integer :: pass, count, first, last, column
@@ -48,7 +49,7 @@ contains
       last = 0
       first = 1
       do
-        ! The old word still counts for the column of the new one.
+        ! The column of the new word is counted from the old one.
         if (last > 0) column = column - 1 + character_count(line(first:last))
         call next_word(line, first, last, column)
         if (first > len(line)) exit
@@ -59,14 +60,13 @@ contains
     end do
   end function split_words
 
-  !> Moves on from the word that ends at `last` to the next one; `column` follows in characters, not
-  !! in bytes.
+  !> Moves from the word that ends at `last` to the next one; `column` counts characters, not bytes.
   pure subroutine next_word(line, first, last, column)
     character(len=*), intent(in) :: line
-    integer, intent(out) :: first     !! byte at which the next word begins; past the line if there
-                                      !! is none
-    integer, intent(inout) :: last    !! byte at which it ends
-    integer, intent(inout) :: column  !! of the first character of the word
+    integer, intent(out) :: first    !! byte at which the next word begins; past the line if there
+                                     !! is none
+    integer, intent(inout) :: last   !! byte at which it ends
+    integer, intent(inout) :: column !! of the first character of the word
 
     integer :: i
 
@@ -86,11 +86,11 @@ contains
     end do
   end subroutine next_word
 
-  !> Some characters of a word. What `$name` stands for has its parts where it is set, and its place
-  !! where it is used.
+  !> A part of a word. In the value of a `$name`, the part has its own place where the value is set,
+  !! but the place of the whole `$name` where it is used.
   pure function token_part(word, first, last) result(part)
-    type(token_t), intent(in) :: word
-    integer, intent(in) :: first, last !! bytes of its text
+    type(token_t), intent(in) :: word  !! as written, or a value
+    integer, intent(in) :: first, last !! byte of its text
     type(token_t) :: part
 
     part = word
@@ -102,9 +102,9 @@ contains
     end if
   end function token_part
 
-  !> The items of a list that is one word, with commas between them.
+  !> The items of a list: one word with commas between the items.
   pure function list_items(word) result(items)
-    type(token_t), intent(in) :: word
+    type(token_t), intent(in) :: word !! a list, or a single item
     type(token_t), allocatable :: items(:)
 
     integer :: i, first, length
@@ -118,9 +118,9 @@ contains
     end do
   end function list_items
 
-  !> The words without their places.
+  !> The texts of words, without their places.
   pure function token_texts(words) result(texts)
-    type(token_t), intent(in) :: words(:)
+    type(token_t), intent(in) :: words(:) !! (words)
     type(string_t) :: texts(size(words))
 
     integer :: i
@@ -130,18 +130,18 @@ contains
     end do
   end function token_texts
 
-  !> Whether a word can be a name.
+  !> Whether a word is a valid name: letters, digits and `_ - . '`.
   pure function is_name(word)
-    character(len=*), intent(in) :: word
+    character(len=*), intent(in) :: word !! not empty
     logical :: is_name
 
     is_name = verify(word, name_characters) == 0
   end function is_name
 
-  !> Errors: a word cannot be a name.
+  !> Errors: a word is not a valid name.
   pure subroutine check_name(word, error)
-    character(len=*), intent(in) :: word
-    type(error_t), allocatable, intent(inout) :: error
+    character(len=*), intent(in) :: word               !! not empty
+    type(error_t), allocatable, intent(inout) :: error !! unchanged if it is valid
 
     if (.not. is_name(word)) call set_error(error, error_of_input, "'"//word// &
       "' is not a name (letters, digits and _ - . ' make one)")

@@ -1,11 +1,10 @@
-!> Axial force in every element, by equilibrium of the part of the link beyond it.
+!> Axial force in every element, from the equilibrium of the part of the link beyond it.
 !!
-!! At a mass along the link the force jumps. Jumps are told apart from the rest, which is smooth: a
-!! force from the first pin up to the mass.
+!! At a mass along the link the force jumps. Jumps are kept apart from the smooth rest: each is a
+!! constant force from the first pin to the mass.
 !!
-!! Of a link that does not bend one number counts, its mean: turned by ψ, its dead loads F at places
-!! r do the work `−½ ψ² Σ F·r`, and `Σ F·r`, which is `∫ N dx` of a slender link, is L times that
-!! mean.
+!! For a rigid link only the mean matters. When the link turns by ψ, its dead loads F at places r do
+!! the work `−½ ψ² Σ F·r`, and `Σ F·r`, which for a slender link is `∫ N dx`, is L times that mean.
 module axial_forces
   use acceleration_fields, only: acceleration_field_t, point_acceleration
   use beam_mesh, only: beam_mesh_t, element_count, element_length
@@ -26,15 +25,17 @@ module axial_forces
 
 contains
 
-  !> With all mass on the nodes the force is constant in each element, but for jumps.
+  !> Axial forces with all mass on the nodes: constant in each element. Jumps at masses along the
+  !! links are left out, see `axial_jumps`.
   pure function lumped_axial_forces(linkage, mesh, pose, field, joints) result(force)
-    type(linkage_t), intent(in) :: linkage
-    type(beam_mesh_t), intent(in) :: mesh
-    type(pose_t), intent(in) :: pose
-    type(acceleration_field_t), intent(in) :: field
-    type(joint_forces_t), intent(in) :: joints
-    real(wp), allocatable :: force(:, :) !! (0:2, elements) coefficients of 1, ξ, ξ², tension
-                                         !! positive [N]
+    type(linkage_t), intent(in) :: linkage          !! lengths and line densities
+    type(beam_mesh_t), intent(in) :: mesh           !! elements of every body
+    type(pose_t), intent(in) :: pose                !! directions of the links
+    type(acceleration_field_t), intent(in) :: field !! of this load case
+    type(joint_forces_t), intent(in) :: joints      !! in equilibrium with the same loads
+    real(wp), allocatable :: force(:, :)            !! (0:2, elements) coefficients of 1, ξ, ξ² in
+                                                    !! every element, without jumps; tension
+                                                    !! positive [N]
 
     real(wp), allocatable :: masses(:), stations(:)
     real(wp) :: beyond
@@ -54,16 +55,18 @@ contains
     end do
   end function lumped_axial_forces
 
-  !> With uniform mass `N(s) = e·F_last − μ ∫ e·a ds` from s to the last pin: quadratic along the
-  !! link, so in each element too, but for jumps.
+  !> Axial forces with uniform mass: `N(s) = e·F_last − μ ∫ e·a ds`, integrated from s to the last
+  !! pin. N is quadratic along the link, and so in each element. Jumps at masses along the links are
+  !! left out, see `axial_jumps`.
   pure function distributed_axial_forces(linkage, mesh, pose, field, joints) result(force)
-    type(linkage_t), intent(in) :: linkage
-    type(beam_mesh_t), intent(in) :: mesh
-    type(pose_t), intent(in) :: pose
-    type(acceleration_field_t), intent(in) :: field
-    type(joint_forces_t), intent(in) :: joints
-    real(wp), allocatable :: force(:, :) !! (0:2, elements) coefficients of 1, ξ, ξ², tension
-                                         !! positive [N]
+    type(linkage_t), intent(in) :: linkage          !! lengths and line densities
+    type(beam_mesh_t), intent(in) :: mesh           !! elements of every body
+    type(pose_t), intent(in) :: pose                !! directions of the links
+    type(acceleration_field_t), intent(in) :: field !! of this load case
+    type(joint_forces_t), intent(in) :: joints      !! in equilibrium with the same loads
+    real(wp), allocatable :: force(:, :)            !! (0:2, elements) coefficients of 1, ξ, ξ² in
+                                                    !! every element, without jumps; tension
+                                                    !! positive [N]
 
     real(wp) :: along, growth, length, left, mu
     integer :: body, i
@@ -85,15 +88,15 @@ contains
     end do
   end function distributed_axial_forces
 
-  !> The same for a link as a whole: `N(ξ) = n0 + n1 ξ + n2 ξ²`, ξ from 0 to 1 along it, but for
-  !! jumps.
+  !> Axial force of a whole link with uniform mass: `N(ξ) = n0 + n1 ξ + n2 ξ²`, ξ from 0 to 1 along
+  !! it, without the jumps at masses.
   pure function link_axial_force(linkage, body, pose, field, joints) result(force)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: body
-    type(pose_t), intent(in) :: pose
-    type(acceleration_field_t), intent(in) :: field
-    type(joint_forces_t), intent(in) :: joints
-    real(wp) :: force(0:2) !! n0, n1, n2, tension positive [N]
+    type(linkage_t), intent(in) :: linkage          !! lengths and line densities
+    integer, intent(in) :: body                     !! number of the link
+    type(pose_t), intent(in) :: pose                !! directions of the links
+    type(acceleration_field_t), intent(in) :: field !! of this load case
+    type(joint_forces_t), intent(in) :: joints      !! in equilibrium with the same loads
+    real(wp) :: force(0:2)                          !! n0, n1, n2, tension positive [N]
 
     real(wp) :: along, growth, mass
 
@@ -106,14 +109,14 @@ contains
     end associate
   end function link_axial_force
 
-  !> What the inertia load of every mass along a link adds to the axial force before it, tension
-  !! positive [N].
+  !> Contribution of every mass along a link to the axial force between the first pin and the mass,
+  !! from its inertia load: `−m e·a`.
   pure function axial_jumps(linkage, body, pose, field) result(jump)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: body
-    type(pose_t), intent(in) :: pose
-    type(acceleration_field_t), intent(in) :: field
-    real(wp), allocatable :: jump(:) !! (lumps)
+    type(linkage_t), intent(in) :: linkage          !! masses along the links
+    integer, intent(in) :: body                     !! number of the link
+    type(pose_t), intent(in) :: pose                !! directions of the links
+    type(acceleration_field_t), intent(in) :: field !! of this load case
+    real(wp), allocatable :: jump(:)                !! (lumps) tension positive [N]
 
     integer :: i
 
@@ -126,21 +129,20 @@ contains
     end associate
   end function axial_jumps
 
-  !> Mean over the length of the axial force of a link that does not bend, tension positive [N]: `Σ
-  !! F·r/L`, r from its first pin.
+  !> Mean axial force over the length of a rigid link: `Σ F·r/L`, r from its first pin.
   !!
-  !! Inertia loads act where the mass is, and `−∫ a·r dm = −(a_first·S + (slope·e) I)` with the
-  !! first moment S and the moment of inertia I about the first pin. That of cross-sections does not
-  !! count, as it does not in a slender link.
+  !! Inertia loads act where the mass is: `−∫ a·r dm = −(a_first·S + (slope·e) I)` with the first
+  !! moment S and the moment of inertia I about the first pin. The rotary inertia of cross-sections
+  !! does not count, as in a slender link.
   pure function mean_axial_force(linkage, body, elements, pose, field, joints) result(force)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: body
-    integer, intent(in) :: elements !! on whose nodes the mass of the link sits; 0: it is
-                                    !! distributed
-    type(pose_t), intent(in) :: pose
-    type(acceleration_field_t), intent(in) :: field
-    type(joint_forces_t), intent(in) :: joints
-    real(wp) :: force
+    type(linkage_t), intent(in) :: linkage          !! lengths and masses
+    integer, intent(in) :: body                     !! number of the link
+    integer, intent(in) :: elements                 !! on whose nodes the mass of the link sits; 0:
+                                                    !! distributed
+    type(pose_t), intent(in) :: pose                !! directions of the links
+    type(acceleration_field_t), intent(in) :: field !! of this load case
+    type(joint_forces_t), intent(in) :: joints      !! in equilibrium with the same loads
+    real(wp) :: force                               !! tension positive [N]
 
     type(rigid_body_t) :: whole
 
@@ -153,11 +155,11 @@ contains
     end associate
   end function mean_axial_force
 
-  !> The sum of the forces of the unit loads, each times its factor: `N_const + ω2² N_ω + α2 N_α`.
+  !> Axial forces of all unit loads together, each times its factor: `N_const + ω2² N_ω + α2 N_α`.
   pure function total_force(unit_force, factor) result(force)
-    real(wp), intent(in) :: unit_force(:, :, :) !! (…, …, cases) [N]
-    real(wp), intent(in) :: factor(case_count)
-    real(wp) :: force(size(unit_force, 1), size(unit_force, 2))
+    real(wp), intent(in) :: unit_force(:, :, :) !! (coefficients, bodies or elements, cases) [N]
+    real(wp), intent(in) :: factor(case_count)  !! ω2², α2, 1
+    real(wp) :: force(size(unit_force, 1), size(unit_force, 2)) !! [N]
 
     integer :: i
 
@@ -167,14 +169,14 @@ contains
     end do
   end function total_force
 
-  !> Axial forces of links under the unit loads, their masses distributed along them; without loads
-  !! there are no force functions.
+  !> Axial forces of all links under the unit loads, with the mass distributed along the links. For
+  !! a rigid link this is its mean force. Without any load the first dimension is empty.
   pure function distributed_unit_forces(linkage, pose, unit_loads) result(force)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
+    type(linkage_t), intent(in) :: linkage       !! lengths, masses, loads
+    type(pose_t), intent(in) :: pose             !! away from dead points
     type(unit_loads_t), intent(in) :: unit_loads !! of this pose
-    real(wp), allocatable :: force(:, :, :)      !! (1, ξ, ξ², jumps; bodies; cases) [N]; zero in
-                                                 !! cases that do not occur
+    real(wp), allocatable :: force(:, :, :)      !! (1, ξ, ξ², jumps; bodies; cases) zero in cases
+                                                 !! that do not occur [N]
 
     type(load_t) :: loads(size(linkage%bodies))
     type(joint_forces_t) :: joints
@@ -205,9 +207,9 @@ contains
     end do
   end function distributed_unit_forces
 
-  !> Jumps of the axial force in the link that bends and carries most masses.
+  !> Largest number of axial force jumps (masses) in any link that bends.
   pure function most_jumps(linkage) result(most)
-    type(linkage_t), intent(in) :: linkage
+    type(linkage_t), intent(in) :: linkage !! masses along the links
     integer :: most
 
     integer :: b

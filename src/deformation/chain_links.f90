@@ -1,4 +1,5 @@
-!> One link on a long mesh: what the unknowns of an element do in it and at its end.
+!> One link on a long mesh: displacement, slope and strain that the unknowns of an element cause
+!! inside it and at its end.
 module chain_links
   use beam_mesh, only: beam_t
   use body_lumps, only: element_of_lump, lump_masses, lump_places
@@ -14,50 +15,55 @@ module chain_links
   public :: chain_t, new_chain, slope_at_start, add_from_start, at_end, add_back_at_end, add_back, &
     at_place, add_lump_forces
 
-  !> One link; one that does not bend has no unknowns, and what follows of them is empty.
+  !> A link on a long mesh. A rigid link has no unknowns, and its arrays are empty or not allocated.
   type :: chain_t
     logical :: bends = .true.
     integer :: elements = 0
-    integer :: bendings = 0     !! transverse unknowns of an element: curvatures, and with shear as
-                                !! many strains in turn with them
-    integer :: at_end = 0       !! the first of them, which alone leave anything at its end
-    logical :: sheared = .false.
-    integer :: strains = 0
-    integer :: first_bending = 0 !! number of the link's first unknown, minus one
-    integer :: first_strain = 0
-    real(wp) :: length = 0.0_wp !! of the link [m]
-    real(wp), allocatable :: bend(:, :)     !! (coefficients, bendings) Legendre coefficients of the
-                                            !! displacement in the element
-    real(wp), allocatable :: turn(:, :)     !! (coefficients − 1, bendings) those of its slope
-    real(wp), allocatable :: rotate(:, :)   !! (coefficients − 1, bendings) those of the rotation of
-                                            !! its cross-sections
-    real(wp), allocatable :: stretch(:, :)  !! (coefficients, strains) those of the axial
-                                            !! displacement
-    real(wp), allocatable :: weight(:)      !! μ h/(2j+1): squares of the coefficients times these
-                                            !! are the mass
-    real(wp), allocatable :: rotation_weight(:) !! ρI h/(2j+1), likewise for the rotation; empty
-                                                !! without rotary inertia
-    real(wp), allocatable :: force(:, :, :) !! (coefficients − 1, coefficients − 1, 3) `h ∫ ξ^(k−1)
-                                            !! P_i P_j dξ`
-    real(wp), allocatable :: lump(:)        !! masses along the link [kg]
-    integer, allocatable :: lump_element(:) !! (lumps) the element of each
-    real(wp), allocatable :: lump_value(:, :) !! (coefficients, lumps) P_j where it is in its
-                                              !! element
+    integer :: bendings = 0                     !! transverse unknowns of an element: curvatures
+                                                !! and, with shear, as many shear strains,
+                                                !! alternating
+    integer :: at_end = 0                       !! the first of them, the only ones with a
+                                                !! displacement or slope at the end of the element
+    logical :: sheared = .false.                !! with shear strains
+    integer :: strains = 0                      !! axial unknowns of an element
+    integer :: first_bending = 0                !! number of the link's first transverse unknown,
+                                                !! minus one
+    integer :: first_strain = 0                 !! number of its first axial unknown, minus one
+    real(wp) :: length = 0.0_wp                 !! of the link [m]
+    real(wp), allocatable :: bend(:, :)         !! (coefficients, bendings) Legendre coefficients of
+                                                !! the transverse displacement in the element [m/√J]
+    real(wp), allocatable :: turn(:, :)         !! (coefficients − 1, bendings) those of its slope
+                                                !! v' [rad/√J]
+    real(wp), allocatable :: rotate(:, :)       !! (coefficients − 1, bendings) those of the
+                                                !! rotation of cross-sections [rad/√J]
+    real(wp), allocatable :: stretch(:, :)      !! (coefficients, strains) those of the axial
+                                                !! displacement [m/√J]
+    real(wp), allocatable :: weight(:)          !! (coefficients) μ h/(2j+1), mass per squared
+                                                !! coefficient of displacement [kg]
+    real(wp), allocatable :: rotation_weight(:) !! (coefficients − 1) ρI h/(2j+1), the same for the
+                                                !! rotation; empty without rotary inertia [kg m²]
+    real(wp), allocatable :: force(:, :, :)     !! (coefficients − 1, coefficients − 1, 3)
+                                                !! `h ∫ ξ^(k−1) P_i P_j dξ` [m]
+    real(wp), allocatable :: lump(:)            !! (lumps) masses along the link [kg]
+    integer, allocatable :: lump_element(:)     !! (lumps) element that each mass is in
+    real(wp), allocatable :: lump_value(:, :)   !! (coefficients, lumps) P_j at the mass
     !> (coefficients − 1, coefficients − 1, lumps) `h ∫ P_i P_j dξ` from the start of its element to
-    !! it
+    !! the mass [m]
     real(wp), allocatable :: before(:, :, :)
-    real(wp), allocatable :: start_slope(:) !! (bendings × elements) rotation at the first end, the
-                                            !! chord at rest
-    real(wp) :: end_rotation = 0.0_wp       !! the norm of `start_slope`
+    real(wp), allocatable :: start_slope(:)     !! (bendings × elements) rotation of the first end
+                                                !! against the chord [rad/√J]
+    real(wp) :: end_rotation = 0.0_wp           !! the norm of `start_slope` [rad/√J]
   end type chain_t
 
 contains
 
-  !> Everything about a link on a long mesh that does not change with the position.
+  !> All properties of a link on a long mesh that do not depend on the position.
   pure function new_chain(body, beam, elements, order, axial_degree) result(link)
-    type(body_t), intent(in) :: body
-    type(beam_t), intent(in) :: beam
-    integer, intent(in) :: elements, order, axial_degree
+    type(body_t), intent(in) :: body    !! length, masses, whether it bends
+    type(beam_t), intent(in) :: beam    !! its stiffnesses
+    integer, intent(in) :: elements     !! all of one length
+    integer, intent(in) :: order        !! polynomial degree of the transverse displacement
+    integer, intent(in) :: axial_degree !! that of the axial displacement
     type(chain_t) :: link
 
     real(wp) :: h
@@ -75,7 +81,7 @@ contains
     end if
     link%sheared = beam%shear_stiffness > 0.0_wp
     link%bendings = bending_unknowns(order, link%sheared)
-    ! Curvatures of degree 0 and 1, and a uniform shear strain between them.
+    ! Curvatures of degree 0 and 1 and, between them in the numbering, a uniform shear strain.
     link%at_end = merge(3, 2, link%sheared)
     link%strains = axial_degree
     link%end_rotation = end_rotation(body%length, beam%bending_stiffness, beam%shear_stiffness)
@@ -94,7 +100,7 @@ contains
     call place_lumps(link, body, coefficients)
   end function new_chain
 
-  !> Puts the masses along a link into their elements.
+  !> Assigns the masses along a link to their elements.
   pure subroutine place_lumps(link, body, coefficients)
     type(chain_t), intent(inout) :: link
     type(body_t), intent(in) :: body
@@ -121,7 +127,8 @@ contains
     end do
   end subroutine place_lumps
 
-  !> What the transverse unknowns of an element do in it.
+  !> Legendre coefficients of displacement, slope and rotation for the transverse unknowns of an
+  !! element.
   pure subroutine fill_bending(link, beam, order, coefficients)
     type(chain_t), intent(inout) :: link
     type(beam_t), intent(in) :: beam
@@ -150,8 +157,8 @@ contains
     end do
   end subroutine fill_bending
 
-  !> `θ(0) = −∫ (1 − x/L) θ' dx − ∫ γ dx/L`; of the curvatures only P_0 and P_1 count, of the shear
-  !! strains only P_0.
+  !> `θ(0) = −∫ (1 − x/L) θ' dx − ∫ γ dx/L`. Only P_0 and P_1 of the curvatures and P_0 of the shear
+  !! strains contribute.
   pure function start_slopes(link, beam) result(slope)
     type(chain_t), intent(in) :: link
     type(beam_t), intent(in) :: beam
@@ -194,19 +201,19 @@ contains
 
   !> Rotation of a link's first end against its chord.
   pure function slope_at_start(link, vector) result(slope)
-    type(chain_t), intent(in) :: link
-    real(wp), intent(in) :: vector(:)
-    real(wp) :: slope
+    type(chain_t), intent(in) :: link !! on a long mesh
+    real(wp), intent(in) :: vector(:) !! (unknowns) of the whole linkage [√J]
+    real(wp) :: slope                 !! [rad]
 
     slope = long_dot(link%start_slope, &
       vector(link%first_bending + 1:link%first_bending + size(link%start_slope)))
   end function slope_at_start
 
-  !> The transpose of `slope_at_start`.
+  !> The transpose of `slope_at_start`: adds the effect of a moment at the first end.
   pure subroutine add_from_start(link, moment, vector)
-    type(chain_t), intent(in) :: link
-    real(wp), intent(in) :: moment
-    real(wp), intent(inout) :: vector(:)
+    type(chain_t), intent(in) :: link    !! on a long mesh
+    real(wp), intent(in) :: moment       !! [N m]
+    real(wp), intent(inout) :: vector(:) !! (unknowns) of the whole linkage
 
     integer :: i
 
@@ -215,10 +222,12 @@ contains
     end do
   end subroutine add_from_start
 
-  !> Value at the end of an element.
+  !> Value of a function at the end of an element, where every P_j is 1.
   pure function at_end(table, count, y) result(value)
-    real(wp), intent(in) :: table(:, :), y(:)
-    integer, intent(in) :: count !! unknowns that leave anything there
+    real(wp), intent(in) :: table(:, :) !! (coefficients, unknowns) `bend`, `rotate` or `stretch` of
+                                        !! the link
+    real(wp), intent(in) :: y(:)        !! (unknowns) of the element
+    integer, intent(in) :: count        !! unknowns with a value there, the first of all
     real(wp) :: value
 
     integer :: j
@@ -229,10 +238,12 @@ contains
     end do
   end function at_end
 
+  !> The transpose of `at_end`: adds the effect of a force or moment at the end of an element.
   pure subroutine add_back_at_end(table, count, value, y)
-    real(wp), intent(in) :: table(:, :), value
-    integer, intent(in) :: count
-    real(wp), intent(inout) :: y(:)
+    real(wp), intent(in) :: table(:, :) !! (coefficients, unknowns) as in `at_end`
+    real(wp), intent(in) :: value       !! force or moment
+    integer, intent(in) :: count        !! as in `at_end`
+    real(wp), intent(inout) :: y(:)     !! (unknowns) of the element
 
     integer :: j
 
@@ -241,20 +252,23 @@ contains
     end do
   end subroutine add_back_at_end
 
+  !> Adds the generalized forces on the unknowns of an element, from the forces on the Legendre
+  !! coefficients.
   pure subroutine add_back(table, force, y)
-    real(wp), intent(in) :: table(:, :), force(:)
-    real(wp), intent(inout) :: y(:)
+    real(wp), intent(in) :: table(:, :) !! (coefficients, unknowns) as in `at_end`
+    real(wp), intent(in) :: force(:)    !! (coefficients)
+    real(wp), intent(inout) :: y(:)     !! (unknowns) of the element
 
     y = y + matmul(force, table)
   end subroutine add_back
 
-  !> Adds the forces of the masses in an element: `m v` there, on every coefficient of the
-  !! displacement.
+  !> Adds the forces `m v` of the masses in an element, as forces on the Legendre coefficients of
+  !! the displacement.
   pure subroutine add_lump_forces(link, element, coefficient, force)
-    type(chain_t), intent(in) :: link
-    integer, intent(in) :: element
-    real(wp), intent(in) :: coefficient(:)  !! Legendre coefficients of the displacement
-    real(wp), intent(inout) :: force(:)
+    type(chain_t), intent(in) :: link      !! with its masses
+    integer, intent(in) :: element         !! its number
+    real(wp), intent(in) :: coefficient(:) !! (coefficients) of the displacement
+    real(wp), intent(inout) :: force(:)    !! (coefficients)
 
     integer :: i
 
@@ -265,9 +279,11 @@ contains
     end do
   end subroutine add_lump_forces
 
+  !> Value of a function at a place in an element.
   pure function at_place(table, y, place) result(value)
-    real(wp), intent(in) :: table(:, :), y(:)
-    real(wp), intent(in) :: place !! from −1 to 1 in the element
+    real(wp), intent(in) :: table(:, :) !! (coefficients, unknowns) as in `at_end`
+    real(wp), intent(in) :: y(:)        !! (unknowns) of the element
+    real(wp), intent(in) :: place       !! from −1 to 1 in the element
     real(wp) :: value
 
     value = dot_product(matmul(table, y), legendre_values(size(table, 1) - 1, place))

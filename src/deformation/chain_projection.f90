@@ -1,4 +1,4 @@
-!> Modes of continuous links on a long mesh.
+!> Projects modes of continuous links on the unknowns of a long mesh.
 module chain_projection
   use deformation_chain, only: deformation_chain_t
   use deformation_shapes, only: deformation_shapes_t
@@ -12,17 +12,19 @@ module chain_projection
 
 contains
 
-  !> Modes of a model that is continuous on some links, and has the mesh itself on others: starts
-  !! for the modes of the mesh.
+  !> Modes of a near model as start vectors for the modes of the mesh. The near model is continuous
+  !! on some links and has the mesh itself on the others.
+  !!
+  !! The unknowns of a continuous link are Legendre coefficients along its elements, scaled to
+  !! energy, degree by degree, curvature and shear strain alternating; those of the others are the
+  !! unknowns of the mesh.
   pure subroutine project_modes(pencil, near, bending, strain, vectors)
-    type(deformation_chain_t), intent(in) :: pencil
-    type(link_modes_t), intent(in) :: near(:)  !! (links) of that model
-    !> (unknowns, modes, links) of a continuous link Legendre coefficients along its elements,
-    !! scaled to energy, degree by degree, of curvature and shear strain in turn; else the unknowns
-    !! of the mesh
-    real(wp), intent(in) :: bending(:, :, :)
-    real(wp), intent(in) :: strain(:, :, :)
-    real(wp), intent(out) :: vectors(:, :)     !! (unknowns, modes)
+    type(deformation_chain_t), intent(in) :: pencil !! of the long mesh
+    type(link_modes_t), intent(in) :: near(:)       !! (links) of the near model
+    real(wp), intent(in) :: bending(:, :, :)        !! (unknowns, modes, links) transverse unknowns
+                                                    !! of the near model
+    real(wp), intent(in) :: strain(:, :, :)         !! (unknowns, modes, links) its axial unknowns
+    real(wp), intent(out) :: vectors(:, :)          !! (unknowns of the mesh, modes)
 
     integer :: b, i, kinds
 
@@ -32,11 +34,11 @@ contains
         if (near(b)%bending_shapes%by_degree) then
           kinds = merge(2, 1, link%sheared)
           do i = 1, kinds
-            call project(near(b)%bending_shapes, bending(i::kinds, :, b), number, &
+            call project_on_pieces(near(b)%bending_shapes, bending(i::kinds, :, b), number, &
               link%bendings/kinds, vectors(link%first_bending + i:link%first_bending + &
               number*link%bendings:kinds, :))
           end do
-          call project(near(b)%bending_shapes, strain(:, :, b), number, link%strains, &
+          call project_on_pieces(near(b)%bending_shapes, strain(:, :, b), number, link%strains, &
             vectors(link%first_strain + 1:link%first_strain + number*link%strains, :))
         else
           vectors(link%first_bending + 1:link%first_bending + number*link%bendings, :) = &
@@ -48,13 +50,14 @@ contains
     end do
   end subroutine project_modes
 
-  !> Projects `Σ c_k P_k` of every piece of a link on the functions `√(2j+1) P_j` of each element,
-  !! so that energies are kept.
-  pure subroutine project(pieces, whole, elements, unknowns, vectors)
+  !> Projects `Σ c_k P_k` of every piece of a link on the functions `√(2j+1) P_j` of each mesh
+  !! element. Energies are preserved.
+  pure subroutine project_on_pieces(pieces, whole, elements, unknowns, vectors)
     type(deformation_shapes_t), intent(in) :: pieces !! the elements of the continuous link
-    real(wp), intent(in) :: whole(:, :) !! (pieces × degrees, modes) c
-    integer, intent(in) :: elements, unknowns
-    real(wp), intent(inout) :: vectors(:, :)
+    real(wp), intent(in) :: whole(:, :)              !! (pieces × degrees, modes) c
+    integer, intent(in) :: elements                  !! of the mesh
+    integer, intent(in) :: unknowns                  !! per mesh element
+    real(wp), intent(inout) :: vectors(:, :)         !! (unknowns × elements, modes)
 
     real(wp) :: x(unknowns + 1), w(unknowns + 1), here(0:unknowns - 1, unknowns + 1), &
       p(size(whole, 1)), place, value
@@ -87,6 +90,6 @@ contains
         end do
       end do
     end do
-  end subroutine project
+  end subroutine project_on_pieces
 
 end module chain_projection

@@ -1,10 +1,10 @@
 !> Long meshes in deformation coordinates: products with mass and geometric stiffness by running
 !! sums along the links.
 !!
-!! Unknowns are those of `deformation_shapes`, element after element, bending of all links first,
-!! then axial strains; the stiffness is the unit matrix. Nothing is assembled: work and memory grow
-!! with the number of elements, and no digits are lost to it, for the deformations of an element are
-!! small numbers themselves and not differences of displacements.
+!! The unknowns are those of `deformation_shapes`, element by element: first the bending of all
+!! links, then their axial strains. The stiffness is the unit matrix. Nothing is assembled, so work
+!! and memory grow in proportion to the number of elements. No digits are lost, because the
+!! deformations of an element are small numbers themselves, not differences of displacements.
 module deformation_chain
   use axial_forces, only: most_jumps
   use beam_mesh, only: beam_t
@@ -22,30 +22,35 @@ module deformation_chain
 
   public :: deformation_chain_t, new_deformation_chain, chain_shape
 
+  !> A linkage on a long mesh, at one position and under one load.
   type, extends(symmetric_pencil_t) :: deformation_chain_t
     type(chain_t), allocatable :: links(:)
-    type(chords_t) :: chords
-    integer, allocatable :: number(:)          !! (0:links) of the border unknowns, as in
-                                               !! `border_numbers`
-    integer :: border = 0                      !! how many there are
-    real(wp), allocatable :: rigid_mass(:, :, :) !! (3, 3, links) of links that do not bend, as in
-                                                 !! `link_modes_t`
-    real(wp), allocatable :: pin_mass(:)
-    real(wp), allocatable :: axial_force(:, :) !! (3, elements) coefficients of 1, ξ, ξ² in every
-                                               !! element [N]; no elements: no loads
-    real(wp), allocatable :: jump(:, :)        !! (lumps, links) forces from the first pin up to the
-                                               !! masses along the links [N]
+    type(chords_t) :: chords                     !! of this position
+    integer, allocatable :: number(:)            !! (0:links) of the border unknowns, as in
+                                                 !! `border_numbers`
+    integer :: border = 0                        !! number of border unknowns
+    real(wp), allocatable :: rigid_mass(:, :, :) !! (3, 3, links) of rigid links, as in
+                                                 !! `link_modes_t`; zero for the others
+    real(wp), allocatable :: pin_mass(:)         !! (pins) [kg]
+    real(wp), allocatable :: axial_force(:, :)   !! (3, elements) coefficients of 1, ξ, ξ² in every
+                                                 !! element, for a rigid link its mean force; no
+                                                 !! elements: no loads [N]
+    real(wp), allocatable :: jump(:, :)          !! (lumps, links) forces from the first pin to the
+                                                 !! masses along the links [N]
   contains
     procedure :: multiply
   end type deformation_chain_t
 
 contains
 
-  !> Everything that does not change with the position.
+  !> All properties of a linkage on a long mesh that do not depend on the position.
   pure function new_deformation_chain(linkage, beams, elements, order, axial_degree) result(chain)
-    type(linkage_t), intent(in) :: linkage
-    type(beam_t), intent(in) :: beams(:)
-    integer, intent(in) :: elements(:), order(:), axial_degree(:) !! (bodies)
+    type(linkage_t), intent(in) :: linkage !! lengths and masses
+    type(beam_t), intent(in) :: beams(:)   !! (bodies)
+    integer, intent(in) :: elements(:)     !! (bodies)
+    integer, intent(in) :: order(:)        !! (bodies) polynomial degree of the transverse
+                                           !! displacements
+    integer, intent(in) :: axial_degree(:) !! (bodies) that of the axial displacements
     type(deformation_chain_t) :: chain
 
     type(link_modes_t) :: rigid_link
@@ -77,12 +82,13 @@ contains
     chain%unknowns = number
   end function new_deformation_chain
 
-  !> `M y` and `(I + G) y`: down the links from deformations to displacements and slopes, and back
-  !! from forces to deformations.
+  !> `M y` and `(I + G) y`. A pass along each link turns deformations into displacements and slopes;
+  !! a pass back turns forces into generalized forces on the deformations.
   pure subroutine multiply(pencil, vector, mass_times, stiffness_times)
-    class(deformation_chain_t), intent(in) :: pencil
-    real(wp), intent(in) :: vector(:)
-    real(wp), intent(out) :: mass_times(:), stiffness_times(:)
+    class(deformation_chain_t), intent(in) :: pencil !! with chords and forces set
+    real(wp), intent(in) :: vector(:)                !! (unknowns) y
+    real(wp), intent(out) :: mass_times(:)           !! (unknowns) M y
+    real(wp), intent(out) :: stiffness_times(:)      !! (unknowns) (I + G) y
 
     real(wp) :: border(pencil%border), on_border(pencil%border), turned(pencil%border), pin(2), &
       motion(3, pencil%border)
@@ -126,7 +132,7 @@ contains
     stiffness_times = stiffness_times + vector
   end subroutine multiply
 
-  !> The clamped end's rotation and the links' elongations.
+  !> The border unknowns of a vector: the clamped end's rotation and the elongations of the links.
   pure function border_of(pencil, vector) result(border)
     class(deformation_chain_t), intent(in) :: pencil
     real(wp), intent(in) :: vector(:)
@@ -170,11 +176,10 @@ contains
     end do
   end subroutine add_from_border
 
-  !> Transverse motion of a link: its mass times displacements, and what that does to its unknowns
-  !! and to the border.
+  !> Adds the transverse motion of a link to `M y`, on its own unknowns and on the border.
   pure subroutine add_bending(link, across, border, vector, mass_times, on_border)
     type(chain_t), intent(in) :: link
-    real(wp), intent(in) :: across(:, :)
+    real(wp), intent(in) :: across(:, :) !! (3, border) of its chord
     real(wp), intent(in) :: border(:), vector(:)
     real(wp), intent(inout) :: mass_times(:), on_border(:)
 
@@ -202,7 +207,7 @@ contains
           rotation(:, e) = matmul(link%rotate, y)
           rotation(1, e) = rotation(1, e) + sum(slope) + (ends(2) - ends(1))/link%length
         end if
-        ! P_j is 1 at the end: what a displacement or rotation has grown to is the sum of its
+        ! P_j is 1 at the end: the displacement or rotation reached there is the sum of its
         ! coefficients.
         call add_exactly(value, h*sum(slope))
         call add_exactly(value, at_end(link%bend, link%at_end, y))
@@ -234,10 +239,10 @@ contains
     on_border = on_border + matmul(on_ends, across(1:2, :))
   end subroutine add_bending
 
-  !> The same for axial motion.
+  !> Adds the axial motion of a link to `M y`, on its own unknowns and on the border.
   pure subroutine add_stretching(link, along, border, vector, mass_times, on_border)
     type(chain_t), intent(in) :: link
-    real(wp), intent(in) :: along(:, :)
+    real(wp), intent(in) :: along(:, :) !! (2, border) of its chord
     real(wp), intent(in) :: border(:), vector(:)
     real(wp), intent(inout) :: mass_times(:), on_border(:)
 
@@ -267,13 +272,14 @@ contains
     on_border = on_border + sum(value)*along(1, :)
   end subroutine add_stretching
 
-  !> `K_G = ∫ N v'²` of a link.
+  !> Adds a link's geometric stiffness, `K_G = ∫ N v'²`, times the vector, on its own unknowns and
+  !! on the border.
   pure subroutine add_geometric(link, axial_force, jump, turn, border, vector, stiffness_times, &
     on_border)
     type(chain_t), intent(in) :: link
-    real(wp), intent(in) :: axial_force(:, :) !! (3, elements)
-    real(wp), intent(in) :: jump(:)           !! (lumps, and perhaps more)
-    real(wp), intent(in) :: turn(:)
+    real(wp), intent(in) :: axial_force(:, :) !! (3, elements) [N]
+    real(wp), intent(in) :: jump(:)           !! (at least lumps) [N]
+    real(wp), intent(in) :: turn(:)           !! (border) rotation of its chord
     real(wp), intent(in) :: border(:), vector(:)
     real(wp), intent(inout) :: stiffness_times(:), on_border(:)
 
@@ -311,13 +317,14 @@ contains
     on_border = on_border + sum(slope)*turn
   end subroutine add_geometric
 
-  !> Displacement of places along a body: along it, across it, and the rotation.
+  !> Displacements at places along a body: along it, across it, and the rotation.
   pure function chain_shape(pencil, vector, body, xi) result(displacement)
-    type(deformation_chain_t), intent(in) :: pencil
-    real(wp), intent(in) :: vector(:)
-    integer, intent(in) :: body
-    real(wp), intent(in) :: xi(:) !! from 0 to 1 along the body, ascending
-    real(wp) :: displacement(3, size(xi))
+    type(deformation_chain_t), intent(in) :: pencil !! at a position
+    real(wp), intent(in) :: vector(:)               !! (unknowns) [√J]
+    integer, intent(in) :: body                     !! its number
+    real(wp), intent(in) :: xi(:)                   !! (places) from 0 to 1 along the body,
+                                                    !! ascending
+    real(wp) :: displacement(3, size(xi))           !! (components, places) [m, m, rad]
 
     real(wp) :: border(pencil%border), ends(2), start, moved(2), value(2), slope(2), h, place
     integer :: e, i, next, first

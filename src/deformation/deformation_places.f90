@@ -1,4 +1,4 @@
-!> What the deformations of a link do at a place.
+!> Displacement, slope and rotation that the deformations of a link cause at a place along it.
 module deformation_places
   use deformation_shapes, only: bending_column, deformation_shapes_t, shear_scale
   use kinds, only: wp
@@ -10,11 +10,11 @@ module deformation_places
 
 contains
 
-  !> Displacement that a unit of every unknown gives a place.
+  !> Displacement at a place per unit of every unknown.
   pure function displacement_row(shapes, xi) result(row)
-    type(deformation_shapes_t), intent(in) :: shapes
-    real(wp), intent(in) :: xi !! from 0 to 1 along the link
-    real(wp) :: row(shapes%unknowns)
+    type(deformation_shapes_t), intent(in) :: shapes !! bending or axial
+    real(wp), intent(in) :: xi                       !! from 0 to 1 along the link
+    real(wp) :: row(shapes%unknowns)                 !! (unknowns) [m/√J]
 
     real(wp) :: zeta
     integer :: element, first
@@ -26,11 +26,11 @@ contains
       shapes%coefficients - 1, :))
   end function displacement_row
 
-  !> Slope v' that a unit of every unknown gives a place.
+  !> Slope v' at a place per unit of every unknown.
   pure function slope_row(shapes, xi) result(row)
-    type(deformation_shapes_t), intent(in) :: shapes
-    real(wp), intent(in) :: xi !! from 0 to 1 along the link
-    real(wp) :: row(shapes%unknowns)
+    type(deformation_shapes_t), intent(in) :: shapes !! bending
+    real(wp), intent(in) :: xi                       !! from 0 to 1 along the link
+    real(wp) :: row(shapes%unknowns)                 !! (unknowns) [rad/√J]
 
     real(wp) :: zeta, derivative(0:shapes%coefficients - 1), p(0:shapes%coefficients - 1)
     integer :: element, first, j
@@ -47,12 +47,12 @@ contains
       shapes%displacement(first:first + shapes%coefficients - 1, :))
   end function slope_row
 
-  !> Rotation θ of the cross-section that a unit of every unknown gives a place: the slope without
-  !! the shear strain.
+  !> Rotation θ of the cross-section at a place per unit of every unknown: the slope without the
+  !! shear strain.
   pure function rotation_row(shapes, xi) result(row)
-    type(deformation_shapes_t), intent(in) :: shapes
-    real(wp), intent(in) :: xi !! from 0 to 1 along the link
-    real(wp) :: row(shapes%unknowns)
+    type(deformation_shapes_t), intent(in) :: shapes !! bending
+    real(wp), intent(in) :: xi                       !! from 0 to 1 along the link
+    real(wp) :: row(shapes%unknowns)                 !! (unknowns) [rad/√J]
 
     real(wp) :: zeta, h, p(0:shapes%coefficients - 1)
     integer :: element, j, column
@@ -68,7 +68,7 @@ contains
     end do
   end function rotation_row
 
-  !> The element of a place, and the place in it from −1 to 1.
+  !> The element that a place is in, and the place in the element, from −1 to 1.
   pure subroutine find_element(shapes, xi, element, zeta)
     type(deformation_shapes_t), intent(in) :: shapes
     real(wp), intent(in) :: xi

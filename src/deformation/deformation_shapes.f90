@@ -1,11 +1,12 @@
-!> A link's own deformations as unknowns: Legendre coefficients of its curvature, shear strain and
-!! axial strain, element by element.
+!> Deformation coordinates of a link: Legendre coefficients of its curvature, shear strain and axial
+!! strain, element by element.
 !!
-!! Scaled as here, these unknowns have the elastic energy `½ yᵀy`: the stiffness matrix is the unit
-!! matrix, exact and the same at every position. In an element of length h the curvature is `θ' = Σ
-!! y_j √((2j+1)/(EI h)) P_j`, the shear strain `v' − θ` likewise with kGA, the axial strain with EA.
-!! θ is the rotation of cross-sections; without shear it is v'. Displacements are counted from the
-!! chord: they vanish at both ends of the link. Elements are equal, or end where they are told to.
+!! Scaled as here, the elastic energy is `½ yᵀy`: the stiffness matrix is the unit matrix, exact and
+!! the same at every position. In an element of length h the curvature is
+!! `θ' = Σ y_j √((2j+1)/(EI h)) P_j`; the shear strain `v' − θ` has kGA in place of EI, the axial
+!! strain EA. θ is the rotation of cross-sections; without shear it is v'. Displacements are
+!! measured from the chord: they vanish at both ends of the link. Elements are of equal length
+!! unless their ends are given.
 module deformation_shapes
   use kinds, only: wp
   use legendre, only: gauss_rule, legendre_values, once_integrated, twice_integrated
@@ -15,61 +16,64 @@ module deformation_shapes
   public :: deformation_shapes_t, bending_shapes, axial_shapes, bending_unknowns, bending_column, &
     shear_scale
 
-  !> What every unknown does. A function of the place is held as its Legendre coefficients in every
-  !! element, one after the other, each coefficient times √(μ h/(2j+1)): then `∫ μ f g dx` is the
-  !! scalar product. With rotary inertia those of its rotation follow, times √(ρI h/(2j+1)), and the
-  !! scalar product is `∫ μ f g + ρI θ_f θ_g dx`.
+  !> Effect of every unknown along the link. A function is stored as its Legendre coefficients in
+  !! every element, element by element, each coefficient times √(μ h/(2j+1)): `∫ μ f g dx` is then
+  !! the scalar product. With rotary inertia, the coefficients of its rotation follow, times √(ρI
+  !! h/(2j+1)), and the scalar product is `∫ μ f g + ρI θ_f θ_g dx`.
+  !!
+  !! `[mean elements]`: in units of the mean element length.
   type :: deformation_shapes_t
-    real(wp) :: length = 0.0_wp                  !! of the link [m]
-    real(wp) :: shear_stiffness = 0.0_wp         !! kGA [N]; 0: rigid in shear
+    real(wp) :: length = 0.0_wp                 !! of the link [m]
+    real(wp) :: shear_stiffness = 0.0_wp        !! kGA [N]; 0: rigid in shear
     integer :: elements = 0
-    logical :: by_degree = .false.               !! unknowns of all elements degree by degree, and
-                                                 !! not element by element
-    real(wp), allocatable :: last(:)             !! (0:elements) place of the last end of each
-                                                 !! element, in mean elements
-    real(wp), allocatable :: part(:)             !! (elements) length of each, in mean elements
-    real(wp), allocatable :: middle(:)           !! (elements) place of its middle, in mean elements
-    integer :: coefficients = 0                  !! of the displacement in an element
-    integer :: rotations = 0                     !! coefficients of the rotation in an element; none
-                                                 !! without rotary inertia
-    integer :: lumps = 0                         !! masses besides that of the link, see
-                                                 !! `lump_displacements`
+    logical :: by_degree = .false.              !! unknowns ordered by degree, within a degree by
+                                                !! element; else by element
+    real(wp), allocatable :: last(:)            !! (0:elements) end of each element; entry 0 is the
+                                                !! first pin [mean elements]
+    real(wp), allocatable :: part(:)            !! (elements) length of each [mean elements]
+    real(wp), allocatable :: middle(:)          !! (elements) place of its middle [mean elements]
+    integer :: coefficients = 0                 !! of the displacement in an element
+    integer :: rotations = 0                    !! coefficients of the rotation in an element; 0
+                                                !! without rotary inertia
+    integer :: lumps = 0                        !! masses along the link, see `lump_displacements`
     integer :: unknowns = 0
-    !> (coefficients × elements, then rotations × elements, then lumps; unknowns) scaled
+    !> (coefficients × elements, then rotations × elements, then lumps; unknowns) scaled [s]
     real(wp), allocatable :: displacement(:, :)
-    real(wp), allocatable :: linear(:, :)        !! (as displacement, 2) the functions 1 − ξ and ξ,
-                                                 !! scaled
-    real(wp), allocatable :: weight(:)           !! (coefficients) the scale √(μ h/(2j+1)) of a mean
-                                                 !! element
-    real(wp), allocatable :: rotation_weight(:)  !! (rotations) the scale √(ρI h/(2j+1)) of a mean
-                                                 !! element
-    real(wp), allocatable :: start_slope(:)      !! (unknowns) θ at the link's first end; bending
-                                                 !! only
-    real(wp), allocatable :: slope(:, :)         !! (Gauss points, unknowns) v' times √(Gauss
-                                                 !! weight); bending only
-    integer, allocatable :: first_point(:)       !! (elements + 1) number of the first Gauss point
-                                                 !! of each
-    real(wp), allocatable :: place(:)            !! (Gauss points) ξ, from 0 to 1 along the link
-    real(wp), allocatable :: root(:)             !! (Gauss points) √(Gauss weight) [√m]
+    real(wp), allocatable :: linear(:, :)       !! (rows of `displacement`, 2) the functions
+                                                !! 1 − ξ and ξ, scaled [√kg]
+    real(wp), allocatable :: weight(:)          !! (coefficients) the scale √(μ h/(2j+1)) of a mean
+                                                !! element [√kg]
+    real(wp), allocatable :: rotation_weight(:) !! (rotations) the scale √(ρI h/(2j+1)) of a mean
+                                                !! element [√kg m]
+    real(wp), allocatable :: start_slope(:)     !! (unknowns) θ at the link's first end; bending
+                                                !! only [rad/√J]
+    real(wp), allocatable :: slope(:, :)        !! (Gauss points, unknowns) v' times √(Gauss
+                                                !! weight); bending only [√m/√J]
+    integer, allocatable :: first_point(:)      !! (elements + 1) number of the first Gauss point of
+                                                !! each
+    real(wp), allocatable :: place(:)           !! (Gauss points) ξ, from 0 to 1 along the link
+    real(wp), allocatable :: root(:)            !! (Gauss points) √(Gauss weight) [√m]
   end type deformation_shapes_t
 
 contains
 
-  !> Unknowns of an element whose transverse displacement is of degree `order`: curvatures of degree
-  !! 0 to order − 2, and with shear as many shear strains, each after the curvature of its degree.
+  !> Number of unknowns of an element whose transverse displacement is of degree `order`: curvatures
+  !! of degree 0 to order − 2 and, with shear, as many shear strains, each after the curvature of
+  !! its degree.
   elemental function bending_unknowns(order, sheared) result(unknowns)
-    integer, intent(in) :: order
-    logical, intent(in) :: sheared
+    integer, intent(in) :: order   !! polynomial degree of the displacement
+    logical, intent(in) :: sheared !! with shear strains
     integer :: unknowns
 
     unknowns = merge(2, 1, sheared)*(order - 1)
   end function bending_unknowns
 
-  !> Number of the curvature of degree j in an element; with shear the strain of its degree has the
-  !! next one.
+  !> Number of the unknown of the curvature of degree j in an element. With shear, the next unknown
+  !! is the shear strain of the same degree.
   pure function bending_column(shapes, element, j) result(column)
-    type(deformation_shapes_t), intent(in) :: shapes
-    integer, intent(in) :: element, j
+    type(deformation_shapes_t), intent(in) :: shapes !! bending
+    integer, intent(in) :: element                   !! its number
+    integer, intent(in) :: j                         !! degree, from 0
     integer :: column
 
     integer :: kinds
@@ -79,33 +83,33 @@ contains
       (element - 1)*shapes%unknowns/shapes%elements + kinds*j, shapes%by_degree)
   end function bending_column
 
-  !> `√((2j+1)/(kGA h))`: shear strain P_j of a unit unknown [1/√J].
+  !> `√((2j+1)/(kGA h))`: coefficient of P_j in the shear strain, per unit of the unknown [1/√J].
   elemental function shear_scale(j, shear_stiffness, h) result(scale)
-    integer, intent(in) :: j
+    integer, intent(in) :: j                !! degree, from 0
     real(wp), intent(in) :: shear_stiffness !! kGA [N]
-    real(wp), intent(in) :: h               !! [m]
+    real(wp), intent(in) :: h               !! length of the element [m]
     real(wp) :: scale
 
     scale = sqrt((2*j + 1)/(shear_stiffness*h))
   end function shear_scale
 
-  !> Unknowns of the transverse displacement of polynomial degree `order` in every element.
+  !> Transverse deformations of a link, of polynomial degree `order` in every element.
   !!
-  !! As kGA grows, what the shear strains do vanishes like 1/√kGA, and slender beams remain: nothing
-  !! locks.
+  !! As kGA grows, the effect of the shear strains vanishes like 1/√kGA and leaves the slender beam:
+  !! there is no shear locking.
   pure function bending_shapes(length, line_density, bending_stiffness, elements, order, &
       shear_stiffness, rotary_inertia, ends, cuts) result(shapes)
-    real(wp), intent(in) :: length            !! [m]
-    real(wp), intent(in) :: line_density      !! μ [kg/m]
-    real(wp), intent(in) :: bending_stiffness !! EI [N m²]
-    integer, intent(in) :: elements
-    integer, intent(in) :: order              !! at least 3
+    real(wp), intent(in) :: length                    !! [m]
+    real(wp), intent(in) :: line_density              !! μ [kg/m]
+    real(wp), intent(in) :: bending_stiffness         !! EI [N m²]
+    integer, intent(in) :: elements                   !! how many
+    integer, intent(in) :: order                      !! at least 3
     real(wp), intent(in), optional :: shear_stiffness !! kGA [N]; absent or 0: rigid in shear
     real(wp), intent(in), optional :: rotary_inertia  !! ρI [kg m]; absent or 0: none
-    real(wp), intent(in), optional :: ends(0:) !! (0:elements) ξ where elements end, from 0 to 1;
-                                               !! absent: they are equal
-    real(wp), intent(in), optional :: cuts(:)  !! ξ where the axial force jumps inside elements;
-                                               !! absent: nowhere
+    real(wp), intent(in), optional :: ends(0:)        !! (0:elements) ξ of element ends, from 0 to
+                                                      !! 1; absent: equal elements
+    real(wp), intent(in), optional :: cuts(:)         !! (jumps) ξ where the axial force jumps
+                                                      !! inside elements; absent: no jumps
     type(deformation_shapes_t) :: shapes
 
     real(wp) :: h, scale, coefficient(0:order), slope_coefficient(0:order)
@@ -129,8 +133,8 @@ contains
         slope_coefficient(:j + 1) = scale*once_integrated(j)
         coefficient = 0.0_wp
         coefficient(:j + 2) = 0.5_wp*h*scale*twice_integrated(j)
-        ! Beyond its element a curvature P_0 has turned the link, and P_0 and P_1 have moved it; the
-        ! chord takes both back.
+        ! Beyond its element, a curvature P_0 leaves a rotation, and P_0 and P_1 leave a
+        ! displacement; the chord takes both back.
         call add_unknown(shapes, e, column, 0.5_wp*h*scale*merge(2.0_wp - 8.0_wp/3.0_wp*j, 0.0_wp, &
           j < 2), merge(2.0_wp*scale, 0.0_wp, j == 0), coefficient, slope_coefficient, .true.)
         if (.not. sheared) cycle
@@ -146,16 +150,17 @@ contains
     end do
   end function bending_shapes
 
-  !> What one unknown does along the link: in its element, beyond it, and to the chord.
+  !> Fills in the effect of one unknown: in its element, beyond it, and on the chord.
   pure subroutine add_unknown(shapes, e, column, end_value, end_slope, coefficient, &
     slope_coefficient, turns)
     type(deformation_shapes_t), intent(inout) :: shapes
     integer, intent(in) :: e, column
-    real(wp), intent(in) :: end_value, end_slope   !! displacement and slope at the end of its
-                                                   !! element, grown in it
-    real(wp), intent(in) :: coefficient(0:), slope_coefficient(0:) !! Legendre coefficients of both
-                                                                   !! in it
-    logical, intent(in) :: turns                   !! cross-sections follow the slope
+    real(wp), intent(in) :: end_value             !! displacement gained over its element
+    real(wp), intent(in) :: end_slope             !! slope gained over its element
+    real(wp), intent(in) :: coefficient(0:)       !! Legendre coefficients of the displacement in
+                                                  !! its element
+    real(wp), intent(in) :: slope_coefficient(0:) !! those of the slope
+    logical, intent(in) :: turns                  !! cross-sections follow the slope
 
     real(wp) :: h, chord, line(0:1)
     integer :: k
@@ -172,16 +177,16 @@ contains
     call add_in_element(shapes, e, column, coefficient, slope_coefficient, turns)
   end subroutine add_unknown
 
-  !> Unknowns of the axial displacement of polynomial degree `degree` in every element. The
-  !! elongation of the link as a whole is not among them: the uniform strain is taken out, and the
-  !! displacement vanishes at both ends.
+  !> Axial deformations of a link, of polynomial degree `degree` in every element. The elongation of
+  !! the whole link is not among them: the uniform strain is taken out, and the displacement
+  !! vanishes at both ends.
   pure function axial_shapes(length, line_density, axial_stiffness, elements, degree, &
     ends) result(shapes)
-    real(wp), intent(in) :: length          !! [m]
-    real(wp), intent(in) :: line_density    !! μ [kg/m]
-    real(wp), intent(in) :: axial_stiffness !! EA [N]
-    integer, intent(in) :: elements
-    integer, intent(in) :: degree           !! at least 1
+    real(wp), intent(in) :: length             !! [m]
+    real(wp), intent(in) :: line_density       !! μ [kg/m]
+    real(wp), intent(in) :: axial_stiffness    !! EA [N]
+    integer, intent(in) :: elements            !! how many
+    integer, intent(in) :: degree              !! at least 1
     real(wp), intent(in), optional :: ends(0:) !! as in `bending_shapes`
     type(deformation_shapes_t) :: shapes
 
@@ -192,7 +197,7 @@ contains
       ends=ends)
     h = length/elements
     column = 0
-    ! Uniform strains of the elements that add up to nothing: e of them stretched, the next one
+    ! Uniform strains of the elements that sum to zero: elements 1 to e stretched, the next one
     ! shortened by as much.
     do e = 1, elements - 1
       column = column + 1
@@ -215,6 +220,7 @@ contains
     end do
   end function axial_shapes
 
+  !> Shapes with scales and element ends set, and all displacements zero.
   pure function empty_shapes(length, line_density, elements, coefficients, unknowns, &
     rotary_inertia, ends) result(shapes)
     real(wp), intent(in) :: length, line_density
@@ -262,7 +268,7 @@ contains
     end do
   end function empty_shapes
 
-  !> Row in `displacement` of the first coefficient of the rotation in an element.
+  !> Row in `displacement` of the first rotation coefficient of an element.
   pure function first_rotation(shapes, element) result(row)
     type(deformation_shapes_t), intent(in) :: shapes
     integer, intent(in) :: element
@@ -271,11 +277,11 @@ contains
     row = shapes%coefficients*shapes%elements + (element - 1)*shapes%rotations + 1
   end function first_rotation
 
-  !> Gauss points of all elements, enough for `∫ N v'²` with a quadratic N, on either side of every
-  !! cut.
+  !> Gauss points of all elements, on either side of every cut, enough to integrate `∫ N v'²` with a
+  !! quadratic N exactly.
   pure subroutine place_gauss_points(shapes, points, cuts)
     type(deformation_shapes_t), intent(inout) :: shapes
-    integer, intent(in) :: points !! an element, or a part of one
+    integer, intent(in) :: points !! per element, or per part between cuts
     real(wp), intent(in), optional :: cuts(:)
 
     real(wp) :: x(points), w(points), here(0:1)
@@ -291,17 +297,17 @@ contains
           here(1) = min(shapes%last(k), minval(shapes%elements*cuts, &
             mask=shapes%elements*cuts > here(0)))
           if (here(1) >= shapes%last(k)) exit
-          call add_points(shapes, here, x, w)
+          call add_gauss_points(shapes, here, x, w)
           here(0) = here(1)
         end do
       end if
-      call add_points(shapes, here, x, w)
+      call add_gauss_points(shapes, here, x, w)
     end do
     shapes%first_point(shapes%elements + 1) = size(shapes%place) + 1
   end subroutine place_gauss_points
 
-  !> Those of one interval.
-  pure subroutine add_points(shapes, interval, x, w)
+  !> Adds the Gauss points of one interval.
+  pure subroutine add_gauss_points(shapes, interval, x, w)
     type(deformation_shapes_t), intent(inout) :: shapes
     real(wp), intent(in) :: interval(2) !! in mean elements
     real(wp), intent(in) :: x(:), w(:)  !! points and weights from −1 to 1
@@ -310,10 +316,10 @@ contains
       shapes%elements]
     shapes%root = [shapes%root, &
       sqrt(0.5_wp*shapes%length/shapes%elements*w*(interval(2) - interval(1)))]
-  end subroutine add_points
+  end subroutine add_gauss_points
 
-  !> Gives an unknown a linear displacement in an element, `line(0) + line(1) ζ`, and its slope,
-  !! which cross-sections share.
+  !> Gives an unknown a linear displacement in an element, `line(0) + line(1) ζ`, with the slope
+  !! that belongs to it. Cross-sections follow this slope.
   pure subroutine set_element(shapes, element, column, line, slope)
     type(deformation_shapes_t), intent(inout) :: shapes
     integer, intent(in) :: element, column
@@ -335,13 +341,13 @@ contains
     end associate
   end subroutine set_element
 
-  !> Adds what an unknown does in its own element.
+  !> Adds the effect of an unknown in its own element.
   pure subroutine add_in_element(shapes, element, column, coefficient, slope_coefficient, turns)
     type(deformation_shapes_t), intent(inout) :: shapes
     integer, intent(in) :: element, column
     real(wp), intent(in) :: coefficient(0:)
     real(wp), intent(in), optional :: slope_coefficient(0:)
-    logical, intent(in), optional :: turns !! cross-sections have the slope as well; with
+    logical, intent(in), optional :: turns !! cross-sections follow the slope; required with
                                            !! `slope_coefficient`
 
     real(wp) :: zeta
@@ -353,7 +359,7 @@ contains
     end associate
     if (.not. present(slope_coefficient)) return
     if (turns .and. shapes%rotations > 0) then
-      ! Of the slope of a curvature the last coefficient is zero.
+      ! The last coefficient of the slope of a curvature is zero.
       row = first_rotation(shapes, element)
       associate (entry => shapes%displacement(row:row + shapes%rotations - 1, column))
         entry = entry + &

@@ -24,7 +24,8 @@ module link_modes
   !> Places along a link, its ends among them, at which the static deflection is looked at.
   integer, parameter :: stations = 9
 
-  !> Unknowns of the next two polynomial orders, to tell how much they would change.
+  !> Unknowns of the next polynomial orders (two of the transverse displacement, four of the axial
+  !! one), to estimate how much they would change.
   type :: next_order_t
     real(wp), allocatable :: square(:)                !! (unknowns) own inertia [s²]
     real(wp), allocatable :: mass(:, :)               !! (modes, unknowns) with the own modes [s²]
@@ -80,7 +81,7 @@ contains
   pure subroutine held_shapes(shapes, kept, clamped, basis, displacement)
     type(deformation_shapes_t), intent(in) :: shapes
     integer, intent(in) :: kept    !! unknowns in use, the first of all
-    logical, intent(in) :: clamped
+    logical, intent(in) :: clamped !! at the first end, else hinged
     real(wp), allocatable, intent(out) :: basis(:, :)        !! (kept, shapes) orthonormal
     real(wp), allocatable, intent(out) :: displacement(:, :) !! (coefficients, shapes)
 
@@ -117,24 +118,25 @@ contains
   end function clamp_curve
 
   !> Everything about a link that does not change with the position.
-  pure subroutine new_link_modes(bending, axial, kept, axial_kept, clamped, stiffness, lumped, &
-    jumps, own, axial_own, link)
-    type(deformation_shapes_t), intent(in) :: bending, axial
-    integer, intent(in) :: kept, axial_kept !! unknowns in use, the first of all
-    logical, intent(in) :: clamped
+  pure subroutine new_link_modes(bending, axial, clamped, stiffness, lumped, jumps, own, &
+    axial_own, link)
+    type(deformation_shapes_t), intent(in) :: bending !! shapes of transverse displacement
+    type(deformation_shapes_t), intent(in) :: axial   !! shapes of axial displacement
+    logical, intent(in) :: clamped          !! its first end is clamped to a moving body, not hinged
     real(wp), intent(in) :: stiffness(2)    !! EA and EI [N, N m²]; `bending` knows kGA
     logical, intent(in) :: lumped           !! axial forces are constant in each element; else 1, ξ,
                                             !! ξ² along the link
     real(wp), intent(in) :: jumps(:)        !! ξ where they jump as well: to a force that acts from
                                             !! the first end up to there
     real(wp), intent(in) :: own(:, :)       !! (kept, modes) right singular vectors of the held
-                                            !! shapes, in the unknowns
+                                            !! shapes, in the unknowns in use, the first of all
     real(wp), intent(in) :: axial_own(:, :) !! (axial kept, axial modes)
-    type(link_modes_t), intent(out) :: link
+    type(link_modes_t), intent(out) :: link !! with all its integrals
 
     real(wp), allocatable :: shape(:, :), slope(:, :), next_slope(:, :)
-    integer :: i, moved
+    integer :: i, kept, moved
 
+    kept = size(own, 1)
     link%modes = size(own, 2)
     link%axial_modes = size(axial_own, 2)
     link%clamped = clamped
@@ -171,7 +173,7 @@ contains
     slope(:, clamp:) = matmul(bending%slope(:, :kept), link%bending)
     call integrate_slopes(bending, lumped, jumps, slope, slope, link%geometric)
     call place_stations(link)
-    call add_axial(axial, axial_kept, link)
+    call add_axial(axial, size(axial_own, 1), link)
     if (bending%by_degree) then
       next_slope = bending%slope(:, kept + 1:)
     else

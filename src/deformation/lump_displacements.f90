@@ -1,4 +1,4 @@
-!> What masses along a link add to the mass of its deformations.
+!> Contribution of masses along a link to the mass matrix of its deformations.
 module lump_displacements
   use body_lumps, only: lump_masses, lump_places
   use deformation_places, only: displacement_row
@@ -12,11 +12,11 @@ module lump_displacements
 
 contains
 
-  !> Adds the displacements of the masses, each times the root of its mass, to those of the link:
-  !! scalar products are then integrals over the mass of both.
+  !> Adds rows for the masses along a link: the displacement there times the root of the mass.
+  !! Scalar products of columns then include these masses.
   pure subroutine add_lump_displacements(body, shapes)
-    type(body_t), intent(in) :: body
-    type(deformation_shapes_t), intent(inout) :: shapes
+    type(body_t), intent(in) :: body                    !! the masses
+    type(deformation_shapes_t), intent(inout) :: shapes !! of this body, without lumps
 
     real(wp), allocatable :: mass(:), xi(:), displacement(:, :), linear(:, :)
     integer :: i, rows

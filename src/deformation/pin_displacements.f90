@@ -1,8 +1,10 @@
-!> How the links' elongations and the rotation of the clamped end move the pins.
+!> Displacements of the pins caused by the elongations of the links and the rotation of the clamped
+!! end.
 !!
-!! With its driven link clamped, a linkage of mobility one is statically determinate: its links' own
-!! deformations are free, and the pins follow. A link moves its pins by its elongation only, and the
-!! driven one by the rotation of its chord against the clamp. A link that does not bend moves none.
+!! With its driven link clamped, a linkage of mobility one is statically determinate: the
+!! deformations of its links are free coordinates, and the pins follow. A link moves the pins only
+!! by its elongation; the driven link also by the rotation of its chord against the clamp. A rigid
+!! link moves none.
 module pin_displacements
   use kinds, only: wp
   use link_modes, only: link_modes_t
@@ -13,21 +15,23 @@ module pin_displacements
 
   public :: chords_t, find_chords, border_numbers, body_displacement
 
-  !> What the border unknowns (the clamped end's rotation, then the elongation of every link that
-  !! bends) do to the chords of all links.
+  !> Effect of the border unknowns on the chords of all links. The border unknowns are the clamped
+  !! end's rotation, then the elongation of every link that bends.
   type :: chords_t
-    real(wp), allocatable :: across(:, :, :) !! (3, border, bodies) transverse, at the first and
-                                             !! last pin, and the clamped end's curve
-    real(wp), allocatable :: along(:, :, :)  !! (2, border, bodies) axial, at the first and last pin
-    real(wp), allocatable :: turn(:, :)      !! (border, bodies) rotation of the chord [rad]
-    real(wp), allocatable :: pin(:, :, :)    !! (2, pins, border) displacement of the pins
+    real(wp), allocatable :: across(:, :, :) !! (3, border, bodies) transverse displacement at the
+                                             !! first and last pin [m/√J], and 1 for the clamped
+                                             !! end's curve
+    real(wp), allocatable :: along(:, :, :)  !! (2, border, bodies) axial displacement at the first
+                                             !! and last pin [m/√J]
+    real(wp), allocatable :: turn(:, :)      !! (border, bodies) rotation of the chord [rad/√J]
+    real(wp), allocatable :: pin(:, :, :)    !! (2, pins, border) displacement of the pins [m/√J]
   end type chords_t
 
 contains
 
-  !> Numbers of the border unknowns; 0 where a link that does not bend has none.
+  !> Numbers of the border unknowns; 0 where a rigid link has none.
   pure function border_numbers(linkage) result(number)
-    type(linkage_t), intent(in) :: linkage
+    type(linkage_t), intent(in) :: linkage    !! which links bend
     integer :: number(0:size(linkage%bodies)) !! of the clamped end's rotation, then of the
                                               !! elongation of every body
 
@@ -43,11 +47,11 @@ contains
     end do
   end function border_numbers
 
-  !> Moves the driven link's pin, then dyad after dyad: the middle pin has the elongations of both
-  !! bodies along them, `e_k·(U − U_base k) = δ_k`, hence `U = (q n1 − p n2)/sin(θ4 − θ3)` with p
-  !! and q the right sides.
+  !> Places the driven link's pin, then dyad after dyad. The displacement U of the middle pin
+  !! matches the elongations of both bodies, `e_k·(U − U_base k) = δ_k`, hence
+  !! `U = (q n1 − p n2)/sin(θ4 − θ3)` with p and q the right-hand sides of bodies 1 and 2.
   pure function find_chords(linkage, links, pose) result(chords)
-    type(linkage_t), intent(in) :: linkage
+    type(linkage_t), intent(in) :: linkage     !! bodies and dyads
     type(link_modes_t), intent(in) :: links(:) !! (bodies)
     type(pose_t), intent(in) :: pose           !! away from dead points
     type(chords_t) :: chords
@@ -97,12 +101,12 @@ contains
     end do
   end function find_chords
 
-  !> What the border unknowns do to a body as a whole: displacement of its first pin, along it and
+  !> Effect of the border unknowns on a body as a whole: displacement of its first pin along and
   !! across it, and rotation.
   pure function body_displacement(chords, body) result(motion)
-    type(chords_t), intent(in) :: chords
-    integer, intent(in) :: body
-    real(wp) :: motion(3, size(chords%turn, 1))
+    type(chords_t), intent(in) :: chords        !! of a position
+    integer, intent(in) :: body                 !! its number
+    real(wp) :: motion(3, size(chords%turn, 1)) !! (3, border) [m/√J, m/√J, rad/√J]
 
     motion(1, :) = chords%along(1, :, body)
     motion(2, :) = chords%across(1, :, body)

@@ -1,10 +1,10 @@
-!> Mass and geometric stiffness of a linkage in its links' own deformations.
+!> Mass and geometric stiffness of a linkage in the own modes of its links.
 !!
-!! Unknowns: the clamped end's rotation and the links' elongations (the border), the transverse own
-!! modes of link after link (the blocks), then the axial ones. In all of them the elastic stiffness
-!! is the unit matrix. A link that does not bend has none.
+!! Unknowns: the border (the clamped end's rotation and the elongations of the links), then the
+!! transverse own modes link by link (the blocks), then the axial own modes. The elastic stiffness
+!! is the unit matrix in all of them. A rigid link has no unknowns.
 module reduced_assembly
-  use bordered_matrix, only: bordered_matrix_t, layout_t, new_layout
+  use bordered_matrix, only: bordered_matrix_t, layout_t, new_bordered_layout
   use inertia_loads, only: distributed_load, load_t
   use kinds, only: wp
   use link_modes, only: clamp, link_modes_t, rigid, stations
@@ -20,31 +20,33 @@ module reduced_assembly
 
 contains
 
+  !> Numbers of the unknowns: border, blocks of transverse modes, axial modes.
   pure function reduced_layout(linkage, links) result(layout)
-    type(linkage_t), intent(in) :: linkage
+    type(linkage_t), intent(in) :: linkage     !! which links bend
     type(link_modes_t), intent(in) :: links(:) !! (bodies)
     type(layout_t) :: layout
 
-    layout = new_layout(maxval(border_numbers(linkage)), links%modes, links%axial_modes)
+    layout = new_bordered_layout(maxval(border_numbers(linkage)), links%modes, links%axial_modes)
   end function reduced_layout
 
   !> Number of the first axial unknown of a body.
   pure function first_axial(layout, links, body) result(first)
-    type(layout_t), intent(in) :: layout
-    type(link_modes_t), intent(in) :: links(:)
-    integer, intent(in) :: body
+    type(layout_t), intent(in) :: layout       !! of these links
+    type(link_modes_t), intent(in) :: links(:) !! (bodies)
+    integer, intent(in) :: body                !! its number
     integer :: first
 
     first = layout%unknowns - sum(links(body:)%axial_modes) + 1
   end function first_axial
 
-  !> `M = SᵀmS`: diagonal between the own modes, and a border for what the pins do to the links.
+  !> `M = SᵀmS`: diagonal between the own modes, with a border for the motion that the pins impose
+  !! on the links.
   pure subroutine reduced_mass(linkage, links, layout, chords, mass)
-    type(linkage_t), intent(in) :: linkage
-    type(link_modes_t), intent(in) :: links(:)
-    type(layout_t), intent(in) :: layout
-    type(chords_t), intent(in) :: chords
-    type(bordered_matrix_t), intent(inout) :: mass !! of the right shape, without blocks [s²]
+    type(linkage_t), intent(in) :: linkage         !! pin masses
+    type(link_modes_t), intent(in) :: links(:)     !! (bodies)
+    type(layout_t), intent(in) :: layout           !! of these links
+    type(chords_t), intent(in) :: chords           !! of this position
+    type(bordered_matrix_t), intent(inout) :: mass !! of this layout, without blocks [s²]
 
     real(wp) :: across(3, layout%border), along(2, layout%border)
     integer :: b, i, k, first
@@ -89,12 +91,12 @@ contains
   !> `K_G = ∫ N v'² dx` of all links: full blocks between own modes, and a border for the rotation
   !! of the chords.
   pure subroutine reduced_geometric_stiffness(links, layout, chords, force, stiffness)
-    type(link_modes_t), intent(in) :: links(:)
-    type(layout_t), intent(in) :: layout
-    type(chords_t), intent(in) :: chords
+    type(link_modes_t), intent(in) :: links(:)          !! (bodies)
+    type(layout_t), intent(in) :: layout                !! of these links
+    type(chords_t), intent(in) :: chords                !! of this position
     real(wp), intent(in) :: force(:, :)                 !! (force functions, bodies) coefficients,
                                                         !! tension positive [N]
-    type(bordered_matrix_t), intent(inout) :: stiffness !! of the right shape, with blocks [-]
+    type(bordered_matrix_t), intent(inout) :: stiffness !! of this layout, with blocks [-]
 
     real(wp) :: on_chord, on_curve
     real(wp), allocatable :: slopes(:, :)
@@ -126,20 +128,21 @@ contains
     end do
   end subroutine reduced_geometric_stiffness
 
-  !> How much the next two orders of the polynomials would lower an eigenvalue, link by link.
+  !> Estimated decrease of an eigenvalue by the next polynomial orders, link by link: the next two
+  !! orders of the transverse displacement, the next four degrees of the axial one.
   !!
-  !! With r the residual of the mode in their equations the change is `−Σ r²/(k − λ m)` (to first
-  !! order, which is all there is once the change is small). The unknowns of the next orders do not
-  !! meet those of another link.
+  !! With r the residual of the mode in their equations, the eigenvalue changes by `−Σ r²/(k − λ m)`
+  !! to first order, which suffices once the change is small. The unknowns of the next orders do not
+  !! couple with those of another link.
   pure function next_order_change(links, layout, chords, force, vector, lambda) result(change)
-    type(link_modes_t), intent(in) :: links(:)
-    type(layout_t), intent(in) :: layout
-    type(chords_t), intent(in) :: chords
-    real(wp), intent(in) :: force(:, :)  !! (force functions, bodies) at this speed; no functions:
-                                         !! static [N]
-    real(wp), intent(in) :: vector(:)    !! mode with yᵀMy = 1
-    real(wp), intent(in) :: lambda       !! its eigenvalue [1/s²]
-    real(wp) :: change(size(links))      !! (bodies) positive [1/s²]
+    type(link_modes_t), intent(in) :: links(:) !! (bodies)
+    type(layout_t), intent(in) :: layout       !! of these links
+    type(chords_t), intent(in) :: chords       !! of this position
+    real(wp), intent(in) :: force(:, :)        !! (force functions, bodies) at this speed; no
+                                               !! functions: static [N]
+    real(wp), intent(in) :: vector(:)          !! (unknowns) mode with yᵀMy = 1
+    real(wp), intent(in) :: lambda             !! its eigenvalue [1/s²]
+    real(wp) :: change(size(links))            !! (bodies) never negative [1/s²]
 
     real(wp) :: ends(3), turn, residual, pivot
     integer :: b, i, j, first, axial
@@ -175,16 +178,19 @@ contains
     end do
   end function next_order_change
 
-  !> Static displacements, at the stations of every link and across it, under the loads of a case.
-  !! Inertia loads are linear along the links; torques on links are carried by their pins. The
-  !! stiffness is the unit matrix: every unknown is the work of the loads on its own shape.
+  !> Static displacements along and across every link, at its stations, under the loads of a load
+  !! case.
+  !!
+  !! The accelerations, and so the inertia loads, are linear along the links; torques on links are
+  !! carried by their pins. Since the stiffness is the unit matrix, every unknown equals the work of
+  !! the loads on its own shape.
   pure subroutine reduced_deflection(linkage, links, layout, chords, pose, case, displacement)
-    type(linkage_t), intent(in) :: linkage
-    type(link_modes_t), intent(in) :: links(:)
-    type(layout_t), intent(in) :: layout
-    type(chords_t), intent(in) :: chords
-    type(pose_t), intent(in) :: pose
-    type(load_case_t), intent(in) :: case
+    type(linkage_t), intent(in) :: linkage         !! masses
+    type(link_modes_t), intent(in) :: links(:)     !! (bodies)
+    type(layout_t), intent(in) :: layout           !! of these links
+    type(chords_t), intent(in) :: chords           !! of this position
+    type(pose_t), intent(in) :: pose               !! directions of the links
+    type(load_case_t), intent(in) :: case          !! acceleration field, forces, torques
     real(wp), intent(out) :: displacement(:, :, :) !! (along and across, stations, bodies) [m]
 
     real(wp) :: border(layout%border), across(2, size(links)), along(2), at_ends(2, 2), ends(3), &
@@ -225,8 +231,8 @@ contains
     end do
   end subroutine reduced_deflection
 
-  !> Work of the inertia loads of a link that does not bend on the three motions of
-  !! `body_displacement` [N, N, N m].
+  !> Work of the inertia loads of a rigid link on each of the three motions of `body_displacement`
+  !! [N, N, N m].
   pure function rigid_work(linkage, body, pose, case) result(work)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: body

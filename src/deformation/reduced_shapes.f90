@@ -1,4 +1,4 @@
-!> Displacements along the links, from a mode in the links' own deformations.
+!> Displacements along the links of a mode given in the own modes of the links.
 module reduced_shapes
   use bordered_matrix, only: layout_t
   use deformation_places, only: displacement_row, rotation_row
@@ -18,14 +18,14 @@ contains
   !> Displacement of a point of a body: x, y and rotation, in global axes.
   pure function reduced_shape_point(links, layout, chords, pose, vector, body, &
     xi) result(displacement)
-    type(link_modes_t), intent(in) :: links(:)
-    type(layout_t), intent(in) :: layout
-    type(chords_t), intent(in) :: chords
-    type(pose_t), intent(in) :: pose
-    real(wp), intent(in) :: vector(:) !! (unknowns)
-    integer, intent(in) :: body
-    real(wp), intent(in) :: xi        !! from 0 at the body's first pin to 1 at its last
-    real(wp) :: displacement(3)
+    type(link_modes_t), intent(in) :: links(:) !! (bodies)
+    type(layout_t), intent(in) :: layout       !! of these links
+    type(chords_t), intent(in) :: chords       !! of this position
+    type(pose_t), intent(in) :: pose           !! directions of the links
+    real(wp), intent(in) :: vector(:)          !! (unknowns) [√J]
+    integer, intent(in) :: body                !! its number
+    real(wp), intent(in) :: xi                 !! from 0 at the body's first pin to 1 at its last
+    real(wp) :: displacement(3)                !! [m, m, rad]
 
     real(wp) :: ends(3), axial_ends(2), own(0:links(body)%modes), across, along
     real(wp), allocatable :: unknown(:), row(:)
@@ -45,8 +45,8 @@ contains
       own(0) = ends(3)
       own(1:) = vector(first:first + link%modes - 1)
       unknown = matmul(link%bending, own)
-      ! At its ends a link has no displacement of its own, and at the clamp no rotation: exactly,
-      ! not but for rounding.
+      ! At its ends a link has no displacement of its own, and at the clamp no rotation: set
+      ! exactly, without rounding.
       inside = xi > 0.0_wp .and. xi < 1.0_wp
       row = displacement_row(link%bending_shapes, xi)
       if (inside) across = across + dot_product(row(:size(unknown)), unknown)

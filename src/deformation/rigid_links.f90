@@ -1,4 +1,4 @@
-!> Links that do not bend: no unknowns of their own, and a mass that moves with its pins.
+!> Rigid links: no unknowns of their own, and a mass that moves with their pins.
 module rigid_links
   use kinds, only: wp
   use link_modes, only: link_modes_t, rigid
@@ -11,13 +11,12 @@ module rigid_links
 
 contains
 
-  !> A link without own deformations, with the mass of its body.
+  !> A link without deformations of its own, with the mass of its body.
   !!
-  !! Its axial force is one number, the mean of what a slender link would have: its only force
-  !! function is 1.
+  !! Its axial force is a single number, the mean over its length, so its only force function is 1.
   pure function new_rigid_link(body, clamped) result(link)
-    type(body_t), intent(in) :: body
-    logical, intent(in) :: clamped
+    type(body_t), intent(in) :: body !! length and masses
+    logical, intent(in) :: clamped   !! to its shaft at the first pin
     type(link_modes_t) :: link
 
     type(rigid_body_t) :: whole

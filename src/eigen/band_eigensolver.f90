@@ -12,6 +12,15 @@ module band_eigensolver
 
   public :: solve_band
 
+  !> What ARPACK keeps between two calls of its reverse communication.
+  type :: arpack_t
+    real(wp), allocatable :: residual(:)  !! (unknowns) at first the start vector
+    real(wp), allocatable :: basis(:, :)  !! (unknowns, vectors) of the Krylov space
+    real(wp), allocatable :: workd(:), workl(:)
+    integer :: iparam(11) = 0, ipntr(11) = 0
+    real(wp) :: tolerance = 0.0_wp        !! 0: machine precision; ARPACK writes into it
+  end type arpack_t
+
   integer, parameter :: most_restarts = 1000
 
 contains
@@ -20,23 +29,24 @@ contains
   !! with shift 0).
   !!
   !! The start vector is fixed, so that the same matrices give the same digits whatever was solved
-  !! before. ARPACK keeps state between its calls, so that threads take turns. Errors: K is not
-  !! positive definite, too many modes, ARPACK does not converge.
+  !! before. ARPACK keeps variables of its own between calls, so threads take turns.
+  !!
+  !! Errors: K is not positive definite, too many modes, ARPACK does not converge.
   subroutine solve_band(stiffness, mass, modes, want_vectors, inverse, vectors, error)
     type(band_matrix_t), intent(in) :: stiffness !! positive definite
-    type(band_matrix_t), intent(in) :: mass
+    type(band_matrix_t), intent(in) :: mass      !! consistent, positive definite
     integer, intent(in) :: modes                 !! at least two fewer than the unknowns
-    logical, intent(in) :: want_vectors
+    logical, intent(in) :: want_vectors          !! else eigenvalues only
     real(wp), intent(out) :: inverse(:)          !! (modes) 1/λ, largest first
     real(wp), allocatable, intent(out) :: vectors(:, :) !! (unknowns, modes); (unknowns, 0) unless
                                                         !! wanted
-    type(error_t), allocatable, intent(out) :: error
+    type(error_t), allocatable, intent(out) :: error !! without position and speed
 
     type(band_matrix_t) :: factor
-    real(wp), allocatable :: residual(:), basis(:, :), workd(:), workl(:), lambda(:), z(:, :)
+    type(arpack_t) :: state
+    real(wp), allocatable :: lambda(:), z(:, :)
     logical, allocatable :: selected(:)
-    real(wp) :: tolerance
-    integer :: n, basis_size, iparam(11), ipntr(11), info, i
+    integer :: n, basis_size, info
 
     allocate (vectors(order_of(stiffness), 0))
     factor = stiffness
@@ -50,24 +60,17 @@ contains
     end if
     ! A basis of the whole space leaves no residual, and ARPACK divides by it.
     basis_size = min(n - 1, max(2*modes + 1, 20))
-    allocate (residual(n), basis(n, basis_size), workd(3*n), workl(basis_size*(basis_size + 8)))
+    state = new_arpack(n, basis_size)
     allocate (selected(basis_size), lambda(modes), z(n, merge(modes, 1, want_vectors)))
-    basis = 0.0_wp
-    workd = 0.0_wp
-    workl = 0.0_wp
     z = 0.0_wp
     lambda = 0.0_wp
     selected = .false.
-    ! Not constant: a constant vector can be orthogonal to a mode by symmetry.
-    residual = [(1.0_wp + 0.5_wp*sin(real(i, wp)), i=1, n)]
-    iparam = 0
-    iparam([1, 3, 7]) = [1, most_restarts, 3]
-    ipntr = 0
     !$omp critical (arpack)
-    call iterate(factor, mass, modes, residual, basis, iparam, ipntr, workd, workl, tolerance, info)
+    call iterate(factor, mass, modes, state, info)
     if (info == 0) then
       call dseupd(want_vectors, "A", selected, lambda, z, n, 0.0_wp, "G", n, "LM", modes, &
-        tolerance, residual, basis_size, basis, n, iparam, ipntr, workd, workl, size(workl), info)
+        state%tolerance, state%residual, basis_size, state%basis, n, state%iparam, state%ipntr, &
+        state%workd, state%workl, size(state%workl), info)
     end if
     !$omp end critical (arpack)
     if (info /= 0) then
@@ -78,42 +81,59 @@ contains
     call sort_modes(lambda, z, want_vectors, inverse, vectors)
   end subroutine solve_band
 
+  !> ARPACK before its first call, in shift and invert mode with a start vector of ours.
+  pure function new_arpack(unknowns, basis_size) result(state)
+    integer, intent(in) :: unknowns, basis_size
+    type(arpack_t) :: state
+
+    integer :: i
+
+    allocate (state%basis(unknowns, basis_size), state%workd(3*unknowns), &
+      state%workl(basis_size*(basis_size + 8)))
+    state%basis = 0.0_wp
+    state%workd = 0.0_wp
+    state%workl = 0.0_wp
+    ! Not constant: a constant vector can be orthogonal to a mode by symmetry.
+    state%residual = [(1.0_wp + 0.5_wp*sin(real(i, wp)), i=1, unknowns)]
+    state%iparam([1, 3, 7]) = [1, most_restarts, 3]
+  end function new_arpack
+
   !> Runs ARPACK's reverse communication to its end.
-  subroutine iterate(factor, mass, modes, residual, basis, iparam, ipntr, workd, workl, tolerance, &
-    info)
-    type(band_matrix_t), intent(in) :: factor, mass
+  subroutine iterate(factor, mass, modes, state, info)
+    type(band_matrix_t), intent(in) :: factor    !! of the stiffness matrix, by `factor_band`
+    type(band_matrix_t), intent(in) :: mass
     integer, intent(in) :: modes
-    real(wp), intent(inout), contiguous :: residual(:), basis(:, :), workd(:), workl(:)
-    integer, intent(inout) :: iparam(11), ipntr(11)
-    real(wp), intent(out) :: tolerance
-    integer, intent(out) :: info
+    type(arpack_t), intent(inout) :: state
+    integer, intent(out) :: info                 !! 0 if it has converged
 
     integer :: ido, n
 
-    n = size(residual)
+    n = size(state%residual)
     ido = 0
     info = 1 ! the start vector is ours
-    tolerance = 0.0_wp ! machine precision; ARPACK writes into it
     do
-      call dsaupd(ido, "G", n, "LM", modes, tolerance, residual, size(basis, 2), basis, n, iparam, &
-        ipntr, workd, workl, size(workl), info)
+      call dsaupd(ido, "G", n, "LM", modes, state%tolerance, state%residual, &
+        size(state%basis, 2), state%basis, n, state%iparam, state%ipntr, state%workd, &
+        state%workl, size(state%workl), info)
       if (all(ido /= [-1, 1, 2])) return
-      associate (x => workd(ipntr(1):ipntr(1) + n - 1), y => workd(ipntr(2):ipntr(2) + n - 1))
-        if (ido == 1) then
-          y = workd(ipntr(3):ipntr(3) + n - 1) ! M x is here already
-        else
-          y = band_times_vector(mass, x)
-        end if
-        if (ido /= 2) call solve_with_factor(factor, y)
+      associate (at => state%ipntr, workd => state%workd)
+        associate (x => workd(at(1):at(1) + n - 1), y => workd(at(2):at(2) + n - 1))
+          if (ido == 1) then
+            y = workd(at(3):at(3) + n - 1) ! M x is here already
+          else
+            y = band_times_vector(mass, x)
+          end if
+          if (ido /= 2) call solve_with_factor(factor, y)
+        end associate
       end associate
     end do
   end subroutine iterate
 
   !> Puts the modes in ascending order of λ. ARPACK's own order depends on how it converged.
   pure subroutine sort_modes(lambda, z, want_vectors, inverse, vectors)
-    real(wp), intent(in) :: lambda(:), z(:, :)
+    real(wp), intent(in) :: lambda(:), z(:, :) !! (modes), (unknowns, modes)
     logical, intent(in) :: want_vectors
-    real(wp), intent(out) :: inverse(:)
+    real(wp), intent(out) :: inverse(:)        !! (modes) 1/λ
     real(wp), allocatable, intent(inout) :: vectors(:, :)
 
     integer :: order(size(lambda))

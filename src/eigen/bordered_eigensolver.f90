@@ -1,5 +1,5 @@
-!> The lowest modes of `(I + G) y = λ M y` for bordered matrices, each with a bound of its error,
-!! and a proof that none is missing.
+!> The lowest modes of `(I + G) y = λ M y` for bordered matrices, each with an error bound, and a
+!! proof that none is missing.
 module bordered_eigensolver
   use band_matrix, only: band_matrix_t, full_band
   use bordered_matrix, only: all_unknowns, bordered_matrix_t, bordered_times_vector, dense_form, &
@@ -20,56 +20,61 @@ module bordered_eigensolver
 
   public :: bordered_modes_t, start_t, find_bordered_modes, new_start
 
-  !> From where to look for modes: what is known from neighbours.
+  !> Start values for a search, from neighbouring positions or a dense eigenproblem.
   type :: start_t
-    integer :: modes = 0                     !! 0: nothing is known
-    real(wp), allocatable :: lambda(:)       !! (modes)
+    integer :: modes = 0                     !! 0: no start
+    real(wp), allocatable :: lambda(:)       !! (modes) estimated eigenvalues [1/s²]
     real(wp), allocatable :: direction(:, :) !! (unknowns, modes) M y, of any length
   end type start_t
 
+  !> Modes found, with their errors and the work done.
   type :: bordered_modes_t
-    real(wp), allocatable :: lambda(:)        !! ω², ascending; perhaps more than were asked for
-                                              !! [1/s²]
-    real(wp), allocatable :: vector(:, :)     !! (unknowns, modes) with yᵀMy = 1
-    real(wp), allocatable :: mass_times(:, :) !! (unknowns, modes) M y
+    real(wp), allocatable :: lambda(:)             !! (modes) ω², ascending; there may be more modes
+                                                   !! than requested [1/s²]
+    real(wp), allocatable :: vector(:, :)          !! (unknowns, modes) with yᵀMy = 1
+    real(wp), allocatable :: mass_times(:, :)      !! (unknowns, modes) M y
     real(wp), allocatable :: stiffness_times(:, :) !! (unknowns, modes) (I + G) y
-    real(wp), allocatable :: error(:)         !! (modes) relative bound of the error of the
-                                              !! eigenvalue of these matrices
-    integer, allocatable :: origin(:)         !! (modes) number in the start from which each came
-    real(wp) :: rest = 0.0_wp                 !! norm that proves, below 1, that no mode up to the
-                                              !! last wanted is missing
-    integer :: factorizations = 0             !! of the bordered matrix: one an inverse iteration
-    integer :: full_solutions = 0             !! of the dense eigenproblem
-    integer :: reduced_solutions = 0          !! the same with the first few modes of every link
-                                              !! only
+    real(wp), allocatable :: error(:)              !! (modes) bound of the relative error of λ, for
+                                                   !! these matrices
+    integer, allocatable :: origin(:)              !! (modes) number of the mode of the start that
+                                                   !! led to it
+    real(wp) :: rest = 0.0_wp                      !! norm that, below 1, proves that no mode up to
+                                                   !! the last wanted one is missing
+    integer :: factorizations = 0                  !! of the bordered matrix: one per inverse
+                                                   !! iteration, one per Cholesky proof
+    integer :: full_solutions = 0                  !! of the dense eigenproblem of all unknowns
+    integer :: reduced_solutions = 0               !! of the dense eigenproblem of the first few
+                                                   !! modes of every link
   end type bordered_modes_t
 
   integer, parameter :: most_iterations = 8
 
-  !> Share of a mode that a neighbour must not have of another one: two starts have run to one mode.
+  !> Two starts have converged to the same mode where the overlap yᵢᵀMyⱼ of their modes is above
+  !! this.
   real(wp), parameter :: most_overlap = 1.0e-5_wp
 
-  !> Relative distance of eigenvalues below which a mode is kept perpendicular to those found
-  !! before.
+  !> Relative distance of eigenvalues below which a mode is kept orthogonal to those found before.
   real(wp), parameter :: same_eigenvalue = 1.0e-3_wp
 
-  !> Error of an eigenvalue from rounding, in units of ε times the terms that cancel in its Rayleigh
+  !> Rounding error of an eigenvalue, in units of ε times the terms that cancel in its Rayleigh
   !! quotient.
   real(wp), parameter :: rounding = 16.0_wp
 
-  !> Below the first the proof holds, with a margin for its own rounding. Modes beyond those wanted
-  !! serve it, and are kept for the next position unless it holds easily without them.
+  !> Below `most_rest` the proof holds, with a margin for its own rounding. Modes beyond those
+  !! wanted support the proof. They are kept for the next position unless the norm is below
+  !! `easy_rest` without them.
   real(wp), parameter :: most_rest = 0.999_wp, easy_rest = 0.8_wp
 
-  !> Modes beyond those wanted that a search without a start begins with, and that it may go up to.
+  !> Modes beyond those wanted in a search without a start: at first, and at most.
   integer, parameter :: first_guards = 2, most_guards = 32
 
-  !> Relative accuracy of the last eigenvalue of a start, about: inverse iteration finds the other
-  !! digits.
+  !> Approximate relative accuracy of the last eigenvalue of a dense start. Inverse iteration finds
+  !! the remaining digits.
   real(wp), parameter :: start_accuracy = 1.0e-6_wp
 
 contains
 
+  !> No start values: the search begins with a dense eigenproblem.
   pure function new_start() result(start)
     type(start_t) :: start
 
@@ -77,20 +82,21 @@ contains
     allocate (start%lambda(0), start%direction(0, 0))
   end function new_start
 
-  !> Finds the lowest modes, from a start if there is one; if it leads astray, or there is none,
-  !! from a dense eigenproblem.
+  !> Finds the lowest modes from a start; without one, or if its modes are not proven to be
+  !! complete, from a dense eigenproblem.
   !!
   !! Every mode is improved by inverse iteration at its Rayleigh quotient until the error of its
-  !! eigenvalue is below rounding. Errors: no start leads to modes that are proven to be complete.
+  !! eigenvalue is below rounding. Errors: more modes wanted than unknowns; the dense eigenproblem
+  !! fails; no start leads to enough modes that are proven to be complete.
   subroutine find_bordered_modes(pencil, wanted, accurate_vectors, start, &
     found, error)
-    type(bordered_pencil_t), intent(in) :: pencil
-    integer, intent(in) :: wanted
-    logical, intent(in) :: accurate_vectors          !! vectors to the last digits, too, not only
-                                                     !! eigenvalues
-    type(start_t), intent(in) :: start
-    type(bordered_modes_t), intent(out) :: found
-    type(error_t), allocatable, intent(out) :: error
+    type(bordered_pencil_t), intent(in) :: pencil    !! G and M
+    integer, intent(in) :: wanted                    !! number of modes
+    logical, intent(in) :: accurate_vectors          !! all digits in the vectors, too, not only in
+                                                     !! the eigenvalues
+    type(start_t), intent(in) :: start               !! used if it has at least the modes wanted
+    type(bordered_modes_t), intent(out) :: found     !! the modes wanted, perhaps more
+    type(error_t), allocatable, intent(out) :: error !! allocated on failure
 
     type(start_t) :: dense_start
     integer :: guards
@@ -137,7 +143,7 @@ contains
     end if
   end subroutine find_bordered_modes
 
-  !> Improves every mode of a start, puts them in order, and looks whether all is well.
+  !> Improves every mode of a start, sorts them, and checks that they are complete.
   subroutine improve_all(pencil, wanted, accurate_vectors, start, found, proven)
     type(bordered_pencil_t), intent(in) :: pencil
     integer, intent(in) :: wanted
@@ -158,7 +164,7 @@ contains
       call improve(pencil, accurate_vectors, relative_gap(start%lambda, i), number + 1, found, &
         converged)
       if (.not. converged) cycle
-      ! Two starts may lead to one mode. The mode that is lost then is missed by the proof.
+      ! Two starts may converge to one mode. If a wanted mode is lost that way, the proof fails.
       if (overlaps(found%vector(:, number + 1), found%mass_times(:, :number))) cycle
       number = number + 1
       found%origin(number) = i
@@ -171,7 +177,7 @@ contains
     call check(pencil, wanted, found, proven)
   end subroutine improve_all
 
-  !> Room for so many modes; what is there is lost.
+  !> Allocates arrays for this many modes; previous contents are lost.
   pure subroutine make_room(found, unknowns, modes)
     type(bordered_modes_t), intent(inout) :: found
     integer, intent(in) :: unknowns, modes
@@ -183,7 +189,7 @@ contains
       found%stiffness_times(unknowns, modes))
   end subroutine make_room
 
-  !> Whether a mode is one of those found.
+  !> Whether a mode is already among those found.
   pure function overlaps(vector, mass_times)
     real(wp), intent(in) :: vector(:), mass_times(:, :)
     logical :: overlaps
@@ -196,7 +202,7 @@ contains
     end do
   end function overlaps
 
-  !> Keeps some modes, in an order.
+  !> Keeps the modes listed, in this order.
   pure subroutine choose_modes(found, order)
     type(bordered_modes_t), intent(inout) :: found
     integer, intent(in) :: order(:)
@@ -209,12 +215,12 @@ contains
     found%stiffness_times = found%stiffness_times(:, order)
   end subroutine choose_modes
 
-  !> Inverse iteration at the Rayleigh quotient, from a direction `M y` and an estimate of the
-  !! eigenvalue, which stand in the column of the mode. Its error becomes |r|²/λ, which divided by
-  !! the relative gap is the relative error of λ.
+  !> Inverse iteration at the Rayleigh quotient. The mode's column of `found` holds the start: a
+  !! direction `M y` and an estimate of the eigenvalue. `found%error` becomes |r|²/λ; divided by the
+  !! relative gap, this is the relative error of λ.
   !!
-  !! Where modes with nearly the same eigenvalue stand in the columns before, it is kept
-  !! perpendicular to them: rounding alone would decide which of them it leads to.
+  !! Modes with nearly the same eigenvalue in the columns before are projected out in every step.
+  !! Without that, rounding alone would decide to which of them the iteration converges.
   pure subroutine improve(pencil, accurate_vector, gap_guess, mode, found, converged)
     type(bordered_pencil_t), intent(in) :: pencil
     logical, intent(in) :: accurate_vector
@@ -223,7 +229,7 @@ contains
     type(bordered_modes_t), intent(inout) :: found
     logical, intent(out) :: converged
 
-    !> Beyond it squares overflow, or are zero.
+    !> Beyond this exponent, squares overflow or underflow.
     integer, parameter :: most_exponent = maxexponent(1.0_wp)/2 - digits(1.0_wp)
     real(wp) :: residual, square, scale, error, previous, largest
     integer :: i, j, pass
@@ -231,7 +237,7 @@ contains
     associate (lambda => found%lambda(mode), vector => found%vector(:, mode), &
         mass_times => found%mass_times(:, mode), stiffness_times => found%stiffness_times(:, mode))
       previous = huge(previous)
-      ! As it stays where rounding has left nothing of M, or of the direction.
+      ! These values remain if rounding leaves nothing of M or of the direction.
       converged = .false.
       residual = 0.0_wp
       stiffness_times = 0.0_wp
@@ -243,7 +249,7 @@ contains
         if (.not. (largest > 0.0_wp .and. largest <= huge(largest))) exit
         if (abs(exponent(largest)) > most_exponent) vector = vector/largest
         vector = vector/sqrt(dot_product(vector, vector))
-        ! Twice: what a first pass loses to rounding the second one restores.
+        ! Twice: the second pass restores the orthogonality that the first loses to rounding.
         do pass = 1, 2
           do j = 1, mode - 1
             if (abs(found%lambda(j) - lambda) > same_eigenvalue*abs(lambda)) cycle
@@ -270,7 +276,7 @@ contains
         converged = error <= 0.25_wp*epsilon(1.0_wp)*abs(lambda)
         if (accurate_vector) converged = converged .and. error <= (1.0e-13_wp*scale)**2
         if (converged) exit
-        ! Rounding ends the descent of the residual: then this is all there is.
+        ! The residual no longer falls because of rounding: this accuracy is final.
         if (i > 2 .and. residual >= 0.25_wp*previous) then
           converged = error <= 1.0e-10_wp*max(abs(lambda), 1.0e-6_wp*scale**2)
           exit
@@ -281,9 +287,10 @@ contains
     end associate
   end subroutine improve
 
-  !> Sum of the sizes of the terms of `yᵀKy/yᵀMy`, relative to λ: what rounding is multiplied by.
+  !> Sum of the magnitudes of the terms of `yᵀKy/yᵀMy`, relative to λ: the factor by which rounding
+  !! is amplified.
   !!
-  !! For M, by the inequality of Cauchy and Schwarz, `|M_jk| ≤ √(M_jj M_kk)`.
+  !! For M, by the Cauchy–Schwarz inequality, `|M_jk| ≤ √(M_jj M_kk)`.
   pure function cancellation(mass, layout, vector, stiffness_times, lambda)
     type(bordered_matrix_t), intent(in) :: mass
     type(layout_t), intent(in) :: layout
@@ -305,12 +312,13 @@ contains
       tiny(lambda))
   end function cancellation
 
-  !> Whether the modes are all there are up to the last wanted one, and how exact they are.
+  !> Proves that the modes are complete up to the last wanted one, and bounds their errors.
   !!
   !! Let μ lie just above the last of k modes, Q be an orthonormal basis of their K y, and P the
-  !! projection on its complement. On the complement `K − μM` is positive if `‖P (μM − G) P‖ < 1`:
-  !! then no more than k modes lie below μ, which are these. The norm is that of Frobenius, a sum of
-  !! squares. Where it is not below 1 a Cholesky factorization may still prove it.
+  !! projection on its complement. If `‖P (μM − G) P‖ < 1`, then `K − μM` is positive on the
+  !! complement, so no more than k modes lie below μ: those found. The norm is the Frobenius norm,
+  !! from sums of squares. Where it is not below 1, a Cholesky factorization may still prove
+  !! completeness.
   subroutine check(pencil, wanted, found, proven)
     type(bordered_pencil_t), intent(in) :: pencil
     integer, intent(in) :: wanted
@@ -346,8 +354,9 @@ contains
     if (kept < size(found%lambda)) call choose_modes(found, [(i, i=1, kept)])
   end subroutine check
 
-  !> Relative distance of an eigenvalue to the nearest other one; for the last one wanted the proof
-  !! tells how near another may be: only beyond the limit of the count, if that is all it tells.
+  !> Relative distance of an eigenvalue to the nearest other one. From the last wanted mode on, the
+  !! next mode may not be known; the proof then limits how near it can be: `1 − rest`, or the margin
+  !! of the count where the proof gives no more.
   pure function true_gap(lambda, i, wanted, rest) result(distance)
     real(wp), intent(in) :: lambda(:)
     integer, intent(in) :: i, wanted
@@ -358,7 +367,7 @@ contains
     if (i >= wanted) distance = min(distance, max(1.0_wp - rest, count_margin))
   end function true_gap
 
-  !> Modes of the dense eigenproblem of some unknowns, the others held.
+  !> Start from the dense eigenproblem of some unknowns, with the others fixed at zero.
   subroutine solve_dense_start(pencil, chosen, modes, start, error)
     type(bordered_pencil_t), intent(in) :: pencil
     integer, intent(in) :: chosen(:) !! numbers of unknowns
@@ -385,8 +394,10 @@ contains
     end do
     k = full_band(dense)
     shift = 0.0_wp
+    factorizations = 0
     if (pencil%loaded) call find_definite_shift(k, m, shift, factorizations)
-    ! The diagonal has the eigenvalues about, and so the size of the last one that is wanted.
+    ! Quotients of the diagonals approximate the eigenvalues, and so the size of the last one
+    ! wanted.
     diagonal = m%entry(1, :)/(k%entry(1, :) + shift*m%entry(1, :))
     diagonal = diagonal(ascending_order(diagonal))
     call solve_dense(shifted(k, m, shift), m, modes, .true., inverse, vector, error, &
@@ -402,7 +413,8 @@ contains
     end do
   end subroutine solve_dense_start
 
-  !> The border and the first own modes of every link: close to the lowest modes, for a small price.
+  !> The border and the first own modes of every link: a cheap basis that gives good starts for the
+  !! lowest modes.
   pure function leading_unknowns(layout, wanted) result(chosen)
     type(layout_t), intent(in) :: layout
     integer, intent(in) :: wanted

@@ -1,5 +1,5 @@
-!> `(K − μ M) x = b` for a stiffness `K = I + G` and bordered matrices G and M: the step of every
-!! inverse iteration.
+!> Solves `(K − μ M) x = b` with the stiffness `K = I + G` and bordered matrices G and M: the step
+!! of every inverse iteration.
 module bordered_solver
   use bordered_pencil, only: bordered_pencil_t
   use kinds, only: fineness, wp
@@ -10,16 +10,16 @@ module bordered_solver
 
 contains
 
-  !> Solves `(I + G − μ M) x = b`: eliminates block after block, each with its rows of the border
-  !! and the right side, then the border.
+  !> Solves `(I + G − μ M) x = b`: eliminates each block together with its border rows and the
+  !! right-hand side, then the border.
   !!
-  !! `L D Lᵀ` without pivoting. Nothing rests on its accuracy: whoever uses the solution measures
-  !! its residual.
+  !! `L D Lᵀ` without pivoting. No result depends on its accuracy: the callers measure the residual
+  !! of the solution.
   pure subroutine solve_shifted(pencil, shift, right_side, solution)
-    type(bordered_pencil_t), intent(in) :: pencil
-    real(wp), intent(in) :: shift                    !! μ
-    real(wp), intent(in) :: right_side(:)            !! (unknowns)
-    real(wp), intent(out) :: solution(:)             !! (unknowns)
+    type(bordered_pencil_t), intent(in) :: pencil !! G and M
+    real(wp), intent(in) :: shift                 !! μ
+    real(wp), intent(in) :: right_side(:)         !! (unknowns) b
+    real(wp), intent(out) :: solution(:)          !! (unknowns) x
 
     real(wp) :: panel(pencil%layout%border + maxval(pencil%layout%size) + 1, &
       merge(maxval(pencil%layout%size), 0, pencil%loaded), size(pencil%layout%size))
@@ -74,14 +74,14 @@ contains
     end associate
   end subroutine solve_shifted
 
-  !> Eliminates a block and takes what it leaves from the border.
+  !> Eliminates a block and subtracts its contribution from the border.
   pure subroutine eliminate_block(pencil, shift, right_side, b, panel, border)
     type(bordered_pencil_t), intent(in) :: pencil !! with a G
     real(wp), intent(in) :: shift
     real(wp), intent(in) :: right_side(:)
-    integer, intent(in) :: b                 !! number of the block
-    real(wp), intent(out) :: panel(:, :)     !! columns of the block; below it the border's rows and
-                                             !! the right side
+    integer, intent(in) :: b                      !! number of the block
+    real(wp), intent(out) :: panel(:, :)          !! columns of the block; below it the border's
+                                                  !! rows and the right-hand side
     real(wp), intent(inout) :: border(:, :)
 
     real(wp) :: factor
@@ -112,7 +112,8 @@ contains
     end do
   end subroutine eliminate_block
 
-  !> `L D Lᵀ` of the first rows; the others are carried along. Column k is left as `L D` of it.
+  !> `L D Lᵀ` of the first m rows; the rows below are updated with them. Column k then holds that of
+  !! `L D`.
   pure subroutine eliminate(panel, m)
     real(wp), intent(inout) :: panel(:, :)
     integer, intent(in) :: m
@@ -131,8 +132,8 @@ contains
     end do
   end subroutine eliminate
 
-  !> A pivot, moved away from zero if it is near: the solution, a direction only, keeps enough
-  !! digits to be improved.
+  !> A pivot, moved away from zero if it is near. The solution serves only as a direction, and keeps
+  !! enough digits to be improved.
   pure function off_zero(pivot) result(moved)
     real(wp), intent(in) :: pivot
     real(wp) :: moved
@@ -143,7 +144,7 @@ contains
     if (abs(moved) < least_pivot) moved = sign(least_pivot, pivot)
   end function off_zero
 
-  !> Solves with what `eliminate` left; the right side is the panel's last row.
+  !> Solves with the result of `eliminate`; the right-hand side is the last row of the panel.
   pure subroutine substitute_back(panel, m, solution)
     real(wp), intent(in) :: panel(:, :)
     integer, intent(in) :: m

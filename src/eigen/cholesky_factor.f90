@@ -1,4 +1,4 @@
-!> Cholesky factors of symmetric positive definite band matrices, with errors in words.
+!> Cholesky factors of symmetric positive definite band matrices, with readable error messages.
 module cholesky_factor
   use band_matrix, only: band_matrix_t, half_bandwidth_of, order_of
   use errors, only: error_of_numerics, error_t, set_error
@@ -12,11 +12,11 @@ module cholesky_factor
 
 contains
 
-  !> Replaces a matrix by its factor. Errors: it is not positive definite; the message names the
-  !! unknown.
+  !> Replaces a matrix by its Cholesky factor. Errors: the matrix is not positive definite; the
+  !! message gives the number of the unknown.
   pure subroutine factor_band(matrix, error)
-    type(band_matrix_t), intent(inout) :: matrix
-    type(error_t), allocatable, intent(out) :: error
+    type(band_matrix_t), intent(inout) :: matrix     !! then its lower factor
+    type(error_t), allocatable, intent(out) :: error !! allocated on failure
 
     integer :: info
 
@@ -28,12 +28,12 @@ contains
 
   !> Replaces a right-hand side by the solution.
   pure subroutine solve_with_factor(factor, x)
-    type(band_matrix_t), intent(in) :: factor
-    real(wp), intent(inout), contiguous :: x(:)
+    type(band_matrix_t), intent(in) :: factor   !! by `factor_band`
+    real(wp), intent(inout), contiguous :: x(:) !! (unknowns)
 
     integer :: info
 
-    ! dpbtrs fails only when its arguments have wrong shapes, and these come from the factor itself.
+    ! dpbtrs fails only if its arguments have wrong shapes; here they come from the factor itself.
     call dpbtrs("L", order_of(factor), half_bandwidth_of(factor), 1, factor%entry, &
       size(factor%entry, 1), x, size(x), info)
   end subroutine solve_with_factor

@@ -1,4 +1,5 @@
-!> A proof that no mode is missing, by sums of squares only.
+!> Proofs that no mode is missing: by sums of squares and, where these are too coarse, by a Cholesky
+!! factorization.
 module completeness_proof
   use band_matrix, only: band_matrix_t, full_band
   use bordered_matrix, only: all_unknowns, bordered_times_vector, dense_form
@@ -12,30 +13,32 @@ module completeness_proof
   public :: count_limit, count_margin, rest_norm, squared_norm, perpendicular, projected_norm, &
     is_complete
 
-  !> How far above the last mode the interval reaches in which modes are counted, relatively.
+  !> Relative distance from the last mode to the upper end of the interval in which modes are
+  !! counted.
   real(wp), parameter :: count_margin = 1.0e-8_wp
 
-  !> What the difference of sums of squares may lose to rounding, relative to the largest, and how
-  !! much of that is bearable.
+  !> Rounding error of a difference of sums of squares, relative to the largest sum; and the largest
+  !! error accepted.
   real(wp), parameter :: loss = 100.0_wp*epsilon(1.0_wp), most_loss = 1.0e-3_wp
 
 contains
 
-  !> Upper end of the interval in which modes are counted, for the eigenvalue of the last one.
+  !> Upper end of the interval in which modes are counted.
   pure function count_limit(lambda) result(limit)
-    real(wp), intent(in) :: lambda
-    real(wp) :: limit
+    real(wp), intent(in) :: lambda !! eigenvalue of the last mode [1/s²]
+    real(wp) :: limit              !! [1/s²]
 
     limit = lambda + count_margin*abs(lambda)
   end function count_limit
 
-  !> Frobenius norm of `P E P`, `E = μM − G`, P the projection on the complement of some directions.
+  !> Frobenius norm of `P E P`, where `E = μM − G` and P projects on the complement of the given
+  !! directions.
   !!
   !! `‖P E P‖² = ‖E‖² − 2 ‖E Q‖² + ‖Qᵀ E Q‖²` for an orthonormal basis Q of these directions.
   pure function rest_norm(pencil, limit, directions) result(norm)
-    type(bordered_pencil_t), intent(in) :: pencil
-    real(wp), intent(in) :: limit              !! μ
-    real(wp), intent(in) :: directions(:, :)   !! (unknowns, directions), independent
+    type(bordered_pencil_t), intent(in) :: pencil !! G and M
+    real(wp), intent(in) :: limit                 !! μ [1/s²]
+    real(wp), intent(in) :: directions(:, :)      !! (unknowns, directions) linearly independent
     real(wp) :: norm
 
     real(wp) :: q(size(directions, 1), size(directions, 2)), e_times_q(size(directions, 1), &
@@ -57,12 +60,12 @@ contains
       norm = projected_norm(square, q, e_times_q)
     else
       ! With many modes ‖E‖² is so large that the difference has no digits left: the projected
-      ! matrix itself is worked out.
+      ! matrix itself is computed.
       norm = worked_out_norm(pencil, limit, q)
     end if
   end function rest_norm
 
-  !> The same norm, column by column of `P E P`.
+  !> The same norm, computed column by column of `P E P`.
   pure function worked_out_norm(pencil, limit, q) result(norm)
     type(bordered_pencil_t), intent(in) :: pencil
     real(wp), intent(in) :: limit
@@ -91,16 +94,16 @@ contains
     norm = sqrt(square)
   end function worked_out_norm
 
-  !> A unit vector along the part of a direction that is perpendicular to others.
+  !> Unit vector along the part of a direction that is perpendicular to others.
   pure function perpendicular(direction, others) result(unit)
-    real(wp), intent(in) :: direction(:)
-    real(wp), intent(in) :: others(:, :) !! orthonormal columns
+    real(wp), intent(in) :: direction(:) !! (unknowns) independent of the others
+    real(wp), intent(in) :: others(:, :) !! (unknowns, others) orthonormal columns
     real(wp) :: unit(size(direction))
 
     integer :: j, pass
 
     unit = direction
-    ! Twice: what a first pass loses to rounding the second one restores.
+    ! Twice: the second pass restores the orthogonality that the first loses to rounding.
     do pass = 1, 2
       do j = 1, size(others, 2)
         unit = unit - dot_product(others(:, j), unit)*others(:, j)
@@ -109,11 +112,11 @@ contains
     unit = unit/sqrt(dot_product(unit, unit))
   end function perpendicular
 
-  !> `√(‖E‖² − 2 ‖E Q‖² + ‖Qᵀ E Q‖²)`
+  !> `√(‖E‖² − 2 ‖E Q‖² + ‖Qᵀ E Q‖²)`, rounded up.
   pure function projected_norm(square, q, e_times_q) result(norm)
     real(wp), intent(in) :: square          !! ‖E‖²
-    real(wp), intent(in) :: q(:, :)         !! orthonormal columns
-    real(wp), intent(in) :: e_times_q(:, :)
+    real(wp), intent(in) :: q(:, :)         !! (unknowns, directions) orthonormal columns
+    real(wp), intent(in) :: e_times_q(:, :) !! (unknowns, directions) E Q
     real(wp) :: norm
 
     real(wp) :: rest
@@ -127,14 +130,14 @@ contains
         rest = rest + 2.0_wp*dot_product(q(:, j), e_times_q(:, i))**2
       end do
     end do
-    ! What the subtraction may have lost is added.
+    ! The possible loss in the subtraction is added.
     norm = sqrt(max(rest, 0.0_wp) + loss*square)
   end function projected_norm
 
-  !> `‖μM − G‖²` of Frobenius.
+  !> `‖μM − G‖²`, Frobenius norm.
   pure function squared_norm(pencil, limit) result(square)
-    type(bordered_pencil_t), intent(in) :: pencil
-    real(wp), intent(in) :: limit
+    type(bordered_pencil_t), intent(in) :: pencil !! G and M
+    real(wp), intent(in) :: limit                 !! μ [1/s²]
     real(wp) :: square
 
     integer :: b, i, k, first
@@ -165,20 +168,20 @@ contains
     end associate
   end function squared_norm
 
-  !> The same proof where sums of squares are too rough, under heavy loads: whether no modes but
-  !! those given lie below a limit.
+  !> Whether no modes other than those given lie below a limit. Sharper than sums of squares, which
+  !! are too coarse under heavy loads.
   !!
-  !! `K − μM + Σ (μ + s − λ_i) (M y_i)(M y_i)ᵀ` differs from `K − μM` by as many positive terms as
-  !! modes are given. If it is positive definite, `K − μM` has no more negative eigenvalues than
-  !! these, however rough λ_i and y_i are. A Cholesky factorization that comes to its end, with the
-  !! bound of its rounding taken from the diagonal first, proves that it is (Demmel 1989; Rump
-  !! 2006).
+  !! With s = |μ|, `K − μM + Σ (μ + s − λ_i)(M y_i)(M y_i)ᵀ` differs from `K − μM` by at most as
+  !! many positive terms as modes are given. If it is positive definite, `K − μM` has no more
+  !! negative eigenvalues than there are terms, however inaccurate λ_i and y_i are. It is proven to
+  !! be so if its Cholesky factorization succeeds after a bound of the rounding has been subtracted
+  !! from the diagonal (Demmel 1989; Rump 2006).
   subroutine is_complete(pencil, limit, lambda, mass_times, proven)
-    type(bordered_pencil_t), intent(in) :: pencil
-    real(wp), intent(in) :: limit            !! μ
-    real(wp), intent(in) :: lambda(:)        !! (modes)
-    real(wp), intent(in) :: mass_times(:, :) !! (unknowns, modes) M y
-    logical, intent(out) :: proven
+    type(bordered_pencil_t), intent(in) :: pencil !! G and M
+    real(wp), intent(in) :: limit                 !! μ [1/s²]
+    real(wp), intent(in) :: lambda(:)             !! (modes) [1/s²]
+    real(wp), intent(in) :: mass_times(:, :)      !! (unknowns, modes) M y
+    logical, intent(out) :: proven                !! .false.: nothing is proven
 
     real(wp), allocatable :: dense(:, :), geometric_form(:, :)
     type(band_matrix_t) :: band
@@ -188,7 +191,7 @@ contains
 
     n = pencil%layout%unknowns
     dense = dense_form(pencil%layout, pencil%mass, all_unknowns(pencil%layout))
-    ! Sum of the sizes of all terms of the diagonal: what rounding is multiplied by.
+    ! Sum of the magnitudes of all terms of the diagonal: the rounding is proportional to it.
     margin = n
     do i = 1, n
       margin = margin + abs(limit)*dense(i, i)
@@ -211,7 +214,7 @@ contains
         dense(:, j) = dense(:, j) + lift*mass_times(j, i)*mass_times(:, i)
       end do
     end do
-    ! Rounding of the sums, and (n + 2) ε/2 times the trace for the factorization.
+    ! Rounding of the sums and, for the factorization, (n + 2) ε/2 times the trace.
     margin = margin*epsilon(margin)*(n + 2 + 8*size(lambda))
     do i = 1, n
       dense(i, i) = dense(i, i) - margin

@@ -14,22 +14,21 @@ contains
 
   !> Solves `M x = θ K x` for the largest θ = 1/λ.
   !!
-  !! The other way round, `K x = λ M x`, the error of every eigenvalue would be measured against the
-  !! highest of them, which belongs to axial waves in the smallest element; this way it is measured
-  !! against the lowest, which is wanted. Errors: LAPACK finds K not positive definite, or fails to
-  !! converge.
+  !! In the form `K x = λ M x`, the error of every eigenvalue would be relative to the highest one,
+  !! which belongs to axial waves in the smallest element. In this form it is relative to the lowest
+  !! λ, which is wanted. Errors: LAPACK finds that K is not positive definite, or does not converge.
   recursive subroutine solve_dense(stiffness, mass, modes, want_vectors, inverse, vectors, error, &
     tolerance)
-    type(band_matrix_t), intent(in) :: stiffness !! positive definite
-    type(band_matrix_t), intent(in) :: mass
-    integer, intent(in) :: modes
-    logical, intent(in) :: want_vectors
-    real(wp), intent(out) :: inverse(:)          !! (modes) 1/λ, largest first
+    type(band_matrix_t), intent(in) :: stiffness        !! K, positive definite
+    type(band_matrix_t), intent(in) :: mass             !! M
+    integer, intent(in) :: modes                        !! how many
+    logical, intent(in) :: want_vectors                 !! besides eigenvalues
+    real(wp), intent(out) :: inverse(:)                 !! (modes) 1/λ, largest first
     real(wp), allocatable, intent(out) :: vectors(:, :) !! (unknowns, modes) with xᵀKx = 1;
                                                         !! (unknowns, 0) unless wanted
-    type(error_t), allocatable, intent(out) :: error
-    real(wp), intent(in), optional :: tolerance  !! of 1/λ, absolute, where less than all digits
-                                                 !! will do: it saves half the time
+    type(error_t), allocatable, intent(out) :: error    !! allocated on failure
+    real(wp), intent(in), optional :: tolerance         !! absolute, of 1/λ; absent: all digits. A
+                                                        !! coarse one halves the time
 
     real(wp), allocatable :: a(:, :), b(:, :), w(:), z(:, :), work(:)
     integer, allocatable :: iwork(:), ifail(:)
@@ -60,7 +59,7 @@ contains
       call set_error(error, error_of_numerics, &
         "the stiffness matrix is not positive definite at unknown "//to_string(info - n))
     else if (info > 0 .and. present(tolerance)) then
-      ! Some vectors come out only beside an eigenvalue that has all its digits.
+      ! Some vectors converge only for eigenvalues with all digits: try again without a tolerance.
       call solve_dense(stiffness, mass, modes, want_vectors, inverse, vectors, error)
     else if (info > 0 .or. found /= modes) then
       call set_error(error, error_of_numerics, "dsygvx did not converge (info = "// &

@@ -1,4 +1,4 @@
-!> How near eigenvalues are to each other.
+!> Distances between eigenvalues.
 module eigenvalue_gaps
   use kinds, only: wp
   implicit none (type, external)
@@ -8,11 +8,11 @@ module eigenvalue_gaps
 
 contains
 
-  !> Distance of an eigenvalue to the nearest other one, relative to the larger of both; 1 if there
-  !! is no other.
+  !> Distance of an eigenvalue to the nearest other one, relative to the larger magnitude of the
+  !! two; at most 1, and 1 without another.
   pure function relative_gap(lambda, i) result(gap)
-    real(wp), intent(in) :: lambda(:)
-    integer, intent(in) :: i
+    real(wp), intent(in) :: lambda(:) !! (modes)
+    integer, intent(in) :: i          !! its number
     real(wp) :: gap
 
     integer :: j

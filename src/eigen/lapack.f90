@@ -7,7 +7,8 @@ module lapack
   public :: dsygvx, dpbtrf, dpbtrs, dsaupd, dseupd
 
   interface
-    !> Some eigenvalues and vectors of `A x = λ B x`, symmetric, B positive definite (LAPACK).
+    !> Selected eigenvalues and eigenvectors of `A x = λ B x`, both symmetric, B positive definite
+    !! (LAPACK).
     subroutine dsygvx(itype, jobz, range, uplo, n, a, lda, b, ldb, vl, vu, il, iu, abstol, m, w, &
         z, ldz, work, lwork, iwork, ifail, info)
       import :: wp
@@ -29,7 +30,7 @@ module lapack
       integer, intent(out) :: info
     end subroutine dpbtrf
 
-    !> Solution with the factor made by `dpbtrf` (LAPACK).
+    !> Solves for right-hand sides with the factor from `dpbtrf` (LAPACK).
     pure subroutine dpbtrs(uplo, n, kd, nrhs, ab, ldab, b, ldb, info)
       import :: wp
       character(len=1), intent(in) :: uplo
@@ -51,7 +52,7 @@ module lapack
       integer, intent(inout) :: iparam(11), ipntr(11)
     end subroutine dsaupd
 
-    !> Eigenvalues and vectors once `dsaupd` has converged (ARPACK).
+    !> Eigenvalues and eigenvectors once `dsaupd` has converged (ARPACK).
     subroutine dseupd(rvec, howmny, select, d, z, ldz, sigma, bmat, n, which, nev, tol, resid, &
         ncv, v, ldv, iparam, ipntr, workd, workl, lworkl, info)
       import :: wp

@@ -1,4 +1,4 @@
-!> The better part of some modes: enough to recognise them at another position.
+!> Excerpts of modes, sufficient to recognise them at another position.
 module modal_assurance
   use bordered_eigensolver, only: bordered_modes_t
   use bordered_matrix, only: layout_t
@@ -8,26 +8,25 @@ module modal_assurance
 
   public :: mode_prints_t, new_mode_prints, likeness
 
-  !> The part of every mode in the border and the first own modes of every link, which models of
-  !! different orders have in common; zeros where a link has fewer.
+  !> Components of the modes on the border and the first own modes of every link, which models of
+  !! different orders have in common; zero where a link has fewer own modes.
   type :: mode_prints_t
-    real(wp), allocatable :: vector(:, :)     !! (unknowns kept, modes) of y, where yᵀMy = 1 for the
-                                              !! kept ones alone
-    real(wp), allocatable :: mass_times(:, :) !! (unknowns kept, modes) of M y
+    real(wp), allocatable :: vector(:, :)     !! (unknowns kept, modes) of y, scaled to yᵀMy = 1 in
+                                              !! the kept components
+    real(wp), allocatable :: mass_times(:, :) !! (unknowns kept, modes) of M y, in the same scale
   end type mode_prints_t
 
-  !> Less of its mass than this in the unknowns that are kept, and a mode cannot be recognised by
-  !! them.
+  !> Share of yᵀMy in the kept components below which a mode cannot be recognised.
   real(wp), parameter :: least_kept = 1.0e-3_wp
 
 contains
 
-  !> The print of a mode of which too little is kept (links that buckle many times over) is zero: it
-  !! is like no other.
+  !> Takes the prints of the first modes. If too little of a mode is kept (links that buckle many
+  !! times over) its print is zero: it resembles no other mode.
   pure function new_mode_prints(layout, found, modes) result(prints)
-    type(layout_t), intent(in) :: layout
-    type(bordered_modes_t), intent(in) :: found
-    integer, intent(in) :: modes
+    type(layout_t), intent(in) :: layout        !! of the unknowns
+    type(bordered_modes_t), intent(in) :: found !! at least these modes
+    integer, intent(in) :: modes                !! how many
     type(mode_prints_t) :: prints
 
     real(wp) :: kept
@@ -60,7 +59,7 @@ contains
     end do
   end function new_mode_prints
 
-  !> Own transverse modes of a link that are kept.
+  !> Number of transverse own modes of a link that are kept.
   pure function across_kept(modes) result(number)
     integer, intent(in) :: modes
     integer :: number
@@ -68,12 +67,12 @@ contains
     number = modes + 2
   end function across_kept
 
-  !> Copies some unknowns of all modes and moves on by as many slots as they have.
+  !> Copies some components of all modes and moves on by the number of slots reserved for them.
   pure subroutine keep(found, first, number, slots, slot, prints)
     type(bordered_modes_t), intent(in) :: found
-    integer, intent(in) :: first, number !! unknowns
-    integer, intent(in) :: slots
-    integer, intent(inout) :: slot       !! the last one taken
+    integer, intent(in) :: first, number !! components to copy
+    integer, intent(in) :: slots         !! reserved for them
+    integer, intent(inout) :: slot       !! the last one used
     type(mode_prints_t), intent(inout) :: prints
 
     integer :: modes
@@ -85,13 +84,14 @@ contains
     slot = slot + slots
   end subroutine keep
 
-  !> Modal assurance criterion in the mass inner product, from 0 to 1, between the modes of two
-  !! positions.
+  !> Modal assurance criterion in the mass inner product between the modes of two positions, from 0
+  !! to 1.
   !!
   !! `(aᵀM_b b)(bᵀM_a a)` for modes of unit mass: each position has its own mass matrix, and the
-  !! product of both is 1 for equal shapes.
+  !! product is 1 for equal shapes.
   pure function likeness(first, second) result(mac)
-    type(mode_prints_t), intent(in) :: first, second
+    type(mode_prints_t), intent(in) :: first  !! modes a of one position
+    type(mode_prints_t), intent(in) :: second !! modes b of another
     real(wp) :: mac(size(first%vector, 2), size(second%vector, 2)) !! (modes of the first, modes of
                                                                    !! the second)
 

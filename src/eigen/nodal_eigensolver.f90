@@ -1,4 +1,4 @@
-!> The lowest modes of `K x = λ M x`, checked.
+!> The lowest modes of `K x = λ M x` in nodal unknowns, checked.
 module nodal_eigensolver
   use band_eigensolver, only: solve_band
   use band_matrix, only: band_matrix_t, band_times_vector, order_of
@@ -12,56 +12,56 @@ module nodal_eigensolver
 
   public :: modes_t, find_modes, find_definite_shift, most_round_off
 
+  !> Modes found, with the results of their checks.
   type :: modes_t
-    real(wp), allocatable :: lambda(:)      !! ω², ascending; negative past a divergence [1/s²]
-    real(wp), allocatable :: vector(:, :)   !! (unknowns, modes) with xᵀMx = 1; (unknowns, 0) if not
-                                            !! asked for
-    real(wp) :: uncertainty = 0.0_wp        !! largest relative width within which a count has
-                                            !! confirmed an eigenvalue
-    real(wp) :: residual = 0.0_wp           !! largest, relative to the terms that cancel in it
-    real(wp) :: orthogonality = 0.0_wp      !! largest |xᵢᵀMxⱼ − δᵢⱼ|
-    integer :: factorizations = 0           !! Cholesky and counting ones
+    real(wp), allocatable :: lambda(:)    !! (modes) ω², ascending; negative past a divergence
+                                          !! [1/s²]
+    real(wp), allocatable :: vector(:, :) !! (unknowns, modes) with xᵀMx = 1; (unknowns, 0) if not
+                                          !! requested
+    real(wp) :: uncertainty = 0.0_wp      !! largest relative half-width of a bracket in which a
+                                          !! count has confirmed an eigenvalue
+    real(wp) :: residual = 0.0_wp         !! largest, relative to the terms that cancel in it
+    real(wp) :: orthogonality = 0.0_wp    !! largest |xᵢᵀMxⱼ − δᵢⱼ|
+    integer :: factorizations = 0         !! Cholesky factorizations and inertia counts
   end type modes_t
 
-  !> What a sound solution stays well below: residuals come out near 1e-15, orthogonality near
+  !> Limits that a sound solution stays well below: residuals are near 1e-15, orthogonality near
   !! 1e-13.
   real(wp), parameter :: most_residual = 1.0e-11_wp, most_orthogonality = 1.0e-9_wp
 
-  !> Relative width of an eigenvalue's bracket, and what a bracket widened for round-off may not
-  !! exceed.
+  !> Relative half-width of an eigenvalue's bracket, and its limit after widening for round-off.
   real(wp), parameter :: bracket = 1.0e-9_wp, widest_bracket = 5.0e-6_wp
 
-  !> Most that the rounding of K may take of the lowest eigenvalue.
+  !> Largest allowed rounding error of K, relative to the lowest eigenvalue.
   real(wp), parameter :: most_round_off = 1.0e-6_wp
 
-  !> Multiples of the round-off bounds of K and of the solver. The first bound is generous in
-  !! itself; with its margin the bracket stays within what is allowed up to the limit of 1e-6 that a
-  !! mesh must keep.
+  !> Factors on the round-off bounds of K and of the solver. The bound of K is generous in itself;
+  !! with its factor, the bracket stays within its limit for every mesh that keeps `most_round_off`.
   real(wp), parameter :: stiffness_margin = 4.0_wp, solver_margin = 100.0_wp
 
 contains
 
   !> Finds and checks the lowest modes.
   !!
-  !! Where K is indefinite (past a divergence) it is shifted by σM until it is not. Every eigenvalue
-  !! is confirmed by two counts: the i-th has fewer than i eigenvalues below its bracket and at
-  !! least i below the bracket's upper end. So none is wrong and none is missing. Vectors, where
-  !! wanted, are checked for residual and mass orthogonality. Errors: a solver fails, or a check
-  !! does; the message gives the numbers.
+  !! An indefinite K (past a divergence) is made definite by a shift σM. Every eigenvalue is
+  !! confirmed by two counts: the i-th has fewer than i eigenvalues below its bracket and at least i
+  !! below the upper end of the bracket. So none is wrong and none is missing. Vectors, where
+  !! wanted, are checked for residual and mass orthogonality. Errors: entries beyond the range of
+  !! double precision; a solver fails; a check fails, with the numbers in the message.
   subroutine find_modes(stiffness, mass, modes, dense, definite, roundoff, want_vectors, found, &
     error)
-    type(band_matrix_t), intent(in) :: stiffness !! K, with the geometric stiffness if there is any
-    type(band_matrix_t), intent(in) :: mass      !! M, positive definite but for directions that K
-                                                 !! and K_G leave stiff
-    integer, intent(in) :: modes                 !! how many
-    logical, intent(in) :: dense                 !! full matrices and LAPACK, or band matrices and
-                                                 !! ARPACK
-    logical, intent(in) :: definite              !! K is known to be positive definite
-    real(wp), intent(in) :: roundoff             !! error of eigenvalues from the rounding of K
-                                                 !! [1/s²]
-    logical, intent(in) :: want_vectors
-    type(modes_t), intent(out) :: found
-    type(error_t), allocatable, intent(out) :: error
+    type(band_matrix_t), intent(in) :: stiffness     !! K, with the geometric stiffness, if any
+    type(band_matrix_t), intent(in) :: mass          !! M, positive definite except in directions
+                                                     !! that K and K_G leave stiff
+    integer, intent(in) :: modes                     !! how many
+    logical, intent(in) :: dense                     !! full matrices and LAPACK; else band matrices
+                                                     !! and ARPACK
+    logical, intent(in) :: definite                  !! K is known to be positive definite
+    real(wp), intent(in) :: roundoff                 !! error of eigenvalues from the rounding of K
+                                                     !! [1/s²]
+    logical, intent(in) :: want_vectors              !! besides eigenvalues
+    type(modes_t), intent(out) :: found              !! modes and checks
+    type(error_t), allocatable, intent(out) :: error !! allocated on failure
 
     real(wp) :: shift, inverse(modes)
     integer :: i
@@ -94,34 +94,35 @@ contains
     call check_vectors(stiffness, mass, shift, found, error)
   end subroutine find_modes
 
-  !> The smallest of σ, 4σ, 16σ, … for which `K + σM` is definite; 0 if K is.
+  !> A shift σ for which `K + σM` is definite: four times the first of σ0, 4σ0, 16σ0, … that makes
+  !! it so; 0 if K is definite.
   pure subroutine find_definite_shift(stiffness, mass, shift, factorizations)
-    type(band_matrix_t), intent(in) :: stiffness, mass
-    real(wp), intent(out) :: shift
-    integer, intent(inout) :: factorizations
+    type(band_matrix_t), intent(in) :: stiffness !! K
+    type(band_matrix_t), intent(in) :: mass      !! M
+    real(wp), intent(out) :: shift               !! σ [1/s²]
+    integer, intent(inout) :: factorizations     !! counter, raised by those made here
 
     real(wp), parameter :: small = 1.0e-8_wp
 
     shift = 0.0_wp
     factorizations = factorizations + 1
     if (count_below(stiffness, mass, 0.0_wp) == 0) return
-    ! A diagonal entry may vanish by chance; the largest of the matrix does not.
+    ! A diagonal entry may vanish by chance; the largest entry of the matrix does not.
     shift = max(small*minval(abs(stiffness%entry(1, :))/mass%entry(1, :)), &
       small**2*maxval(abs(stiffness%entry))/maxval(mass%entry(1, :)))
     do
       factorizations = factorizations + 1
-      ! A mass matrix that rounding has made indefinite has no such shift; who factors the sum will
-      ! see.
+      ! If rounding has made M indefinite, there is no such shift: factorizing K + σM then fails.
       if (count_below(stiffness, mass, -shift) == 0 .or. shift > sqrt(huge(shift))) exit
       shift = 4.0_wp*shift
     end do
-    ! One step more, so that the lowest shifted eigenvalue is not near zero by chance.
+    ! One step more, so that the lowest shifted eigenvalue is not accidentally near zero.
     shift = 4.0_wp*shift
   end subroutine find_definite_shift
 
-  !> Brackets every eigenvalue by counts.
+  !> Brackets every eigenvalue by inertia counts.
   !!
-  !! The bracket is as wide as the error that round-off allows: that of K itself, and that of the
+  !! The bracket is as wide as the error that round-off permits: that of K itself, and that of the
   !! solver, which is relative to the lowest shifted eigenvalue.
   pure subroutine confirm_eigenvalues(stiffness, mass, shift, roundoff, found, error)
     type(band_matrix_t), intent(in) :: stiffness, mass
@@ -159,9 +160,9 @@ contains
 
   !> Checks `K x = λ M x` and `xᵢᵀMxⱼ = δᵢⱼ`.
   !!
-  !! Displacements and rotations are made comparable by the diagonals: `‖D^{-1/2}(Kx − λMx)‖ ≤
-  !! tolerance ‖D^{1/2}x‖`. The tolerance grows with λ, since the solvers work on 1/λ and their
-  !! error is relative to the largest of these.
+  !! Displacements and rotations are made comparable by the diagonals:
+  !! `‖D^{-1/2}(Kx − λMx)‖ ≤ tolerance ‖D^{1/2}x‖`. The tolerance grows with λ, because the solvers
+  !! find 1/λ with an error relative to the largest 1/λ.
   pure subroutine check_vectors(stiffness, mass, shift, found, error)
     type(band_matrix_t), intent(in) :: stiffness, mass
     real(wp), intent(in) :: shift !! that made the stiffness definite [1/s²]

@@ -1,4 +1,5 @@
-!> Singular vectors to their own last digits, however small their values are beside the largest.
+!> Singular vectors that are accurate to their own last digits, however small their singular values
+!! are beside the largest.
 module singular_vectors
   use errors, only: error_of_numerics, error_t, set_error
   use kinds, only: wp
@@ -11,30 +12,29 @@ module singular_vectors
 
   integer, parameter :: most_sweeps = 60
 
-  !> Where columns depend on others, one this small beside the whole matrix is nothing but rounding
-  !! [ε].
+  !> Where columns are dependent, a column this small beside the whole matrix is only rounding [ε].
   real(wp), parameter :: no_column = 64.0_wp
 
 contains
 
-  !> Right singular vectors of a matrix, those of the largest values first, by one-sided Jacobi
+  !> Right singular vectors of a matrix, largest singular values first, by one-sided Jacobi
   !! rotations.
   !!
-  !! Pairs of columns are turned until all are perpendicular. Unlike methods that first reduce the
-  !! matrix to two diagonals, this keeps the relative accuracy of small singular values (Demmel and
-  !! Veselić, SIAM J. Matrix Anal. Appl. 13 (1992) 1204): the high vibrations of a link are as exact
-  !! as the low ones. LAPACK's dgesvj does the same, but raises the floating-point exceptions that
-  !! the debug build stops at.
+  !! Pairs of columns are rotated until all are perpendicular. Unlike methods that first reduce the
+  !! matrix to bidiagonal form, this keeps the relative accuracy of small singular values (Demmel
+  !! and Veselić, SIAM J. Matrix Anal. Appl. 13 (1992) 1204): the high vibrations of a link are as
+  !! accurate as the low ones. LAPACK's dgesvj does the same, but raises floating-point exceptions,
+  !! at which the debug build stops.
   !!
-  !! Columns that depend on others end as zero but for rounding. In a space of fewer dimensions they
-  !! can never be perpendicular: they are left alone then, and their vectors left out. Errors: no
-  !! convergence.
+  !! Dependent columns end as zero except for rounding. Such remainders can never all be
+  !! perpendicular, so they are left alone and their vectors are left out. Errors: no convergence.
   pure subroutine find_right_singular_vectors(matrix, vectors, error, rank)
-    real(wp), intent(in) :: matrix(:, :)                !! no fewer rows than independent columns
+    real(wp), intent(in) :: matrix(:, :)                !! (rows, columns) no fewer rows than
+                                                        !! independent columns
     real(wp), allocatable, intent(out) :: vectors(:, :) !! (columns, independent columns)
-    type(error_t), allocatable, intent(out) :: error
-    integer, intent(in), optional :: rank               !! independent columns, if not all of them
-                                                        !! are
+    type(error_t), allocatable, intent(out) :: error    !! allocated on failure
+    integer, intent(in), optional :: rank               !! number of independent columns; absent:
+                                                        !! all
 
     real(wp) :: a(size(matrix, 1), size(matrix, 2)), squared(size(matrix, 2)), least
     integer :: i, j, sweep, n
@@ -67,17 +67,18 @@ contains
     end if
     squared = sum(a**2, dim=1)
     vectors = vectors(:, ascending_order(-squared))
-    ! Thousands of rotations have changed the lengths by some of the last digits, all in one sense.
+    ! Thousands of rotations have changed the lengths in the last digits, all in the same direction.
     do i = 1, n
       vectors(:, i) = vectors(:, i)/norm2(vectors(:, i))
     end do
     if (present(rank)) vectors = vectors(:, :rank)
   end subroutine find_right_singular_vectors
 
-  !> Turns two columns, and with them the vectors, so that they are perpendicular to rounding.
+  !> Rotates two columns, and the vectors with them, so that the columns are perpendicular to within
+  !! rounding.
   pure subroutine make_perpendicular(first, second, first_vector, second_vector, least, turned)
     real(wp), intent(inout) :: first(:), second(:), first_vector(:), second_vector(:)
-    real(wp), intent(in) :: least !! square of the length up to which a column is none
+    real(wp), intent(in) :: least !! squared length up to which a column counts as zero
     logical, intent(inout) :: turned
 
     real(wp) :: length(2), product, slope, tangent, cosine, column(size(first)), &

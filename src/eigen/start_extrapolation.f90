@@ -1,4 +1,4 @@
-!> Modes of neighbouring positions, and where they lead: starts for the next position.
+!> Starts for the modes at a position, extrapolated from neighbouring positions.
 module start_extrapolation
   use bordered_eigensolver, only: bordered_modes_t, new_start, start_t
   use kinds, only: wp
@@ -7,24 +7,26 @@ module start_extrapolation
 
   public :: track_t, extrapolated_start, remember
 
-  !> Positions remembered: a parabola through three.
+  !> Number of positions remembered: a parabola through three.
   integer, parameter :: depth = 3
 
-  !> The modes at the last positions of a sweep, every mode with one sign.
+  !> The modes at the last positions of a sweep, every mode with a consistent sign.
   type :: track_t
-    integer :: length = 0                       !! positions remembered
-    real(wp) :: place(depth) = 0.0_wp           !! their crank angles, the latest first
-    real(wp), allocatable :: lambda(:, :)       !! (modes, depth)
+    integer :: length = 0                       !! number of positions remembered
+    real(wp) :: place(depth) = 0.0_wp           !! their crank angles, the latest first [deg]
+    real(wp), allocatable :: lambda(:, :)       !! (modes, depth) [1/s²]
     real(wp), allocatable :: direction(:, :, :) !! (unknowns, modes, depth) M y
   end type track_t
 
 contains
 
-  !> Modes expected at a place: by Lagrange's polynomial through those remembered. None if the last
-  !! one is farther than `reach`.
+  !> Modes expected at a place, by the Lagrange polynomial through those remembered. No start if the
+  !! last position is farther away than `reach`; of the others, only those within three times
+  !! `reach` are used.
   pure function extrapolated_start(track, place, reach) result(start)
-    type(track_t), intent(in) :: track
-    real(wp), intent(in) :: place, reach
+    type(track_t), intent(in) :: track !! latest positions
+    real(wp), intent(in) :: place      !! crank angle [deg]
+    real(wp), intent(in) :: reach      !! longest step [deg]
     type(start_t) :: start
 
     real(wp) :: weight(depth)
@@ -54,12 +56,13 @@ contains
     end do
   end function extrapolated_start
 
-  !> Adds the modes found at a place. Modes that did not come from this track begin it anew.
+  !> Adds the modes found at a place to a track. Modes that do not come from this track start it
+  !! anew.
   pure subroutine remember(track, place, found, from_track)
-    type(track_t), intent(inout) :: track
-    real(wp), intent(in) :: place
-    type(bordered_modes_t), intent(in) :: found
-    logical, intent(in) :: from_track
+    type(track_t), intent(inout) :: track       !! of a sweep
+    real(wp), intent(in) :: place               !! crank angle [deg]
+    type(bordered_modes_t), intent(in) :: found !! modes there
+    logical, intent(in) :: from_track           !! the modes were found from a start of this track
 
     real(wp) :: sense
     integer :: i, modes
@@ -70,7 +73,7 @@ contains
       if (allocated(track%lambda)) deallocate (track%lambda, track%direction)
       allocate (track%lambda(modes, depth), track%direction(size(found%vector, 1), modes, depth))
     else if (modes < size(track%lambda, 1) .or. any(found%origin /= [(i, i=1, modes)])) then
-      ! The modes have changed places, or some are not needed any more.
+      ! The order of the modes has changed, or some are no longer needed.
       track%lambda = track%lambda(found%origin, :)
       track%direction = track%direction(:, found%origin, :)
     end if

@@ -1,4 +1,4 @@
-!> How many eigenvalues lie below a number, without computing any.
+!> Counts the eigenvalues below a number without computing any.
 module sturm_count
   use band_matrix, only: band_matrix_t, half_bandwidth_of, order_of
   use kinds, only: wp
@@ -11,13 +11,14 @@ contains
 
   !> Number of eigenvalues of `K x = λ M x` below `shift`.
   !!
-  !! By Sylvester's law of inertia it is the number of negative pivots of `K − shift M = L D Lᵀ`.
-  !! The factorization does not pivot: that keeps the band, and an element growth that would spoil
-  !! the count needs a pivot near zero, which is moved away from it.
+  !! By Sylvester's law of inertia this is the number of negative pivots of `K − shift M = L D Lᵀ`.
+  !! The factorization does not pivot, to keep the band. Only a pivot near zero could cause an
+  !! element growth that spoils the count; such a pivot is moved away from zero.
   pure function count_below(stiffness, mass, shift) result(number)
-    type(band_matrix_t), intent(in) :: stiffness
-    type(band_matrix_t), intent(in) :: mass !! positive definite, of the same shape
-    real(wp), intent(in) :: shift
+    type(band_matrix_t), intent(in) :: stiffness !! K
+    type(band_matrix_t), intent(in) :: mass      !! M, of the same shape; positive definite except
+                                                 !! in directions that K leaves stiff
+    real(wp), intent(in) :: shift                !! may be negative
     integer :: number
 
     type(band_matrix_t) :: a
@@ -43,8 +44,9 @@ contains
 
   !> `K + factor M`
   pure function shifted(stiffness, mass, factor) result(sum)
-    type(band_matrix_t), intent(in) :: stiffness, mass
-    real(wp), intent(in) :: factor
+    type(band_matrix_t), intent(in) :: stiffness !! K
+    type(band_matrix_t), intent(in) :: mass      !! M, of the same shape
+    real(wp), intent(in) :: factor               !! of M
     type(band_matrix_t) :: sum
 
     sum%entry = stiffness%entry + factor*mass%entry

@@ -1,4 +1,4 @@
-!> The lowest modes of `K x = λ M x` from products with vectors only, for a stiffness near the unit
+!> The lowest modes of `K x = λ M x` by products with vectors only, for a stiffness near the unit
 !! matrix.
 module subspace_eigensolver
   use band_matrix, only: band_matrix_t, band_times_vector, new_band_matrix
@@ -16,21 +16,23 @@ module subspace_eigensolver
 
   public :: subspace_modes_t, find_subspace_modes
 
+  !> Modes found, with their errors and the work done.
   type :: subspace_modes_t
-    real(wp), allocatable :: lambda(:)               !! ascending
-    real(wp), allocatable :: vector(:, :)            !! (unknowns, modes) with xᵀMx = 1
-    real(wp), allocatable :: mass_times(:, :), stiffness_times(:, :)
-    real(wp), allocatable :: error(:)                !! (modes) relative
-    integer :: products = 0                          !! of a vector with both matrices
+    real(wp), allocatable :: lambda(:)             !! (modes) ascending [1/s²]
+    real(wp), allocatable :: vector(:, :)          !! (unknowns, modes) with xᵀMx = 1
+    real(wp), allocatable :: mass_times(:, :)      !! (unknowns, modes) M x
+    real(wp), allocatable :: stiffness_times(:, :) !! (unknowns, modes) K x
+    real(wp), allocatable :: error(:)              !! (modes) estimated relative error of λ
+    integer :: products = 0                        !! of a vector with both matrices
   end type subspace_modes_t
 
-  !> The basis begins anew with the modes found so far when it has grown by this many times their
+  !> The basis restarts with the modes found so far when it has grown by this many times their
   !! number.
   integer, parameter :: most_growth = 8
 
   integer, parameter :: most_steps = 100
 
-  !> How near the next mode may be that is not among those wanted.
+  !> Relative gap assumed between the last wanted mode and the next one, which is not computed.
   real(wp), parameter :: unknown_gap = 1.0e-3_wp
 
   !> Error of an eigenvalue from the rounding of long sums, in units of ε.
@@ -39,16 +41,16 @@ module subspace_eigensolver
 contains
 
   !> Davidson's method (J. Comput. Phys. 17 (1975) 87): the residuals of the best vectors in a
-  !! subspace are added to it. Since the stiffness is the unit matrix but for the axial forces, a
-  !! residual is what its vector lacks, nearly.
+  !! subspace are added to it. Except for the axial forces, the stiffness is the unit matrix, so a
+  !! residual is nearly the correction that its vector needs.
   !!
-  !! Errors: no convergence, or the small dense problem fails.
+  !! Errors: two start vectors coincide; no convergence; the small dense problem fails.
   subroutine find_subspace_modes(pencil, start, accurate_vectors, found, error)
-    class(symmetric_pencil_t), intent(in) :: pencil
-    real(wp), intent(in) :: start(:, :)     !! (unknowns, modes) near the modes wanted
-    logical, intent(in) :: accurate_vectors !! vectors to the last digits, too
-    type(subspace_modes_t), intent(out) :: found
-    type(error_t), allocatable, intent(out) :: error
+    class(symmetric_pencil_t), intent(in) :: pencil  !! K and M
+    real(wp), intent(in) :: start(:, :)              !! (unknowns, modes) near the modes wanted
+    logical, intent(in) :: accurate_vectors          !! all digits in the vectors, too
+    type(subspace_modes_t), intent(out) :: found     !! as many as in `start`
+    type(error_t), allocatable, intent(out) :: error !! allocated on failure
 
     real(wp), allocatable :: basis(:, :), mass_times(:, :), stiffness_times(:, :), small(:, :)
     real(wp) :: residual(size(start, 1)), squared(size(start, 2))
@@ -102,7 +104,8 @@ contains
       found%vector(:, i))/abs(found%lambda(i))), i=1, modes)]
   end subroutine find_subspace_modes
 
-  !> Adds a direction to the basis, made perpendicular to it and of unit length, with its products.
+  !> Adds a direction to the basis, made perpendicular to it and of unit length, and its products
+  !! with both matrices.
   subroutine extend(pencil, direction, basis, mass_times, stiffness_times, number, products)
     class(symmetric_pencil_t), intent(in) :: pencil
     real(wp), intent(in) :: direction(:)
@@ -112,7 +115,7 @@ contains
     real(wp) :: unit(size(direction)), length
     integer :: j, pass
 
-    ! A basis of all unknowns has every direction.
+    ! A full basis, or one that spans all unknowns, takes no more.
     if (number == min(size(basis, 2), size(direction))) return
     unit = direction/sqrt(long_dot(direction, direction))
     do pass = 1, 3
@@ -120,7 +123,7 @@ contains
         unit = unit - long_dot(basis(:, j), unit)*basis(:, j)
       end do
       length = sqrt(long_dot(unit, unit))
-      ! Nothing but rounding is left: the direction is in the basis.
+      ! Only rounding is left: the direction is in the basis already.
       if (length < 1.0e-3_wp*epsilon(1.0_wp)) return
       unit = unit/length
       if (length > 0.5_wp) exit
@@ -131,7 +134,7 @@ contains
     call pencil%multiply(unit, mass_times(:, number), stiffness_times(:, number))
   end subroutine extend
 
-  !> Rayleigh and Ritz: the modes in the subspace of the basis.
+  !> Rayleigh–Ritz: the modes in the subspace of the basis.
   subroutine solve_small(basis, mass_times, stiffness_times, modes, lambda, small, error)
     real(wp), intent(in) :: basis(:, :), mass_times(:, :), stiffness_times(:, :)
     integer, intent(in) :: modes
@@ -151,24 +154,25 @@ contains
         k%entry(1 + i - j, j) = long_dot(basis(:, i), stiffness_times(:, j))
       end do
     end do
+    factorizations = 0
     call find_definite_shift(k, m, shift, factorizations)
     call solve_dense(shifted(k, m, shift), m, modes, .true., inverse, small, error)
     if (allocated(error)) return
     lambda = 1.0_wp/inverse - shift
     do i = 1, modes
-      ! Unit mass.
+      ! Scaled to unit mass.
       small(:, i) = small(:, i)/sqrt(dot_product(small(:, i), band_times_vector(m, small(:, i))))
     end do
   end subroutine solve_small
 
-  !> Relative distance of an eigenvalue to the nearest other one, found or not; never 0.
+  !> Relative distance of an eigenvalue to the nearest other one, computed or not; never 0.
   pure function gap(lambda, i)
     real(wp), intent(in) :: lambda(:)
     integer, intent(in) :: i
     real(wp) :: gap
 
     gap = relative_gap(lambda, i)
-    ! Beyond the last one there may be another, which nobody has looked for.
+    ! Beyond the last one there may be another, which has not been computed.
     if (i == size(lambda)) gap = min(gap, unknown_gap)
     gap = max(gap, epsilon(gap))
   end function gap

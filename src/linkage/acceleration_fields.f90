@@ -9,21 +9,21 @@ module acceleration_fields
 
   public :: acceleration_field_t, unit_fields, find_unit_field, scaled_sum, point_acceleration
 
-  !> Accelerations of all points: those of pins, and along every body `at_first + s slope`, s from
-  !! its first pin.
+  !> Accelerations of all points: of the pins, and along each body `at_first + s slope`, with s from
+  !! its first pin. A unit field holds them per ω2² or per α2.
   type :: acceleration_field_t
     real(wp), allocatable :: at_pin(:, :)   !! (2, pins) [m/s²]
-    real(wp), allocatable :: at_first(:, :) !! (2, bodies) [m/s²]
-    real(wp), allocatable :: slope(:, :)    !! (2, bodies) per length [1/s²]
+    real(wp), allocatable :: at_first(:, :) !! (2, bodies) at its first pin [m/s²]
+    real(wp), allocatable :: slope(:, :)    !! (2, bodies) change per length [1/s²]
     real(wp), allocatable :: angular(:)     !! (bodies) [rad/s²]
   end type acceleration_field_t
 
 contains
 
-  !> The two fields of which every acceleration is made: for ω2² = 1, α2 = 0 and for ω2 = 0, α2 = 1.
+  !> The two fields that make up every acceleration: for ω2² = 1, α2 = 0 and for ω2 = 0, α2 = 1.
   pure function unit_fields(linkage, pose, coefficients) result(fields)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
+    type(linkage_t), intent(in) :: linkage !! first pins of its bodies
+    type(pose_t), intent(in) :: pose       !! directions of the bodies
     type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
     type(acceleration_field_t) :: fields(2)
 
@@ -34,13 +34,14 @@ contains
     end do
   end function unit_fields
 
-  !> One of them: (2.39) to (2.44) for all points, `a = a_first + s (α n − ω² e)`.
+  !> One of the two unit fields: Ulker 2010 (2.39) to (2.44) for all points,
+  !! `a = a_first + s (α n − ω² e)`.
   pure subroutine find_unit_field(linkage, pose, coefficients, number, field)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
+    type(linkage_t), intent(in) :: linkage                     !! first pins of its bodies
+    type(pose_t), intent(in) :: pose                           !! directions of the bodies
     type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
     integer, intent(in) :: number                              !! 1: ω2² = 1; 2: α2 = 1
-    type(acceleration_field_t), intent(inout) :: field
+    type(acceleration_field_t), intent(inout) :: field         !! its slope not yet allocated
 
     real(wp) :: squared_velocity
     integer :: i
@@ -62,9 +63,9 @@ contains
     end do
   end subroutine find_unit_field
 
-  !> `ω2² fields(1) + α2 fields(2)`
+  !> The field at a speed and an acceleration of the crank: `ω2² fields(1) + α2 fields(2)`.
   pure function scaled_sum(fields, speed, acceleration) result(total)
-    type(acceleration_field_t), intent(in) :: fields(2)
+    type(acceleration_field_t), intent(in) :: fields(2) !! of `unit_fields`
     real(wp), intent(in) :: speed        !! ω2 [rad/s]
     real(wp), intent(in) :: acceleration !! α2 [rad/s²]
     type(acceleration_field_t) :: total
@@ -76,16 +77,16 @@ contains
   end function scaled_sum
 
   !> Acceleration of the point of a body at distance `s` from its first pin, `offset` to the left of
-  !! it [m/s²].
+  !! the link [m/s²].
   pure function point_acceleration(field, body, s, offset) result(acceleration)
-    type(acceleration_field_t), intent(in) :: field
-    integer, intent(in) :: body
-    real(wp), intent(in) :: s                !! [m]
-    real(wp), intent(in), optional :: offset !! [m]
+    type(acceleration_field_t), intent(in) :: field !! of all points
+    integer, intent(in) :: body                     !! number, from 1
+    real(wp), intent(in) :: s                       !! [m]
+    real(wp), intent(in), optional :: offset        !! [m]; absent: 0
     real(wp) :: acceleration(2)
 
     acceleration = field%at_first(:, body) + s*field%slope(:, body)
-    ! What is across the link moves as what is along it, a quarter turn ahead.
+    ! An offset across the link accelerates like one along it, turned by 90°.
     if (present(offset)) acceleration = acceleration + offset*normal_to(field%slope(:, body))
   end function point_acceleration
 

@@ -1,8 +1,8 @@
-!> Masses along links that bend: how many there are, and where they sit.
+!> Masses along links that bend: their number and their places.
 !!
-!! A mass point bends a link sharply: its shear force jumps there, and the axial force, too. Where
-!! orders are left to the program an element ends at every mass, so that the deformations are smooth
-!! inside and polynomials converge as fast as they do without.
+!! A mass point bends a link sharply: the shear force jumps there, and so does the axial force.
+!! Where the program chooses the orders, an element ends at every mass. Deformations are then smooth
+!! inside each element, and polynomials converge as fast as without masses.
 module body_lumps
   use kinds, only: wp
   use linkages, only: body_t
@@ -11,33 +11,33 @@ module body_lumps
 
   public :: lump_count, lump_masses, lump_places, pieces_of, element_of_lump
 
-  !> Masses nearer to each other than this share of the length, or to an end, have no element
-  !! between them.
+  !> Masses nearer to each other or to an end than this share of the length have no element between
+  !! them.
   real(wp), parameter :: least_piece = 1.0e-9_wp
 
 contains
 
-  !> How many lumps a body has.
+  !> Number of lumps of a body.
   pure function lump_count(body) result(number)
-    type(body_t), intent(in) :: body
+    type(body_t), intent(in) :: body !! its lumps
     integer :: number
 
     number = 0
     if (allocated(body%lumps)) number = size(body%lumps)
   end function lump_count
 
-  !> Masses of the lumps of a body [kg].
+  !> Masses of the lumps of a body, in the order of its lumps [kg].
   pure function lump_masses(body) result(mass)
-    type(body_t), intent(in) :: body
+    type(body_t), intent(in) :: body !! its lumps
     real(wp), allocatable :: mass(:)
 
     allocate (mass(0))
     if (allocated(body%lumps)) mass = body%lumps%mass
   end function lump_masses
 
-  !> Their places, from 0 to 1 along the body.
+  !> Places of the lumps along a body, from 0 to 1, in the order of its lumps.
   pure function lump_places(body) result(xi)
-    type(body_t), intent(in) :: body
+    type(body_t), intent(in) :: body !! its lumps
     real(wp), allocatable :: xi(:)
 
     integer :: i
@@ -46,9 +46,10 @@ contains
     if (allocated(body%lumps)) xi = [(body%lumps(i)%place(1)/body%length, i=1, size(body%lumps))]
   end function lump_places
 
-  !> Ends of the elements that have no mass inside, from 0 to 1 along the body.
+  !> Ends of elements that have no mass inside, from 0 to 1 along the body: 0, the places of the
+  !! masses, 1.
   pure function pieces_of(body) result(ends)
-    type(body_t), intent(in) :: body
+    type(body_t), intent(in) :: body !! its length and lumps
     real(wp), allocatable :: ends(:)
 
     real(wp), allocatable :: xi(:)
@@ -64,13 +65,13 @@ contains
     ends = [ends, 1.0_wp]
   end function pieces_of
 
-  !> The element of a mesh of equal elements that a mass is in, or at whose last end it sits, and
-  !! its place there, from 0 to 1.
+  !> Finds the element that contains a mass, on a mesh of equal elements, and the place of the mass
+  !! in it. A mass on a node belongs to the element that ends there.
   pure subroutine element_of_lump(xi, elements, element, place)
-    real(wp), intent(in) :: xi       !! from 0 to 1 along the link
-    integer, intent(in) :: elements
-    integer, intent(out) :: element
-    real(wp), intent(out) :: place
+    real(wp), intent(in) :: xi      !! from 0 to 1 along the link
+    integer, intent(in) :: elements !! number of equal elements on the link
+    integer, intent(out) :: element !! number on the link, from 1
+    real(wp), intent(out) :: place  !! from 0 to 1 along the element
 
     element = max(1, min(elements, ceiling(xi*elements)))
     place = min(1.0_wp, max(0.0_wp, xi*elements - (element - 1)))

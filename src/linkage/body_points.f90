@@ -9,7 +9,7 @@ module body_points
 
   public :: point_coefficients_t, find_point_coefficients, point_velocity, point_total_acceleration
 
-  !> Its velocity is `x' ω2`, its acceleration `x' α2 + x'' ω2²`.
+  !> A point with the velocity `x' ω2` and the acceleration `x' α2 + x'' ω2²`.
   type :: point_coefficients_t
     real(wp) :: place(2) = 0.0_wp  !! x, in global axes [m]
     real(wp) :: rate(2) = 0.0_wp   !! x' = dx/dθ2 [m]
@@ -18,14 +18,15 @@ module body_points
 
 contains
 
-  !> (2.39) to (2.44) of Ulker (2010), per ω2, ω2² and α2: with r from the first pin to the point
-  !! and n its normal `x' = x_first' + h n` and `x'' = x_first'' + h' n − h² r`.
+  !> Place and kinematic coefficients of a point: Ulker 2010 (2.39) to (2.44) per ω2, ω2² and α2.
+  !! With r from the first pin to the point and n the same vector turned by 90°,
+  !! `x' = x_first' + h n` and `x'' = x_first'' + h' n − h² r`.
   pure function find_point_coefficients(linkage, pose, coefficients, body, place) result(point)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: coefficients
-    integer, intent(in) :: body
-    real(wp), intent(in) :: place(2) !! from the first pin of the body, in its axes [m]
+    type(linkage_t), intent(in) :: linkage !! first pins of its bodies
+    type(pose_t), intent(in) :: pose       !! positions and directions
+    type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
+    integer, intent(in) :: body            !! number, from 1
+    real(wp), intent(in) :: place(2)       !! from the first pin of the body, in its axes [m]
     type(point_coefficients_t) :: point
 
     real(wp) :: arm(2)
@@ -39,20 +40,20 @@ contains
     end associate
   end function find_point_coefficients
 
-  !> [m/s]
+  !> Velocity of a point at a speed of the crank [m/s].
   pure function point_velocity(point, speed) result(velocity)
-    type(point_coefficients_t), intent(in) :: point
+    type(point_coefficients_t), intent(in) :: point !! its place and coefficients
     real(wp), intent(in) :: speed !! ω2 [rad/s]
     real(wp) :: velocity(2)
 
     velocity = point%rate*speed
   end function point_velocity
 
-  !> [m/s²]
+  !> Acceleration of a point at a speed and an acceleration of the crank [m/s²].
   pure function point_total_acceleration(point, speed, acceleration) result(total)
-    type(point_coefficients_t), intent(in) :: point
-    real(wp), intent(in) :: speed        !! ω2 [rad/s]
-    real(wp), intent(in) :: acceleration !! α2 [rad/s²]
+    type(point_coefficients_t), intent(in) :: point !! its place and coefficients
+    real(wp), intent(in) :: speed                   !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration            !! α2 [rad/s²]
     real(wp) :: total(2)
 
     total = point%rate*acceleration + point%slope*speed**2

@@ -9,19 +9,19 @@ module inertia_loads
 
   public :: load_t, lumped_masses, lumped_stations, lumped_load, distributed_load, pin_load
 
-  !> What a body's inertia does to it as a whole.
+  !> Resultant load on a body.
   type :: load_t
-    real(wp) :: force(2) = 0.0_wp  !! [N]
-    real(wp) :: moment = 0.0_wp    !! about its first pin, counter-clockwise [N m]
+    real(wp) :: force(2) = 0.0_wp !! [N]
+    real(wp) :: moment = 0.0_wp   !! about its first pin, counter-clockwise [N m]
   end type load_t
 
 contains
 
-  !> Masses of a uniform link at the nodes of `elements` equal elements: half of each neighbouring
-  !! element's mass [kg].
+  !> Masses of a uniform link at the nodes of equal elements: half the mass of each neighbouring
+  !! element [kg].
   pure function lumped_masses(body, elements) result(masses)
-    type(body_t), intent(in) :: body
-    integer, intent(in) :: elements
+    type(body_t), intent(in) :: body !! its uniform part
+    integer, intent(in) :: elements  !! number of equal elements
     real(wp) :: masses(elements + 1)
 
     masses = body%line_density*body%length/elements
@@ -29,10 +29,10 @@ contains
     masses(elements + 1) = 0.5_wp*masses(elements + 1)
   end function lumped_masses
 
-  !> Distances of these nodes from the first pin [m].
+  !> Distances of the nodes of equal elements from the first pin [m].
   pure function lumped_stations(body, elements) result(stations)
-    type(body_t), intent(in) :: body
-    integer, intent(in) :: elements
+    type(body_t), intent(in) :: body !! its length
+    integer, intent(in) :: elements  !! number of equal elements
     real(wp) :: stations(elements + 1)
 
     integer :: i
@@ -40,13 +40,14 @@ contains
     stations = [(body%length*i/elements, i=0, elements)]
   end function lumped_stations
 
-  !> Load of a link whose mass sits on its nodes: `F = −m a` at each. Ulker 2010 (3.1) to (3.18).
+  !> Inertia load of a link whose mass is lumped on its nodes: `F = −m a` at each, Ulker 2010 (3.1)
+  !! to (3.18). Its lumps are included.
   pure function lumped_load(body, number, elements, pose, field) result(load)
-    type(body_t), intent(in) :: body
-    integer, intent(in) :: number   !! of the body in the linkage
-    integer, intent(in) :: elements
-    type(pose_t), intent(in) :: pose
-    type(acceleration_field_t), intent(in) :: field
+    type(body_t), intent(in) :: body !! with its lumps
+    integer, intent(in) :: number    !! of the body in the linkage
+    integer, intent(in) :: elements  !! number of equal elements
+    type(pose_t), intent(in) :: pose !! directions of the bodies
+    type(acceleration_field_t), intent(in) :: field !! accelerations of all points
     type(load_t) :: load
 
     real(wp) :: masses(elements + 1), stations(elements + 1), force(2)
@@ -62,15 +63,15 @@ contains
     call add_lump_loads(body, number, pose, field, load)
   end function lumped_load
 
-  !> Load of a link with uniform mass, `f(s) = −μ (a_first + s slope)`: force (2.45), moment about
-  !! the first pin.
+  !> Inertia load of a link with uniform mass, `f(s) = −μ (a_first + s slope)`: force (2.45) and
+  !! moment about the first pin. Its lumps are included.
   !!
-  !! With rotary inertia a moment −ρI α acts along it.
+  !! With rotary inertia a moment −ρI α per length acts along the link.
   pure function distributed_load(body, number, pose, field) result(load)
-    type(body_t), intent(in) :: body
-    integer, intent(in) :: number
-    type(pose_t), intent(in) :: pose
-    type(acceleration_field_t), intent(in) :: field
+    type(body_t), intent(in) :: body !! with its lumps
+    integer, intent(in) :: number    !! of the body in the linkage
+    type(pose_t), intent(in) :: pose !! directions of the bodies
+    type(acceleration_field_t), intent(in) :: field !! accelerations of all points
     type(load_t) :: load
 
     real(wp) :: mass
@@ -106,10 +107,10 @@ contains
     end do
   end subroutine add_lump_loads
 
-  !> Forces of the pins' own masses [N].
+  !> Inertia forces of the pin masses [N].
   pure function pin_load(linkage, field) result(force)
-    type(linkage_t), intent(in) :: linkage
-    type(acceleration_field_t), intent(in) :: field
+    type(linkage_t), intent(in) :: linkage          !! its pin masses
+    type(acceleration_field_t), intent(in) :: field !! accelerations of all points
     real(wp) :: force(2, size(linkage%pin_mass))
 
     integer :: i

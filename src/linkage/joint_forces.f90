@@ -1,4 +1,4 @@
-!> Forces in the pins, by equilibrium of every link.
+!> Forces in the pins, from the equilibrium of every link.
 module joint_forces
   use inertia_loads, only: load_t
   use kinds, only: wp
@@ -9,6 +9,7 @@ module joint_forces
 
   public :: joint_forces_t, find_joint_forces
 
+  !> Forces on the bodies at their pins, and the torque of the drive.
   type :: joint_forces_t
     real(wp), allocatable :: on_first(:, :) !! (2, bodies) force on the body at its first pin [N]
     real(wp), allocatable :: on_last(:, :)  !! (2, bodies) force on the body at its last pin [N]
@@ -17,15 +18,15 @@ module joint_forces
 
 contains
 
-  !> Solves (2.47) to (2.49) of Ulker (2010) for the forces at the pins and the driving torque.
+  !> Forces at the pins and driving torque by Ulker 2010 (2.47) to (2.49).
   !!
-  !! Dyads are taken off in the reverse of the order in which they are placed; each leaves its base
-  !! forces as loads on the pins that carry it, until only the driven body is left.
+  !! Dyads are removed in the reverse of the order in which they are placed. Each passes the forces
+  !! at its bases on as loads on the pins that carry it, until only the driven body is left.
   pure function find_joint_forces(linkage, pose, body_load, pin_load) result(forces)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose          !! away from dead points
-    type(load_t), intent(in) :: body_load(:)  !! (bodies)
-    real(wp), intent(in) :: pin_load(:, :)    !! (2, pins) [N]
+    type(linkage_t), intent(in) :: linkage   !! bodies and dyads
+    type(pose_t), intent(in) :: pose         !! away from dead points
+    type(load_t), intent(in) :: body_load(:) !! (bodies) all loads but pin forces
+    real(wp), intent(in) :: pin_load(:, :)   !! (2, pins) loads on the pins [N]
     type(joint_forces_t) :: forces
 
     real(wp) :: carried(2, size(pin_load, 2))
@@ -46,8 +47,8 @@ contains
     end associate
   end function find_joint_forces
 
-  !> Forces of one dyad. Moments of each body about its base give the force in the middle: `n3·X =
-  !! p`, `n4·X = q`, hence `X = (p e4 − q e3)/sin(θ4 − θ3)`.
+  !> Forces in one dyad. The moments of each body about its base give the force X on the first body
+  !! at the middle pin: `n3·X = p`, `n4·X = q`, hence `X = (p e4 − q e3)/sin(θ4 − θ3)`.
   pure subroutine solve_dyad(linkage, dyad, pose, sine, body_load, carried, forces)
     type(linkage_t), intent(in) :: linkage
     type(dyad_t), intent(in) :: dyad

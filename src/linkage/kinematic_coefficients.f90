@@ -1,9 +1,9 @@
-!> How the links move at a pose: kinematic coefficients, found once and good for every speed and
+!> Kinematic coefficients of the links at a pose. Found once, they serve every speed and
 !! acceleration of the crank.
 !!
 !! With `h = dθ/dθ2` and `h' = d²θ/dθ2²` every angular velocity is `h ω2` and every angular
-!! acceleration `h α2 + h' ω2²`; the same holds for points. Setting ω2 = 1 and α2 = 0 in (2.22),
-!! (2.23), (2.35) and (2.36) of Ulker (2010) gives h and h'.
+!! acceleration `h α2 + h' ω2²`; the same holds for points. Setting ω2 = 1 and α2 = 0 in (2.22)
+!! and (2.23), (2.35) to (2.38) of Ulker (2010) gives h and h'.
 module kinematic_coefficients
   use kinds, only: wp
   use linkages, only: dyad_t, linkage_t, normal_to
@@ -14,6 +14,7 @@ module kinematic_coefficients
   public :: kinematic_coefficients_t, find_kinematic_coefficients, angular_velocity, &
     angular_acceleration
 
+  !> First and second derivatives with respect to the crank angle θ2.
   type :: kinematic_coefficients_t
     real(wp), allocatable :: turn(:)          !! (bodies) h [-]
     real(wp), allocatable :: turn_slope(:)    !! (bodies) h' [-]
@@ -23,9 +24,10 @@ module kinematic_coefficients
 
 contains
 
+  !> Kinematic coefficients of all bodies and pins, dyad by dyad.
   pure function find_kinematic_coefficients(linkage, pose) result(coefficients)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose !! away from dead points
+    type(linkage_t), intent(in) :: linkage !! lengths and dyads
+    type(pose_t), intent(in) :: pose       !! away from dead points
     type(kinematic_coefficients_t) :: coefficients
 
     integer :: i
@@ -50,9 +52,10 @@ contains
 
   !> Closes the loop through a dyad once for velocities and once for accelerations.
   !!
-  !! With `e` from base to middle and `n` its normal: `r3 h3 n3 − r4 h4 n4 = w`, where w is what the
-  !! bases do. Since `n3·e4 = sin(θ4 − θ3)`, dotting with e4 and e3 separates the two (2.22, 2.23;
-  !! with w' in place of w 2.37, 2.38).
+  !! With `e` from base to middle and `n` its normal, `r3 h3 n3 − r4 h4 n4 = w`, where w is the
+  !! velocity of the second base relative to the first, per ω2. Since `n3·e4 = sin(θ4 − θ3)`, the
+  !! dot products with e4 and e3 separate h3 and h4: (2.22) and (2.23), or, with the accelerations
+  !! w' in place of w, (2.37) and (2.38).
   pure subroutine move_dyad(linkage, dyad, pose, sine, coefficients)
     type(linkage_t), intent(in) :: linkage
     type(dyad_t), intent(in) :: dyad
@@ -82,7 +85,7 @@ contains
 
   !> Angular velocities of all bodies [rad/s].
   pure function angular_velocity(coefficients, speed) result(velocity)
-    type(kinematic_coefficients_t), intent(in) :: coefficients
+    type(kinematic_coefficients_t), intent(in) :: coefficients !! at a pose
     real(wp), intent(in) :: speed !! ω2 [rad/s]
     real(wp) :: velocity(size(coefficients%turn))
 
@@ -91,7 +94,7 @@ contains
 
   !> Angular accelerations of all bodies [rad/s²].
   pure function angular_acceleration(coefficients, speed, acceleration) result(angular)
-    type(kinematic_coefficients_t), intent(in) :: coefficients
+    type(kinematic_coefficients_t), intent(in) :: coefficients !! at a pose
     real(wp), intent(in) :: speed        !! ω2 [rad/s]
     real(wp), intent(in) :: acceleration !! α2 [rad/s²]
     real(wp) :: angular(size(coefficients%turn))

@@ -1,7 +1,7 @@
 !> Lagrange's equation of a rigid linkage with one degree of freedom: Ulker 2010 (2.50) to (2.64),
 !! for any number of bodies of any shape.
 !!
-!! The torque that a motion demands comes from energies alone here, without a force in any pin.
+!! The torque required for a motion follows from energies alone, without any pin force.
 module lagrange
   use body_points, only: find_point_coefficients, point_coefficients_t
   use kinds, only: wp
@@ -16,28 +16,30 @@ module lagrange
 
   !> The terms of `M α2 + ½ M' ω2² + gravity + load = torque` at a pose, for every speed.
   type :: lagrange_t
-    real(wp) :: inertia = 0.0_wp       !! M, of all moving masses at the crank [kg m²]
+    real(wp) :: inertia = 0.0_wp       !! M, generalised inertia of all moving masses at the
+                                       !! crank [kg m²]
     real(wp) :: inertia_slope = 0.0_wp !! M' = dM/dθ2 [kg m²]
     real(wp) :: gravity = 0.0_wp       !! dU/dθ2 of the weights [N m]
-    real(wp) :: load = 0.0_wp          !! what holds the forces and torques from outside: minus
-                                       !! their generalised force [N m]
-    real(wp) :: potential = 0.0_wp     !! U of the weights and of the forces on the pins, zero with
-                                       !! all at the global origin [N m]
+    real(wp) :: load = 0.0_wp          !! minus the generalised force of the external forces and
+                                       !! torques [N m]
+    real(wp) :: potential = 0.0_wp     !! U of the weights and of the external forces on the pins;
+                                       !! zero with all at the global origin [N m]
   end type lagrange_t
 
 contains
 
   !> M and M' of (2.54), dU/dθ2 and the generalised load at a pose.
   !!
-  !! Twice the kinetic energy (2.50), summed over i = 2…4 (1…3 is a misprint), at ω2 = 1: `M = Σ (m
-  !! x_G'·x_G' + I_G h²)`; its derivative is `M' = 2 Σ (m x_G'·x_G'' + I_G h h')`. For mass centres
-  !! on the links these are (2.55) and the terms of (2.56) with S2, S3 and C1, where ω2² is lost in
-  !! print: `V = ½ M' ω2²`. The terms with G, which is −U by (2.62), are right as printed.
+  !! Twice the kinetic energy (2.50), summed over i = 2…4 (1…3 is a misprint), is at ω2 = 1
+  !! `M = Σ (m x_G'·x_G' + I_G h²)`. Its derivative is `M' = 2 Σ (m x_G'·x_G'' + I_G h h')`. For
+  !! mass centres on the links these are (2.55) and the terms of (2.56) with S2, S3 and C1, where
+  !! the print omits ω2²: `V = ½ M' ω2²`. The terms with G, which is −U by (2.62), are right as
+  !! printed.
   pure function find_lagrange(linkage, rigid, pose, coefficients) result(terms)
-    type(linkage_t), intent(in) :: linkage
-    type(rigid_body_t), intent(in) :: rigid(:) !! (bodies)
+    type(linkage_t), intent(in) :: linkage     !! pins and constant loads
+    type(rigid_body_t), intent(in) :: rigid(:) !! (bodies) of the linkage
     type(pose_t), intent(in) :: pose           !! away from dead points
-    type(kinematic_coefficients_t), intent(in) :: coefficients
+    type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
     type(lagrange_t) :: terms
 
     type(point_coefficients_t) :: point
@@ -61,7 +63,7 @@ contains
     end do
   end function find_lagrange
 
-  !> Adds a mass that moves without turning.
+  !> Adds a mass that moves without rotating.
   pure subroutine add_mass(mass, gravity, point, terms)
     real(wp), intent(in) :: mass       !! [kg]
     real(wp), intent(in) :: gravity(2) !! [m/s²]
@@ -76,27 +78,27 @@ contains
 
   !> `V = ½ M' ω2²` [N m]: (2.56) without its potential terms.
   pure function velocity_term(terms, speed) result(torque)
-    type(lagrange_t), intent(in) :: terms
-    real(wp), intent(in) :: speed !! ω2 [rad/s]
+    type(lagrange_t), intent(in) :: terms !! at a pose
+    real(wp), intent(in) :: speed         !! ω2 [rad/s]
     real(wp) :: torque
 
     torque = 0.5_wp*terms%inertia_slope*speed**2
   end function velocity_term
 
-  !> The torque on the crank that a motion demands, (2.54) [N m].
+  !> Torque on the crank that a motion requires, (2.54) [N m].
   pure function demanded_torque(terms, speed, acceleration) result(torque)
-    type(lagrange_t), intent(in) :: terms
-    real(wp), intent(in) :: speed        !! ω2 [rad/s]
-    real(wp), intent(in) :: acceleration !! α2 [rad/s²]
+    type(lagrange_t), intent(in) :: terms !! at a pose
+    real(wp), intent(in) :: speed         !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration  !! α2 [rad/s²]
     real(wp) :: torque
 
     torque = terms%inertia*acceleration + velocity_term(terms, speed) + terms%gravity + terms%load
   end function demanded_torque
 
-  !> `½ M ω2²`, (2.50) [N m].
+  !> Kinetic energy `½ M ω2²`, (2.50) [N m].
   pure function kinetic_energy(terms, speed) result(energy)
-    type(lagrange_t), intent(in) :: terms
-    real(wp), intent(in) :: speed !! ω2 [rad/s]
+    type(lagrange_t), intent(in) :: terms !! at a pose
+    real(wp), intent(in) :: speed         !! ω2 [rad/s]
     real(wp) :: energy
 
     energy = 0.5_wp*terms%inertia*speed**2

@@ -1,5 +1,5 @@
-!> The three loads of which every load of a moving linkage is made: `constant + ω2² of turning + α2
-!! of speeding up`.
+!> The three load cases that make up every load of a moving linkage: constant loads, ω2² times the
+!! case of ω2² = 1, and α2 times the case of α2 = 1.
 module load_cases
   use acceleration_fields, only: acceleration_field_t, find_unit_field
   use inertia_loads, only: distributed_load, load_t, lumped_load, pin_load
@@ -13,40 +13,40 @@ module load_cases
   public :: load_case_t, unit_loads_t, case_count, constant_case, find_unit_loads, &
     has_constant_loads, find_case_loads
 
-  !> Numbers of the cases: for ω2² = 1, for α2 = 1, and of gravity and the forces and torques from
-  !! outside.
+  !> Load cases: 1 for ω2² = 1, 2 for α2 = 1, 3 for gravity and the external forces and torques.
   integer, parameter :: case_count = 3, constant_case = 3
 
-  !> Inertia loads are those of an acceleration field; gravity g is the field −g.
+  !> The loads of one case. Inertia loads are those of an acceleration field; gravity g is the field
+  !! −g.
   type :: load_case_t
-    type(acceleration_field_t) :: field
-    real(wp), allocatable :: pin_force(:, :) !! (2, pins) from outside [N]
-    real(wp), allocatable :: couple(:)       !! (bodies) from outside [N m]
+    type(acceleration_field_t) :: field      !! of the inertia loads
+    real(wp), allocatable :: pin_force(:, :) !! (2, pins) external forces on the pins [N]
+    real(wp), allocatable :: couple(:)       !! (bodies) external torques [N m]
   end type load_case_t
 
-  !> The three cases at a pose, found once for all who ask.
+  !> The three cases at a pose, found once for all uses.
   type :: unit_loads_t
-    logical :: occurs(case_count) = .true.   !! cases that do not are left empty
+    logical :: occurs(case_count) = .true. !! cases that do not occur are left empty
     type(load_case_t) :: of_case(case_count)
   end type unit_loads_t
 
 contains
 
-  !> Whether anything but its motion loads a linkage.
+  !> Whether gravity or external forces or torques load a linkage.
   pure function has_constant_loads(linkage) result(has)
-    type(linkage_t), intent(in) :: linkage
+    type(linkage_t), intent(in) :: linkage !! its gravity and external loads
     logical :: has
 
     has = any(abs(linkage%gravity) > 0.0_wp) .or. any(abs(linkage%pin_force) > 0.0_wp) .or. &
       any(abs(linkage%couple) > 0.0_wp)
   end function has_constant_loads
 
-  !> The three cases at a pose, or those of them that occur.
+  !> The load cases at a pose, all three or only those that occur.
   pure function find_unit_loads(linkage, pose, coefficients, occurs) result(loads)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose                            !! away from dead points
-    type(kinematic_coefficients_t), intent(in) :: coefficients  !! of this pose
-    logical, intent(in), optional :: occurs(case_count)         !! absent: all
+    type(linkage_t), intent(in) :: linkage                     !! bodies, pins, constant loads
+    type(pose_t), intent(in) :: pose                           !! away from dead points
+    type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
+    logical, intent(in), optional :: occurs(case_count)        !! absent: all
     type(unit_loads_t) :: loads
 
     integer :: i
@@ -80,12 +80,12 @@ contains
 
   !> Loads on bodies and pins in one case.
   pure subroutine find_case_loads(linkage, elements, pose, case, body_loads, pin_loads)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: elements(:)         !! (bodies) on whose nodes their masses sit; 0:
-                                               !! distributed
-    type(pose_t), intent(in) :: pose
-    type(load_case_t), intent(in) :: case
-    type(load_t), intent(out) :: body_loads(:) !! (bodies)
+    type(linkage_t), intent(in) :: linkage     !! bodies and pin masses
+    integer, intent(in) :: elements(:)         !! (bodies) elements whose nodes carry the mass;
+                                               !! 0: distributed mass
+    type(pose_t), intent(in) :: pose           !! directions of the bodies
+    type(load_case_t), intent(in) :: case      !! one of `find_unit_loads`
+    type(load_t), intent(out) :: body_loads(:) !! (bodies) about their first pins
     real(wp), intent(out) :: pin_loads(:, :)   !! (2, pins) [N]
 
     integer :: b

@@ -1,4 +1,4 @@
-!> Where the links are at a crank angle.
+!> Positions of the links at a crank angle.
 module poses
   use constants, only: degree
   use errors, only: error_of_dead_point, error_of_reach, error_t, set_error
@@ -11,6 +11,7 @@ module poses
   public :: pose_t, find_pose, place_links, arm_to_middle, body_angle, transmission_angle, &
     dead_point_sine
 
+  !> Positions of the pins and directions of the bodies.
   type :: pose_t
     real(wp), allocatable :: pin(:, :)       !! (2, pins) positions [m]
     real(wp), allocatable :: direction(:, :) !! (2, bodies) unit vectors, first → last pin
@@ -18,24 +19,25 @@ module poses
                                              !! → middle; 0 at a dead point
   end type pose_t
 
-  !> Nearer to a dead point than this the motion is not computed: velocities grow like 1/sin(θ4 −
-  !! θ3).
+  !> Where |sin(θ4 − θ3)| is below this, near a dead point, the motion is not computed: velocities
+  !! grow like 1/sin(θ4 − θ3).
   real(wp), parameter :: dead_point_sine = 1.0e-6_wp
 
-  !> A limit position missed by rounding is a dead point, not out of reach: relative slack for the
-  !! area of the dyad's triangle.
+  !> Relative slack for the area of the dyad's triangle: a limit position missed by rounding is a
+  !! dead point, not out of reach.
   real(wp), parameter :: limit_slack = 1.0e-11_wp
 
 contains
 
-  !> Places every pin for a crank angle that can move the links.
+  !> Places every pin for a crank angle at which the crank can move the links.
   !!
-  !! Errors: those of `place_links`, and a dead point (`|sin(θ4 − θ3)|` below 1e-6).
+  !! Errors: those of `place_links`; a dead point (`|sin(θ4 − θ3)|` below 1e-6).
   pure subroutine find_pose(linkage, crank_degrees, pose, error)
-    type(linkage_t), intent(in) :: linkage
-    real(wp), intent(in) :: crank_degrees !! angle of the driven body from the global x axis [deg]
-    type(pose_t), intent(out) :: pose
-    type(error_t), allocatable, intent(out) :: error
+    type(linkage_t), intent(in) :: linkage           !! lengths, pins and dyads
+    real(wp), intent(in) :: crank_degrees            !! angle of the driven body from the global x
+                                                     !! axis [deg]
+    type(pose_t), intent(out) :: pose                !! incomplete if out of reach
+    type(error_t), allocatable, intent(out) :: error !! why the links cannot be moved
 
     integer :: i
 
@@ -49,23 +51,24 @@ contains
     end do
   end subroutine find_pose
 
-  !> Places every pin for a crank angle, at dead points too. Equation 2.1 of Ulker (2010), solved by
+  !> Places every pin for a crank angle, including dead points: Ulker 2010 (2.1), solved by
   !! intersecting circles.
   !!
-  !! Errors: the position is out of reach, or nothing says where a link is, since both its dyad's
-  !! bases are at one place.
+  !! Errors: the position is out of reach; the two bases of a dyad coincide, which leaves its
+  !! direction undetermined.
   pure subroutine place_links(linkage, crank_degrees, pose, error)
-    type(linkage_t), intent(in) :: linkage
-    real(wp), intent(in) :: crank_degrees !! angle of the driven body from the global x axis [deg]
-    type(pose_t), intent(out) :: pose
-    type(error_t), allocatable, intent(out) :: error
+    type(linkage_t), intent(in) :: linkage           !! lengths, pins and dyads
+    real(wp), intent(in) :: crank_degrees            !! angle of the driven body from the global x
+                                                     !! axis [deg]
+    type(pose_t), intent(out) :: pose                !! incomplete after an error
+    type(error_t), allocatable, intent(out) :: error !! why there is no pose
 
     real(wp) :: origin(2)
     integer :: i
 
     allocate (pose%pin(2, size(linkage%is_ground)), pose%direction(2, size(linkage%bodies)), &
       pose%sine(size(linkage%dyads)))
-    ! Seen from the crank's pivot, so that no digits go to a drawing's far-off origin.
+    ! Relative to the crank's pivot, so that a far-off origin of the drawing costs no digits.
     origin = linkage%ground_position(:, linkage%bodies(1)%first_pin)
     pose%pin = linkage%ground_position - spread(origin, 2, size(pose%pin, 2))
     pose%direction = 0.0_wp
@@ -79,7 +82,7 @@ contains
     pose%pin = pose%pin + spread(origin, 2, size(pose%pin, 2))
   end subroutine place_links
 
-  !> Cosine and sine of an angle in degrees. Whole turns are taken off before: 0° and 360° are one
+  !> Cosine and sine of an angle in degrees. Whole turns are removed first: 0° and 360° are the same
   !! position to the last digit.
   pure function direction_at(degrees) result(direction)
     real(wp), intent(in) :: degrees
@@ -104,7 +107,7 @@ contains
 
   !> Intersects the circles about the two bases of a dyad.
   !!
-  !! The height of the triangle over the line of the bases is taken from its area in Heron's form,
+  !! The height of the triangle over the line of the bases comes from its area by Heron's formula,
   !! whose factors vanish exactly where the dyad is stretched or folded.
   pure subroutine place_dyad(linkage, dyad, pose, sine, error)
     type(linkage_t), intent(in) :: linkage
@@ -126,7 +129,7 @@ contains
       call set_error(error, error_of_reach, "the position is out of reach")
       return
     end if
-    ! At a dead point with both bases at one place nothing says where the dyad is.
+    ! With both bases at one place, a dead point, the direction of the dyad is undetermined.
     if (distance <= 0.0_wp) then
       call set_error(error, error_of_dead_point, &
         "dead point: the pins that carry the dyad coincide")
@@ -149,9 +152,9 @@ contains
 
   !> Angle of a body from the global x axis, in (−π, π] [rad].
   pure function body_angle(linkage, pose, body) result(angle)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    integer, intent(in) :: body
+    type(linkage_t), intent(in) :: linkage !! senses of its bodies
+    type(pose_t), intent(in) :: pose       !! directions of the bodies
+    integer, intent(in) :: body            !! number, from 1
     real(wp) :: angle
 
     real(wp) :: e(2)
@@ -161,11 +164,12 @@ contains
     angle = atan2(e(2) + 0.0_wp, e(1) + 0.0_wp)
   end function body_angle
 
-  !> Angle between the two bodies of a dyad where they meet, in [0, π] [rad]; best at π/2.
+  !> Transmission angle: between the two bodies of a dyad at their common pin, in [0, π] [rad]; best
+  !! at π/2.
   pure function transmission_angle(linkage, pose, dyad) result(angle)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    integer, intent(in) :: dyad
+    type(linkage_t), intent(in) :: linkage !! bodies and dyads
+    type(pose_t), intent(in) :: pose       !! directions of the bodies
+    integer, intent(in) :: dyad            !! number, from 1
     real(wp) :: angle
 
     real(wp) :: arm(2, 2)
@@ -177,12 +181,12 @@ contains
     angle = atan2(abs(pose%sine(dyad)), dot_product(arm(:, 1), arm(:, 2)))
   end function transmission_angle
 
-  !> Unit vector of a body of a dyad, from its base to the middle.
+  !> Unit vector along a body of a dyad, from its base to the middle pin.
   pure function arm_to_middle(linkage, dyad, pose, k) result(arm)
-    type(linkage_t), intent(in) :: linkage
-    type(dyad_t), intent(in) :: dyad
-    type(pose_t), intent(in) :: pose
-    integer, intent(in) :: k !! 1 or 2
+    type(linkage_t), intent(in) :: linkage !! last pins of its bodies
+    type(dyad_t), intent(in) :: dyad       !! of this linkage
+    type(pose_t), intent(in) :: pose       !! directions of the bodies
+    integer, intent(in) :: k               !! body of the dyad, 1 or 2
     real(wp) :: arm(2)
 
     arm = pose%direction(:, dyad%body(k))

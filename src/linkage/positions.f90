@@ -13,24 +13,28 @@ module positions
 
   !> The linkage at one crank angle.
   type :: state_t
-    real(wp) :: crank = 0.0_wp !! [deg]
-    type(pose_t), allocatable :: pose
-    type(kinematic_coefficients_t), allocatable :: coefficients
-    type(error_t), allocatable :: error !! why there is no pose
+    real(wp) :: crank = 0.0_wp          !! crank angle [deg]
+    type(pose_t), allocatable :: pose   !! incomplete if out of reach
+    type(kinematic_coefficients_t), allocatable :: coefficients !! undefined after an error
+    type(error_t), allocatable :: error !! why the links cannot be moved here
   end type state_t
 
+  !> All listed crank angles, and one state for each different angle.
   type :: positions_t
-    real(wp), allocatable :: crank(:)     !! as the deck lists them [deg]
-    integer, allocatable :: state(:)      !! of each, in `states`; 0° and 360° have the same
-    type(state_t), allocatable :: states(:)
+    real(wp), allocatable :: crank(:)       !! (positions) as the deck lists them [deg]
+    integer, allocatable :: state(:)        !! (positions) number in `states`; 0° and 360° have the
+                                            !! same
+    type(state_t), allocatable :: states(:) !! (different angles) in the order of the list
   end type positions_t
 
 contains
 
-  !> Solves position and kinematic coefficients once for every different angle.
+  !> Finds pose and kinematic coefficients once for every different angle.
+  !!
+  !! Errors of a position are left in its state.
   pure function find_positions(linkage, crank) result(positions)
-    type(linkage_t), intent(in) :: linkage
-    real(wp), intent(in) :: crank(:) !! [deg]
+    type(linkage_t), intent(in) :: linkage !! lengths, pins and dyads
+    real(wp), intent(in) :: crank(:)       !! (positions) crank angles [deg]
     type(positions_t) :: positions
 
     integer :: i
@@ -41,10 +45,10 @@ contains
     end do
   end function find_positions
 
-  !> The different angles of a list, none of them solved. Whole turns make no difference.
+  !> The different angles of a list, without poses. Whole turns make no difference.
   pure subroutine list_positions(crank, positions)
-    real(wp), intent(in) :: crank(:) !! [deg]
-    type(positions_t), intent(out) :: positions
+    real(wp), intent(in) :: crank(:)            !! (positions) crank angles [deg]
+    type(positions_t), intent(out) :: positions !! with states yet to be found
 
     real(wp) :: reduced(size(crank))
     integer :: order(size(crank)), i, states
@@ -54,7 +58,7 @@ contains
     reduced = modulo(crank, 360.0_wp)
     order = ascending_order(reduced)
     allocate (positions%state(size(crank)))
-    ! Equal angles stand side by side in the sorted order, the first listed before the others.
+    ! Equal angles are adjacent in the sorted order, the first listed before the others.
     first = [(i, i=1, size(crank))]
     do i = 2, size(crank)
       if (reduced(order(i)) <= reduced(order(i - 1))) first(order(i)) = first(order(i - 1))
@@ -76,10 +80,12 @@ contains
     end do
   end subroutine list_positions
 
-  !> The linkage at the crank angle of a state, or why it cannot be there.
+  !> Pose and kinematic coefficients at the crank angle of a state.
+  !!
+  !! Errors, left in the state: those of `find_pose`.
   pure subroutine find_state(linkage, state)
-    type(linkage_t), intent(in) :: linkage
-    type(state_t), intent(inout) :: state !! with its crank angle
+    type(linkage_t), intent(in) :: linkage !! lengths, pins and dyads
+    type(state_t), intent(inout) :: state  !! with its crank angle
 
     allocate (state%pose, state%coefficients)
     call find_pose(linkage, state%crank, state%pose, state%error)
@@ -87,9 +93,9 @@ contains
       find_kinematic_coefficients(linkage, state%pose)
   end subroutine find_state
 
-  !> The numbers of all states in the order of their crank angles.
+  !> Numbers of all states in ascending order of their crank angles from 0° to 360°.
   pure function by_crank_angle(positions) result(states)
-    type(positions_t), intent(in) :: positions
+    type(positions_t), intent(in) :: positions !! their states may be yet to be found
     integer :: states(size(positions%states))
 
     states = ascending_order(modulo(positions%states%crank, 360.0_wp))

@@ -1,5 +1,4 @@
-!> Links as rigid bodies: three numbers are all that inertia can tell of a body that turns and moves
-!! in a plane.
+!> Links as rigid bodies: three numbers describe the inertia of a body that moves in a plane.
 module rigid_bodies
   use kinds, only: wp
   use linkages, only: body_t, linkage_t, normal_to
@@ -10,9 +9,10 @@ module rigid_bodies
   public :: rigid_body_t, rigid_body, rigid_bodies_of, mass_centre, central_inertia, &
     total_mass, linkage_mass_centre
 
+  !> Inertia of a body in plane motion.
   type :: rigid_body_t
     real(wp) :: mass = 0.0_wp            !! [kg]
-    real(wp) :: first_moment(2) = 0.0_wp !! mass times place of the mass centre, from the first pin,
+    real(wp) :: first_moment(2) = 0.0_wp !! mass × position of the mass centre, from the first pin,
                                          !! in the axes of the body [kg m]
     real(wp) :: inertia = 0.0_wp         !! moment of inertia about the first pin [kg m²]
   end type rigid_body_t
@@ -21,13 +21,12 @@ contains
 
   !> Mass, first moment and moment of inertia of a body with all its lumps.
   !!
-  !! The uniform part is `m, m L/2, m L²/3`, with rotary inertia `ρI L` more; on the nodes of n
-  !! equal elements its moment of inertia about the mass centre is `(m L²/12)(1 + 2/n²)`, and
-  !! cross-sections turn nothing.
+  !! The uniform part has `m, m L/2, m L²/3`, plus `ρI L` with rotary inertia. Lumped on the nodes
+  !! of n equal elements, its moment of inertia about the mass centre is `(m L²/12)(1 + 2/n²)`, and
+  !! rotary inertia is left out.
   pure function rigid_body(body, elements) result(rigid)
-    type(body_t), intent(in) :: body
-    integer, intent(in) :: elements !! on whose nodes the mass of the link sits; 0: it is
-                                    !! distributed along the link
+    type(body_t), intent(in) :: body !! with its lumps
+    integer, intent(in) :: elements  !! whose nodes carry the mass of the link; 0: distributed mass
     type(rigid_body_t) :: rigid
 
     integer :: i
@@ -50,10 +49,11 @@ contains
     end do
   end function rigid_body
 
-  !> The same for all bodies of a linkage.
+  !> All bodies of a linkage as rigid bodies.
   pure function rigid_bodies_of(linkage, elements) result(rigid)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: elements(:) !! (bodies) as above
+    type(linkage_t), intent(in) :: linkage !! its bodies
+    integer, intent(in) :: elements(:)     !! (bodies) elements whose nodes carry the mass;
+                                           !! 0: distributed mass
     type(rigid_body_t) :: rigid(size(linkage%bodies))
 
     integer :: b
@@ -63,10 +63,10 @@ contains
     end do
   end function rigid_bodies_of
 
-  !> Place of the mass centre, from the first pin, in the axes of the body [m]; of a body without
-  !! mass the first pin.
+  !> Mass centre in the axes of the body, from its first pin [m]; for a body without mass the first
+  !! pin.
   pure function mass_centre(rigid) result(place)
-    type(rigid_body_t), intent(in) :: rigid
+    type(rigid_body_t), intent(in) :: rigid !! with or without mass
     real(wp) :: place(2)
 
     place = 0.0_wp
@@ -75,27 +75,26 @@ contains
 
   !> Moment of inertia about the mass centre [kg m²].
   pure function central_inertia(rigid) result(inertia)
-    type(rigid_body_t), intent(in) :: rigid
+    type(rigid_body_t), intent(in) :: rigid !! with or without mass
     real(wp) :: inertia
 
     inertia = rigid%inertia - dot_product(rigid%first_moment, mass_centre(rigid))
   end function central_inertia
 
-  !> Mass of all that moves [kg].
+  !> Mass of everything that moves: bodies with their lumps, and moving pins [kg].
   pure function total_mass(linkage, rigid) result(mass)
-    type(linkage_t), intent(in) :: linkage
+    type(linkage_t), intent(in) :: linkage     !! its pin masses
     type(rigid_body_t), intent(in) :: rigid(:) !! (bodies) of the linkage
     real(wp) :: mass
 
     mass = sum(rigid%mass) + sum(linkage%pin_mass, mask=.not. linkage%is_ground)
   end function total_mass
 
-  !> Place of the mass centre of a linkage; of one without mass the place of its driven body's pivot
-  !! [m].
+  !> Mass centre of a linkage in global axes; without mass the pivot of the driven body [m].
   pure function linkage_mass_centre(linkage, rigid, pose) result(centre)
-    type(linkage_t), intent(in) :: linkage
+    type(linkage_t), intent(in) :: linkage     !! bodies and pin masses
     type(rigid_body_t), intent(in) :: rigid(:) !! (bodies) of the linkage
-    type(pose_t), intent(in) :: pose
+    type(pose_t), intent(in) :: pose           !! positions and directions
     real(wp) :: centre(2)
 
     real(wp) :: mass

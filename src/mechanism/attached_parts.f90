@@ -1,4 +1,5 @@
-!> Model → what the bodies of the linkage carry and what loads them, in the axes of mechanics.
+!> Model → masses and points on the bodies of the linkage, and external loads. Places are turned
+!! from the axes of the LINK card into those of the body.
 module attached_parts
   use kinds, only: wp
   use link_bodies, only: link_center, link_inertia
@@ -14,16 +15,17 @@ module attached_parts
   !> A point fixed to a body.
   type :: body_point_t
     character(len=:), allocatable :: name
-    integer :: body = 0
+    integer :: body = 0           !! number in the linkage, from 1
     real(wp) :: place(2) = 0.0_wp !! from the first pin, in the axes of the body [m]
   end type body_point_t
 
 contains
 
-  !> What links with a mass of their own are, and the masses on them.
+  !> Gives every body its lumps: one for a link with a mass of its own, and one for each MASS card
+  !! on it.
   pure subroutine attach_masses(model, linkage)
-    type(model_t), intent(in) :: model
-    type(linkage_t), intent(inout) :: linkage
+    type(model_t), intent(in) :: model        !! without errors
+    type(linkage_t), intent(inout) :: linkage !! the lumps of its bodies are replaced
 
     integer :: i, k, filled
 
@@ -47,7 +49,7 @@ contains
     end do
   end subroutine attach_masses
 
-  !> A link whose card says what its mass is.
+  !> The lump of a link with a mass of its own: mass, mass centre, moment of inertia.
   pure function own_lump(model, body) result(lump)
     type(model_t), intent(in) :: model
     integer, intent(in) :: body
@@ -58,13 +60,14 @@ contains
     lump%inertia = link_inertia(model, model%loop(body))
   end function own_lump
 
-  !> A place on a link in the axes of its body, which may run against the card.
+  !> A place on a link in the axes of its body. The first pin of the body may be the second pin of
+  !! the LINK card.
   pure function place_on_body(model, body, place) result(turned)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: body
-    real(wp), intent(in) :: place(2) !! from the first pin of the card, along the link and to its
-                                     !! left [m]
-    real(wp) :: turned(2)
+    type(model_t), intent(in) :: model !! without errors
+    integer, intent(in) :: body        !! number in the linkage, from 1
+    real(wp), intent(in) :: place(2)   !! from the first pin of the card: along the link, and to its
+                                       !! left [m]
+    real(wp) :: turned(2)              !! from the first pin of the body, in its axes [m]
 
     associate (link => model%links(model%loop(body)))
       turned = place
@@ -73,10 +76,10 @@ contains
     end associate
   end function place_on_body
 
-  !> Gravity, forces on pins, torques on links.
+  !> Sets gravity, forces on pins and torques on links.
   pure subroutine apply_loads(model, linkage)
-    type(model_t), intent(in) :: model
-    type(linkage_t), intent(inout) :: linkage
+    type(model_t), intent(in) :: model        !! without errors
+    type(linkage_t), intent(inout) :: linkage !! its external loads are set
 
     integer :: i, k
 
@@ -92,10 +95,10 @@ contains
     end do
   end subroutine apply_loads
 
-  !> The points whose paths are wanted.
+  !> The points whose paths are requested, in the order of the deck.
   pure function points_of(model) result(points)
-    type(model_t), intent(in) :: model
-    type(body_point_t), allocatable :: points(:)
+    type(model_t), intent(in) :: model           !! without errors
+    type(body_point_t), allocatable :: points(:) !! (points)
 
     integer :: i
 
@@ -107,10 +110,10 @@ contains
     end do
   end function points_of
 
-  !> The body that a link of the deck is.
+  !> Number of the body that stands for a link of the deck; 0 if none.
   pure function body_of(model, link) result(body)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: link
+    type(model_t), intent(in) :: model !! with its loop
+    integer, intent(in) :: link        !! number in the model, from 1
     integer :: body
 
     body = findloc(model%loop, link, dim=1)

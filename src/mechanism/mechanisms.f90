@@ -1,4 +1,4 @@
-!> Model → what mechanics works on: the linkage with its masses and loads, its beams, its mesh.
+!> Model → mechanism: the linkage with its masses and loads, its beams and its mesh.
 module mechanisms
   use attached_parts, only: apply_loads, attach_masses, body_point_t, points_of
   use beam_mesh, only: new_beam_mesh
@@ -15,22 +15,22 @@ module mechanisms
 
   public :: mechanism_t, new_mechanism
 
-  !> The structure that a deck describes, with the names that the deck has for its parts.
+  !> The structure of a deck, with the deck's names of its parts.
   type, extends(structure_t) :: mechanism_t
-    real(wp) :: accuracy = 0.0_wp             !! of frequencies, where the deck leaves the mesh to
-                                              !! the program; else 0
-    type(body_point_t), allocatable :: points(:)
-    type(string_t), allocatable :: names(:)   !! (bodies) of the links
+    real(wp) :: accuracy = 0.0_wp               !! relative, of the frequencies, where the program
+                                                !! chooses the mesh; else 0
+    type(body_point_t), allocatable :: points(:) !! whose paths are requested
+    type(string_t), allocatable :: names(:)     !! (bodies) of the links
     type(string_t), allocatable :: pin_names(:) !! (pins)
   end type mechanism_t
 
-  integer, parameter :: cubic_order = 3 !! of the element that stands for a rigid link
+  integer, parameter :: cubic_order = 3 !! order of the element that stands for a rigid link
 
 contains
 
-  !> Puts the links in the order round the loop.
+  !> The mechanism of a model, its links in their order round the loop.
   pure function new_mechanism(model) result(mechanism)
-    type(model_t), intent(in) :: model
+    type(model_t), intent(in) :: model !! without errors
     type(mechanism_t) :: mechanism
 
     real(wp) :: ground(2, 2), line_density(3), pin_mass(2)
@@ -54,7 +54,7 @@ contains
       model%branch == branch_crossed)
     mechanism%linkage%bodies%bends = .not. links%rigid
     call add_beams(model, links, mechanism)
-    call add_mesh(model, links, mechanism)
+    call add_beam_mesh(model, links, mechanism)
     call attach_masses(model, mechanism%linkage)
     call apply_loads(model, mechanism%linkage)
     mechanism%points = points_of(model)
@@ -62,7 +62,7 @@ contains
     mechanism%pin_names = token_texts(model%loop_pins)
   end function new_mechanism
 
-  !> Whether a link is made of a material and has a section.
+  !> Whether a link has a material and a section.
   elemental function is_solid(link) result(is)
     type(link_t), intent(in) :: link
     logical :: is
@@ -70,10 +70,11 @@ contains
     is = link%material > 0 .and. link%section > 0
   end function is_solid
 
-  !> Stiffnesses, and the rotary inertia of links that have no mass of their own.
+  !> Sets the stiffnesses of beams, and the rotary inertia of links without a mass of their own. No
+  !! beams if a bending link lacks material or section, or no link bends.
   pure subroutine add_beams(model, links, mechanism)
     type(model_t), intent(in) :: model
-    type(link_t), intent(in) :: links(:)
+    type(link_t), intent(in) :: links(:) !! (bodies)
     type(mechanism_t), intent(inout) :: mechanism
 
     logical :: beams
@@ -95,10 +96,11 @@ contains
     end do
   end subroutine add_beams
 
-  !> The mesh, and where lumped loads sit: on the nodes of links that have them.
-  pure subroutine add_mesh(model, links, mechanism)
+  !> Sets the mesh, and the elements on whose nodes lumped loads sit. No mesh if a bending link
+  !! lacks one, or no link has one.
+  pure subroutine add_beam_mesh(model, links, mechanism)
     type(model_t), intent(in) :: model
-    type(link_t), intent(in) :: links(:)
+    type(link_t), intent(in) :: links(:) !! (bodies)
     type(mechanism_t), intent(inout) :: mechanism
 
     integer :: elements(size(links)), order(size(links)), i
@@ -118,12 +120,12 @@ contains
     if (.not. any(links%mesh > 0) .or. any(links%mesh == 0 .and. .not. links%rigid)) return
     mechanism%mesh = new_beam_mesh(mechanism%linkage, elements, order, &
       any(mechanism%beams%shear_stiffness > 0.0_wp))
-  end subroutine add_mesh
+  end subroutine add_beam_mesh
 
-  !> Position of the ground pivot at a place of the loop [m].
+  !> Position of a ground pivot in global axes [m].
   pure function ground_at(model, place) result(position)
     type(model_t), intent(in) :: model
-    integer, intent(in) :: place
+    integer, intent(in) :: place !! number of the pin in the loop, 1 or 4
     real(wp) :: position(2)
 
     integer :: n

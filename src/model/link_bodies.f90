@@ -1,4 +1,5 @@
-!> What the links of a deck are as rigid bodies: their own card goes before section and material.
+!> Links of a deck as rigid bodies. Values on the LINK card take precedence over those of section
+!! and material.
 module link_bodies
   use kinds, only: wp
   use models, only: link_line_density, model_t
@@ -11,21 +12,21 @@ module link_bodies
 contains
 
   !> Mass centre of a link, from the first pin of its card: along the link, and to the left of the
-  !! way to the second pin [m].
+  !! direction to the second pin [m].
   pure function link_center(model, link) result(center)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: link
+    type(model_t), intent(in) :: model !! as read
+    integer, intent(in) :: link        !! number in the model, from 1
     real(wp) :: center(2)
 
     center = [0.5_wp*model%links(link)%length, 0.0_wp]
     if (model%links(link)%has_center) center = model%links(link)%center
   end function link_center
 
-  !> Moment of inertia of a link about its mass centre; of material and section `ρA L³/12`, with
-  !! rotary inertia `ρI L` more; 0 without these [kg m²].
+  !> Moment of inertia of a link about its mass centre [kg m²]: that of its card, else `ρA L³/12` of
+  !! material and section, plus `ρI L` with EFFECTS rotary; 0 without either.
   pure function link_inertia(model, link) result(inertia)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: link
+    type(model_t), intent(in) :: model !! whose links have their materials and sections
+    integer, intent(in) :: link        !! number in the model, from 1
     real(wp) :: inertia
 
     associate (this => model%links(link))

@@ -1,4 +1,4 @@
-!> The way round the loop of a four-bar: driven link, coupler, follower.
+!> Order of the links and pins round the loop of a four-bar: driven link, coupler, follower.
 module loop_finder
   use diagnostics, only: add_error, diagnostics_t, has_errors
   use link_cards, only: link_t
@@ -14,10 +14,14 @@ module loop_finder
 
 contains
 
-  !> Finds the links' order round the four-bar: driven link, coupler, follower.
+  !> Finds the order of the links round the four-bar: driven link, coupler, follower; and of its
+  !! pins, from the driven ground pivot to the other one. Errors: an unknown driven link, not three
+  !! links and two ground pivots, a driven link on no or both ground pivots, links that form no
+  !! loop. The order is then incomplete.
   pure subroutine find_loop(diagnostics, model)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(inout) :: model
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added; the loop is not searched
+                                                      !! if it has any before
+    type(model_t), intent(inout) :: model             !! `loop` and `loop_pins` are set
 
     type(name_index_t) :: links, grounds
     type(token_t) :: pin
@@ -62,13 +66,13 @@ contains
     end do
   end subroutine find_loop
 
-  !> Every pin joins two links and yet there is no way round: two of the three links hang together,
-  !! and the third is fixed.
+  !> Reports why the links form no loop, although every moving pin joins two links: two of the three
+  !! are joined to each other, and the third joins the ground pivots.
   pure subroutine refuse_open_loop(diagnostics, model, grounds, used)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
     type(name_index_t), intent(in) :: grounds
-    logical, intent(in) :: used(:) !! (links) met on the way
+    logical, intent(in) :: used(:) !! (links) already in the loop
 
     integer :: i
 
@@ -84,11 +88,11 @@ contains
       model%drive%text//"' can drive")
   end subroutine refuse_open_loop
 
-  !> The link not yet met that has a pin; 0 if there is none.
+  !> The link at a pin, of those not yet in the loop; 0 if none.
   pure function link_at(links, used, name) result(number)
     type(link_t), intent(in) :: links(:)
-    logical, intent(in) :: used(:) !! (links)
-    character(len=*), intent(in) :: name
+    logical, intent(in) :: used(:)       !! (links) already in the loop
+    character(len=*), intent(in) :: name !! of the pin
     integer :: number
 
     integer :: n

@@ -34,14 +34,16 @@ module model_reader
 
 contains
 
-  !> Turns cards into a model and checks all that can be checked without mechanics.
+  !> Turns cards into a model and makes all checks that need no mechanics.
   !!
-  !! The model is complete only if `diagnostics` has no errors afterwards.
+  !! The model is complete only if `diagnostics` has no errors afterwards. Errors: unknown, repeated
+  !! or missing cards, and whatever their readers and the checks report.
   subroutine read_model(cards, reports, diagnostics, model)
-    type(card_t), intent(in) :: cards(:)
-    type(report_kind_t), intent(in) :: reports(:) !! that there are
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(out) :: model
+    type(card_t), intent(in) :: cards(:)              !! (cards) of one variant, with values in
+                                                      !! place of the `$name`s
+    type(report_kind_t), intent(in) :: reports(:)     !! (kinds) all that exist
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors and warnings are added
+    type(model_t), intent(out) :: model               !! in SI, crank angles in degrees
 
     model%title = ""
     model%variant = ""
@@ -62,7 +64,7 @@ contains
     call check_keywords(cards, diagnostics)
     call refuse_second_cards(cards, diagnostics)
     call read_system(cards, diagnostics, model%units)
-    call read_cards(cards, reports, diagnostics, model)
+    call read_model_cards(cards, reports, diagnostics, model)
     if (model%effects == 0) model%effects = merge(effects_axial, effects_static, &
       is_moving(model) .or. is_loaded(model))
     if (size(model%meshes) == 0 .and. needs_mesh(model)) then
@@ -79,7 +81,7 @@ contains
     call check_meshes(cards, diagnostics, model)
   end subroutine read_model
 
-  !> Complains about every card that does not exist.
+  !> Reports every unknown card.
   pure subroutine check_keywords(cards, diagnostics)
     type(card_t), intent(in) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
@@ -97,7 +99,7 @@ contains
     end do
   end subroutine check_keywords
 
-  !> Most cards say something that can be said only once.
+  !> Reports a second card of a kind that a deck may have only once.
   pure subroutine refuse_second_cards(cards, diagnostics)
     type(card_t), intent(in) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
@@ -118,8 +120,8 @@ contains
     end do
   end subroutine refuse_second_cards
 
-  !> Reads the UNITS card, which may stand anywhere. A deck without it is read on in SI, to find its
-  !! other errors.
+  !> Reads the UNITS card, which may be anywhere in the deck. Without one the deck is read in SI, to
+  !! find its other errors.
   subroutine read_system(cards, diagnostics, system)
     type(card_t), intent(in) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
@@ -135,12 +137,12 @@ contains
     end do
   end subroutine read_system
 
-  !> Reads all cards that say something of the model or ask for something.
-  subroutine read_cards(cards, reports, diagnostics, model)
+  !> Reads all cards into the model.
+  subroutine read_model_cards(cards, reports, diagnostics, model)
     type(card_t), intent(in) :: cards(:)
-    type(report_kind_t), intent(in) :: reports(:) !! that there are
+    type(report_kind_t), intent(in) :: reports(:) !! (kinds) all that exist
     type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(inout) :: model         !! with its units
+    type(model_t), intent(inout) :: model !! has its units
 
     integer :: so_far(size(card_kinds)), i, kind
 
@@ -159,7 +161,7 @@ contains
       call read_card(cards(i), trim(card_kinds(kind)%keyword), so_far(kind), reports, diagnostics, &
         model)
     end do
-  end subroutine read_cards
+  end subroutine read_model_cards
 
   pure function number_of(cards, keyword) result(number)
     type(card_t), intent(in) :: cards(:)
@@ -174,14 +176,14 @@ contains
     end do
   end function number_of
 
-  !> Reads one card. UNITS, INCLUDE, SET and VARY have been read before.
+  !> Reads one card. UNITS is read before; INCLUDE, SET and VARY are already carried out.
   subroutine read_card(card, keyword, number, reports, diagnostics, model)
     type(card_t), intent(in) :: card
     character(len=*), intent(in) :: keyword       !! as in the table of cards
-    integer, intent(in) :: number                 !! of the card among those of its keyword
-    type(report_kind_t), intent(in) :: reports(:) !! that there are
+    integer, intent(in) :: number                 !! of the card among those of its keyword, from 1
+    type(report_kind_t), intent(in) :: reports(:) !! (kinds) all that exist
     type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(inout) :: model         !! with its units, and room for all parts
+    type(model_t), intent(inout) :: model !! has its units, and its lists their lengths
 
     associate (system => model%units)
       select case (keyword)

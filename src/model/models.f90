@@ -1,4 +1,5 @@
-!> The model: everything that a deck says, in SI, each part with the word it came from.
+!> The model: the contents of a deck in SI (crank angles in degrees), each part with the word of the
+!! deck it came from.
 module models
   use body_cards, only: mass_card_t, point_t
   use card_echo, only: echo_line_t
@@ -23,60 +24,61 @@ module models
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
+  ! In the order of the words in the table of cards.
   integer, parameter :: inertia_none = 0, inertia_lumped = 1, inertia_distributed = 2
   integer, parameter :: solver_auto = 1, solver_deformation = 2, solver_dense = 3, solver_band = 4
   integer, parameter :: branch_open = 1, branch_crossed = 2
 
+  !> Lists are in the order of the deck. A word without a line is not in the deck.
   type :: model_t
-    character(len=:), allocatable :: title
-    type(unit_system_t) :: units
+    character(len=:), allocatable :: title      !! empty without TITLE
+    type(unit_system_t) :: units                !! of bare numbers; the model itself is in SI
     type(material_t), allocatable :: materials(:)
     type(section_t), allocatable :: sections(:)
     type(ground_t), allocatable :: grounds(:)
-    type(link_t), allocatable :: links(:)       !! in the order of the deck
+    type(link_t), allocatable :: links(:)
     type(pin_mass_t), allocatable :: pin_masses(:)
     type(mesh_t), allocatable :: meshes(:)
     type(mass_card_t), allocatable :: masses(:)
     type(point_t), allocatable :: points(:)
     real(wp) :: gravity(2) = 0.0_wp             !! in global axes [m/s²]
-    type(token_t) :: gravity_word               !! without a line if the deck does not say
+    type(token_t) :: gravity_word               !! keyword
     type(force_card_t), allocatable :: forces(:)
     type(torque_card_t), allocatable :: torques(:)
     type(motor_t) :: motor
     type(resistance_t), allocatable :: resistances(:)
-    integer, allocatable :: loop(:)             !! links round the loop from the driven ground:
+    integer, allocatable :: loop(:)             !! (3) links round the loop from the driven ground:
                                                 !! numbers in `links`
-    type(token_t), allocatable :: loop_pins(:)  !! pins round the loop, from the driven ground to
-                                                !! the other one
+    type(token_t), allocatable :: loop_pins(:)  !! (4) pins round the loop, from the driven ground
+                                                !! pivot to the other one
     type(token_t) :: drive                      !! name of the driven link
-    integer :: branch = branch_open
-    type(value_list_t) :: crank                 !! [deg]
-    type(value_list_t) :: speed                 !! [rad/s]
-    real(wp) :: acceleration = 0.0_wp           !! of the crank, at every speed [rad/s²]
-    integer :: inertia = inertia_none
-    type(token_t) :: inertia_word               !! without a line if the deck does not say
+    integer :: branch = branch_open             !! assembly mode: one of the branch_… constants
+    type(value_list_t) :: crank                 !! angles [deg]
+    type(value_list_t) :: speed                 !! ω2 [rad/s]
+    real(wp) :: acceleration = 0.0_wp           !! α2, at every speed [rad/s²]
+    integer :: inertia = inertia_none           !! one of the inertia_… constants; none: no card
+    type(token_t) :: inertia_word
     integer :: effects = effects_static         !! effects_static or effects_axial
     logical :: rotary = .false.                 !! cross-sections have rotary inertia
-    logical :: shear = .false.                  !! and turn against the slope
-    type(token_t) :: shear_word                 !! where the deck asks for shear
-    integer :: solver = solver_auto
-    type(token_t) :: solver_word                !! without a line if the deck does not say
-    integer :: modes = 3
-    type(token_t) :: modes_word                 !! without a line if the deck does not say
+    logical :: shear = .false.                  !! shear: cross-sections turn relative to the slope
+    type(token_t) :: shear_word                 !! `shear` on the EFFECTS card
+    integer :: solver = solver_auto             !! one of the solver_… constants
+    type(token_t) :: solver_word
+    integer :: modes = 3                        !! at each position
+    type(token_t) :: modes_word
     type(report_t), allocatable :: reports(:)
-    type(echo_line_t), allocatable :: echo(:)   !! the cards in the order of the deck, written out
-                                                !! again; no part of reading them
+    type(echo_line_t), allocatable :: echo(:)   !! (cards) written back; set after the model is read
     character(len=:), allocatable :: variant    !! `L=90mm`, of a deck with VARY; else empty
-    real(wp), allocatable :: varied(:)          !! values of what varies, in the units of the VARY
-                                                !! cards
+    real(wp), allocatable :: varied(:)          !! (parameters) values of this variant, in the units
+                                                !! of the VARY cards
   end type model_t
 
 contains
 
-  !> Number of the report of a name in the model's list; 0 if it is not asked for.
+  !> Number of a report in the model's list; 0 if it is not requested.
   pure function report_number(model, name) result(number)
-    type(model_t), intent(in) :: model
-    character(len=*), intent(in) :: name
+    type(model_t), intent(in) :: model   !! as read
+    character(len=*), intent(in) :: name !! of the report, as in the table of reports
     integer :: number
 
     integer :: i
@@ -87,10 +89,10 @@ contains
     end do
   end function report_number
 
-  !> Whether a report is asked for that has a row for every crank angle. A report that cannot be
-  !! read may have none.
+  !> Whether any report has a row for every crank angle; true without REPORT cards. A report that
+  !! cannot be read does not count.
   pure function needs_positions(model) result(needs)
-    type(model_t), intent(in) :: model
+    type(model_t), intent(in) :: model !! as read
     logical :: needs
 
     needs = size(model%reports) == 0 .or. any(model%reports%kind%positions)
@@ -98,15 +100,15 @@ contains
 
   !> Whether any speed or the acceleration is not zero.
   pure function is_moving(model) result(is)
-    type(model_t), intent(in) :: model
+    type(model_t), intent(in) :: model !! as read
     logical :: is
 
     is = any(abs(model%speed%value) > 0.0_wp) .or. abs(model%acceleration) > 0.0_wp
   end function is_moving
 
-  !> Whether anything but motion loads the linkage: gravity, forces on pins, torques on links.
+  !> Whether there are external loads: gravity, forces on pins or torques on links.
   pure function is_loaded(model) result(is)
-    type(model_t), intent(in) :: model
+    type(model_t), intent(in) :: model !! as read
     logical :: is
 
     integer :: i
@@ -118,25 +120,25 @@ contains
     is = is .or. any(abs(model%torques%torque) > 0.0_wp)
   end function is_loaded
 
-  !> Whether frequencies are asked for, by themselves, with their shapes or along their branches.
+  !> Whether frequencies are requested: alone, with mode shapes or as loci.
   pure function needs_frequencies(model) result(needs)
-    type(model_t), intent(in) :: model
+    type(model_t), intent(in) :: model !! as read
     logical :: needs
 
     needs = any(model%reports%kind%frequencies)
   end function needs_frequencies
 
-  !> Whether links are asked for as beams.
+  !> Whether any report takes links as beams.
   pure function needs_beams(model) result(needs)
-    type(model_t), intent(in) :: model
+    type(model_t), intent(in) :: model !! as read
     logical :: needs
 
     needs = any(model%reports%kind%beams)
   end function needs_beams
 
-  !> Number of the first report that is about masses and their loads; 0 if none is asked for.
+  !> Number of the first report on masses and their loads; 0 if none is requested.
   pure function report_of_masses(model) result(number)
-    type(model_t), intent(in) :: model
+    type(model_t), intent(in) :: model !! as read
     integer :: number
 
     do number = 1, size(model%reports)
@@ -145,10 +147,10 @@ contains
     number = 0
   end function report_of_masses
 
-  !> Whether a study is needed by any report.
+  !> Whether any report takes its rows from a study.
   pure function needs_study(model, study) result(needs)
-    type(model_t), intent(in) :: model
-    character(len=*), intent(in) :: study !! name
+    type(model_t), intent(in) :: model    !! as read
+    character(len=*), intent(in) :: study !! name of the study, as in the table of reports
     logical :: needs
 
     integer :: i
@@ -160,25 +162,27 @@ contains
     end do
   end function needs_study
 
+  !> Whether any report is on masses and their loads.
   pure function needs_masses(model) result(needs)
-    type(model_t), intent(in) :: model
+    type(model_t), intent(in) :: model !! as read
     logical :: needs
 
     needs = report_of_masses(model) > 0
   end function needs_masses
 
-  !> Whether lumped masses of a link sit on nodes: a link that is rigid or has a mass of its own has
-  !! no nodes.
+  !> Whether the lumped masses of a link sit on nodes. A link that is rigid or has a mass of its own
+  !! has no nodes.
   elemental function bears_lumped_masses(link) result(bears)
-    type(link_t), intent(in) :: link
+    type(link_t), intent(in) :: link !! of the deck
     logical :: bears
 
     bears = .not. (link%rigid .or. has_own_mass(link))
   end function bears_lumped_masses
 
-  !> Whether the links are divided: for beams, and for lumped masses, which sit on nodes.
+  !> Whether links must be divided into elements: for beams, and for lumped masses, which sit on
+  !! nodes.
   pure function needs_mesh(model) result(needs)
-    type(model_t), intent(in) :: model
+    type(model_t), intent(in) :: model !! as read
     logical :: needs
 
     needs = needs_beams(model)
@@ -186,18 +190,18 @@ contains
       any(bears_lumped_masses(model%links))
   end function needs_mesh
 
-  !> Whether the frequencies asked for feel loads, of the motion or constant ones.
+  !> Whether requested frequencies depend on loads, of the motion or external ones.
   pure function needs_loads(model) result(needs)
-    type(model_t), intent(in) :: model
+    type(model_t), intent(in) :: model !! as read
     logical :: needs
 
     needs = needs_frequencies(model) .and. model%effects == effects_axial .and. &
       (is_moving(model) .or. is_loaded(model))
   end function needs_loads
 
-  !> Whether it matters how the mass of links makes loads, which INERTIA says.
+  !> Whether results depend on INERTIA, which determines how the mass of links makes loads.
   pure function needs_inertia(model) result(needs)
-    type(model_t), intent(in) :: model
+    type(model_t), intent(in) :: model !! as read
     logical :: needs
 
     needs = needs_frequencies(model) .and. model%effects == effects_axial .and. &
@@ -205,10 +209,10 @@ contains
     needs = (needs .or. needs_masses(model)) .and. any(bears_lumped_masses(model%links))
   end function needs_inertia
 
-  !> Mass of a link of the deck, its own or that of material and section; 0 if it has neither [kg].
+  !> Mass of a link [kg]: `mass=` of its card, else that of material and section; 0 without either.
   pure function link_mass(model, link) result(mass)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: link
+    type(model_t), intent(in) :: model !! whose links have their materials and sections
+    integer, intent(in) :: link        !! number in the model, from 1
     real(wp) :: mass
 
     associate (this => model%links(link))
@@ -220,10 +224,10 @@ contains
     end associate
   end function link_mass
 
-  !> ρA of a link, whatever mass of its own it has; 0 without material or section [kg/m].
+  !> ρA of a link, whatever its `mass=`; 0 without material or section [kg/m].
   pure function link_line_density(model, link) result(line_density)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: link
+    type(model_t), intent(in) :: model !! whose links have their materials and sections
+    integer, intent(in) :: link        !! number in the model, from 1
     real(wp) :: line_density
 
     line_density = 0.0_wp

@@ -1,4 +1,5 @@
-!> What links resist to shear, and whether a deck that asks for it says all that it takes.
+!> Shear stiffness and rotary inertia of links, and whether a deck with EFFECTS shear has all data
+!! for it.
 !!
 !! The shear stiffness is kGA with G = E/(2(1 + ν)). The shear coefficient k is the deck's own, or
 !! that of G. R. Cowper, The shear coefficient in Timoshenko's beam theory, J. Appl. Mech. 33 (1966)
@@ -15,11 +16,11 @@ module shear
 
 contains
 
-  !> k of a section in a material.
+  !> Shear coefficient k of a section (Cowper 1966).
   elemental function shear_coefficient(section, nu) result(k)
-    type(section_t), intent(in) :: section
-    real(wp), intent(in) :: nu !! Poisson's ratio, above −1
-    real(wp) :: k              !! 0 for a general section that has none of its own
+    type(section_t), intent(in) :: section !! as read
+    real(wp), intent(in) :: nu             !! Poisson's ratio of its material, above −1
+    real(wp) :: k                          !! 0 for a general section without one of its own
 
     real(wp) :: m_squared
 
@@ -37,10 +38,10 @@ contains
     end select
   end function shear_coefficient
 
-  !> kGA of a link of the deck; 0 where shear is not asked for or the link does not bend [N].
+  !> kGA of a link of the deck [N]; 0 if the deck does not request shear or the link does not bend.
   pure function link_shear_stiffness(model, link) result(stiffness)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: link
+    type(model_t), intent(in) :: model !! whose links have their materials and sections
+    integer, intent(in) :: link        !! number in the model, from 1
     real(wp) :: stiffness
 
     stiffness = 0.0_wp
@@ -55,11 +56,11 @@ contains
     end associate
   end function link_shear_stiffness
 
-  !> ρI of a link of the deck; 0 where rotary inertia is not asked for or the link has no section
-  !! [kg m].
+  !> ρI of a link of the deck [kg m]; 0 if the deck does not request rotary inertia or the link has
+  !! no material or section.
   pure function link_rotary_inertia(model, link) result(inertia)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: link
+    type(model_t), intent(in) :: model !! whose links have their materials and sections
+    integer, intent(in) :: link        !! number in the model, from 1
     real(wp) :: inertia
 
     inertia = 0.0_wp
@@ -69,11 +70,12 @@ contains
     end associate
   end function link_rotary_inertia
 
-  !> Shear needs Poisson's ratio of every material in use, and a shear coefficient of every general
-  !! section.
+  !> Checks the data for shear. Errors: a material in use without Poisson's ratio, a general section
+  !! in use without shear coefficient. Rigid links need neither.
   pure subroutine check_shear(diagnostics, model)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(in) :: model !! whose links have their materials and sections
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(model_t), intent(in) :: model                !! whose links have their materials and
+                                                      !! sections
 
     integer :: i
 

@@ -10,9 +10,9 @@ module csv_text
 
 contains
 
-  !> Cells separated by blanks, such as a row of a table, as fields separated by commas.
+  !> A row of cells separated by blanks as fields separated by commas, without line end.
   pure function csv_record(cells) result(record)
-    character(len=*), intent(in) :: cells
+    character(len=*), intent(in) :: cells !! separated by blanks
     character(len=:), allocatable :: record
 
     type(text_buffer_t) :: buffer
@@ -31,18 +31,18 @@ contains
     record = buffer_text(buffer)
   end function csv_record
 
-  !> A text as a field: in quotes only if it has to be.
+  !> A text as a field, in quotes only where it needs them.
   pure function csv_field(text) result(field)
-    character(len=*), intent(in) :: text
+    character(len=*), intent(in) :: text !! of one cell
     character(len=:), allocatable :: field
 
     field = text
     if (scan(text, '",'//csv_line_end) > 0) field = csv_quoted(text)
   end function csv_field
 
-  !> A text in quotes, those inside doubled.
+  !> A text in quotes, with inner quotes doubled.
   pure function csv_quoted(text) result(field)
-    character(len=*), intent(in) :: text
+    character(len=*), intent(in) :: text !! without outer quotes
     character(len=:), allocatable :: field
 
     integer :: i

@@ -14,11 +14,12 @@ module json_text
 
   !> The items of an array or the members of an object.
   type :: json_list_t
-    integer, private :: count = 0
-    type(text_buffer_t), private :: buffer
+    integer, private :: count = 0          !! items or members so far
+    type(text_buffer_t), private :: buffer !! their text, with separators
   end type json_list_t
 
-  !> A string, or a number in the shortest form that gives it back; one that is not finite is null.
+  !> A string, or a number in the shortest form that reads back to the same value; null for a number
+  !! that is not finite.
   interface json_value
     module procedure :: json_string
     module procedure :: json_integer
@@ -31,29 +32,30 @@ module json_text
 
 contains
 
-  !> Appends a value that is JSON already.
+  !> Appends a value to an array.
   pure subroutine add_item(list, value)
-    type(json_list_t), intent(inout) :: list
-    character(len=*), intent(in) :: value
+    type(json_list_t), intent(inout) :: list !! the items so far
+    character(len=*), intent(in) :: value    !! in JSON
 
     if (list%count > 0) call append_text(list%buffer, ","//line_feed)
     call append_text(list%buffer, value)
     list%count = list%count + 1
   end subroutine add_item
 
-  !> Appends a name with a value that is JSON already.
+  !> Appends a name and its value to an object.
   pure subroutine add_member(list, name, value)
-    type(json_list_t), intent(inout) :: list
-    character(len=*), intent(in) :: name, value
+    type(json_list_t), intent(inout) :: list !! the members so far
+    character(len=*), intent(in) :: name     !! as plain text
+    character(len=*), intent(in) :: value    !! in JSON
 
     if (list%count > 0) call append_text(list%buffer, ", ")
     call append_text(list%buffer, json_string(name)//": "//value)
     list%count = list%count + 1
   end subroutine add_member
 
-  !> The items in brackets, one a line.
+  !> The items in brackets, one per line.
   pure function json_array(list) result(value)
-    type(json_list_t), intent(in) :: list
+    type(json_list_t), intent(in) :: list !! of items
     character(len=:), allocatable :: value
 
     value = "["//line_feed//buffer_text(list%buffer)//line_feed//"]"
@@ -62,7 +64,7 @@ contains
 
   !> The members in braces, on one line.
   pure function json_object(list) result(value)
-    type(json_list_t), intent(in) :: list
+    type(json_list_t), intent(in) :: list !! of members
     character(len=:), allocatable :: value
 
     value = "{"//buffer_text(list%buffer)//"}"
@@ -82,6 +84,7 @@ contains
     value = to_string(number)
   end function json_long
 
+  !> The shortest of 15 to 17 digits that read back to the same value; `null` if not finite.
   pure function json_number(number) result(value)
     real(wp), intent(in) :: number
     character(len=:), allocatable :: value
@@ -99,8 +102,8 @@ contains
     end do
   end function json_number
 
-  !> Text in quotes. UTF-8 stays as it is, a byte that is none becomes U+FFFD, and control
-  !! characters are escaped.
+  !> Text in quotes. UTF-8 is kept, bytes that are not UTF-8 become U+FFFD, control characters are
+  !! escaped.
   pure function json_string(text) result(value)
     character(len=*), intent(in) :: text
     character(len=:), allocatable :: value
@@ -130,16 +133,16 @@ contains
     value = buffer_text(buffer)
   end function json_string
 
-  !> Bytes of the UTF-8 character that a text begins with (RFC 3629, section 4); 0 if it begins with
-  !! none.
+  !> Number of bytes of the UTF-8 character at the start of a text (RFC 3629, section 4); 0 if there
+  !! is no valid one.
   pure function character_length(text) result(length)
     character(len=*), intent(in) :: text !! not empty
     integer :: length
 
     integer :: second, least, most
 
-    ! The first byte tells the length, and what the second may be: overlong forms, surrogates and
-    ! what lies beyond U+10FFFF are out.
+    ! The first byte determines the length and the range of the second byte, which excludes overlong
+    ! forms, surrogates and everything beyond U+10FFFF.
     least = 128
     most = 191
     select case (ichar(text(1:1)))

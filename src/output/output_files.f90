@@ -1,8 +1,8 @@
-!> Files that appear only when they are complete.
+!> Output files that appear only when they are complete.
 !!
-!! A file is written under a temporary name, its size on the disk compared with the bytes written (a
-!! full disk shows nowhere else), and only then renamed. Until then the file of an earlier run stays
-!! as it was.
+!! A file is written under a temporary name. It is renamed only after its size on the disk has been
+!! compared with the number of bytes written: nothing else reveals a full disk. Until then the file
+!! of an earlier run remains untouched.
 module output_files
   use errors, only: error_of_files, error_t, set_error
   use file_system, only: joined_path, remove_file, rename_file
@@ -15,23 +15,25 @@ module output_files
     remove_output, discard_output
 
   type :: output_file_t
-    character(len=:), allocatable :: path
+    character(len=:), allocatable :: path    !! final, without `.part`
     integer, private :: unit = -1
     logical, private :: is_open = .false.
-    integer(long), private :: bytes = 0_long
-    logical, private :: sound = .true.
-    type(text_buffer_t), private :: buffer !! text not yet written
+    integer(long), private :: bytes = 0_long !! written so far
+    logical, private :: sound = .true.       !! all writes have succeeded
+    type(text_buffer_t), private :: buffer   !! text not yet written
   end type output_file_t
 
   character(len=*), parameter :: temporary = ".part"
-  integer, parameter :: buffer_size = 65536
+  integer, parameter :: buffer_size = 65536 !! [bytes]
 
 contains
 
+  !> Opens a file under its temporary name. Errors: it cannot be opened.
   subroutine open_output(folder, name, file, error)
-    character(len=*), intent(in) :: folder, name
-    type(output_file_t), intent(out) :: file
-    type(error_t), allocatable, intent(out) :: error
+    character(len=*), intent(in) :: folder           !! existing
+    character(len=*), intent(in) :: name             !! final, within the folder
+    type(output_file_t), intent(out) :: file         !! ready for text
+    type(error_t), allocatable, intent(out) :: error !! allocated if the file cannot be opened
 
     integer :: status
 
@@ -43,10 +45,10 @@ contains
       file%path//temporary)
   end subroutine open_output
 
-  !> Appends text as it is.
+  !> Appends text as it is. A failure is reported by `finish_output`.
   subroutine append_output(file, text)
-    type(output_file_t), intent(inout) :: file
-    character(len=*), intent(in) :: text
+    type(output_file_t), intent(inout) :: file !! open
+    character(len=*), intent(in) :: text       !! with its line ends
 
     call append_text(file%buffer, text)
     if (file%buffer%length > buffer_size) call write_buffer(file)
@@ -64,10 +66,11 @@ contains
     file%buffer%length = 0
   end subroutine write_buffer
 
-  !> Writes what is left and checks that everything is on the disk. Errors: it is not.
+  !> Writes the rest of the buffer, closes the file and compares its size on the disk. Errors: not
+  !! all bytes are on the disk.
   subroutine finish_output(file, error)
-    type(output_file_t), intent(inout) :: file
-    type(error_t), allocatable, intent(out) :: error
+    type(output_file_t), intent(inout) :: file       !! open before, closed after
+    type(error_t), allocatable, intent(out) :: error !! allocated if the file is incomplete
 
     integer :: status
     integer(long) :: size_on_disk
@@ -83,10 +86,11 @@ contains
     end if
   end subroutine finish_output
 
-  !> Gives a finished file its name, in place of an earlier one.
+  !> Renames a finished file to its final name and replaces an earlier one. Errors: it cannot be
+  !! renamed.
   subroutine publish_output(file, error)
-    type(output_file_t), intent(in) :: file
-    type(error_t), allocatable, intent(out) :: error
+    type(output_file_t), intent(in) :: file          !! finished
+    type(error_t), allocatable, intent(out) :: error !! allocated if the file cannot be renamed
 
     logical :: done
 
@@ -95,18 +99,19 @@ contains
       file%path)
   end subroutine publish_output
 
-  !> Removes a file that is no longer asked for, and what an earlier run that was killed may have
-  !! left of it.
+  !> Removes a file that is no longer requested, and the temporary file that a killed run may have
+  !! left.
   subroutine remove_output(folder, name)
-    character(len=*), intent(in) :: folder, name
+    character(len=*), intent(in) :: folder !! of the run
+    character(len=*), intent(in) :: name   !! final, within the folder
 
     call remove_file(joined_path(folder, name))
     call remove_file(joined_path(folder, name)//temporary)
   end subroutine remove_output
 
-  !> Removes what was written so far.
+  !> Removes the temporary file; does nothing if no file was opened.
   subroutine discard_output(file)
-    type(output_file_t), intent(inout) :: file
+    type(output_file_t), intent(inout) :: file !! open or finished; closed after
 
     integer :: status
 

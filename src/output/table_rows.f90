@@ -1,9 +1,7 @@
-!> Rows of a table before they are written: their cells as text, the gaps between blocks, and what
-!! could not be computed.
+!> Rows of a table before they are written: cells as text, gaps between blocks, failed rows.
 !!
-!! They are bytes, one item after the other, so that pieces found at the same time are put together
-!! by putting their bytes together, are kept in a journal as they are, and go from one process to
-!! another.
+!! They are stored as bytes, item after item. Pieces that are computed in parallel can thus be
+!! joined by joining their bytes, kept in a journal as they are, and sent to another process.
 module table_rows
   use byte_streams, only: get_integers, get_reals, get_string, put_integers, put_reals, put_string
   use kinds, only: wp
@@ -11,70 +9,70 @@ module table_rows
   implicit none (type, external)
   private
 
-  public :: rows_t, row_item_t, add_row, add_gap, add_failure, append_rows, next_item, put_rows, &
-    get_rows
+  public :: rows_t, row_item_t, add_row, add_gap, add_failed_row, append_rows, next_item, &
+    put_rows, get_rows
   public :: item_row, item_gap, item_failure
 
-  !> What an item is.
+  !> Kinds of items.
   integer, parameter :: item_row = 1, item_gap = 2, item_failure = 3
 
   type :: rows_t
-    type(text_buffer_t), private :: buffer
+    type(text_buffer_t), private :: buffer !! all items as bytes
   end type rows_t
 
   !> One item.
   type :: row_item_t
     integer :: kind = 0                    !! item_row, item_gap or item_failure
-    character(len=:), allocatable :: text  !! the cells of a row, why one has failed
+    character(len=:), allocatable :: text  !! cells of a row, or reason of a failure
     integer :: lines = 0                   !! of a gap
-    real(wp), allocatable :: place(:)      !! what the first columns of a failed row hold
+    real(wp), allocatable :: place(:)      !! (first columns) values of a failed row
   end type row_item_t
 
 contains
 
-  !> A row of cells as text, each as wide as its column.
+  !> Appends a row of cells as text, each as wide as its column.
   pure subroutine add_row(rows, cells)
-    type(rows_t), intent(inout) :: rows
-    character(len=*), intent(in) :: cells
+    type(rows_t), intent(inout) :: rows   !! so far
+    character(len=*), intent(in) :: cells !! of all columns
 
     call put_integers(rows%buffer, [item_row])
     call put_string(rows%buffer, cells)
   end subroutine add_row
 
-  !> Empty lines: one where a curve breaks, two between blocks.
+  !> Appends empty lines: one where a curve breaks, two between blocks.
   pure subroutine add_gap(rows, lines)
-    type(rows_t), intent(inout) :: rows
-    integer, intent(in) :: lines
+    type(rows_t), intent(inout) :: rows !! so far
+    integer, intent(in) :: lines        !! 1 or 2
 
     call put_integers(rows%buffer, [item_gap, lines])
   end subroutine add_gap
 
-  !> A row that could not be computed.
-  pure subroutine add_failure(rows, place, reason)
-    type(rows_t), intent(inout) :: rows
-    real(wp), intent(in) :: place(:) !! what its first columns hold: speed, crank angle
-    character(len=*), intent(in) :: reason
+  !> Appends a row that could not be computed.
+  pure subroutine add_failed_row(rows, place, reason)
+    type(rows_t), intent(inout) :: rows    !! so far
+    real(wp), intent(in) :: place(:)       !! (first columns) known values: speed, crank angle
+    character(len=*), intent(in) :: reason !! for the table
 
     call put_integers(rows%buffer, [item_failure, size(place)])
     call put_reals(rows%buffer, place)
     call put_string(rows%buffer, reason)
-  end subroutine add_failure
+  end subroutine add_failed_row
 
-  !> Puts more rows behind those that are there.
+  !> Appends other rows.
   pure subroutine append_rows(rows, more)
-    type(rows_t), intent(inout) :: rows
-    type(rows_t), intent(in) :: more
+    type(rows_t), intent(inout) :: rows !! so far
+    type(rows_t), intent(in) :: more    !! rows to append
 
     if (more%buffer%length > 0) call append_text(rows%buffer, &
       more%buffer%storage(:more%buffer%length))
   end subroutine append_rows
 
-  !> Reads the item at a place, from 1, and moves on to the next; `found` is false behind the last.
+  !> Reads one item and moves on to the next.
   pure subroutine next_item(rows, at, item, found)
-    type(rows_t), intent(in) :: rows
-    integer, intent(inout) :: at
-    type(row_item_t), intent(inout) :: item
-    logical, intent(out) :: found
+    type(rows_t), intent(in) :: rows        !! to read
+    integer, intent(inout) :: at            !! byte of the item, from 1; of the next one after
+    type(row_item_t), intent(inout) :: item !! unchanged if none is found
+    logical, intent(out) :: found           !! false beyond the last item
 
     integer :: number(1)
 
@@ -99,20 +97,20 @@ contains
     end associate
   end subroutine next_item
 
-  !> Appends rows to a buffer as bytes.
+  !> Appends rows to a buffer as bytes, with their length.
   pure subroutine put_rows(buffer, rows)
-    type(text_buffer_t), intent(inout) :: buffer
-    type(rows_t), intent(in) :: rows
+    type(text_buffer_t), intent(inout) :: buffer !! the bytes are appended
+    type(rows_t), intent(in) :: rows             !! to append
 
     call put_integers(buffer, [rows%buffer%length])
     if (rows%buffer%length > 0) call append_text(buffer, rows%buffer%storage(:rows%buffer%length))
   end subroutine put_rows
 
-  !> Reads what `put_rows` wrote.
+  !> Reads the bytes that `put_rows` wrote.
   pure subroutine get_rows(bytes, at, rows)
-    character(len=*), intent(in) :: bytes
-    integer, intent(inout) :: at !! place of the first byte; moves past the last
-    type(rows_t), intent(out) :: rows
+    character(len=*), intent(in) :: bytes !! with the rows at `at`
+    integer, intent(inout) :: at          !! first byte of the rows; moves beyond the last one
+    type(rows_t), intent(out) :: rows     !! as given to `put_rows`
 
     integer :: length(1)
 

@@ -1,5 +1,5 @@
-!> Tables: plain text, one row that stands alone, all the digits of a double; beside it, if asked
-!! for, the same rows as CSV.
+!> Tables: plain text, every row complete in itself, all digits of a double; on request the same
+!! rows as CSV.
 module tables
   use csv_text, only: csv_field, csv_line_end, csv_quoted, csv_record
   use errors, only: error_t
@@ -19,23 +19,23 @@ module tables
 
   type :: column_t
     character(len=:), allocatable :: name
-    character(len=:), allocatable :: unit
-    integer :: width = 0
+    character(len=:), allocatable :: unit !! `-` without one
+    integer :: width = 0                  !! characters, with the blank before
   end type column_t
 
   type :: table_t
     character(len=:), allocatable :: name     !! of its files, without `.dat` and `.csv`
     logical :: has_csv = .false.
-    type(column_t), allocatable :: columns(:) !! all; not allocated before there is a header
-    integer(long) :: rows = 0_long            !! written so far
-    integer(long) :: failed_rows = 0_long     !! that could not be computed, besides
-    type(output_file_t), private :: plain, csv
-    logical, private :: gap_due = .false.     !! an empty line is to come before the next row
+    type(column_t), allocatable :: columns(:) !! all; not allocated before the header is written
+    integer(long) :: rows = 0_long            !! written so far, without failed ones
+    integer(long) :: failed_rows = 0_long     !! could not be computed
+    type(output_file_t), private :: plain, csv !! `.dat` and `.csv`
+    logical, private :: gap_due = .false.     !! an empty line must precede the next row
     type(string_t), allocatable, private :: notes(:)       !! of the header
-    type(column_t), allocatable, private :: parameters(:)  !! columns of what varies, before all
-                                                           !! others; none: one variant only
-    real(wp), allocatable, private :: parameter_values(:)  !! of the variant whose rows are written
-    character(len=:), allocatable, private :: first_cells  !! the same, as every row begins
+    type(column_t), allocatable, private :: parameters(:)  !! first columns: what varies; none if
+                                                           !! the deck has one variant only
+    real(wp), allocatable, private :: parameter_values(:)  !! (parameters) of the current variant
+    character(len=:), allocatable, private :: first_cells  !! the same as text: start of every row
   end type table_t
 
   integer, parameter :: integer_width = 9
@@ -44,12 +44,14 @@ module tables
 
 contains
 
-  !> Opens `name.dat` and perhaps `name.csv` under temporary names.
+  !> Opens `name.dat`, and `name.csv` on request, under temporary names. Errors: a file cannot be
+  !! opened.
   subroutine open_table(folder, name, has_csv, table, error)
-    character(len=*), intent(in) :: folder, name
-    logical, intent(in) :: has_csv
-    type(table_t), intent(out) :: table
-    type(error_t), allocatable, intent(out) :: error
+    character(len=*), intent(in) :: folder           !! existing
+    character(len=*), intent(in) :: name             !! of the files, without extension
+    logical, intent(in) :: has_csv                   !! whether to write CSV as well
+    type(table_t), intent(out) :: table              !! without header
+    type(error_t), allocatable, intent(out) :: error !! allocated if a file cannot be opened
 
     table%name = name
     table%has_csv = has_csv
@@ -60,21 +62,21 @@ contains
       error)
   end subroutine open_table
 
-  !> The rows that follow are those of a variant: what varies stands in their first columns.
+  !> Begins the rows of a variant, with its parameters in their first columns.
   subroutine begin_variant(table, parameters, values)
-    type(table_t), intent(inout) :: table
-    type(column_t), intent(in) :: parameters(:)
-    real(wp), intent(in) :: values(:)
+    type(table_t), intent(inout) :: table       !! open
+    type(column_t), intent(in) :: parameters(:) !! (parameters) columns of what varies
+    real(wp), intent(in) :: values(:)           !! (parameters) in the units of their columns
 
     table%parameters = parameters
     table%parameter_values = values
     table%first_cells = real_cells(values)
   end subroutine begin_variant
 
-  !> Writes what is left and checks that everything is on the disk. Errors: it is not.
+  !> Writes the rest and checks that everything is on the disk. Errors: it is not.
   subroutine finish_table(table, error)
-    type(table_t), intent(inout) :: table
-    type(error_t), allocatable, intent(out) :: error
+    type(table_t), intent(inout) :: table            !! open before, closed after
+    type(error_t), allocatable, intent(out) :: error !! allocated if a file is incomplete
 
     if (table%gap_due) call append_output(table%plain, line_feed)
     table%gap_due = .false.
@@ -82,41 +84,44 @@ contains
     if (table%has_csv .and. .not. allocated(error)) call finish_output(table%csv, error)
   end subroutine finish_table
 
-  !> Gives a finished table its names.
+  !> Gives the files of a finished table their final names. Errors: a file cannot be renamed.
   subroutine publish_table(table, error)
-    type(table_t), intent(in) :: table
-    type(error_t), allocatable, intent(out) :: error
+    type(table_t), intent(in) :: table               !! finished
+    type(error_t), allocatable, intent(out) :: error !! allocated if a file cannot be renamed
 
     call publish_output(table%plain, error)
     if (table%has_csv .and. .not. allocated(error)) call publish_output(table%csv, error)
   end subroutine publish_table
 
-  !> Removes what was written so far.
+  !> Removes the temporary files.
   subroutine discard_table(table)
-    type(table_t), intent(inout) :: table
+    type(table_t), intent(inout) :: table !! open or finished
 
     call discard_output(table%plain)
     call discard_output(table%csv)
   end subroutine discard_table
 
+  !> A column of real numbers.
   pure function real_column(name, unit) result(column)
-    character(len=*), intent(in) :: name, unit
+    character(len=*), intent(in) :: name !! at the head
+    character(len=*), intent(in) :: unit !! as in the table; `-`: none
     type(column_t) :: column
 
     column = column_t(name, unit, number_width)
   end function real_column
 
+  !> A column of whole numbers, without unit.
   pure function integer_column(name) result(column)
-    character(len=*), intent(in) :: name
+    character(len=*), intent(in) :: name !! at the head
     type(column_t) :: column
 
     column = column_t(name, no_unit, max(integer_width, len(name) + 1))
   end function integer_column
 
-  !> A column wide enough for any of the names that stand in it.
+  !> A column of names, as wide as the longest of them requires.
   pure function name_column(name, entries) result(column)
-    character(len=*), intent(in) :: name
-    type(string_t), intent(in) :: entries(:)
+    character(len=*), intent(in) :: name     !! at the head
+    type(string_t), intent(in) :: entries(:) !! all names that may appear in it
     type(column_t) :: column
 
     integer :: i
@@ -127,14 +132,15 @@ contains
     end do
   end function name_column
 
+  !> Whether a column has a unit.
   pure function has_unit(column) result(has)
-    type(column_t), intent(in) :: column
+    type(column_t), intent(in) :: column !! of any kind
     logical :: has
 
     has = column%unit /= no_unit
   end function has_unit
 
-  !> `crank [deg]`
+  !> Head of a column in CSV: `crank [deg]`.
   pure function name_with_unit(column) result(name)
     type(column_t), intent(in) :: column
     character(len=:), allocatable :: name
@@ -143,11 +149,10 @@ contains
     if (has_unit(column)) name = column%name//" ["//column%unit//"]"
   end function name_with_unit
 
-  !> Lengthens a table by a column: an array constructor of function results would lose their memory
-  !! in gfortran 12.
+  !> Appends a column. An array constructor of function results would leak memory in gfortran 12.
   pure subroutine append_column(columns, column)
-    type(column_t), allocatable, intent(inout) :: columns(:) !! not allocated is as good as empty
-    type(column_t), intent(in) :: column
+    type(column_t), allocatable, intent(inout) :: columns(:) !! may be unallocated: no columns
+    type(column_t), intent(in) :: column                     !! to append
 
     type(column_t), allocatable :: wider(:)
     integer :: i, n
@@ -162,11 +167,11 @@ contains
     call move_alloc(wider, columns)
   end subroutine append_column
 
-  !> Lengthens a table by columns of numbers of one unit.
+  !> Appends columns of real numbers that share a unit.
   pure subroutine append_real_columns(columns, names, unit)
-    type(column_t), allocatable, intent(inout) :: columns(:)
-    character(len=*), intent(in) :: names !! separated by single blanks
-    character(len=*), intent(in) :: unit  !! of all
+    type(column_t), allocatable, intent(inout) :: columns(:) !! may be unallocated: no columns
+    character(len=*), intent(in) :: names                    !! separated by single blanks
+    character(len=*), intent(in) :: unit                     !! of all; `-`: none
 
     type(string_t), allocatable :: words(:)
     integer :: i
@@ -177,28 +182,28 @@ contains
     end do
   end subroutine append_real_columns
 
-  !> Writes what the head of a table has to say of another variant than the first: empty lines, and
-  !! those notes that the header does not have.
+  !> Separates a variant from the one before: two empty lines, and those of its notes that the
+  !! header does not have.
   subroutine write_notes(table, notes)
-    type(table_t), intent(inout) :: table !! with its header
-    type(string_t), intent(in) :: notes(:)
+    type(table_t), intent(inout) :: table  !! with its header
+    type(string_t), intent(in) :: notes(:) !! lines of text, of the variant
 
     integer :: i
 
     call write_gap(table, 2)
     do i = 1, size(notes)
-      if (any_same(table%notes, notes(i)%text)) cycle
+      if (is_among(table%notes, notes(i)%text)) cycle
       call append_output(table%plain, "# "//notes(i)%text//line_feed)
     end do
   end subroutine write_notes
 
-  !> Writes the `#` lines: title, notes, names of the columns, their units; in CSV the names of the
-  !! columns alone.
+  !> Writes the `#` lines: title, notes, column names, units. CSV gets one line of column names with
+  !! their units.
   subroutine write_header(table, title, notes, columns)
-    type(table_t), intent(inout) :: table
-    character(len=*), intent(in) :: title
-    type(string_t), intent(in) :: notes(:)
-    type(column_t), intent(in) :: columns(:)
+    type(table_t), intent(inout) :: table    !! without header
+    character(len=*), intent(in) :: title    !! of the deck; may be empty
+    type(string_t), intent(in) :: notes(:)   !! lines of text, of the first variant
+    type(column_t), intent(in) :: columns(:) !! (columns) without those of what varies
 
     character(len=:), allocatable :: names, units, fields
     integer :: i
@@ -219,12 +224,13 @@ contains
         fields = fields//csv_field(name_with_unit(column))//","
       end associate
     end do
-    ! The mark takes the place of a blank that every first column begins with.
+    ! `#` replaces the blank at the start of every first column.
     call append_output(table%plain, "#"//names(2:)//line_feed//"#"//units(2:)//line_feed)
     if (table%has_csv) call append_output(table%csv, fields//"failure"//csv_line_end)
   end subroutine write_header
 
-  pure function any_same(list, text) result(any_is)
+  !> Whether a list has a text.
+  pure function is_among(list, text) result(any_is)
     type(string_t), intent(in) :: list(:)
     character(len=*), intent(in) :: text
     logical :: any_is
@@ -235,9 +241,9 @@ contains
     do i = 1, size(list)
       any_is = any_is .or. list(i)%text == text
     end do
-  end function any_same
+  end function is_among
 
-  !> A table has a first line whether or not its deck has a title.
+  !> The first line of a table, also of a deck without title.
   pure function title_line(title) result(line)
     character(len=*), intent(in) :: title
     character(len=:), allocatable :: line
@@ -249,7 +255,7 @@ contains
   !> Writes rows, gaps and failures in their order.
   subroutine write_rows(table, rows)
     type(table_t), intent(inout) :: table !! with its header
-    type(rows_t), intent(in) :: rows
+    type(rows_t), intent(in) :: rows      !! to write
 
     type(row_item_t) :: item
     integer :: at
@@ -284,7 +290,8 @@ contains
       csv_line_end)
   end subroutine write_row
 
-  !> Empty lines: one where a curve breaks, two between blocks. CSV has none: the columns tell.
+  !> Writes empty lines: one where a curve breaks, two between blocks. CSV needs none, since its
+  !! columns show both.
   subroutine write_gap(table, lines)
     type(table_t), intent(inout) :: table
     integer, intent(in) :: lines
@@ -293,13 +300,13 @@ contains
     call append_output(table%plain, repeat(line_feed, lines))
   end subroutine write_gap
 
-  !> A row that could not be computed: a comment, and an empty line that breaks a plotted curve. In
-  !! CSV it is a row all the same.
+  !> Writes a row that could not be computed: a comment, and an empty line before the next row,
+  !! which breaks a plotted curve. CSV gets a row with the reason in its last column.
   !!
-  !! Rows that fail one after another share one empty line: two would be the end of a block.
+  !! Successive failed rows share one empty line: two would end a block.
   subroutine write_failure(table, place, reason)
     type(table_t), intent(inout) :: table
-    real(wp), intent(in) :: place(:) !! what the first columns hold behind those of what varies:
+    real(wp), intent(in) :: place(:) !! (first columns) known values after those of what varies:
                                      !! speed, crank angle
     character(len=*), intent(in) :: reason
 
@@ -319,9 +326,9 @@ contains
       size(table%columns) - size(known) + 1)//csv_quoted(reason)//csv_line_end)
   end subroutine write_failure
 
-  !> Numbers with 17 digits. Zero has no sign: -0 would make equal tables differ.
+  !> Cells of numbers with 17 digits. Zero has no sign: -0 would make equal tables differ.
   function real_cells(values) result(cells)
-    real(wp), intent(in) :: values(:)
+    real(wp), intent(in) :: values(:) !! one per cell
     character(len=number_width*size(values)) :: cells
 
     integer :: i
@@ -331,9 +338,10 @@ contains
     end do
   end function real_cells
 
+  !> A whole number at the right end of its column.
   pure function integer_cell(value, name) result(cell)
-    integer, intent(in) :: value
-    character(len=*), intent(in) :: name !! of the column
+    integer, intent(in) :: value         !! of the cell
+    character(len=*), intent(in) :: name !! of the column, which determines its width
     character(len=max(integer_width, len(name) + 1)) :: cell
 
     character(len=12) :: digits
@@ -344,8 +352,8 @@ contains
 
   !> A name at the right end of its column.
   pure function name_cell(name, width) result(cell)
-    character(len=*), intent(in) :: name
-    integer, intent(in) :: width
+    character(len=*), intent(in) :: name !! in the cell
+    integer, intent(in) :: width         !! of the column
     character(len=max(width, len(name) + 1)) :: cell
 
     cell = repeat(" ", len(cell) - len(name))//name

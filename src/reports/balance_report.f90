@@ -1,5 +1,5 @@
-!> `balance.dat` and `harmonics.dat`: what a linkage does to its ground, as it is and with
-!! counterweights.
+!> `balance.dat` and `harmonics.dat`: shaking force, shaking moment and driving torque of a
+!! linkage, as given and with counterweights.
 module balance_report
   use attached_parts, only: place_on_body
   use constants, only: degree
@@ -22,15 +22,16 @@ module balance_report
 
   character(len=*), parameter :: linkage_names(2) = [character(len=8) :: "given", "balanced"]
 
-  !> A change of harmonics with the number of samples that is more than what rounding does.
+  !> Harmonics have settled if doubling the number of samples changes them by no more than this:
+  !! rounding changes them by less [-].
   real(wp), parameter :: unsettled = 1.0e-10_wp
 
 contains
 
-  !> What the columns are, masses and counterweights.
+  !> Meaning of the columns, total mass, counterweights.
   pure subroutine balance_notes(variant, notes)
-    type(variant_results_t), intent(in) :: variant
-    type(string_t), allocatable, intent(out) :: notes(:)
+    type(variant_results_t), intent(in) :: variant       !! with its balance computed
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     type(unit_t) :: mass
     integer :: i
@@ -45,7 +46,7 @@ contains
     end do
   end subroutine balance_notes
 
-  !> What both tables have to say of their quantities.
+  !> Definition of the quantities, for both tables.
   pure function quantity_notes(variant) result(list)
     type(variant_results_t), intent(in) :: variant
     type(string_t), allocatable :: list(:)
@@ -60,7 +61,7 @@ contains
     call append_string(list, acceleration_note(variant%model))
   end function quantity_notes
 
-  !> Mass × radius and angle, and the card that makes it.
+  !> Mass × radius and angle of a counterweight, and the MASS card for it.
   pure subroutine append_counterweight(variant, number, list)
     type(variant_results_t), intent(in) :: variant
     integer, intent(in) :: number !! of the counterweight
@@ -86,7 +87,7 @@ contains
           shortest_text(from_si(norm2(weight%first_moment), first_moment))//" "// &
           first_moment%name//", at "//shortest_text(atan2(weight%first_moment(2), &
           weight%first_moment(1))/degree)//" deg from "//from//" -> "//to)
-        ! Going from card to body and back is the same.
+        ! `place_on_body` is its own inverse: here it goes from the body to the card.
         place = from_si(place_on_body(variant%model, weight%body, lump%place), &
           table_unit("length", variant%model%units)) + 0.0_wp
         call append_string(list, "card, with the link's length for a radius (the shaking force "// &
@@ -97,24 +98,25 @@ contains
     end associate
   end subroutine append_counterweight
 
-  !> The row of a position and speed.
+  !> Appends the row of a position and speed.
   subroutine add_balance(variant, layout, position, speed, rows)
-    type(variant_results_t), intent(in) :: variant
-    type(table_layout_t), intent(in) :: layout
-    integer, intent(in) :: position, speed !! numbers
-    type(rows_t), intent(inout) :: rows
+    type(variant_results_t), intent(in) :: variant !! with reactions and balance computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list, with a pose
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which it is appended
 
     associate (omega => variant%model%speed%value(speed), positions => variant%found%positions, &
         balance => variant%found%balance, state => variant%found%positions%state(position))
       call add_row(rows, cells(layout, 1, [omega, positions%crank(position), &
-        balance%centre(:, state), quantities(variant%found%reactions), &
-        quantities(balance%balanced)]))
+        balance%centre(:, state), row_quantities(variant%found%reactions), &
+        row_quantities(balance%balanced)]))
     end associate
 
   contains
 
-    !> Shaking force and moment, and driving torque.
-    pure function quantities(reactions) result(values)
+    !> Shaking force and moment, and driving torque [N, N m].
+    pure function row_quantities(reactions) result(values)
       type(reactions_result_t), intent(in) :: reactions
       real(wp) :: values(4)
 
@@ -123,14 +125,15 @@ contains
       all = reactions_at_speed(reactions, variant%found%positions%state(position), &
         variant%model%speed%value(speed), variant%model%acceleration)
       values = [all(shaking_values), all(torque_value)]
-    end function quantities
+    end function row_quantities
 
   end subroutine add_balance
 
-  !> What the columns are, and how sure they are.
+  !> Meaning of the columns, and the number of samples with the change that halving it makes; or
+  !! the reason why the table has no rows.
   pure subroutine harmonics_notes(variant, notes)
-    type(variant_results_t), intent(in) :: variant
-    type(string_t), allocatable, intent(out) :: notes(:)
+    type(variant_results_t), intent(in) :: variant       !! with its harmonics computed
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     type(unit_t) :: force, moment
 
@@ -165,11 +168,12 @@ contains
     lists(2)%names = trimmed_list(quantity_names)
   end function harmonics_words
 
-  !> One row a quantity of a linkage, one block a speed; none where there is no whole turn.
+  !> Appends one row per linkage (as given, balanced) and quantity, one block per speed. No rows if
+  !! the crank cannot make a full turn.
   subroutine add_harmonics(variant, layout, rows)
-    type(variant_results_t), intent(in) :: variant
-    type(table_layout_t), intent(in) :: layout
-    type(rows_t), intent(inout) :: rows
+    type(variant_results_t), intent(in) :: variant !! with its harmonics computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
 
     real(wp) :: unit_value
     integer :: i, k, q
@@ -179,7 +183,7 @@ contains
       if (k > 1) call add_gap(rows, 2)
       do i = 1, size(linkage_names)
         do q = 1, quantity_count
-          ! Their units are those of the quantity of the row.
+          ! The unit depends on the quantity of the row, not on the column.
           unit_value = from_si(1.0_wp, table_factor(trim(merge("moment", "force ", is_moment(q))), &
             variant%model%units))
           associate (this => variant%found%harmonics%of(q, i, k))

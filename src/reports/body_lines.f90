@@ -1,4 +1,4 @@
-!> Links with masses of their own, and masses fixed to links, as the log tells them.
+!> Links with masses of their own, and masses fixed to links, in words for the log.
 module body_lines
   use kinds, only: wp
   use link_bodies, only: link_center, link_inertia
@@ -13,11 +13,11 @@ module body_lines
 
 contains
 
-  !> What a link with a mass of its own is: `body of link coupler: mass 0.5 kg (given), …`, and
-  !! where each value comes from.
+  !> `body of link coupler: mass 0.5 kg (given), …`: a link with a mass of its own, and the source
+  !! of each value.
   pure function body_line(model, link) result(line)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: link !! number in the model's list
+    type(model_t), intent(in) :: model !! in SI
+    integer, intent(in) :: link        !! number in the model's list
     character(len=:), allocatable :: line
 
     type(unit_t) :: length, mass, inertia
@@ -38,8 +38,8 @@ contains
 
   !> `mass on link coupler: 0.1 kg at 30 mm along, 5 mm to the left from A`
   pure function mass_line(model, number) result(line)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: number !! of the MASS card
+    type(model_t), intent(in) :: model !! in SI
+    integer, intent(in) :: number      !! of the MASS card
     character(len=:), allocatable :: line
 
     type(unit_t) :: mass
@@ -52,7 +52,7 @@ contains
     end associate
   end function mass_line
 
-  !> ` (given)`, or where else a value comes from
+  !> ` (given)`, or another source of the value
   pure function source(given, otherwise) result(words)
     logical, intent(in) :: given
     character(len=*), intent(in) :: otherwise
@@ -64,8 +64,8 @@ contains
 
   !> `30 mm along, 5 mm to the left`
   pure function place_words(place, length) result(words)
-    real(wp), intent(in) :: place(2) !! along the link and to its left [m]
-    type(unit_t), intent(in) :: length
+    real(wp), intent(in) :: place(2)   !! along the link and to its left [m]
+    type(unit_t), intent(in) :: length !! unit of the words
     character(len=:), allocatable :: words
 
     words = to_string(from_si(place(1), length), 12)//" "//length%name//" along"

@@ -1,4 +1,5 @@
-!> `frequencies.dat` and `shapes.dat`.
+!> `frequencies.dat` and `shapes.dat`: natural frequencies with their estimated errors, mode
+!! shapes.
 module frequency_report
   use errors, only: error_t
   use frequency_study, only: failure_at, frequency_values, has_result, station_on_link
@@ -8,7 +9,7 @@ module frequency_report
     model_t, needs_loads, report_number
   use report_cards, only: report_t
   use table_columns, only: cells, column_width, table_factor, table_layout_t
-  use table_rows, only: add_failure, add_gap, add_row, rows_t
+  use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: integer_cell, name_cell
   use text, only: append_string, string_t
   use units, only: to_si, unit_t
@@ -22,19 +23,20 @@ module frequency_report
 
 contains
 
-  !> What the frequencies are, and their errors.
+  !> Effects in the equations, and the meaning of the error columns.
   pure subroutine frequency_notes(variant, notes)
-    type(variant_results_t), intent(in) :: variant
-    type(string_t), allocatable, intent(out) :: notes(:)
+    type(variant_results_t), intent(in) :: variant       !! with its model
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     notes = effects_notes(variant%model)
     call append_string(notes, &
       "error1 and so on: how far off each frequency may be, of itself: mesh and rounding")
   end subroutine frequency_notes
 
-  !> What the frequencies are, in words.
+  !> Effects in the equations of the frequencies: axial forces of which loads, rotary inertia,
+  !! shear.
   pure function effects_notes(model) result(notes)
-    type(model_t), intent(in) :: model
+    type(model_t), intent(in) :: model !! with frequencies
     type(string_t), allocatable :: notes(:)
 
     if (model%effects == effects_static) then
@@ -72,12 +74,13 @@ contains
     if (model%inertia == inertia_distributed) words = words//"; distributed inertia"
   end function loads_in_words
 
-  !> The row of a position and speed.
+  !> Appends the row of a position and speed, or a failed row.
   subroutine add_frequencies(variant, layout, position, speed, rows)
-    type(variant_results_t), intent(in) :: variant
-    type(table_layout_t), intent(in) :: layout
-    integer, intent(in) :: position, speed !! numbers
-    type(rows_t), intent(inout) :: rows
+    type(variant_results_t), intent(in) :: variant !! with its sweep computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list
+    integer, intent(in) :: speed                   !! number in the sweep's list
+    type(rows_t), intent(inout) :: rows            !! to which it is appended
 
     associate (found => variant%found, state => variant%found%positions%state(position))
       associate (place => [found%sweep%request%speed(speed), found%positions%crank(position)])
@@ -90,7 +93,7 @@ contains
     end associate
   end subroutine add_frequencies
 
-  !> A row without a result.
+  !> A row without a result, with the reason.
   subroutine add_failed(variant, position, speed, rows)
     type(variant_results_t), intent(in) :: variant
     integer, intent(in) :: position, speed !! numbers
@@ -100,15 +103,15 @@ contains
 
     associate (found => variant%found)
       error = failure_at(found%positions, found%sweep, found%positions%state(position), speed)
-      call add_failure(rows, [found%sweep%request%speed(speed), &
+      call add_failed_row(rows, [found%sweep%request%speed(speed), &
         found%positions%crank(position)], error%text)
     end associate
   end subroutine add_failed
 
-  !> What the shapes are.
+  !> Effects in the equations, normalisation of the shapes, direction of `s`.
   pure subroutine shape_notes(variant, notes)
-    type(variant_results_t), intent(in) :: variant
-    type(string_t), allocatable, intent(out) :: notes(:)
+    type(variant_results_t), intent(in) :: variant       !! with its mechanism
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     notes = effects_notes(variant%model)
     associate (pins => variant%mechanism%pin_names)
@@ -117,10 +120,10 @@ contains
     end associate
   end subroutine shape_notes
 
-  !> Positions and speeds whose shapes are asked for, in the order of the table.
+  !> Positions and speeds whose shapes are requested, in the order of the table.
   pure function drawn_rows(variant) result(list)
-    type(variant_results_t), intent(in) :: variant
-    integer, allocatable :: list(:, :) !! (position and speed, rows)
+    type(variant_results_t), intent(in) :: variant !! with REPORT shapes, its sweep computed
+    integer, allocatable :: list(:, :)             !! (position and speed, rows)
 
     integer :: all(2, size(variant%found%positions%crank)*size(variant%found%sweep%request%speed))
     integer :: i, k, n
@@ -139,18 +142,18 @@ contains
     list = all(:, :n)
   end function drawn_rows
 
-  !> Whether a report of shapes asks for a position and speed; without `crank=` and `speed=` it asks
-  !! for all.
+  !> Whether REPORT shapes requests a position and speed. Without `crank=` it requests all
+  !! positions, without `speed=` all speeds.
   pure function is_drawn(report, crank, speed) result(is)
-    type(report_t), intent(in) :: report
-    real(wp), intent(in) :: crank !! [deg]
-    real(wp), intent(in) :: speed !! [rad/s]
+    type(report_t), intent(in) :: report !! the card
+    real(wp), intent(in) :: crank        !! [deg]
+    real(wp), intent(in) :: speed        !! [rad/s]
     logical :: is
 
     is = is_chosen(report%crank, crank) .and. is_chosen(report%speed, speed)
   end function is_drawn
 
-  !> Whether a list has a value; an empty list has them all.
+  !> Whether a list contains a value; an empty list contains all.
   pure function is_chosen(list, value) result(is)
     type(value_list_t), intent(in) :: list
     real(wp), intent(in) :: value
@@ -160,13 +163,14 @@ contains
     if (.not. is) is = value_number(list, value) > 0
   end function is_chosen
 
-  !> Rows along every link of every mode at a position and speed; an empty line between links, two
-  !! between modes.
+  !> Appends the rows along every link, for every mode at a position and speed, or one failed row.
+  !! One empty line between links, two between modes.
   subroutine add_shapes(variant, layout, position, speed, rows)
-    type(variant_results_t), intent(in) :: variant
-    type(table_layout_t), intent(in) :: layout
-    integer, intent(in) :: position, speed !! numbers
-    type(rows_t), intent(inout) :: rows
+    type(variant_results_t), intent(in) :: variant !! with its sweep computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list
+    integer, intent(in) :: speed                   !! number in the sweep's list
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
 
     real(wp), allocatable :: frequencies(:)
     integer :: mode

@@ -3,7 +3,7 @@ module geometry_report
   use linkage_notes, only: notes_on_linkage
   use points_report, only: point_names
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
-  use table_rows, only: add_failure, add_gap, add_row, rows_t
+  use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: name_cell
   use text, only: append_string, string_t
   use variant_results, only: variant_results_t
@@ -12,24 +12,24 @@ module geometry_report
 
   public :: geometry_notes, geometry_words, add_geometry
 
-  !> In place of a link for the fixed pivots.
+  !> Stands in the column `link` for the fixed pivots.
   character(len=*), parameter :: ground = "-"
 
 contains
 
-  !> What the rows are, and the class and limits of the linkage.
+  !> Class, limit positions and transmission angles of the linkage, and the order of the rows.
   pure subroutine geometry_notes(variant, notes)
-    type(variant_results_t), intent(in) :: variant
-    type(string_t), allocatable, intent(out) :: notes(:)
+    type(variant_results_t), intent(in) :: variant       !! with class and kinematics computed
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     notes = notes_on_linkage(variant)
     call append_string(notes, &
-      "links one after the other, each from pin to pin, then its points; "//"global axes")
+      "links one after the other, each from pin to pin, then its points; global axes")
   end subroutine geometry_notes
 
   !> The names in the columns `link`, `part` and `place`.
   pure function geometry_words(variant) result(lists)
-    type(variant_results_t), intent(in) :: variant
+    type(variant_results_t), intent(in) :: variant !! with its mechanism
     type(name_list_t) :: lists(3)
 
     type(name_list_t) :: points
@@ -49,13 +49,13 @@ contains
     end do
   end function geometry_words
 
-  !> The rows of a position: an empty line between links, and between a link and its points; two
-  !! between positions.
+  !> Appends the rows of a position, or one failed row. One empty line between links and between a
+  !! link and its points, two between positions.
   subroutine add_geometry(variant, layout, position, rows)
-    type(variant_results_t), intent(in) :: variant
-    type(table_layout_t), intent(in) :: layout
-    integer, intent(in) :: position !! number
-    type(rows_t), intent(inout) :: rows
+    type(variant_results_t), intent(in) :: variant !! with its geometry computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the list of REPORT geometry
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
 
     integer :: body, pin, point
     logical :: is_first
@@ -64,7 +64,7 @@ contains
     associate (found => variant%found%geometry, linkage => variant%mechanism%linkage, &
         points => variant%mechanism%points)
       if (allocated(found%outcome(position)%error)) then
-        call add_failure(rows, [found%crank(position)], found%outcome(position)%error%text)
+        call add_failed_row(rows, [found%crank(position)], found%outcome(position)%error%text)
         return
       end if
       do pin = 1, size(linkage%is_ground)
@@ -92,23 +92,17 @@ contains
   subroutine add_pin(variant, layout, position, body, pin, rows)
     type(variant_results_t), intent(in) :: variant
     type(table_layout_t), intent(in) :: layout
-    integer, intent(in) :: position, body, pin !! numbers; body 0 is the ground
+    integer, intent(in) :: position, body, pin !! numbers; body 0: the ground
     type(rows_t), intent(inout) :: rows
 
-    associate (found => variant%found%geometry, width => column_width(layout, 2))
-      if (body == 0) then
-        call add_row(rows, cells(layout, 1, [found%crank(position)])//name_cell(ground, width)// &
-          name_cell("pin", column_width(layout, 3))// &
-          name_cell(variant%mechanism%pin_names(pin)%text, column_width(layout, 4))// &
-          cells(layout, 5, found%pin(:, pin, position)))
-      else
-        call add_row(rows, cells(layout, 1, [found%crank(position)])// &
-          name_cell(variant%mechanism%names(body)%text, width)// &
-          name_cell("pin", column_width(layout, 3))// &
-          name_cell(variant%mechanism%pin_names(pin)%text, column_width(layout, 4))// &
-          cells(layout, 5, found%pin(:, pin, position)))
-      end if
-    end associate
+    character(len=:), allocatable :: link
+
+    link = ground
+    if (body > 0) link = variant%mechanism%names(body)%text
+    call add_row(rows, cells(layout, 1, [variant%found%geometry%crank(position)])// &
+      name_cell(link, column_width(layout, 2))//name_cell("pin", column_width(layout, 3))// &
+      name_cell(variant%mechanism%pin_names(pin)%text, column_width(layout, 4))// &
+      cells(layout, 5, variant%found%geometry%pin(:, pin, position)))
   end subroutine add_pin
 
 end module geometry_report

@@ -14,15 +14,15 @@ module inertia_report
 
   public :: inertia_notes, inertia_owners, has_moments, add_inertia
 
-  !> What comes before the names of pins, and of links to which masses are fixed.
+  !> Prefixes of the names of pins with masses, and of links to which masses are fixed.
   character(len=*), parameter :: pin_mark = "pin:", mass_mark = "mass:"
 
 contains
 
-  !> What kinds of masses there are.
+  !> The kinds of masses in the table, and the crank's angular acceleration.
   pure subroutine inertia_notes(variant, notes)
-    type(variant_results_t), intent(in) :: variant
-    type(string_t), allocatable, intent(out) :: notes(:)
+    type(variant_results_t), intent(in) :: variant       !! with its inertia loads computed
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     associate (masses => variant%found%inertia%masses, mechanism => variant%mechanism)
       if (any(mechanism%load_elements > 0)) call append_string(notes, &
@@ -40,7 +40,7 @@ contains
     call append_string(notes, acceleration_note(variant%model))
   end subroutine inertia_notes
 
-  !> Which links have a mass that is distributed along them.
+  !> Which links have mass distributed along them (bodies).
   pure function is_spread(mechanism) result(is)
     type(mechanism_t), intent(in) :: mechanism
     logical :: is(size(mechanism%names))
@@ -48,18 +48,18 @@ contains
     is = mechanism%load_elements == 0 .and. mechanism%linkage%bodies%line_density > 0.0_wp
   end function is_spread
 
-  !> Whether there is a column of moments: not where all masses sit on nodes.
+  !> Whether the table has a column of moments: not if all masses are point masses.
   pure function has_moments(variant) result(has)
-    type(variant_results_t), intent(in) :: variant
+    type(variant_results_t), intent(in) :: variant !! with its inertia loads computed
     logical :: has
 
     has = any(variant%found%inertia%masses%kind == of_body) .or. any(is_spread(variant%mechanism))
   end function has_moments
 
-  !> Names of links, of pins with masses and of masses fixed to links, as they stand in the column
-  !! `link`.
+  !> Names in the column `link`: of links, of pins, and of links to which masses are fixed, the
+  !! last two with their prefixes.
   pure function inertia_owners(variant) result(list)
-    type(variant_results_t), intent(in) :: variant
+    type(variant_results_t), intent(in) :: variant !! with its mechanism
     type(name_list_t) :: list
 
     integer :: i
@@ -79,12 +79,13 @@ contains
     end associate
   end function inertia_owners
 
-  !> The rows of a position and speed: one a mass.
+  !> Appends the rows of a position and speed, one per mass.
   subroutine add_inertia(variant, layout, position, speed, rows)
-    type(variant_results_t), intent(in) :: variant
-    type(table_layout_t), intent(in) :: layout
-    integer, intent(in) :: position, speed !! numbers
-    type(rows_t), intent(inout) :: rows
+    type(variant_results_t), intent(in) :: variant !! with its inertia loads computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list, with a pose
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
 
     type(mass_load_t) :: loads(size(variant%found%inertia%masses))
     real(wp) :: place(2), moment(merge(1, 0, has_moments(variant)))
@@ -105,7 +106,7 @@ contains
     end associate
   end subroutine add_inertia
 
-  !> What a mass belongs to.
+  !> The link or pin to which a mass belongs.
   pure function owner_cell(mechanism, mass, width) result(cell)
     type(mechanism_t), intent(in) :: mechanism
     type(mass_t), intent(in) :: mass

@@ -1,4 +1,5 @@
-!> `kinematics.dat`: how the links move.
+!> `kinematics.dat`: angles, angular velocities and accelerations of the links, moving pins,
+!! transmission angle.
 module kinematics_report
   use kinematics_study, only: kinematics_at
   use linkage_notes, only: angle_note, notes_on_linkage
@@ -14,10 +15,10 @@ module kinematics_report
 
 contains
 
-  !> What the numbers and letters of the columns mean, and what to know of the linkage.
+  !> Notes on the linkage, the links and pins that the columns refer to, the crank's acceleration.
   pure subroutine kinematics_notes(variant, notes)
-    type(variant_results_t), intent(in) :: variant
-    type(string_t), allocatable, intent(out) :: notes(:)
+    type(variant_results_t), intent(in) :: variant       !! with class and kinematics computed
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     notes = notes_on_linkage(variant)
     call append_string(notes, angle_note(variant))
@@ -27,12 +28,13 @@ contains
     call append_string(notes, acceleration_note(variant%model))
   end subroutine kinematics_notes
 
-  !> The row of a position and speed.
+  !> Appends the row of a position and speed.
   subroutine add_kinematics(variant, layout, position, speed, rows)
-    type(variant_results_t), intent(in) :: variant
-    type(table_layout_t), intent(in) :: layout
-    integer, intent(in) :: position, speed !! numbers
-    type(rows_t), intent(inout) :: rows
+    type(variant_results_t), intent(in) :: variant !! with kinematics computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list, with a pose
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which it is appended
 
     associate (omega => variant%model%speed%value(speed), positions => variant%found%positions)
       call add_row(rows, cells(layout, 1, [omega, positions%crank(position), &

@@ -1,4 +1,4 @@
-!> `lagrange.dat`: the terms of Lagrange's equation, the torque that they demand, and the energies.
+!> `lagrange.dat`: terms of Lagrange's equation, driving torque, energies.
 module lagrange_report
   use lagrange_study, only: lagrange_at_speed
   use load_notes, only: append_load_notes, append_motion_notes
@@ -13,10 +13,10 @@ module lagrange_report
 
 contains
 
-  !> What the terms are, and what loads there are.
+  !> Definition of the terms, and the loads.
   pure subroutine lagrange_notes(variant, notes)
-    type(variant_results_t), intent(in) :: variant
-    type(string_t), allocatable, intent(out) :: notes(:)
+    type(variant_results_t), intent(in) :: variant       !! with its mechanism
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     call append_motion_notes(notes, variant%model, variant%mechanism)
     call append_string(notes, "torque = M alpha2 + V + gravity + load, of the drive on link 2, "// &
@@ -29,12 +29,13 @@ contains
     call append_load_notes(notes, variant%model, variant%mechanism)
   end subroutine lagrange_notes
 
-  !> The row of a position and speed.
+  !> Appends the row of a position and speed.
   subroutine add_lagrange(variant, layout, position, speed, rows)
-    type(variant_results_t), intent(in) :: variant
-    type(table_layout_t), intent(in) :: layout
-    integer, intent(in) :: position, speed !! numbers
-    type(rows_t), intent(inout) :: rows
+    type(variant_results_t), intent(in) :: variant !! with the Lagrange terms computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list, with a pose
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which it is appended
 
     associate (omega => variant%model%speed%value(speed), positions => variant%found%positions)
       call add_row(rows, cells(layout, 1, [omega, positions%crank(position), &

@@ -1,4 +1,4 @@
-!> What to know of a linkage before its tables, in words.
+!> Notes on the linkage, for the heads of tables and the log.
 module linkage_notes
   use text, only: append_string, string_t, to_string
   use variant_results, only: variant_results_t
@@ -11,7 +11,7 @@ contains
 
   !> Grashof class, limit positions, extreme transmission angles.
   pure function notes_on_linkage(variant) result(notes)
-    type(variant_results_t), intent(in) :: variant
+    type(variant_results_t), intent(in) :: variant !! with class and kinematics computed
     type(string_t), allocatable :: notes(:)
 
     character(len=:), allocatable :: limits
@@ -36,9 +36,10 @@ contains
     end associate
   end function notes_on_linkage
 
-  !> Which link's angle theta3 and theta4 are.
+  !> The links with the angles theta3 and theta4, and the pins from and to which these are
+  !! measured.
   pure function angle_note(variant) result(note)
-    type(variant_results_t), intent(in) :: variant
+    type(variant_results_t), intent(in) :: variant !! with its mechanism
     character(len=:), allocatable :: note
 
     associate (names => variant%mechanism%names, pins => variant%mechanism%pin_names)

@@ -1,4 +1,5 @@
-!> `linkage.dat`: what a linkage can do at all, on both branches.
+!> `linkage.dat`: class, mobility, ranges and special positions of a linkage, on both branches
+!! (assembly modes).
 module linkage_report
   use kinds, only: wp
   use linkage_notes, only: angle_note
@@ -18,10 +19,10 @@ module linkage_report
 
 contains
 
-  !> Class, mobility, ranges, change points, and what the words of the table mean.
+  !> Class, mobility, ranges, change points, and the meaning of the words in the table.
   pure subroutine linkage_remarks(variant, notes)
-    type(variant_results_t), intent(in) :: variant
-    type(string_t), allocatable, intent(out) :: notes(:)
+    type(variant_results_t), intent(in) :: variant       !! with its linkage study computed
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     integer :: i, branch
 
@@ -57,11 +58,11 @@ contains
     lists(2)%names = trimmed_list(event_names)
   end function linkage_words
 
-  !> One row a special position, in the order of crank angles; one block a branch.
+  !> Appends one row per special position, by crank angle; one block per branch.
   subroutine add_linkage(variant, layout, rows)
-    type(variant_results_t), intent(in) :: variant
-    type(table_layout_t), intent(in) :: layout
-    type(rows_t), intent(inout) :: rows
+    type(variant_results_t), intent(in) :: variant !! with its linkage study computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
 
     integer :: i, branch
 
@@ -78,7 +79,7 @@ contains
     end do
   end subroutine add_linkage
 
-  !> `link crank from -30 to 45.5 deg`, `link follower turns fully`
+  !> `link crank from -30 to 45.5 deg`, or `link follower turns fully`
   pure function range_text(name, range, turns) result(text)
     character(len=*), intent(in) :: name
     real(wp), intent(in) :: range(2) !! [deg]
@@ -93,6 +94,7 @@ contains
     end if
   end function range_text
 
+  !> `change points: crank 0, follower 180 deg; …`, or `change points: none`
   pure function change_text(points) result(text)
     type(special_position_t), intent(in) :: points(:)
     character(len=:), allocatable :: text

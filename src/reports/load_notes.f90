@@ -1,4 +1,4 @@
-!> What loads a mechanism, in words for the heads of tables.
+!> Loads of a mechanism in words, for the heads of tables.
 module load_notes
   use kinds, only: wp
   use link_cards, only: has_own_mass
@@ -14,11 +14,11 @@ module load_notes
 
 contains
 
-  !> Which inertia every link has, gravity, forces and torques from outside.
+  !> Inertia of every link, gravity, external loads: one line for each of the three.
   pure subroutine append_load_notes(notes, model, mechanism)
-    type(string_t), allocatable, intent(inout) :: notes(:)
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
+    type(string_t), allocatable, intent(inout) :: notes(:) !! to which they are appended
+    type(model_t), intent(in) :: model                     !! in SI
+    type(mechanism_t), intent(in) :: mechanism             !! of the model
 
     character(len=:), allocatable :: line
     integer :: b
@@ -64,7 +64,7 @@ contains
       dimension_acceleration))
   end function gravity_words
 
-  !> Forces on pins and torques on links in one line.
+  !> External loads, forces on pins and torques on links, in one line.
   pure function outside_loads(model, mechanism) result(line)
     type(model_t), intent(in) :: model
     type(mechanism_t), intent(in) :: mechanism
@@ -95,7 +95,7 @@ contains
 
   !> `0 -9.81 m/s2`, or `none`
   pure function vector(components, measure) result(words)
-    real(wp), intent(in) :: components(2)
+    real(wp), intent(in) :: components(2) !! global x and y [SI]
     type(unit_t), intent(in) :: measure
     character(len=:), allocatable :: words
 
@@ -105,11 +105,12 @@ contains
       to_string(from_si(components(2), measure), 12)//" "//measure%name
   end function vector
 
-  !> Which links and pins the numbers and letters of columns mean, and how the crank speeds up.
+  !> The links and pins that numbers and letters in column names stand for, and the crank's angular
+  !! acceleration.
   pure subroutine append_motion_notes(notes, model, mechanism)
-    type(string_t), allocatable, intent(inout) :: notes(:)
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
+    type(string_t), allocatable, intent(inout) :: notes(:) !! to which they are appended
+    type(model_t), intent(in) :: model                     !! in SI
+    type(mechanism_t), intent(in) :: mechanism             !! of the model
 
     call append_string(notes, "2: link "//mechanism%names(1)%text//"; 3: link "// &
       mechanism%names(2)%text//"; 4: link "//mechanism%names(3)%text//"; O2: pin "// &
@@ -118,9 +119,9 @@ contains
     call append_string(notes, acceleration_note(model))
   end subroutine append_motion_notes
 
-  !> How the crank speeds up.
+  !> Angular acceleration of the crank.
   pure function acceleration_note(model) result(note)
-    type(model_t), intent(in) :: model
+    type(model_t), intent(in) :: model !! in SI
     character(len=:), allocatable :: note
 
     note = "angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2"

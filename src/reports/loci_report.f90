@@ -1,7 +1,7 @@
-!> `branches.dat`: frequencies followed by their shapes from position to position.
+!> `branches.dat`: frequencies followed by their mode shapes from position to position.
 !!
-!! What the deck and the table call a branch is a locus here: a branch of the linkage is another
-!! thing.
+!! The deck and the table call a locus a branch. In the code a branch is an assembly mode of the
+!! linkage.
 module loci_report
   use errors, only: error_t
   use frequency_report, only: effects_notes
@@ -9,7 +9,7 @@ module loci_report
   use loci_study, only: event_ambiguous, event_crossing, event_start, event_veering, failed_rows, &
     is_empty, locus_row_t, rows_of_locus
   use table_columns, only: cells, name_list_t, table_layout_t
-  use table_rows, only: add_failure, add_gap, add_row, rows_t
+  use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: integer_cell, name_cell
   use text, only: append_string, string_t, to_string
   use variant_results, only: variant_results_t
@@ -18,14 +18,15 @@ module loci_report
 
   public :: loci_notes, locus_words, add_loci
 
+  !> Width of the column `event`: the longest word, and a blank.
   integer, parameter :: event_width = 18
 
 contains
 
-  !> What `mac` and the events mean.
+  !> Effects in the equations, and the meaning of `mac` and the events.
   pure subroutine loci_notes(variant, notes)
-    type(variant_results_t), intent(in) :: variant
-    type(string_t), allocatable, intent(out) :: notes(:)
+    type(variant_results_t), intent(in) :: variant       !! with its sweep computed
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     notes = effects_notes(variant%model)
     call append_string(notes, &
@@ -35,7 +36,7 @@ contains
       "(shapes do not tell which branch goes on: a new one begins)")
   end subroutine loci_notes
 
-  !> The words in the column `event`, which is as wide as the longest of them.
+  !> The column `event`, with a word as long as the longest.
   pure function locus_words() result(list)
     type(name_list_t) :: list
 
@@ -44,12 +45,12 @@ contains
     list%names(1)%text = repeat("x", event_width - 1)
   end function locus_words
 
-  !> One row a position and locus; a block a speed, within it locus after locus, each along the
-  !! crank angle.
+  !> Appends one row per position and locus. One block per speed: first the failed rows, then locus
+  !! after locus, each by crank angle.
   subroutine add_loci(variant, layout, rows)
-    type(variant_results_t), intent(in) :: variant
-    type(table_layout_t), intent(in) :: layout
-    type(rows_t), intent(inout) :: rows
+    type(variant_results_t), intent(in) :: variant !! with sweep and loci computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
 
     integer :: locus, k
     logical :: first
@@ -69,7 +70,7 @@ contains
     end associate
   end subroutine add_loci
 
-  !> The failed rows of a speed, in the order of their crank angles.
+  !> The failed rows of a speed, by crank angle.
   subroutine add_failures(variant, speed, rows)
     type(variant_results_t), intent(in) :: variant
     integer, intent(in) :: speed !! number
@@ -83,13 +84,13 @@ contains
       failed = failed_rows(found%positions, found%sweep, speed)
       do i = 1, size(failed)
         error = failure_at(found%positions, found%sweep, found%positions%state(failed(i)), speed)
-        call add_failure(rows, [found%sweep%request%speed(speed), &
+        call add_failed_row(rows, [found%sweep%request%speed(speed), &
           found%positions%crank(failed(i))], error%text)
       end do
     end associate
   end subroutine add_failures
 
-  !> The rows of one locus at one speed; where it is interrupted by a failed row, so is its curve.
+  !> The rows of one locus at one speed. A failed row interrupts the curve.
   subroutine add_locus(variant, layout, locus, speed, rows)
     type(variant_results_t), intent(in) :: variant
     type(table_layout_t), intent(in) :: layout
@@ -116,8 +117,10 @@ contains
     end associate
   end subroutine add_locus
 
+  !> Word in the column `event`.
   pure function event_name(event, partner) result(name)
-    integer, intent(in) :: event, partner
+    integer, intent(in) :: event   !! event_start, …
+    integer, intent(in) :: partner !! locus that is crossed or veered from
     character(len=24) :: name
 
     select case (event)

@@ -13,10 +13,10 @@ module mesh_report
 
 contains
 
-  !> What masses and nodes are.
+  !> Meaning of the columns of masses and nodes.
   pure subroutine mesh_notes(variant, notes)
-    type(variant_results_t), intent(in) :: variant
-    type(string_t), allocatable, intent(out) :: notes(:)
+    type(variant_results_t), intent(in) :: variant       !! with its mechanism
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     call append_string(notes, &
       "mass_a and mass_b: what the element brings to the lumped masses of its nodes")
@@ -25,13 +25,13 @@ contains
       "rigid links have no elements")
   end subroutine mesh_notes
 
-  !> The rows of a position: one an element, and an empty line before the next position. Each
-  !! element brings half of its mass to either node.
+  !> Appends the rows of a position, one per element, and an empty line if a position follows. Each
+  !! element brings half of its mass to each of its nodes.
   subroutine add_mesh(variant, layout, position, rows)
-    type(variant_results_t), intent(in) :: variant
-    type(table_layout_t), intent(in) :: layout
-    integer, intent(in) :: position !! number
-    type(rows_t), intent(inout) :: rows
+    type(variant_results_t), intent(in) :: variant !! with its positions computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list, with a pose
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
 
     type(mesh_element_t), allocatable :: elements(:)
     integer :: i

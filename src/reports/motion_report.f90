@@ -1,10 +1,10 @@
-!> `motion.dat`: how the linkage moves by itself, and what the log says of it.
+!> `motion.dat`: forward dynamics, and its lines in the log.
 module motion_report
   use linkage_notes, only: angle_note
   use motion_study, only: motion_result_t, motion_tolerance
   use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
     table_unit
-  use table_rows, only: add_failure, add_row, rows_t
+  use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: name_cell
   use text, only: append_string, plural, string_t, to_string, word_list
   use text_buffer, only: append_text, buffer_text, text_buffer_t
@@ -17,17 +17,17 @@ module motion_report
 
   character(len=*), parameter :: branch_names = "open crossed"
 
-  !> The log lists no more turning points than this.
+  !> Turning points that the log lists at most.
   integer, parameter :: most_listed = 200
 
   character(len=*), parameter :: line_feed = achar(10)
 
 contains
 
-  !> What the columns are.
+  !> Meaning of the columns, initial energy, tolerance of the integration.
   pure subroutine motion_notes(variant, notes)
-    type(variant_results_t), intent(in) :: variant
-    type(string_t), allocatable, intent(out) :: notes(:)
+    type(variant_results_t), intent(in) :: variant       !! with its motion computed
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     type(unit_t) :: moment
 
@@ -57,11 +57,11 @@ contains
     list%names = word_list(branch_names)
   end function motion_words
 
-  !> One row an instant; a failed one where the motion ends too soon.
+  !> Appends one row per instant, and a failed row if the motion ends before its end time.
   subroutine add_motion(variant, layout, rows)
-    type(variant_results_t), intent(in) :: variant
-    type(table_layout_t), intent(in) :: layout
-    type(rows_t), intent(inout) :: rows
+    type(variant_results_t), intent(in) :: variant !! with its motion computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
 
     integer :: i
 
@@ -73,7 +73,7 @@ contains
             sample%closure])//name_cell(trim(branch_of(sample%is_open)), column_width(layout, 14)))
         end associate
       end do
-      if (allocated(motion%error)) call add_failure(rows, [from_si(motion%last%time, &
+      if (allocated(motion%error)) call add_failed_row(rows, [from_si(motion%last%time, &
         table_factor("time", variant%model%units))], motion%error%text)
     end associate
   end subroutine add_motion
@@ -85,9 +85,9 @@ contains
     name = merge("open   ", "crossed", is_open)
   end function branch_of
 
-  !> Where the crank turns back, a line each, and how the motion was found.
+  !> Log lines: one for each point where the crank turns back, then the numbers of steps and rows.
   pure function motion_log(motion) result(text)
-    type(motion_result_t), intent(in) :: motion
+    type(motion_result_t), intent(in) :: motion !! finished
     character(len=:), allocatable :: text
 
     type(text_buffer_t) :: buffer

@@ -15,10 +15,10 @@ module points_report
 
 contains
 
-  !> Where the points are.
+  !> Place of every point on its link, axes, the crank's angular acceleration.
   pure subroutine points_notes(variant, notes)
-    type(variant_results_t), intent(in) :: variant
-    type(string_t), allocatable, intent(out) :: notes(:)
+    type(variant_results_t), intent(in) :: variant       !! with its model
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     integer :: i
 
@@ -36,7 +36,7 @@ contains
 
   !> The names in the column `point`.
   pure function point_names(variant) result(list)
-    type(variant_results_t), intent(in) :: variant
+    type(variant_results_t), intent(in) :: variant !! with its mechanism
     type(name_list_t) :: list
 
     integer :: i
@@ -48,12 +48,13 @@ contains
     end do
   end function point_names
 
-  !> The rows of a position and speed: one a point.
+  !> Appends the rows of a position and speed, one per point.
   subroutine add_points(variant, layout, position, speed, rows)
-    type(variant_results_t), intent(in) :: variant
-    type(table_layout_t), intent(in) :: layout
-    integer, intent(in) :: position, speed !! numbers
-    type(rows_t), intent(inout) :: rows
+    type(variant_results_t), intent(in) :: variant !! with its points computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list, with a pose
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
 
     integer :: p
 

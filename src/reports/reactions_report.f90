@@ -1,4 +1,4 @@
-!> `reactions.dat`: forces in the pins, driving torque, shaking force and moment.
+!> `reactions.dat`: pin forces, driving torque, shaking force and shaking moment.
 module reactions_report
   use load_notes, only: append_load_notes, append_motion_notes
   use reactions_study, only: reactions_at_speed
@@ -13,10 +13,10 @@ module reactions_report
 
 contains
 
-  !> Which link a force is on, in which axes, and what loads there are.
+  !> The link on which each force acts, axes and signs, definitions, loads.
   pure subroutine reactions_notes(variant, notes)
-    type(variant_results_t), intent(in) :: variant
-    type(string_t), allocatable, intent(out) :: notes(:)
+    type(variant_results_t), intent(in) :: variant       !! with its mechanism
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     call append_motion_notes(notes, variant%model, variant%mechanism)
     call append_string(notes, "forces in global axes: A2 on link 2 at A, and so on; "// &
@@ -28,12 +28,13 @@ contains
     call append_load_notes(notes, variant%model, variant%mechanism)
   end subroutine reactions_notes
 
-  !> The row of a position and speed.
+  !> Appends the row of a position and speed.
   subroutine add_reactions(variant, layout, position, speed, rows)
-    type(variant_results_t), intent(in) :: variant
-    type(table_layout_t), intent(in) :: layout
-    integer, intent(in) :: position, speed !! numbers
-    type(rows_t), intent(inout) :: rows
+    type(variant_results_t), intent(in) :: variant !! with reactions computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list, with a pose
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which it is appended
 
     associate (omega => variant%model%speed%value(speed), positions => variant%found%positions)
       call add_row(rows, cells(layout, 1, [omega, positions%crank(position), &

@@ -1,6 +1,6 @@
-!> The rows of a table, found on all threads and put in order.
+!> Rows of a table, found on several threads and put in order.
 module report_rows
-  use report_table, only: add_item, table_plan_t
+  use report_table, only: add_item_rows, table_plan_t
   use table_rows, only: append_rows, rows_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -10,20 +10,20 @@ module report_rows
 
 contains
 
-  !> Appends the rows of some items.
+  !> Appends the rows of the items `first` to `last`, in their order.
   subroutine find_rows(plan, variant, first, last, threads, rows)
-    type(table_plan_t), intent(in) :: plan
-    type(variant_results_t), intent(in) :: variant
-    integer, intent(in) :: first, last !! numbers of the items
-    integer, intent(in) :: threads
-    type(rows_t), intent(inout) :: rows
+    type(table_plan_t), intent(in) :: plan         !! of the table
+    type(variant_results_t), intent(in) :: variant !! with all results that the table needs
+    integer, intent(in) :: first, last             !! numbers of items, from 1
+    integer, intent(in) :: threads                 !! number to use
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
 
     type(rows_t), allocatable :: pieces(:)
     integer :: items, piece, count, i
 
     if (threads == 1) then
       do i = first, last
-        call add_item(plan, variant, i, rows)
+        call add_item_rows(plan, variant, i, rows)
       end do
       return
     end if
@@ -33,7 +33,7 @@ contains
     !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(piece, i)
     do piece = 1, count
       do i = first + ((piece - 1)*items)/count, first + (piece*items)/count - 1
-        call add_item(plan, variant, i, pieces(piece))
+        call add_item_rows(plan, variant, i, pieces(piece))
       end do
     end do
     !$omp end parallel do

@@ -1,12 +1,11 @@
-!> The table of reports: what each is called, what its columns are, what it needs, how it is
-!! computed and how it is written.
+!> The table of reports: names, columns, needs, and the procedures that compute and write each.
 !!
-!! A new report is a record in `report_table`, a line in `find_study` for each study of its own, a
-!! component of `study_results_t` for what that finds, and a line for its notes and its rows.
+!! A new report is a record in `reports`, a case in `find_study` for each study of its own, a
+!! component of `study_results_t` for the result, and a case each for its notes and its rows.
 !!
-!! Rows come in items, each found by itself: a position at a speed, or all rows of a small table.
-!! Items may be found at the same time; therefore nothing that `add_item` calls has a result of
-!! deferred length, which gfortran 12 keeps in one place for all threads.
+!! Rows are made in items: a position at a speed, or all rows of a small table. Items may be made
+!! on several threads at a time; therefore nothing that `add_item_rows` calls has a result of
+!! deferred length, for which gfortran 12 has one place for all threads.
 module report_table
   use balance_report, only: add_balance, add_harmonics, balance_notes, harmonics_notes, &
     harmonics_words
@@ -33,14 +32,14 @@ module report_table
   use reactions_report, only: add_reactions, reactions_notes
   use reactions_study, only: find_reactions
   use report_kinds, only: report_kind_t, table_kind_t
-  use table_columns, only: name_list_t, new_layout, table_layout_t
-  use table_rows, only: add_failure, add_gap, rows_t
+  use table_columns, only: name_list_t, new_table_layout, table_layout_t
+  use table_rows, only: add_failed_row, add_gap, rows_t
   use text, only: string_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
 
-  public :: table_plan_t, reports, study_names, find_study, plan_table, table_notes, add_item
+  public :: table_plan_t, reports, study_names, find_study, plan_table, table_notes, add_item_rows
 
   !> A table as it is to be written.
   type :: table_plan_t
@@ -51,81 +50,87 @@ module report_table
     integer, allocatable, private :: drawn(:, :)  !! (position and speed, items) of shapes
   end type table_plan_t
 
-  !> All studies in the order in which they are made: some take what others have found. The last
-  !! three are made block by block, or step by step, by whoever runs them.
+  !> All studies in the order in which they are made: some use the results of others. The last
+  !! three are made block by block, or step by step, by `variant_runs`.
   character(len=*), parameter :: study_names(12) = [character(len=12) :: "kinematics", "geometry", &
     "inertia", "points", "reactions", "lagrange", "balance", "harmonics", "linkage", "motion", &
     "frequencies", "loci"]
 
-  type(report_kind_t), parameter :: reports(*) = [report_kind_t(name="kinematics", &
-    help="how the links move", studies="kinematics", positions=.true., reserved=.true., &
-    numbers=11, &
-    tables=[table_kind_t("kinematics", &
-    "speed:rad/s crank,theta3,theta4:deg omega3,omega4:rad/s "// &
-    "alpha3,alpha4:rad/s2 Ax,Ay,Bx,By:length transmission_angle:deg"), table_kind_t()]), &
+  !> Where a report has one table only.
+  type(table_kind_t), parameter :: no_table = table_kind_t()
+
+  !> A record has name, pattern and default of its card, one line of help, studies, what it needs,
+  !! tables with their columns.
+  type(report_kind_t), parameter :: reports(*) = [ &
+    report_kind_t(name="kinematics", help="how the links move", &
+      studies="kinematics", positions=.true., reserved=.true., numbers=11, tables=[ &
+      table_kind_t("kinematics", "speed:rad/s crank,theta3,theta4:deg omega3,omega4:rad/s "// &
+      "alpha3,alpha4:rad/s2 Ax,Ay,Bx,By:length transmission_angle:deg"), no_table]), &
     report_kind_t(name="inertia", help="masses, their accelerations and inertia forces", &
-    studies="inertia", positions=.true., masses=.true., reserved=.true., numbers=46, &
-    tables=[table_kind_t("inertia", "speed:rad/s crank:deg mass:# link:name x,y:length "// &
-    "ax,ay:acceleration Fx,Fy:force m:mass moment?:moment"), table_kind_t()]), &
-    report_kind_t(name="mesh", help="the finite element model", positions=.true., beams=.true., &
-    reserved=.true., &
-    tables=[table_kind_t("mesh", &
-    "crank:deg link:name element,node_a,node_b:# xa,ya,xb,yb:length "//"mass_a,mass_b:mass"), &
-    table_kind_t()]), report_kind_t(name="frequencies", &
-    help="natural frequencies with their errors", studies="frequencies", positions=.true., &
-    beams=.true., frequencies=.true., reserved=.true., &
-    tables=[table_kind_t("frequencies", "speed:rad/s crank:deg f*:Hz error*:-"), table_kind_t()]), &
+      studies="inertia", positions=.true., masses=.true., reserved=.true., numbers=46, tables=[ &
+      table_kind_t("inertia", "speed:rad/s crank:deg mass:# link:name x,y:length "// &
+      "ax,ay:acceleration Fx,Fy:force m:mass moment?:moment"), no_table]), &
+    report_kind_t(name="mesh", help="the finite element model", &
+      positions=.true., beams=.true., reserved=.true., tables=[ &
+      table_kind_t("mesh", "crank:deg link:name element,node_a,node_b:# xa,ya,xb,yb:length "// &
+      "mass_a,mass_b:mass"), no_table]), &
+    report_kind_t(name="frequencies", help="natural frequencies with their errors", &
+      studies="frequencies", positions=.true., beams=.true., frequencies=.true., &
+      reserved=.true., tables=[ &
+      table_kind_t("frequencies", "speed:rad/s crank:deg f*:Hz error*:-"), no_table]), &
     report_kind_t(name="shapes", help="mode shapes along the links", &
-    pattern="REPORT shapes [crank=a,b,...] [speed=...] [points=]", default="points=21", &
-    studies="frequencies", positions=.true., beams=.true., frequencies=.true., reserved=.true., &
-    tables=[table_kind_t("shapes", &
-    "speed:rad/s crank:deg mode:# frequency:Hz link:name s,x,y:length "// &
-    "ux,uy:mass^-1/2 rotation:rotation"), table_kind_t()]), report_kind_t(name="branches", &
-    help="frequencies followed by their shapes", studies="frequencies loci", positions=.true., &
-    beams=.true., frequencies=.true., reserved=.true., &
-    tables=[table_kind_t("branches", "speed:rad/s crank:deg branch,mode:# frequency:Hz mac:- "// &
-    "event:name"), table_kind_t()]), report_kind_t(name="reactions", &
-    help="forces in the pins, torque, shaking force and moment", studies="reactions", &
-    positions=.true., masses=.true., numbers=48, &
-    tables=[table_kind_t("reactions", &
-    "speed:rad/s crank:deg "// &
-    "O2x,O2y,A2x,A2y,A3x,A3y,B3x,B3y,B4x,B4y,O4x,O4y:force torque:moment "// &
-    "shaking_x,shaking_y:force shaking_moment:moment"), table_kind_t()]), &
+      pattern="REPORT shapes [crank=a,b,...] [speed=...] [points=]", default="points=21", &
+      studies="frequencies", positions=.true., beams=.true., frequencies=.true., &
+      reserved=.true., tables=[ &
+      table_kind_t("shapes", "speed:rad/s crank:deg mode:# frequency:Hz link:name "// &
+      "s,x,y:length ux,uy:mass^-1/2 rotation:rotation"), no_table]), &
+    report_kind_t(name="branches", help="frequencies followed by their shapes", &
+      studies="frequencies loci", positions=.true., beams=.true., frequencies=.true., &
+      reserved=.true., tables=[ &
+      table_kind_t("branches", "speed:rad/s crank:deg branch,mode:# frequency:Hz mac:- "// &
+      "event:name"), no_table]), &
+    report_kind_t(name="reactions", help="forces in the pins, torque, shaking force and moment", &
+      studies="reactions", positions=.true., masses=.true., numbers=48, tables=[ &
+      table_kind_t("reactions", "speed:rad/s crank:deg "// &
+      "O2x,O2y,A2x,A2y,A3x,A3y,B3x,B3y,B4x,B4y,O4x,O4y:force torque:moment "// &
+      "shaking_x,shaking_y:force shaking_moment:moment"), no_table]), &
     report_kind_t(name="points", help="paths, velocities and accelerations of points", &
-    studies="points", positions=.true., &
-    tables=[table_kind_t("points", "speed:rad/s crank:deg point:name x,y:length vx,vy:velocity "// &
-    "ax,ay:acceleration"), table_kind_t()]), report_kind_t(name="lagrange", &
-    help="the torque by energies", studies="lagrange", positions=.true., masses=.true., numbers=5, &
-    tables=[table_kind_t("lagrange", "speed:rad/s crank:deg M,dM:inertia "// &
-    "V,gravity,load,torque,kinetic,potential:moment"), table_kind_t()]), &
-    report_kind_t(name="linkage", help="class, limits and special positions", studies="linkage", &
-    tables=[table_kind_t("linkage", &
-    "branch,event:name crank,theta3,theta4,transmission_angle:deg"), table_kind_t()]), &
+      studies="points", positions=.true., tables=[ &
+      table_kind_t("points", "speed:rad/s crank:deg point:name x,y:length vx,vy:velocity "// &
+      "ax,ay:acceleration"), no_table]), &
+    report_kind_t(name="lagrange", help="the torque by energies", &
+      studies="lagrange", positions=.true., masses=.true., numbers=5, tables=[ &
+      table_kind_t("lagrange", "speed:rad/s crank:deg M,dM:inertia "// &
+      "V,gravity,load,torque,kinetic,potential:moment"), no_table]), &
+    report_kind_t(name="linkage", help="class, limits and special positions", &
+      studies="linkage", tables=[ &
+      table_kind_t("linkage", "branch,event:name crank,theta3,theta4,transmission_angle:deg"), &
+      no_table]), &
     report_kind_t(name="balance", help="shaking force, counterweights, harmonics", &
-    studies="reactions balance harmonics", positions=.true., masses=.true., numbers=98, &
-    tables=[table_kind_t("balance", &
-    "speed:rad/s crank:deg xG,yG:length shaking_x,shaking_y:force "// &
-    "shaking_moment,torque:moment balanced_x,balanced_y:force "// &
-    "balanced_moment,balanced_torque:moment"), table_kind_t("harmonics", &
-    "speed:rad/s linkage,quantity:name largest,rms,mean:- h*:- "//"phase*:deg")]), &
+      studies="reactions balance harmonics", positions=.true., masses=.true., numbers=98, &
+      tables=[ &
+      table_kind_t("balance", "speed:rad/s crank:deg xG,yG:length shaking_x,shaking_y:force "// &
+      "shaking_moment,torque:moment balanced_x,balanced_y:force "// &
+      "balanced_moment,balanced_torque:moment"), &
+      table_kind_t("harmonics", "speed:rad/s linkage,quantity:name largest,rms,mean:- h*:- "// &
+      "phase*:deg")]), &
     report_kind_t(name="geometry", help="where pins, links and points are, for drawings", &
       pattern="REPORT geometry crank=a,b,...", offered=.false., studies="geometry", tables=[ &
-      table_kind_t("geometry", "crank:deg link,part,place:name x,y:length"), table_kind_t()]), &
+      table_kind_t("geometry", "crank:deg link,part,place:name x,y:length"), no_table]), &
     report_kind_t(name="motion", help="how the linkage moves by itself", &
-    & pattern="REPORT motion crank= [speed=0] end= step=", default="speed=0", studies="motion", &
-    masses=.true., &
-    tables=[table_kind_t("motion", &
-    "time:time crank,theta3,theta4:deg omega2,omega3,omega4:rad/s "// &
-    "torque,kinetic,potential,work,energy_error:moment closure:length branch:name"), &
-    table_kind_t()])]
+      pattern="REPORT motion crank= [speed=0] end= step=", default="speed=0", &
+      studies="motion", masses=.true., tables=[ &
+      table_kind_t("motion", "time:time crank,theta3,theta4:deg omega2,omega3,omega4:rad/s "// &
+      "torque,kinetic,potential,work,energy_error:moment closure:length branch:name"), &
+      no_table])]
 
 contains
 
-  !> Makes one of the studies that are made in one piece. What others it takes has been found.
+  !> Makes a study that is made in one piece. The studies whose results it uses are made before.
   subroutine find_study(study, threads, variant)
     character(len=*), intent(in) :: study !! name
-    integer, intent(in) :: threads
-    type(variant_results_t), intent(inout) :: variant
+    integer, intent(in) :: threads       !! on which it is computed
+    type(variant_results_t), intent(inout) :: variant !! that gets the result
 
     integer :: i
 
@@ -162,9 +167,9 @@ contains
 
   !> Columns and items of a table.
   subroutine plan_table(table, variant, plan)
-    type(table_kind_t), intent(in) :: table
-    type(variant_results_t), intent(in) :: variant
-    type(table_plan_t), intent(out) :: plan
+    type(table_kind_t), intent(in) :: table         !! of a requested report
+    type(variant_results_t), intent(in) :: variant  !! with its results
+    type(table_plan_t), intent(out) :: plan         !! for `add_item_rows`
 
     type(name_list_t) :: names(3)
     integer :: count
@@ -213,7 +218,7 @@ contains
       names(1) = motion_words()
       plan%items = 1
     end select
-    call new_layout(table, variant%model%units, count, optional, names, plan%layout)
+    call new_table_layout(table, variant%model%units, count, optional, names, plan%layout)
   end subroutine plan_table
 
   !> The names in a column `link`.
@@ -225,11 +230,11 @@ contains
     list%names = variant%mechanism%names
   end function link_names
 
-  !> What stands at the head of a table, besides its title and columns.
+  !> The remarks at the head of a table.
   subroutine table_notes(table, variant, notes)
-    character(len=*), intent(in) :: table !! name
-    type(variant_results_t), intent(in) :: variant
-    type(string_t), allocatable, intent(out) :: notes(:)
+    character(len=*), intent(in) :: table                !! name
+    type(variant_results_t), intent(in) :: variant       !! with its results
+    type(string_t), allocatable, intent(out) :: notes(:) !! a line each
 
     select case (table)
     case ("kinematics")
@@ -264,11 +269,11 @@ contains
   end subroutine table_notes
 
   !> The rows of an item.
-  subroutine add_item(plan, variant, number, rows)
-    type(table_plan_t), intent(in) :: plan
-    type(variant_results_t), intent(in) :: variant
-    integer, intent(in) :: number         !! of the item, from 1
-    type(rows_t), intent(inout) :: rows
+  subroutine add_item_rows(plan, variant, number, rows)
+    type(table_plan_t), intent(in) :: plan         !! by `plan_table`
+    type(variant_results_t), intent(in) :: variant !! with its results
+    integer, intent(in) :: number                  !! of the item, from 1
+    type(rows_t), intent(inout) :: rows            !! to which they are added
 
     integer :: position, speed
 
@@ -293,7 +298,7 @@ contains
       if (position == 1 .and. speed > 1) call add_gap(rows, 2)
       call add_position(plan%name, variant, plan%layout, position, speed, rows)
     end select
-  end subroutine add_item
+  end subroutine add_item_rows
 
   !> The rows of a position and speed; those of a mesh have no speed.
   subroutine add_position(table, variant, layout, position, speed, rows)
@@ -309,9 +314,9 @@ contains
         if (table == "frequencies") then
           call add_frequencies(variant, layout, position, speed, rows)
         else if (allocated(state%error) .and. table == "mesh") then
-          call add_failure(rows, [crank], state%error%text)
+          call add_failed_row(rows, [crank], state%error%text)
         else if (allocated(state%error)) then
-          call add_failure(rows, [variant%model%speed%value(speed), crank], state%error%text)
+          call add_failed_row(rows, [variant%model%speed%value(speed), crank], state%error%text)
         else
           select case (table)
           case ("kinematics")

@@ -1,4 +1,4 @@
-!> Columns as the table of reports lists them → columns with the units of a deck, and cells in them.
+!> Columns of a report's table in the units of the deck, and the cells in them.
 module table_columns
   use kinds, only: wp
   use number_text, only: number_width
@@ -11,30 +11,31 @@ module table_columns
   implicit none (type, external)
   private
 
-  public :: table_layout_t, name_list_t, new_layout, cells, column_width, table_unit, table_factor
+  public :: table_layout_t, name_list_t, new_table_layout, cells, column_width, table_unit, &
+    table_factor
 
-  !> The columns of one table, with what turns numbers in SI into those of each.
+  !> The columns of one table, with the units to which numbers in SI are converted.
   type :: table_layout_t
     type(column_t), allocatable :: columns(:)
     type(unit_t), allocatable, private :: measures(:) !! (columns)
   end type table_layout_t
 
-  !> The names that may stand in a column.
+  !> The names that may occur in a column.
   type :: name_list_t
-    character(len=:), allocatable :: column
+    character(len=:), allocatable :: column !! name of the column
     type(string_t), allocatable :: names(:)
   end type name_list_t
 
 contains
 
   !> The columns of a table in the units of a deck.
-  pure subroutine new_layout(table, system, count, optional, names, layout)
-    type(table_kind_t), intent(in) :: table
-    type(unit_system_t), intent(in) :: system
-    integer, intent(in) :: count             !! how many columns a numbered one stands for
-    logical, intent(in) :: optional          !! whether optional columns are there
-    type(name_list_t), intent(in) :: names(:) !! of the columns of names
-    type(table_layout_t), intent(out) :: layout
+  pure subroutine new_table_layout(table, system, count, optional, names, layout)
+    type(table_kind_t), intent(in) :: table     !! as the table of reports lists it
+    type(unit_system_t), intent(in) :: system   !! units of the deck
+    integer, intent(in) :: count                !! columns that a numbered one stands for
+    logical, intent(in) :: optional             !! whether the table has its optional columns
+    type(name_list_t), intent(in) :: names(:)   !! of the columns of names
+    type(table_layout_t), intent(out) :: layout !! of the table
 
     type(column_kind_t), allocatable :: kinds(:)
     type(unit_t) :: measure
@@ -65,9 +66,9 @@ contains
         end do
       end associate
     end do
-  end subroutine new_layout
+  end subroutine new_table_layout
 
-  !> How many columns one of the list stands for.
+  !> Number of columns that an entry of the list stands for.
   pure function columns_for(kind, count, optional) result(number)
     type(column_kind_t), intent(in) :: kind
     integer, intent(in) :: count
@@ -79,6 +80,7 @@ contains
     if (kind%is_optional .and. .not. optional) number = 0
   end function columns_for
 
+  !> The names of a column, from the lists of several columns; none if no list is of this column.
   pure function names_for(column, names) result(list)
     character(len=*), intent(in) :: column
     type(name_list_t), intent(in) :: names(:)
@@ -92,11 +94,12 @@ contains
     end do
   end function names_for
 
-  !> The unit that stands for a word of the list: that of a quantity in the deck's units, else the
-  !! word itself, for numbers that stay as they are.
+  !> Unit of a column. A quantity (`length`) has that of the deck. Numbers of other columns are not
+  !! converted: those of shapes, whose units are made of the deck's, and those with a unit for a
+  !! word (`deg`).
   pure function table_unit(word, system) result(measure)
-    character(len=*), intent(in) :: word
-    type(unit_system_t), intent(in) :: system
+    character(len=*), intent(in) :: word      !! from the table of reports
+    type(unit_system_t), intent(in) :: system !! units of the deck
     type(unit_t) :: measure
 
     type(unit_t) :: mass, length
@@ -117,10 +120,11 @@ contains
     end select
   end function table_unit
 
-  !> The unit of a quantity without its name: threads may ask for it at the same time.
+  !> Unit of a quantity without its name. It makes no text, so that threads may call it at the same
+  !! time.
   pure function table_factor(quantity, system) result(measure)
-    character(len=*), intent(in) :: quantity !! `length`, `force`, …
-    type(unit_system_t), intent(in) :: system
+    character(len=*), intent(in) :: quantity  !! `length`, `force`, …
+    type(unit_system_t), intent(in) :: system !! units of the deck
     type(unit_t) :: measure
 
     measure = coherent_factor(system, dimension_of(quantity))
@@ -133,7 +137,7 @@ contains
     is = any(dimension_of(word) /= dimension_none)
   end function is_quantity
 
-  !> The dimension of a quantity; none of other words.
+  !> The dimension of a quantity; `dimension_none` for other words.
   pure function dimension_of(word) result(dimension)
     character(len=*), intent(in) :: word
     integer :: dimension(4)
@@ -162,11 +166,11 @@ contains
     end select
   end function dimension_of
 
-  !> Numbers in SI as the cells of neighbouring columns.
+  !> The cells of neighbouring columns.
   function cells(layout, first, values) result(text)
-    type(table_layout_t), intent(in) :: layout
-    integer, intent(in) :: first          !! number of the first column
-    real(wp), intent(in) :: values(:)     !! [SI]
+    type(table_layout_t), intent(in) :: layout !! of the table
+    integer, intent(in) :: first               !! number of the first column
+    real(wp), intent(in) :: values(:)          !! quantities in SI, others in their column's unit
     character(len=number_width*size(values)) :: text
 
     real(wp) :: converted(size(values))
@@ -178,10 +182,10 @@ contains
     text = real_cells(converted)
   end function cells
 
-  !> How wide a column is.
+  !> Width of a column in characters.
   pure function column_width(layout, column) result(width)
-    type(table_layout_t), intent(in) :: layout
-    integer, intent(in) :: column
+    type(table_layout_t), intent(in) :: layout !! of the table
+    integer, intent(in) :: column              !! number, from 1
     integer :: width
 
     width = layout%columns(column)%width

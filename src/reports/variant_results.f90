@@ -1,4 +1,4 @@
-!> One variant of a deck: what it asks for, and what was found.
+!> One variant of a deck: model, mechanism and results.
 module variant_results
   use mechanisms, only: mechanism_t
   use models, only: model_t
@@ -9,9 +9,9 @@ module variant_results
   public :: variant_results_t
 
   type :: variant_results_t
-    type(model_t) :: model
-    type(mechanism_t) :: mechanism
-    type(study_results_t) :: found
+    type(model_t) :: model         !! description and requests of the deck, in SI
+    type(mechanism_t) :: mechanism !! the model in the terms of mechanics
+    type(study_results_t) :: found !! results of the studies
   end type variant_results_t
 
 end module variant_results

@@ -1,4 +1,4 @@
-!> The files of a run: opened together, put in place together.
+!> The output files of a run: opened together, put in place together.
 module deck_outputs
   use errors, only: error_of_files, error_t, set_error
   use file_system, only: is_directory, joined_path, make_directories, remove_empty_directory
@@ -20,21 +20,23 @@ module deck_outputs
   public :: outputs_t, open_outputs, write_variant, write_found_rows, write_texts, &
     publish_outputs, discard_outputs
 
+  !> The files of one output folder.
   type :: outputs_t
     character(len=:), allocatable :: folder
-    logical, private :: csv = .false.
-    type(string_t), allocatable, private :: is_new(:)   !! folders that were not there before,
-                                                        !! outermost first
-    type(table_kind_t), allocatable :: kinds(:)         !! of each table
-    type(table_t), allocatable :: tables(:)
-    type(column_t), allocatable, private :: parameters(:) !! columns of what varies
+    logical, private :: csv = .false.                     !! tables as comma-separated values too
+    type(string_t), allocatable, private :: is_new(:)     !! folders that this run made, outermost
+                                                          !! first
+    type(table_kind_t), allocatable :: kinds(:)           !! (tables) names and columns, from the
+                                                          !! table of reports
+    type(table_t), allocatable :: tables(:)               !! in the order of `kinds`
+    type(column_t), allocatable, private :: parameters(:) !! columns of the VARY parameters
     type(output_file_t), private :: echo, log, summary
   end type outputs_t
 
   character(len=*), parameter :: echo_name = "echo.deck", log_name = "run.log", &
     summary_name = "summary.json"
 
-  !> Pieces of a table that are found before any of them is written.
+  !> Items of a table that are found before any of them is written.
   integer, parameter :: items_at_a_time = 4096
 
 contains
@@ -42,12 +44,13 @@ contains
   !> Makes the folder and opens every file in it under a temporary name. Errors: the folder or a
   !! file cannot be made.
   subroutine open_outputs(folder, model, parameters, csv, outputs, error)
-    character(len=*), intent(in) :: folder
-    type(model_t), intent(in) :: model          !! of the first variant
-    type(column_t), intent(in) :: parameters(:) !! columns of what varies
-    logical, intent(in) :: csv !! whether tables are wanted as comma-separated values too
-    type(outputs_t), intent(out) :: outputs
-    type(error_t), allocatable, intent(out) :: error
+    character(len=*), intent(in) :: folder           !! path of the output folder
+    type(model_t), intent(in) :: model               !! of the first variant
+    type(column_t), intent(in) :: parameters(:)      !! columns of the VARY parameters
+    logical, intent(in) :: csv                       !! whether to write tables as comma-separated
+                                                     !! values too
+    type(outputs_t), intent(out) :: outputs          !! to be discarded after an error
+    type(error_t), allocatable, intent(out) :: error !! why nothing can be written
 
     integer :: i
     logical :: made
@@ -63,8 +66,8 @@ contains
         "this folder cannot be made; is there a file of that name?", folder)
       return
     end if
-    ! A folder where a file is to be would show only when some files are in place and others are
-    ! not.
+    ! Checked now: a folder with the name of a file would stop the renaming when some files are in
+    ! place and others are not.
     do i = 1, size(outputs%kinds)
       call refuse_folder(joined_path(folder, trim(outputs%kinds(i)%name)//".dat"), error)
       if (csv) call refuse_folder(joined_path(folder, trim(outputs%kinds(i)%name)//".csv"), error)
@@ -82,8 +85,8 @@ contains
     if (.not. allocated(error)) call open_output(folder, summary_name, outputs%summary, error)
   end subroutine open_outputs
 
-  !> The tables that a model asks for: the first of every report, in the order of all reports, then
-  !! their second ones.
+  !> The tables that a model requests: the first table of every report, in the order of all
+  !! reports, then the second ones.
   pure function tables_of(model) result(list)
     type(model_t), intent(in) :: model
     type(table_kind_t), allocatable :: list(:)
@@ -99,6 +102,7 @@ contains
     end do
   end function tables_of
 
+  !> Errors: there is a folder with the path of a file.
   subroutine refuse_folder(path, error)
     character(len=*), intent(in) :: path
     type(error_t), allocatable, intent(inout) :: error
@@ -107,11 +111,11 @@ contains
       "this is a folder, and a file is to be written there", path)
   end subroutine refuse_folder
 
-  !> Writes the rows of a variant to all tables, piece by piece.
+  !> Writes the rows of a variant to all tables, a number of items at a time.
   subroutine write_variant(outputs, variant, threads)
-    type(outputs_t), intent(inout) :: outputs
-    type(variant_results_t), intent(in) :: variant
-    integer, intent(in) :: threads
+    type(outputs_t), intent(inout) :: outputs      !! opened
+    type(variant_results_t), intent(in) :: variant !! computed
+    integer, intent(in) :: threads                 !! number to use
 
     type(table_plan_t) :: plan
     type(string_t), allocatable :: notes(:)
@@ -147,10 +151,10 @@ contains
     call write_rows(table, rows)
   end subroutine write_items
 
-  !> Writes the rows of a variant other than the first, which have been found.
+  !> Writes the rows, already found, of a variant other than the first.
   subroutine write_found_rows(outputs, found)
-    type(outputs_t), intent(inout) :: outputs
-    type(variant_rows_t), intent(in) :: found
+    type(outputs_t), intent(inout) :: outputs !! with the first variant written
+    type(variant_rows_t), intent(in) :: found !! rows of all tables
 
     integer :: i
 
@@ -161,22 +165,24 @@ contains
     end do
   end subroutine write_found_rows
 
-  !> Writes what comes after the tables, and tells what is in them.
+  !> Writes the files beside the tables.
   subroutine write_texts(outputs, echo, log, summary)
-    type(outputs_t), intent(inout) :: outputs
-    character(len=*), intent(in) :: echo, log, summary
+    type(outputs_t), intent(inout) :: outputs !! opened
+    character(len=*), intent(in) :: echo      !! text of `echo.deck`
+    character(len=*), intent(in) :: log       !! text of `run.log`
+    character(len=*), intent(in) :: summary   !! text of `summary.json`
 
     call append_output(outputs%echo, echo)
     call append_output(outputs%log, log)
     call append_output(outputs%summary, summary)
   end subroutine write_texts
 
-  !> Checks that every file is complete on the disk, and only then renames them all; tables that an
-  !! earlier run left and this one was not asked for are removed. Errors: a file is not complete;
-  !! nothing has been renamed then.
+  !> Checks that every file is complete on the disk, and only then renames them all. Tables of an
+  !! earlier run that this run does not have are removed. Errors: a file is not complete, and
+  !! nothing is renamed; or a file cannot be renamed.
   subroutine publish_outputs(outputs, error)
-    type(outputs_t), intent(inout) :: outputs
-    type(error_t), allocatable, intent(out) :: error
+    type(outputs_t), intent(inout) :: outputs        !! all written
+    type(error_t), allocatable, intent(out) :: error !! the first one
 
     integer :: i
 
@@ -204,7 +210,7 @@ contains
     call remove_old_tables(outputs)
   end subroutine publish_outputs
 
-  !> Removes the tables of reports that are no longer asked for.
+  !> Removes tables of reports, and CSV files, that are no longer requested.
   subroutine remove_old_tables(outputs)
     type(outputs_t), intent(in) :: outputs
 
@@ -223,9 +229,9 @@ contains
     end do
   end subroutine remove_old_tables
 
-  !> Leaves the folder as it was.
+  !> Removes the temporary files, and the folders that this run made. Files of an earlier run stay.
   subroutine discard_outputs(outputs)
-    type(outputs_t), intent(inout) :: outputs
+    type(outputs_t), intent(inout) :: outputs !! opened, as far as was possible
 
     integer :: i
 

@@ -1,4 +1,4 @@
-!> Decks read and checked, with everything that varies.
+!> Reading and checking of a deck with all its variants.
 module deck_readings
   use available_memory, only: available_memory_t, find_available_memory
   use card_echo, only: echo_cards
@@ -22,29 +22,32 @@ module deck_readings
 
   public :: deck_t, read_deck, read_variant
 
-  !> A deck that has been read.
+  !> A deck as it was read.
   type :: deck_t
     type(source_t) :: source
     type(deck_cards_t) :: cards
-    type(model_t) :: model                         !! of the first variant, of the only one where
-                                                   !! nothing varies
+    type(model_t) :: model                         !! of the first variant; the only one if nothing
+                                                   !! varies
     type(diagnostics_t) :: diagnostics
     type(error_t), allocatable :: refusal          !! why it could not be read at all
     character(len=:), allocatable :: base          !! name of its output folder
-    character(len=:), allocatable :: errors        !! ready for standard error; empty if there are
-                                                   !! none
-    character(len=:), allocatable :: warnings      !! likewise
-    character(len=:), allocatable :: warning_lines !! the same for the log
+    character(len=:), allocatable :: errors        !! ready for standard error; empty if none
+    character(len=:), allocatable :: warnings      !! ready for standard error; empty if none
+    character(len=:), allocatable :: warning_lines !! the warnings for the log
   end type deck_t
 
 contains
 
-  !> Reads and checks a deck, all its variants if it has a VARY card; the path `-` is standard
-  !! input.
+  !> Reads and checks a deck, with all variants if it has a VARY card.
+  !!
+  !! Errors: the file cannot be read, or its name gives no folder for the results (both in
+  !! `refusal`); a card is wrong, memory does not suffice, or a variant fails the checks (all in
+  !! `diagnostics`).
   subroutine read_deck(path, threads, deck, settings)
-    character(len=*), intent(in) :: path
-    integer, intent(in) :: threads                      !! that will compute it
-    type(deck_t), intent(out) :: deck
+    character(len=*), intent(in) :: path                !! `-`: standard input
+    integer, intent(in) :: threads                      !! that will compute the deck
+    type(deck_t), intent(out) :: deck                   !! as read; its model is complete only
+                                                        !! without errors
     type(string_t), intent(in), optional :: settings(:) !! of the command line, each `name=value`
 
     type(card_t), allocatable :: cards(:)
@@ -86,16 +89,16 @@ contains
     deck%warning_lines = warning_texts(deck%diagnostics, deck%source)
   end subroutine read_deck
 
-  !> Turns the cards of one variant into a model; nothing is read again. A deck without VARY has one
-  !! variant.
+  !> Turns the cards of one variant into a model; files are not read again. A deck without VARY has
+  !! one variant. Errors: a card of the variant is wrong.
   subroutine read_variant(deck_cards, number, cards, diagnostics, model)
-    type(deck_cards_t), intent(in) :: deck_cards
+    type(deck_cards_t), intent(in) :: deck_cards         !! of all variants
     integer, intent(in) :: number                        !! of the variant, from 1
-    type(card_t), allocatable, intent(inout) :: cards(:) !! of another variant or not allocated; on
+    type(card_t), allocatable, intent(inout) :: cards(:) !! of another variant, or not allocated; on
                                                          !! return, of this one
-    type(diagnostics_t), intent(inout) :: diagnostics    !! of the cards; the model is complete only
-                                                         !! if it has no errors afterwards
-    type(model_t), intent(out) :: model
+    type(diagnostics_t), intent(inout) :: diagnostics    !! of the cards, with new ones appended
+    type(model_t), intent(out) :: model                  !! complete only if there are no errors on
+                                                         !! return
 
     call take_variant(deck_cards, number, cards)
     call read_model(cards, reports, diagnostics, model)
@@ -104,23 +107,23 @@ contains
     model%varied = variant_values(deck_cards, number)
   end subroutine read_variant
 
-  !> Whether there is memory for a model, and then whether mechanics can do with it.
+  !> Whether memory suffices for a model, and then whether it makes sense mechanically.
   subroutine check_variant(model, threads, available, diagnostics)
     type(model_t), intent(in) :: model
     integer, intent(in) :: threads
     type(available_memory_t), intent(in) :: available
-    type(diagnostics_t), intent(inout) :: diagnostics !! of the model; what has errors is not looked
-                                                      !! at
+    type(diagnostics_t), intent(inout) :: diagnostics !! of the model; if it has errors, nothing
+                                                      !! more is checked
 
     if (.not. has_errors(diagnostics)) call check_memory(model, threads, available, diagnostics)
     if (.not. has_errors(diagnostics)) call check_mechanics(model, diagnostics)
   end subroutine check_variant
 
-  !> Checks every variant but the first, of which all is known: nothing is computed before the last
-  !! one is known to be sound.
+  !> Checks every variant but the first, which has been checked: nothing is computed before all
+  !! variants are known to be sound.
   !!
-  !! The first variant that is refused is told in full, the others are counted. A warning is told
-  !! once for a place.
+  !! The first variant that is refused is reported in full, the others are counted. Of several
+  !! warnings at the same place only the first is reported.
   subroutine check_variants(deck_cards, cards, first, threads, available, diagnostics)
     type(deck_cards_t), intent(in) :: deck_cards
     type(card_t), allocatable, intent(inout) :: cards(:) !! of the first variant
@@ -159,11 +162,12 @@ contains
       variant_text(deck_cards, last_refused))
   end subroutine check_variants
 
-  !> No messages.
+  !> Removes all messages.
   pure subroutine clear(diagnostics)
     type(diagnostics_t), intent(out) :: diagnostics
   end subroutine clear
 
+  !> Adds the errors of a variant, each after the values that the variant has.
   subroutine take_errors(mine, variant, diagnostics)
     type(diagnostics_t), intent(in) :: mine
     character(len=*), intent(in) :: variant
@@ -183,6 +187,7 @@ contains
     end do
   end subroutine take_errors
 
+  !> Adds the warnings of a variant at places that have none yet.
   subroutine take_warnings(mine, variant, diagnostics)
     type(diagnostics_t), intent(in) :: mine
     character(len=*), intent(in) :: variant

@@ -1,4 +1,4 @@
-!> One deck: computed variant by variant, and written.
+!> The run of one deck: its variants are computed, its files written.
 module deck_runs
   use, intrinsic :: iso_fortran_env, only: compiler_version
   use cards, only: card_t
@@ -39,50 +39,51 @@ module deck_runs
 
   public :: run_options_t, run_result_t, run_deck
 
-  !> What the user says about every run.
+  !> Options of the command line that hold for every deck.
   type :: run_options_t
-    character(len=:), allocatable :: folder !! that holds the output folders
-    integer :: threads = 1
-    logical :: quiet = .false.
+    character(len=:), allocatable :: folder !! that contains the output folders
+    integer :: threads = 1                  !! number to use
+    logical :: quiet = .false.              !! no progress line
     logical :: resume = .false.             !! go on where an earlier run was killed
-    logical :: csv = .false.                !! tables as comma-separated values too
+    logical :: csv = .false.                !! also write tables as comma-separated values
   end type run_options_t
 
-  !> What a run has to say.
+  !> What a run reports besides its files.
   type :: run_result_t
     character(len=:), allocatable :: messages   !! warnings and failed rows, for standard error
-    character(len=:), allocatable :: statistics !! what was computed, for `--stats`
+    character(len=:), allocatable :: statistics !! work done and times, for `--stats`
     logical :: failed = .false.                 !! some position or mode could not be computed
-    type(findings_t) :: findings                !! what the messages tell
+    type(findings_t) :: findings                !! on which the messages are based
   end type run_result_t
 
-  !> What a deck's variants have in common while they are computed.
+  !> What the variants of a deck share while they are computed.
   type :: session_t
     type(outputs_t) :: outputs
     type(journal_t) :: journal
     type(progress_t) :: progress
-    type(run_totals_t) :: totals
-    type(findings_t) :: findings
-    character(len=:), allocatable :: log         !! of the first variant
-    integer :: method = 0                        !! by which its frequencies were found
+    type(run_totals_t) :: totals         !! of all variants so far
+    type(findings_t) :: findings         !! of all variants so far
+    character(len=:), allocatable :: log !! of the first variant
+    integer :: method = 0                !! by which the first variant's frequencies were found
   end type session_t
 
-  !> A variant with more positions than this keeps all threads busy by itself.
+  !> A variant with more positions than this keeps all threads busy.
   integer, parameter :: many_positions = 1024
 
   character(len=*), parameter :: line_feed = achar(10)
 
 contains
 
-  !> Computes what a sound deck asks for and writes its files.
+  !> Computes the reports of a sound deck and writes its files.
   !!
-  !! Errors: the run was interrupted, or its files could not be written; then the output folder is
-  !! as it was before, but for the journal of a long run.
+  !! Errors: the run was interrupted, the own modes of a link could not be found, or files could
+  !! not be written. The output folder is then as it was before, except for the journal of a long
+  !! run.
   subroutine run_deck(deck, options, result, error)
-    type(deck_t), intent(in) :: deck
-    type(run_options_t), intent(in) :: options
-    type(run_result_t), intent(out) :: result
-    type(error_t), allocatable, intent(out) :: error
+    type(deck_t), intent(in) :: deck                 !! without errors
+    type(run_options_t), intent(in) :: options       !! of the command line
+    type(run_result_t), intent(out) :: result        !! empty after an error
+    type(error_t), allocatable, intent(out) :: error !! why there are no results
 
     type(session_t) :: session
     type(run_times_t) :: times
@@ -107,7 +108,12 @@ contains
       end if
       call end_progress(session%progress)
     end if
-    if (.not. allocated(error)) call publish(deck, session, error)
+    if (allocated(error)) then
+      ! It would fail again: nothing to resume from.
+      call remove_journal(session%journal)
+    else
+      call publish(deck, session, error)
+    end if
     if (allocated(error)) then
       call discard_outputs(session%outputs)
       return
@@ -120,7 +126,7 @@ contains
     result%statistics = statistics_text(deck%base, session%totals, times)
   end subroutine run_deck
 
-  !> What must be the same for a run to go on from the results of another: program, compiler, and
+  !> What must be the same for a run to resume from the results of another: program, compiler, and
   !! the deck with its settings.
   pure function journal_title(deck) result(title)
     type(deck_t), intent(in) :: deck
@@ -129,10 +135,12 @@ contains
     title = version_number//line_feed//compiler_version()//line_feed//echo_text(deck%model)
   end function journal_title
 
+  !> What --resume had to go on from; empty without it.
   pure function resumption_message(deck, resume, blocks) result(message)
     type(deck_t), intent(in) :: deck
     logical, intent(in) :: resume
-    integer, intent(in) :: blocks !! of an earlier run; -1: it was of something else
+    integer, intent(in) :: blocks !! complete ones of an earlier run; -1: it was of another deck or
+                                  !! program
     character(len=:), allocatable :: message
 
     message = ""
@@ -149,6 +157,7 @@ contains
     message = deck%source%path//": "//message//line_feed
   end function resumption_message
 
+  !> The columns of the VARY parameters.
   pure function parameter_columns(deck) result(columns)
     type(deck_t), intent(in) :: deck
     type(column_t), allocatable :: columns(:)
@@ -166,8 +175,8 @@ contains
     end do
   end function parameter_columns
 
-  !> Computes a variant on all threads and writes its rows; the log has more of the first one than
-  !! of the others. Errors: the own modes of a link could not be found.
+  !> Computes a variant on all threads and writes its rows; of the first one it also keeps the log.
+  !! Errors: the own modes of a link could not be found.
   subroutine run_whole_variant(deck, number, threads, session, error)
     type(deck_t), intent(in) :: deck
     integer, intent(in) :: number !! of the variant, from 1
@@ -211,8 +220,9 @@ contains
     if (totals%has_frequencies) session%method = run%results%found%sweep%request%method
   end subroutine run_whole_variant
 
-  !> Computes all other variants and writes their rows in order: several at a time if one of them
-  !! has not enough for all threads.
+  !> Computes all variants but the first and writes their rows in order. Several are computed at a
+  !! time if one of them has too few positions for all threads. Errors: the own modes of a link
+  !! could not be found.
   subroutine run_other_variants(deck, threads, session, error)
     type(deck_t), intent(in), target :: deck
     integer, intent(in) :: threads
@@ -223,7 +233,7 @@ contains
     integer :: i
 
     associate (model => deck%model)
-      ! ARPACK serves one thread at a time.
+      ! Only one thread at a time can use ARPACK.
       if (size(model%crank%value) > many_positions .or. model%solver == solver_band) then
         do i = 2, variant_count(deck%cards)
           call run_whole_variant(deck, i, threads, session, error)
@@ -245,7 +255,7 @@ contains
     end associate
   end subroutine run_other_variants
 
-  !> Writes what comes after the tables, and puts all files in place. Errors: the run was
+  !> Writes the texts beside the tables, and puts all files in place. Errors: the run was
   !! interrupted, or a file is not complete.
   subroutine publish(deck, session, error)
     type(deck_t), intent(in) :: deck
@@ -254,7 +264,7 @@ contains
 
     integer :: blocks
 
-    ! Asked once, before the files are put in place: from there on the run is done.
+    ! Checked once, before files are put in place: afterwards the run counts as done.
     if (was_interrupted()) then
       call close_journal(session%journal, blocks)
       call set_error(error, error_of_interruption, &
@@ -273,15 +283,17 @@ contains
     end if
   end subroutine publish
 
+  !> What to do after an interruption; empty without a journal.
   pure function resume_hint(blocks) result(hint)
-    integer, intent(in) :: blocks
+    integer, intent(in) :: blocks !! in the journal
     character(len=:), allocatable :: hint
 
     hint = ""
     if (blocks > 0) hint = "; --resume goes on from what it has computed"
   end function resume_hint
 
-  !> What the deck describes and how its frequencies were found.
+  !> The first variant in the log: model, notes on the linkage, motion, how its frequencies were
+  !! found.
   function first_log(variant) result(text)
     type(variant_results_t), intent(in) :: variant
     character(len=:), allocatable :: text
@@ -301,7 +313,8 @@ contains
     end associate
   end function first_log
 
-  !> The text of `run.log`: what the deck describes, how sure its results are, what to beware of.
+  !> The text of `run.log`: what the deck describes, accuracy of its results, warnings, failed
+  !! rows.
   pure function log_text(deck, session) result(text)
     type(deck_t), intent(in) :: deck
     type(session_t), intent(in) :: session

@@ -13,10 +13,11 @@ module result_failures
 
 contains
 
-  !> Collects every position and speed without a result, and a motion that has ended too soon.
+  !> Appends every position, or position and speed, without a result, and a motion that ended too
+  !! soon.
   pure subroutine find_failures(variant, findings)
-    type(variant_results_t), intent(in) :: variant
-    type(findings_t), intent(inout) :: findings
+    type(variant_results_t), intent(in) :: variant !! computed
+    type(findings_t), intent(inout) :: findings    !! to which they are appended
 
     integer :: i, k
 
@@ -24,23 +25,24 @@ contains
       do i = 1, size(crank)
         associate (state => found%positions%state(i))
           if (allocated(found%positions%states(state)%error)) then
-            call add(variant, at_position, found%positions%states(state)%error, crank(i), 0.0_wp, &
-              0.0_wp, findings)
+            call note_failure(variant, at_position, found%positions%states(state)%error, &
+              crank(i), 0.0_wp, 0.0_wp, findings)
           else if (needs_frequencies(variant%model)) then
             do k = 1, size(found%sweep%request%speed)
               if (has_result(found%positions, found%sweep, state, k)) cycle
-              call add(variant, at_frequencies, found%sweep%results(state)%outcome(k)%error, &
-                crank(i), found%sweep%request%speed(k), 0.0_wp, findings)
+              call note_failure(variant, at_frequencies, &
+                found%sweep%results(state)%outcome(k)%error, crank(i), &
+                found%sweep%request%speed(k), 0.0_wp, findings)
             end do
           end if
         end associate
       end do
-      if (allocated(found%motion%error)) call add(variant, in_motion, found%motion%error, &
+      if (allocated(found%motion%error)) call note_failure(variant, in_motion, found%motion%error, &
         found%motion%last%angle(1), 0.0_wp, found%motion%last%time, findings)
     end associate
   end subroutine find_failures
 
-  pure subroutine add(variant, stage, error, crank, speed, time, findings)
+  pure subroutine note_failure(variant, stage, error, crank, speed, time, findings)
     type(variant_results_t), intent(in) :: variant
     integer, intent(in) :: stage     !! at_position, at_frequencies or in_motion
     type(error_t), intent(in) :: error
@@ -59,6 +61,6 @@ contains
     failure%variant = variant%model%variant
     failure%varied = variant%model%varied
     call add_failure(findings, failure)
-  end subroutine add
+  end subroutine note_failure
 
 end module result_failures

@@ -1,5 +1,4 @@
-!> Results of a variant that need a warning: divergences, large deflections, an accuracy that is not
-!! reached.
+!> Warnings about results of a variant: static divergence, large deflections, accuracy not reached.
 module result_warnings
   use kinds, only: wp
   use mechanisms, only: mechanism_t
@@ -15,21 +14,21 @@ module result_warnings
 
   public :: find_warnings
 
-  !> The axial frequencies assume that the loads bend the links little; this is the share of a
-  !! link's length that is still little.
+  !> Largest static deflection without a warning, relative to the link's length: the axial
+  !! frequencies assume that the loads bend the links little [-].
   real(wp), parameter :: most_deflection = 0.01_wp
 
 contains
 
-  !> Collects divergences and large deflections.
+  !> Appends warnings about static divergence, large deflections and accuracy that is not reached.
   pure subroutine find_warnings(variant, findings)
-    type(variant_results_t), intent(in) :: variant
-    type(findings_t), intent(inout) :: findings
+    type(variant_results_t), intent(in) :: variant !! computed
+    type(findings_t), intent(inout) :: findings    !! to which they are appended
 
     type(string_t), allocatable :: more(:)
     integer :: k
 
-    ! Function results by themselves: as arguments gfortran 12 would lose their memory.
+    ! Function results go through a variable: gfortran 12 does not free them if they are arguments.
     if (.not. needs_frequencies(variant%model)) return
     associate (model => variant%model, positions => variant%found%positions, &
         sweep => variant%found%sweep)
@@ -48,8 +47,8 @@ contains
     end associate
   end subroutine find_warnings
 
-  !> The crank angles at which an eigenvalue is negative at one speed, neighbours of the deck's list
-  !! drawn together.
+  !> The crank angles at which an eigenvalue is negative at one speed. Neighbours in the deck's
+  !! list are joined to ranges.
   pure function divergences(positions, sweep, speed) result(warning)
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
@@ -77,14 +76,13 @@ contains
     call append_string(warning, "static divergence at speed "// &
       to_string(sweep%request%speed(speed), 10)//" rad/s, crank "//ranges// &
       " deg: an eigenvalue is negative, and so the frequency written")
-
   end function divergences
 
-  !> Whether the lowest eigenvalue of a position and speed, both by number, is negative.
+  !> Whether the lowest eigenvalue at a position and speed is negative.
   pure function diverges(positions, sweep, position, speed)
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
-    integer, intent(in) :: position, speed
+    integer, intent(in) :: position, speed !! numbers
     logical :: diverges
 
     associate (state => positions%state(position))
@@ -93,7 +91,8 @@ contains
     end associate
   end function diverges
 
-  !> The largest static deflection under the loads, if it is too large for the theory.
+  !> The largest static deflection under the loads, if it is too large for the theory of the axial
+  !! frequencies.
   pure function deflections(mechanism, positions, sweep) result(warning)
     type(mechanism_t), intent(in) :: mechanism
     type(positions_t), intent(in) :: positions
@@ -112,7 +111,7 @@ contains
       if (allocated(positions%states(positions%state(i))%error)) cycle
       do speed = 1, size(sweep%request%speed)
         do body = 1, size(mechanism%names)
-          ! A hair more, so that equal positions (0 and 360) name the first of them.
+          ! With a tolerance, so that of equal positions (0 and 360) the first is named.
           if (sweep%results(positions%state(i))%deflection(body, &
             speed) <= largest*(1.0_wp + 1.0e-12_wp)) cycle
           largest = sweep%results(positions%state(i))%deflection(body, speed)
@@ -131,7 +130,8 @@ contains
       " % the axial frequencies begin to mislead")
   end function deflections
 
-  !> Where a frequency is not as accurate as the deck asks for, mostly because of rounding.
+  !> Number of rows with a frequency less accurate than requested, mostly because of rounding, and
+  !! the worst of them.
   pure function missed_accuracy(positions, sweep) result(warning)
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep

@@ -1,4 +1,4 @@
-!> What a run has to say besides its tables: rows that failed, and results that need a warning.
+!> What a run reports besides its tables: failed rows and warnings about results.
 module run_findings
   use byte_streams, only: get_integers, get_reals, get_string, put_integers, put_reals, put_string
   use errors, only: error_t, set_error
@@ -12,24 +12,26 @@ module run_findings
     get_findings, place_in_words
   public :: at_position, at_frequencies, in_motion
 
-  !> Where rows are missing: there is no pose at a crank angle, so none at any speed; there are no
-  !! frequencies at a crank angle and speed; a motion has ended too soon.
+  !> Stages at which rows fail: no pose at a crank angle, hence no row at any speed; no frequencies
+  !! at a crank angle and speed; a motion that ended too soon.
   integer, parameter :: at_position = 1, at_frequencies = 2, in_motion = 3
 
-  !> A position without a result.
+  !> A position, or an instant of a motion, without a result.
   type :: failure_t
-    integer :: stage = at_position
-    real(wp) :: crank = 0.0_wp     !! [deg]
-    real(wp) :: speed = 0.0_wp     !! of frequencies [rad/s]
-    real(wp) :: time = 0.0_wp      !! when a motion has ended [s]
-    type(error_t), allocatable :: error      !! why
-    character(len=:), allocatable :: variant !! `L=90mm`, of a deck with VARY; else empty
-    real(wp), allocatable :: varied(:)       !! the values of what varies
+    integer :: stage = at_position           !! at_position, at_frequencies or in_motion
+    real(wp) :: crank = 0.0_wp               !! [deg]
+    real(wp) :: speed = 0.0_wp               !! of frequencies [rad/s]
+    real(wp) :: time = 0.0_wp                !! at which a motion ended [s]
+    type(error_t), allocatable :: error      !! the reason
+    character(len=:), allocatable :: variant !! `L=90mm`; empty for a deck without VARY
+    real(wp), allocatable :: varied(:)       !! (parameters) values, in the units of their VARY
+                                             !! cards
   end type failure_t
 
+  !> Failed rows and warnings of a variant, or of several.
   type :: findings_t
-    integer :: failures = 0                    !! positions without a pose, and positions × speeds
-                                               !! without modes
+    integer :: failures = 0                    !! positions without a pose, positions × speeds
+                                               !! without modes, motions that ended too soon
     type(failure_t), allocatable :: failed(:)  !! (at least failures)
     integer :: warning_count = 0
     type(string_t), allocatable :: warnings(:) !! (at least warning_count)
@@ -39,8 +41,8 @@ contains
 
   !> Appends a failure.
   pure subroutine add_failure(findings, failure)
-    type(findings_t), intent(inout) :: findings
-    type(failure_t), intent(in) :: failure
+    type(findings_t), intent(inout) :: findings !! to which it is appended
+    type(failure_t), intent(in) :: failure      !! with its error
 
     type(failure_t), allocatable :: larger(:)
 
@@ -54,11 +56,11 @@ contains
     findings%failed(findings%failures) = failure
   end subroutine add_failure
 
-  !> Appends warnings, each behind the variant that it is about.
+  !> Appends warnings, each preceded by the variant that it is about.
   pure subroutine add_warnings(findings, variant, warnings)
-    type(findings_t), intent(inout) :: findings
-    character(len=*), intent(in) :: variant !! `L=90mm`, or empty
-    type(string_t), intent(in) :: warnings(:)
+    type(findings_t), intent(inout) :: findings !! to which they are appended
+    character(len=*), intent(in) :: variant     !! `L=90mm`, or empty
+    type(string_t), intent(in) :: warnings(:)   !! without the variant
 
     type(string_t), allocatable :: larger(:)
     integer :: i
@@ -78,10 +80,10 @@ contains
     findings%warning_count = findings%warning_count + size(warnings)
   end subroutine add_warnings
 
-  !> Appends what was found in a variant to what was found in those before.
+  !> Appends the findings of a variant to those of the variants before.
   pure subroutine add_findings(findings, more)
-    type(findings_t), intent(inout) :: findings
-    type(findings_t), intent(in) :: more
+    type(findings_t), intent(inout) :: findings !! to which they are appended
+    type(findings_t), intent(in) :: more        !! of one variant
 
     integer :: i
 
@@ -103,8 +105,8 @@ contains
 
   !> Appends findings to a buffer as bytes.
   pure subroutine put_findings(buffer, findings)
-    type(text_buffer_t), intent(inout) :: buffer
-    type(findings_t), intent(in) :: findings
+    type(text_buffer_t), intent(inout) :: buffer !! bytes, to be read by `get_findings`
+    type(findings_t), intent(in) :: findings     !! of one variant
 
     integer :: i
 
@@ -124,9 +126,9 @@ contains
 
   !> Reads what `put_findings` wrote.
   pure subroutine get_findings(bytes, at, findings)
-    character(len=*), intent(in) :: bytes
-    integer, intent(inout) :: at !! place of the first byte; moves past the last
-    type(findings_t), intent(out) :: findings
+    character(len=*), intent(in) :: bytes     !! of `put_findings`, among others
+    integer, intent(inout) :: at              !! place of the first byte; on return, behind the last
+    type(findings_t), intent(out) :: findings !! of one variant
 
     type(failure_t), allocatable :: failure
     type(string_t) :: warning

@@ -1,4 +1,4 @@
-!> How much was computed, over all variants, and how long it took.
+!> How much a run computed, over all variants, and how long it took.
 module run_totals
   use byte_streams, only: get_integers, get_logicals, get_reals, put_integers, put_logicals, &
     put_reals
@@ -12,25 +12,26 @@ module run_totals
 
   public :: run_totals_t, totals_of, add_totals, put_totals, get_totals
 
+  !> Sums over variants.
   type :: run_totals_t
-    integer :: variants = 0
-    integer(long) :: rows = 0_long         !! positions as the decks list them
+    integer :: variants = 0                !! computed
+    integer(long) :: rows = 0_long         !! positions as the variants list them
     integer(long) :: positions = 0_long    !! different ones
     integer :: speeds = 0                  !! of the first variant
-    integer(long) :: motion_steps = 0_long !! of forward motions
-    logical :: has_frequencies = .false.
-    type(ledger_t) :: counts
-    real(wp) :: largest_error = -1.0_wp    !! relative, of any frequency found; below 0 there is
-                                           !! none
-    real(wp) :: computing = 0.0_wp         !! by all threads: studies [s]
-    real(wp) :: writing = 0.0_wp           !! by all threads: rows found and written [s]
+    integer(long) :: motion_steps = 0_long !! of forward dynamics
+    logical :: has_frequencies = .false.   !! whether any variant has
+    type(ledger_t) :: counts               !! of the work on frequencies
+    real(wp) :: largest_error = -1.0_wp    !! largest estimated relative error of a frequency; below
+                                           !! 0: no frequency found
+    real(wp) :: computing = 0.0_wp         !! studies, sum over threads [s]
+    real(wp) :: writing = 0.0_wp           !! rows found and written, sum over threads [s]
   end type run_totals_t
 
 contains
 
-  !> How much was computed for a variant, without its seconds.
+  !> Totals of one variant, without times.
   pure function totals_of(variant) result(totals)
-    type(variant_results_t), intent(in) :: variant
+    type(variant_results_t), intent(in) :: variant !! computed
     type(run_totals_t) :: totals
 
     integer :: i, k
@@ -56,10 +57,10 @@ contains
     end associate
   end function totals_of
 
-  !> Adds the totals of variants to those of others before them.
+  !> Adds totals of further variants.
   pure subroutine add_totals(totals, more)
-    type(run_totals_t), intent(inout) :: totals
-    type(run_totals_t), intent(in) :: more
+    type(run_totals_t), intent(inout) :: totals !! of the variants before
+    type(run_totals_t), intent(in) :: more      !! of the variants that follow
 
     if (totals%variants == 0) totals%speeds = more%speeds
     totals%variants = totals%variants + more%variants
@@ -73,11 +74,10 @@ contains
     totals%writing = totals%writing + more%writing
   end subroutine add_totals
 
-  !> Appends totals to a buffer as bytes, without their seconds: whoever reads them has not spent
-  !! these.
+  !> Appends totals to a buffer as bytes, without times: a resumed run has not spent them.
   pure subroutine put_totals(buffer, totals)
-    type(text_buffer_t), intent(inout) :: buffer
-    type(run_totals_t), intent(in) :: totals
+    type(text_buffer_t), intent(inout) :: buffer !! bytes, to be read by `get_totals`
+    type(run_totals_t), intent(in) :: totals     !! of one variant or more
 
     call put_integers(buffer, [totals%variants, totals%speeds])
     call put_integers(buffer, transfer([totals%rows, totals%positions, totals%motion_steps], [0]))
@@ -88,9 +88,9 @@ contains
 
   !> Reads what `put_totals` wrote.
   pure subroutine get_totals(bytes, at, totals)
-    character(len=*), intent(in) :: bytes
-    integer, intent(inout) :: at !! place of the first byte; moves past the last
-    type(run_totals_t), intent(out) :: totals
+    character(len=*), intent(in) :: bytes     !! of `put_totals`, among others
+    integer, intent(inout) :: at              !! place of the first byte; on return, behind the last
+    type(run_totals_t), intent(out) :: totals !! with times of 0
 
     integer(long) :: counts(3)
     integer :: numbers(2), words(size(transfer([0_long, 0_long, 0_long], [0])))

@@ -1,4 +1,4 @@
-!> What a model asks of the studies that are made step by step, in the terms of mechanics.
+!> The requests of a model to the studies that are made step by step, in the terms of mechanics.
 module study_requests
   use attached_parts, only: body_of
   use drives, only: motor_drive_t, resistances_t
@@ -19,10 +19,10 @@ module study_requests
 
 contains
 
-  !> The frequencies that are asked for, with the way to find them.
+  !> The requested frequencies, with the method to find them.
   pure function mode_request_of(model, mechanism) result(request)
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
+    type(model_t), intent(in) :: model         !! with frequencies
+    type(mechanism_t), intent(in) :: mechanism !! of the model
     type(mode_request_t) :: request
 
     integer :: number
@@ -45,9 +45,9 @@ contains
     end if
   end function mode_request_of
 
-  !> What SOLVER says.
+  !> The method that SOLVER requests.
   pure function method_wanted(model) result(method)
-    type(model_t), intent(in) :: model
+    type(model_t), intent(in) :: model !! of the variant
     integer :: method
 
     method = any_method
@@ -55,11 +55,11 @@ contains
     if (model%solver == solver_band) method = by_band
   end function method_wanted
 
-  !> The positions and speeds whose shapes are asked for.
+  !> The positions and speeds whose shapes are requested.
   pure function drawn_states(model, positions, speed) result(drawn)
-    type(model_t), intent(in) :: model
-    type(positions_t), intent(in) :: positions
-    real(wp), intent(in) :: speed(:) !! of the frequencies [rad/s]
+    type(model_t), intent(in) :: model                    !! of the variant
+    type(positions_t), intent(in) :: positions            !! of the sweep
+    real(wp), intent(in) :: speed(:)                      !! of the frequencies [rad/s]
     logical :: drawn(size(positions%states), size(speed)) !! (states, speeds)
 
     integer :: i, k, number
@@ -75,7 +75,7 @@ contains
     end do
   end function drawn_states
 
-  !> The motion that is asked for.
+  !> The requested motion.
   pure function motion_request_of(model) result(request)
     type(model_t), intent(in) :: model !! with REPORT motion
     type(motion_request_t) :: request
@@ -90,9 +90,9 @@ contains
     request%resistances = resistances_of(model)
   end function motion_request_of
 
-  !> The rows of a motion that reaches its end; 0 if none is asked for.
+  !> Number of rows of a motion that reaches its end; 0 without REPORT motion.
   pure function motion_instants_of(model) result(instants)
-    type(model_t), intent(in) :: model
+    type(model_t), intent(in) :: model !! of the variant
     integer :: instants
 
     integer :: number
@@ -103,7 +103,7 @@ contains
       model%reports(number)%time_step)
   end function motion_instants_of
 
-  !> The motor on the driven link; none pulls with nothing.
+  !> The motor on the driven link; without MOTOR its torque is 0.
   pure function drive_of(model) result(drive)
     type(model_t), intent(in) :: model
     type(motor_drive_t) :: drive
@@ -114,7 +114,7 @@ contains
     end associate
   end function drive_of
 
-  !> What the LOAD cards, at most one a link, take from the bodies.
+  !> Resisting torques of the LOAD cards, at most one per link, on the bodies.
   pure function resistances_of(model) result(resistances)
     type(model_t), intent(in) :: model
     type(resistances_t) :: resistances

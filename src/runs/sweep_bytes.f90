@@ -1,4 +1,5 @@
-!> Results of positions as bytes and back, to the last bit: what a block of a sweep hands on.
+!> Results of positions as bytes and back, exact to the last bit: the form in which blocks of a
+!! sweep are kept in the journal.
 module sweep_bytes
   use byte_streams, only: get_integers, get_logicals, get_reals, get_string, put_integers, &
     put_logicals, put_reals, put_string
@@ -18,8 +19,8 @@ contains
 
   !> Appends a result to a buffer.
   pure subroutine put_result(buffer, result)
-    type(text_buffer_t), intent(inout) :: buffer
-    type(position_result_t), intent(in) :: result
+    type(text_buffer_t), intent(inout) :: buffer  !! bytes, to be read by `get_result`
+    type(position_result_t), intent(in) :: result !! of a position; without a pose it is empty
 
     integer :: k
 
@@ -47,11 +48,12 @@ contains
     end do
   end subroutine put_result
 
-  !> Reads what `put_result` wrote; `at` moves past it.
+  !> Reads what `put_result` wrote.
   pure subroutine get_result(bytes, at, result)
-    character(len=*), intent(in) :: bytes
-    integer, intent(inout) :: at !! place of the next byte
-    type(position_result_t), intent(out) :: result
+    character(len=*), intent(in) :: bytes          !! of `put_result`, among others
+    integer, intent(inout) :: at                   !! place of the first byte; on return, behind the
+                                                   !! last
+    type(position_result_t), intent(out) :: result !! of a position
 
     real(wp) :: order_error(1)
     integer :: n(3), k
@@ -79,19 +81,19 @@ contains
     end do
   end subroutine get_result
 
-  !> Appends what was counted.
+  !> Appends counts to a buffer.
   pure subroutine put_ledger(buffer, counts)
-    type(text_buffer_t), intent(inout) :: buffer
-    type(ledger_t), intent(in) :: counts
+    type(text_buffer_t), intent(inout) :: buffer !! bytes, to be read by `get_ledger`
+    type(ledger_t), intent(in) :: counts         !! of the work done
 
     call put_integers(buffer, transfer(counts, [0]))
   end subroutine put_ledger
 
-  !> Reads what was counted; `at` moves past it.
+  !> Reads what `put_ledger` wrote.
   pure subroutine get_ledger(bytes, at, counts)
-    character(len=*), intent(in) :: bytes
-    integer, intent(inout) :: at
-    type(ledger_t), intent(out) :: counts
+    character(len=*), intent(in) :: bytes !! of `put_ledger`, among others
+    integer, intent(inout) :: at          !! place of the first byte; on return, behind the last
+    type(ledger_t), intent(out) :: counts !! of the work done
 
     integer :: numbers(size(transfer(ledger_t(), [0])))
 

@@ -1,10 +1,10 @@
-!> The journal of a long run: what a run that was killed has computed, for the one that goes on with
+!> The journal of a long run: results of a run that was killed, for one that goes on with
 !! `--resume`.
 !!
-!! Blocks of results are appended as they are done, each between two marks, so that a block that was
-!! cut off is known for what it is. Results are kept to the last bit: a run that goes on writes the
-!! same bytes as one that nobody disturbed. The first lines are the deck as it was understood, and
-!! the program that computed it: a journal of anything else is not used.
+!! Blocks of results are appended when they are done, each between two equal marks, by which a
+!! block that was cut off is recognised. Results are kept to the last bit: a resumed run writes the
+!! same bytes as an undisturbed one. The first lines are the deck as the program understood it, and
+!! the program that computed it: a journal of another deck or program is not used.
 module task_journal
   use byte_streams, only: get_integers, put_integers
   use file_system, only: joined_path, remove_file
@@ -16,48 +16,53 @@ module task_journal
   public :: journal_t, open_journal, recall_task, keeps_tasks, keep_task, close_journal, &
     remove_journal, journal_name
 
+  !> Name of its file in the output folder.
   character(len=*), parameter :: journal_name = "resume.part"
 
-  !> A run that takes less than this is not worth a journal [s].
+  !> A run shorter than this is not worth a journal [s].
   real(wp), parameter :: least_time = 0.25_wp
 
-  !> Bytes are handed to the system after so much time: that much of a killed run is lost [s].
+  !> Bytes are passed to the system after this time: so much work of a killed run is lost [s].
   real(wp), parameter :: flush_time = 0.25_wp
 
-  !> A mark before and after every task: its group, its number, its length in bytes.
+  !> A mark before and after every task: group, number, length in bytes.
   integer, parameter :: mark_bytes = 3*storage_size(1)/8
 
+  !> The results of a task.
   type :: block_t
-    integer :: task(2) = 0 !! group and number
-    integer :: length = 0
+    integer :: task(2) = 0          !! group and number
+    integer :: length = 0           !! [bytes]
     integer(long) :: place = 0_long !! of its first byte
   end type block_t
 
+  !> A journal; it is open from its first task, or from the start of a resumed run.
   type :: journal_t
     character(len=:), allocatable, private :: path
     character(len=:), allocatable, private :: title !! deck and program
     integer, private :: unit = -1
     logical, private :: is_open = .false.
-    logical, private :: broken = .false.   !! it could not be written: the run goes on without
-    integer, private :: blocks = 0         !! of the earlier run
-    type(block_t), allocatable, private :: list(:)
-    integer, private :: last = 0           !! block that was recalled last
-    integer, private :: kept = 0           !! blocks of this run
-    integer(long), private :: next = 0_long !! place of the next byte
-    integer(long), private :: clock = 0_long !! when the run began, or bytes were last handed over
+    logical, private :: broken = .false.            !! it could not be written; the run continues
+                                                    !! without it
+    integer, private :: blocks = 0                  !! of the earlier run
+    type(block_t), allocatable, private :: list(:)  !! (at least blocks)
+    integer, private :: last = 0                    !! block that was recalled last
+    integer, private :: kept = 0                    !! blocks of this run
+    integer(long), private :: next = 0_long         !! place of the next byte
+    integer(long), private :: clock = 0_long        !! ticks at the start of the run, or when bytes
+                                                    !! were last passed on
   end type journal_t
 
 contains
 
-  !> Opens the journal of an earlier run if there is one to go on with; else one is begun when the
-  !! run turns out to be long.
+  !> Opens the journal of an earlier run if there is one to go on from. Otherwise removes it; a new
+  !! one is begun when the run turns out to be long.
   subroutine open_journal(folder, title, resume, journal, blocks)
-    character(len=*), intent(in) :: folder
-    character(len=*), intent(in) :: title !! what must be the same for results to be the same
-    logical, intent(in) :: resume
-    type(journal_t), intent(out) :: journal
-    integer, intent(out) :: blocks        !! complete ones of the earlier run; -1 if it was of
-                                          !! another deck or program
+    character(len=*), intent(in) :: folder  !! of the outputs
+    character(len=*), intent(in) :: title   !! what must be the same for results to be the same
+    logical, intent(in) :: resume           !! whether to go on from an earlier run
+    type(journal_t), intent(out) :: journal !! ready for tasks
+    integer, intent(out) :: blocks          !! complete ones of the earlier run; -1: it was of
+                                            !! another deck or program, or is unreadable
 
     blocks = 0
     journal%path = joined_path(folder, journal_name)
@@ -69,7 +74,7 @@ contains
     call remove_file(journal%path)
   end subroutine open_journal
 
-  !> Finds the complete blocks of a journal, and what comes behind the last of them is written over.
+  !> Finds the complete blocks of a journal. Bytes behind the last of them will be overwritten.
   subroutine read_journal(journal, blocks)
     type(journal_t), intent(inout) :: journal
     integer, intent(out) :: blocks
@@ -114,13 +119,13 @@ contains
     journal%next = place
   end subroutine read_journal
 
-  !> Notes the block that a mark speaks of behind those that are known; false if there is no room
-  !! for it in the file.
+  !> Adds the block of a mark to the list, if the file is long enough for it.
   function enters(journal, mark, place, bytes)
     type(journal_t), intent(inout) :: journal
-    character(len=*), intent(in) :: mark
-    integer(long), intent(in) :: place, bytes
-    logical :: enters
+    character(len=*), intent(in) :: mark !! group, number and length of the block
+    integer(long), intent(in) :: place   !! of the block's first byte
+    integer(long), intent(in) :: bytes   !! length of the file
+    logical :: enters                    !! whether the block was added
 
     type(block_t), allocatable :: larger(:)
     integer :: numbers(3), at
@@ -138,18 +143,19 @@ contains
     journal%list(journal%blocks + 1) = block_t(numbers(:2), numbers(3), place)
   end function enters
 
-  !> Gives the bytes of a task that the earlier run has done.
+  !> Returns the bytes of a task that the earlier run did.
   subroutine recall_task(journal, task, bytes, found)
-    type(journal_t), intent(inout) :: journal
-    integer, intent(in) :: task(2) !! group and number
-    character(len=:), allocatable, intent(out) :: bytes
-    logical, intent(out) :: found
+    type(journal_t), intent(inout) :: journal           !! opened
+    integer, intent(in) :: task(2)                      !! group and number
+    character(len=:), allocatable, intent(out) :: bytes !! what the task gave; not allocated if it
+                                                        !! is not in the journal
+    logical, intent(out) :: found                       !! whether the bytes could be read
 
     integer :: i, k, status
 
     found = .false.
     do k = 1, journal%blocks
-      ! Tasks are asked for nearly in the order in which they were kept.
+      ! Tasks are requested nearly in the order in which they were kept.
       i = 1 + modulo(journal%last + k - 1, journal%blocks)
       associate (block => journal%list(i))
         if (any(block%task /= task)) cycle
@@ -162,9 +168,10 @@ contains
     end do
   end subroutine recall_task
 
-  !> Whether what a task gives is kept now: only once the run has taken long enough.
+  !> Whether results of tasks are to be kept: only once the run has lasted `least_time`. Begins the
+  !! journal then.
   function keeps_tasks(journal) result(keeps)
-    type(journal_t), intent(inout) :: journal
+    type(journal_t), intent(inout) :: journal !! opened
     logical :: keeps
 
     integer(long) :: now, rate
@@ -179,11 +186,11 @@ contains
     keeps = .not. journal%broken
   end function keeps_tasks
 
-  !> Appends the bytes of a task.
+  !> Appends the bytes of a task. If they cannot be written, the run continues without a journal.
   subroutine keep_task(journal, task, bytes)
-    type(journal_t), intent(inout) :: journal
+    type(journal_t), intent(inout) :: journal !! opened
     integer, intent(in) :: task(2)            !! group and number
-    type(text_buffer_t), intent(in) :: bytes
+    type(text_buffer_t), intent(in) :: bytes  !! what the task gave
 
     type(text_buffer_t) :: mark
     integer(long) :: now, rate
@@ -216,11 +223,11 @@ contains
     if (.not. journal%broken) inquire (unit=journal%unit, pos=journal%next)
   end subroutine begin_journal
 
-  !> Closes the journal of a run that was interrupted, and tells how many blocks it holds for one
-  !! that goes on.
+  !> Closes the journal of an interrupted run.
   subroutine close_journal(journal, blocks)
-    type(journal_t), intent(inout) :: journal
-    integer, intent(out) :: blocks
+    type(journal_t), intent(inout) :: journal !! opened, or not begun
+    integer, intent(out) :: blocks            !! in it for a run that resumes; 0: nothing to resume
+                                              !! from
 
     integer :: status
 
@@ -231,9 +238,9 @@ contains
     if (status == 0 .and. .not. journal%broken) blocks = journal%blocks + journal%kept
   end subroutine close_journal
 
-  !> Removes the journal of a run that is done.
+  !> Closes and deletes the journal of a finished run.
   subroutine remove_journal(journal)
-    type(journal_t), intent(inout) :: journal
+    type(journal_t), intent(inout) :: journal !! opened, or not begun
 
     integer :: status
 

@@ -1,8 +1,8 @@
-!> Tasks handed out to threads, and what they give put in order.
+!> Tasks of a job: distributed to threads, finished in order.
 !!
-!! A job is a number of tasks that do not need each other: the blocks of a long sweep, the variants
-!! of a deck. A task that an earlier run has done is not done again: its bytes come from the
-!! journal, and those of a new one go there. Another way to hand them out (to other machines, say)
+!! The tasks of a job are independent of each other: the blocks of a long sweep, the variants of a
+!! deck. A task that an earlier run has done is not done again: its bytes come from the journal,
+!! and those of a new one are added to it. Another way to distribute tasks (to other machines, say)
 !! is another procedure beside `run_tasks`; jobs need not change.
 module tasks
   use errors, only: error_t
@@ -14,50 +14,52 @@ module tasks
 
   public :: job_t, run_tasks
 
-  !> What the tasks of a job are. `run` may be called for several tasks at the same time; everything
-  !! else is called for one at a time. A task that could not be done packs nothing.
+  !> What the tasks of a job do. `run` may be called for several tasks at the same time; all other
+  !! procedures are called for one task at a time. A task that could not be done packs nothing.
   type, abstract :: job_t
     type(error_t), allocatable :: error !! set by `finish`: no more tasks are begun
   contains
-    procedure(task_interface), deferred :: run    !! does a task; the job holds what it gives
-    procedure(pack_interface), deferred :: pack   !! what a task has given, as bytes
-    procedure(unpack_interface), deferred :: unpack !! puts it back, as if the task had been done
-    procedure(task_interface), deferred :: finish !! in the order of the tasks
+    procedure(task_interface), deferred :: run      !! does a task; its results stay in the job
+    procedure(pack_interface), deferred :: pack     !! appends the results of a task as bytes
+    procedure(unpack_interface), deferred :: unpack !! restores them, as if the task had been done
+    procedure(task_interface), deferred :: finish   !! is called in the order of the tasks
   end type job_t
 
   abstract interface
     subroutine task_interface(self, number)
       import :: job_t
-      class(job_t), intent(inout) :: self
-      integer, intent(in) :: number !! of the task
+      class(job_t), intent(inout) :: self !! with the task's results, or room for them
+      integer, intent(in) :: number       !! of the task
     end subroutine task_interface
 
     subroutine pack_interface(self, number, bytes)
       import :: job_t, text_buffer_t
-      class(job_t), intent(in) :: self
-      integer, intent(in) :: number
-      type(text_buffer_t), intent(inout) :: bytes !! to which it is appended
+      class(job_t), intent(in) :: self            !! with the task's results
+      integer, intent(in) :: number               !! of the task
+      type(text_buffer_t), intent(inout) :: bytes !! to which they are appended
     end subroutine pack_interface
 
     subroutine unpack_interface(self, number, bytes)
       import :: job_t
-      class(job_t), intent(inout) :: self
-      integer, intent(in) :: number
-      character(len=*), intent(in) :: bytes
+      class(job_t), intent(inout) :: self   !! with room for the task's results
+      integer, intent(in) :: number         !! of the task
+      character(len=*), intent(in) :: bytes !! of `pack`
     end subroutine unpack_interface
   end interface
 
 contains
 
-  !> Does the tasks of a job on so many threads, and finishes them in their order. An interruption
-  !! and an error leave some undone; the error is that of the first task that could not be done.
+  !> Does the tasks of a job on several threads, and finishes them in their order. After an
+  !! interruption or an error some tasks are not done; the error is that of the first task that
+  !! failed.
   subroutine run_tasks(job, first, last, threads, journal, group)
-    class(job_t), intent(inout) :: job
-    integer, intent(in) :: first, last !! numbers of the tasks
-    integer, intent(in) :: threads
-    type(journal_t), intent(inout) :: journal
-    integer, intent(in) :: group       !! of tasks in the journal, from 0; below 0: it has none of
-                                       !! them
+    class(job_t), intent(inout) :: job        !! with room for the results; its `error` is set if a
+                                              !! task fails
+    integer, intent(in) :: first, last        !! numbers of the tasks
+    integer, intent(in) :: threads            !! number to use
+    type(journal_t), intent(inout) :: journal !! of the run
+    integer, intent(in) :: group              !! of these tasks in the journal, from 0; below 0:
+                                              !! they are not kept
 
     logical :: done(first:last), over, is_over
     integer :: number, next
@@ -90,7 +92,7 @@ contains
     !$omp end parallel do
   end subroutine run_tasks
 
-  !> Does a task, or takes what it gives from the journal.
+  !> Does a task, or restores its results from the journal.
   subroutine do_task(job, number, journal, group)
     class(job_t), intent(inout) :: job
     integer, intent(in) :: number

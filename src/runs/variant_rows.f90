@@ -1,5 +1,5 @@
-!> What a variant leaves when it has been computed: the rows of its tables, what it found and how
-!! much it took. As bytes it goes into the journal of a run.
+!> What a computed variant leaves: the rows of its tables, its findings and its totals. The journal
+!! of a run keeps them as bytes.
 module variant_rows
   use byte_streams, only: get_integers, get_reals, get_string, put_integers, put_reals, put_string
   use kinds, only: wp
@@ -19,14 +19,16 @@ module variant_rows
 
   public :: variant_rows_t, table_part_t, find_variant_rows, put_variant_rows, get_variant_rows
 
-  !> The part of a table that a variant brings.
+  !> The part of a table that belongs to a variant.
   type :: table_part_t
-    type(string_t), allocatable :: notes(:)
+    type(string_t), allocatable :: notes(:) !! lines of its head
     type(rows_t) :: rows
   end type table_part_t
 
+  !> All that a variant leaves.
   type :: variant_rows_t
-    real(wp), allocatable :: varied(:)           !! values of what varies
+    real(wp), allocatable :: varied(:)           !! (parameters) values, in the units of their VARY
+                                                 !! cards
     type(table_part_t), allocatable :: tables(:) !! in the order of the deck's tables
     type(findings_t) :: findings
     type(run_totals_t) :: totals
@@ -34,19 +36,19 @@ module variant_rows
 
 contains
 
-  !> Rows, findings and totals of a variant that has been computed. Several variants may be asked
-  !! for at the same time.
+  !> Rows, findings and totals of a computed variant. Several threads may call it at the same time,
+  !! for different variants.
   subroutine find_variant_rows(tables, variant, rows)
-    type(table_kind_t), intent(in) :: tables(:)
-    type(variant_results_t), intent(in) :: variant
-    type(variant_rows_t), intent(out) :: rows
+    type(table_kind_t), intent(in) :: tables(:)    !! of the deck
+    type(variant_results_t), intent(in) :: variant !! computed
+    type(variant_rows_t), intent(out) :: rows      !! with all that is to be written
 
     type(table_plan_t) :: plans(size(tables))
     integer :: i
 
     allocate (rows%tables(size(tables)))
-    ! Texts are made by one thread at a time: gfortran 12 gives the lengths of results a place that
-    ! all threads share.
+    ! One thread at a time makes texts: gfortran 12 keeps the lengths of such results in one place
+    ! for all threads.
     !$omp critical (one_at_a_time)
     rows%varied = variant%model%varied
     rows%totals = totals_of(variant)
@@ -62,10 +64,10 @@ contains
     end do
   end subroutine find_variant_rows
 
-  !> Appends what a variant leaves to a buffer as bytes.
+  !> Appends rows, findings and totals to a buffer as bytes.
   pure subroutine put_variant_rows(buffer, rows)
-    type(text_buffer_t), intent(inout) :: buffer
-    type(variant_rows_t), intent(in) :: rows
+    type(text_buffer_t), intent(inout) :: buffer !! bytes, to be read by `get_variant_rows`
+    type(variant_rows_t), intent(in) :: rows     !! of a variant
 
     integer :: i, k
 
@@ -86,9 +88,9 @@ contains
 
   !> Reads what `put_variant_rows` wrote.
   pure subroutine get_variant_rows(bytes, at, rows)
-    character(len=*), intent(in) :: bytes
-    integer, intent(inout) :: at !! place of the first byte; moves past the last
-    type(variant_rows_t), intent(out) :: rows
+    character(len=*), intent(in) :: bytes     !! of `put_variant_rows`, among others
+    integer, intent(inout) :: at              !! place of the first byte; on return, behind the last
+    type(variant_rows_t), intent(out) :: rows !! of a variant
 
     integer :: counts(2), notes(1), i, k
 

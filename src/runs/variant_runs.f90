@@ -1,4 +1,4 @@
-!> One variant of a deck computed; a deck without VARY has just one.
+!> Computes one variant of a deck; a deck without VARY has just one.
 module variant_runs
   use errors, only: error_t
   use frequency_study, only: begin_sweep, block_count, block_of, finish_sweep, missed_states, &
@@ -27,7 +27,7 @@ module variant_runs
 
   public :: variant_run_t, begin_variant_run, compute_variant
 
-  !> A variant as it is computed. Its tasks are the blocks of its sweep.
+  !> A variant under way. Its tasks are the blocks of its sweep.
   type, extends(job_t) :: variant_run_t
     type(variant_results_t) :: results
     type(progress_t) :: progress                  !! silent unless it is started
@@ -46,33 +46,33 @@ module variant_runs
 
 contains
 
-  !> What a model describes in the terms of mechanics.
+  !> Puts a model and its mechanism in place.
   subroutine begin_variant_run(run, model)
-    type(variant_run_t), intent(inout) :: run
-    type(model_t), intent(in) :: model
+    type(variant_run_t), intent(inout) :: run !! new
+    type(model_t), intent(in) :: model        !! without errors
 
     run%results%model = model
     run%results%mechanism = new_mechanism(model)
   end subroutine begin_variant_run
 
-  !> Makes all studies that a variant asks for. Several variants may be computed at the same time.
+  !> Makes all studies that a variant requests. Several variants may be computed at the same time.
   !!
   !! Errors: the own modes of a link could not be found.
   subroutine compute_variant(run, threads, journal, group, store, error)
-    type(variant_run_t), intent(inout) :: run    !! begun
-    integer, intent(in) :: threads
-    type(journal_t), intent(inout) :: journal
+    type(variant_run_t), intent(inout) :: run    !! begun; on return with all results
+    integer, intent(in) :: threads               !! on which it is computed
+    type(journal_t), intent(inout) :: journal    !! of the deck
     integer, intent(in) :: group                 !! of the blocks in the journal; below 0: they are
                                                  !! not kept
-    type(link_store_t), intent(inout) :: store   !! of links taken apart before
-    type(error_t), allocatable, intent(out) :: error
+    type(link_store_t), intent(inout) :: store   !! own modes of links found before
+    type(error_t), allocatable, intent(out) :: error !! of the variant as a whole
 
     real(wp) :: none(0)
     integer :: i
 
     associate (model => run%results%model, linkage => run%results%mechanism%linkage, &
         found => run%results%found)
-      ! Crank angles that no report asks about cannot fail.
+      ! Crank angles that no report needs must not fail.
       if (needs_positions(model)) then
         call find_all_positions(linkage, model%crank%value, threads, found%positions)
       else
@@ -115,8 +115,8 @@ contains
     end associate
   end subroutine compute_motion
 
-  !> Frequencies at every position that has a pose. Where positions need more than the samples by
-  !! which orders were chosen, orders are chosen anew for these.
+  !> Frequencies at every position that has a pose. Positions that need higher orders than the
+  !! samples by which orders were chosen are solved again, with orders chosen for them.
   subroutine compute_sweep(run, threads, journal, group, store, error)
     type(variant_run_t), intent(inout) :: run
     integer, intent(in) :: threads
@@ -141,7 +141,7 @@ contains
         if (allocated(error)) return
         if (attempt == 1) sweep%models = run%models
         run%solved = size(positions%states) - size(run%states)
-        ! ARPACK serves one thread at a time: more of them would only wait.
+        ! ARPACK serves one thread at a time: others would only wait.
         call run_tasks(run, 1, block_count(size(run%states)), &
           merge(1, threads, sweep%request%method == by_band), journal, &
           merge(group, -1, attempt == 1))
@@ -192,7 +192,7 @@ contains
     end do
   end subroutine unpack_block
 
-  !> Tells how far the sweep has come.
+  !> Counts the states of a block and shows the progress.
   subroutine finish_block(self, number)
     class(variant_run_t), intent(inout) :: self
     integer, intent(in) :: number

@@ -1,5 +1,5 @@
-!> The variants of a deck as tasks: each computes a variant and leaves its rows, its findings and
-!! how much it took.
+!> The variants of a deck as tasks. Each task computes a variant and leaves its rows, its findings
+!! and its totals.
 module variant_tasks
   use cards, only: card_t
   use deck_outputs, only: outputs_t, write_found_rows
@@ -28,21 +28,21 @@ module variant_tasks
 
   !> What a thread keeps from one variant to the next.
   type :: thread_store_t
-    type(card_t), allocatable :: cards(:)
-    type(link_store_t) :: links
+    type(card_t), allocatable :: cards(:) !! of the last variant
+    type(link_store_t) :: links           !! whose own modes are known
   end type thread_store_t
 
-  !> Variants under way: those from `first` on.
+  !> The variants under way: those from `first` on.
   type, extends(job_t) :: variant_job_t
-    type(deck_t), pointer :: deck => null()
-    type(outputs_t), pointer :: outputs => null()
-    type(findings_t) :: findings                        !! of all variants that are finished
-    type(run_totals_t) :: totals                        !! likewise
-    type(progress_t) :: progress
-    integer, private :: first = 1
-    type(variant_rows_t), allocatable, private :: rows(:)     !! of variants that are not finished
-    type(outcome_t), allocatable, private :: outcomes(:)      !! (as rows)
-    type(thread_store_t), allocatable, private :: stores(:)   !! (threads)
+    type(deck_t), pointer :: deck => null()                 !! with all variants
+    type(outputs_t), pointer :: outputs => null()           !! opened
+    type(findings_t) :: findings                            !! of all finished variants
+    type(run_totals_t) :: totals                            !! of all finished variants
+    type(progress_t) :: progress                            !! by number of variants
+    integer, private :: first = 1                           !! number of the first one under way
+    type(variant_rows_t), allocatable, private :: rows(:)   !! (variants under way) not yet written
+    type(outcome_t), allocatable, private :: outcomes(:)    !! (variants under way)
+    type(thread_store_t), allocatable, private :: stores(:) !! (threads)
   contains
     procedure :: run => run_variant
     procedure :: pack => pack_variant
@@ -50,23 +50,23 @@ module variant_tasks
     procedure :: finish => finish_variant
   end type variant_job_t
 
-  !> Variants that are handed out together have about so many rows, and there are no more of them
-  !! than the second.
+  !> Variants that are handed out together, per thread: they have about this many rows, and they are
+  !! at most this many.
   integer, parameter :: rows_at_a_time = 8192, most_at_a_time = 256
 
-  !> The group of these tasks in the journal.
+  !> Group of these tasks in the journal.
   integer, parameter :: journal_group = 0
 
 contains
 
-  !> Computes all variants but the first and writes their rows in order. That they are sound has
-  !! been checked. Errors: the own modes of a link could not be found.
+  !> Computes all variants but the first, which have been checked, and writes their rows in order.
+  !! Errors: the own modes of a link could not be found.
   subroutine run_variant_tasks(job, rows_of_variant, threads, journal, error)
-    type(variant_job_t), intent(inout) :: job  !! with its deck and outputs
-    integer, intent(in) :: rows_of_variant     !! about so many
-    integer, intent(in) :: threads
-    type(journal_t), intent(inout) :: journal
-    type(error_t), allocatable, intent(out) :: error
+    type(variant_job_t), intent(inout) :: job        !! with its deck and outputs
+    integer, intent(in) :: rows_of_variant           !! approximate number, of each table
+    integer, intent(in) :: threads                   !! number to use
+    type(journal_t), intent(inout) :: journal        !! of the run
+    type(error_t), allocatable, intent(out) :: error !! of the first variant that fails
 
     integer :: first, last, count, at_a_time
 
@@ -87,7 +87,7 @@ contains
   !> Computes a variant.
   subroutine run_variant(self, number)
     class(variant_job_t), intent(inout) :: self
-    integer, intent(in) :: number
+    integer, intent(in) :: number !! of the variant
 
     integer :: mine
 
@@ -113,8 +113,8 @@ contains
     type(stopwatch_t) :: watch
     real(wp) :: reading, computing, writing
 
-    ! Texts are made by one thread at a time: gfortran 12 gives the lengths of results a place that
-    ! all threads share.
+    ! One thread at a time makes texts: gfortran 12 keeps the lengths of such results in one place
+    ! for all threads.
     !$omp critical (one_at_a_time)
     call start_stopwatch(watch)
     call read_variant(deck%cards, number, store%cards, none, model)
@@ -130,19 +130,20 @@ contains
     rows%totals%writing = writing
   end subroutine compute
 
-  !> What a variant leaves; nothing of one that could not be computed.
+  !> Appends the rows of a variant as bytes; nothing if it could not be computed.
   subroutine pack_variant(self, number, bytes)
     class(variant_job_t), intent(in) :: self
-    integer, intent(in) :: number
+    integer, intent(in) :: number !! of the variant
     type(text_buffer_t), intent(inout) :: bytes
 
     if (allocated(self%outcomes(number - self%first + 1)%error)) return
     call put_variant_rows(bytes, self%rows(number - self%first + 1))
   end subroutine pack_variant
 
+  !> Reads what `pack_variant` wrote.
   subroutine unpack_variant(self, number, bytes)
     class(variant_job_t), intent(inout) :: self
-    integer, intent(in) :: number
+    integer, intent(in) :: number !! of the variant
     character(len=*), intent(in) :: bytes
 
     integer :: at
@@ -151,10 +152,10 @@ contains
     call get_variant_rows(bytes, at, self%rows(number - self%first + 1))
   end subroutine unpack_variant
 
-  !> Writes the rows of a variant.
+  !> Writes the rows of a variant and adds its findings and totals to those of all.
   subroutine finish_variant(self, number)
     class(variant_job_t), intent(inout) :: self
-    integer, intent(in) :: number
+    integer, intent(in) :: number !! of the variant
 
     type(variant_rows_t) :: rows
     type(stopwatch_t) :: watch

@@ -1,4 +1,5 @@
-!> What a four-bar does to its ground, as it is and with counterweights, at every position.
+!> Force balancing of a four-bar: its counterweights, its mass centre without them, and its
+!! reactions with them at every position.
 module balance_study
   use counterweights, only: balanced_linkage, counterweight_lump, counterweight_t, &
     find_counterweights
@@ -13,23 +14,26 @@ module balance_study
   public :: balance_result_t, find_balance
 
   type :: balance_result_t
-    type(counterweight_t) :: weights(2)       !! of crank and follower
-    type(lump_t) :: lumps(2)                  !! the same as masses as far from the pivot as the
-                                              !! link is long; empty where none is needed
-    real(wp) :: mass = 0.0_wp                 !! of all that moves, without counterweights [kg]
-    real(wp), allocatable :: centre(:, :)     !! (2, states) mass centre, without them [m]
-    type(reactions_result_t) :: balanced      !! reactions with them
+    type(counterweight_t) :: weights(2)       !! on crank and follower
+    type(lump_t) :: lumps(2)                  !! the same as point masses, one link length from the
+                                              !! pivot; zero where none is needed
+    real(wp) :: mass = 0.0_wp                 !! of all moving parts, without counterweights [kg]
+    real(wp), allocatable :: centre(:, :)     !! (2, states) mass centre, without counterweights
+                                              !! [m]; zeros where there is no pose
+    type(reactions_result_t) :: balanced      !! reactions with counterweights
   end type balance_result_t
 
 contains
 
   !> Counterweights, mass centre, and the reactions of the balanced linkage, once for all speeds.
+  !! Berkof and Lowen 1969, see `counterweights`.
   subroutine find_balance(linkage, elements, positions, threads, found)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: elements(:) !! (bodies) on whose nodes their masses sit; 0: distributed
-    type(positions_t), intent(in) :: positions
-    integer, intent(in) :: threads
-    type(balance_result_t), intent(out) :: found
+    type(linkage_t), intent(in) :: linkage       !! a four-bar, without counterweights
+    integer, intent(in) :: elements(:)           !! (bodies) on whose nodes the masses are lumped;
+                                                 !! 0: distributed
+    type(positions_t), intent(in) :: positions   !! of the run
+    integer, intent(in) :: threads               !! number of OpenMP threads
+    type(balance_result_t), intent(out) :: found !! for all positions and speeds
 
     type(rigid_body_t) :: rigid(size(linkage%bodies))
     type(linkage_t) :: balanced

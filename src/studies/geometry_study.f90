@@ -1,4 +1,4 @@
-!> Where pins and points are, at any crank angles: what a drawing of a linkage is made of.
+!> Places of pins and points at any crank angles, for drawings of a linkage.
 module geometry_study
   use errors, only: error_t, outcome_t
   use kinds, only: wp
@@ -9,25 +9,27 @@ module geometry_study
 
   public :: geometry_result_t, find_geometry
 
-  !> Zeros where the linkage cannot be placed.
+  !> Places are zero where the linkage cannot be placed.
   type :: geometry_result_t
     real(wp), allocatable :: crank(:)          !! (positions) [deg]
-    type(outcome_t), allocatable :: outcome(:) !! (positions)
+    type(outcome_t), allocatable :: outcome(:) !! (positions) why the linkage cannot be placed
     real(wp), allocatable :: pin(:, :, :)      !! (2, pins, positions) in global axes [m]
     real(wp), allocatable :: point(:, :, :)    !! (2, points, positions) in global axes [m]
   end type geometry_result_t
 
 contains
 
-  !> Places the links at every angle, at dead points too: nothing has to move.
+  !> Places the links at every crank angle, at dead points too: no motion has to be determined.
+  !!
+  !! Errors, position by position in `found%outcome`: the linkage cannot be placed.
   subroutine find_geometry(linkage, body, place, crank, threads, found)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: body(:)      !! (points) that each is fixed to
-    real(wp), intent(in) :: place(:, :) !! (2, points) from the first pin of its body, in its axes
-                                        !! [m]
-    real(wp), intent(in) :: crank(:)    !! [deg]
-    integer, intent(in) :: threads
-    type(geometry_result_t), intent(out) :: found
+    type(linkage_t), intent(in) :: linkage        !! to be placed
+    integer, intent(in) :: body(:)                !! (points) body to which each point is fixed
+    real(wp), intent(in) :: place(:, :)           !! (2, points) from the first pin of the body, in
+                                                  !! the axes of the body [m]
+    real(wp), intent(in) :: crank(:)              !! (positions) [deg]
+    integer, intent(in) :: threads                !! number of OpenMP threads
+    type(geometry_result_t), intent(out) :: found !! in the order of `crank`
 
     integer :: i
 
@@ -42,7 +44,7 @@ contains
     !$omp end parallel do
   end subroutine find_geometry
 
-  !> One position.
+  !> Places pins and points at one crank angle.
   pure subroutine place_all(linkage, body, place, crank, pin, point, error)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: body(:)

@@ -1,5 +1,5 @@
-!> Harmonics of what a four-bar does to its ground and asks of its drive, over a whole turn of the
-!! crank, as it is and with counterweights.
+!> Harmonics of the shaking force, the shaking moment and the driving torque of a four-bar over a
+!! whole turn of the crank, as given and with counterweights.
 module harmonics_study
   use constants, only: degree
   use counterweights, only: balanced_linkage, find_counterweights
@@ -16,36 +16,39 @@ module harmonics_study
   public :: harmonics_result_t, harmonic_t, find_harmonics, quantity_count, quantity_names, &
     highest_harmonic, is_moment
 
-  !> A quantity over a turn: mean + Σ amplitude cos(k θ2 + phase).
+  !> A quantity over a turn: mean + Σ amplitude cos(k θ2 + phase), all in [N] or [N m] but phases.
   type :: harmonic_t
-    real(wp) :: largest = 0.0_wp !! absolute value, between the samples too [N, N m]
-    real(wp) :: rms = 0.0_wp     !! root of the mean square
+    real(wp) :: largest = 0.0_wp !! absolute value, also between the samples
+    real(wp) :: rms = 0.0_wp     !! root mean square
     real(wp) :: mean = 0.0_wp
     real(wp) :: amplitude(highest_harmonic) = 0.0_wp
     real(wp) :: phase(highest_harmonic) = 0.0_wp !! 0 where the amplitude is only rounding [deg]
   end type harmonic_t
 
   type :: harmonics_result_t
-    logical :: has_cycle = .false. !! else the crank does not turn fully: there is nothing else
-    integer :: samples = 0
-    real(wp) :: change = 0.0_wp    !! what every second sample gives differs by so much [-]
-    type(harmonic_t), allocatable :: of(:, :, :) !! (quantities, linkages, speeds) of the linkage as
-                                                 !! given, and balanced
+    logical :: has_cycle = .false. !! else the crank does not turn fully, and all that follows is
+                                   !! empty
+    integer :: samples = 0         !! of a turn
+    real(wp) :: change = 0.0_wp    !! difference to the results from every second sample, relative
+                                   !! to the largest value [-]
+    type(harmonic_t), allocatable :: of(:, :, :) !! (quantities; linkage as given, balanced; speeds)
   end type harmonics_result_t
 
-  !> Harmonics smaller than this share of what is usual have no digit that says where they begin.
+  !> The phase of a harmonic below this share of the usual value is only rounding.
   real(wp), parameter :: unknown_phase = 1.0e-12_wp
 
 contains
 
-  !> Harmonics at every speed. An interrupted run gets what there is.
+  !> Harmonics at every speed. An interrupted run returns incomplete results: too few samples, or
+  !! largest values of 0.
   subroutine find_harmonics(linkage, elements, speed, acceleration, threads, found)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: elements(:)   !! (bodies) on whose nodes their masses sit; 0: distributed
-    real(wp), intent(in) :: speed(:)     !! ω2, the same all round [rad/s]
-    real(wp), intent(in) :: acceleration !! α2, likewise [rad/s²]
-    integer, intent(in) :: threads
-    type(harmonics_result_t), intent(out) :: found
+    type(linkage_t), intent(in) :: linkage !! a four-bar, without counterweights
+    integer, intent(in) :: elements(:)     !! (bodies) on whose nodes the masses are lumped; 0:
+                                           !! distributed
+    real(wp), intent(in) :: speed(:)       !! (speeds) ω2, constant over the turn [rad/s]
+    real(wp), intent(in) :: acceleration   !! α2, constant over the turn [rad/s²]
+    integer, intent(in) :: threads         !! number of OpenMP threads
+    type(harmonics_result_t), intent(out) :: found !! empty if the crank does not turn fully
 
     type(linkage_t) :: linkages(2)
     type(cycle_t) :: turns(2)
@@ -82,13 +85,14 @@ contains
     !$omp end parallel do
   end subroutine find_harmonics
 
-  !> The harmonics of a linkage at a speed.
+  !> Harmonics of all quantities of a linkage at one speed.
   pure subroutine find_spectra(turn, speed, acceleration, largest, measure, found)
     type(cycle_t), intent(in) :: turn
     real(wp), intent(in) :: speed            !! ω2 [rad/s]
     real(wp), intent(in) :: acceleration     !! α2 [rad/s²]
-    real(wp), intent(in) :: largest(:)       !! (quantities)
-    real(wp), intent(in) :: measure(:)       !! (quantities) against which a harmonic is rounding
+    real(wp), intent(in) :: largest(:)       !! (quantities) absolute values [N, N m]
+    real(wp), intent(in) :: measure(:)       !! (quantities) usual value, with which harmonics are
+                                             !! compared [N, N m]
     type(harmonic_t), intent(out) :: found(:) !! (quantities)
 
     real(wp), allocatable :: values(:, :)
@@ -109,7 +113,7 @@ contains
 
   !> Whether a quantity is a moment, not a force.
   elemental function is_moment(quantity) result(is)
-    integer, intent(in) :: quantity
+    integer, intent(in) :: quantity !! number, as in `quantity_names`
     logical :: is
 
     is = quantity == shaking_moment .or. quantity == drive_torque

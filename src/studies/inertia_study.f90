@@ -1,4 +1,4 @@
-!> Where the masses of a linkage are, how they accelerate, and the inertia forces that they exert.
+!> Places and accelerations of the masses of a linkage, and their inertia forces and moments.
 module inertia_study
   use acceleration_fields, only: acceleration_field_t, unit_fields
   use inertia_loads, only: lumped_masses, lumped_stations
@@ -11,24 +11,26 @@ module inertia_study
   public :: mass_t, inertia_result_t, mass_load_t, find_inertia_loads, loads_at_speed
   public :: of_link, of_body, on_link, at_pin
 
-  !> What a mass belongs to: it is that of a beam, or a part of it on a node; that of a link that
-  !! has a mass of its own; fixed to a link; at a pin.
+  !> Kinds of masses: the uniform mass of a beam, or a part of it on a node; the mass given for a
+  !! link as a whole; a mass fixed to a link; a mass at a pin.
   integer, parameter :: of_link = 1, of_body = 2, on_link = 3, at_pin = 4
 
   type :: mass_t
-    integer :: kind = 0
-    integer :: number = 0             !! of its body or pin
+    integer :: kind = 0               !! one of the above
+    integer :: number = 0             !! of the body or pin
     real(wp) :: mass = 0.0_wp         !! [kg]
-    real(wp) :: place(2) = 0.0_wp     !! on a body, from its first pin, in its axes [m]
-    real(wp) :: inertia = 0.0_wp      !! about its own mass centre [kg m²]
-    real(wp) :: rotary_inertia = 0.0_wp !! of cross-sections, besides [kg m²]
+    real(wp) :: place(2) = 0.0_wp     !! on a body: from its first pin, in the body's axes [m]
+    real(wp) :: inertia = 0.0_wp      !! moment of inertia about its own mass centre [kg m²]
+    real(wp) :: rotary_inertia = 0.0_wp !! additional, of the cross-sections of a beam [kg m²]
   end type mass_t
 
-  !> Masses, and the accelerations of which all are made; zeros where there is no pose.
+  !> Masses, and the unit accelerations from which those at any speed follow; zeros where there is
+  !! no pose.
   type :: inertia_result_t
     type(mass_t), allocatable :: masses(:)
-    real(wp), allocatable :: unit(:, :, :) !! (numbers of a field, ω2² = 1 or α2 = 1, states)
-    integer :: pins = 0, bodies = 0
+    real(wp), allocatable :: unit(:, :, :) !! (values of a field, ω2² = 1 or α2 = 1, states), as in
+                                           !! `unit_numbers`
+    integer :: pins = 0, bodies = 0        !! numbers of them
   end type inertia_result_t
 
   !> A mass at a position and speed.
@@ -41,15 +43,17 @@ module inertia_study
 
 contains
 
-  !> Masses and unit accelerations, once for all speeds.
+  !> Masses and unit accelerations, once for all speeds: Ulker 2010 (2.39) to (2.46), and (3.1) to
+  !! (3.18) for lumped masses.
   subroutine find_inertia_loads(linkage, elements, has_own_mass, positions, threads, found)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: elements(:)      !! (bodies) on whose nodes their masses sit; 0:
-                                            !! distributed
-    logical, intent(in) :: has_own_mass(:)  !! (bodies) the first lump is the link itself
-    type(positions_t), intent(in) :: positions
-    integer, intent(in) :: threads
-    type(inertia_result_t), intent(out) :: found
+    type(linkage_t), intent(in) :: linkage       !! with masses
+    integer, intent(in) :: elements(:)           !! (bodies) on whose nodes the masses are lumped;
+                                                 !! 0: distributed
+    logical, intent(in) :: has_own_mass(:)       !! (bodies) whether the first lump is the link
+                                                 !! itself
+    type(positions_t), intent(in) :: positions   !! of the run
+    integer, intent(in) :: threads               !! number of OpenMP threads
+    type(inertia_result_t), intent(out) :: found !! for all positions and speeds
 
     integer :: i
 
@@ -66,7 +70,7 @@ contains
     !$omp end parallel do
   end subroutine find_inertia_loads
 
-  !> All masses: body after body what the link has and what is fixed to it, then those of pins.
+  !> All masses: body after body its uniform mass and its lumps, then the pin masses.
   pure function masses_of(linkage, elements, has_own_mass) result(masses)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: elements(:)
@@ -107,20 +111,20 @@ contains
       masses%place(1) = lumped_stations(body, elements)
       return
     end if
-    ! (2.46) with I_G = m L²/12, and ρI L where rotary inertia is asked for
+    ! (2.46) with I_G = m L²/12, and ρI L where rotary inertia is included
     masses(1)%mass = body%line_density*body%length
     masses(1)%place = [0.5_wp*body%length, 0.0_wp]
     masses(1)%inertia = masses(1)%mass*body%length**2/12.0_wp
     masses(1)%rotary_inertia = body%rotary_inertia*body%length
   end function uniform_masses
 
-  !> The two unit fields as numbers: of the pins, then of the bodies at their first pin, along them,
-  !! and turning.
+  !> The two unit acceleration fields as a list of values: of all pins, of the first pin of every
+  !! body, the slopes along the bodies, the angular accelerations.
   pure function unit_numbers(linkage, state, numbers) result(unit)
     type(linkage_t), intent(in) :: linkage
     type(state_t), intent(in) :: state
-    integer, intent(in) :: numbers
-    real(wp) :: unit(numbers, 2)
+    integer, intent(in) :: numbers !! of values of a field
+    real(wp) :: unit(numbers, 2)   !! (values, ω2² = 1 or α2 = 1)
 
     type(acceleration_field_t) :: fields(2)
     integer :: i
@@ -131,14 +135,15 @@ contains
     end do
   end function unit_numbers
 
-  !> Places, accelerations and loads of all masses at a position and speed.
+  !> Places, accelerations and inertia loads of all masses at a position and speed: Ulker 2010
+  !! (2.45), (2.46).
   pure subroutine loads_at_speed(linkage, found, state, number, speed, acceleration, loads)
-    type(linkage_t), intent(in) :: linkage
-    type(inertia_result_t), intent(in) :: found
-    type(state_t), intent(in) :: state       !! with a pose
-    integer, intent(in) :: number            !! of the state
-    real(wp), intent(in) :: speed            !! ω2 [rad/s]
-    real(wp), intent(in) :: acceleration     !! α2 [rad/s²]
+    type(linkage_t), intent(in) :: linkage      !! of the study
+    type(inertia_result_t), intent(in) :: found !! for all positions
+    type(state_t), intent(in) :: state          !! with a pose
+    integer, intent(in) :: number               !! of this state
+    real(wp), intent(in) :: speed               !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration        !! α2 [rad/s²]
     type(mass_load_t), intent(out) :: loads(:) !! (masses)
 
     real(wp) :: field(size(found%unit, 1)), slope(2), angular

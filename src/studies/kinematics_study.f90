@@ -1,4 +1,5 @@
-!> How the links of a four-bar move: angles, their rates, the moving pins, the transmission angle.
+!> Kinematics of a four-bar: angles, angular velocities and accelerations of the links, places of
+!! the moving pins, transmission angle.
 module kinematics_study
   use constants, only: degree
   use kinds, only: wp
@@ -10,30 +11,32 @@ module kinematics_study
 
   public :: kinematics_result_t, find_kinematics, kinematics_at, kinematic_values
 
-  !> Numbers of `kinematics_at`.
+  !> Number of values of `kinematics_at`.
   integer, parameter :: kinematic_values = 11
 
-  !> What does not depend on the speed; zeros where there is no pose. In the order coupler,
-  !! follower.
+  !> Quantities that do not depend on the speed, in the order coupler, follower; zeros where there
+  !! is no pose.
   type :: kinematics_result_t
     real(wp), allocatable :: angle(:, :)        !! (2, states) θ3 and θ4 [deg]
-    real(wp), allocatable :: turn(:, :)         !! (2, states) h [-]
-    real(wp), allocatable :: turn_slope(:, :)   !! (2, states) h' [-]
-    real(wp), allocatable :: pin(:, :)          !! (4, states) A and B [m]
-    real(wp), allocatable :: transmission(:)    !! (states) between coupler and follower [deg]
-    integer :: at_least = 0, at_most = 0        !! positions, as listed, where the transmission
-                                                !! angle is least and greatest; 0: there is none
+    real(wp), allocatable :: turn(:, :)         !! (2, states) h = dθ/dθ2 [-]
+    real(wp), allocatable :: turn_slope(:, :)   !! (2, states) h' = d²θ/dθ2² [-]
+    real(wp), allocatable :: pin(:, :)          !! (4, states) x and y of A, then of B [m]
+    real(wp), allocatable :: transmission(:)    !! (states) transmission angle, between coupler and
+                                                !! follower [deg]
+    integer :: at_least = 0, at_most = 0        !! numbers, in the deck's list, of the positions of
+                                                !! least and greatest transmission angle; 0: there
+                                                !! is no pose at all
   end type kinematics_result_t
 
 contains
 
-  !> Kinematics at all positions. Ulker 2010 (2.1) to (2.38), found by `poses` and
-  !! `kinematic_coefficients`.
+  !> Kinematics at all positions, once for all speeds: Ulker 2010 (2.1) to (2.38), which are solved
+  !! in `poses` and `kinematic_coefficients`.
   subroutine find_kinematics(linkage, positions, threads, found)
-    type(linkage_t), intent(in) :: linkage
-    type(positions_t), intent(in) :: positions
-    integer, intent(in) :: threads
-    type(kinematics_result_t), intent(out) :: found
+    type(linkage_t), intent(in) :: linkage          !! a four-bar
+    type(positions_t), intent(in) :: positions      !! of the run
+    integer, intent(in) :: threads                  !! number of OpenMP threads
+    type(kinematics_result_t), intent(out) :: found !! for all positions and speeds
 
     integer :: i, n
 
@@ -61,7 +64,7 @@ contains
     call find_extremes(positions, found)
   end subroutine find_kinematics
 
-  !> Where the transmission angle is least and greatest, of equal ones the first listed.
+  !> Positions of least and greatest transmission angle; of equal ones the first in the list.
   pure subroutine find_extremes(positions, found)
     type(positions_t), intent(in) :: positions
     type(kinematics_result_t), intent(inout) :: found
@@ -82,12 +85,13 @@ contains
     end do
   end subroutine find_extremes
 
-  !> At a speed: θ3, θ4 [deg], ω3, ω4 [rad/s], α3, α4 [rad/s²], A, B [m], transmission angle [deg].
+  !> Values at a speed: θ3, θ4 [deg], ω3, ω4 [rad/s], α3, α4 [rad/s²], x and y of A and B [m],
+  !! transmission angle [deg].
   pure function kinematics_at(found, state, speed, acceleration) result(values)
-    type(kinematics_result_t), intent(in) :: found
-    integer, intent(in) :: state         !! number
-    real(wp), intent(in) :: speed        !! ω2 [rad/s]
-    real(wp), intent(in) :: acceleration !! α2 [rad/s²]
+    type(kinematics_result_t), intent(in) :: found !! for all positions
+    integer, intent(in) :: state                   !! number; with a pose
+    real(wp), intent(in) :: speed                  !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration           !! α2 [rad/s²]
     real(wp) :: values(kinematic_values)
 
     associate (h => found%turn(:, state), slope => found%turn_slope(:, state))

@@ -10,18 +10,20 @@ module lagrange_study
 
   public :: find_lagrange_terms, lagrange_at_speed, lagrange_values
 
-  !> Numbers of `lagrange_at_speed`.
+  !> Number of values of `lagrange_at_speed`.
   integer, parameter :: lagrange_values = 8
 
 contains
 
-  !> M, M', the generalised loads and the potential at all positions; zeros where there is no pose.
+  !> Generalised inertia M, M' = dM/dθ2, generalised loads and potential at all positions, once for
+  !! all speeds: Ulker 2010 (2.50) to (2.64).
   subroutine find_lagrange_terms(linkage, elements, positions, threads, terms)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: elements(:) !! (bodies) on whose nodes their masses sit; 0: distributed
-    type(positions_t), intent(in) :: positions
-    integer, intent(in) :: threads
-    type(lagrange_t), allocatable, intent(out) :: terms(:) !! (states)
+    type(linkage_t), intent(in) :: linkage     !! with masses
+    integer, intent(in) :: elements(:)         !! (bodies) on whose nodes the masses are lumped; 0:
+                                               !! distributed
+    type(positions_t), intent(in) :: positions !! of the run
+    integer, intent(in) :: threads             !! number of OpenMP threads
+    type(lagrange_t), allocatable, intent(out) :: terms(:) !! (states) zeros where there is no pose
 
     type(rigid_body_t) :: rigid(size(linkage%bodies))
     integer :: i
@@ -38,11 +40,12 @@ contains
     !$omp end parallel do
   end subroutine find_lagrange_terms
 
-  !> At a speed: M, M' [kg m²], `½ M' ω2²`, gravity, load, torque, kinetic energy, potential [N m].
+  !> Values at a speed: M, M' [kg m²], `½ M' ω2²`, gravity, load, torque, kinetic energy, potential
+  !! [N m].
   pure function lagrange_at_speed(terms, speed, acceleration) result(values)
-    type(lagrange_t), intent(in) :: terms
-    real(wp), intent(in) :: speed        !! ω2 [rad/s]
-    real(wp), intent(in) :: acceleration !! α2 [rad/s²]
+    type(lagrange_t), intent(in) :: terms !! at a position
+    real(wp), intent(in) :: speed         !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration  !! α2 [rad/s²]
     real(wp) :: values(lagrange_values)
 
     values = [terms%inertia, terms%inertia_slope, velocity_term(terms, speed), terms%gravity, &

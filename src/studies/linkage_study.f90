@@ -1,4 +1,4 @@
-!> What a four-bar can do at all: its class, limits and special positions on both branches.
+!> Class, limits and special positions of a four-bar, on both branches.
 module linkage_study
   use branch_ranges, only: branch_range_t, find_branch_ranges
   use four_bar_limits, only: crank_reach, grashof_class, limit_angles
@@ -16,33 +16,33 @@ module linkage_study
   !> The two branches: open and crossed.
   real(wp), parameter :: sides(2) = [1.0_wp, -1.0_wp]
 
-  !> What to know of a linkage before anything else.
+  !> Properties that every run needs.
   type :: linkage_class_t
-    character(len=:), allocatable :: grashof !! in words
-    real(wp), allocatable :: limits(:)       !! crank angles at which the crank must turn back, from
-                                             !! 0 to below 360, ascending; none if it turns fully
-                                             !! [deg]
+    character(len=:), allocatable :: grashof !! Grashof class in words
+    real(wp), allocatable :: limits(:)       !! (limits) crank angles at which the crank must turn
+                                             !! back, 0 ≤ angle < 360, ascending; empty if it turns
+                                             !! fully [deg]
   end type linkage_class_t
 
   type :: branch_result_t
     type(branch_range_t), allocatable :: ranges(:)        !! of crank and follower
-    type(special_position_t), allocatable :: positions(:) !! by crank angle
+    type(special_position_t), allocatable :: positions(:) !! in the order of crank angles
   end type branch_result_t
 
   type :: linkage_result_t
-    integer :: links = 0    !! the ground among them
-    integer :: mobility = 0 !! by counting links and pins
-    character(len=:), allocatable :: grashof !! class in words
+    integer :: links = 0    !! including the ground
+    integer :: mobility = 0 !! degrees of freedom, by counting links and pins
+    character(len=:), allocatable :: grashof !! Grashof class in words
     type(branch_result_t) :: branches(2)     !! open, crossed
-    type(special_position_t), allocatable :: change_points(:)
+    type(special_position_t), allocatable :: change_points(:) !! where the branches meet
   end type linkage_result_t
 
 contains
 
   !> Grashof class and limit positions.
   pure subroutine classify_linkage(linkage, class)
-    type(linkage_t), intent(in) :: linkage !! a four-bar
-    type(linkage_class_t), intent(out) :: class
+    type(linkage_t), intent(in) :: linkage      !! a four-bar
+    type(linkage_class_t), intent(out) :: class !! Grashof class and limits
 
     associate (ground => linkage%ground_position(:, [1, 4]), length => linkage%bodies%length)
       class%grashof = trim(grashof_class(norm2(ground(:, 2) - ground(:, 1)), length))
@@ -51,10 +51,11 @@ contains
     class%limits = class%limits(ascending_order(class%limits))
   end subroutine classify_linkage
 
-  !> Class, mobility, ranges and special positions of both branches, whichever the linkage is on.
+  !> Class, mobility, ranges and special positions of both branches, whichever of them the deck's
+  !! linkage is on.
   pure subroutine find_linkage(linkage, found)
-    type(linkage_t), intent(in) :: linkage !! a four-bar
-    type(linkage_result_t), intent(out) :: found
+    type(linkage_t), intent(in) :: linkage       !! a four-bar
+    type(linkage_result_t), intent(out) :: found !! open branch first
 
     type(special_position_t), allocatable :: positions(:)
     real(wp) :: ground(2, 2), length(3)

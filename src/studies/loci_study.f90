@@ -1,4 +1,4 @@
-!> Frequencies followed by their shapes from position to position: the rows of each locus.
+!> The rows of each frequency locus, a mode followed over positions by its shape.
 module loci_study
   use frequency_loci, only: event_ambiguous, event_crossing, event_none, event_start, &
     event_veering, follow_loci, loci_t
@@ -13,35 +13,35 @@ module loci_study
   public :: loci_t, locus_row_t, follow_loci, rows_of_locus, failed_rows, is_empty
   public :: event_none, event_start, event_crossing, event_veering, event_ambiguous
 
-  !> One position of a locus.
+  !> A locus at one position, or a gap in it.
   type :: locus_row_t
-    logical :: is_broken = .false.   !! no row: the curve is interrupted here
+    logical :: is_broken = .false.   !! a gap: the curve is interrupted, no other component is set
     integer :: position = 0          !! number in the deck's list
-    integer :: mode = 0              !! its place among the frequencies
+    integer :: mode = 0              !! number of the frequency at this position, lowest first
     real(wp) :: frequency = 0.0_wp   !! [Hz]
-    real(wp) :: mac = 0.0_wp         !! likeness to the row before
-    integer :: event = event_none
-    integer :: partner = 0           !! locus of a crossing or veering
+    real(wp) :: mac = 0.0_wp         !! modal assurance criterion with the row before, 0 to 1 [-]
+    integer :: event = event_none    !! one of `event_none` to `event_ambiguous`
+    integer :: partner = 0           !! other locus of a crossing or veering; 0: none
   end type locus_row_t
 
 contains
 
   !> Whether a locus has no position at a speed.
   pure function is_empty(loci, locus, speed)
-    type(loci_t), intent(in) :: loci
+    type(loci_t), intent(in) :: loci    !! of all modes
     integer, intent(in) :: locus, speed !! numbers
     logical :: is_empty
 
     is_empty = all(loci%locus(:, :, speed) /= locus)
   end function is_empty
 
-  !> The rows of a locus at a speed along the crank angle; where positions have failed between two
-  !! of them, the curve is broken once.
+  !> The rows of a locus at a speed, in the order of crank angles. Failed positions between two rows
+  !! become one gap.
   pure function rows_of_locus(positions, sweep, loci, locus, speed) result(rows)
-    type(positions_t), intent(in) :: positions
-    type(sweep_t), intent(in) :: sweep
-    type(loci_t), intent(in) :: loci
-    integer, intent(in) :: locus, speed !! numbers; the locus is not empty there
+    type(positions_t), intent(in) :: positions !! of the run
+    type(sweep_t), intent(in) :: sweep         !! over these positions
+    type(loci_t), intent(in) :: loci           !! of this sweep
+    integer, intent(in) :: locus, speed        !! numbers; the locus is not empty at this speed
     type(locus_row_t), allocatable :: rows(:)
 
     type(locus_row_t) :: list(size(positions%crank))
@@ -83,12 +83,12 @@ contains
     row%partner = loci%partner(row%mode, position, speed)
   end function row_at
 
-  !> The positions without a result at a speed, by crank angle: numbers in the deck's list.
+  !> The positions without a result at a speed, in the order of crank angles.
   pure function failed_rows(positions, sweep, speed) result(failed)
-    type(positions_t), intent(in) :: positions
-    type(sweep_t), intent(in) :: sweep
-    integer, intent(in) :: speed !! number
-    integer, allocatable :: failed(:)
+    type(positions_t), intent(in) :: positions !! of the run
+    type(sweep_t), intent(in) :: sweep         !! over these positions
+    integer, intent(in) :: speed               !! number
+    integer, allocatable :: failed(:)          !! numbers in the deck's list
 
     integer :: i
 

@@ -1,4 +1,4 @@
-!> Where the elements of a mesh are at a position.
+!> Places of the elements of a mesh at a position.
 module mesh_study
   use beam_mesh, only: element_length
   use kinds, only: wp
@@ -10,11 +10,11 @@ module mesh_study
   public :: mesh_element_t, elements_at
 
   type :: mesh_element_t
-    integer :: body = 0
+    integer :: body = 0                 !! number
     integer :: number = 0               !! round the loop, from 1
-    integer :: nodes(2) = 0
+    integer :: nodes(2) = 0             !! numbers
     real(wp) :: ends(2, 2) = 0.0_wp     !! (x and y, ends) in global axes [m]
-    real(wp) :: half_mass = 0.0_wp      !! that it brings to either node [kg]
+    real(wp) :: half_mass = 0.0_wp      !! contributed to either node [kg]
   end type mesh_element_t
 
 contains
@@ -23,7 +23,7 @@ contains
   pure subroutine elements_at(structure, state, list)
     type(structure_t), intent(in) :: structure !! with a mesh
     type(state_t), intent(in) :: state         !! with a pose
-    type(mesh_element_t), allocatable, intent(out) :: list(:)
+    type(mesh_element_t), allocatable, intent(out) :: list(:) !! (elements) round the loop
 
     real(wp) :: length
     integer :: b, i, n

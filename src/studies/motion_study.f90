@@ -1,4 +1,4 @@
-!> How a four-bar moves by itself: forward dynamics from a start on, kept at equal steps of time.
+!> Forward dynamics: the motion of a four-bar under given loads, sampled at equal time steps.
 module motion_study
   use drives, only: motor_drive_t, resistances_t
   use errors, only: error_of_dead_point, error_of_numerics, error_t, set_error
@@ -18,46 +18,50 @@ module motion_study
     finish_motion, motion_instants
   public :: motion_tolerance
 
-  !> The end of a motion is one of its instants when it is hit within this share of a step.
+  !> The end time counts as an instant if it is within this share of a time step of one.
   real(wp), parameter :: hit = 1.0e-9_wp
 
   type :: motion_request_t
     real(wp) :: start_angle = 0.0_wp !! of the crank [deg]
     real(wp) :: start_speed = 0.0_wp !! of the crank [rad/s]
     real(wp) :: end_time = 0.0_wp    !! [s]
-    real(wp) :: time_step = 0.0_wp   !! between instants [s]
-    type(motor_drive_t) :: drive     !! of the crank
-    type(resistances_t) :: resistances !! of all links
+    real(wp) :: time_step = 0.0_wp   !! between instants, above 0 [s]
+    type(motor_drive_t) :: drive     !! motor on the crank
+    type(resistances_t) :: resistances !! on all links
   end type motion_request_t
 
   type :: motion_result_t
-    integer :: count = 0                               !! of instants that the motion has reached
-    type(motion_sample_t), allocatable :: samples(:)   !! (all instants)
-    type(turning_point_t), allocatable :: turnings(:)  !! where the crank turns back
-    type(motion_sample_t) :: last                      !! where it ends
-    type(error_t), allocatable :: error                !! why it has not reached its end
-    logical :: has_begun = .false.
+    integer :: count = 0                               !! instants reached
+    type(motion_sample_t), allocatable :: samples(:)   !! (all instants) the first `count` are set
+    type(turning_point_t), allocatable :: turnings(:)  !! where the crank has turned back
+    type(motion_sample_t) :: last                      !! last state reached
+    type(error_t), allocatable :: error                !! why it has not reached the end time
+    logical :: has_begun = .false.                     !! the start was possible
     integer(long) :: steps = 0_long                    !! of the integration
-    real(wp) :: energy = 0.0_wp                        !! kinetic and potential, at the start [J]
+    real(wp) :: energy = 0.0_wp                        !! kinetic + potential, at the start [J]
   end type motion_result_t
 
   !> A motion that is being computed.
   type :: motion_under_way_t
     type(motion_request_t), private :: request
     type(forward_motion_t), private :: motion
-    integer, private :: next = 1        !! instant
-    logical :: is_over = .false.
+    integer, private :: next = 1        !! number of the next instant
+    logical :: is_over = .false.        !! at the end, stopped or interrupted
   end type motion_under_way_t
 
 contains
 
-  !> Starts a motion. That it does not begin is a part of the result.
+  !> Starts a motion.
+  !!
+  !! Errors, in `result%error`: the start position is out of reach, is a limit position and the
+  !! start speed is not 0, or is a change point; no memory.
   subroutine begin_motion(request, linkage, elements, under_way, result)
-    type(motion_request_t), intent(in) :: request
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: elements(:) !! (bodies) on whose nodes their masses sit; 0: distributed
-    type(motion_under_way_t), intent(out) :: under_way
-    type(motion_result_t), intent(out) :: result
+    type(motion_request_t), intent(in) :: request      !! start, end, motor and resistances
+    type(linkage_t), intent(in) :: linkage             !! a four-bar
+    integer, intent(in) :: elements(:)                 !! (bodies) on whose nodes the masses are
+                                                       !! lumped; 0: distributed
+    type(motion_under_way_t), intent(out) :: under_way !! over if the start is impossible
+    type(motion_result_t), intent(out) :: result       !! without samples yet
 
     under_way%request = request
     allocate (result%samples(motion_instants(request%end_time, request%time_step)), &
@@ -70,11 +74,11 @@ contains
     under_way%is_over = allocated(result%error)
   end subroutine begin_motion
 
-  !> Goes on to the next instants, so many of them at most.
+  !> Continues a motion over the next instants, until it is over or the given number is reached.
   subroutine continue_motion(under_way, instants, result)
-    type(motion_under_way_t), intent(inout) :: under_way
-    integer, intent(in) :: instants
-    type(motion_result_t), intent(inout) :: result
+    type(motion_under_way_t), intent(inout) :: under_way !! begun
+    integer, intent(in) :: instants                      !! number, at most
+    type(motion_result_t), intent(inout) :: result       !! gets the samples of these instants
 
     integer :: i
 
@@ -93,10 +97,13 @@ contains
     under_way%is_over = under_way%next > size(result%samples)
   end subroutine continue_motion
 
-  !> Ends a motion and says how it went.
+  !> Ends a motion and completes its result.
+  !!
+  !! Errors, in `result%error`: the motion has stopped before its end, at a change point, where
+  !! nothing with a mass moves, or because the integration cannot continue.
   subroutine finish_motion(under_way, result)
-    type(motion_under_way_t), intent(inout) :: under_way
-    type(motion_result_t), intent(inout) :: result
+    type(motion_under_way_t), intent(inout) :: under_way !! its memory is released
+    type(motion_result_t), intent(inout) :: result       !! gets turning points, steps and energy
 
     if (.not. result%has_begun) return
     associate (motion => under_way%motion)
@@ -108,7 +115,7 @@ contains
     call end_motion(under_way%motion)
   end subroutine finish_motion
 
-  !> Number of instants `0, step, 2 step, …` up to the end.
+  !> Number of instants `0, step, 2 step, …` up to the end time.
   pure function motion_instants(end_time, time_step) result(instants)
     real(wp), intent(in) :: end_time, time_step !! [s]
     integer :: instants
@@ -116,7 +123,7 @@ contains
     instants = 1 + int(end_time/time_step + hit)
   end function motion_instants
 
-  !> An instant by its number, from 1 [s].
+  !> Time of an instant by its number, from 1 [s].
   pure function instant(request, number) result(time)
     type(motion_request_t), intent(in) :: request
     integer, intent(in) :: number
@@ -126,7 +133,7 @@ contains
     if (abs(time - request%end_time) <= hit*request%time_step) time = request%end_time
   end function instant
 
-  !> Errors: a motion has stopped before its end.
+  !> Turns the reason why a motion has stopped into an error; none for `no_stop`.
   pure subroutine explain_stop(stop, error)
     integer, intent(in) :: stop !! as in `four_bar_rates`
     type(error_t), allocatable, intent(inout) :: error

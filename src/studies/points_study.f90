@@ -10,20 +10,21 @@ module points_study
 
   public :: find_points, point_at_speed, point_values
 
-  !> Numbers of `point_at_speed`.
+  !> Number of values of `point_at_speed`.
   integer, parameter :: point_values = 6
 
 contains
 
-  !> Points at all positions, once for all speeds; zeros where there is no pose.
+  !> Points at all positions, once for all speeds: Ulker 2010 (2.39) to (2.44).
   subroutine find_points(linkage, body, place, positions, threads, found)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: body(:)      !! (points) that each is fixed to
-    real(wp), intent(in) :: place(:, :) !! (2, points) from the first pin of its body, in its axes
-                                        !! [m]
-    type(positions_t), intent(in) :: positions
-    integer, intent(in) :: threads
-    type(point_coefficients_t), allocatable, intent(out) :: found(:, :) !! (points, states)
+    type(linkage_t), intent(in) :: linkage     !! that carries the points
+    integer, intent(in) :: body(:)             !! (points) body to which each point is fixed
+    real(wp), intent(in) :: place(:, :)        !! (2, points) from the first pin of the body, in the
+                                               !! axes of the body [m]
+    type(positions_t), intent(in) :: positions !! of the run
+    integer, intent(in) :: threads             !! number of OpenMP threads
+    type(point_coefficients_t), allocatable, intent(out) :: found(:, :) !! (points, states) zeros
+                                                                        !! where there is no pose
 
     integer :: i, p
 
@@ -41,11 +42,11 @@ contains
     !$omp end parallel do
   end subroutine find_points
 
-  !> At a speed: place [m], velocity [m/s], acceleration [m/s²].
+  !> Values at a speed: x and y of place [m], velocity [m/s], acceleration [m/s²].
   pure function point_at_speed(point, speed, acceleration) result(values)
-    type(point_coefficients_t), intent(in) :: point
-    real(wp), intent(in) :: speed        !! ω2 [rad/s]
-    real(wp), intent(in) :: acceleration !! α2 [rad/s²]
+    type(point_coefficients_t), intent(in) :: point !! at a position
+    real(wp), intent(in) :: speed                   !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration            !! α2 [rad/s²]
     real(wp) :: values(point_values)
 
     values = [point%place, point_velocity(point, speed), &

@@ -1,4 +1,4 @@
-!> The positions of a run, found on all threads.
+!> The positions of a run, computed in parallel.
 module position_study
   use kinds, only: wp
   use linkages, only: linkage_t
@@ -10,13 +10,14 @@ module position_study
 
 contains
 
-  !> Positions and kinematic coefficients, once for every different angle. Those that the linkage
-  !! cannot take have their error.
+  !> Poses and kinematic coefficients, once for every different crank angle.
+  !!
+  !! Errors, in each state: the linkage does not reach the position, or it is a dead point.
   subroutine find_all_positions(linkage, crank, threads, positions)
-    type(linkage_t), intent(in) :: linkage
-    real(wp), intent(in) :: crank(:) !! [deg]
-    integer, intent(in) :: threads
-    type(positions_t), intent(out) :: positions
+    type(linkage_t), intent(in) :: linkage      !! of mobility one
+    real(wp), intent(in) :: crank(:)            !! (positions) as listed in the deck [deg]
+    integer, intent(in) :: threads              !! number of OpenMP threads
+    type(positions_t), intent(out) :: positions !! one state for every different angle
 
     integer :: i
 

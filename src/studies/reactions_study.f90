@@ -11,13 +11,13 @@ module reactions_study
   public :: reactions_result_t, find_reactions, reactions_at_speed, reaction_values, &
     pin_forces, torque_value, shaking_values
 
-  !> Numbers of `reactions_at_speed`: force on every body at its first pin and at its last one, the
-  !! torque, the shaking force, the shaking moment.
+  !> Places of the values of `reactions_at_speed`: up to `pin_forces` x and y of the force on every
+  !! body at its first and at its last pin, then driving torque, shaking force and shaking moment.
   integer, parameter :: pin_forces = 12, torque_value = 13, shaking_values(3) = [14, 15, 16]
   integer, parameter :: reaction_values = 16
 
-  !> Reactions to each of the three loads of which all are made: for ω2² = 1, for α2 = 1, and the
-  !! constant ones; zeros where there is no pose.
+  !> Reactions to each of the three unit loads, of which those at any speed are composed: for ω2² =
+  !! 1, for α2 = 1, and for the constant loads; zeros where there is no pose.
   type :: reactions_result_t
     real(wp), allocatable :: unit(:, :, :) !! (values, cases, states) [N, N m]
   end type reactions_result_t
@@ -26,11 +26,12 @@ contains
 
   !> Reactions at all positions, once for all speeds: Ulker 2010 (2.47) to (2.49).
   subroutine find_reactions(linkage, elements, positions, threads, found)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: elements(:) !! (bodies) on whose nodes their masses sit; 0: distributed
-    type(positions_t), intent(in) :: positions
-    integer, intent(in) :: threads
-    type(reactions_result_t), intent(out) :: found
+    type(linkage_t), intent(in) :: linkage         !! a four-bar
+    integer, intent(in) :: elements(:)             !! (bodies) on whose nodes the masses are lumped;
+                                                   !! 0: distributed
+    type(positions_t), intent(in) :: positions     !! of the run
+    integer, intent(in) :: threads                 !! number of OpenMP threads
+    type(reactions_result_t), intent(out) :: found !! for all positions and speeds
 
     type(unit_reactions_t) :: unit
     integer :: i
@@ -48,7 +49,7 @@ contains
     !$omp end parallel do
   end subroutine find_reactions
 
-  !> Unit reactions as numbers in the order of the table.
+  !> Unit reactions in the order of the values of `reactions_at_speed`.
   pure function as_values(reactions) result(unit)
     type(unit_reactions_t), intent(in) :: reactions
     real(wp) :: unit(reaction_values, case_count)
@@ -66,12 +67,13 @@ contains
     end do
   end function as_values
 
-  !> `ω2² of turning + α2 of speeding up + constant` [N, N m].
+  !> Reactions at a speed: ω2² and α2 times those of the unit loads, plus those of the constant
+  !! loads [N, N m].
   pure function reactions_at_speed(found, state, speed, acceleration) result(values)
-    type(reactions_result_t), intent(in) :: found
-    integer, intent(in) :: state         !! number
-    real(wp), intent(in) :: speed        !! ω2 [rad/s]
-    real(wp), intent(in) :: acceleration !! α2 [rad/s²]
+    type(reactions_result_t), intent(in) :: found !! for all positions
+    integer, intent(in) :: state                  !! number; with a pose
+    real(wp), intent(in) :: speed                 !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration          !! α2 [rad/s²]
     real(wp) :: values(reaction_values)
 
     real(wp) :: factor(case_count)

@@ -1,4 +1,4 @@
-!> Turns of the crank sampled so closely that their harmonics do not change with more samples.
+!> Turns of the crank, sampled so closely that more samples do not change the harmonics.
 module settled_cycles
   use crank_cycle, only: cycle_t, cycle_values, parts_at, quantity_count, usual_values
   use harmonics, only: spectrum_of, spectrum_t
@@ -13,29 +13,30 @@ module settled_cycles
 
   integer, parameter :: fewest_samples = 64, most_samples = 65536
 
-  !> Quantities that something balances to less than this share of the usual are judged by this
-  !! share: what is left may be rounding.
+  !> Quantities balanced to less than this share of their usual value are judged relative to this
+  !! share, for the rest may be rounding only.
   real(wp), parameter :: least_share = 1.0e-3_wp
 
 contains
 
-  !> Doubles the samples of a turn until harmonics, mean and rms of all quantities are to 1e-13 of
-  !! the largest value what every second sample gives, or until there are 65,536 of them.
+  !> Doubles the number of samples of a turn until harmonics, mean and rms of all quantities agree
+  !! with those from every second sample to 1e-13 of the largest value, or until there are 65,536
+  !! samples.
   !!
-  !! They converge like a geometric series, the slower the nearer the crank comes to a dead point;
-  !! the error of all samples is about the square of that of half of them. Many speeds next to a
-  !! dead point take minutes: an interrupted run gets what there is.
+  !! Harmonics converge like a geometric series, the slower the nearer the crank passes a dead
+  !! point; the error with all samples is about the square of the error with half of them. Many
+  !! speeds next to a dead point take minutes; an interrupted run returns what it has.
   subroutine find_settled_cycles(linkages, elements, speed, acceleration, threads, turns, change)
-    type(linkage_t), intent(in) :: linkages(:) !! of the same motion, and bodies with different
+    type(linkage_t), intent(in) :: linkages(:) !! (linkages) with the same motion but different
                                                !! masses; the crank turns freely
-    integer, intent(in) :: elements(:)         !! (bodies) on whose nodes their masses sit; 0:
+    integer, intent(in) :: elements(:)         !! (bodies) on whose nodes the masses are lumped; 0:
                                                !! distributed
-    real(wp), intent(in) :: speed(:)           !! ω2, all that are wanted [rad/s]
+    real(wp), intent(in) :: speed(:)           !! (speeds) ω2 [rad/s]
     real(wp), intent(in) :: acceleration       !! α2 [rad/s²]
-    integer, intent(in) :: threads
+    integer, intent(in) :: threads             !! number of OpenMP threads
     type(cycle_t), intent(out) :: turns(:)     !! (linkages)
-    real(wp), intent(out) :: change            !! by which every second sample differs, by the
-                                               !! largest value
+    real(wp), intent(out) :: change            !! difference to the results from every second
+                                               !! sample, relative to the largest value [-]
 
     real(wp), parameter :: settled = 1.0e-13_wp*fineness
     real(wp) :: enough
@@ -46,8 +47,8 @@ contains
       do i = 1, size(linkages)
         call sample_turn(linkages(i), elements, samples, threads, turns(i))
       end do
-      ! One speed that asks for more samples is enough to take them; what the last samples give is
-      ! the result.
+      ! One speed that needs more samples is enough to take them, and the other speeds are skipped.
+      ! With the largest number of samples none is skipped, for that change is the result.
       enough = merge(settled, huge(enough), samples < most_samples)
       change = largest_change(linkages, elements, turns, speed, acceleration, enough, threads)
       if (change <= settled .or. samples >= most_samples .or. was_interrupted()) exit
@@ -55,8 +56,8 @@ contains
     end do
   end subroutine find_settled_cycles
 
-  !> Samples a turn evenly, from the crank angle 0. Every second sample of a turn that has half as
-  !! many is there already.
+  !> Samples a turn evenly, from the crank angle 0. A turn that already has half as many samples
+  !! keeps them as every second one.
   subroutine sample_turn(linkage, elements, samples, threads, turn)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: elements(:), samples, threads
@@ -79,8 +80,9 @@ contains
     call move_alloc(part, turn%part)
   end subroutine sample_turn
 
-  !> The greatest difference between the spectra of all samples and of every second, by the largest
-  !! value of each quantity; one above `enough`, if there is any.
+  !> The greatest difference, over all speeds, between the spectra of all samples and of every
+  !! second one, relative to the largest value of each quantity. Once a difference is above `enough`
+  !! the remaining speeds are skipped.
   function largest_change(linkages, elements, turns, speed, acceleration, enough, threads) &
     result(change)
     type(linkage_t), intent(in) :: linkages(:)
@@ -110,7 +112,7 @@ contains
     !$omp end parallel do
   end function largest_change
 
-  !> The same at one speed.
+  !> The difference at one speed.
   function change_at(linkages, elements, turns, speed, acceleration) result(change)
     type(linkage_t), intent(in) :: linkages(:)
     integer, intent(in) :: elements(:)
@@ -132,10 +134,11 @@ contains
           spectrum_of(values(::2, q))))
       end do
     end do
-    ! Where there is no value there is no difference either.
+    ! Quantities that are zero throughout have no difference.
     change = maxval(difference/max(largest, tiny(largest)))
   end function change_at
 
+  !> The greatest difference between two spectra: mean, rms, harmonics.
   pure function distance(a, b)
     type(spectrum_t), intent(in) :: a, b
     real(wp) :: distance

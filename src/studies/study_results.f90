@@ -1,4 +1,4 @@
-!> What the studies of one variant have found; parts that no report needs are empty.
+!> Results of all studies of one variant; parts that no report needs are empty.
 module study_results
   use balance_study, only: balance_result_t
   use body_points, only: point_coefficients_t

@@ -1,10 +1,11 @@
-!> The modes of a long mesh at one position and speed, found from those of a near model and proven
-!! to be complete by it.
+!> The modes of a long mesh at one position and speed. A near model gives the start vectors and
+!! proves that no mode is missing.
 !!
-!! The near model has a continuous link in place of every long one, and the mesh of the deck on the
-!! others. A continuous link bends in every way that a mesh does, and in some more: so as many modes
-!! lie below a limit, or more. Polynomials of the order chosen stand for it within their own error,
-!! which is far below the margin of the count.
+!! The near model has a continuous link in place of every long one and the deck's mesh on the other
+!! links. A continuous link can bend in every way that a mesh can, and in more ways: the near model
+!! therefore has at least as many modes below a limit as the mesh. Its polynomials of finite order
+!! represent the continuous link only approximately, but their error is far below the margin of the
+!! count.
 module chain_solver
   use bordered_eigensolver, only: bordered_modes_t, find_bordered_modes, new_start
   use bordered_pencil, only: bordered_pencil_t
@@ -23,24 +24,30 @@ module chain_solver
 
   public :: find_chain_modes
 
-  !> Modes beyond those wanted, where the next one is so near that the near model counts it in.
+  !> Extra modes beyond those wanted, tried in turn. They are needed where the next mode is so near
+  !! that the near model counts it as well.
   integer, parameter :: guards(3) = [0, 2, 6]
 
 contains
 
-  !> Errors: no convergence, or a mode may be missing.
+  !> Finds the lowest modes of a long mesh from those of the near model and proves that none is
+  !! missing. Without a proof it tries again with more modes.
+  !!
+  !! Errors: no convergence, or no proof even with the largest number of extra modes.
   subroutine find_chain_modes(near, own, least, start, wanted, accurate_vectors, chain, found, &
       error)
-    type(deformation_model_t), intent(in) :: near
-    type(bordered_pencil_t), intent(in) :: own     !! its matrices at this position and speed
-    type(bordered_pencil_t), intent(in) :: least   !! the same, with a geometric stiffness that is
-                                                   !! nowhere above that of the mesh
-    type(bordered_modes_t), intent(in) :: start    !! modes of `own`
-    integer, intent(in) :: wanted
-    logical, intent(in) :: accurate_vectors        !! vectors to the last digits, too
-    type(deformation_chain_t), intent(in) :: chain !! at this position and speed
-    type(subspace_modes_t), intent(out) :: found
-    type(error_t), allocatable, intent(out) :: error
+    type(deformation_model_t), intent(in) :: near  !! continuous links in place of the long ones
+    type(bordered_pencil_t), intent(in) :: own     !! matrices of the near model at this position
+                                                   !! and speed
+    type(bordered_pencil_t), intent(in) :: least   !! the same, with axial forces nowhere above
+                                                   !! those of the mesh; used for the proof
+    type(bordered_modes_t), intent(in) :: start    !! modes of `own`, at least `wanted`
+    integer, intent(in) :: wanted                  !! number of modes
+    logical, intent(in) :: accurate_vectors        !! eigenvectors also to full precision
+    type(deformation_chain_t), intent(in) :: chain !! the long mesh at this position and speed
+    type(subspace_modes_t), intent(out) :: found   !! lowest modes of the mesh; may include extra
+                                                   !! ones
+    type(error_t), allocatable, intent(out) :: error !! why the modes are not usable
 
     type(bordered_modes_t) :: modes
     real(wp), allocatable :: vectors(:, :)
@@ -72,12 +79,12 @@ contains
       " of the long mesh")
   end subroutine find_chain_modes
 
-  !> The modes of the near model on the mesh.
+  !> Start vectors: the modes of the near model, projected on the unknowns of the mesh.
   pure subroutine find_starts(near, modes, chain, vectors)
     type(deformation_model_t), intent(in) :: near
     type(bordered_modes_t), intent(in) :: modes
     type(deformation_chain_t), intent(in) :: chain
-    real(wp), intent(out) :: vectors(:, :)
+    real(wp), intent(out) :: vectors(:, :) !! (unknowns of the mesh, modes)
 
     real(wp), allocatable :: bending(:, :, :), strain(:, :, :), own(:), own_strain(:)
     integer :: b, i, first, j, kinds, longest, pieces
@@ -116,13 +123,15 @@ contains
     call project_modes(chain, near%links, bending, strain, vectors)
   end subroutine find_starts
 
-  !> Strains of all elements, scaled to energy, from the elongation of the link and the unknowns of
-  !! `axial_shapes`, in their order but for the uniform ones: these come with those of their degree,
-  !! or element.
+  !> Axial strains of all elements, scaled to energy, from the elongation of the link and the
+  !! unknowns of `axial_shapes`.
+  !!
+  !! The order is that of `axial_shapes`, except for the uniform strains. By degree, those of all
+  !! elements come first; by element, each stands at the head of its own element.
   pure function element_strains(shapes, elongation, own) result(strain)
     type(deformation_shapes_t), intent(in) :: shapes
-    real(wp), intent(in) :: elongation
-    real(wp), intent(in) :: own(:)
+    real(wp), intent(in) :: elongation !! unknown of the border [√J]
+    real(wp), intent(in) :: own(:)     !! unknowns of `axial_shapes` [√J]
     real(wp) :: strain(size(own) + 1)
 
     real(wp) :: uniform(shapes%elements)

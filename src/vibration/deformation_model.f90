@@ -1,5 +1,5 @@
-!> A linkage of beams in its links' own deformations: all that does not change with the position,
-!! found once a run.
+!> A linkage of beams, described by the links' own deformations. The model holds everything that is
+!! independent of the position and is built once a run.
 module deformation_model
   use beam_element, only: axial_degree
   use beam_mesh, only: beam_t
@@ -21,29 +21,32 @@ module deformation_model
   public :: deformation_model_t, new_deformation_model
 
   type :: deformation_model_t
-    integer, allocatable :: elements(:)         !! (bodies) of equal length; 0: continuous, one
-                                                !! between the masses along the link
+    integer, allocatable :: elements(:)         !! (bodies) of equal length; 0: a continuous link,
+                                                !! one element between masses along the link
     integer, allocatable :: order(:)            !! (bodies) polynomial degree of the transverse
                                                 !! displacement
-    logical, allocatable :: lumped(:)           !! (bodies) axial forces are constant in each
-                                                !! element
-    type(link_modes_t), allocatable :: links(:) !! (bodies)
-    type(layout_t) :: layout
+    logical, allocatable :: lumped(:)           !! (bodies) axial force constant in each element;
+                                                !! else quadratic along the link
+    type(link_modes_t), allocatable :: links(:) !! (bodies) own modes, or a rigid link
+    type(layout_t) :: layout                    !! of the unknowns in the bordered matrices
   end type deformation_model_t
 
 contains
 
-  !> Takes every link apart that a store, where there is one, does not know. Errors: the own modes
-  !! of a link could not be found.
+  !> Builds the model. Links that bend are taken from the store if it holds them, otherwise
+  !! decomposed into their own modes and added to it.
+  !!
+  !! Errors: the singular value decomposition that gives the own modes of a link fails.
   subroutine new_deformation_model(linkage, beams, elements, order, lumped, model, error, store)
-    type(linkage_t), intent(in) :: linkage
-    type(beam_t), intent(in) :: beams(:)    !! (bodies)
-    integer, intent(in) :: elements(:)      !! (bodies) as in the model
-    integer, intent(in) :: order(:)         !! (bodies)
-    logical, intent(in) :: lumped(:)        !! (bodies)
-    type(deformation_model_t), intent(out) :: model
-    type(error_t), allocatable, intent(out) :: error
-    type(link_store_t), intent(inout), optional :: store
+    type(linkage_t), intent(in) :: linkage  !! its first body is clamped to the crankshaft
+    type(beam_t), intent(in) :: beams(:)    !! (bodies) stiffnesses
+    integer, intent(in) :: elements(:)      !! (bodies) as in `deformation_model_t`
+    integer, intent(in) :: order(:)         !! (bodies) as in `deformation_model_t`
+    logical, intent(in) :: lumped(:)        !! (bodies) as in `deformation_model_t`
+    type(deformation_model_t), intent(out) :: model      !! complete unless `error` is allocated
+    type(error_t), allocatable, intent(out) :: error     !! why a link has no own modes
+    type(link_store_t), intent(inout), optional :: store !! links decomposed earlier; absent:
+                                                         !! decompose all
 
     type(link_key_t) :: key
     integer :: b
@@ -70,13 +73,15 @@ contains
     model%layout = reduced_layout(linkage, model%links)
   end subroutine new_deformation_model
 
-  !> One link. A single element, or those of a continuous link, knows the next orders as well, to
-  !! tell its own error: two across, and four along, where orders are so low that the next one of
-  !! either symmetry may not be enough.
+  !> Decomposes one link into its own modes.
   !!
-  !! With shear and without rotary inertia some deformations move no mass: θ + γ = 0 everywhere.
-  !! They meet nothing in M and K_G, and are left out. What is left are the continuous displacements
-  !! of their degree that vanish at both ends.
+  !! A single element and the elements of a continuous link also hold the unknowns of the next
+  !! orders, from which the error is estimated: two orders across and four along. Along the link the
+  !! order is so low that the next one of either symmetry may not be enough.
+  !!
+  !! With shear and without rotary inertia some deformations move no mass: v' = θ + γ = 0
+  !! everywhere. They have no entries in M and K_G and are left out. The continuous displacements of
+  !! the given degree that vanish at both ends remain.
   subroutine find_own_modes(linkage, beam, b, mesh_elements, order, lumped, link, error)
     type(linkage_t), intent(in) :: linkage
     type(beam_t), intent(in) :: beam
@@ -125,9 +130,8 @@ contains
     call held_shapes(axial, axial_kept, .false., axial_basis, displacement)
     call find_right_singular_vectors(displacement, axial_own, error)
     if (allocated(error)) return
-    call new_link_modes(bending, axial, kept, axial_kept, clamped, [beam%axial_stiffness, &
-      beam%bending_stiffness], lumped, lump_places(linkage%bodies(b)), matmul(basis, own), &
-      axial_own, link)
+    call new_link_modes(bending, axial, clamped, [beam%axial_stiffness, beam%bending_stiffness], &
+      lumped, lump_places(linkage%bodies(b)), matmul(basis, own), axial_own, link)
   end subroutine find_own_modes
 
 end module deformation_model

@@ -1,8 +1,8 @@
-!> How eigenvalues change with the matrices of a position.
+!> Sensitivity of eigenvalues to changes of the matrices at a position.
 !!
-!! A mode of `(I + K_G) y = λ M y` with yᵀMy = 1 changes its eigenvalue, to first order, by
-!! `yᵀ(ΔK_G − λ ΔM) y`. The difference is taken between the works `yᵀ(I + K_G − λM) y` in two sets
-!! of matrices, so that the matrices themselves need not be kept.
+!! The eigenvalue of a mode of `(I + K_G) y = λ M y` with yᵀMy = 1 changes, to first order, by
+!! `yᵀ(ΔK_G − λ ΔM) y`. This is found as the difference of the works `yᵀ(I + K_G − λM) y` in two
+!! sets of matrices, so that the original matrices need not be kept.
 module eigenvalue_sensitivity
   use bordered_eigensolver, only: bordered_modes_t
   use bordered_matrix, only: bordered_times_vector
@@ -15,12 +15,13 @@ module eigenvalue_sensitivity
 
 contains
 
-  !> `yᵀ(I + K_G − λM) y` of the lowest modes [1/s²]: zero, but for rounding, in their own matrices.
+  !> `yᵀ(I + K_G − λM) y` of the lowest modes [1/s²]. In the matrices of the modes themselves it is
+  !! zero except for rounding.
   pure function residual_work(pencil, found, modes) result(work)
-    type(bordered_pencil_t), intent(in) :: pencil !! whose matrices may differ from those of the
+    type(bordered_pencil_t), intent(in) :: pencil !! matrices, possibly other than those of the
                                                   !! modes
     type(bordered_modes_t), intent(in) :: found   !! modes with yᵀMy = 1 in their own matrices
-    integer, intent(in) :: modes                  !! how many of them
+    integer, intent(in) :: modes                  !! number, lowest first
     real(wp) :: work(modes)
 
     real(wp) :: product(pencil%layout%unknowns)
@@ -37,11 +38,12 @@ contains
     end do
   end function residual_work
 
-  !> `yᵀ(ΔK_G − λ ΔM) y` of the lowest modes [1/s²].
+  !> First-order change of the lowest eigenvalues, `yᵀ(ΔK_G − λ ΔM) y` [1/s²].
   pure function eigenvalue_change(changed, found, own_work) result(change)
-    type(bordered_pencil_t), intent(in) :: changed !! the matrices after the change
-    type(bordered_modes_t), intent(in) :: found    !! modes of the matrices before it
-    real(wp), intent(in) :: own_work(:)            !! (modes) their work in these
+    type(bordered_pencil_t), intent(in) :: changed !! matrices after the change
+    type(bordered_modes_t), intent(in) :: found    !! modes of the matrices before the change
+    real(wp), intent(in) :: own_work(:)            !! (modes) `residual_work` before the change
+                                                   !! [1/s²]
     real(wp) :: change(size(own_work))
 
     change = residual_work(changed, found, size(own_work)) - own_work

@@ -28,26 +28,32 @@ module frequency_loci
 
   type :: loci_t
     integer :: count = 0                         !! loci in all
-    integer, allocatable :: locus(:, :, :)      !! (modes, rows, speeds) number of the locus that
+    integer, allocatable :: locus(:, :, :)       !! (modes, rows, speeds) number of the locus that
                                                  !! a mode belongs to; 0: failed row
     real(wp), allocatable :: mac(:, :, :)        !! (modes, rows, speeds) likeness to the same
                                                  !! locus on the row before; 1 at a start
     integer, allocatable :: event(:, :, :)       !! (modes, rows, speeds)
-    integer, allocatable :: partner(:, :, :)     !! (modes, rows, speeds) locus that is crossed or
-                                                 !! veered from; else 0
+    integer, allocatable :: partner(:, :, :)     !! (modes, rows, speeds) the other locus of a
+                                                 !! crossing or veering; else 0
   end type loci_t
 
-  !> Shapes are the same above the first and different below the second; between them a step is
-  !! halved, this often at most.
+  !> Modes at a place between or on two rows.
+  type :: waypoint_t
+    real(wp) :: place(2) = 0.0_wp !! crank angle and speed [deg, rad/s]
+    type(mode_prints_t) :: prints
+  end type waypoint_t
+
+  !> Likenesses above which shapes are the same and below which they differ; between them the step
+  !! is cut in two, at most `most_halvings` times.
   real(wp), parameter :: same_shape = 0.9_wp, other_shape = 0.1_wp
   integer, parameter :: most_halvings = 6
 
-  !> Two frequencies have parted again when their distance is this multiple of the least one. Where
-  !! just two modes veer, half of each has gone over to the other at √2.
+  !> Two frequencies have parted again when their distance is this multiple of the least one. If
+  !! only two modes veer, half of each shape has passed to the other at √2.
   real(wp), parameter :: veering_width = 1.6_wp
 
-  !> Where a step is cut: not in its middle, which may well be a dead point between two symmetric
-  !! positions.
+  !> Share of a step at which it is cut: not its middle, which may be a dead point between two
+  !! symmetric positions.
   real(wp), parameter :: cut = 0.45_wp
 
 contains
@@ -56,9 +62,10 @@ contains
   !! the first row of a block continues that of the block before.
   subroutine follow_loci(linkage, positions, sweep, loci)
     type(linkage_t), intent(in) :: linkage
-    type(positions_t), intent(in) :: positions
-    type(sweep_t), intent(inout) :: sweep !! its ledger counts what is found between the rows
-    type(loci_t), intent(out) :: loci
+    type(positions_t), intent(in) :: positions !! the rows, in any order
+    type(sweep_t), intent(inout) :: sweep      !! with the prints of all modes; its ledger counts
+                                               !! what is found between the rows
+    type(loci_t), intent(out) :: loci          !! no locus where a position has failed
 
     type(speed_work_t) :: work
     integer :: order(size(positions%crank)), rows, speeds, modes, i, k, last, first_row
@@ -80,8 +87,7 @@ contains
       last = 0
       apart = .false.
       do i = 1, rows
-        ! Beyond a dead point the linkage may have another form: nobody could say which locus goes
-        ! on there.
+        ! Beyond a dead point the linkage may take another form, so no locus continues there.
         if (last > 0 .and. allocated(positions%states(positions%state(order(i)))%error)) &
           apart = .true.
         if (.not. has_result(positions, sweep, positions%state(order(i)), k)) cycle
@@ -118,28 +124,26 @@ contains
     loci%count = loci%count + size(loci%locus, 1)
   end subroutine start_loci
 
-  !> From one row to the next: every mode gets the locus of the mode that it continues, or begins a
-  !! new one.
+  !> One step: every mode of a row gets the locus of the mode that it continues, or begins a new
+  !! one.
   subroutine follow_step(linkage, positions, from, to, work, sweep, loci)
     type(linkage_t), intent(in) :: linkage
     type(positions_t), intent(in) :: positions
-    integer, intent(in) :: from(2), to(2)         !! row and speed
-    type(speed_work_t), intent(inout) :: work   !! for what lies between them
+    integer, intent(in) :: from(2), to(2)     !! row and speed
+    type(speed_work_t), intent(inout) :: work !! for what lies between them
     type(sweep_t), intent(inout) :: sweep
     type(loci_t), intent(inout) :: loci
 
+    type(waypoint_t) :: first, second
     integer :: next(sweep%request%modes), i, j
-    real(wp) :: mac(sweep%request%modes, sweep%request%modes), place(2), target_place(2)
+    real(wp) :: mac(sweep%request%modes, sweep%request%modes)
     logical :: clear(sweep%request%modes)
 
-    associate (first => sweep%results(positions%state(from(1)))%prints(from(2)), &
-        second => sweep%results(positions%state(to(1)))%prints(to(2)))
-      place = [positions%crank(from(1)), sweep%request%speed(from(2))]
-      target_place = [positions%crank(to(1)), sweep%request%speed(to(2))]
-      call match(linkage, sweep%models, sweep%request, first, place, second, &
-        target_place, most_halvings, work, sweep%counts, next, clear)
-      mac = likeness(first, second)
-    end associate
+    first = waypoint_on_row(positions, sweep, from)
+    second = waypoint_on_row(positions, sweep, to)
+    call match(linkage, sweep%models, sweep%request, first, second, most_halvings, work, &
+      sweep%counts, next, clear)
+    mac = likeness(first%prints, second%prints)
     do j = 1, size(next)
       i = findloc(next, j, dim=1)
       if (i > 0) then
@@ -148,8 +152,8 @@ contains
       else
         loci%count = loci%count + 1
         loci%locus(j, to(1), to(2)) = loci%count
-        ! A mode that nothing leads to comes from beyond the modes computed, or is one that some
-        ! other may have become.
+        ! A mode that nothing leads to has come down from above the computed ones, or may be the
+        ! continuation of a doubtful one.
         loci%event(j, to(1), to(2)) = merge(event_start, event_ambiguous, all(clear))
         loci%mac(j, to(1), to(2)) = maxval(mac(:, j))
       end if
@@ -157,31 +161,41 @@ contains
     call mark_crossings(loci, next, to)
   end subroutine follow_step
 
+  !> The modes of a row.
+  pure function waypoint_on_row(positions, sweep, at) result(waypoint)
+    type(positions_t), intent(in) :: positions
+    type(sweep_t), intent(in) :: sweep
+    integer, intent(in) :: at(2) !! row and speed
+    type(waypoint_t) :: waypoint
+
+    waypoint%place = [positions%crank(at(1)), sweep%request%speed(at(2))]
+    waypoint%prints = sweep%results(positions%state(at(1)))%prints(at(2))
+  end function waypoint_on_row
+
   !> For every mode of one place the mode of another place that continues it; 0 if it leaves the
   !! modes computed, or is not clear.
   !!
   !! Where the shape of a mode is neither the same as that of another nor different from all, the
-  !! way is cut in two. At the last cut what is still unclear stays so.
-  recursive subroutine match(linkage, models, request, first, place, second, target_place, &
-    halvings, work, counts, next, clear)
+  !! step is cut in two. What is unclear after the last cut stays unclear.
+  recursive subroutine match(linkage, models, request, first, second, halvings, work, counts, &
+    next, clear)
     type(linkage_t), intent(in) :: linkage
     type(vibration_models_t), intent(in) :: models
     type(mode_request_t), intent(in) :: request
-    type(mode_prints_t), intent(in) :: first, second
-    real(wp), intent(in) :: place(2), target_place(2) !! crank angle and speed [deg, rad/s]
-    integer, intent(in) :: halvings
+    type(waypoint_t), intent(in) :: first, second
+    integer, intent(in) :: halvings     !! that are left
     type(speed_work_t), intent(inout) :: work
     type(ledger_t), intent(inout) :: counts
-    integer, intent(out) :: next(:)
-    logical, intent(out) :: clear(:)
+    integer, intent(out) :: next(:)     !! (modes of `first`) number of a mode of `second`
+    logical, intent(out) :: clear(:)    !! (modes of `first`) their shapes leave no doubt
 
-    type(mode_prints_t) :: middle
-    real(wp) :: mac(size(next), size(next)), middle_place(2)
+    type(waypoint_t) :: middle
+    real(wp) :: mac(size(next), size(next))
     integer :: to_middle(size(next)), from_middle(size(next)), i
     logical :: to_middle_clear(size(next)), from_middle_clear(size(next)), doubtful(size(next)), &
       found
 
-    mac = likeness(first, second)
+    mac = likeness(first%prints, second%prints)
     next = maxloc(mac, dim=2)
     do i = 1, size(next)
       clear(i) = count(mac(i, :) >= same_shape) == 1 .and. count(mac(:, next(i)) >= same_shape) == 1
@@ -189,16 +203,15 @@ contains
       clear(i) = clear(i) .or. all(mac(i, :) <= other_shape)
     end do
     if (all(clear) .or. halvings == 0) return
-    middle_place = place + cut*(target_place - place)
-    call prints_at(linkage, models, request, middle_place, work, counts, middle, found)
+    middle%place = first%place + cut*(second%place - first%place)
+    call prints_at(linkage, models, request, middle%place, work, counts, middle%prints, found)
     if (.not. found) return
-    call match(linkage, models, request, first, place, middle, middle_place, halvings - 1, work, &
-      counts, to_middle, to_middle_clear)
-    ! Where no mode that is in doubt comes as far as the middle, the rest of the way decides
-    ! nothing.
+    call match(linkage, models, request, first, middle, halvings - 1, work, counts, to_middle, &
+      to_middle_clear)
+    ! If no doubtful mode reaches the middle, the second half decides nothing.
     if (any(to_middle > 0 .and. .not. clear)) then
-      call match(linkage, models, request, middle, middle_place, second, target_place, &
-        halvings - 1, work, counts, from_middle, from_middle_clear)
+      call match(linkage, models, request, middle, second, halvings - 1, work, counts, &
+        from_middle, from_middle_clear)
     end if
     do i = 1, size(next)
       if (clear(i)) cycle
@@ -207,7 +220,7 @@ contains
       clear(i) = from_middle_clear(to_middle(i))
       next(i) = from_middle(to_middle(i))
     end do
-    ! Two ways to one mode tell nothing.
+    ! Two modes that lead to the same one leave both in doubt.
     doubtful = [(next(i) > 0 .and. count(next == next(i)) > 1, i=1, size(next))]
     where (doubtful)
       next = 0
@@ -241,7 +254,7 @@ contains
     here = request
     here%speed = place(2:2)
     factor = load_factors(here)
-    ! Places between two rows come in no order, nor are they told apart by the crank angle alone.
+    ! Places between two rows come in no order, and may differ in speed alone: no track leads there.
     work%tracks(1)%length = 0
     coefficients = find_kinematic_coefficients(linkage, pose)
     loads = find_unit_loads(linkage, pose, coefficients, abs(factor(:, 1)) > 0.0_wp)

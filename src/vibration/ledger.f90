@@ -1,4 +1,4 @@
-!> What a run computed, counted.
+!> Counters of the work done in a run, for `--stats`.
 module ledger
   implicit none (type, external)
   private
@@ -6,26 +6,28 @@ module ledger
   public :: ledger_t, add_ledger
 
   type :: ledger_t
-    integer :: link_models = 0          !! links taken apart into their own modes
+    integer :: link_models = 0          !! links decomposed into their own modes
     integer :: mass_matrices = 0        !! assembled, one a position and model
-    integer :: stiffness_matrices = 0   !! assembled: nodal solvers only, elsewhere it is the unit
+    integer :: stiffness_matrices = 0   !! assembled, by nodal solvers only; elsewhere K is the unit
                                         !! matrix
-    integer :: geometric_matrices = 0   !! assembled, for ω2² = 1 or α2 = 1
-    integer :: factorizations = 0       !! of any matrix: inverse iterations, shifts, counts
-    integer :: extrapolated = 0         !! eigenproblems begun from neighbouring positions
-    integer :: reduced_solutions = 0    !! begun from the first own modes of every link
-    integer :: full_solutions = 0       !! begun from, or solved as, the eigenproblem of all
-                                        !! unknowns
-    integer :: operator_products = 0    !! mass matrix times vector on long meshes
+    integer :: geometric_matrices = 0   !! assembled, one for each unit load that occurs
+    integer :: factorizations = 0       !! of any matrix: inverse iterations, shifts, inertia counts
+    integer :: extrapolated = 0         !! eigenproblems started from neighbouring positions
+    integer :: reduced_solutions = 0    !! eigenproblems started from the first own modes of every
+                                        !! link
+    integer :: full_solutions = 0       !! eigenproblems started from, or solved as, the dense one
+                                        !! of all unknowns
+    integer :: operator_products = 0    !! of M and of K + K_G with a vector on long meshes
     integer :: proofs = 0               !! that no mode is missing
-    integer :: shapes = 0               !! mode shapes worked out
+    integer :: shapes = 0               !! mode shapes sampled
   end type ledger_t
 
 contains
 
+  !> Adds the counts of a part of the work to a total.
   elemental subroutine add_ledger(total, part)
-    type(ledger_t), intent(inout) :: total
-    type(ledger_t), intent(in) :: part
+    type(ledger_t), intent(inout) :: total !! counts so far
+    type(ledger_t), intent(in) :: part     !! counts to add
 
     total%link_models = total%link_models + part%link_models
     total%mass_matrices = total%mass_matrices + part%mass_matrices

@@ -1,8 +1,8 @@
-!> Links that have been taken apart already: the same link need not be taken apart twice.
+!> A cache of links that have been decomposed into their own modes.
 !!
-!! Orders are tried link by link, and variants of a mechanism mostly differ in one link. A link is
-!! taken from the store only where everything that it was made of is the same to the last bit, so
-!! that results do not depend on what was computed before.
+!! Orders are tried link by link, and variants of a mechanism mostly differ in one link, so the same
+!! link is needed many times. It is taken from the store only if all its data agree to the last bit:
+!! results then do not depend on what was computed before.
 module link_store
   use beam_mesh, only: beam_t
   use body_lumps, only: lump_masses, lump_places
@@ -14,34 +14,40 @@ module link_store
 
   public :: link_store_t, link_key_t, new_link_key, find_link, keep_link
 
-  !> Links that are kept; the oldest make room.
+  !> Capacity of the store; the oldest links are overwritten.
   integer, parameter :: most_links = 24
 
-  !> All that a link's own modes depend on.
+  !> Everything that the own modes of a link depend on.
   type :: link_key_t
     real(wp) :: length = 0.0_wp         !! [m]
     real(wp) :: line_density = 0.0_wp   !! [kg/m]
     real(wp) :: rotary_inertia = 0.0_wp !! ρI [kg m]
-    type(beam_t) :: beam
-    integer :: elements = 0, order = 0  !! no elements: one between the masses
-    logical :: clamped = .false., lumped = .false.
-    real(wp), allocatable :: lumps(:)   !! masses along the link, then their places [kg, -]
+    type(beam_t) :: beam                !! stiffnesses
+    integer :: elements = 0             !! 0: one between masses along the link
+    integer :: order = 0                !! polynomial degree of the transverse displacement
+    logical :: clamped = .false.        !! at its first end
+    logical :: lumped = .false.         !! axial force constant in each element
+    real(wp), allocatable :: lumps(:)   !! (2 × masses) masses along the link, then their places ξ
+                                        !! [kg, -]
   end type link_key_t
 
   type :: link_store_t
-    integer :: made = 0           !! links taken apart so far
-    integer, private :: held = 0
-    type(link_key_t), private :: key(most_links)
-    type(link_modes_t), private :: link(most_links)
+    integer :: made = 0                             !! links decomposed so far
+    integer, private :: held = 0                    !! links in the store
+    type(link_key_t), private :: key(most_links)    !! the first `held` are in use
+    type(link_modes_t), private :: link(most_links) !! in the order of `key`
   end type link_store_t
 
 contains
 
+  !> The key of a link that bends.
   pure function new_link_key(body, beam, elements, order, clamped, lumped) result(key)
-    type(body_t), intent(in) :: body
-    type(beam_t), intent(in) :: beam
-    integer, intent(in) :: elements, order
-    logical, intent(in) :: clamped, lumped
+    type(body_t), intent(in) :: body    !! length, masses
+    type(beam_t), intent(in) :: beam    !! stiffnesses
+    integer, intent(in) :: elements     !! 0: one between masses along the link
+    integer, intent(in) :: order        !! polynomial degree of the transverse displacement
+    logical, intent(in) :: clamped      !! at its first end
+    logical, intent(in) :: lumped       !! axial force constant in each element
     type(link_key_t) :: key
 
     key%length = body%length
@@ -55,12 +61,12 @@ contains
     key%lumps = [lump_masses(body), lump_places(body)]
   end function new_link_key
 
-  !> Copies the link of a key, if it is there.
+  !> Copies the link of a key from the store if it is there.
   pure subroutine find_link(store, key, link, found)
-    type(link_store_t), intent(in) :: store
-    type(link_key_t), intent(in) :: key
-    type(link_modes_t), intent(inout) :: link
-    logical, intent(out) :: found
+    type(link_store_t), intent(in) :: store   !! to search
+    type(link_key_t), intent(in) :: key       !! of the link sought
+    type(link_modes_t), intent(inout) :: link !! unchanged unless found
+    logical, intent(out) :: found             !! whether the store holds the link
 
     integer :: i
 
@@ -73,11 +79,11 @@ contains
     end do
   end subroutine find_link
 
-  !> Keeps a link that has just been taken apart.
+  !> Stores a link that has just been decomposed; a full store drops its oldest link.
   pure subroutine keep_link(store, key, link)
-    type(link_store_t), intent(inout) :: store
-    type(link_key_t), intent(in) :: key
-    type(link_modes_t), intent(in) :: link
+    type(link_store_t), intent(inout) :: store !! to add to
+    type(link_key_t), intent(in) :: key        !! of this link
+    type(link_modes_t), intent(in) :: link     !! with its own modes
 
     integer :: slot
 
@@ -96,15 +102,15 @@ contains
       (a%clamped .eqv. b%clamped) .and. (a%lumped .eqv. b%lumped)
     if (is_same) is_same = size(a%lumps) == size(b%lumps)
     if (is_same) is_same = all(abs(a%lumps - b%lumps) <= 0.0_wp)
-    if (is_same) is_same = all(abs(numbers_of(a) - numbers_of(b)) <= 0.0_wp)
+    if (is_same) is_same = all(abs(key_numbers(a) - key_numbers(b)) <= 0.0_wp)
   end function is_same
 
-  pure function numbers_of(key) result(numbers)
+  pure function key_numbers(key) result(numbers)
     type(link_key_t), intent(in) :: key
     real(wp) :: numbers(6)
 
     numbers = [key%length, key%line_density, key%rotary_inertia, key%beam%axial_stiffness, &
       key%beam%bending_stiffness, key%beam%shear_stiffness]
-  end function numbers_of
+  end function key_numbers
 
 end module link_store

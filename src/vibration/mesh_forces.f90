@@ -16,20 +16,20 @@ module mesh_forces
 
 contains
 
-  !> Axial forces of the unit loads, in the force functions of a model and element by element of the
-  !! mesh.
+  !> Axial forces under the unit loads, in two forms: as coefficients of the model's force functions
+  !! and element by element of the mesh.
   pure subroutine find_mesh_forces(structure, model, state, unit_loads, lumped, force, in_element)
-    type(structure_t), intent(in) :: structure
-    type(deformation_model_t), intent(in) :: model   !! of the mesh, or of a part of it
+    type(structure_t), intent(in) :: structure       !! with a mesh
+    type(deformation_model_t), intent(in) :: model   !! of the mesh; long links may be continuous
     type(state_t), intent(in) :: state               !! with a pose
-    type(unit_loads_t), intent(in) :: unit_loads     !! of this pose
-    logical, intent(in) :: lumped                    !! masses on the nodes of the mesh, or along
+    type(unit_loads_t), intent(in) :: unit_loads     !! at this pose
+    logical, intent(in) :: lumped                    !! masses on the nodes of the mesh; else along
                                                      !! the links
-    real(wp), allocatable, intent(out) :: force(:, :, :)      !! (force functions with jumps,
-                                                              !! bodies, cases) [N]; no functions
-                                                              !! without loads
+    real(wp), allocatable, intent(out) :: force(:, :, :)      !! (force functions, then jumps;
+                                                              !! bodies; cases) [N]; without loads
+                                                              !! no functions
     real(wp), allocatable, intent(out) :: in_element(:, :, :) !! (1, ξ, ξ²; elements; cases) [N];
-                                                              !! no elements without loads
+                                                              !! without loads no elements
 
     type(joint_forces_t) :: joints
     real(wp), allocatable :: jump(:)
@@ -67,24 +67,24 @@ contains
     end associate
   end subroutine find_mesh_forces
 
-  !> Force functions of a body without the jumps, which follow them.
+  !> Number of force functions of a body before the jumps, which follow them.
   pure function smooth_functions(model, body) result(number)
-    type(deformation_model_t), intent(in) :: model
-    integer, intent(in) :: body
+    type(deformation_model_t), intent(in) :: model !! of the mesh
+    integer, intent(in) :: body                    !! number of a link that bends
     integer :: number
 
     number = merge(model%elements(body), 3, model%lumped(body))
   end function smooth_functions
 
-  !> Axial forces in all elements under one of the unit loads; of a link that does not bend the
-  !! mean, in its first element.
+  !> Axial forces in all elements under one of the unit loads. The first element of a rigid link has
+  !! the mean axial force of the link.
   pure subroutine find_element_forces(structure, state, case, lumped, in_element, joints)
-    type(structure_t), intent(in) :: structure
-    type(state_t), intent(in) :: state        !! with a pose
-    type(load_case_t), intent(in) :: case
-    logical, intent(in) :: lumped             !! masses on the nodes, or along the links
-    real(wp), intent(out) :: in_element(:, :) !! (1, ξ, ξ²; elements) [N]
-    type(joint_forces_t), intent(out) :: joints
+    type(structure_t), intent(in) :: structure  !! with a mesh
+    type(state_t), intent(in) :: state          !! with a pose
+    type(load_case_t), intent(in) :: case       !! one unit load at this pose
+    logical, intent(in) :: lumped               !! masses on the nodes; else along the links
+    real(wp), intent(out) :: in_element(:, :)   !! (1, ξ, ξ²; elements) tension positive [N]
+    type(joint_forces_t), intent(out) :: joints !! forces in the pins under this load
 
     type(load_t) :: loads(size(structure%linkage%bodies))
     real(wp) :: pin_loads(2, size(structure%linkage%pin_mass))

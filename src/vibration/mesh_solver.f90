@@ -1,5 +1,5 @@
-!> Frequencies of the deck's own mesh at one position in deformation coordinates, taken apart link
-!! by link, or by running sums along the links where these are too long.
+!> Frequencies of the deck's own mesh at one position, in deformation coordinates: from the own
+!! modes of the links or, where links have too many unknowns for that, by running sums along them.
 module mesh_solver
   use axial_forces, only: total_force
   use bordered_eigensolver, only: bordered_modes_t
@@ -26,18 +26,22 @@ module mesh_solver
 
 contains
 
-  !> The mesh of the deck in deformation coordinates.
+  !> Solves the deck's mesh from the own modes of its links, for every speed. The difference to the
+  !! continuous links, whose frequencies are in `result`, is added to the error of each frequency.
+  !!
+  !! Errors, speed by speed in `result%outcome`: no start leads to modes that are proven complete.
   subroutine solve_mesh(structure, model, state, unit_loads, request, factor, want_shapes, work, &
       result)
-    type(structure_t), intent(in) :: structure
-    type(deformation_model_t), intent(in) :: model
-    type(state_t), intent(in) :: state           !! with a pose
-    type(unit_loads_t), intent(in) :: unit_loads !! of this pose
-    type(mode_request_t), intent(in) :: request
-    real(wp), intent(in) :: factor(:, :)         !! (cases, speeds) of the unit loads
-    logical, intent(in) :: want_shapes(:)        !! (speeds)
-    type(speed_work_t), intent(inout) :: work    !! of this model
-    type(position_result_t), intent(inout) :: result !! of the continuous links
+    type(structure_t), intent(in) :: structure     !! with a mesh
+    type(deformation_model_t), intent(in) :: model !! of the mesh
+    type(state_t), intent(in) :: state             !! with a pose
+    type(unit_loads_t), intent(in) :: unit_loads   !! at this pose
+    type(mode_request_t), intent(in) :: request    !! modes, loads, points along the links
+    real(wp), intent(in) :: factor(:, :)           !! (cases, speeds) of the unit loads: ω2², α2, 1
+    logical, intent(in) :: want_shapes(:)          !! (speeds)
+    type(speed_work_t), intent(inout) :: work      !! for this model
+    type(position_result_t), intent(inout) :: result !! of the continuous links; becomes that of the
+                                                     !! mesh
 
     type(bordered_modes_t) :: found(size(factor, 2))
     real(wp), allocatable :: unit_force(:, :, :), in_element(:, :, :)
@@ -60,20 +64,24 @@ contains
     end do
   end subroutine solve_mesh
 
-  !> The mesh of the deck in deformation coordinates, when it is too long to be taken apart link by
-  !! link: from the modes of a model that has continuous links in place of the long ones, and by
-  !! running sums along them.
+  !> Solves a mesh with links of too many unknowns to be decomposed into own modes, for every speed:
+  !! by running sums along the links, starting from the modes of a near model, which has continuous
+  !! links in place of the long ones. Errors are found as in `solve_mesh`.
+  !!
+  !! Errors, speed by speed in `result%outcome`: the near model has no proven modes, the iteration
+  !! on the mesh does not converge, or a mode may be missing.
   subroutine solve_long_mesh(structure, near, state, unit_loads, request, factor, want_shapes, &
       work, result)
-    type(structure_t), intent(in) :: structure
-    type(deformation_model_t), intent(in) :: near
-    type(state_t), intent(in) :: state           !! with a pose
-    type(unit_loads_t), intent(in) :: unit_loads !! of this pose
-    type(mode_request_t), intent(in) :: request
-    real(wp), intent(in) :: factor(:, :)         !! (cases, speeds) of the unit loads
-    logical, intent(in) :: want_shapes(:)        !! (speeds)
-    type(position_work_t), intent(inout) :: work
-    type(position_result_t), intent(inout) :: result !! of the continuous links
+    type(structure_t), intent(in) :: structure    !! with a mesh
+    type(deformation_model_t), intent(in) :: near !! the near model
+    type(state_t), intent(in) :: state            !! with a pose
+    type(unit_loads_t), intent(in) :: unit_loads  !! at this pose
+    type(mode_request_t), intent(in) :: request   !! modes, loads, points along the links
+    real(wp), intent(in) :: factor(:, :)          !! (cases, speeds) of the unit loads: ω2², α2, 1
+    logical, intent(in) :: want_shapes(:)         !! (speeds)
+    type(position_work_t), intent(inout) :: work  !! `mesh` for the near model, `chain` for the mesh
+    type(position_result_t), intent(inout) :: result !! of the continuous links; becomes that of the
+                                                     !! mesh
 
     type(bordered_modes_t) :: start(size(factor, 2))
     type(bordered_pencil_t) :: own, least
@@ -119,7 +127,7 @@ contains
     end do
   end subroutine solve_long_mesh
 
-  !> Gives a long mesh the jumps of its axial forces, which are those of the near model.
+  !> Copies the jumps of the axial forces from the near model to the long mesh: they are the same.
   pure subroutine take_jumps(near, force, chain)
     type(deformation_model_t), intent(in) :: near
     real(wp), intent(in) :: force(:, :) !! (force functions, bodies) [N]
@@ -136,12 +144,13 @@ contains
     end do
   end subroutine take_jumps
 
-  !> Lowers the axial force of continuous links until it is nowhere above that of the mesh.
+  !> Lowers the axial force of the continuous links until it is nowhere above that of the mesh. The
+  !! near model is then nowhere stiffer than the mesh, as the proof requires.
   pure subroutine lower_to_mesh(structure, near, in_element, force)
     type(structure_t), intent(in) :: structure
     type(deformation_model_t), intent(in) :: near
-    real(wp), intent(in) :: in_element(:, :) !! (1, ξ, ξ²; elements)
-    real(wp), intent(inout) :: force(:, :)   !! (force functions, bodies)
+    real(wp), intent(in) :: in_element(:, :) !! (1, ξ, ξ²; elements) of the mesh [N]
+    real(wp), intent(inout) :: force(:, :)   !! (force functions, bodies) of the near model [N]
 
     real(wp) :: above, xi
     integer :: b, e, end_of, n
@@ -159,7 +168,8 @@ contains
           end associate
         end do
       end do
-      ! Between the ends of an element a parabola rises above its chord by so much at most.
+      ! Between the ends of an element the parabola rises above its chord by at most
+      ! |force(3)|/(4 n²).
       force(1, b) = force(1, b) - above - abs(force(3, b))/(4.0_wp*n**2)
     end do
   end subroutine lower_to_mesh

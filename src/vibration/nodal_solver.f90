@@ -1,4 +1,4 @@
-!> Frequencies of the deck's own mesh at one position in nodal displacements, by LAPACK or ARPACK.
+!> Frequencies of the deck's own mesh at one position, in nodal displacements, by LAPACK or ARPACK.
 module nodal_solver
   use assembly, only: add_axial_jumps, assemble_geometric_stiffness, assemble_mass, &
     assemble_stiffness
@@ -23,18 +23,22 @@ module nodal_solver
 
 contains
 
-  !> The mesh of the deck in nodal displacements.
+  !> Solves the deck's mesh in nodal displacements, for every speed. The difference to the
+  !! continuous links, whose frequencies are in `result`, is added to the error of each frequency.
   !!
-  !! Matrices are assembled once; the geometric stiffness is made of unit matrices, one for each of
-  !! the unit loads that occur.
+  !! Matrices are assembled once a position; the geometric stiffness of a speed is the sum of unit
+  !! matrices, one for each unit load that occurs, times their factors.
+  !!
+  !! Errors, speed by speed in `result%outcome`: those of `find_modes`.
   subroutine solve_nodal(structure, state, unit_loads, request, factor, want_shapes, result)
-    type(structure_t), intent(in) :: structure
+    type(structure_t), intent(in) :: structure    !! with a mesh
     type(state_t), intent(in) :: state            !! with a pose
-    type(unit_loads_t), intent(in) :: unit_loads  !! of this pose
-    type(mode_request_t), intent(in) :: request
-    real(wp), intent(in) :: factor(:, :)          !! (cases, speeds) of the unit loads
+    type(unit_loads_t), intent(in) :: unit_loads  !! at this pose
+    type(mode_request_t), intent(in) :: request   !! method `by_dense` or `by_band`
+    real(wp), intent(in) :: factor(:, :)          !! (cases, speeds) of the unit loads: ω2², α2, 1
     logical, intent(in) :: want_shapes(:)         !! (speeds)
-    type(position_result_t), intent(inout) :: result !! of the continuous links
+    type(position_result_t), intent(inout) :: result !! of the continuous links; becomes that of the
+                                                     !! mesh
 
     type(band_matrix_t) :: stiffness, mass, total, unit_stiffness(case_count)
     type(modes_t) :: found

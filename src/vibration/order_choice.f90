@@ -1,4 +1,4 @@
-!> Polynomial orders that reach an accuracy, link by link.
+!> Choice of the polynomial orders that reach a given accuracy, link by link.
 module order_choice
   use axial_forces, only: distributed_unit_forces, total_force
   use beam_mesh, only: beam_t
@@ -21,51 +21,53 @@ module order_choice
 
   public :: choose_orders, order_demand_t
 
-  !> What orders are to keep.
+  !> Requirements on the orders.
   type :: order_demand_t
-    integer, allocatable :: states(:)     !! numbers of the positions that they are to serve
-    real(wp), allocatable :: factor(:, :) !! (cases, speeds) of the unit loads
-    integer :: modes = 0                  !! how many of the lowest
-    real(wp) :: bound = 0.0_wp            !! relative error of their eigenvalues
+    integer, allocatable :: states(:)     !! numbers of the positions where the orders are used
+    real(wp), allocatable :: factor(:, :) !! (cases, speeds) of the unit loads: ω2², α2, 1
+    integer :: modes = 0                  !! number, lowest first
+    real(wp) :: bound = 0.0_wp            !! on the relative error of their eigenvalues
   end type order_demand_t
 
-  !> Orders are raised up to this number, 56, plus two thirds of the number of modes (where all
-  !! three links bend): more than any accuracy needs that the precision can give, but under loads
-  !! that buckle a link many times over (as beside a dead point).
+  !> Highest order of a link without masses along it: this number, 56, plus two thirds of the number
+  !! of modes (where all three links bend). That exceeds what any accuracy within the precision
+  !! needs, except under loads that buckle a link many times over, as beside a dead point.
   integer, parameter :: spare_orders = digits(1.0_wp) + 3
 
-  !> With masses along a link its elements share the highest order, and have so many more each for
-  !! the digits.
+  !> The elements between masses along a link share its highest order. Each element beyond the first
+  !! adds this many orders, which are needed for the last digits.
   integer, parameter :: more_orders = 16
 
-  !> No order is lower.
   integer, parameter :: least_order = 4
 
-  !> Positions at which orders are tried: one in so many, within these limits. Every row of the
-  !! sweep tells its own error afterwards.
+  !> Orders are tried at one in `positions_a_sample` positions, within these limits. Afterwards the
+  !! error is estimated at every row of the sweep.
   integer, parameter :: positions_a_sample = 9, least_samples = 2, most_samples = 6
 
-  !> Share of the accuracy that one link may use up at the samples: other positions may be worse.
+  !> Share of the accuracy that one link may use at the samples: other positions may be worse.
   real(wp), parameter :: share = 0.1_wp
 
 contains
 
-  !> Finds a model that keeps the error of every eigenvalue below a bound, at samples of the
-  !! positions, at the least and the greatest speed; each link has one element, or one between its
-  !! masses, of the least order that does. That is enough for any accuracy: links are uniform and
+  !> Finds a model of continuous links that keeps the estimated error of every eigenvalue below a
+  !! bound, at sampled positions and at the lowest and the highest speed. Each link has one element,
+  !! or one between masses along it. That is enough for any accuracy, since links are uniform and
   !! loads smooth between masses.
   !!
-  !! The error of order p is about `((kL/4)^{p−1}/(p−1)!)²` for a wave number k and the length L of
-  !! the element; this gives a first guess, which the error told by the model itself then raises.
-  !! Errors: those of the model; none for a bound that is not reached at the highest order.
+  !! The error of order p is about `((kL/4)^{p−1}/(p−1)!)²` for the wave number k and the length L
+  !! of the element. This gives a first guess; where the model's own error estimate is above the
+  !! bound, the order is raised.
+  !!
+  !! Errors: those of `new_deformation_model`. A bound that is not reached at the highest order is
+  !! no error.
   subroutine choose_orders(structure, positions, demand, store, model, counts, error)
-    type(structure_t), intent(in) :: structure
-    type(positions_t), intent(in) :: positions
-    type(order_demand_t), intent(in) :: demand
-    type(link_store_t), intent(inout) :: store !! of links taken apart before
-    type(deformation_model_t), intent(out) :: model
-    type(ledger_t), intent(inout) :: counts
-    type(error_t), allocatable, intent(out) :: error
+    type(structure_t), intent(in) :: structure       !! with beams
+    type(positions_t), intent(in) :: positions       !! of the run
+    type(order_demand_t), intent(in) :: demand       !! positions, loads, modes, accuracy
+    type(link_store_t), intent(inout) :: store       !! links decomposed earlier
+    type(deformation_model_t), intent(out) :: model  !! of continuous links
+    type(ledger_t), intent(inout) :: counts          !! of the work done
+    type(error_t), allocatable, intent(out) :: error !! why there is no model
 
     real(wp) :: link_error(size(structure%beams)), highest, wave
     integer :: order(size(structure%beams)), highest_order(size(structure%beams)), b, bending, &
@@ -88,7 +90,7 @@ contains
       call new_deformation_model(linkage, beams, between_masses, order, continuous, model, error, &
         store)
       if (allocated(error) .or. size(chosen) == 0) return
-      ! One position tells how short the waves are.
+      ! One position is enough to estimate the shortest wave.
       call try_samples(linkage, model, positions, chosen(size(chosen)/2 + 1:size(chosen)/2 + 1), &
         demand, link_error, highest, counts)
       do b = 1, size(beams)
@@ -111,7 +113,7 @@ contains
     end associate
   end subroutine choose_orders
 
-  !> Some of the states that have a pose, spread over the list.
+  !> A sample of the states that have a pose, spread evenly over the list.
   pure function sample_states(positions, states) result(chosen)
     type(positions_t), intent(in) :: positions
     integer, intent(in) :: states(:)
@@ -129,7 +131,7 @@ contains
     chosen = [(sound(1 + ((i - 1)*(count - 1))/max(1, number - 1)), i=1, number)]
   end function sample_states
 
-  !> Length of the longest part of a link without masses [m].
+  !> Length of the longest part of a link between masses [m].
   pure function longest_piece(body) result(length)
     type(body_t), intent(in) :: body
     real(wp) :: length
@@ -140,7 +142,7 @@ contains
     length = body%length*maxval(ends(2:) - ends(:size(ends) - 1))
   end function longest_piece
 
-  !> k of the shortest waves of a frequency in a link.
+  !> Wave number k of the shortest bending waves in a link at a frequency.
   !!
   !! `EI k⁴ − (ρI + EI μ/kGA) ω² k² − μω² (1 − ρI ω²/kGA) = 0`
   pure function wave_number(body, beam, lambda) result(k)
@@ -163,20 +165,23 @@ contains
     k = sqrt(added + sqrt(max(0.0_wp, added**2 + slender)))
   end function wave_number
 
-  !> Order for a wave number times the length of an element, a bound of the error, and no fewer
-  !! unknowns than a first model had for all modes.
+  !> Order estimated from the wave number times the length of an element and an error bound. Where
+  !! many modes are wanted it is not below the order of the first model, so that there are enough
+  !! unknowns for all of them.
   pure function guessed_order(wave, bound, first, highest, modes, bending) result(order)
     real(wp), intent(in) :: wave     !! kL
-    real(wp), intent(in) :: bound
-    integer, intent(in) :: first, highest, modes
-    integer, intent(in) :: bending   !! links that bend
+    real(wp), intent(in) :: bound    !! on the relative error of eigenvalues
+    integer, intent(in) :: first     !! order of the first model
+    integer, intent(in) :: highest   !! upper limit of the order
+    integer, intent(in) :: modes     !! number wanted
+    integer, intent(in) :: bending   !! number of links that bend
     integer :: order
 
     real(wp) :: term
     integer :: least
 
     order = highest
-    ! Waves so short that no order serves: their number may be too large for an integer.
+    ! Waves too short for any order; kL may be too large for an integer.
     if (0.5_wp*wave > highest) return
     least = least_order
     if (2*modes > bending*least) least = first
@@ -188,9 +193,9 @@ contains
     order = highest
   end function guessed_order
 
-  !> Order at which an error has fallen to a share of itself: from order p to p + 1 it falls by the
-  !! square of `kL/4p`. At most by `most_raised`: where orders are far too low the error says
-  !! little.
+  !> Order at which the error has fallen to a given share of itself: from order p to p + 1 it falls
+  !! by the square of `kL/4p`. The order is raised by at most `most_raised`: where it is far too low
+  !! the error estimate is unreliable.
   pure function raised_order(wave, share_wanted, order, highest) result(raised)
     real(wp), intent(in) :: wave         !! kL
     real(wp), intent(in) :: share_wanted !! below 1
@@ -208,16 +213,16 @@ contains
     raised = min(order + most_raised, highest)
   end function raised_order
 
-  !> The largest error of any mode by link, and the largest eigenvalue, over the samples at the
-  !! least and the greatest speed.
+  !> Solves the samples at the lowest and the highest speed: the largest error of any mode, link by
+  !! link, and the largest eigenvalue in absolute value.
   subroutine try_samples(linkage, model, positions, chosen, demand, link_error, highest, counts)
     type(linkage_t), intent(in) :: linkage
     type(deformation_model_t), intent(in) :: model
     type(positions_t), intent(in) :: positions
-    integer, intent(in) :: chosen(:)        !! numbers of the samples among the states
+    integer, intent(in) :: chosen(:)        !! numbers of the sampled states
     type(order_demand_t), intent(in) :: demand
     real(wp), intent(out) :: link_error(:)  !! (bodies) relative, of eigenvalues
-    real(wp), intent(out) :: highest        !! eigenvalue [1/s²]
+    real(wp), intent(out) :: highest        !! |eigenvalue| [1/s²]
     type(ledger_t), intent(inout) :: counts
 
     type(speed_work_t) :: work

@@ -1,4 +1,4 @@
-!> What the polynomials of a model leave out: estimated from the next two orders.
+!> Error of a model due to the finite order of its polynomials, estimated from the next orders.
 module order_errors
   use bordered_eigensolver, only: bordered_modes_t
   use deformation_model, only: deformation_model_t
@@ -10,26 +10,26 @@ module order_errors
 
   public :: order_error
 
-  !> What the next two orders leave to all the others that follow: the change they make is
-  !! multiplied by this. Where it is not small, orders may be far from enough (a link pressed so
-  !! hard that it buckles many times over), and more is left.
+  !> The change made by the next orders is multiplied by `order_margin`, for all orders beyond them.
+  !! Where the change is above `rough_change`, the order may be far too low (a link compressed so
+  !! hard that it buckles many times over), and `rough_margin` is used instead.
   real(wp), parameter :: order_margin = 1.5_wp, rough_margin = 16.0_wp, rough_change = 1.0e-5_wp
 
-  !> Where a link is pulled so hard that it bends at its ends only, the change falls slowly from
-  !! order to order: what is left is the sum of a geometric series, times this; and the ratio of two
-  !! pairs of orders is not taken for more than the second number.
+  !> Where a link is pulled so hard that it bends only at its ends, the change falls slowly from
+  !! order to order. The remainder is then the sum of a geometric series times `series_margin`. The
+  !! ratio of the series, between one pair of orders and the next, is limited to `most_ratio`.
   real(wp), parameter :: series_margin = 1.25_wp, most_ratio = 0.95_wp
 
 contains
 
-  !> Relative error of every eigenvalue because the polynomials end at their order, link by link.
+  !> Estimated relative error of every eigenvalue due to the finite polynomial order, link by link.
   pure function order_error(model, chords, force, found, modes) result(error)
-    type(deformation_model_t), intent(in) :: model
-    type(chords_t), intent(in) :: chords
-    real(wp), intent(in) :: force(:, :) !! (force functions, bodies) at this speed [N]
-    type(bordered_modes_t), intent(in) :: found
-    integer, intent(in) :: modes
-    real(wp) :: error(size(model%links), modes)
+    type(deformation_model_t), intent(in) :: model !! of continuous links
+    type(chords_t), intent(in) :: chords           !! at this position
+    real(wp), intent(in) :: force(:, :)            !! (force functions, bodies) at this speed [N]
+    type(bordered_modes_t), intent(in) :: found    !! modes at this position and speed
+    integer, intent(in) :: modes                   !! number, lowest first
+    real(wp) :: error(size(model%links), modes)    !! (bodies, modes) of eigenvalues
 
     real(wp) :: change(size(model%links)), ratio
     integer :: b, i
@@ -49,8 +49,8 @@ contains
     end do
   end function order_error
 
-  !> Elastic energy that a mode has in the last two orders of a link, doubled: what the change by
-  !! the next two is compared with.
+  !> Twice the elastic energy of a mode in the last two orders of a link. The change by the next two
+  !! is compared with it.
   pure function last_order_energy(model, chords, vector, b) result(energy)
     type(deformation_model_t), intent(in) :: model
     type(chords_t), intent(in) :: chords
@@ -63,7 +63,7 @@ contains
     associate (link => model%links(b))
       first = model%layout%first(b)
       n = size(link%bending, 1)
-      ! With shear every order has a curvature and a shear strain, in every element.
+      ! With shear, every order has a curvature and a shear strain in every element.
       last = merge(4, 2, link%bending_shapes%shear_stiffness > 0.0_wp)*link%bending_shapes%elements
       energy = 0.0_wp
       do k = max(1, n + 1 - last), n

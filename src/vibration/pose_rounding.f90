@@ -1,7 +1,7 @@
-!> What the rounding of a position does to its frequencies.
+!> Effect of the rounding of a position on its frequencies.
 !!
-!! Near a dead point a crank angle, itself rounded, says less and less about the rest of the
-!! linkage.
+!! The crank angle itself is rounded, and the nearer a dead point, the less accurately it determines
+!! the rest of the linkage.
 module pose_rounding
   use axial_forces, only: distributed_unit_forces, total_force
   use bordered_eigensolver, only: bordered_modes_t
@@ -21,38 +21,40 @@ module pose_rounding
 
   public :: pose_error
 
-  !> Multiples of ε, measured against quadruple precision: of 1/sin² far from dead points, of the
-  !! sensitivity near them.
+  !> Factors of the estimate, measured against quadruple precision: of ε/sin² far from dead points,
+  !! of ε times the sensitivity near them.
   real(wp), parameter :: far_multiple = 4.0_wp, near_multiple = 2.0_wp
 
-  !> Nearer than this, in |sin(θ4 − θ3)|, sensitivities are worked out: at rest, and under loads,
-  !! which grow with 1/sin themselves.
+  !> Below this |sin(θ4 − θ3)| sensitivities are computed: at rest, and under loads, which
+  !! themselves grow like 1/sin.
   real(wp), parameter :: near_sine = 0.15_wp, loaded_near_sine = 0.4_wp
 
-  !> Longest over shortest length up to which the sine alone tells how sure a position is.
+  !> Ratio of longest to shortest length up to which the sine alone determines the accuracy of a
+  !! position.
   real(wp), parameter :: usual_spread = 2.0_wp
 
-  !> Change of a length, of itself and times sin², by which they are worked out.
+  !> Relative change of a length for the sensitivities, before the factor sin².
   real(wp), parameter :: small_change = 1.0e-3_wp
 
 contains
 
-  !> Relative error of every eigenvalue: ε times the change of the eigenvalue with the lengths of
-  !! the links.
+  !> Estimated relative error of every eigenvalue due to the rounding of the position: ε times the
+  !! sensitivity of the eigenvalue to the lengths of the links.
   !!
-  !! A sine counts for less where a link of a dyad is short beside the distances that place it: its
-  !! angle takes up all of their rounding. Where dead points are far, `ε/sin²(θ4 − θ3)` bounds it,
-  !! more where terms cancel in λ. Near them, modes differ: some soften with the sine, others do not
-  !! feel it, loads grow like its powers. There each length is changed a little, and `yᵀ(ΔG − λΔM)y`
-  !! is what that does.
+  !! Far from dead points a multiple of `ε/sin²(θ4 − θ3)` is a bound, larger where terms cancel in
+  !! λ. The sine is reduced where a link of a dyad is short compared with the distances that place
+  !! it, for the angle of that link takes up all of their rounding. Near dead points modes differ:
+  !! some soften with the sine, others do not depend on it, and loads grow like powers of 1/sin.
+  !! There each length is changed a little, and `yᵀ(ΔK_G − λ ΔM) y` is the effect. If the linkage
+  !! closes with neither a longer nor a shorter link, the error is at least 1.
   subroutine pose_error(linkage, model, state, factor, found, modes, error)
-    type(linkage_t), intent(in) :: linkage
-    type(deformation_model_t), intent(in) :: model
-    type(state_t), intent(in) :: state
-    real(wp), intent(in) :: factor(case_count) !! of the unit loads
-    type(bordered_modes_t), intent(in) :: found
-    integer, intent(in) :: modes
-    real(wp), intent(out) :: error(:)  !! (modes) of eigenvalues
+    type(linkage_t), intent(in) :: linkage         !! of the structure
+    type(deformation_model_t), intent(in) :: model !! of continuous links
+    type(state_t), intent(in) :: state             !! with a pose
+    real(wp), intent(in) :: factor(case_count)     !! of the unit loads: ω2², α2, 1
+    type(bordered_modes_t), intent(in) :: found    !! modes at this position and speed
+    integer, intent(in) :: modes                   !! number, lowest first
+    real(wp), intent(out) :: error(:)              !! (modes) relative, of eigenvalues
 
     real(wp) :: sine, least_sine, spread, energy, own_work(modes)
     type(position_equations_t) :: equations
@@ -63,8 +65,8 @@ contains
     spread = max(1.0_wp, length_spread(linkage, state%pose)/usual_spread)
     sine = minval(abs(state%pose%sine))/spread
     least_sine = near_sine
-    ! Loads have the accelerations of short links in them as well: of lengths unlike each other no
-    ! multiple is known.
+    ! Loads also contain the accelerations of short links: where lengths differ much no multiple of
+    ! ε/sin² is known.
     if (any(abs(factor) > 0.0_wp)) least_sine = merge(loaded_near_sine, 1.0_wp, spread <= 1.0_wp)
     if (sine >= least_sine) then
       do i = 1, modes
@@ -97,8 +99,8 @@ contains
     error = 2.0_wp*error
   end subroutine pose_error
 
-  !> The largest of all lengths, and of the distances between the bases of dyads, beside the
-  !! shortest link of a dyad.
+  !> Ratio of the largest of all lengths and distances between the bases of dyads to the shortest
+  !! link of a dyad.
   pure function length_spread(linkage, pose) result(spread)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
@@ -118,12 +120,13 @@ contains
     spread = largest/shortest
   end function length_spread
 
-  !> The equations of a linkage whose lengths may differ from those of the model, as one load.
+  !> Assembles M, and K_G of one speed, of a linkage whose lengths may differ slightly from those of
+  !! the model.
   subroutine assemble_lengths(linkage, model, crank, factor, equations, reached)
     type(linkage_t), intent(in) :: linkage
     type(deformation_model_t), intent(in) :: model
     real(wp), intent(in) :: crank              !! [deg]
-    real(wp), intent(in) :: factor(case_count) !! of the unit loads
+    real(wp), intent(in) :: factor(case_count) !! of the unit loads: ω2², α2, 1
     type(position_equations_t), intent(inout) :: equations !! of the model
     logical, intent(out) :: reached            !! whether the linkage closes there
 

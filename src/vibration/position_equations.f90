@@ -1,8 +1,8 @@
-!> The equations of a structure at a position, in its links' own deformations.
+!> The equations of motion of a structure at a position, in its links' own deformations.
 !!
 !! `M ÿ + (I + K_G) y = 0` with `K_G = K_const + ω2² K_ω + α2 K_α`: the mass matrix and the three
-!! unit matrices of the geometric stiffness are found once a position and serve every speed. What
-!! else a position brings into the equations (velocity terms, damping, loads) belongs here, too.
+!! unit matrices of the geometric stiffness are found once a position and serve every speed. Further
+!! terms of the equations at a position (velocity terms, damping, loads) belong here, too.
 module position_equations
   use bordered_matrix, only: add_scaled, bordered_matrix_t
   use bordered_pencil, only: bordered_pencil_t, new_bordered_pencil
@@ -20,19 +20,19 @@ module position_equations
   public :: position_equations_t, new_position_equations
   public :: assemble_equations, assemble_mass_at, assemble_stiffness_of, set_speed
 
-  !> Made once for a model, filled at every position.
+  !> Allocated once for a model, filled at every position.
   type :: position_equations_t
-    type(chords_t) :: chords                 !! what the border does to the pins and chords
+    type(chords_t) :: chords                 !! motion of pins and chords due to the border unknowns
     type(bordered_pencil_t) :: pencil        !! M, and K_G at one speed
     type(bordered_matrix_t) :: unit_stiffness(case_count) !! K_G of each unit load [-]
-    logical :: occurs(case_count) = .false.  !! unit loads whose matrices are those of this position
+    logical :: occurs(case_count) = .false.  !! unit loads whose matrices belong to this position
   end type position_equations_t
 
 contains
 
-  !> Room for the equations of a model.
+  !> Storage for the equations of a model.
   pure function new_position_equations(model) result(equations)
-    type(deformation_model_t), intent(in) :: model
+    type(deformation_model_t), intent(in) :: model !! gives the size of the matrices
     type(position_equations_t) :: equations
 
     integer :: i
@@ -43,17 +43,17 @@ contains
     end do
   end function new_position_equations
 
-  !> All that a position needs for a number of speeds: chords, M, and K_G of every unit load that
-  !! occurs at any of them.
+  !> Assembles everything that a position needs for a number of speeds: chords, M, and K_G of every
+  !! unit load that occurs at any of them.
   pure subroutine assemble_equations(linkage, model, pose, unit_force, factor, equations, counts)
-    type(linkage_t), intent(in) :: linkage
-    type(deformation_model_t), intent(in) :: model
-    type(pose_t), intent(in) :: pose            !! away from dead points
-    real(wp), intent(in) :: unit_force(:, :, :) !! (force functions, bodies, cases) of the unit
-                                                !! loads [N]; no functions: no loads
-    real(wp), intent(in) :: factor(:, :)        !! (cases, speeds) of the unit loads: ω2², α2, 1
+    type(linkage_t), intent(in) :: linkage         !! of the structure
+    type(deformation_model_t), intent(in) :: model !! its links' own deformations
+    type(pose_t), intent(in) :: pose               !! away from dead points
+    real(wp), intent(in) :: unit_force(:, :, :)    !! (force functions, bodies, cases) axial forces
+                                                   !! of the unit loads [N]; no functions: no loads
+    real(wp), intent(in) :: factor(:, :)           !! (cases, speeds) of the unit loads: ω2², α2, 1
     type(position_equations_t), intent(inout) :: equations !! of this model
-    type(ledger_t), intent(inout) :: counts
+    type(ledger_t), intent(inout) :: counts        !! of matrices assembled
 
     integer :: i
 
@@ -68,10 +68,10 @@ contains
     end do
   end subroutine assemble_equations
 
-  !> Chords and mass matrix at a pose; nothing loads the structure.
+  !> Assembles chords and mass matrix at a pose, for a structure without loads.
   pure subroutine assemble_mass_at(linkage, model, pose, equations)
-    type(linkage_t), intent(in) :: linkage
-    type(deformation_model_t), intent(in) :: model
+    type(linkage_t), intent(in) :: linkage                 !! of the structure
+    type(deformation_model_t), intent(in) :: model         !! its links' own deformations
     type(pose_t), intent(in) :: pose                       !! away from dead points
     type(position_equations_t), intent(inout) :: equations !! of this model
 
@@ -81,10 +81,10 @@ contains
     equations%pencil%loaded = .false.
   end subroutine assemble_mass_at
 
-  !> K_G of one load by itself, in place of that of a speed.
+  !> Assembles K_G of given axial forces, in place of that of a speed.
   pure subroutine assemble_stiffness_of(model, force, equations)
-    type(deformation_model_t), intent(in) :: model
-    real(wp), intent(in) :: force(:, :) !! (force functions, bodies) [N]
+    type(deformation_model_t), intent(in) :: model !! its links' own deformations
+    real(wp), intent(in) :: force(:, :)            !! (force functions, bodies) axial forces [N]
     type(position_equations_t), intent(inout) :: equations !! with the chords of this position
 
     equations%pencil%loaded = .true.
@@ -92,10 +92,10 @@ contains
       equations%pencil%geometric)
   end subroutine assemble_stiffness_of
 
-  !> `K_G = K_const + ω2² K_ω + α2 K_α` of a speed, from the unit matrices.
+  !> Sets K_G of a speed from the unit matrices: `K_G = K_const + ω2² K_ω + α2 K_α`.
   pure subroutine set_speed(equations, factor)
-    type(position_equations_t), intent(inout) :: equations
-    real(wp), intent(in) :: factor(case_count) !! of the unit loads: ω2², α2, 1
+    type(position_equations_t), intent(inout) :: equations !! assembled at this position
+    real(wp), intent(in) :: factor(case_count)             !! of the unit loads: ω2², α2, 1
 
     integer :: i
 

@@ -1,4 +1,4 @@
-!> What is found at a position, and the room it takes to find it.
+!> Results of the vibration analysis at one position, and the work space for it.
 module position_results
   use constants, only: two_pi
   use deformation_chain, only: deformation_chain_t
@@ -13,33 +13,34 @@ module position_results
 
   public :: position_result_t, position_work_t, of_frequency, frequency_of, take_mesh_value
 
-  !> A frequency is off by half of what its eigenvalue is.
+  !> Relative error of a frequency as a share of that of its eigenvalue.
   real(wp), parameter :: of_frequency = 0.5_wp
 
-  !> What was found at a position.
   type :: position_result_t
     real(wp), allocatable :: lambda(:, :)      !! (modes, speeds) ω² [1/s²]
-    real(wp), allocatable :: error(:, :)       !! (modes, speeds) relative error of the frequency
-    type(outcome_t), allocatable :: outcome(:) !! (speeds) whether there is a result, or why not
+    real(wp), allocatable :: error(:, :)       !! (modes, speeds) estimated relative error of the
+                                               !! frequency
+    type(outcome_t), allocatable :: outcome(:) !! (speeds) the error where there is no result
     real(wp), allocatable :: deflection(:, :)  !! (bodies, speeds) largest static deflection under
-                                               !! the loads, of the length [-]
-    type(shapes_t), allocatable :: shapes(:)   !! (speeds) where they are wanted
+                                               !! the loads / length of the link [-]
+    type(shapes_t), allocatable :: shapes(:)   !! (speeds) empty unless requested
     type(mode_prints_t), allocatable :: prints(:) !! (speeds) for following modes from position to
-                                                  !! position
-    real(wp) :: order_error = 0.0_wp           !! largest error of an eigenvalue that higher orders
-                                               !! would mend
-    type(ledger_t) :: counts
+                                                  !! position; unallocated unless requested
+    real(wp) :: order_error = 0.0_wp           !! largest relative error of an eigenvalue that
+                                               !! higher orders would reduce
+    type(ledger_t) :: counts                   !! of the work done here
   end type position_result_t
 
-  !> Room for the matrices of the models, and the last positions of a sweep.
+  !> Matrices of the models, and the modes of the last positions of a sweep.
   type :: position_work_t
-    type(speed_work_t) :: continuum, mesh
-    type(deformation_chain_t) :: chain
+    type(speed_work_t) :: continuum    !! for the continuous links
+    type(speed_work_t) :: mesh         !! for the deck's mesh, or its near model if it is long
+    type(deformation_chain_t) :: chain !! the long mesh
   end type position_work_t
 
 contains
 
-  !> `sign(λ) sqrt(|λ|)/2π`: negative past a divergence [Hz].
+  !> Frequency of an eigenvalue, `sign(λ) sqrt(|λ|)/2π` [Hz]: negative past a divergence.
   elemental function frequency_of(lambda) result(frequency)
     real(wp), intent(in) :: lambda !! ω² [1/s²]
     real(wp) :: frequency
@@ -47,11 +48,14 @@ contains
     frequency = sign(sqrt(abs(lambda)), lambda)/two_pi
   end function frequency_of
 
-  !> Replaces what the continuous links gave by what the mesh gives; the difference is its error.
+  !> Replaces the eigenvalue of the continuous links by that of the mesh. The difference of their
+  !! frequencies is added to the error.
   elemental subroutine take_mesh_value(lambda_of_mesh, own_error, lambda, error)
-    real(wp), intent(in) :: lambda_of_mesh, own_error !! eigenvalue of the mesh, relative error of
-                                                      !! it
-    real(wp), intent(inout) :: lambda, error
+    real(wp), intent(in) :: lambda_of_mesh !! ω² of the mesh [1/s²]
+    real(wp), intent(in) :: own_error      !! relative error of that as a solution of the mesh
+    real(wp), intent(inout) :: lambda      !! ω² of the continuous links; becomes that of the mesh
+                                           !! [1/s²]
+    real(wp), intent(inout) :: error       !! relative error of the frequency
 
     real(wp) :: frequency, exact
 

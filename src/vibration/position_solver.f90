@@ -1,5 +1,5 @@
-!> The frequencies of the instantaneous structure at one position, for all speeds, each with its
-!! error.
+!> Frequencies of the instantaneous structure at one position, for all speeds, each with its
+!! estimated error.
 module position_solver
   use axial_forces, only: distributed_unit_forces, total_force
   use bordered_eigensolver, only: bordered_modes_t
@@ -31,9 +31,10 @@ module position_solver
 
 contains
 
+  !> Work space for the positions of a block; no modes are remembered yet.
   pure function new_position_work(models, request) result(work)
-    type(vibration_models_t), intent(in) :: models
-    type(mode_request_t), intent(in) :: request
+    type(vibration_models_t), intent(in) :: models !! to be solved
+    type(mode_request_t), intent(in) :: request    !! method and speeds
     type(position_work_t) :: work
 
     work%continuum = new_speed_work(models%continuum, size(request%speed))
@@ -42,19 +43,23 @@ contains
     if (request%method == by_long_mesh) work%chain = models%chain
   end function new_position_work
 
-  !> Solves (2.88) at a pose for every speed, with or without the axial forces of the loads.
+  !> Solves Ulker 2010 (2.88) at a pose for every speed, with or without the axial forces of the
+  !! loads.
   !!
-  !! Always solved is the structure with continuous links, to the accuracy of `models`. Where the
-  !! deck has a mesh of its own, that is solved as well, and written; the error of its frequencies
-  !! is their difference.
+  !! The structure with continuous links is always solved, to the accuracy of `models`. If the deck
+  !! has a mesh of its own, that is solved as well and its frequencies are the result; their error
+  !! includes the difference to the continuous links.
+  !!
+  !! Errors, speed by speed in `result%outcome`: a solver does not converge, or a mode may be
+  !! missing.
   subroutine solve_position(structure, models, state, request, want_shapes, work, result)
-    type(structure_t), intent(in) :: structure
-    type(vibration_models_t), intent(in) :: models
-    type(state_t), intent(in) :: state       !! with a pose
-    type(mode_request_t), intent(in) :: request
-    logical, intent(in) :: want_shapes(:)    !! (speeds)
-    type(position_work_t), intent(inout) :: work
-    type(position_result_t), intent(out) :: result
+    type(structure_t), intent(in) :: structure     !! with a mesh unless the method is `by_orders`
+    type(vibration_models_t), intent(in) :: models !! of this structure
+    type(state_t), intent(in) :: state             !! with a pose
+    type(mode_request_t), intent(in) :: request    !! modes, method, speeds, loads
+    logical, intent(in) :: want_shapes(:)          !! (speeds)
+    type(position_work_t), intent(inout) :: work   !! from the positions before
+    type(position_result_t), intent(out) :: result !! for all speeds
 
     type(bordered_modes_t) :: found(size(request%speed))
     type(unit_loads_t) :: loads
@@ -122,7 +127,7 @@ contains
     end select
   end subroutine solve_position
 
-  !> Largest static deflection of the links at every speed, compared with their lengths.
+  !> Largest static deflection of every link / its length, at every speed.
   subroutine find_deflection(linkage, model, chords, pose, loads, factor, ratio)
     type(linkage_t), intent(in) :: linkage
     type(deformation_model_t), intent(in) :: model
@@ -130,7 +135,7 @@ contains
     type(pose_t), intent(in) :: pose
     type(unit_loads_t), intent(in) :: loads !! at this pose
     real(wp), intent(in) :: factor(:, :)   !! (cases, speeds) of the unit loads
-    real(wp), intent(out) :: ratio(:, :)   !! (bodies, speeds)
+    real(wp), intent(out) :: ratio(:, :)   !! (bodies, speeds) [-]
 
     real(wp) :: unit(2, stations, size(linkage%bodies), case_count), displacement(2), squared
     integer :: b, i, j, k

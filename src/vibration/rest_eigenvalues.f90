@@ -1,5 +1,5 @@
-!> The lowest eigenvalue at rest, roughly and without the deck's mesh: what the rounding of nodal
-!! matrices is compared with.
+!> The lowest eigenvalue at rest, approximately and independent of the deck's mesh. The rounding
+!! error of nodal matrices is compared with it.
 module rest_eigenvalues
   use bordered_eigensolver, only: bordered_modes_t
   use deformation_model, only: deformation_model_t, new_deformation_model
@@ -20,12 +20,12 @@ module rest_eigenvalues
 
 contains
 
-  !> The lowest ω² of the unloaded structure at crank angles [1/s²], to a few digits; huge where
-  !! there is none.
+  !> The lowest ω² of the unloaded structure at given crank angles [1/s²], to a few digits: huge
+  !! where there is no pose or no solution, all zero if a link has no own modes.
   function lowest_rest_eigenvalues(structure, crank) result(lambda)
-    type(structure_t), intent(in) :: structure
-    real(wp), intent(in) :: crank(:) !! [deg]
-    real(wp) :: lambda(size(crank))
+    type(structure_t), intent(in) :: structure !! with beams
+    real(wp), intent(in) :: crank(:)           !! (angles) [deg]
+    real(wp) :: lambda(size(crank))            !! (angles)
 
     type(positions_t) :: positions
     type(deformation_model_t) :: model

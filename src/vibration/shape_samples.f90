@@ -1,4 +1,4 @@
-!> Mode shapes at equal distances along the links, whatever the unknowns they were found in.
+!> Mode shapes at equally spaced points along the links, from any kind of unknowns.
 module shape_samples
   use bordered_eigensolver, only: bordered_modes_t
   use deflected_shape, only: shape_point
@@ -16,24 +16,25 @@ module shape_samples
 
   public :: shapes_t, sample_reduced, sample_chain, sample_nodal
 
-  !> Displacements along the links in every mode, with φᵀMφ = 1 and the sign of physics: mid-link to
-  !! the left of its link.
+  !> Displacements along the links in every mode, in global axes, with φᵀMφ = 1. The sign does not
+  !! depend on the method: the largest transverse displacement at mid-link is to the left of its
+  !! link.
   type :: shapes_t
     real(wp), allocatable :: displacement(:, :, :, :) !! (x, y, rotation; points; bodies; modes)
-                                                      !! [kg^-1/2]
+                                                      !! [kg^-1/2, kg^-1/2, rad kg^-1/2/m]
   end type shapes_t
 
 contains
 
-  !> Shapes of a model in deformation coordinates, at equal distances along the links.
+  !> Shapes of a model in deformation coordinates.
   pure subroutine sample_reduced(linkage, model, chords, state, found, request, shapes)
-    type(linkage_t), intent(in) :: linkage
-    type(deformation_model_t), intent(in) :: model
-    type(chords_t), intent(in) :: chords
-    type(state_t), intent(in) :: state
-    type(bordered_modes_t), intent(in) :: found
-    type(mode_request_t), intent(in) :: request
-    type(shapes_t), intent(out) :: shapes
+    type(linkage_t), intent(in) :: linkage         !! of the structure
+    type(deformation_model_t), intent(in) :: model !! its links' own deformations
+    type(chords_t), intent(in) :: chords           !! at this position
+    type(state_t), intent(in) :: state             !! with a pose
+    type(bordered_modes_t), intent(in) :: found    !! modes at this position
+    type(mode_request_t), intent(in) :: request    !! modes, points along each link
+    type(shapes_t), intent(out) :: shapes          !! of the modes requested
 
     real(wp) :: middle(3, size(model%links))
     integer :: b, i, mode
@@ -53,14 +54,14 @@ contains
     end do
   end subroutine sample_reduced
 
-  !> Shapes on a long mesh.
+  !> Shapes of a long mesh, as in `sample_reduced`.
   pure subroutine sample_chain(linkage, chain, state, vector, request, shapes)
-    type(linkage_t), intent(in) :: linkage
-    type(deformation_chain_t), intent(in) :: chain
-    type(state_t), intent(in) :: state
-    real(wp), intent(in) :: vector(:, :)
-    type(mode_request_t), intent(in) :: request
-    type(shapes_t), intent(out) :: shapes
+    type(linkage_t), intent(in) :: linkage         !! of the structure
+    type(deformation_chain_t), intent(in) :: chain !! the long mesh at this position
+    type(state_t), intent(in) :: state             !! with a pose
+    real(wp), intent(in) :: vector(:, :)           !! (unknowns, modes) with xᵀMx = 1
+    type(mode_request_t), intent(in) :: request    !! modes, points along each link
+    type(shapes_t), intent(out) :: shapes          !! of the modes requested
 
     real(wp) :: middle(3, size(linkage%bodies)), local(3, request%points), at_middle(3, 1)
     integer :: b, i, mode
@@ -82,13 +83,13 @@ contains
     end do
   end subroutine sample_chain
 
-  !> The same for nodal displacements.
+  !> Shapes of a mesh in nodal displacements, as in `sample_reduced`.
   pure subroutine sample_nodal(structure, state, vector, request, shapes)
-    type(structure_t), intent(in) :: structure
-    type(state_t), intent(in) :: state
-    real(wp), intent(in) :: vector(:, :) !! (unknowns, modes)
-    type(mode_request_t), intent(in) :: request
-    type(shapes_t), intent(out) :: shapes
+    type(structure_t), intent(in) :: structure  !! with a mesh
+    type(state_t), intent(in) :: state          !! with a pose
+    real(wp), intent(in) :: vector(:, :)        !! (unknowns, modes) with xᵀMx = 1
+    type(mode_request_t), intent(in) :: request !! modes, points along each link
+    type(shapes_t), intent(out) :: shapes       !! of the modes requested
 
     real(wp) :: middle(3, size(structure%linkage%bodies)), length
     integer :: b, i, mode
@@ -109,11 +110,11 @@ contains
     end do
   end subroutine sample_nodal
 
-  !> A displacement along and across a link, and its rotation, with the first two in global axes.
+  !> Turns a displacement along and across a link to global axes; the rotation stays as it is.
   pure function in_global_axes(local, direction) result(global)
-    real(wp), intent(in) :: local(3)
-    real(wp), intent(in) :: direction(2)
-    real(wp) :: global(3)
+    real(wp), intent(in) :: local(3)     !! along, across, rotation
+    real(wp), intent(in) :: direction(2) !! of the link
+    real(wp) :: global(3)                !! x, y, rotation
 
     global = [local(1)*direction + local(2)*normal_to(direction), local(3)]
   end function in_global_axes
@@ -121,12 +122,12 @@ contains
   !> The sign that makes the largest transverse displacement at mid-link positive, in that link's
   !! own axes (those of its angle).
   !!
-  !! Displacements equal within 1e-9 of the largest are ties, and the first of these links round the
-  !! loop decides.
+  !! Displacements within 1e-9 of the largest count as equal; of these the first link round the loop
+  !! decides.
   pure function mid_link_sign(linkage, state, middle) result(sign_of_mode)
     type(linkage_t), intent(in) :: linkage
     type(state_t), intent(in) :: state
-    real(wp), intent(in) :: middle(:, :) !! (3, bodies) displacements at mid-link
+    real(wp), intent(in) :: middle(:, :) !! (x, y, rotation; bodies) at mid-link
     real(wp) :: sign_of_mode
 
     real(wp), parameter :: tie = 1.0e-9_wp

@@ -1,4 +1,4 @@
-!> The modes of one model in deformation coordinates at one position, speed after speed.
+!> Modes of a model in deformation coordinates at one position, speed after speed.
 module speed_solver
   use bordered_eigensolver, only: bordered_modes_t, find_bordered_modes, start_t
   use deformation_model, only: deformation_model_t
@@ -12,37 +12,40 @@ module speed_solver
 
   public :: speed_work_t, new_speed_work, solve_speeds
 
-  !> Beyond this step neighbours say too little about each other [deg].
+  !> Largest step from the last position over which modes are extrapolated [deg].
   real(wp), parameter :: longest_step = 10.0_wp
 
-  !> The equations, filled at every position, and what is remembered of the last positions.
+  !> The equations, filled at every position, and the modes of the last positions.
   type :: speed_work_t
-    type(position_equations_t) :: equations
-    type(track_t), allocatable :: tracks(:) !! (speeds)
+    type(position_equations_t) :: equations !! of the present position
+    type(track_t), allocatable :: tracks(:) !! (speeds) modes of the last positions
   end type speed_work_t
 
 contains
 
-  !> Room for a model at so many speeds; nothing is remembered.
+  !> Work space for a model at a number of speeds; no modes are remembered yet.
   pure function new_speed_work(model, speeds) result(work)
-    type(deformation_model_t), intent(in) :: model
-    integer, intent(in) :: speeds
+    type(deformation_model_t), intent(in) :: model !! gives the size of the matrices
+    integer, intent(in) :: speeds                  !! number of them
     type(speed_work_t) :: work
 
     work%equations = new_position_equations(model)
     allocate (work%tracks(speeds))
   end function new_speed_work
 
-  !> Solves `(I + K_G) y = λ M y` for every speed, from the modes of the last positions.
+  !> Solves `(I + K_G) y = λ M y` for every speed, starting from the modes of the last positions.
+  !!
+  !! Errors, speed by speed in `outcome`: no start leads to modes that are proven complete. The
+  !! modes of the last positions are then forgotten.
   subroutine solve_speeds(place, factor, modes, accurate_vectors, work, found, outcome, counts)
-    real(wp), intent(in) :: place              !! of the position among its neighbours [deg]
-    real(wp), intent(in) :: factor(:, :)       !! (cases, speeds) of the unit loads
-    integer, intent(in) :: modes               !! how many are wanted
-    logical, intent(in) :: accurate_vectors(:) !! (speeds) vectors to the last digits, too
+    real(wp), intent(in) :: place              !! crank angle, by which modes are extrapolated [deg]
+    real(wp), intent(in) :: factor(:, :)       !! (cases, speeds) of the unit loads: ω2², α2, 1
+    integer, intent(in) :: modes               !! number wanted
+    logical, intent(in) :: accurate_vectors(:) !! (speeds) eigenvectors also to full precision
     type(speed_work_t), intent(inout) :: work  !! with the equations of this position
-    type(bordered_modes_t), intent(out) :: found(:) !! (speeds)
-    type(outcome_t), intent(inout) :: outcome(:)    !! (speeds) keeps an error that is there already
-    type(ledger_t), intent(inout) :: counts
+    type(bordered_modes_t), intent(out) :: found(:) !! (speeds) at least `modes` of each
+    type(outcome_t), intent(inout) :: outcome(:)    !! (speeds) an error already present is kept
+    type(ledger_t), intent(inout) :: counts    !! of the work done
 
     type(start_t) :: start
     type(error_t), allocatable :: error

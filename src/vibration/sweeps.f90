@@ -1,4 +1,4 @@
-!> The results of a sweep over positions and speeds.
+!> Results of a sweep over positions and speeds.
 module sweeps
   use errors, only: error_t
   use ledger, only: ledger_t
@@ -10,35 +10,34 @@ module sweeps
 
   public :: sweep_t, has_result, failure_at
 
-  !> The results, one a different position.
+  !> One result for each different position.
   type :: sweep_t
-    type(mode_request_t) :: request
-    type(vibration_models_t) :: models                 !! that serve most positions
-    type(position_result_t), allocatable :: results(:) !! (states); nothing in it where there is no
-                                                       !! pose
-    logical, allocatable :: drawn(:, :)                !! (states, speeds) whether its shapes are
-                                                       !! asked for
-    type(ledger_t) :: counts
+    type(mode_request_t) :: request                    !! modes, method, speeds, loads
+    type(vibration_models_t) :: models                 !! used at most positions
+    type(position_result_t), allocatable :: results(:) !! (states); empty where there is no pose
+    logical, allocatable :: drawn(:, :)                !! (states, speeds) whether shapes are
+                                                       !! requested
+    type(ledger_t) :: counts                           !! of the work done, models included
   end type sweep_t
 
 contains
 
   !> Whether there is a result at a position and speed.
   pure function has_result(positions, sweep, state, speed) result(has)
-    type(positions_t), intent(in) :: positions
-    type(sweep_t), intent(in) :: sweep
-    integer, intent(in) :: state, speed !! numbers
+    type(positions_t), intent(in) :: positions !! of the run
+    type(sweep_t), intent(in) :: sweep         !! over these positions
+    integer, intent(in) :: state, speed        !! numbers
     logical :: has
 
     has = .not. allocated(positions%states(state)%error)
     if (has) has = .not. allocated(sweep%results(state)%outcome(speed)%error)
   end function has_result
 
-  !> Why there is no result at a position and speed where there is none.
+  !> The error at a position and speed without a result.
   pure function failure_at(positions, sweep, state, speed) result(error)
-    type(positions_t), intent(in) :: positions
-    type(sweep_t), intent(in) :: sweep
-    integer, intent(in) :: state, speed !! numbers
+    type(positions_t), intent(in) :: positions !! of the run
+    type(sweep_t), intent(in) :: sweep         !! over these positions
+    integer, intent(in) :: state, speed        !! numbers; without a result
     type(error_t) :: error
 
     if (allocated(positions%states(state)%error)) then

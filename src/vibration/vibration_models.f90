@@ -1,4 +1,4 @@
-!> What a run needs to find frequencies at any position: made once.
+!> The models with which a run finds frequencies at any position; made once.
 module vibration_models
   use beam_element, only: axial_degree
   use deformation_chain, only: deformation_chain_t, new_deformation_chain
@@ -18,55 +18,56 @@ module vibration_models
   public :: mode_request_t, vibration_models_t, new_vibration_models, load_factors, chosen_method
   public :: by_orders, by_link_modes, by_long_mesh, by_dense, by_band, any_method
 
-  !> How the frequencies that are written are found: with orders that the program chooses; on the
-  !! mesh of the deck in deformation coordinates, taken apart link by link, or with running sums; on
-  !! it in nodal unknowns, with full or with band matrices.
+  !> Methods for the frequencies that are written: continuous links of orders chosen by the program;
+  !! the deck's mesh in deformation coordinates, from own modes of the links or by running sums; the
+  !! deck's mesh in nodal unknowns, with full or with band matrices.
   integer, parameter :: by_orders = 1, by_link_modes = 2, by_long_mesh = 3, by_dense = 4, &
     by_band = 5
 
   !> The choice is left to the program.
   integer, parameter :: any_method = 0
 
-  !> Links with more unknowns than this are not taken apart into their own modes.
+  !> Links with more unknowns than this are not decomposed into their own modes.
   integer, parameter :: most_link_unknowns = 80
 
-  !> More modes that continuous links must know exactly where they prove that a long mesh lacks
-  !! none.
+  !> Modes beyond those wanted that the continuous links must also represent to the given accuracy
+  !! where they prove that no mode of a long mesh is missing.
   integer, parameter :: long_mesh_guards = 8
 
-  !> Accuracy of the model by which the error of a mesh is told.
+  !> Accuracy of the continuous links from which the error of a mesh is estimated.
   real(wp), parameter :: judging_accuracy = 1.0e-13_wp*fineness
 
-  !> What is wanted at every position.
+  !> The analysis requested at every position.
   type :: mode_request_t
-    integer :: modes = 3
-    integer :: method = by_orders
-    real(wp) :: accuracy = judging_accuracy !! of frequencies, for orders that the program chooses
-    logical :: lumped = .false.        !! inertia loads on the nodes of the mesh, or along the links
+    integer :: modes = 3               !! number, lowest first
+    integer :: method = by_orders      !! one of the methods above
+    real(wp) :: accuracy = judging_accuracy !! of frequencies, for orders chosen by the program
+    logical :: lumped = .false.        !! inertia loads on the nodes of the mesh; else along the
+                                       !! links
     logical :: follow = .false.        !! modes are followed from row to row
-    integer :: points = 0              !! along each link, where shapes are wanted
-    real(wp), allocatable :: speed(:)  !! [rad/s]; static: one value, which has no effect
-    real(wp) :: acceleration = 0.0_wp  !! [rad/s²]
+    integer :: points = 0              !! along each link, where shapes are requested
+    real(wp), allocatable :: speed(:)  !! ω2 [rad/s]; static: one value, which has no effect
+    real(wp) :: acceleration = 0.0_wp  !! α2 [rad/s²]
     logical :: axial = .false.         !! with the geometric stiffness of the loads
-    logical :: constant = .false.      !! gravity, or forces and torques from outside, are among
-                                       !! them
+    logical :: constant = .false.      !! the loads include gravity or external forces and torques
   end type mode_request_t
 
   type :: vibration_models_t
-    type(deformation_model_t) :: continuum !! one element a link or between masses, of the orders
-                                           !! that the accuracy needs
-    type(deformation_model_t) :: mesh      !! that of the deck; for `by_long_mesh` with continuous
-                                           !! links in place of the long ones
-    type(deformation_chain_t) :: chain     !! that of the deck for `by_long_mesh`
+    type(deformation_model_t) :: continuum !! continuous links of the orders that the accuracy
+                                           !! requires; for every method
+    type(deformation_model_t) :: mesh      !! the deck's mesh for `by_link_modes`; its near model,
+                                           !! with continuous links in place of the long ones, for
+                                           !! `by_long_mesh`
+    type(deformation_chain_t) :: chain     !! the deck's mesh for `by_long_mesh`
   end type vibration_models_t
 
 contains
 
-  !> Factors of the unit loads at every speed, ω2², α2, and 1 for the constant ones; zero without
-  !! axial effects.
+  !> Factors of the unit loads at every speed: ω2², α2, and 1 for constant loads; zero without the
+  !! geometric stiffness.
   pure function load_factors(request) result(factor)
-    type(mode_request_t), intent(in) :: request
-    real(wp) :: factor(case_count, size(request%speed))
+    type(mode_request_t), intent(in) :: request         !! speeds, loads
+    real(wp) :: factor(case_count, size(request%speed)) !! (cases, speeds)
 
     factor = 0.0_wp
     if (.not. request%axial) return
@@ -75,13 +76,13 @@ contains
     if (request%constant) factor(constant_case, :) = 1.0_wp
   end function load_factors
 
-  !> How frequencies are found on a mesh.
+  !> The method for the deck's choice of solver and mesh.
   pure function chosen_method(wanted, accurate, elements, order, sheared) result(method)
     integer, intent(in) :: wanted                !! by_dense, by_band or any_method
-    logical, intent(in) :: accurate              !! the mesh is left to the program
-    integer, intent(in) :: elements(:), order(:) !! (bodies)
+    logical, intent(in) :: accurate              !! the program chooses the orders; no mesh is used
+    integer, intent(in) :: elements(:), order(:) !! (bodies) of the mesh
     logical, intent(in) :: sheared               !! elements have shear strains
-    integer :: method
+    integer :: method                            !! one of `by_orders` to `by_band`
 
     if (accurate) then
       method = by_orders
@@ -94,7 +95,8 @@ contains
     end if
   end function chosen_method
 
-  !> Whether a link has too many unknowns to be taken apart; a single element never has.
+  !> Whether a link has too many unknowns to be decomposed into own modes; a single element never
+  !! has.
   elemental function is_long_link(elements, order, sheared) result(is)
     integer, intent(in) :: elements, order
     logical, intent(in) :: sheared
@@ -103,19 +105,21 @@ contains
     is = elements > 1 .and. elements*bending_unknowns(order, sheared) > most_link_unknowns
   end function is_long_link
 
-  !> Chooses orders that keep a bound at the positions that the models are to serve, and makes what
-  !! the method needs beside them. Errors: the own modes of a link could not be found.
+  !> Makes the continuous links, of orders that keep an error bound at the given positions, and the
+  !! models that the method needs besides.
+  !!
+  !! Errors: the own modes of a link could not be found.
   subroutine new_vibration_models(structure, positions, states, request, bound, store, models, &
       counts, error)
-    type(structure_t), intent(in) :: structure
-    type(positions_t), intent(in) :: positions
-    integer, intent(in) :: states(:)           !! numbers of those that the models are to serve
-    type(mode_request_t), intent(in) :: request
-    real(wp), intent(in) :: bound              !! relative error of eigenvalues that the orders keep
-    type(link_store_t), intent(inout) :: store !! of links taken apart before
-    type(vibration_models_t), intent(out) :: models
-    type(ledger_t), intent(inout) :: counts
-    type(error_t), allocatable, intent(out) :: error
+    type(structure_t), intent(in) :: structure       !! with a mesh unless the method is `by_orders`
+    type(positions_t), intent(in) :: positions       !! of the run
+    integer, intent(in) :: states(:)                 !! numbers of the positions to be solved
+    type(mode_request_t), intent(in) :: request      !! modes, method, speeds, loads
+    real(wp), intent(in) :: bound                    !! on the relative error of eigenvalues
+    type(link_store_t), intent(inout) :: store       !! links decomposed earlier
+    type(vibration_models_t), intent(out) :: models  !! for these positions
+    type(ledger_t), intent(inout) :: counts          !! of the work done
+    type(error_t), allocatable, intent(out) :: error !! why there are no models
 
     type(order_demand_t) :: demand
     logical :: is_long(size(structure%beams))

@@ -3,7 +3,7 @@ module bench_ratios
   use bench_cases, only: median_of, per_turn, plan_t, solver_names, table_work_precision, with_accuracy, with_dsygv, with_sweep
   use errors, only: error_t
   use kinds, only: wp
-  use table_rows, only: add_failure, add_row, rows_t
+  use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: column_t, finish_table, name_cell, name_column, open_table, publish_table, real_cells, real_column, table_t, &
     write_header, write_rows
   use text, only: string_t, to_string
@@ -50,7 +50,7 @@ contains
             call add_row(rows, name_cell(trim(merge("axial ", "static", load == 2)), columns(1)%width)// &
               name_cell(solvers(solver)%text, columns(2)%width)//real_cells([wanted(i), theirs, theirs/ours]))
           else
-            call add_failure(rows, [real(wp) ::], "load="//trim(merge("axial ", "static", load == 2))//" solver="// &
+            call add_failed_row(rows, [real(wp) ::], "load="//trim(merge("axial ", "static", load == 2))//" solver="// &
               solvers(solver)%text//" wanted="//to_string(wanted(i))//": no run came below that error")
           end if
         end do

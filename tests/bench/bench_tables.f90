@@ -4,7 +4,7 @@ module bench_tables
     table_names, table_threads, table_work_precision, with_accuracy, with_sweep
   use errors, only: error_t
   use kinds, only: wp
-  use table_rows, only: add_failure, add_row, rows_t
+  use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: column_t, finish_table, integer_cell, integer_column, name_cell, name_column, open_table, publish_table, &
     real_cells, real_column, table_t, write_header, write_rows
   use text, only: string_t, to_string
@@ -47,7 +47,7 @@ contains
       associate (this => plan%cases(i))
         if (this%table /= table) cycle
         if (len(this%failure) > 0) then
-          call add_failure(rows, [real(wp) ::], place_of(this)//": "//this%failure)
+          call add_failed_row(rows, [real(wp) ::], place_of(this)//": "//this%failure)
         else
           call add_row(rows, row_of(plan, this, columns))
         end if

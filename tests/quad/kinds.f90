@@ -1,6 +1,6 @@
 !> The kinds of the quadruple-precision build: in place of src/base/kinds.f90.
 module kinds
-  use, intrinsic :: iso_fortran_env, only: int64, real128
+  use, intrinsic :: iso_fortran_env, only: int64, real128, real64
   implicit none (type, external)
   private
 

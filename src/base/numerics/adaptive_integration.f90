@@ -1,9 +1,9 @@
-!> Ordinary differential equations, integrated in steps of order 8 whose length follows the error:
-!! `rk8pd` of the GNU Scientific Library (Prince and Dormand 1981, order 8 with an error estimate of
-!! order 7).
+!> Integration of ordinary differential equations by a Runge-Kutta method of order 8 with step
+!! control: `rk8pd` of the GNU Scientific Library (Prince and Dormand 1981, order 8 with an error
+!! estimate of order 7).
 !!
-!! The one module that knows the pointers of C. The library computes in double precision, whatever
-!! the working precision is.
+!! The only module that handles pointers of C. The library computes in double precision, whatever
+!! the working precision.
 module adaptive_integration
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_funptr, &
     c_int, c_loc, c_null_funptr, c_null_ptr, c_ptr, c_size_t
@@ -14,41 +14,44 @@ module adaptive_integration
 
   public :: rate_system_t, integrator_t, open_integrator, close_integrator, advance, step_by
 
-  !> What moves: `dy/dt = f(t, y)`.
+  !> A system of differential equations `dy/dt = f(t, y)`.
   type, abstract :: rate_system_t
   contains
     procedure(rates_interface), deferred :: find_rates
   end type rate_system_t
 
   abstract interface
+    !> Computes `f(t, y)`.
     subroutine rates_interface(self, time, state, rates, found)
       import :: rate_system_t, wp
-      class(rate_system_t), intent(inout) :: self
-      real(wp), intent(in) :: time
-      real(wp), intent(in) :: state(:)
-      real(wp), intent(out) :: rates(:) !! defined only if they are found
-      logical, intent(out) :: found     !! false: there are none here; a shorter step is tried
+      class(rate_system_t), intent(inout) :: self !! the system of equations
+      real(wp), intent(in) :: time                !! t
+      real(wp), intent(in) :: state(:)            !! (unknowns) y
+      real(wp), intent(out) :: rates(:)           !! (unknowns) dy/dt; defined only if `found`
+      logical, intent(out) :: found               !! false: no rates exist here; a shorter step is
+                                                  !! tried
     end subroutine rates_interface
   end interface
 
-  !> What the library keeps between steps. To be closed after use, and never copied.
+  !> The library's data between steps. To be closed after use, and never copied.
   type :: integrator_t
     integer(long) :: steps = 0_long       !! accepted so far
     integer(long) :: evaluations = 0_long !! of rates so far
-    real(wp) :: step = 0.0_wp             !! length of the next step that the error allows
+    real(wp) :: step = 0.0_wp             !! length of the next step that the error allows, in the
+                                          !! unit of time
     integer, private :: unknowns = 0
     type(c_ptr), private :: stepper = c_null_ptr, control = c_null_ptr, evolution = c_null_ptr
   end type integrator_t
 
-  !> What the library hands back to `rates_for_library`.
+  !> Passed through the library to `rates_for_library`.
   type :: request_t
     class(rate_system_t), pointer :: system => null()
     integer :: unknowns = 0
     integer :: evaluations = 0
   end type request_t
 
-  !> gsl_odeiv2_system. Handed on by its address: what the library changes behind it, a compiler
-  !! must not take for unchanged.
+  !> gsl_odeiv2_system. Passed by its address, so that the compiler does not assume data behind it
+  !! to be unchanged by the library.
   type, bind(c) :: library_system_t
     type(c_funptr) :: rates = c_null_funptr
     type(c_funptr) :: jacobian = c_null_funptr
@@ -56,12 +59,12 @@ module adaptive_integration
     type(c_ptr) :: parameters = c_null_ptr
   end type library_system_t
 
-  !> Of the library's status values those that matter here (gsl_errno.h).
+  !> Status values of the library that are used here (gsl_errno.h).
   integer(c_int), parameter :: success = 0_c_int, failure = -1_c_int
 
   interface
-    !> In truth a variable of the library, which points to the method. As a variable gfortran 12
-    !! would define it anew.
+    !> Actually a variable of the library that points to the method. If it were declared as one,
+    !! gfortran 12 would define a second variable.
     subroutine gsl_odeiv2_step_rk8pd() bind(c)
     end subroutine gsl_odeiv2_step_rk8pd
 
@@ -141,17 +144,17 @@ module adaptive_integration
 
 contains
 
-  !> Makes an integrator ready. Steps are such that the estimated error of every unknown is below
-  !! `tolerance (scale + |y| + h |dy/dt|)`.
+  !> Prepares an integrator. It chooses steps such that the estimated error of every unknown is
+  !! below `tolerance (scale + |y| + h |dy/dt|)`.
   !!
-  !! Errors: there is no memory for it.
+  !! Errors: not enough memory.
   subroutine open_integrator(integrator, scale, tolerance, first_step, error)
-    type(integrator_t), intent(out) :: integrator
-    real(wp), intent(in) :: scale(:)   !! (unknowns) of their units; what is small against it does
-                                       !! not matter
-    real(wp), intent(in) :: tolerance  !! [-]
-    real(wp), intent(in) :: first_step !! to be tried first, in the unit of time
-    type(error_t), allocatable, intent(out) :: error
+    type(integrator_t), intent(out) :: integrator    !! to be closed by `close_integrator`
+    real(wp), intent(in) :: scale(:)                 !! (unknowns) in their units; values small
+                                                     !! against it need no accuracy
+    real(wp), intent(in) :: tolerance                !! relative [-]
+    real(wp), intent(in) :: first_step               !! tried first, in the unit of time
+    type(error_t), allocatable, intent(out) :: error !! allocated if memory is short
 
     type(c_funptr) :: previous
     integer(c_size_t) :: unknowns
@@ -173,7 +176,7 @@ contains
     call set_error(error, error_of_numerics, "there is no memory for the integration")
   end subroutine open_integrator
 
-  !> The method of order 8, read where the library keeps it.
+  !> The method of order 8, read from the library's variable.
   function order_eight() result(method)
     type(c_ptr) :: method
 
@@ -185,9 +188,9 @@ contains
     method = kept
   end function order_eight
 
-  !> Gives back what the library took.
+  !> Frees the library's memory.
   subroutine close_integrator(integrator)
-    type(integrator_t), intent(inout) :: integrator
+    type(integrator_t), intent(inout) :: integrator !! may be closed already
 
     if (c_associated(integrator%evolution)) call gsl_odeiv2_evolve_free(integrator%evolution)
     if (c_associated(integrator%control)) call gsl_odeiv2_control_free(integrator%control)
@@ -197,18 +200,18 @@ contains
     integrator%stepper = c_null_ptr
   end subroutine close_integrator
 
-  !> One step as long as the error allows, but not beyond `limit`, which is met exactly. State and
-  !! time may have been changed since the last one.
+  !> Takes one step, as long as the error allows but not beyond `limit`, which is met exactly. State
+  !! and time may have been changed since the last step.
   !!
-  !! Errors: no step is short enough, because the rates are not smooth, or there are none. State and
-  !! time are as before then.
+  !! Errors: no step is short enough, because the rates are not smooth or do not exist. State and
+  !! time are unchanged then.
   subroutine advance(integrator, system, time, limit, state, error)
-    type(integrator_t), intent(inout) :: integrator
-    class(rate_system_t), intent(inout), target :: system
-    real(wp), intent(inout) :: time
-    real(wp), intent(in) :: limit
-    real(wp), intent(inout) :: state(:)
-    type(error_t), allocatable, intent(out) :: error
+    type(integrator_t), intent(inout) :: integrator       !! open
+    class(rate_system_t), intent(inout), target :: system !! whose rates are integrated
+    real(wp), intent(inout) :: time                       !! before the step, then after it
+    real(wp), intent(in) :: limit                         !! latest end of the step
+    real(wp), intent(inout) :: state(:)                   !! (unknowns) at `time`
+    type(error_t), allocatable, intent(out) :: error      !! allocated if no step was made
 
     type(request_t), target :: request
     type(library_system_t), target :: library_system
@@ -222,7 +225,7 @@ contains
     library_time = real(time, c_double)
     step = real(integrator%step, c_double)
     library_state = real(state, c_double)
-    ! What the library remembers of the last state may not be this one.
+    ! The state may not be the last one that the library remembers.
     status = gsl_odeiv2_evolve_reset(integrator%evolution)
     status = gsl_odeiv2_evolve_apply(integrator%evolution, integrator%control, integrator%stepper, &
       c_loc(library_system), library_time, real(limit, c_double), step, library_state)
@@ -234,22 +237,23 @@ contains
     integrator%steps = integrator%steps + 1_long
     integrator%step = real(step, wp)
     time = real(library_time, wp)
-    ! Both were rounded to the precision of the library.
+    ! Both have been rounded to the precision of the library.
     if (abs(time - limit) <= epsilon(1.0_c_double)*abs(limit)) time = limit
     state = real(library_state, wp)
   end subroutine advance
 
-  !> The state after one step of a given length, whatever its error: for a place within a step that
+  !> The state after one step of given length, whatever its error: for a place within a step that
   !! `advance` has made.
   !!
-  !! Errors: there are no rates on the way.
+  !! Errors: the rates do not exist somewhere within the step.
   subroutine step_by(integrator, system, time, step, state, error)
-    type(integrator_t), intent(inout) :: integrator
-    class(rate_system_t), intent(inout), target :: system
-    real(wp), intent(in) :: time !! before the step
-    real(wp), intent(in) :: step !! its length
-    real(wp), intent(inout) :: state(:)
-    type(error_t), allocatable, intent(out) :: error
+    type(integrator_t), intent(inout) :: integrator       !! open
+    class(rate_system_t), intent(inout), target :: system !! whose rates are integrated
+    real(wp), intent(in) :: time                          !! before the step
+    real(wp), intent(in) :: step                          !! its length, in the unit of time
+    real(wp), intent(inout) :: state(:)                   !! (unknowns) before the step, then after
+                                                          !! it
+    type(error_t), allocatable, intent(out) :: error      !! allocated if no step was made
 
     type(request_t), target :: request
     type(library_system_t), target :: library_system
@@ -272,7 +276,7 @@ contains
     state = real(library_state, wp)
   end subroutine step_by
 
-  !> What the library calls for rates.
+  !> Called by the library for rates.
   function rates_for_library(time, state, rates, parameters) bind(c) result(status)
     real(c_double), value :: time
     real(c_double), intent(in) :: state(*)

@@ -1,4 +1,4 @@
-!> Symmetric band matrices in the storage of LAPACK (`uplo = 'L'`).
+!> Symmetric band matrices in LAPACK's storage (`uplo = 'L'`).
 module band_matrix
   use kinds, only: wp
   implicit none (type, external)
@@ -16,32 +16,35 @@ contains
 
   !> A zero matrix.
   pure function new_band_matrix(order, half_bandwidth) result(matrix)
-    integer, intent(in) :: order, half_bandwidth
+    integer, intent(in) :: order          !! rows
+    integer, intent(in) :: half_bandwidth !! subdiagonals
     type(band_matrix_t) :: matrix
 
     allocate (matrix%entry(half_bandwidth + 1, order))
     matrix%entry = 0.0_wp
   end function new_band_matrix
 
+  !> Number of rows.
   pure function order_of(matrix) result(order)
-    type(band_matrix_t), intent(in) :: matrix
+    type(band_matrix_t), intent(in) :: matrix !! in band storage
     integer :: order
 
     order = size(matrix%entry, 2)
   end function order_of
 
+  !> Number of subdiagonals.
   pure function half_bandwidth_of(matrix) result(half_bandwidth)
-    type(band_matrix_t), intent(in) :: matrix
+    type(band_matrix_t), intent(in) :: matrix !! in band storage
     integer :: half_bandwidth
 
     half_bandwidth = size(matrix%entry, 1) - 1
   end function half_bandwidth_of
 
-  !> Adds a small symmetric matrix at the given unknowns; unknown 0 is a support and takes nothing.
+  !> Adds a small symmetric matrix at the given unknowns; unknown 0 is a support and is skipped.
   pure subroutine add_to_band(matrix, small, unknown)
-    type(band_matrix_t), intent(inout) :: matrix
-    real(wp), intent(in) :: small(:, :)
-    integer, intent(in) :: unknown(:)
+    type(band_matrix_t), intent(inout) :: matrix !! sum so far
+    real(wp), intent(in) :: small(:, :)          !! (n, n)
+    integer, intent(in) :: unknown(:)            !! (n) rows in the band matrix, 0 for a support
 
     integer :: i, j
 
@@ -58,8 +61,8 @@ contains
 
   !> `y = A x`
   pure function band_times_vector(matrix, x) result(y)
-    type(band_matrix_t), intent(in) :: matrix
-    real(wp), intent(in) :: x(:)
+    type(band_matrix_t), intent(in) :: matrix !! A
+    real(wp), intent(in) :: x(:)              !! (order)
     real(wp) :: y(size(x))
 
     integer :: i, j
@@ -73,10 +76,10 @@ contains
     end do
   end function band_times_vector
 
-  !> The same matrix with all its entries.
+  !> The matrix with all its entries.
   pure function full_matrix(matrix) result(full)
-    type(band_matrix_t), intent(in) :: matrix
-    real(wp), allocatable :: full(:, :) !! (order, order)
+    type(band_matrix_t), intent(in) :: matrix !! in band storage
+    real(wp), allocatable :: full(:, :)       !! (order, order)
 
     integer :: i, j
 
@@ -90,9 +93,9 @@ contains
     end do
   end function full_matrix
 
-  !> A full symmetric matrix, of which the lower triangle is read, as a band of the largest width.
+  !> A full symmetric matrix in band storage of the largest width.
   pure function full_band(full) result(band)
-    real(wp), intent(in) :: full(:, :)
+    real(wp), intent(in) :: full(:, :) !! (order, order); only the lower triangle is read
     type(band_matrix_t) :: band
 
     integer :: j, n

@@ -1,42 +1,43 @@
-!> A symmetric matrix of few border unknowns and many others that meet each other in blocks only.
+!> Symmetric bordered block-diagonal matrices: a few border unknowns are coupled to all unknowns,
+!! the others to the border and within their own block only.
 !!
-!! Unknowns are numbered: the border, then block after block, then those that meet nothing but the
-!! border and themselves. Linkages have this form once the own vibrations of every link are told
-!! apart from what moves the pins.
+!! Order of unknowns: the border, then block after block, then single unknowns that are coupled to
+!! the border only. Linkages have this form once the own vibrations of each link are separated from
+!! the deformations that displace its pins.
 module bordered_matrix
   use kinds, only: wp
   implicit none (type, external)
   private
 
-  public :: bordered_matrix_t, layout_t, new_layout, new_bordered_matrix, all_unknowns
+  public :: bordered_matrix_t, layout_t, new_bordered_layout, new_bordered_matrix, all_unknowns
   public :: bordered_times_vector, dense_form, add_scaled
 
-  !> How the unknowns are divided.
+  !> The order of the unknowns.
   type :: layout_t
-    integer :: border = 0             !! unknowns of the border
-    integer, allocatable :: first(:)  !! (blocks) number of a block's first unknown
-    integer, allocatable :: size(:)   !! (blocks)
-    integer, allocatable :: group(:)  !! sizes of the groups in which the unknowns after the blocks
-                                      !! come
-    integer :: unknowns = 0           !! all of them
+    integer :: border = 0            !! unknowns of the border
+    integer, allocatable :: first(:) !! (blocks) number of a block's first unknown
+    integer, allocatable :: size(:)  !! (blocks) unknowns of a block
+    integer, allocatable :: group(:) !! (groups) unknowns of each group after the blocks
+    integer :: unknowns = 0          !! all of them
   end type layout_t
 
   type :: bordered_matrix_t
-    real(wp), allocatable :: border(:, :)    !! (border, border)
-    real(wp), allocatable :: coupling(:, :)  !! (border, unknowns) rows of the border beyond itself;
-                                             !! its first columns are not used
-    real(wp), allocatable :: diagonal(:)     !! (unknowns) beyond the border, besides that of the
-                                             !! blocks
-    real(wp), allocatable :: block(:, :, :)  !! (largest block, largest block, blocks); no blocks: a
-                                             !! diagonal
+    real(wp), allocatable :: border(:, :)   !! (border, border)
+    real(wp), allocatable :: coupling(:, :) !! (border, unknowns) rows of the border; the columns of
+                                            !! the border itself are not used
+    real(wp), allocatable :: diagonal(:)    !! (unknowns) beyond the border; added to that of the
+                                            !! blocks
+    real(wp), allocatable :: block(:, :, :) !! (largest block, largest block, blocks); empty:
+                                            !! diagonal beyond the border
   end type bordered_matrix_t
 
 contains
 
-  pure function new_layout(border, blocks, singles) result(layout)
-    integer, intent(in) :: border
-    integer, intent(in) :: blocks(:) !! sizes
-    integer, intent(in) :: singles(:) !! sizes of the groups of unknowns after the blocks
+  !> The order of unknowns from the sizes of its parts.
+  pure function new_bordered_layout(border, blocks, singles) result(layout)
+    integer, intent(in) :: border     !! unknowns of the border
+    integer, intent(in) :: blocks(:)  !! (blocks) unknowns of each block
+    integer, intent(in) :: singles(:) !! (groups) unknowns of each group after the blocks
     type(layout_t) :: layout
 
     integer :: i
@@ -46,12 +47,12 @@ contains
     layout%group = singles
     layout%first = [(border + 1 + sum(blocks(:i - 1)), i=1, size(blocks))]
     layout%unknowns = border + sum(blocks) + sum(singles)
-  end function new_layout
+  end function new_bordered_layout
 
-  !> A matrix of zeros.
+  !> A zero matrix.
   pure function new_bordered_matrix(layout, with_blocks) result(matrix)
-    type(layout_t), intent(in) :: layout
-    logical, intent(in) :: with_blocks
+    type(layout_t), intent(in) :: layout !! order of unknowns
+    logical, intent(in) :: with_blocks   !! false: diagonal beyond the border
     type(bordered_matrix_t) :: matrix
 
     integer :: largest
@@ -69,10 +70,10 @@ contains
 
   !> `product = matrix vector`
   pure subroutine bordered_times_vector(layout, matrix, vector, product)
-    type(layout_t), intent(in) :: layout
-    type(bordered_matrix_t), intent(in) :: matrix
-    real(wp), intent(in) :: vector(:)   !! (unknowns)
-    real(wp), intent(out) :: product(:) !! (unknowns)
+    type(layout_t), intent(in) :: layout          !! of the matrix
+    type(bordered_matrix_t), intent(in) :: matrix !! with or without blocks
+    real(wp), intent(in) :: vector(:)             !! (unknowns)
+    real(wp), intent(out) :: product(:)           !! (unknowns)
 
     real(wp) :: on_border(layout%border), total
     integer :: i, j, k, first, m
@@ -97,11 +98,11 @@ contains
     end do
   end subroutine bordered_times_vector
 
-  !> `sum = sum + factor matrix`; both have blocks or both have none.
+  !> `sum = sum + factor matrix`; either both matrices have blocks or neither has.
   pure subroutine add_scaled(sum, factor, matrix)
-    type(bordered_matrix_t), intent(inout) :: sum
-    real(wp), intent(in) :: factor
-    type(bordered_matrix_t), intent(in) :: matrix
+    type(bordered_matrix_t), intent(inout) :: sum !! of the same layout
+    real(wp), intent(in) :: factor                !! any
+    type(bordered_matrix_t), intent(in) :: matrix !! added
 
     sum%border = sum%border + factor*matrix%border
     sum%coupling = sum%coupling + factor*matrix%coupling
@@ -109,11 +110,11 @@ contains
     sum%block = sum%block + factor*matrix%block
   end subroutine add_scaled
 
-  !> Rows and columns of some unknowns, as a full matrix.
+  !> Rows and columns of the chosen unknowns, as a full matrix.
   pure function dense_form(layout, matrix, chosen) result(dense)
-    type(layout_t), intent(in) :: layout
-    type(bordered_matrix_t), intent(in) :: matrix
-    integer, intent(in) :: chosen(:) !! numbers of unknowns
+    type(layout_t), intent(in) :: layout          !! of the matrix
+    type(bordered_matrix_t), intent(in) :: matrix !! with or without blocks
+    integer, intent(in) :: chosen(:)              !! numbers of unknowns
     real(wp) :: dense(size(chosen), size(chosen))
 
     real(wp) :: unit(layout%unknowns), column(layout%unknowns)
@@ -127,8 +128,9 @@ contains
     end do
   end function dense_form
 
+  !> The numbers of all unknowns, for `dense_form`.
   pure function all_unknowns(layout) result(chosen)
-    type(layout_t), intent(in) :: layout
+    type(layout_t), intent(in) :: layout !! order of unknowns
     integer :: chosen(layout%unknowns)
 
     integer :: i

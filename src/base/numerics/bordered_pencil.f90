@@ -7,17 +7,17 @@ module bordered_pencil
   public :: bordered_pencil_t, new_bordered_pencil
 
   type :: bordered_pencil_t
-    type(layout_t) :: layout
+    type(layout_t) :: layout             !! of both matrices
     type(bordered_matrix_t) :: mass      !! M, positive definite, diagonal in its blocks [s²]
     type(bordered_matrix_t) :: geometric !! G, with blocks [-]
-    logical :: loaded = .false.          !! whether there is a G; without one it is not looked at
+    logical :: loaded = .false.          !! whether there is a G; if not, `geometric` is not used
   end type bordered_pencil_t
 
 contains
 
-  !> Matrices of zeros; nothing loads them.
+  !> Zero matrices, without loads.
   pure function new_bordered_pencil(layout) result(pencil)
-    type(layout_t), intent(in) :: layout
+    type(layout_t), intent(in) :: layout !! of both matrices
     type(bordered_pencil_t) :: pencil
 
     pencil%layout = layout

@@ -1,4 +1,4 @@
-!> Periodic quantities, sampled evenly over their period: mean, root of the mean square, harmonics.
+!> Mean, root mean square and harmonics of periodic quantities sampled evenly over their period.
 module harmonics
   use constants, only: two_pi
   use kinds, only: wp
@@ -9,24 +9,26 @@ module harmonics
 
   integer, parameter :: highest_harmonic = 10
 
-  !> `mean + Σ amplitude(k) cos(k t + phase(k))`, in the units of what was sampled.
+  !> `mean + Σ amplitude(k) cos(k t + phase(k))`, in the unit of the samples.
   type :: spectrum_t
-    real(wp) :: mean = 0.0_wp
-    real(wp) :: rms = 0.0_wp                                !! of the whole, not of these harmonics
-                                                            !! only
-    complex(wp) :: coefficient(highest_harmonic) = 0.0_wp   !! amplitude and phase of each
+    real(wp) :: mean = 0.0_wp                             !! over the period
+    real(wp) :: rms = 0.0_wp                              !! of the whole quantity, not only of
+                                                          !! these harmonics
+    complex(wp) :: coefficient(highest_harmonic) = 0.0_wp !! amplitude and phase of each harmonic as
+                                                          !! a complex number
   end type spectrum_t
 
 contains
 
-  !> The spectrum of a quantity by sums over its samples, which converge faster than any power of
-  !! their number where the quantity is smooth (Trefethen, Weideman: The exponentially convergent
-  !! trapezoidal rule. SIAM Review 56 (2014) 385).
+  !> The spectrum of a quantity by sums over its samples, which for smooth quantities converge
+  !! faster than any power of the number of samples (Trefethen, Weideman: The exponentially
+  !! convergent trapezoidal rule. SIAM Review 56 (2014) 385).
   !!
-  !! With n samples harmonic k takes up harmonic n − k: n has to be well above what the quantity
-  !! has.
+  !! Aliasing: with n samples, harmonic k also takes up harmonic n − k, so n must be well above the
+  !! highest harmonic of the quantity.
   pure function spectrum_of(samples) result(spectrum)
-    real(wp), intent(in) :: samples(:) !! at t = 0, 2π/n, … ; more than twice the highest harmonic
+    real(wp), intent(in) :: samples(:) !! (n) at t = 0, 2π/n, …; n more than twice the highest
+                                       !! harmonic
     type(spectrum_t) :: spectrum
 
     complex(wp) :: sums(highest_harmonic), turn, power
@@ -39,7 +41,7 @@ contains
     do i = 1, n
       turn = exp(cmplx(0.0_wp, -two_pi*real(i - 1, wp)/n, wp))
       power = 1.0_wp
-      ! Without the mean, so that its rounding does not stand in for small harmonics.
+      ! Without the mean, whose round-off would otherwise mask small harmonics.
       do k = 1, highest_harmonic
         power = power*turn
         sums(k) = sums(k) + (samples(i) - spectrum%mean)*power

@@ -1,4 +1,4 @@
-!> Legendre polynomials by their recurrence, and the Gauss rule made of them.
+!> Legendre polynomials by their recurrence, their integrals, and the Gauss rule.
 module legendre
   use constants, only: pi
   use kinds, only: wp
@@ -11,8 +11,8 @@ contains
 
   !> `P_0(x) … P_degree(x)`, by `(j + 1) P_{j+1} = (2j + 1) x P_j − j P_{j−1}`.
   pure function legendre_values(degree, x) result(values)
-    integer, intent(in) :: degree
-    real(wp), intent(in) :: x !! from −1 to 1
+    integer, intent(in) :: degree !! of the last polynomial, from 0
+    real(wp), intent(in) :: x     !! from −1 to 1
     real(wp) :: values(0:degree)
 
     integer :: j
@@ -24,9 +24,9 @@ contains
     end do
   end function legendre_values
 
-  !> Legendre coefficients of `∫ P_j` from −1, `(P_{j+1} − P_{j−1})/(2j + 1)`.
+  !> Legendre coefficients of `∫ P_j` from −1 to x, `(P_{j+1} − P_{j−1})/(2j + 1)`.
   pure function once_integrated(j) result(coefficient)
-    integer, intent(in) :: j
+    integer, intent(in) :: j !! from 0
     real(wp) :: coefficient(0:j + 1)
 
     coefficient = 0.0_wp
@@ -35,9 +35,10 @@ contains
     if (j > 0) coefficient(j - 1) = -1.0_wp/(2*j + 1)
   end function once_integrated
 
-  !> Legendre coefficients of `∫∫ P_j`, both from −1. For j ≥ 2 value and slope vanish at both ends.
+  !> Legendre coefficients of `∫∫ P_j`, both from −1. For j ≥ 2, value and slope vanish at both
+  !! ends.
   pure function twice_integrated(j) result(coefficient)
-    integer, intent(in) :: j
+    integer, intent(in) :: j !! from 0
     real(wp) :: coefficient(0:j + 2)
 
     coefficient = 0.0_wp
@@ -52,13 +53,13 @@ contains
     end select
   end function twice_integrated
 
-  !> Points and weights of the Gauss rule on −1 … 1: exact for polynomials of degree `2 size − 1`.
+  !> Points and weights of the Gauss rule on −1 … 1: exact for polynomials up to degree `2 n − 1`.
   !!
   !! Newton's method for the roots of P_n from Chebyshev's guess; pairs ±x are made exactly
   !! symmetric.
   pure subroutine gauss_rule(point, weight)
-    real(wp), intent(out) :: point(:)  !! ascending
-    real(wp), intent(out) :: weight(:)
+    real(wp), intent(out) :: point(:)  !! (n) ascending
+    real(wp), intent(out) :: weight(:) !! (n)
 
     integer, parameter :: most_steps = 20
     real(wp) :: p(0:size(point)), x, slope, step

@@ -1,4 +1,4 @@
-!> Sums of many terms, whose rounding does not grow with their number.
+!> Sums of many terms whose round-off does not grow with their number.
 module long_sums
   use kinds, only: wp
   implicit none (type, external)
@@ -8,10 +8,11 @@ module long_sums
 
 contains
 
-  !> Adds to a running sum held in two parts, the second what the first has lost to rounding.
+  !> Adds to a running sum held in two parts, of which the second is what the first has lost to
+  !! rounding.
   pure subroutine add_exactly(total, term)
-    real(wp), intent(inout) :: total(2)
-    real(wp), intent(in) :: term
+    real(wp), intent(inout) :: total(2) !! rounded sum and correction
+    real(wp), intent(in) :: term        !! added
 
     real(wp) :: sum_of, part
 
@@ -23,7 +24,7 @@ contains
 
   !> Scalar product of long vectors.
   pure function long_dot(a, b) result(product)
-    real(wp), intent(in) :: a(:), b(:)
+    real(wp), intent(in) :: a(:), b(:) !! (n)
     real(wp) :: product
 
     real(wp) :: total(2)

@@ -1,4 +1,4 @@
-!> Two symmetric matrices that can be multiplied with a vector, whatever they look like.
+!> Mass and stiffness matrix of an eigenproblem in any form that can be multiplied by a vector.
 module symmetric_pencil
   use kinds, only: wp
   implicit none (type, external)
@@ -16,9 +16,10 @@ module symmetric_pencil
     !> `M x` and `K x`
     pure subroutine multiply(pencil, vector, mass_times, stiffness_times)
       import :: symmetric_pencil_t, wp
-      class(symmetric_pencil_t), intent(in) :: pencil
-      real(wp), intent(in) :: vector(:)
-      real(wp), intent(out) :: mass_times(:), stiffness_times(:)
+      class(symmetric_pencil_t), intent(in) :: pencil !! M and K
+      real(wp), intent(in) :: vector(:)               !! (unknowns) x
+      real(wp), intent(out) :: mass_times(:)          !! (unknowns) M x
+      real(wp), intent(out) :: stiffness_times(:)     !! (unknowns) K x
     end subroutine multiply
   end interface
 

@@ -1,5 +1,5 @@
-!> What every card needs when its words become values: names, quantities with units, keys, and clear
-!! complaints.
+!> Converts the words of cards to values: checks of their form, names, quantities with units, keys,
+!! and clear error messages.
 module card_reader
   use card_table, only: card_kind_t, keys_of, kind_of_card
   use cards, only: card_t
@@ -21,16 +21,17 @@ module card_reader
 
 contains
 
-  !> Checks the number of a card's words and its keys by the table of cards. `fine` tells whether
-  !! the words are as many as they should be, `known_keys` whether all keys are known: beside a key
-  !! that is not, one that is missing need not be told.
+  !> Checks the words and keys of a card against the table of cards.
+  !!
+  !! Errors: too few or too many words, unknown keys, keys given twice.
   pure subroutine check_form(card, diagnostics, fine, known_keys, form)
-    type(card_t), intent(in) :: card     !! whose keyword is known
-    type(diagnostics_t), intent(inout) :: diagnostics
-    logical, intent(out) :: fine
-    logical, intent(out), optional :: known_keys
-    character(len=*), intent(in), optional :: form !! the card's second word, where that makes its
-                                                   !! form
+    type(card_t), intent(in) :: card                  !! its keyword is known
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    logical, intent(out) :: fine                      !! whether the number of words is right
+    logical, intent(out), optional :: known_keys      !! whether all keys are known; if not, a
+                                                      !! missing key need not be reported
+    character(len=*), intent(in), optional :: form    !! the card's second word, if the form depends
+                                                      !! on it
 
     type(card_kind_t) :: kind
 
@@ -39,15 +40,15 @@ contains
       fine, known_keys)
   end subroutine check_form
 
-  !> The same for a card whose form does not stand in the table of cards.
+  !> As `check_form`, for a card whose form is not in the table of cards.
   pure subroutine check_words(card, least, most, keys, pattern, diagnostics, fine, known_keys)
-    type(card_t), intent(in) :: card
-    integer, intent(in) :: least, most        !! words besides the keyword
-    character(len=*), intent(in) :: keys      !! allowed keys, separated by single blanks
-    character(len=*), intent(in) :: pattern   !! the card as it should be, for messages
-    type(diagnostics_t), intent(inout) :: diagnostics
-    logical, intent(out) :: fine
-    logical, intent(out), optional :: known_keys
+    type(card_t), intent(in) :: card                  !! of any kind
+    integer, intent(in) :: least, most                !! words besides the keyword
+    character(len=*), intent(in) :: keys              !! allowed keys, separated by single blanks
+    character(len=*), intent(in) :: pattern           !! correct form of the card, for messages
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    logical, intent(out) :: fine                      !! whether the number of words is right
+    logical, intent(out), optional :: known_keys      !! whether all keys are known
 
     integer, parameter :: most_keys = 100
     type(string_t), allocatable :: allowed(:)
@@ -62,7 +63,7 @@ contains
     end if
     allowed = word_list(keys)
     if (present(known_keys)) known_keys = .true.
-    ! No card has a dozen keys: what comes after a hundred has been complained of often enough.
+    ! No card has a dozen keys: after a hundred, enough errors have been reported.
     do i = 1, min(size(card%entries), most_keys)
       associate (key => card%entries(i)%key)
         if (.not. any_same(allowed, key%text)) then
@@ -97,10 +98,10 @@ contains
     end do
   end function any_same
 
-  !> Number of the entry with the given key; 0 if the card has none or its value is missing.
+  !> Number of the entry with the given key; 0 if the card has no such key or its value is missing.
   pure function entry_number(card, key) result(number)
-    type(card_t), intent(in) :: card
-    character(len=*), intent(in) :: key
+    type(card_t), intent(in) :: card    !! of any kind
+    character(len=*), intent(in) :: key !! in any case of letters
     integer :: number
 
     integer :: i
@@ -113,10 +114,12 @@ contains
     end do
   end function entry_number
 
-  !> Takes a word as a name.
+  !> Checks that a word is a valid name.
+  !!
+  !! Errors: it contains other characters.
   pure subroutine read_name(word, diagnostics)
-    type(token_t), intent(in) :: word
-    type(diagnostics_t), intent(inout) :: diagnostics
+    type(token_t), intent(in) :: word                 !! of a card
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
 
     type(error_t), allocatable :: error
 
@@ -124,16 +127,17 @@ contains
     if (allocated(error)) call add_error(diagnostics, word, error%text)
   end subroutine read_name
 
-  !> Reads a number with or without a unit of its own; what a bare number means is the caller's to
-  !! say.
+  !> Reads a number with or without a unit of its own; the caller gives the unit of a bare number.
+  !!
+  !! Errors: no number, an unknown unit, a unit of another dimension, a number out of range.
   pure subroutine read_measure(word, dimension, bare, diagnostics, value, measure, fine)
-    type(token_t), intent(in) :: word
-    integer, intent(in) :: dimension(4)         !! that the number must have
-    type(unit_t), intent(in) :: bare            !! unit of a bare number
-    type(diagnostics_t), intent(inout) :: diagnostics
-    real(wp), intent(out) :: value              !! as written
-    type(unit_t), intent(out) :: measure        !! its unit
-    logical, intent(out) :: fine
+    type(token_t), intent(in) :: word                 !! `12`, `1.5mm`, …
+    integer, intent(in) :: dimension(4)               !! that the number must have
+    type(unit_t), intent(in) :: bare                  !! unit of a bare number
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    real(wp), intent(out) :: value                    !! as written
+    type(unit_t), intent(out) :: measure              !! its unit
+    logical, intent(out) :: fine                      !! whether a value was read
 
     type(error_t), allocatable :: error
     type(token_t) :: place
@@ -175,10 +179,10 @@ contains
     call add_error(diagnostics, place, error%text)
   end subroutine read_measure
 
-  !> Errors: a number is beyond reason.
+  !> Errors: a number is unreasonably large or small.
   !!
-  !! The limits are far from any mechanism, and near enough to keep products such as EI/L³ and their
-  !! squares from overflowing.
+  !! The limits are far from any mechanism, but narrow enough that products such as EI/L³ and their
+  !! squares do not overflow.
   pure subroutine check_range(text, value, measure, error)
     character(len=*), intent(in) :: text
     real(wp), intent(in) :: value        !! as written
@@ -198,14 +202,14 @@ contains
     end if
   end subroutine check_range
 
-  !> Reads a quantity in SI.
+  !> Reads a quantity in SI. Errors: as for `read_measure`.
   pure subroutine read_quantity(word, dimension, system, diagnostics, value, fine)
-    type(token_t), intent(in) :: word
-    integer, intent(in) :: dimension(4)
-    type(unit_system_t), intent(in) :: system
-    type(diagnostics_t), intent(inout) :: diagnostics
-    real(wp), intent(out) :: value !! [SI]
-    logical, intent(out) :: fine
+    type(token_t), intent(in) :: word                 !! with or without a unit
+    integer, intent(in) :: dimension(4)               !! that the quantity must have
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    real(wp), intent(out) :: value                    !! [SI]; 0 after an error
+    logical, intent(out) :: fine                      !! whether a value was read
 
     type(unit_t) :: measure
 
@@ -218,17 +222,19 @@ contains
     end if
   end subroutine read_quantity
 
-  !> Reads the quantity of a key in SI; a key that must be there and is not is an error.
+  !> Reads the quantity of a key in SI.
+  !!
+  !! Errors: as for `read_measure`; a required key is missing.
   pure subroutine read_entry_quantity(card, key, dimension, system, required, diagnostics, value, &
     fine)
-    type(card_t), intent(in) :: card
-    character(len=*), intent(in) :: key
-    integer, intent(in) :: dimension(4)
-    type(unit_system_t), intent(in) :: system
-    logical, intent(in) :: required
-    type(diagnostics_t), intent(inout) :: diagnostics
-    real(wp), intent(out) :: value !! [SI]
-    logical, intent(out) :: fine   !! whether a value was read
+    type(card_t), intent(in) :: card                  !! of any kind
+    character(len=*), intent(in) :: key               !! in any case of letters
+    integer, intent(in) :: dimension(4)               !! that the quantity must have
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    logical, intent(in) :: required                   !! whether a missing key is an error
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    real(wp), intent(out) :: value                    !! [SI]; 0 without a value
+    logical, intent(out) :: fine                      !! whether a value was read
 
     integer :: i
 
@@ -243,10 +249,10 @@ contains
     end if
   end subroutine read_entry_quantity
 
-  !> Whether a card has a key, with a value or without.
+  !> Whether a card has a key, with or without a value.
   pure function has_key(card, key) result(has)
-    type(card_t), intent(in) :: card
-    character(len=*), intent(in) :: key
+    type(card_t), intent(in) :: card    !! of any kind
+    character(len=*), intent(in) :: key !! in any case of letters
     logical :: has
 
     integer :: i
@@ -257,12 +263,12 @@ contains
     end do
   end function has_key
 
-  !> Complains about a value that is not greater than zero.
+  !> Errors: the value of a key is not greater than zero.
   pure subroutine require_positive(card, key, value, diagnostics)
-    type(card_t), intent(in) :: card
-    character(len=*), intent(in) :: key
-    real(wp), intent(in) :: value
-    type(diagnostics_t), intent(inout) :: diagnostics
+    type(card_t), intent(in) :: card                  !! without this key, nothing is checked
+    character(len=*), intent(in) :: key               !! in any case of letters
+    real(wp), intent(in) :: value                     !! of the key, in any unit
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
 
     integer :: i
 
@@ -272,25 +278,28 @@ contains
       "'"//key//"=' must be greater than 0, not "//card%entries(i)%value%text)
   end subroutine require_positive
 
-  !> Complains about a value that is less than zero.
+  !> Errors: a value is less than zero.
   pure subroutine refuse_negative(word, value, noun, diagnostics)
-    type(token_t), intent(in) :: word
-    real(wp), intent(in) :: value
-    character(len=*), intent(in) :: noun !! what it is: `a mass`
-    type(diagnostics_t), intent(inout) :: diagnostics
+    type(token_t), intent(in) :: word                 !! that the value was read from
+    real(wp), intent(in) :: value                     !! in any unit
+    character(len=*), intent(in) :: noun              !! what it is: `a mass`
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
 
     if (value < 0.0_wp) call add_error(diagnostics, word, noun//" must not be negative, as "// &
       word%text//" is")
   end subroutine refuse_negative
 
-  !> Reads the whole number of a key, no less than `least`.
+  !> Reads the integer of a key.
+  !!
+  !! Errors: it is no integer, or is less than `least`.
   pure subroutine read_entry_count(card, key, least, diagnostics, value, fine)
-    type(card_t), intent(in) :: card
-    character(len=*), intent(in) :: key
-    integer, intent(in) :: least
-    type(diagnostics_t), intent(inout) :: diagnostics
-    integer, intent(out) :: value
-    logical, intent(out) :: fine !! whether the key is there and its value right
+    type(card_t), intent(in) :: card                  !! of any kind
+    character(len=*), intent(in) :: key               !! in any case of letters
+    integer, intent(in) :: least                      !! smallest allowed value
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    integer, intent(out) :: value                     !! `least` without the key
+    logical, intent(out) :: fine                      !! whether the key exists and its value is
+                                                      !! right
 
     type(error_t), allocatable :: error
     integer :: i
@@ -313,12 +322,14 @@ contains
     end associate
   end subroutine read_entry_count
 
-  !> Reads a word that must be one of a few; `choice` is its number among them, 0 if it is none.
+  !> Reads a word that must be one of a few.
+  !!
+  !! Errors: it is none of them.
   pure subroutine read_choice(word, choices, diagnostics, choice)
-    type(token_t), intent(in) :: word
-    character(len=*), intent(in) :: choices !! separated by single blanks
-    type(diagnostics_t), intent(inout) :: diagnostics
-    integer, intent(out) :: choice
+    type(token_t), intent(in) :: word                 !! in any case of letters
+    character(len=*), intent(in) :: choices           !! separated by single blanks
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    integer, intent(out) :: choice                    !! its number among them; 0 after an error
 
     type(string_t), allocatable :: list(:)
     integer :: i

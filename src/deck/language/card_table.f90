@@ -1,8 +1,8 @@
-!> The table of cards: what each looks like, what it says if the user does not, what it is for.
+!> The table of cards: form, default and purpose of each.
 !!
-!! A new card is a record here, a file in `model/cards` that reads it, and a case in `model_reader`.
-!! Messages, `echo.deck`, `flexmech --help-cards`, the fuzzer and the check of docs/deck.md take
-!! what they need from this table.
+!! A new card needs a record here, a file in `model/cards` that reads it, and a case in
+!! `model_reader`. Messages, `echo.deck`, `flexmech --help-cards`, the fuzzer and the check of
+!! docs/deck.md use this table.
 module card_table
   use text, only: append_string, joined, same_word, string_t
   implicit none (type, external)
@@ -11,24 +11,24 @@ module card_table
   public :: card_kind_t, card_kinds, many, card_names, card_kind_number, kind_of_card, keys_in, &
     keys_of, pattern_of
 
-  !> A card, or one of the forms that it has.
+  !> A card, or one of its forms.
   type :: card_kind_t
-    character(len=8) :: keyword = ""
-    character(len=9) :: form = ""       !! the second word, where it makes the form
-    logical :: is_single = .false.      !! a deck has one at most
-    integer :: least = 0, most = 0      !! words besides the keyword
-    character(len=128) :: pattern = ""  !! the card as it should be; its keys end with `=`
-    character(len=72) :: keys = ""      !! where the pattern does not name them all
-    character(len=32) :: choices = ""   !! words that it takes
-    character(len=10) :: entry = ""     !! `key=value` that it says if the user does not
-    character(len=16) :: default = ""   !! what it says in a deck that does not have it
-    character(len=88) :: help = ""      !! in one line
+    character(len=8) :: keyword = ""   !! in capitals
+    character(len=9) :: form = ""      !! the second word, if the form depends on it
+    logical :: is_single = .false.     !! a deck has at most one
+    integer :: least = 0, most = 0     !! words besides the keyword
+    character(len=128) :: pattern = "" !! correct form of the card; its keys end with `=`
+    character(len=72) :: keys = ""     !! separated by blanks, if the pattern does not name them all
+    character(len=32) :: choices = ""  !! allowed words, separated by blanks
+    character(len=10) :: entry = ""    !! default entry, `key=value`
+    character(len=16) :: default = ""  !! words of the card in a deck without it
+    character(len=88) :: help = ""     !! in one line
   end type card_kind_t
 
-  !> As many words as the user likes.
+  !> For `most`: any number of words.
   integer, parameter :: many = huge(1)
 
-  !> The forms of a card stand side by side, the one without a word first.
+  !> The forms of a card are neighbours, the record without a form first.
   type(card_kind_t), parameter :: card_kinds(*) = [ &
     card_kind_t("TITLE", is_single=.true., pattern="TITLE text", &
       help="stands at the head of tables and figures"), &
@@ -120,10 +120,10 @@ contains
     end do
   end function card_names
 
-  !> Number of a card's form in the table; 0 if there is no such card.
+  !> Number of a card's form in the table; 0 if it does not exist.
   pure function card_kind_number(keyword, form) result(number)
-    character(len=*), intent(in) :: keyword        !! in capitals or small letters
-    character(len=*), intent(in), optional :: form !! absent: the one without a word
+    character(len=*), intent(in) :: keyword        !! in any case of letters
+    character(len=*), intent(in), optional :: form !! absent: the record without a form
     integer :: number
 
     character(len=len(card_kinds%form)) :: wanted
@@ -137,26 +137,26 @@ contains
     number = 0
   end function card_kind_number
 
-  !> A card's record.
+  !> A card's record in the table.
   pure function kind_of_card(keyword, form) result(kind)
-    character(len=*), intent(in) :: keyword        !! of a card that there is
-    character(len=*), intent(in), optional :: form !! absent: the one without a word
+    character(len=*), intent(in) :: keyword        !! of an existing card
+    character(len=*), intent(in), optional :: form !! absent: the record without a form
     type(card_kind_t) :: kind
 
     kind = card_kinds(card_kind_number(keyword, form))
   end function kind_of_card
 
-  !> A card as it should be.
+  !> The correct form of a card.
   pure function pattern_of(keyword) result(pattern)
-    character(len=*), intent(in) :: keyword !! of a card that there is
+    character(len=*), intent(in) :: keyword !! of an existing card
     character(len=:), allocatable :: pattern
 
     pattern = trim(card_kinds(card_kind_number(keyword))%pattern)
   end function pattern_of
 
-  !> The keys that a card takes, separated by blanks.
+  !> The keys of a card, separated by blanks.
   pure function keys_of(kind) result(keys)
-    type(card_kind_t), intent(in) :: kind
+    type(card_kind_t), intent(in) :: kind !! its record
     character(len=:), allocatable :: keys
 
     keys = trim(kind%keys)
@@ -165,7 +165,7 @@ contains
 
   !> The words before the equals signs of a pattern, separated by blanks.
   pure function keys_in(pattern) result(keys)
-    character(len=*), intent(in) :: pattern
+    character(len=*), intent(in) :: pattern !! correct form of a card
     character(len=:), allocatable :: keys
 
     type(string_t), allocatable :: list(:)

@@ -1,8 +1,7 @@
-!> What a report is, as the table of reports lists it: its name, its tables and their columns, what
-!! it needs.
+!> Records of the table of reports: name, tables, columns and needs of each report.
 !!
-!! The table itself stands where reports are computed and written (`report_table`); whoever reads a
-!! deck is given it.
+!! The table itself is in `report_table`, where reports are computed and written; it is passed to
+!! the procedures that read a deck.
 module report_kinds
   use text, only: append_string, string_t
   implicit none (type, external)
@@ -11,59 +10,62 @@ module report_kinds
   public :: report_kind_t, table_kind_t, column_kind_t, report_names, kind_named, columns_of, &
     is_column_of
 
-  !> One table of a report. Columns are separated by blanks, each with its unit behind a colon,
-  !! those of one unit by commas: `crank:deg x,y:length`. A unit is written as it stands in the
-  !! table, or is a quantity (`length`, `force`, …) in the deck's UNITS; `#` marks whole numbers,
-  !! `name` names. A name that ends with `*` stands for as many columns as the table has numbers of
-  !! them, one that ends with `?` is left out of some tables.
+  !> One table of a report. Columns with the same unit are separated by commas, with the unit behind
+  !! a colon, and these groups by blanks: `crank:deg x,y:length`. A unit is given as printed in the
+  !! table, or as a quantity (`length`, `force`, …) in the deck's UNITS; `#` marks whole numbers,
+  !! `name` names. A column name that ends with `*` stands for a series of numbered columns; one
+  !! that ends with `?` is omitted in some tables.
   type :: table_kind_t
-    character(len=12) :: name = ""
-    character(len=240) :: columns = ""
+    character(len=12) :: name = ""     !! of the table; blank: unused record
+    character(len=240) :: columns = "" !! with units, as above
   end type table_kind_t
 
   type :: report_kind_t
-    character(len=12) :: name = ""
-    character(len=64) :: help = ""     !! in one line
-    character(len=56) :: pattern = ""  !! the card as it should be, its keys end with `=`; blank:
-                                       !! the name alone
-    character(len=12) :: default = ""  !! what its card says if the user does not; blank: nothing
-    character(len=32) :: studies = ""  !! that it takes its rows from
-    logical :: positions = .false.     !! it has rows for every crank angle
-    logical :: masses = .false.        !! it is about masses and their loads
-    logical :: beams = .false.         !! it takes links as beams
-    logical :: frequencies = .false.
-    logical :: offered = .true.        !! to whoever has misspelt a report
-    logical :: reserved = .false.      !! its columns may not vary in decks without it, either
-    integer :: numbers = 0             !! that its studies keep for each position
-    type(table_kind_t) :: tables(2)    !! those with a name
+    character(len=12) :: name = ""    !! in small letters
+    character(len=64) :: help = ""    !! in one line
+    character(len=56) :: pattern = "" !! correct form of the card, its keys end with `=`; blank: the
+                                      !! name alone
+    character(len=12) :: default = "" !! default entry of its card; blank: none
+    character(len=32) :: studies = "" !! that provide its rows, separated by blanks
+    logical :: positions = .false.    !! it has rows for every crank angle
+    logical :: masses = .false.       !! it uses masses and their loads
+    logical :: beams = .false.        !! it uses links as beams
+    logical :: frequencies = .false.  !! it uses natural frequencies
+    logical :: offered = .true.       !! listed in the error about a misspelt report
+    logical :: reserved = .false.     !! its column names are refused on VARY cards even in decks
+                                      !! without it
+    integer :: numbers = 0            !! how many numbers its studies keep for each position
+    type(table_kind_t) :: tables(2)   !! those with a name
   end type report_kind_t
 
-  !> One column, or as many as there are of its kind.
+  !> One column, or a series of numbered columns.
   type :: column_kind_t
-    character(len=:), allocatable :: name, unit
-    logical :: is_numbered = .false.
-    logical :: is_optional = .false.
+    character(len=:), allocatable :: name !! without its mark
+    character(len=:), allocatable :: unit !! as in `table_kind_t`
+    logical :: is_numbered = .false.      !! marked with `*`
+    logical :: is_optional = .false.      !! marked with `?`
   end type column_kind_t
 
 contains
 
-  !> The names of all reports that are offered, separated by blanks.
+  !> The names of all reports offered to users, separated by blanks.
   pure function report_names(kinds) result(names)
-    type(report_kind_t), intent(in) :: kinds(:)
+    type(report_kind_t), intent(in) :: kinds(:) !! (reports) the table of reports
     character(len=:), allocatable :: names
 
     integer :: i
 
-    names = trim(kinds(1)%name)
-    do i = 2, size(kinds)
+    names = ""
+    do i = 1, size(kinds)
       if (kinds(i)%offered) names = names//" "//trim(kinds(i)%name)
     end do
+    names = names(2:)
   end function report_names
 
-  !> The number of a report among all; 0 if there is none of that name.
+  !> The number of a report in the table; 0 if there is none of this name.
   pure function kind_named(kinds, name) result(number)
-    type(report_kind_t), intent(in) :: kinds(:)
-    character(len=*), intent(in) :: name
+    type(report_kind_t), intent(in) :: kinds(:) !! (reports) the table of reports
+    character(len=*), intent(in) :: name        !! in small letters
     integer :: number
 
     do number = 1, size(kinds)
@@ -74,8 +76,8 @@ contains
 
   !> The columns of a table, in their order.
   pure subroutine columns_of(table, columns)
-    type(table_kind_t), intent(in) :: table
-    type(column_kind_t), allocatable, intent(out) :: columns(:)
+    type(table_kind_t), intent(in) :: table                     !! of a report
+    type(column_kind_t), allocatable, intent(out) :: columns(:) !! (columns)
 
     type(string_t), allocatable :: names(:), units(:)
     integer :: i, last
@@ -92,7 +94,7 @@ contains
     end do
   end subroutine columns_of
 
-  !> Names with their marks, and the unit of each.
+  !> Splits a list of columns into names with their marks and the unit of each.
   pure subroutine split_columns(list, names, units)
     character(len=*), intent(in) :: list
     type(string_t), allocatable, intent(out) :: names(:), units(:)
@@ -114,10 +116,10 @@ contains
     end do
   end subroutine split_columns
 
-  !> Whether a name stands at the head of a column of a report.
+  !> Whether a report has a column of this name.
   pure function is_column_of(kind, name) result(is)
-    type(report_kind_t), intent(in) :: kind
-    character(len=*), intent(in) :: name
+    type(report_kind_t), intent(in) :: kind !! the report
+    character(len=*), intent(in) :: name    !! case counts
     logical :: is
 
     type(column_kind_t), allocatable :: columns(:)
@@ -136,7 +138,7 @@ contains
     end do
   end function is_column_of
 
-  !> Whether a name is a word with a number behind it.
+  !> Whether a name is a word followed by a number.
   pure function is_numbered(name, word) result(is)
     character(len=*), intent(in) :: name, word
     logical :: is

@@ -17,31 +17,36 @@ module settings
 
   !> A name and where its value comes from.
   type :: setting_t
-    type(token_t) :: name         !! on its card
-    type(token_t) :: value        !! of SET or of `--set`, perhaps a `$name` itself; without a line
-                                  !! if it cannot be read
-    integer :: card = 0           !! number of its card
-    logical :: is_varied = .false.
+    type(token_t) :: name              !! on its card
+    type(token_t) :: value             !! of SET or `--set`, possibly a `$name` itself; without a
+                                       !! line if it cannot be read
+    integer :: card = 0                !! number of its card
+    logical :: is_varied = .false.     !! by VARY
     logical :: is_overridden = .false. !! by `--set`
-    logical :: is_used = .false.
-    integer :: root = 0           !! number of the setting at the end of its chain of `$name`s,
-                                  !! often itself; 0: there is none
+    logical :: is_used = .false.       !! a card or another setting uses it
+    integer :: root = 0                !! number of the setting at the end of its chain of `$name`s,
+                                       !! often itself; 0: none
   end type setting_t
 
   type :: settings_t
-    type(setting_t), allocatable :: list(:) !! in the order of the deck
-    type(name_index_t) :: names
+    type(setting_t), allocatable :: list(:) !! (settings) in the order of the deck
+    type(name_index_t) :: names             !! of the list
   end type settings_t
 
 contains
 
-  !> Reads the SET cards and the names on VARY cards, and lets the command line override them.
+  !> Reads the SET cards and the names on VARY cards, then applies the command line, which overrides
+  !! them.
+  !!
+  !! Errors: a card of the wrong form, an invalid name, a name given twice, an option that names no
+  !! setting, a value that is an unknown `$name` or refers to itself.
   pure subroutine read_settings(cards, options, source, diagnostics, settings)
-    type(card_t), intent(in) :: cards(:)
-    type(string_t), intent(in) :: options(:) !! of the command line, each `name=value`
-    type(source_t), intent(inout) :: source  !! the options are appended to it, to be pointed at
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(settings_t), intent(out) :: settings
+    type(card_t), intent(in) :: cards(:)              !! of the deck
+    type(string_t), intent(in) :: options(:)          !! of the command line, each `name=value`
+    type(source_t), intent(inout) :: source           !! the options are appended to it as places of
+                                                      !! messages
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(settings_t), intent(out) :: settings         !! of all cards with a valid name
 
     integer :: i, count
 
@@ -67,7 +72,7 @@ contains
     call find_roots(diagnostics, settings)
   end subroutine read_settings
 
-  !> Reads `SET name value`, or the name of `VARY name …`, whose values are read when all names are
+  !> Reads `SET name value`, or the name on `VARY name …`, whose values are read once all names are
   !! known.
   pure subroutine read_setting(card, number, is_varied, diagnostics, list, count)
     type(card_t), intent(in) :: card
@@ -79,11 +84,7 @@ contains
 
     logical :: fine
 
-    if (is_varied) then
-      call check_form(card, diagnostics, fine)
-    else
-      call check_form(card, diagnostics, fine)
-    end if
+    call check_form(card, diagnostics, fine)
     if (size(card%words) == 0) return
     call read_name(card%words(1), diagnostics)
     if (.not. is_name(card%words(1)%text)) return
@@ -95,7 +96,7 @@ contains
     if (fine .and. .not. is_varied) list(count)%value = card%words(2)
   end subroutine read_setting
 
-  !> Puts what the command line says in place of what the deck says.
+  !> Replaces values in the deck by those of the command line.
   pure subroutine take_options(options, source, diagnostics, settings)
     type(string_t), intent(in) :: options(:)
     type(source_t), intent(inout) :: source
@@ -122,7 +123,7 @@ contains
             source%path//" has no SET or VARY '"//name//"'"//suggestion(name, settings%names%name))
           cycle
         end if
-        ! What the deck says here is not heard, but it is no slip either.
+        ! The deck's value is overridden here, but a `$name` in it still counts as used.
         used = find_name(settings%names, settings%list(number)%value%text(2:))
         if (used > 0 .and. index(settings%list(number)%value%text, "$") == 1) &
           settings%list(used)%is_used = .true.
@@ -134,8 +135,7 @@ contains
     end do
   end subroutine take_options
 
-  !> Follows the values that are a `$name` themselves to the setting that has the text, or the
-  !! variation.
+  !> Follows values that are a `$name` themselves to the setting with the text, or to the VARY.
   pure subroutine find_roots(diagnostics, settings)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(settings_t), intent(inout) :: settings
@@ -169,7 +169,7 @@ contains
           .not. settings%list(at)%is_varied)) root = 0
         settings%list(at)%root = root
       end if
-      ! The whole way has the same end.
+      ! All settings on the way have the same root.
       at = i
       do while (next(at) > 0 .and. visit(at) == i)
         visit(at) = huge(at)
@@ -196,12 +196,14 @@ contains
     end do
   end function chain_text
 
-  !> Finds the setting that a `$name` means, or complains.
+  !> Finds the setting that a `$name` refers to, and marks it as used.
+  !!
+  !! Errors: `$` without a name or joined to other text, an unknown name.
   pure subroutine look_up_setting(word, settings, diagnostics, number)
-    type(token_t), intent(in) :: word !! with a `$` in it
-    type(settings_t), intent(inout) :: settings
-    type(diagnostics_t), intent(inout) :: diagnostics
-    integer, intent(out) :: number !! 0 if there is none
+    type(token_t), intent(in) :: word                 !! containing a `$`
+    type(settings_t), intent(inout) :: settings       !! the setting found is marked as used
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    integer, intent(out) :: number                    !! of the setting; 0 after an error
 
     character(len=:), allocatable :: hint
     integer :: nearest
@@ -228,7 +230,7 @@ contains
     call add_error(diagnostics, word, "no SET or VARY card defines '"//word%text//"'"//hint)
   end subroutine look_up_setting
 
-  !> What to say if a name is a known one with a unit behind it.
+  !> The hint for a name that is a known one followed by a unit; else empty.
   pure function joined_unit(name, settings) result(hint)
     character(len=*), intent(in) :: name
     type(settings_t), intent(in) :: settings
@@ -250,10 +252,11 @@ contains
     end do
   end function joined_unit
 
-  !> A name that nothing uses is a slip as a rule; where a `$name` is wrong, that is the slip.
+  !> Adds a warning for each SET that nothing uses, as a rule a mistake. After errors it adds none:
+  !! a wrong `$name` may be the reason.
   pure subroutine warn_of_unused_settings(settings, diagnostics)
-    type(settings_t), intent(in) :: settings
-    type(diagnostics_t), intent(inout) :: diagnostics
+    type(settings_t), intent(in) :: settings          !! after all `$name`s have been looked up
+    type(diagnostics_t), intent(inout) :: diagnostics !! warnings are added
 
     integer :: i
 

@@ -1,4 +1,4 @@
-!> `$name` in the values on cards.
+!> Substitution of values for `$name` on cards.
 module substitution
   use cards, only: card_t, entry_t
   use diagnostics, only: diagnostics_t
@@ -11,26 +11,27 @@ module substitution
 
   public :: slot_t, substitute, put_value
 
-  !> Where a `$name` stands that a VARY card gives its values.
+  !> The place of a `$name` with values from a VARY card.
   type :: slot_t
-    integer :: card = 0
-    integer :: word = 0    !! number among the card's words; 0: it stands in an entry
-    integer :: entry = 0
+    integer :: card = 0    !! number of the card
+    integer :: word = 0    !! number among the card's words; 0: it is in an entry
+    integer :: entry = 0   !! number among the card's entries; 0: it is a word
     integer :: item = 0    !! number in the list of the entry; 0: it is the whole value
-    integer :: setting = 0 !! the number of its VARY among the settings
+    integer :: setting = 0 !! number of its VARY among the settings
   end type slot_t
 
 contains
 
-  !> Puts values in place of every `$name`, and lists those whose value changes from variant to
+  !> Replaces every `$name` by its value, and lists those whose value changes from variant to
   !! variant.
   !!
-  !! What cannot be looked up is complained of, and marked so that nobody else complains of it.
+  !! Errors: a `$name` that cannot be looked up; it is marked, so that no further error is reported
+  !! for it.
   pure subroutine substitute(cards, settings, diagnostics, slots)
-    type(card_t), intent(inout) :: cards(:)
-    type(settings_t), intent(inout) :: settings !! learns which are used
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(slot_t), allocatable, intent(out) :: slots(:)
+    type(card_t), intent(inout) :: cards(:)            !! of the deck
+    type(settings_t), intent(inout) :: settings        !! those in use are marked
+    type(diagnostics_t), intent(inout) :: diagnostics  !! errors are added
+    type(slot_t), allocatable, intent(out) :: slots(:) !! (slots) in the order of the cards
 
     integer :: i, k, count, first
 
@@ -38,7 +39,7 @@ contains
     count = 0
     do i = 1, size(cards)
       first = 1
-      ! No value in the sense of `$name` stands there, or it has been dealt with.
+      ! These cards take no `$name`, or theirs have been looked up already.
       if (same_word(cards(i)%keyword%text, "TITLE") .or. same_word(cards(i)%keyword%text, &
         "INCLUDE") .or. same_word(cards(i)%keyword%text, "SET")) cycle
       if (same_word(cards(i)%keyword%text, "VARY")) first = 2
@@ -56,7 +57,7 @@ contains
     slots = slots(:count)
   end subroutine substitute
 
-  !> Puts its value in place of one `$name`, or appends its slot.
+  !> Replaces one `$name` by its value, or appends its slot.
   pure subroutine substitute_word(word, slot, settings, diagnostics, slots, count)
     type(token_t), intent(inout) :: word
     type(slot_t), intent(in) :: slot !! where the word is
@@ -82,7 +83,7 @@ contains
     end if
   end subroutine substitute_word
 
-  !> Gives a word the text of another one, and that one's place as where it is set.
+  !> Gives a word the text of a value, and the value's place as the place where it is set.
   pure subroutine set_word(word, value)
     type(token_t), intent(inout) :: word
     type(token_t), intent(in) :: value
@@ -92,7 +93,7 @@ contains
     word%set_column = value%column
   end subroutine set_word
 
-  !> The same in the value of a key, which may be a list.
+  !> As `substitute_word`, for the value of a key, which may be a list.
   pure subroutine substitute_entry(entry, slot, settings, diagnostics, slots, count)
     type(entry_t), intent(inout) :: entry
     type(slot_t), intent(in) :: slot !! where the entry is
@@ -119,7 +120,7 @@ contains
     call join_items(entry)
   end subroutine substitute_entry
 
-  !> The text of a list from its items.
+  !> Joins the items of a list to its text.
   pure subroutine join_items(entry)
     type(entry_t), intent(inout) :: entry
 
@@ -135,9 +136,9 @@ contains
 
   !> Puts the value of a variant into a slot.
   pure subroutine put_value(cards, slot, value)
-    type(card_t), intent(inout) :: cards(:)
-    type(slot_t), intent(in) :: slot
-    type(token_t), intent(in) :: value !! its text, and its place on the VARY card
+    type(card_t), intent(inout) :: cards(:) !! of the deck
+    type(slot_t), intent(in) :: slot        !! from `substitute`
+    type(token_t), intent(in) :: value      !! its text, and its place on the VARY card
 
     associate (card => cards(slot%card))
       if (slot%word > 0) then

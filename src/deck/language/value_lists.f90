@@ -1,4 +1,4 @@
-!> Lists of numbers on cards: single ones, ranges `a to b step s`, one unit for all.
+!> Lists of numbers on cards: single numbers, ranges `a to b step s`, one unit for all.
 module value_lists
   use card_reader, only: entry_number, read_measure, read_quantity
   use cards, only: card_t
@@ -16,14 +16,14 @@ module value_lists
 
   public :: value_list_t, empty_list, read_values, read_entry_list, read_entry_pair, value_number
 
-  !> Numbers that a card lists, each with the word it came from.
+  !> The numbers in a list on a card, each with the word it comes from.
   type :: value_list_t
-    real(wp), allocatable :: value(:)      !! in the unit that the reader of the card states
-    integer, allocatable :: word(:)        !! of each value, in `words`
-    type(token_t), allocatable :: words(:)
+    real(wp), allocatable :: value(:)      !! (values) angles in degrees, all others in SI
+    integer, allocatable :: word(:)        !! (values) number of the word in `words`
+    type(token_t), allocatable :: words(:) !! (words) with their places
   end type value_list_t
 
-  !> More positions than this are a slip of the pen.
+  !> A range with more values is taken for a mistake.
   integer, parameter :: most_values = 1000000
 
 contains
@@ -35,14 +35,17 @@ contains
     allocate (list%value(0), list%word(0), list%words(0))
   end function empty_list
 
-  !> Reads the values of a key, separated by commas.
+  !> Reads the values of a key, separated by commas, with the units of `read_values`. Without the
+  !! key the list is empty.
+  !!
+  !! Errors: as for `read_values`; an empty item.
   pure subroutine read_entry_list(card, key, dimension, system, diagnostics, list)
-    type(card_t), intent(in) :: card
-    character(len=*), intent(in) :: key
-    integer, intent(in) :: dimension(4)
-    type(unit_system_t), intent(in) :: system
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(value_list_t), intent(out) :: list
+    type(card_t), intent(in) :: card                  !! of any kind
+    character(len=*), intent(in) :: key               !! in any case of letters
+    integer, intent(in) :: dimension(4)               !! that the values must have
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(value_list_t), intent(out) :: list           !! empty without the key
 
     type(token_t), allocatable :: words(:)
     logical :: fine
@@ -53,16 +56,19 @@ contains
     if (fine) call read_values(words, dimension, system, key//" value", diagnostics, list)
   end subroutine read_entry_list
 
-  !> Reads the two values of a key, which may be equal [SI].
+  !> Reads the two values of a key in SI; they may be equal.
+  !!
+  !! Errors: not two values; otherwise as for `read_quantity`.
   pure subroutine read_entry_pair(card, key, names, dimension, system, diagnostics, pair, fine)
-    type(card_t), intent(in) :: card
-    character(len=*), intent(in) :: key
-    character(len=*), intent(in) :: names !! of the two, for messages: `along,offset`
-    integer, intent(in) :: dimension(4)
-    type(unit_system_t), intent(in) :: system
-    type(diagnostics_t), intent(inout) :: diagnostics
-    real(wp), intent(out) :: pair(2)
-    logical, intent(out) :: fine          !! whether the key is there and its values right
+    type(card_t), intent(in) :: card                  !! of any kind
+    character(len=*), intent(in) :: key               !! in any case of letters
+    character(len=*), intent(in) :: names             !! of the two, for messages: `along,offset`
+    integer, intent(in) :: dimension(4)               !! that both values must have
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    real(wp), intent(out) :: pair(2)                  !! [SI]; 0 where no value was read
+    logical, intent(out) :: fine                      !! whether the key exists and its values are
+                                                      !! right
 
     type(token_t), allocatable :: words(:)
     logical :: both(2)
@@ -85,7 +91,7 @@ contains
     fine = all(both)
   end subroutine read_entry_pair
 
-  !> The items of a list behind a key that is there; one that is empty is an error.
+  !> The items in the list of an existing key. Errors: an empty item.
   pure subroutine find_items(card, key, diagnostics, words, fine)
     type(card_t), intent(in) :: card
     character(len=*), intent(in) :: key
@@ -101,7 +107,7 @@ contains
       if (allocated(entry%items)) then
         allocate (words(0))
         do i = 1, size(entry%items)
-          ! By itself: inside of an array constructor gfortran 12 would lose its memory.
+          ! A statement of its own: inside an array constructor gfortran 12 would leak its memory.
           more = list_items(entry%items(i))
           words = [words, more]
         end do
@@ -118,14 +124,18 @@ contains
     end do
   end subroutine find_items
 
-  !> Reads a list of numbers and ranges. Angles are returned in degrees, everything else in SI.
+  !> Reads a list of numbers and ranges, with angles in degrees and all others in SI.
+  !!
+  !! Errors: as for `read_measure`; a range of the wrong form, too many values in a range, a value
+  !! given twice.
   pure subroutine read_values(words, dimension, system, noun, diagnostics, list)
-    type(token_t), intent(in) :: words(:)
-    integer, intent(in) :: dimension(4)
-    type(unit_system_t), intent(in) :: system
-    character(len=*), intent(in) :: noun !! what the numbers are, for messages
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(value_list_t), intent(out) :: list
+    type(token_t), intent(in) :: words(:)             !! (words) the list, optionally with a unit as
+                                                      !! last word
+    integer, intent(in) :: dimension(4)               !! that the values must have
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    character(len=*), intent(in) :: noun              !! what the numbers are, for messages
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(value_list_t), intent(out) :: list           !! the values before the first wrong one
 
     type(unit_t) :: bare
     real(wp) :: first, last, step
@@ -159,13 +169,13 @@ contains
     end do
     list%value = list%value(:filled)
     list%word = list%word(:filled)
-    ! Angles and speeds are of the order of one or are zero; a pure number may stand for anything.
+    ! Angles and speeds are zero or of the order of one; a pure number may have any magnitude.
     if (fine) call refuse_duplicates(noun, &
       merge(0.0_wp, 1.0_wp, all(dimension == dimension_none)), diagnostics, list)
   end subroutine read_values
 
-  !> A last word that is no number is the unit of all bare numbers before it; `count` then leaves it
-  !! out.
+  !> A last word that is no number is the unit of all bare numbers before it; `count` is then
+  !! reduced by one.
   pure subroutine read_common_unit(words, dimension, diagnostics, bare, count)
     type(token_t), intent(in) :: words(:)
     integer, intent(in) :: dimension(4)
@@ -191,7 +201,7 @@ contains
     count = count - 1
   end subroutine read_common_unit
 
-  !> One number: degrees stay the user's own digits.
+  !> One number. An angle in degrees is not converted, so it keeps the user's digits.
   pure subroutine read_value(word, dimension, bare, diagnostics, value, fine)
     type(token_t), intent(in) :: word
     integer, intent(in) :: dimension(4)
@@ -240,7 +250,7 @@ contains
     end if
   end subroutine read_range_end
 
-  !> Appends the points `a + i s` up to `b`; `b` itself when it is hit within 1e-9 of a step.
+  !> Appends the points `a + i s` up to `b`. A last point within 1e-9 of a step of `b` becomes `b`.
   pure subroutine append_range(first, last, step, word, noun, diagnostics, list, filled, fine)
     real(wp), intent(in) :: first, last, step
     integer, intent(in) :: word
@@ -291,7 +301,7 @@ contains
     filled = filled + size(points)
   end subroutine append_points
 
-  !> A value given twice is an error: the second is a slip, or the table would hold the same row
+  !> Errors: a value is given twice, which is a mistake or would put the same row into the table
   !! twice.
   pure subroutine refuse_duplicates(noun, least, diagnostics, list)
     character(len=*), intent(in) :: noun
@@ -312,7 +322,7 @@ contains
       later = max(order(i - 1), order(i))
       if (abs(list%value(later) - list%value(earlier)) > same*max(least, abs(list%value(later)))) &
         cycle
-      ! Two ranges may share hundreds of values; one is enough to point them out.
+      ! Two ranges may share hundreds of values; one error per word is enough.
       if (told(list%word(later))) cycle
       told(list%word(later)) = .true.
       call add_error(diagnostics, list%words(list%word(later)), "the "//noun//" "// &
@@ -321,11 +331,11 @@ contains
     end do
   end subroutine refuse_duplicates
 
-  !> Number of a value in a list, allowing for the last digits of ranges and of conversions; 0 if it
-  !! is not there.
+  !> Number of a value in a list, compared with a tolerance for round-off of ranges and unit
+  !! conversions; 0 if the list does not contain it.
   pure function value_number(list, value) result(number)
-    type(value_list_t), intent(in) :: list
-    real(wp), intent(in) :: value
+    type(value_list_t), intent(in) :: list !! may be empty
+    real(wp), intent(in) :: value          !! in the unit of the list
     integer :: number
 
     do number = size(list%value), 1, -1

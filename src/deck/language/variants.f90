@@ -1,5 +1,5 @@
-!> The cards of a deck with values in place of its `$name`s: once, or once a variant where VARY
-!! gives many.
+!> The cards of a deck with values in place of its `$name`s: one set of cards, or one per variant of
+!! a deck with VARY.
 module variants
   use cards, only: card_t
   use deck_source, only: source_t
@@ -17,30 +17,33 @@ module variants
   public :: deck_cards_t, read_deck_cards, variant_count, take_variant, variant_values, &
     variant_text, parameter_names
 
-  !> All cards of a deck, and what is to stand in place of its `$name`s.
+  !> All cards of a deck, and the values of its `$name`s.
   type :: deck_cards_t
-    type(card_t), allocatable :: written(:)          !! as they stand in the files
-    type(settings_t) :: settings
-    type(variation_t), allocatable :: variations(:)  !! in the order of the deck; the last one
-                                                     !! varies fastest
-    type(card_t), allocatable, private :: fixed(:)   !! with the values of SET in place
-    type(slot_t), allocatable, private :: slots(:)   !! where the values of VARY go
-    integer, allocatable, private :: source_of(:)    !! (slots) the number in `variations`
+    type(card_t), allocatable :: written(:)         !! (cards) as they stand in the files
+    type(settings_t) :: settings                    !! of SET, VARY and `--set`
+    type(variation_t), allocatable :: variations(:) !! (variations) in the order of the deck; the
+                                                    !! last one varies fastest
+    type(card_t), allocatable, private :: fixed(:)  !! (cards) with the values of SET in place
+    type(slot_t), allocatable, private :: slots(:)  !! (slots) where the values of VARY go
+    integer, allocatable, private :: source_of(:)   !! (slots) the number in `variations`; 0: none
   end type deck_cards_t
 
   integer, parameter :: most_variants = 1000000
 
 contains
 
-  !> Takes over the cards of a deck, reads its SET and VARY cards, and finds every `$name`.
+  !> Reads the SET and VARY cards of a deck, and finds every `$name`.
+  !!
+  !! Errors: those of `read_settings`, `substitute` and `read_variation`; a VARY that no card uses
+  !! or whose values vary themselves; too many variants. Warnings: a SET that nothing uses.
   pure subroutine read_deck_cards(cards, options, source, reports, diagnostics, deck)
     type(card_t), allocatable, intent(inout) :: cards(:) !! moved into `deck`
     type(string_t), intent(in) :: options(:)             !! of the command line, each `name=value`
-    type(source_t), intent(inout) :: source              !! the options are appended to it, to be
-                                                         !! pointed at
-    type(report_kind_t), intent(in) :: reports(:)        !! that there are
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(deck_cards_t), intent(out) :: deck
+    type(source_t), intent(inout) :: source              !! the options are appended to it as places
+                                                         !! of messages
+    type(report_kind_t), intent(in) :: reports(:)        !! the table of reports
+    type(diagnostics_t), intent(inout) :: diagnostics    !! errors and warnings are added
+    type(deck_cards_t), intent(out) :: deck              !! complete if there are no errors
 
     call move_alloc(cards, deck%written)
     allocate (deck%variations(0), deck%slots(0), deck%source_of(0))
@@ -51,8 +54,8 @@ contains
     call read_variations(deck, reports, diagnostics)
   end subroutine read_deck_cards
 
-  !> Reads the VARY cards that the command line leaves, and joins them to the places where their
-  !! values go.
+  !> Reads the VARY cards that the command line does not override, and links them to the slots for
+  !! their values.
   pure subroutine read_variations(deck, reports, diagnostics)
     type(deck_cards_t), intent(inout) :: deck
     type(report_kind_t), intent(in) :: reports(:)
@@ -61,7 +64,7 @@ contains
     type(variation_t), allocatable :: list(:)
     integer(long) :: variants
     integer :: i, k, count
-    logical :: all_found !! so far, of what `$name`s mean
+    logical :: all_found !! whether every `$name` so far is known
 
     all_found = .not. has_errors(diagnostics)
     call refuse_varied_variations(deck, diagnostics)
@@ -97,7 +100,7 @@ contains
     end do
   end subroutine read_variations
 
-  !> The values of a VARY card are known before there are variants.
+  !> Errors: a value on a VARY card is varied itself; it would have to be known before the variants.
   pure subroutine refuse_varied_variations(deck, diagnostics)
     type(deck_cards_t), intent(inout) :: deck
     type(diagnostics_t), intent(inout) :: diagnostics
@@ -107,7 +110,7 @@ contains
     do k = 1, size(deck%slots)
       associate (slot => deck%slots(k))
         if (.not. same_word(deck%fixed(slot%card)%keyword%text, "VARY")) cycle
-        ! A key on the card is complained of as such.
+        ! A key on the card is reported as an error of its own.
         if (slot%word == 0) cycle
         call add_error(diagnostics, deck%fixed(slot%card)%words(slot%word), &
           "the values of a VARY cannot vary themselves", deck%settings%list(slot%setting)%name, &
@@ -117,9 +120,9 @@ contains
     end do
   end subroutine refuse_varied_variations
 
-  !> How many variants a deck has; 1 without VARY.
+  !> Number of variants of a deck; 1 without VARY, 0 if a VARY has no values after an error.
   pure function variant_count(deck) result(count)
-    type(deck_cards_t), intent(in) :: deck
+    type(deck_cards_t), intent(in) :: deck !! with or without errors
     integer :: count
 
     integer :: k
@@ -130,14 +133,15 @@ contains
     end do
   end function variant_count
 
-  !> The cards of a variant. Given the cards of another variant of the same deck, it only changes
-  !! what differs.
+  !> The cards of a variant. Given the cards of another variant of the same deck, it only replaces
+  !! the values of VARY.
   !!
-  !! A variation without values, which has been complained of, leaves its places marked as such.
+  !! Slots of a variation without values, already reported as an error, are marked as unknown.
   pure subroutine take_variant(deck, number, cards)
-    type(deck_cards_t), intent(in) :: deck
-    integer, intent(in) :: number !! from 1
-    type(card_t), allocatable, intent(inout) :: cards(:)
+    type(deck_cards_t), intent(in) :: deck               !! with or without errors
+    integer, intent(in) :: number                        !! of the variant, from 1
+    type(card_t), allocatable, intent(inout) :: cards(:) !! (cards) not allocated, or of another
+                                                         !! variant
 
     integer :: choice(size(deck%variations)), k
 
@@ -155,7 +159,7 @@ contains
     end do
   end subroutine take_variant
 
-  !> Marks a value that nobody can know, so that nobody complains of it again.
+  !> Marks a value as unknown, so that no further error is reported for it.
   pure subroutine mark_unknown(cards, slot)
     type(card_t), intent(inout) :: cards(:)
     type(slot_t), intent(in) :: slot
@@ -170,7 +174,7 @@ contains
     end associate
   end subroutine mark_unknown
 
-  !> Which value each VARY has in a variant: the last one varies fastest.
+  !> Number of the value of each VARY in a variant; the last one varies fastest.
   pure function choices(deck, number) result(choice)
     type(deck_cards_t), intent(in) :: deck
     integer, intent(in) :: number
@@ -186,9 +190,9 @@ contains
     end do
   end function choices
 
-  !> The names of what varies.
+  !> The names on the VARY cards.
   pure function parameter_names(deck) result(names)
-    type(deck_cards_t), intent(in) :: deck
+    type(deck_cards_t), intent(in) :: deck !! with or without errors
     type(string_t), allocatable :: names(:)
 
     allocate (names(0))
@@ -197,8 +201,8 @@ contains
 
   !> The value of every VARY in a variant, in the units of their cards.
   pure function variant_values(deck, number) result(values)
-    type(deck_cards_t), intent(in) :: deck
-    integer, intent(in) :: number
+    type(deck_cards_t), intent(in) :: deck !! without errors
+    integer, intent(in) :: number          !! of the variant, from 1
     real(wp) :: values(size(deck%variations))
 
     integer :: choice(size(deck%variations)), k
@@ -211,8 +215,8 @@ contains
 
   !> `L=90.5mm w=2`; empty for a deck without VARY.
   pure function variant_text(deck, number) result(text)
-    type(deck_cards_t), intent(in) :: deck
-    integer, intent(in) :: number
+    type(deck_cards_t), intent(in) :: deck !! without errors
+    integer, intent(in) :: number          !! of the variant, from 1
     character(len=:), allocatable :: text
 
     integer :: choice(size(deck%variations)), k

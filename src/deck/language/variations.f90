@@ -1,4 +1,4 @@
-!> VARY: a name that takes one value after the other.
+!> VARY: a name with a list of values.
 module variations
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t, error_count
@@ -16,28 +16,31 @@ module variations
 
   !> One VARY card.
   type :: variation_t
-    type(token_t) :: name
-    integer :: setting = 0                 !! its number among the settings
-    character(len=:), allocatable :: unit  !! of all values; empty if they have none
-    real(wp), allocatable :: value(:)      !! in this unit
-    type(token_t), allocatable :: word(:)  !! each value as text with its unit, which reads back to
-                                           !! the same double, and its place
+    type(token_t) :: name                 !! on its card
+    integer :: setting = 0                !! its number among the settings
+    character(len=:), allocatable :: unit !! of all values; empty: none
+    real(wp), allocatable :: value(:)     !! (values) in this unit
+    type(token_t), allocatable :: word(:) !! (values) each as text with its unit, which reads back
+                                          !! to the same double, and its place
   end type variation_t
 
-  !> The column of every CSV table that says why a row has failed.
+  !> The column of every CSV table with the reason why a row has failed.
   character(len=*), parameter :: csv_failure = "failure"
 
 contains
 
-  !> Reads `VARY name a to b step s` and lists of numbers, as on the CRANK card. There are no values
-  !! if the card is wrong.
+  !> Reads `VARY name a to b step s` and lists of numbers, as on the CRANK card.
+  !!
+  !! Errors: the name is that of a column, the values have different units, the list is wrong
+  !! (`read_values`). A wrong list has no values.
   pure subroutine read_variation(card, setting, cards, reports, diagnostics, variation)
-    type(card_t), intent(in) :: card !! of two words at least, with values in place of `$name`
-    integer, intent(in) :: setting
-    type(card_t), intent(in) :: cards(:) !! of the deck
-    type(report_kind_t), intent(in) :: reports(:) !! that there are
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(variation_t), intent(out) :: variation
+    type(card_t), intent(in) :: card                  !! with at least two words, with values in
+                                                      !! place of `$name`
+    integer, intent(in) :: setting                    !! its number among the settings
+    type(card_t), intent(in) :: cards(:)              !! of the deck
+    type(report_kind_t), intent(in) :: reports(:)     !! the table of reports
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(variation_t), intent(out) :: variation       !! without values if the list is wrong
 
     type(token_t), allocatable :: words(:)
     type(value_list_t) :: list
@@ -67,8 +70,8 @@ contains
     end do
   end subroutine read_variation
 
-  !> Whether a name stands at the head of a column of some table. That of some reports is refused
-  !! only where they are asked for: `M`, `load` or `time` may vary elsewhere.
+  !> Whether a name is that of a column. Column names of some reports are refused only in decks that
+  !! request them: `M`, `load` or `time` may vary elsewhere.
   pure function is_column(name, cards, reports) result(is)
     character(len=*), intent(in) :: name
     type(card_t), intent(in) :: cards(:) !! of the deck
@@ -88,13 +91,13 @@ contains
     end do
   end function is_column
 
-  !> Takes the unit off the numbers: all have the same one, or none has, or it stands behind them
-  !! all.
+  !> Separates the unit from the numbers: all numbers have the same unit, or none has one, or it is
+  !! the last word.
   pure subroutine take_unit(words, diagnostics, unit, fine)
     type(token_t), allocatable, intent(inout) :: words(:)
     type(diagnostics_t), intent(inout) :: diagnostics
     character(len=:), allocatable, intent(inout) :: unit
-    logical, intent(out) :: fine !! whether there is one unit
+    logical, intent(out) :: fine !! false: the units differ
 
     type(token_t) :: mine, first
     integer :: i, length
@@ -111,7 +114,7 @@ contains
       length = number_length(words(i)%text)
       if (length == 0) cycle
       mine = token_part(words(i), length + 1, len(words(i)%text))
-      ! What is no unit is left for the reader of numbers to complain of.
+      ! Anything but a unit is left to `read_values`, which reports it.
       if (len(mine%text) > 0) then
         if (scan(mine%text(:1), ".,*/+-0123456789") == 1) cycle
       end if

@@ -1,4 +1,4 @@
-!> How far crank and follower of a four-bar go on each branch.
+!> Ranges of crank and follower of a four-bar on each branch (assembly mode).
 module branch_ranges
   use four_bar_angles, only: angles_at, angles_t, four_bar_of, four_bar_t, half_turn, &
     least_stations, most_stations, station_t
@@ -10,27 +10,26 @@ module branch_ranges
 
   public :: branch_range_t, find_branch_ranges
 
-  !> An interval of the crank in one piece, and where the follower is in it; both from the global x
-  !! axis, first to last in the mathematical sense.
+  !> A connected interval of the crank and the range of the follower in it. Angles are from the
+  !! global x axis; the second of each pair is counter-clockwise of the first.
   type :: branch_range_t
-    real(wp) :: crank(2) = 0.0_wp    !! the first above −180, at most 180 [deg]
-    real(wp) :: follower(2) = 0.0_wp !! likewise [deg]
-    logical :: crank_turns = .false.    !! fully
-    logical :: follower_turns = .false. !! fully
+    real(wp) :: crank(2) = 0.0_wp       !! the first above −180 and at most 180 [deg]
+    real(wp) :: follower(2) = 0.0_wp    !! the first above −180 and at most 180 [deg]
+    logical :: crank_turns = .false.    !! the crank makes full turns
+    logical :: follower_turns = .false. !! the follower makes full turns
   end type branch_range_t
 
 contains
 
   !> The ranges of a branch, one or two; none if the linkage does not close.
   !!
-  !! The follower's angle is continuous in that of the crank; it is greatest and least at the ends
-  !! of the interval or at its own limits, or where links are in line as the crank passes the line
-  !! of the ground.
+  !! The follower's angle is a continuous function of the crank's. It is greatest and least at the
+  !! ends of the crank's interval, at the follower's own limits, or where links are in line as the
+  !! crank passes the line of the ground.
   pure function find_branch_ranges(ground, length, side) result(ranges)
     real(wp), intent(in) :: ground(2, 2) !! O2 and O4 [m]
     real(wp), intent(in) :: length(3)    !! crank, coupler, follower [m]
-    real(wp), intent(in) :: side         !! of the branch: +1: B lies to the left of A → O4, −1: to
-                                         !! its right
+    real(wp), intent(in) :: side         !! branch, +1: B to the left of A → O4, −1: to its right
     type(branch_range_t), allocatable :: ranges(:)
 
     real(wp), parameter :: full = 360.0_wp*(1.0_wp - 1.0e-12_wp)
@@ -56,7 +55,7 @@ contains
     end do
   end function find_branch_ranges
 
-  !> Crank angles in reach, from the line of the ground, as pieces in which the linkage goes on
+  !> Crank angles within reach, from the line of the ground, as intervals in which the linkage moves
   !! without a jump [deg].
   pure function crank_intervals(bar) result(intervals)
     type(four_bar_t), intent(in) :: bar
@@ -75,7 +74,7 @@ contains
     end associate
   end function crank_intervals
 
-  !> Where the crank is at the follower's limits, from the line of the ground.
+  !> Crank angles at the follower's limits, from the line of the ground.
   pure function follower_stations(ground, length, side, line) result(stations)
     real(wp), intent(in) :: ground(2, 2), length(3), side
     real(wp), intent(in) :: line !! angle of O2 → O4 from the global x axis [deg]
@@ -97,7 +96,7 @@ contains
   !! ground [deg].
   pure function follower_range(bar, stations, interval, side) result(range)
     type(four_bar_t), intent(in) :: bar
-    type(station_t), intent(in) :: stations(:) !! where it may be least or greatest
+    type(station_t), intent(in) :: stations(:) !! where the angle may be least or greatest
     real(wp), intent(in) :: interval(2)        !! [deg]
     real(wp), intent(in) :: side
     real(wp) :: range(2)
@@ -119,7 +118,7 @@ contains
     end do
   end function follower_range
 
-  !> An interval from the global x axis, its begin above −180°, at most 180° [deg].
+  !> An interval measured from the global x axis, starting above −180° and at most at 180° [deg].
   pure function from_x_axis(interval, line) result(turned)
     real(wp), intent(in) :: interval(2), line
     real(wp) :: turned(2)

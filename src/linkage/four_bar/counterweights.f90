@@ -2,9 +2,9 @@
 !! its motion.
 !!
 !! R. S. Berkof, G. G. Lowen: A new method for completely force balancing simple linkages. J. Eng.
-!! Ind. 91 (1969) 21: the loop closes, so that the coupler's direction can be written by those of
-!! the other links; what then goes with each of these must vanish, and the mass centre of the
-!! linkage stands still.
+!! Ind. 91 (1969) 21. Since the loop closes, the coupler's direction can be expressed by those of
+!! the other links. If the coefficients of these in the first moment of the linkage vanish, its mass
+!! centre stands still.
 module counterweights
   use kinds, only: wp
   use linkages, only: body_t, linkage_t, lump_t
@@ -16,23 +16,24 @@ module counterweights
 
   !> A counterweight on a link that turns about a ground pivot.
   type :: counterweight_t
-    integer :: body = 0                  !! in the linkage
-    real(wp) :: first_moment(2) = 0.0_wp !! mass × place from the ground pivot: along the link to
-                                         !! its moving pin, to the left [kg m]
-    logical :: needed = .false.          !! not where rounding is all that is left
+    integer :: body = 0                  !! number in the linkage
+    real(wp) :: first_moment(2) = 0.0_wp !! mass × position from the ground pivot: along the link to
+                                         !! its moving pin, and to the left [kg m]
+    logical :: needed = .false.          !! false if only rounding is left
   end type counterweight_t
 
 contains
 
   !> The counterweights of crank and follower.
   !!
-  !! In complex coordinates of the links (x from the ground pivot to the moving pin, of the coupler
-  !! from A to B) with m z the first moments: `−[m2 z2 + m3 r2 (1 − z3/r3) + m_A r2]` and `−[m4 z4 +
-  !! m3 r4 z3/r3 + m_B r4]`. Gravity, loads and the ground's own position do not matter.
+  !! Their first moments are `−[m2 z2 + m3 r2 (1 − z3/r3) + m_A r2]` and
+  !! `−[m4 z4 + m3 r4 z3/r3 + m_B r4]`, where m z are the first moments of the links in complex
+  !! coordinates: x from the ground pivot to the moving pin, for the coupler from A to B. Gravity,
+  !! loads and the position of the ground do not matter.
   pure function find_counterweights(linkage, elements) result(weights)
     type(linkage_t), intent(in) :: linkage !! a four-bar: crank O2–A, coupler A–B, follower B–O4
-    integer, intent(in) :: elements(:)     !! (bodies) on whose nodes their masses sit; 0:
-                                           !! distributed
+    integer, intent(in) :: elements(:)     !! (bodies) elements whose nodes carry the mass;
+                                           !! 0: distributed mass
     type(counterweight_t) :: weights(2)
 
     real(wp), parameter :: rounding = 1.0e-14_wp
@@ -53,7 +54,7 @@ contains
         parts(:, 4) = [linkage%pin_mass(2)*r2, 0.0_wp]
       else
         weights(i)%body = 3
-        ! The axes of the follower's body start at B and look to O4.
+        ! The axes of the follower's body start at B and point to O4.
         parts(:, 1) = [rigid(3)%mass*r4, 0.0_wp]
         parts(:, 2) = -rigid(3)%first_moment
         parts(:, 3) = rigid(2)%first_moment*(r4/r3)
@@ -64,12 +65,11 @@ contains
     end do
   end function find_counterweights
 
-  !> A counterweight as a mass without size at a distance from the ground pivot, in the axes of its
-  !! body.
+  !> A counterweight as a point mass at a distance from the ground pivot, in the axes of its body.
   pure function counterweight_lump(weight, body, radius) result(lump)
-    type(counterweight_t), intent(in) :: weight !! that is needed
-    type(body_t), intent(in) :: body
-    real(wp), intent(in) :: radius              !! [m]
+    type(counterweight_t), intent(in) :: weight !! one that is needed
+    type(body_t), intent(in) :: body            !! that carries it
+    real(wp), intent(in) :: radius              !! from the ground pivot [m]
     type(lump_t) :: lump
 
     lump%mass = norm2(weight%first_moment)/radius
@@ -77,10 +77,11 @@ contains
     if (body%sense < 0.0_wp) lump%place = [body%length, 0.0_wp] - lump%place
   end function counterweight_lump
 
-  !> The linkage with its counterweights, each as far from its pivot as its link is long.
+  !> The linkage with its counterweights, each at a distance from its pivot equal to the length of
+  !! its link.
   pure function balanced_linkage(linkage, weights) result(balanced)
-    type(linkage_t), intent(in) :: linkage
-    type(counterweight_t), intent(in) :: weights(:)
+    type(linkage_t), intent(in) :: linkage          !! a four-bar
+    type(counterweight_t), intent(in) :: weights(:) !! of `find_counterweights`
     type(linkage_t) :: balanced
 
     integer :: i

@@ -1,5 +1,4 @@
-!> A whole turn of the crank: what the linkage does to the ground and asks of its drive, as periodic
-!! quantities.
+!> A full turn of the crank: shaking force, shaking moment and drive torque as periodic quantities.
 module crank_cycle
   use errors, only: error_t
   use four_bar_limits, only: crank_reach, reach_t
@@ -17,23 +16,24 @@ module crank_cycle
   public :: quantity_names, quantity_count, shaking_x, shaking_y, shaking_force, shaking_moment, &
     drive_torque
 
+  !> Numbers of the periodic quantities.
   integer, parameter :: shaking_x = 1, shaking_y = 2, shaking_force = 3, shaking_moment = 4, &
     drive_torque = 5
   integer, parameter :: quantity_count = 5
   character(len=*), parameter :: quantity_names(quantity_count) = &
     [character(len=14) :: "shaking_x", "shaking_y", "shaking_force", "shaking_moment", "torque"]
 
-  !> Forces along x and y, moment, torque at every sample, for each of the three loads of which all
-  !! are made.
+  !> Shaking force along x and y, shaking moment and drive torque at every sample of a turn, for
+  !! each of the three load cases.
   type :: cycle_t
     real(wp), allocatable :: part(:, :, :) !! (4, cases, samples) [N, N, N m, N m]
   end type cycle_t
 
 contains
 
-  !> Whether the crank of a four-bar turns fully without coming to a dead point.
+  !> Whether the crank of a four-bar turns fully without reaching a dead point.
   pure function turns_freely(linkage) result(turns)
-    type(linkage_t), intent(in) :: linkage
+    type(linkage_t), intent(in) :: linkage !! a four-bar
     logical :: turns
 
     type(reach_t) :: reach
@@ -43,8 +43,7 @@ contains
 
     reach = crank_reach(linkage%ground_position(:, [1, 4]), linkage%bodies%length)
     turns = reach%closes .and. reach%least <= 0.0_wp .and. reach%most >= 180.0_wp
-    ! The angle between coupler and follower is least and most as the crank passes the line of the
-    ! ground.
+    ! The transmission angle is least and greatest as the crank passes the line of the ground.
     do i = 0, 1
       if (.not. turns) return
       call find_pose(linkage, reach%ground + 180.0_wp*i, pose, error)
@@ -52,11 +51,12 @@ contains
     end do
   end function turns_freely
 
-  !> Forces, moment and torque at a sample of a turn, for each of the three loads.
+  !> Shaking force, shaking moment and torque at a crank angle, for each of the three load cases;
+  !! zero where the links cannot be moved.
   pure function parts_at(linkage, elements, crank) result(part)
     type(linkage_t), intent(in) :: linkage !! whose crank turns freely
-    integer, intent(in) :: elements(:)     !! (bodies) on whose nodes their masses sit; 0:
-                                           !! distributed
+    integer, intent(in) :: elements(:)     !! (bodies) elements whose nodes carry the mass;
+                                           !! 0: distributed mass
     real(wp), intent(in) :: crank          !! [deg]
     real(wp) :: part(4, case_count)        !! as in `cycle_t`
 
@@ -77,21 +77,23 @@ contains
     end do
   end function parts_at
 
-  !> All quantities of a turn at a speed and an acceleration of the crank, the same all round.
+  !> All quantities over a turn, at a speed and an acceleration of the crank that are constant over
+  !! it.
   pure function cycle_values(turn, speed, acceleration) result(values)
-    type(cycle_t), intent(in) :: turn
+    type(cycle_t), intent(in) :: turn    !! its samples
     real(wp), intent(in) :: speed        !! ω2 [rad/s]
     real(wp), intent(in) :: acceleration !! α2 [rad/s²]
-    real(wp) :: values(size(turn%part, 3), quantity_count)
+    real(wp) :: values(size(turn%part, 3), quantity_count) !! (samples, quantities)
 
     integer :: i
 
     do i = 1, size(values, 1)
-      values(i, :) = quantities(turn%part(:, :, i), speed, acceleration)
+      values(i, :) = quantities_of(turn%part(:, :, i), speed, acceleration)
     end do
   end function cycle_values
 
-  pure function quantities(part, speed, acceleration) result(values)
+  !> All quantities, from the parts of the three load cases.
+  pure function quantities_of(part, speed, acceleration) result(values)
     real(wp), intent(in) :: part(:, :), speed, acceleration
     real(wp) :: values(quantity_count)
 
@@ -99,18 +101,19 @@ contains
 
     total = matmul(part, [speed**2, acceleration, 1.0_wp])
     values = [total(1), total(2), norm2(total(1:2)), total(3), total(4)]
-  end function quantities
+  end function quantities_of
 
-  !> What the quantities are like in a linkage that nothing balances: a measure for what is left
-  !! where something does.
+  !> Typical magnitude of the quantities in an unbalanced linkage: a scale for what is left in a
+  !! balanced one.
   !!
-  !! A mass m that goes as fast as the crank turns, at the distance of the links' sum: `m L ω²`,
-  !! with gravity and α2 likewise.
+  !! The total mass m is taken to move with the crank at a distance L, the sum of the link lengths:
+  !! force `m (L (ω2² + |α2|) + g)`, and L times that as moment and torque.
   pure function usual_values(linkage, elements, speed, acceleration) result(values)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: elements(:)   !! (bodies) as above
-    real(wp), intent(in) :: speed        !! ω2 [rad/s]
-    real(wp), intent(in) :: acceleration !! α2 [rad/s²]
+    type(linkage_t), intent(in) :: linkage !! lengths, masses and gravity
+    integer, intent(in) :: elements(:)     !! (bodies) elements whose nodes carry the mass;
+                                           !! 0: distributed mass
+    real(wp), intent(in) :: speed          !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration   !! α2 [rad/s²]
     real(wp) :: values(quantity_count)
 
     type(rigid_body_t) :: rigid(size(linkage%bodies))
@@ -124,17 +127,18 @@ contains
     values([shaking_moment, drive_torque]) = force*length
   end function usual_values
 
-  !> The greatest absolute value of every quantity in a turn, between its samples too.
+  !> Largest absolute value of every quantity in a turn, also between its samples.
   !!
-  !! Round each of the highest samples the maximum is closed in by golden sections. A turn that has
-  !! so many samples that its harmonics do not change with more of them has no peaks that they do
-  !! not show.
+  !! Around each of the three highest peaks among the samples the maximum is enclosed by
+  !! golden-section search. A turn with so many samples that more of them do not change its
+  !! harmonics has no peaks that its samples do not show.
   pure function largest_values(linkage, elements, turn, speed, acceleration) result(largest)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: elements(:)   !! (bodies) as above
-    type(cycle_t), intent(in) :: turn
-    real(wp), intent(in) :: speed        !! ω2 [rad/s]
-    real(wp), intent(in) :: acceleration !! α2 [rad/s²]
+    type(linkage_t), intent(in) :: linkage !! whose crank turns freely
+    integer, intent(in) :: elements(:)     !! (bodies) elements whose nodes carry the mass;
+                                           !! 0: distributed mass
+    type(cycle_t), intent(in) :: turn      !! its samples
+    real(wp), intent(in) :: speed          !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration   !! α2 [rad/s²]
     real(wp) :: largest(quantity_count)
 
     integer, parameter :: most_peaks = 3
@@ -147,7 +151,7 @@ contains
     values = abs(cycle_values(turn, speed, acceleration))
     largest = maxval(values, dim=1)
     do q = 1, quantity_count
-      ! Samples that are no peaks are put down.
+      ! Samples that are not peaks are set to zero.
       size_of = merge(values(:, q), 0.0_wp, values(:, q) >= cshift(values(:, q), 1) .and. &
         values(:, q) >= cshift(values(:, q), -1))
       do k = 1, most_peaks
@@ -160,7 +164,7 @@ contains
     end do
   end function largest_values
 
-  !> Golden-section search for the greatest absolute value of a quantity between two crank angles.
+  !> Golden-section search for the largest absolute value of a quantity between two crank angles.
   pure function peak_between(linkage, elements, quantity, speed, acceleration, first, &
     last) result(peak)
     type(linkage_t), intent(in) :: linkage
@@ -169,7 +173,7 @@ contains
     real(wp) :: peak
 
     real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
-    ! A peak is flat: at this distance from it [deg] the value has all its digits.
+    ! A peak is flat: this close to it [deg] the value is exact to the last digits.
     real(wp), parameter :: near = 1.0e-7_wp
     real(wp) :: a, b, x(2), y(2)
 
@@ -201,7 +205,7 @@ contains
 
     real(wp) :: values(quantity_count)
 
-    values = quantities(parts_at(linkage, elements, crank), speed, acceleration)
+    values = quantities_of(parts_at(linkage, elements, crank), speed, acceleration)
     value = abs(values(quantity))
   end function value_at
 

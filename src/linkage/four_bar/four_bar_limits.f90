@@ -1,5 +1,4 @@
-!> What a four-bar can do at all: where it closes, its Grashof class, its extreme transmission
-!! angles.
+!> Limits of a four-bar: crank angles at which its loop closes, and its Grashof class.
 module four_bar_limits
   use constants, only: degree
   use kinds, only: wp
@@ -8,18 +7,17 @@ module four_bar_limits
 
   public :: reach_t, crank_reach, can_reach, grashof_class, limit_angles, in_line_slack
 
-  !> Crank angles at which the loop closes: measured from the line of the ground pivots they are
-  !! `±[least, most]`.
+  !> Crank angles at which the loop closes: `±[least, most]` from the line of the ground pivots.
   type :: reach_t
-    real(wp) :: least = 0.0_wp     !! [deg]; 0: the crank passes the line O2 → O4
-    real(wp) :: most = 180.0_wp    !! [deg]; 180: it passes the opposite line
-    real(wp) :: ground = 0.0_wp    !! angle of O2 → O4 from the global x axis [deg]
-    logical :: closes = .true.     !! whether there is any such angle
+    real(wp) :: least = 0.0_wp  !! [deg]; 0: the crank passes the line O2 → O4
+    real(wp) :: most = 180.0_wp !! [deg]; 180: the crank passes the opposite line
+    real(wp) :: ground = 0.0_wp !! angle of O2 → O4 from the global x axis [deg]
+    logical :: closes = .true.  !! at some crank angle
   end type reach_t
 
 contains
 
-  !> The crank angles for which `|r3 − r4| ≤ |O4 − A| ≤ r3 + r4`.
+  !> Crank angles for which `|r3 − r4| ≤ |O4 − A| ≤ r3 + r4`.
   pure function crank_reach(ground, length) result(reach)
     real(wp), intent(in) :: ground(2, 2) !! O2 and O4 [m]
     real(wp), intent(in) :: length(3)    !! crank, coupler, follower [m]
@@ -33,8 +31,8 @@ contains
     associate (r2 => length(1), r3 => length(2), r4 => length(3))
       nearest = abs(r3 - r4)
       farthest = r3 + r4
-      ! Links that close only stretched out or folded, as far as their digits tell, reach that dead
-      ! point and are not refused.
+      ! Links that close only stretched out or folded, within the rounding of their lengths, reach
+      ! that dead point and are accepted.
       slack = in_line_slack(r1, length)
       reach%closes = r1 + r2 >= nearest - slack .and. abs(r1 - r2) <= farthest + slack
       if (.not. reach%closes) return
@@ -43,8 +41,8 @@ contains
     end associate
   end function crank_reach
 
-  !> Sums and differences of the lengths that differ by less than this are the same, as far as the
-  !! digits of a deck tell [m].
+  !> Sums and differences of the lengths count as equal if they differ by less than this, within the
+  !! digits of a deck [m].
   pure function in_line_slack(ground_length, length) result(slack)
     real(wp), intent(in) :: ground_length !! r1 [m]
     real(wp), intent(in) :: length(3)     !! crank, coupler, follower [m]
@@ -55,7 +53,7 @@ contains
     slack = rounding*(ground_length + sum(length))
   end function in_line_slack
 
-  !> The crank angle from the line O2 → O4 at which A is at a distance from O4 [deg].
+  !> Crank angle from the line O2 → O4 at which A has a given distance from O4 [deg].
   !!
   !! `distance² = (r1 − r2)² + 4 r1 r2 sin²(φ/2)`: no digits are lost at φ = 0, half of them at
   !! 180°.
@@ -71,12 +69,11 @@ contains
 
   !> Whether the loop closes at a crank angle.
   elemental function can_reach(reach, crank_degrees) result(can)
-    type(reach_t), intent(in) :: reach
-    real(wp), intent(in) :: crank_degrees
+    type(reach_t), intent(in) :: reach    !! of the crank
+    real(wp), intent(in) :: crank_degrees !! from the global x axis [deg]
     logical :: can
 
-    ! A limit position hit within rounding is a dead point, which is another matter than being out
-    ! of reach.
+    ! A limit position met within rounding is a dead point, not out of reach.
     real(wp), parameter :: slack = 1.0e-10_wp
     real(wp) :: angle
 
@@ -84,10 +81,10 @@ contains
     can = reach%closes .and. angle >= reach%least - slack .and. angle <= reach%most + slack
   end function can_reach
 
-  !> Crank angles from the global x axis at which the crank must turn back; none if it turns fully
-  !! [deg].
+  !> Crank angles from the global x axis at which the crank must turn back; none if it turns
+  !! fully [deg].
   pure function limit_angles(reach) result(angles)
-    type(reach_t), intent(in) :: reach
+    type(reach_t), intent(in) :: reach !! of the crank
     real(wp), allocatable :: angles(:)
 
     allocate (angles(0))
@@ -96,8 +93,8 @@ contains
       reach%ground + reach%most]
   end function limit_angles
 
-  !> Grashof class in words, with blanks behind them (shortest + longest against the other two; the
-  !! shortest link decides the kind).
+  !> Grashof class in words, padded with blanks: shortest + longest against the other two; the
+  !! shortest link decides the kind.
   pure function grashof_class(ground_length, length) result(class)
     real(wp), intent(in) :: ground_length !! r1 [m]
     real(wp), intent(in) :: length(3)     !! crank, coupler, follower [m]

@@ -1,5 +1,5 @@
-!> The special positions of a four-bar: where a grounded link turns back, where the transmission
-!! angle is least and most, where all links are in line.
+!> Special positions of a four-bar: where a grounded link turns back, where the transmission angle
+!! is least and greatest, and where all links are in line.
 module special_positions
   use constants, only: degree
   use four_bar_angles, only: angles_at, angles_t, crank_limits, four_bar_of, four_bar_t, &
@@ -13,9 +13,9 @@ module special_positions
   public :: crank_limit_stretched, crank_limit_folded, follower_limit_stretched, &
     follower_limit_folded, transmission_least, transmission_most, change_point
 
-  !> Crank limit: coupler and follower in line, stretched out or folded; the crank turns back, and
-  !! the linkage may go over to the other branch. Follower limit: the same of crank and coupler; the
-  !! follower turns back. Change point: all links in line.
+  !> Crank limit: coupler and follower are in line, stretched out or folded; the crank turns back,
+  !! and the linkage may change to the other branch. Follower limit: the same of crank and coupler;
+  !! the follower turns back. Change point: all links are in line.
   integer, parameter :: crank_limit_stretched = 1, crank_limit_folded = 2, &
     follower_limit_stretched = 3, follower_limit_folded = 4, transmission_least = 5, &
     transmission_most = 6, change_point = 7
@@ -23,27 +23,26 @@ module special_positions
     "crank_limit_folded", "follower_limit_stretched", "follower_limit_folded", &
     "transmission_least", "transmission_most", "change_point"]
 
+  !> A special position of one branch; angles are from the global x axis.
   type :: special_position_t
-    integer :: event = 0
-    real(wp) :: crank = 0.0_wp              !! from the global x axis, from 0 to below 360 [deg]
-    real(wp) :: coupler = 0.0_wp            !! A → B, above −180, at most 180 [deg]
-    real(wp) :: follower = 0.0_wp           !! O4 → B, likewise [deg]
+    integer :: event = 0                    !! one of the numbers above
+    real(wp) :: crank = 0.0_wp              !! from 0 to below 360 [deg]
+    real(wp) :: coupler = 0.0_wp            !! A → B, above −180 and at most 180 [deg]
+    real(wp) :: follower = 0.0_wp           !! O4 → B, above −180 and at most 180 [deg]
     real(wp) :: transmission_angle = 0.0_wp !! between coupler and follower, from 0 to 180 [deg]
   end type special_position_t
 
 contains
 
-  !> All special positions of a branch, those of one event side by side; none if the linkage does
-  !! not close.
+  !> All special positions of a branch, grouped by event; none if the linkage does not close.
   !!
   !! With `d = |O4 − A|` the transmission angle is `cos μ = (r3² + r4² − d²)/(2 r3 r4)`, and d grows
-  !! with the crank's angle from the line of the ground: μ is least and most at the ends of that
-  !! angle's reach, on both branches.
+  !! with the crank's angle from the line of the ground. On both branches μ is therefore least and
+  !! greatest at the ends of the reach of that angle.
   pure function find_special_positions(ground, length, side) result(list)
     real(wp), intent(in) :: ground(2, 2) !! O2 and O4 [m]
     real(wp), intent(in) :: length(3)    !! crank, coupler, follower [m]
-    real(wp), intent(in) :: side         !! of the branch: +1: B lies to the left of A → O4, −1: to
-                                         !! its right
+    real(wp), intent(in) :: side         !! branch, +1: B to the left of A → O4, −1: to its right
     type(special_position_t), allocatable :: list(:)
 
     type(four_bar_t) :: bar
@@ -62,7 +61,7 @@ contains
       find_change_points(ground, length)]
   end function find_special_positions
 
-  !> The positions at stations of the crank, each with its event.
+  !> Special positions at given crank angles, each with its event.
   pure function at_stations(bar, stations, side, events) result(list)
     type(four_bar_t), intent(in) :: bar
     type(station_t), intent(in) :: stations(:)
@@ -80,8 +79,8 @@ contains
     end do
   end function at_stations
 
-  !> Seen from the follower, its limits are those of a crank. Which branch they are on tells the
-  !! sign of `sin(θ4 − θ3)`.
+  !> Limits of the follower: crank limits of the linkage seen from the follower. The sign of
+  !! `sin(θ4 − θ3)` tells which branch they are on.
   pure function follower_limits(ground, length, side) result(list)
     real(wp), intent(in) :: ground(2, 2), length(3), side
     type(special_position_t), allocatable :: list(:)
@@ -97,7 +96,8 @@ contains
     allocate (list(0))
     do i = 1, size(limits)
       angles = angles_at(bar, limits(i), side)
-      ! There the crank's is the angle of the follower; the coupler's is that of B → A.
+      ! Seen from the follower, the crank angle is that of the follower, the coupler's that of
+      ! B → A.
       difference = half_turn(angles%crank - angles%coupler - 180.0_wp)
       if (side*difference <= 0.0_wp) cycle
       list = [list, position_of(merge(follower_limit_folded, follower_limit_stretched, &
@@ -106,8 +106,8 @@ contains
     end do
   end function follower_limits
 
-  !> Where all links are in line, within the digits of their lengths: `±r2 ± r3 = r1 ± r4`. There
-  !! the branches meet, and nothing but its momentum tells the linkage on which of them to go on.
+  !> Positions with all links in line, within the digits of their lengths: `±r2 ± r3 = r1 ± r4`.
+  !! There the branches meet, and only its momentum decides on which of them the linkage goes on.
   pure function find_change_points(ground, length) result(list)
     real(wp), intent(in) :: ground(2, 2) !! O2 and O4 [m]
     real(wp), intent(in) :: length(3)    !! crank, coupler, follower [m]
@@ -129,18 +129,17 @@ contains
     end do
   end function find_change_points
 
-  !> Angles from the line of the ground to those of a table.
+  !> A special position from angles measured from the line of the ground.
   pure function position_of(event, ground, crank, coupler, follower, transmission) result(position)
-    integer, intent(in) :: event
-    real(wp), intent(in) :: ground                   !! angle of the line from the global x axis
-                                                     !! [deg]
+    integer, intent(in) :: event         !! one of the numbers above
+    real(wp), intent(in) :: ground       !! angle of the line from the global x axis [deg]
     real(wp), intent(in) :: crank, coupler, follower !! from the line [deg]
-    real(wp), intent(in) :: transmission             !! [deg]
+    real(wp), intent(in) :: transmission !! [deg]
     type(special_position_t) :: position
 
     position%event = event
     position%crank = modulo(ground + crank, 360.0_wp)
-    ! The remainder of a negative number next to nothing is rounded to the whole turn.
+    ! For a tiny negative angle `modulo` rounds to the whole turn.
     if (position%crank >= 360.0_wp) position%crank = 0.0_wp
     position%coupler = half_turn(ground + coupler)
     position%follower = half_turn(ground + follower)

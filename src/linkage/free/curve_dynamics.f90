@@ -1,8 +1,9 @@
 !> Inertia and loads of a four-bar as functions of one coordinate, the length s of its loop-closure
 !! curve.
 !!
-!! `M(s) s̈ + ½ M'(s) ṡ² = Q_s`, Lagrange's equation with the kinetic energy `½ M ṡ²`: (2.50) to
-!! (2.56) of Ulker (2010) with s in place of θ2, which makes it regular where the crank turns back.
+!! Lagrange's equation is `M(s) s̈ + ½ M'(s) ṡ² = Q_s`, with the kinetic energy `½ M ṡ²`: (2.50) to
+!! (2.56) of Ulker (2010) with s in place of θ2, which keeps the equation regular where the crank
+!! turns back.
 module curve_dynamics
   use kinds, only: wp
   use linkages, only: linkage_t
@@ -14,23 +15,23 @@ module curve_dynamics
   public :: curve_dynamics_t, new_curve_dynamics, find_inertia, conservative_torques, &
     potential_energy
 
-  !> What does not change while a four-bar moves; in the order crank, coupler, follower.
+  !> Constants of a moving four-bar, in the order crank, coupler, follower. The kinetic energy is
+  !! `½ Σ inertia ω²` plus `ω2 ω3 (c1 cos(θ3 − θ2) − c2 sin(θ3 − θ2))`, where c is `coupling`; the
+  !! potential energy is `U = −Σ weight·(cos θ, sin θ) − Σ couple θ`.
   type :: curve_dynamics_t
-    real(wp) :: inertia(3) = 0.0_wp   !! about O2, A, O4, with what hangs on A or B: `T = ½ Σ
-                                      !! inertia ω² + coupling` [kg m²]
-    real(wp) :: coupling(2) = 0.0_wp  !! r2 times the first moment of the coupler, along and to the
-                                      !! left of it [kg m²]
-    real(wp) :: weight(2, 3) = 0.0_wp !! `U = −Σ weight·(cos θ, sin θ)`, of gravity and constant
-                                      !! forces [N m]
-    real(wp) :: couple(3) = 0.0_wp    !! constant torques from outside: `U = −Σ couple θ` [N m]
+    real(wp) :: inertia(3) = 0.0_wp   !! about O2, A, O4, with what is carried at A or B [kg m²]
+    real(wp) :: coupling(2) = 0.0_wp  !! r2 times the first moment of the coupler, along it and to
+                                      !! its left [kg m²]
+    real(wp) :: weight(2, 3) = 0.0_wp !! of gravity and constant forces, along x and y [N m]
+    real(wp) :: couple(3) = 0.0_wp    !! constant external torques [N m]
   end type curve_dynamics_t
 
 contains
 
-  !> Gathers bodies, pin masses, gravity, forces and couples.
+  !> Collects the constants of bodies, pin masses, gravity, forces and torques.
   pure function new_curve_dynamics(linkage, rigid) result(dynamics)
-    type(linkage_t), intent(in) :: linkage
-    type(rigid_body_t), intent(in) :: rigid(:) !! (bodies)
+    type(linkage_t), intent(in) :: linkage     !! a four-bar with its loads
+    type(rigid_body_t), intent(in) :: rigid(:) !! (bodies) of the linkage
     type(curve_dynamics_t) :: dynamics
 
     type(rigid_body_t) :: bodies(3)
@@ -44,8 +45,8 @@ contains
         bodies(i) = seen_from_base(rigid(number(i)), r(number(i)), &
           linkage%bodies(number(i))%first_pin == base(i))
       end do
-      ! What turns with each angle besides the body itself: at the crank's end pin A and the
-      ! coupler; pin B with the follower.
+      ! Mass that each link carries at its end: pin A and the coupler on the crank, pin B on the
+      ! follower.
       carried = [linkage%pin_mass(dyad%base(1)) + bodies(2)%mass, 0.0_wp, &
         linkage%pin_mass(dyad%middle)]
       force = 0.0_wp
@@ -61,7 +62,8 @@ contains
     end associate
   end function new_curve_dynamics
 
-  !> The weight `w` with `w·(cos θ, sin θ) = force·(S1 e + S2 n)`: e at the angle θ, n to its left.
+  !> The weight `w` with `w·(cos θ, sin θ) = force·(S1 e + S2 n)`, for e at the angle θ and n to its
+  !! left.
   pure function turned(force, moment) result(weight)
     real(wp), intent(in) :: force(2)  !! per mass [m/s²]
     real(wp), intent(in) :: moment(2) !! first moment S in the axes of the body [kg m]
@@ -70,8 +72,8 @@ contains
     weight = moment(1)*force + moment(2)*[force(2), -force(1)]
   end function turned
 
-  !> A body in axes from its base, which may be its last pin on the way round the loop, to its other
-  !! pin.
+  !> A body in axes from its base to its other pin. The base may be the last pin on the path round
+  !! the loop.
   pure function seen_from_base(rigid, length, starts_there) result(seen)
     type(rigid_body_t), intent(in) :: rigid
     real(wp), intent(in) :: length      !! [m]
@@ -86,16 +88,16 @@ contains
 
   !> M and M' = dM/ds at a point of the curve.
   pure subroutine find_inertia(dynamics, point, inertia, slope)
-    type(curve_dynamics_t), intent(in) :: dynamics
-    type(curve_point_t), intent(in) :: point
-    real(wp), intent(out) :: inertia !! M [kg m²]
-    real(wp), intent(out) :: slope   !! M' [kg m²/rad]
+    type(curve_dynamics_t), intent(in) :: dynamics !! constants of the four-bar
+    type(curve_point_t), intent(in) :: point       !! direction, tangent and its slope
+    real(wp), intent(out) :: inertia               !! M [kg m²]
+    real(wp), intent(out) :: slope                 !! M' [kg m²/rad]
 
     real(wp) :: cosine, sine, coupling, coupling_slope
 
     associate (e => point%direction, t => point%tangent, dt => point%tangent_slope, &
       c => dynamics%coupling)
-      ! Of θ3 − θ2.
+      ! Cosine and sine of θ3 − θ2.
       cosine = e(1, 1)*e(1, 2) + e(2, 1)*e(2, 2)
       sine = e(1, 1)*e(2, 2) - e(2, 1)*e(1, 2)
       coupling = c(1)*cosine - c(2)*sine
@@ -106,22 +108,22 @@ contains
     end associate
   end subroutine find_inertia
 
-  !> Torques on the angles of gravity and of constant forces and couples: `−∂U/∂θ` [N m].
+  !> Torques on the angles θ2, θ3, θ4 from gravity and constant forces and torques: `−∂U/∂θ` [N m].
   pure function conservative_torques(dynamics, point) result(torque)
-    type(curve_dynamics_t), intent(in) :: dynamics
-    type(curve_point_t), intent(in) :: point
+    type(curve_dynamics_t), intent(in) :: dynamics !! constants of the four-bar
+    type(curve_point_t), intent(in) :: point       !! its directions
     real(wp) :: torque(3)
 
     torque = dynamics%couple + point%direction(1, :)*dynamics%weight(2, :) - point%direction(2, &
       :)*dynamics%weight(1, :)
   end function conservative_torques
 
-  !> Potential energy of the same: of crank and coupler it is counted from O2, of the follower and
-  !! pin B from O4, of couples from angle 0 [J].
+  !> Potential energy of gravity and constant forces and torques [J]. Zero levels: O2 for crank and
+  !! coupler, O4 for the follower and pin B, angle 0 for torques.
   pure function potential_energy(dynamics, point, angle) result(energy)
-    type(curve_dynamics_t), intent(in) :: dynamics
-    type(curve_point_t), intent(in) :: point
-    real(wp), intent(in) :: angle(3) !! with all whole turns [rad]
+    type(curve_dynamics_t), intent(in) :: dynamics !! constants of the four-bar
+    type(curve_point_t), intent(in) :: point       !! its directions
+    real(wp), intent(in) :: angle(3)               !! θ2, θ3, θ4 with all whole turns [rad]
     real(wp) :: energy
 
     energy = -sum(dynamics%weight*point%direction) - sum(dynamics%couple*angle)

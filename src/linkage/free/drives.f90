@@ -1,4 +1,4 @@
-!> What drives a linkage, and what takes its power away, while it moves freely.
+!> Drive and resistances of a linkage that moves by itself.
 module drives
   use kinds, only: wp
   implicit none (type, external)
@@ -23,8 +23,8 @@ module drives
     end function torque_interface
   end interface
 
-  !> A motor with a straight torque-speed line `stall − slope ω`; a constant torque where the slope
-  !! is 0, none where both are.
+  !> A motor with a linear torque-speed line `stall − slope ω`: a constant torque if the slope is 0,
+  !! no torque if both are 0.
   type, extends(drive_t) :: motor_drive_t
     real(wp) :: stall = 0.0_wp !! [N m]
     real(wp) :: slope = 0.0_wp !! [N m s]
@@ -32,8 +32,8 @@ module drives
     procedure :: torque => motor_torque
   end type motor_drive_t
 
-  !> What is taken from each body: `taken + damping ω`, counter-clockwise, in the order crank,
-  !! coupler, follower.
+  !> Resistances: the torque on each body is `−(taken + damping ω)`, counter-clockwise; in the order
+  !! crank, coupler, follower.
   type :: resistances_t
     real(wp) :: taken(3) = 0.0_wp   !! [N m]
     real(wp) :: damping(3) = 0.0_wp !! [N m s]
@@ -41,12 +41,15 @@ module drives
 
 contains
 
+  !> Torque of the motor at a speed, counter-clockwise [N m].
   pure function motor_torque(self, time, angle, speed) result(torque)
     class(motor_drive_t), intent(in) :: self
-    real(wp), intent(in) :: time, angle, speed
+    real(wp), intent(in) :: time  !! not used [s]
+    real(wp), intent(in) :: angle !! not used [rad]
+    real(wp), intent(in) :: speed !! of the driven body [rad/s]
     real(wp) :: torque
 
-    ! The line knows neither time nor angle.
+    ! The torque depends on neither time nor angle; the zero term only marks both as used.
     torque = self%stall - self%slope*speed + 0.0_wp*(time + angle)
   end function motor_torque
 

@@ -1,9 +1,10 @@
-!> Forward dynamics: how a four-bar moves under a drive, resistances, gravity and constant loads.
+!> Forward dynamics: the motion of a four-bar under a drive, resistances, gravity and constant
+!! loads.
 !!
-!! The state is a point of the loop-closure curve with the rate ṡ along it, and the work done so far
-!! by what has no potential. It is integrated in steps of order 8; after each the angles are put
-!! back on to the curve. Nothing is done to the energy, so that its balance tells how good the
-!! motion is.
+!! The state is a point of the loop-closure curve, the rate ṡ along it, and the work done so far by
+!! drive and resistances. It is integrated in steps of order 8. After each step the angles are
+!! projected back onto the curve. The energy is never corrected, so that its balance measures the
+!! accuracy of the motion.
 module forward_motions
   use adaptive_integration, only: advance, close_integrator, integrator_t, open_integrator, step_by
   use constants, only: degree, two_pi
@@ -26,74 +27,75 @@ module forward_motions
     sample_motion, end_motion
   public :: motion_tolerance
 
-  !> Estimated error of a step, of the angles in radians and of the rate relative to itself: some
-  !! forty roundings. The estimate is of order 7, and the step of order 8 is better than it by two
-  !! or three digits, so rounding is what is left.
+  !> Bound on the estimated error of a step, for the angles in radians and for the rate relative to
+  !! itself: some forty roundings. The estimate is of order 7; the step, of order 8, is better by
+  !! two or three digits, so that only rounding is left.
   real(wp), parameter :: motion_tolerance = 1.0e-14_wp
 
-  !> Where M is below this share of the inertia of all links, that is what makes the steps shrink to
-  !! nothing.
+  !> If M is below this share of the inertia of all links when steps shrink to nothing, M is the
+  !! cause.
   real(wp), parameter :: little_inertia = 1.0e-10_wp
 
-  !> Nearer than this to where the crank turns back rounding may say that it is on either side:
-  !! |sin(θ4 − θ3)|.
+  !> For |sin(θ4 − θ3)| below this, next to the point where the crank turns back, rounding may give
+  !! either side.
   real(wp), parameter :: undecided_sine = 1.0e-12_wp
 
-  !> A place where the crank turns back and the linkage goes over to its other branch.
+  !> A position where the crank turns back and the linkage changes its branch.
   type :: turning_point_t
     real(wp) :: time = 0.0_wp    !! [s]
     real(wp) :: crank = 0.0_wp   !! with all whole turns [deg]
     logical :: to_open = .false. !! else to the crossed branch
   end type turning_point_t
 
-  !> A motion under way.
+  !> A motion in progress.
   type :: forward_motion_t
-    real(wp) :: time = 0.0_wp         !! [s]
-    real(wp) :: energy = 0.0_wp       !! kinetic and potential, at the start [J]
-    integer :: stop = no_stop         !! why it does not go on
-    logical :: is_open = .true.       !! branch; else crossed
-    integer(long) :: most_steps = 1000000_long !! from one instant to the next: some 6,000 turns,
-                                               !! and some seconds
-    integer :: turning_count = 0
-    type(turning_point_t), allocatable :: turnings(:) !! (at least turning_count)
-    type(integrator_t) :: integrator
-    type(moving_four_bar_t), private :: system
-    real(wp), private :: state(unknown_count) = 0.0_wp
+    real(wp) :: time = 0.0_wp                          !! [s]
+    real(wp) :: energy = 0.0_wp                        !! kinetic + potential, at the start [J]
+    integer :: stop = no_stop                          !! why it does not continue
+    logical :: is_open = .true.                        !! on the open branch; else crossed
+    integer(long) :: most_steps = 1000000_long         !! from one instant to the next: some 6,000
+                                                       !! turns, and some seconds of computing
+    integer :: turning_count = 0                       !! so far
+    type(turning_point_t), allocatable :: turnings(:)  !! (at least turning_count)
+    type(integrator_t) :: integrator                   !! to be closed by `end_motion`
+    type(moving_four_bar_t), private :: system         !! equations of motion
+    real(wp), private :: state(unknown_count) = 0.0_wp !! θ2, θ3, θ4, ṡ, work
   end type forward_motion_t
 
-  !> The linkage at an instant; in the order crank, coupler, follower.
+  !> The linkage at an instant; arrays in the order crank, coupler, follower.
   type :: motion_sample_t
-    real(wp) :: time = 0.0_wp      !! [s]
-    real(wp) :: angle(3) = 0.0_wp  !! with all whole turns [deg]
-    real(wp) :: speed(3) = 0.0_wp  !! [rad/s]
-    real(wp) :: torque = 0.0_wp    !! of the drive [N m]
-    real(wp) :: kinetic = 0.0_wp   !! [J]
-    real(wp) :: potential = 0.0_wp !! of gravity and constant loads [J]
-    real(wp) :: work = 0.0_wp      !! of drive and resistances since the start [J]
-    real(wp) :: energy_error = 0.0_wp !! kinetic + potential − work, less what it was at the start
-                                      !! [J]
-    real(wp) :: closure = 0.0_wp   !! by how much the loop is open [m]
-    logical :: is_open = .true.    !! branch; else crossed
+    real(wp) :: time = 0.0_wp         !! [s]
+    real(wp) :: angle(3) = 0.0_wp     !! with all whole turns [deg]
+    real(wp) :: speed(3) = 0.0_wp     !! [rad/s]
+    real(wp) :: torque = 0.0_wp       !! of the drive [N m]
+    real(wp) :: kinetic = 0.0_wp      !! [J]
+    real(wp) :: potential = 0.0_wp    !! of gravity and constant loads [J]
+    real(wp) :: work = 0.0_wp         !! of drive and resistances since the start [J]
+    real(wp) :: energy_error = 0.0_wp !! kinetic + potential − work, less its value at the start [J]
+    real(wp) :: closure = 0.0_wp      !! gap of the open loop [m]
+    logical :: is_open = .true.       !! on the open branch; else crossed
   end type motion_sample_t
 
 contains
 
-  !> Makes a motion ready at its first instant.
+  !> Prepares a motion at its first instant.
   !!
-  !! Errors: the linkage does not reach the position; it is a limit position, where the crank can
-  !! rest only and its speed would not tell that of the others; a change point; no memory. What else
-  !! keeps a motion from beginning `move_until` finds.
+  !! Errors: those of `find_start` (out of reach, change point); a speed at a limit position, where
+  !! the crank can only be at rest and its speed would not determine those of the other links; no
+  !! memory. Other reasons why a motion cannot begin are found by `move_until`.
   subroutine start_motion(linkage, rigid, drive, resistances, crank_degrees, speed, duration, &
     motion, error)
-    type(linkage_t), intent(in) :: linkage      !! a four-bar
-    type(rigid_body_t), intent(in) :: rigid(:)  !! (bodies)
-    class(drive_t), intent(in) :: drive
-    type(resistances_t), intent(in) :: resistances
-    real(wp), intent(in) :: crank_degrees       !! [deg]
-    real(wp), intent(in) :: speed               !! of the crank [rad/s]
-    real(wp), intent(in) :: duration            !! about how long it is to be followed, above 0 [s]
-    type(forward_motion_t), intent(out) :: motion
-    type(error_t), allocatable, intent(out) :: error
+    type(linkage_t), intent(in) :: linkage           !! a four-bar
+    type(rigid_body_t), intent(in) :: rigid(:)       !! (bodies) of the linkage
+    class(drive_t), intent(in) :: drive              !! torque on the crank
+    type(resistances_t), intent(in) :: resistances   !! torques on all links
+    real(wp), intent(in) :: crank_degrees            !! at the start [deg]
+    real(wp), intent(in) :: speed                    !! of the crank at the start [rad/s]
+    real(wp), intent(in) :: duration                 !! about how long it is to be followed, above
+                                                     !! 0 [s]
+    type(forward_motion_t), intent(out) :: motion    !! at its first instant; to be ended by
+                                                     !! `end_motion`
+    type(error_t), allocatable, intent(out) :: error !! why it cannot begin
 
     type(curve_point_t) :: point
     type(motion_sample_t) :: first
@@ -122,23 +124,27 @@ contains
     call find_inertia(motion%system%dynamics, point, inertia, slope)
     first = sample_motion(motion)
     motion%energy = first%kinetic + first%potential
-    ! Rates and works that are small against those of one radian in the whole time do not matter.
+    ! Rates and work that are small against those of one radian in the whole duration do not matter.
     call open_integrator(motion%integrator, [1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp/duration, &
       first%kinetic + inertia/duration**2], motion_tolerance, 0.01_wp*duration, error)
   end subroutine start_motion
 
+  !> Frees the integrator of a motion.
   subroutine end_motion(motion)
-    type(forward_motion_t), intent(inout) :: motion
+    type(forward_motion_t), intent(inout) :: motion !! no longer to be continued
 
     call close_integrator(motion%integrator)
   end subroutine end_motion
 
   !> Follows the motion up to an instant, which is met exactly unless the motion stops or the run is
-  !! interrupted. A motion that takes too many steps on the way is stopped: it would seem to last
-  !! for ever, for it is asked for too late, or is too fast.
+  !! interrupted.
+  !!
+  !! A motion that takes too many steps on the way is stopped. It would otherwise seem to run for
+  !! ever, because the instant is too far ahead or the motion too fast. `motion%stop` gives the
+  !! reason of a stop.
   subroutine move_until(motion, time)
-    type(forward_motion_t), intent(inout) :: motion
-    real(wp), intent(in) :: time !! [s]
+    type(forward_motion_t), intent(inout) :: motion !! begun by `start_motion`
+    real(wp), intent(in) :: time !! to be reached [s]
 
     type(error_t), allocatable :: error
     real(wp) :: before(unknown_count), time_before
@@ -182,8 +188,8 @@ contains
     inertia = inertia/sum(motion%system%dynamics%inertia)
   end function inertia_of
 
-  !> Whether `sin(θ4 − θ3)`, positive where B lies to the left of A → O4, says that the branch is
-  !! another one than before.
+  !> Whether the sign of `sin(θ4 − θ3)`, positive where B lies to the left of A → O4, shows a change
+  !! of branch.
   pure function has_changed_branch(motion) result(has)
     type(forward_motion_t), intent(in) :: motion
     logical :: has
@@ -194,13 +200,14 @@ contains
     has = abs(sine) > undecided_sine .and. (sine > 0.0_wp .neqv. motion%is_open)
   end function has_changed_branch
 
-  !> Notes the change of branch, and where in the last step `sin(θ4 − θ3)` went through zero:
-  !! Newton's method within a shrinking interval, each trial one step from where the last one began.
-  !! A step that began with nothing but rounding is where it went.
+  !> Records the change of branch and the instant in the last step at which `sin(θ4 − θ3)` passed
+  !! through zero. It is found by Newton's method within a shrinking interval; each trial is a
+  !! single step from the beginning of the last one. If the sign at that beginning is mere rounding,
+  !! the instant is the beginning itself.
   subroutine note_turning_point(motion, time, before)
     type(forward_motion_t), intent(inout) :: motion
-    real(wp), intent(in) :: time              !! at which the step began [s]
-    real(wp), intent(in) :: before(unknown_count)  !! state then
+    real(wp), intent(in) :: time !! at the beginning of the step [s]
+    real(wp), intent(in) :: before(unknown_count) !! state at that time
 
     integer, parameter :: most_trials = 60
     type(error_t), allocatable :: error
@@ -255,9 +262,9 @@ contains
     motion%turnings(motion%turning_count) = turning
   end subroutine append_turning_point
 
-  !> Everything about the present instant.
+  !> Angles, speeds, torque and energies at the present instant.
   pure function sample_motion(motion) result(sample)
-    type(forward_motion_t), intent(in) :: motion
+    type(forward_motion_t), intent(in) :: motion !! begun by `start_motion`
     type(motion_sample_t) :: sample
 
     type(curve_point_t) :: point

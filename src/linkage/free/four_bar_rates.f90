@@ -1,5 +1,5 @@
-!> Equations of motion of a four-bar under a drive, resistances, gravity and constant loads, along
-!! its loop-closure curve.
+!> Equations of motion of a four-bar along its loop-closure curve, under a drive, resistances,
+!! gravity and constant loads.
 module four_bar_rates
   use adaptive_integration, only: rate_system_t
   use constants, only: two_pi
@@ -13,28 +13,28 @@ module four_bar_rates
   public :: moving_four_bar_t, rate_number, work_number, unknown_count
   public :: no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps, stop_many_steps
 
-  !> Why a motion does not go on: for the first three reasons there are no rates.
+  !> Why a motion stops. For reasons 1 to 3 there are no rates.
   integer, parameter :: no_stop = 0, stop_change_point = 1, stop_no_inertia = 2, &
     stop_too_fast = 3, stop_steps = 4, stop_many_steps = 5
 
-  !> Steps begin with angles from −π to π: a trial step that leads beyond the first is too long,
-  !! whatever its error seems to be [rad]. A rate beyond all mechanics, before it overflows [rad/s].
+  !> Steps begin with angles from −π to π: a trial step beyond `most_angle` is too long, whatever
+  !! its estimated error [rad]. `most_rate` is beyond any mechanics, but short of overflow [rad/s].
   real(wp), parameter :: most_angle = 9.0_wp, most_rate = 1.0e100_wp
 
-  !> Share of the inertia of all links: where M is below it there are no rates.
+  !> There are no rates where M is below this share of the inertia of all links.
   real(wp), parameter :: least_inertia = 1.0e-13_wp
 
-  !> Numbers of the unknowns behind the angles [rad]: ṡ [rad/s], work [J]; how many there are in
-  !! all.
+  !> Numbers of the unknowns that follow the three angles [rad]: rate ṡ [rad/s] and work [J]; total
+  !! number of unknowns.
   integer, parameter :: rate_number = 4, work_number = 5, unknown_count = 5
 
-  !> What the rates depend on.
+  !> A four-bar in motion: all that its rates depend on.
   type, extends(rate_system_t) :: moving_four_bar_t
     type(loop_curve_t) :: curve
     type(curve_dynamics_t) :: dynamics
     class(drive_t), allocatable :: drive
     type(resistances_t) :: resistances
-    real(wp) :: turns(3) = 0.0_wp !! whole turns of each link that its angle leaves out
+    real(wp) :: turns(3) = 0.0_wp !! whole turns not contained in the angle of each link
     integer :: stop = no_stop     !! why rates were last not found
   contains
     procedure :: find_rates => rates_of_motion
@@ -42,18 +42,22 @@ module four_bar_rates
 
 contains
 
-  !> Angular velocities, `M s̈ = Q_s − ½ M' ṡ²`, and the power of what has no potential.
+  !> Rates of the unknowns: angular velocities, s̈ from `M s̈ = Q_s − ½ M' ṡ²`, and the power of
+  !! drive and resistances.
+  !!
+  !! Not found at a change point, where M vanishes and beyond `most_angle` and `most_rate`; `stop`
+  !! gives the reason.
   subroutine rates_of_motion(self, time, state, rates, found)
     class(moving_four_bar_t), intent(inout) :: self
-    real(wp), intent(in) :: time
-    real(wp), intent(in) :: state(:)
-    real(wp), intent(out) :: rates(:)
-    logical, intent(out) :: found
+    real(wp), intent(in) :: time      !! [s]
+    real(wp), intent(in) :: state(:)  !! θ2, θ3, θ4, ṡ, work
+    real(wp), intent(out) :: rates(:) !! of the state; defined only if found
+    logical, intent(out) :: found     !! false: `stop` is set
 
     type(curve_point_t) :: point
     real(wp) :: inertia, slope, speed(3), torque(3), driving
 
-    ! Written so that what is not a number is refused too.
+    ! Written so that NaN is refused as well.
     found = maxval(abs(state(1:3))) < most_angle .and. abs(state(rate_number)) < most_rate
     if (.not. found) then
       self%stop = stop_too_fast

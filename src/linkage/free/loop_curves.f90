@@ -1,8 +1,8 @@
-!> All positions of a four-bar as one smooth curve in the space of its angles θ2, θ3, θ4: where its
-!! loop is closed.
+!> All positions of a four-bar as one smooth curve in the space of its angles θ2, θ3, θ4: the points
+!! where its loop is closed.
 !!
-!! Along the curve the crank's angle may turn back and the branch may change; the curve itself goes
-!! on. It ends being smooth only at change points, where all links lie in one line.
+!! Along the curve the crank's angle may turn back and the branch may change, while the curve goes
+!! on. Only at change points, where all links lie in one line, is it not smooth.
 module loop_curves
   use constants, only: pi, two_pi
   use errors, only: error_of_dead_point, error_t, set_error
@@ -16,21 +16,23 @@ module loop_curves
     project, reduce
   public :: change_point_message
 
+  !> Lengths that define the curve.
   type :: loop_curve_t
     real(wp) :: length(3) = 0.0_wp !! of crank, coupler, follower: r2, r3, r4 [m]
     real(wp) :: ground(2) = 0.0_wp !! O2 → O4 [m]
   end type loop_curve_t
 
-  !> The curve at a point, and how it goes on; s is the length of the curve [rad].
+  !> A point of the curve, with direction and curvature of the curve there; s is the length of the
+  !! curve [rad].
   type :: curve_point_t
-    real(wp) :: direction(2, 3) = 0.0_wp  !! unit vectors along O2 → A, A → B, O4 → B
-    real(wp) :: tangent(3) = 0.0_wp       !! dθ/ds, of length one
+    real(wp) :: direction(2, 3) = 0.0_wp  !! (2, links) unit vectors along O2 → A, A → B, O4 → B
+    real(wp) :: tangent(3) = 0.0_wp       !! dθ/ds, a unit vector
     real(wp) :: tangent_slope(3) = 0.0_wp !! d²θ/ds² [1/rad]
     real(wp) :: sine = 0.0_wp             !! sin(θ4 − θ3): positive on the open branch; 0 where the
                                           !! crank turns back
   end type curve_point_t
 
-  !> Where the sines of all angles between the moving links are smaller, the links are taken to lie
+  !> If the sines of all angles between the moving links are below this, the links are taken to lie
   !! in one line.
   real(wp), parameter :: change_point_sine = 1.0e-6_wp
 
@@ -41,7 +43,7 @@ contains
 
   !> The curve of a four-bar.
   pure function new_loop_curve(linkage) result(curve)
-    type(linkage_t), intent(in) :: linkage
+    type(linkage_t), intent(in) :: linkage !! a four-bar
     type(loop_curve_t) :: curve
 
     associate (dyad => linkage%dyads(1))
@@ -53,45 +55,46 @@ contains
 
   !> The angles θ2, θ3, θ4 at a crank angle, on the branch of the linkage, in (−π, π] [rad].
   !!
-  !! Errors: those of `place_links`, and change points by name.
+  !! Errors: those of `place_links`; a change point.
   pure subroutine find_start(linkage, crank_degrees, angle, error)
-    type(linkage_t), intent(in) :: linkage
-    real(wp), intent(in) :: crank_degrees !! [deg]
-    real(wp), intent(out) :: angle(3)     !! [rad]
-    type(error_t), allocatable, intent(out) :: error
+    type(linkage_t), intent(in) :: linkage           !! a four-bar
+    real(wp), intent(in) :: crank_degrees            !! from the global x axis [deg]
+    real(wp), intent(out) :: angle(3)                !! θ2, θ3, θ4 [rad]
+    type(error_t), allocatable, intent(out) :: error !! why there is no position
 
     type(pose_t) :: pose
     real(wp) :: e(2, 3)
     integer :: k
 
+    angle = 0.0_wp
     call place_links(linkage, crank_degrees, pose, error)
+    if (allocated(error)) return
     e(:, 1) = pose%direction(:, 1)
     do k = 1, 2
       e(:, k + 1) = arm_to_middle(linkage, linkage%dyads(1), pose, k)
     end do
     ! Adding zero turns -0 into 0: an angle of -π would be outside the interval.
     angle = atan2(e(2, :) + 0.0_wp, e(1, :) + 0.0_wp)
-    if (allocated(error)) return
     if (max(abs(cross(e(:, 1), e(:, 2))), abs(cross(e(:, 1), e(:, 3))), &
       abs(cross(e(:, 2), e(:, 3)))) < change_point_sine) then
       call set_error(error, error_of_dead_point, change_point_message)
     else if (abs(pose%sine(1)) < dead_point_sine) then
-      ! The crank angle of a limit position, rounded, may be a little out of reach.
+      ! The rounded crank angle of a limit position may be slightly out of reach.
       call project(new_loop_curve(linkage), angle)
     end if
   end subroutine find_start
 
-  !> Direction and bend of the curve at a point on it or near to it.
+  !> Direction and curvature of the curve at a point on it or near it.
   !!
   !! The tangent is `v/|v|` with `v = (r3 r4 sin(θ3 − θ4), r2 r4 sin(θ4 − θ2), r2 r3 sin(θ3 − θ2))`,
-  !! which closes the loop of velocities `r2 n2 v2 + r3 n3 v3 − r4 n4 v4 = 0`; with v' along the
-  !! tangent `τ' = (v' − τ (τ·v'))/|v|`.
+  !! which satisfies the velocity loop `r2 n2 v2 + r3 n3 v3 − r4 n4 v4 = 0`. With v' along the
+  !! tangent τ, `τ' = (v' − τ (τ·v'))/|v|`.
   pure subroutine find_point(curve, angle, point, is_smooth)
-    type(loop_curve_t), intent(in) :: curve
-    real(wp), intent(in) :: angle(3)         !! θ2, θ3, θ4 [rad]
-    type(curve_point_t), intent(out) :: point
-    logical, intent(out) :: is_smooth        !! false: a change point; then only the directions are
-                                             !! defined
+    type(loop_curve_t), intent(in) :: curve   !! lengths of the links
+    real(wp), intent(in) :: angle(3)          !! θ2, θ3, θ4 [rad]
+    type(curve_point_t), intent(out) :: point !! directions, tangent, curvature
+    logical, intent(out) :: is_smooth         !! false: a change point; only the directions are then
+                                              !! defined
 
     real(wp) :: sines(3), cosines(3), area(3), v(3), bend(3), size_of_v
 
@@ -117,7 +120,7 @@ contains
     end associate
   end subroutine find_point
 
-  !> From B as the follower places it to B as crank and coupler place it [m].
+  !> Vector from B as placed by the follower to B as placed by crank and coupler [m].
   pure function gap_of(curve, direction) result(gap)
     type(loop_curve_t), intent(in) :: curve
     real(wp), intent(in) :: direction(2, 3)
@@ -126,24 +129,24 @@ contains
     gap = matmul(direction, [curve%length(1:2), -curve%length(3)]) - curve%ground
   end function gap_of
 
-  !> By how much the loop is open [m].
+  !> Gap of the loop, zero on the curve [m].
   pure function closure_error(curve, angle) result(distance)
-    type(loop_curve_t), intent(in) :: curve
-    real(wp), intent(in) :: angle(3) !! [rad]
+    type(loop_curve_t), intent(in) :: curve !! lengths of the links
+    real(wp), intent(in) :: angle(3)        !! θ2, θ3, θ4 [rad]
     real(wp) :: distance
 
     distance = norm2(gap_of(curve, reshape([cos(angle(1)), sin(angle(1)), cos(angle(2)), &
       sin(angle(2)), cos(angle(3)), sin(angle(3))], [2, 3])))
   end function closure_error
 
-  !> Moves angles near the curve on to it, by the least change: Newton's method, `Δθ = −Jᵀ (J Jᵀ)⁻¹
-  !! gap`.
+  !> Moves angles near the curve onto it by the smallest change: Newton's method,
+  !! `Δθ = −Jᵀ (J Jᵀ)⁻¹ gap`.
   pure subroutine project(curve, angle)
-    type(loop_curve_t), intent(in) :: curve
-    real(wp), intent(inout) :: angle(3) !! away from change points [rad]
+    type(loop_curve_t), intent(in) :: curve !! lengths of the links
+    real(wp), intent(inout) :: angle(3)     !! θ2, θ3, θ4 away from change points [rad]
 
-    ! Each turn squares the error; nothing but rounding is left after two, as near as an integration
-    ! stays.
+    ! Each iteration squares the error. As integration stays near the curve, two leave only
+    ! rounding.
     integer, parameter :: turns = 2
     real(wp) :: direction(2, 3), jacobian(2, 3), gap(2), square(2, 2), multiplier(2)
     integer :: i, k
@@ -162,11 +165,11 @@ contains
     end do
   end subroutine project
 
-  !> Takes whole turns off angles outside of [−π, π] and counts them, so that no digits are lost
+  !> Takes whole turns off angles outside [−π, π] and counts them, so that no digits are lost
   !! however far a link turns.
   pure subroutine reduce(angle, turns)
-    real(wp), intent(inout) :: angle(3) !! [rad]
-    real(wp), intent(inout) :: turns(3) !! whole numbers
+    real(wp), intent(inout) :: angle(3) !! θ2, θ3, θ4 [rad]
+    real(wp), intent(inout) :: turns(3) !! whole turns taken off so far
 
     real(wp) :: more(3)
 

@@ -1,4 +1,5 @@
-!> MASS and POINT: what is fixed to a link, and where, as read; names are not yet looked up.
+!> MASS and POINT cards: masses and points fixed to links. Names are looked up later, by
+!! `body_checks`.
 module body_cards
   use card_reader, only: check_form, entry_number, read_entry_quantity, read_name, read_quantity
   use cards, only: card_t
@@ -13,30 +14,31 @@ module body_cards
 
   !> A mass fixed to a link.
   type :: mass_card_t
-    type(token_t) :: link_name       !! without a line if it cannot be read
-    integer :: link = 0              !! number in the model's list
-    real(wp) :: place(2) = 0.0_wp    !! from the first pin of the link's card: along the link, and
-                                     !! to the left of the way to the second pin [m]
-    type(token_t) :: place_word      !! where it is given
+    type(token_t) :: link_name       !! without a line if the card lacks it
+    integer :: link = 0              !! number in the model's list; 0: unknown
+    real(wp) :: place(2) = 0.0_wp    !! from the first pin of the LINK card: along the link, and to
+                                     !! the left of the direction to the second pin [m]
+    type(token_t) :: place_word      !! value of `at=`, or the keyword without one
     real(wp) :: mass = 0.0_wp        !! [kg]
   end type mass_card_t
 
-  !> A point fixed to a link, whose path is wanted.
+  !> A point fixed to a link, whose path is requested.
   type :: point_t
-    type(token_t) :: name            !! without a line if it cannot be read
-    type(token_t) :: link_name
-    integer :: link = 0              !! number in the model's list
-    real(wp) :: place(2) = 0.0_wp    !! as that of a mass [m]
+    type(token_t) :: name            !! without a line if the card lacks it
+    type(token_t) :: link_name       !! the same
+    integer :: link = 0              !! number in the model's list; 0: unknown
+    real(wp) :: place(2) = 0.0_wp    !! as `place` of a mass [m]
   end type point_t
 
 contains
 
-  !> Reads `MASS link at= [offset=] value`.
+  !> Reads `MASS link at= [offset=] value`. Errors: words or keys that do not fit the card, no
+  !! `at=`, unreadable values, a mass of 0 or less.
   pure subroutine read_mass(card, system, diagnostics, mass)
-    type(card_t), intent(in) :: card
-    type(unit_system_t), intent(in) :: system
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(mass_card_t), intent(out) :: mass
+    type(card_t), intent(in) :: card                  !! the MASS card
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(mass_card_t), intent(out) :: mass            !! as read; the link is not looked up
 
     logical :: fine, known_keys
 
@@ -53,12 +55,13 @@ contains
     end if
   end subroutine read_mass
 
-  !> Reads `POINT name link along= [offset=]`.
+  !> Reads `POINT name link along= [offset=]`. Errors: words or keys that do not fit the card, no
+  !! `along=`, an invalid name, unreadable values.
   pure subroutine read_point(card, system, diagnostics, point)
-    type(card_t), intent(in) :: card
-    type(unit_system_t), intent(in) :: system
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(point_t), intent(out) :: point
+    type(card_t), intent(in) :: card                  !! the POINT card
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(point_t), intent(out) :: point               !! as read; the link is not looked up
 
     type(token_t) :: place_word
     logical :: fine, known_keys
@@ -74,15 +77,15 @@ contains
     call read_place(card, "along", known_keys, system, diagnostics, point%place, place_word)
   end subroutine read_point
 
-  !> Reads the two keys of a place on a link, of which `offset=` may be left out.
+  !> Reads the two keys of a place on a link; `offset=` is optional.
   pure subroutine read_place(card, key, known_keys, system, diagnostics, place, word)
     type(card_t), intent(in) :: card
-    character(len=*), intent(in) :: key !! of the coordinate along the link
-    logical, intent(in) :: known_keys
+    character(len=*), intent(in) :: key !! coordinate along the link: `at` or `along`
+    logical, intent(in) :: known_keys   !! no key is unknown: a missing one is an error
     type(unit_system_t), intent(in) :: system
     type(diagnostics_t), intent(inout) :: diagnostics
-    real(wp), intent(out) :: place(2)   !! [m]
-    type(token_t), intent(out) :: word  !! the keyword, if there is no place
+    real(wp), intent(out) :: place(2)  !! [m]
+    type(token_t), intent(out) :: word !! value of `key`; the keyword without one
 
     integer :: i
     logical :: fine

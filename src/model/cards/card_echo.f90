@@ -1,4 +1,4 @@
-!> Cards written out again in one form, with the user's own words, for `echo.deck`.
+!> Cards written back in a uniform layout, with the user's own words, for `echo.deck`.
 module card_echo
   use card_reader, only: entry_number
   use card_table, only: card_kind_t, kind_of_card
@@ -17,21 +17,23 @@ module card_echo
 
   type :: echo_line_t
     character(len=:), allocatable :: text   !! the card
-    character(len=:), allocatable :: origin !! where it comes from; empty where a comment cannot
-                                            !! stand
+    character(len=:), allocatable :: origin !! comment on its source; empty where the line cannot
+                                            !! have one
   end type echo_line_t
 
 contains
 
-  !> The cards in the order of the deck. A `$name` stays as it is, with its SET or VARY card; what
-  !! the command line says is a SET card, so that the echo needs nothing but itself.
+  !> The cards in the order of the deck. A `$name` stays as it is, with its SET or VARY card; a
+  !! value from the command line becomes a SET card, so that the echo needs nothing but itself.
   pure function echo_cards(deck, cards, loads, reports, source) result(lines)
-    type(deck_cards_t), intent(in) :: deck
-    type(card_t), intent(in) :: cards(:) !! of one of its variants
-    integer, intent(in) :: loads         !! `effects_static` or `effects_axial`: what EFFECTS is,
-                                         !! said or not
-    type(report_kind_t), intent(in) :: reports(:) !! that there are
-    type(source_t), intent(in) :: source !! that the cards are from
+    type(deck_cards_t), intent(in) :: deck        !! cards as written, and the values of their
+                                                  !! `$name`s
+    type(card_t), intent(in) :: cards(:)          !! (cards) of one variant, with values in place of
+                                                  !! the `$name`s
+    integer, intent(in) :: loads                  !! effects_static or effects_axial: the meaning of
+                                                  !! EFFECTS, whether the deck gives it or not
+    type(report_kind_t), intent(in) :: reports(:) !! (kinds) all that exist
+    type(source_t), intent(in) :: source          !! of the cards
     type(echo_line_t) :: lines(size(cards))
 
     integer :: i
@@ -49,7 +51,7 @@ contains
     end do
   end function echo_cards
 
-  !> The SET card that says what the command line has said, beside what the deck says.
+  !> The SET card with the value from the command line; its comment gives what the deck has.
   pure function overridden_line(card, setting, source) result(line)
     type(card_t), intent(in) :: card
     type(setting_t), intent(in) :: setting
@@ -67,10 +69,10 @@ contains
 
   !> A card with its defaults written out.
   pure function echo_card(written, card, reports, source) result(line)
-    type(card_t), intent(in) :: written  !! as it stands in the deck
-    type(card_t), intent(in) :: card     !! with values in place of its `$name`s
-    type(report_kind_t), intent(in) :: reports(:) !! that there are
-    type(source_t), intent(in) :: source !! that the card is from
+    type(card_t), intent(in) :: written           !! as it stands in the deck
+    type(card_t), intent(in) :: card              !! with values in place of its `$name`s
+    type(report_kind_t), intent(in) :: reports(:) !! (kinds) all that exist
+    type(source_t), intent(in) :: source          !! of the card
     type(echo_line_t) :: line
 
     type(card_kind_t) :: kind
@@ -82,7 +84,7 @@ contains
       line%origin = ""
     else if (.not. same_word(card%keyword%text, "REPORT")) then
       kind = kind_of_card(card%keyword%text)
-      ! `accuracy=` leaves the order to the program.
+      ! With `accuracy=` the program chooses the order: no default to write.
       if (entry_number(card, "accuracy") == 0) call complete(card, trim(kind%entry), line)
     else
       number = kind_named(reports, lower_case(card%words(1)%text))
@@ -90,7 +92,7 @@ contains
     end if
   end function echo_card
 
-  !> A card in one form: words first, single blanks.
+  !> A card in the uniform layout: words first, single blanks.
   pure function card_text(card) result(text)
     type(card_t), intent(in) :: card
     character(len=:), allocatable :: text
@@ -108,7 +110,7 @@ contains
     text = buffer_text(buffer)
   end function card_text
 
-  !> Writes out what an EFFECTS card leaves to the speeds.
+  !> Writes out the word that an EFFECTS card leaves to speeds and loads.
   pure subroutine complete_effects(card, loads, line)
     type(card_t), intent(in) :: card
     integer, intent(in) :: loads
@@ -123,17 +125,17 @@ contains
     call append_default(line, effect_words(loads, .false., .false.))
   end subroutine complete_effects
 
-  !> Adds a `key=value` if a card does not have the key.
+  !> Adds a default `key=value` if the card does not have the key.
   pure subroutine complete(card, entry, line)
     type(card_t), intent(in) :: card
-    character(len=*), intent(in) :: entry !! empty: nothing
+    character(len=*), intent(in) :: entry !! empty: nothing is added
     type(echo_line_t), intent(inout) :: line
 
     if (len(entry) == 0) return
     if (entry_number(card, entry(:index(entry, "=") - 1)) == 0) call append_default(line, entry)
   end subroutine complete
 
-  !> Adds what a card leaves out.
+  !> Appends an entry that the card leaves out, and notes that it is the default.
   pure subroutine append_default(line, entry)
     type(echo_line_t), intent(inout) :: line
     character(len=*), intent(in) :: entry

@@ -1,4 +1,4 @@
-!> EFFECTS: what the frequencies feel.
+!> EFFECTS card: what the frequencies depend on.
 module effect_cards
   use card_reader, only: check_form, read_choice
   use card_table, only: card_kind_t, kind_of_card
@@ -14,24 +14,26 @@ module effect_cards
   integer, parameter :: effects_static = 1, effects_axial = 2
 
   type :: effects_t
-    integer :: loads = 0      !! effects_static or effects_axial; 0 if the card leaves it to the
-                              !! speeds
+    integer :: loads = 0        !! effects_static or effects_axial; 0 if the card gives neither:
+                                !! speeds and loads then decide
     logical :: rotary = .false. !! cross-sections have rotary inertia
-    logical :: shear = .false.  !! and turn against the slope
-    type(token_t) :: shear_word !! without a line if the deck does not ask for it
+    logical :: shear = .false.  !! shear: cross-sections turn relative to the slope
+    type(token_t) :: shear_word !! without a line if the deck does not request shear
   end type effects_t
 
 contains
 
-  !> Reads `EFFECTS [static|axial] [rotary] [shear]`, in any order.
+  !> Reads `EFFECTS [static|axial] [rotary] [shear]`, in any order. Errors: words or keys that do
+  !! not fit the card, a word given twice, both static and axial.
   pure subroutine read_effects(card, diagnostics, effects)
-    type(card_t), intent(in) :: card
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(effects_t), intent(inout) :: effects
+    type(card_t), intent(in) :: card                  !! the EFFECTS card
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(effects_t), intent(inout) :: effects         !! `loads` and `shear_word` keep their values
+                                                      !! if the card does not give them
 
     logical :: fine
     type(card_kind_t) :: kind
-    integer :: first(4), choice, other, i !! `first`: where each word stands
+    integer :: first(4), choice, other, i !! `first`: number of each word on the card, 0: absent
 
     call check_form(card, diagnostics, fine)
     kind = kind_of_card(card%keyword%text)
@@ -61,10 +63,10 @@ contains
     if (effects%shear) effects%shear_word = card%words(first(4))
   end subroutine read_effects
 
-  !> The words of an EFFECTS card.
+  !> The words of an EFFECTS card, separated by blanks.
   pure function effect_words(loads, rotary, shear) result(text)
-    integer, intent(in) :: loads
-    logical, intent(in) :: rotary, shear
+    integer, intent(in) :: loads         !! effects_static or effects_axial
+    logical, intent(in) :: rotary, shear !! whether the card has these words
     character(len=:), allocatable :: text
 
     text = trim(merge("axial ", "static", loads == effects_axial))

@@ -1,4 +1,4 @@
-!> LINK: a beam of a material and a section, or a rigid body of any shape.
+!> LINK card: a beam with a material and a section, or a rigid body of any shape.
 module link_cards
   use card_reader, only: check_form, entry_number, has_key, read_entry_quantity, read_name, &
     refuse_negative, require_positive
@@ -21,34 +21,39 @@ module link_cards
     type(token_t) :: name
     type(token_t) :: pin(2)           !! at its ends, in the order of the card; without a line if
                                       !! they cannot be read
-    type(token_t) :: length_word      !! where the length is given
+    type(token_t) :: length_word      !! value of `length=`, or the keyword without one
     real(wp) :: length = 0.0_wp       !! [m]
     type(token_t) :: material_name    !! without a line if the card names none
-    type(token_t) :: section_name
-    integer :: material = 0           !! number in the model's list, 0 for none
-    integer :: section = 0
-    integer :: mesh = 0               !! 0 for none, and for a rigid link
+    type(token_t) :: section_name     !! the same
+    integer :: material = 0           !! number in the model's list; 0: none
+    integer :: section = 0            !! the same
+    integer :: mesh = 0               !! the same; 0 also for a rigid link
     logical :: rigid = .false.        !! it does not bend
-    type(token_t) :: rigid_word       !! without a line if it bends
-    logical :: has_mass = .false.     !! given in place of what section and material make
-    logical :: has_inertia = .false., has_center = .false.
+    type(token_t) :: rigid_word       !! without a line if the link bends
+    logical :: has_mass = .false.     !! `mass=` replaces the mass of section and material
+    logical :: has_inertia = .false.  !! `inertia=` is given
+    logical :: has_center = .false.   !! `center=` is given
     real(wp) :: mass = 0.0_wp         !! [kg]
     real(wp) :: inertia = 0.0_wp      !! about its own mass centre [kg m²]
     real(wp) :: center(2) = 0.0_wp    !! mass centre, from the first pin of the card: along the
-                                      !! link, and to the left of the way to the second pin [m]
-    type(token_t) :: body_word        !! the first key of these three; without a line if there is
-                                      !! none
+                                      !! link, and to the left of the direction to the second pin
+                                      !! [m]
+    type(token_t) :: body_word        !! the first key of `mass=`, `inertia=` and `center=`; without
+                                      !! a line if the card has none of them
   end type link_t
 
 contains
 
   !> Reads `LINK name pin pin [rigid] length= [material= section=] [mass= inertia=
-  !! center=along,offset]`.
+  !! center=along,offset]`. Errors: words or keys that do not fit the card, invalid names, the same
+  !! pin at both ends, a missing or unreadable value, a length of 0 or less, a negative mass or
+  !! moment of inertia.
   pure subroutine read_link(card, system, diagnostics, link)
-    type(card_t), intent(in) :: card
-    type(unit_system_t), intent(in) :: system
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(link_t), intent(out) :: link
+    type(card_t), intent(in) :: card                  !! the LINK card
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(link_t), intent(out) :: link                 !! as read; material and section are not
+                                                      !! looked up
 
     type(token_t) :: nowhere
     logical :: fine, known_keys
@@ -81,7 +86,7 @@ contains
     call read_body(card, system, diagnostics, link)
   end subroutine read_link
 
-  !> Behind the pins stands one word at most.
+  !> Reads the only word that may follow the pins.
   pure subroutine read_rigid(word, diagnostics, link, fine)
     type(token_t), intent(in) :: word
     type(diagnostics_t), intent(inout) :: diagnostics
@@ -112,7 +117,7 @@ contains
     link%pin(:) = token_t("", 0, 0)
   end subroutine read_pins
 
-  !> Reads what makes a link a rigid body of its own shape.
+  !> Reads the keys that make a link a rigid body of its own shape.
   pure subroutine read_body(card, system, diagnostics, link)
     type(card_t), intent(in) :: card
     type(unit_system_t), intent(in) :: system
@@ -122,7 +127,7 @@ contains
     logical :: fine
     integer :: i
 
-    ! A key whose value is wrong is there all the same: nothing else is told to be missing.
+    ! A key with a wrong value counts as given, so that nothing else is reported as missing.
     link%has_mass = has_key(card, "mass")
     link%has_inertia = has_key(card, "inertia")
     link%has_center = has_key(card, "center")
@@ -149,7 +154,7 @@ contains
 
   !> Whether the card gives a link its mass, moment of inertia or mass centre.
   elemental function has_own_mass(link) result(has)
-    type(link_t), intent(in) :: link
+    type(link_t), intent(in) :: link !! of the deck
     logical :: has
 
     has = link%has_mass .or. link%has_inertia .or. link%has_center

@@ -1,5 +1,5 @@
-!> GROUND, PINMASS and MESH: what the links hang on, what they carry and how they are divided, as
-!! read; names are not yet looked up.
+!> GROUND, PINMASS and MESH cards: fixed pivots, masses at pins, division of links into elements.
+!! Names are looked up later, by `name_checks`.
 module linkage_cards
   use card_reader, only: check_form, entry_number, has_key, read_entry_count, read_entry_quantity, &
     read_name, read_quantity, refuse_negative
@@ -17,33 +17,34 @@ module linkage_cards
 
   !> A fixed pivot.
   type :: ground_t
-    type(token_t) :: pin             !! without a line if it cannot be read
-    real(wp) :: position(2) = 0.0_wp !! [m]
+    type(token_t) :: pin             !! without a line if the card lacks it
+    real(wp) :: position(2) = 0.0_wp !! in global axes [m]
   end type ground_t
 
   !> A concentrated mass at a pin.
   type :: pin_mass_t
-    type(token_t) :: pin
+    type(token_t) :: pin      !! without a line if the card lacks it
     real(wp) :: mass = 0.0_wp !! [kg]
   end type pin_mass_t
 
-  !> The order of the cubic beam element: cubic across the link, linear along it.
+  !> The order of the cubic beam element: deflection cubic, axial displacement linear.
   integer, parameter :: cubic_order = 3
 
-  !> How links are divided into elements, or how accurate their frequencies are to be; both are 0 if
-  !! the card cannot be read.
+  !> Number of elements per link, or required accuracy of the frequencies; both are 0 if the card
+  !! cannot be read.
   type :: mesh_t
     type(token_t) :: keyword              !! without a line if the deck has no MESH card
-    type(token_t), allocatable :: link_names(:)
-    integer :: elements = 0               !! 1 where the program chooses
-    integer :: order = cubic_order
+    type(token_t), allocatable :: link_names(:) !! `*` for all others
+    integer :: elements = 0               !! on each link; 1 where the program chooses
+    integer :: order = cubic_order        !! polynomial order of the elements
     real(wp) :: accuracy = 0.0_wp         !! relative, of the frequencies; 0: not given
     type(token_t) :: accuracy_word        !! without a line if it is not given
   end type mesh_t
 
   integer, parameter :: highest_order = 100
 
-  !> Round-off forbids far fewer cubic elements; this only keeps sums and memory within reason.
+  !> Round-off rules out far fewer cubic elements than this; the limit only keeps sums and memory
+  !! within reason.
   integer, parameter :: most_elements = 1000000
 
   real(wp), parameter :: finest_accuracy = 1.0e-13_wp*fineness, coarsest_accuracy = 1.0e-2_wp, &
@@ -51,12 +52,13 @@ module linkage_cards
 
 contains
 
-  !> Reads `GROUND name x y`.
+  !> Reads `GROUND name x y`. Errors: words or keys that do not fit the card, an invalid name,
+  !! unreadable coordinates.
   pure subroutine read_ground(card, system, diagnostics, ground)
-    type(card_t), intent(in) :: card
-    type(unit_system_t), intent(in) :: system
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(ground_t), intent(out) :: ground
+    type(card_t), intent(in) :: card                  !! the GROUND card
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(ground_t), intent(out) :: ground             !! as read
 
     logical :: fine
 
@@ -73,12 +75,13 @@ contains
       fine)
   end subroutine read_ground
 
-  !> Reads `PINMASS pin mass`.
+  !> Reads `PINMASS pin mass`. Errors: words or keys that do not fit the card, an unreadable or
+  !! negative mass.
   pure subroutine read_pin_mass(card, system, diagnostics, pin_mass)
-    type(card_t), intent(in) :: card
-    type(unit_system_t), intent(in) :: system
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(pin_mass_t), intent(out) :: pin_mass
+    type(card_t), intent(in) :: card                  !! the PINMASS card
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(pin_mass_t), intent(out) :: pin_mass         !! as read; the pin is not looked up
 
     logical :: fine
 
@@ -91,12 +94,14 @@ contains
   end subroutine read_pin_mass
 
   !> Reads `MESH link … elements= [order=3]` or `MESH link … accuracy=`; `*` stands for every link
-  !! without a card of its own.
+  !! without a card of its own. Errors: words or keys that do not fit the card, neither `elements=`
+  !! nor `accuracy=`, `accuracy=` beside one of the others, values that are unreadable or out of
+  !! range.
   pure subroutine read_mesh(card, system, diagnostics, mesh)
-    type(card_t), intent(in) :: card
-    type(unit_system_t), intent(in) :: system
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(mesh_t), intent(out) :: mesh
+    type(card_t), intent(in) :: card                  !! the MESH card
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(mesh_t), intent(out) :: mesh                 !! as read; the links are not looked up
 
     logical :: fine, known_keys
 
@@ -114,7 +119,7 @@ contains
   !> Reads `elements=` and `order=`.
   pure subroutine read_elements(card, known_keys, diagnostics, mesh)
     type(card_t), intent(in) :: card
-    logical, intent(in) :: known_keys
+    logical, intent(in) :: known_keys !! no key is unknown: missing ones are an error
     type(diagnostics_t), intent(inout) :: diagnostics
     type(mesh_t), intent(inout) :: mesh
 
@@ -135,7 +140,7 @@ contains
       mesh%order = order
     end if
     if (.not. counted) return
-    ! As many unknowns as cubic elements may have.
+    ! The same limit on unknowns as for cubic elements.
     most = cubic_order*most_elements/mesh%order
     if (elements <= most) then
       mesh%elements = elements
@@ -148,7 +153,7 @@ contains
     end if
   end subroutine read_elements
 
-  !> Reads `accuracy=`, which stands in place of `elements=` and `order=`.
+  !> Reads `accuracy=`, which replaces `elements=` and `order=`.
   pure subroutine read_accuracy(card, system, diagnostics, mesh)
     type(card_t), intent(in) :: card
     type(unit_system_t), intent(in) :: system
@@ -186,9 +191,9 @@ contains
     end associate
   end subroutine read_accuracy
 
-  !> The mesh of a deck that has no MESH card.
+  !> The mesh of a deck without MESH card: all links, relative accuracy 1e-8.
   pure subroutine set_default_mesh(mesh)
-    type(mesh_t), intent(out) :: mesh
+    type(mesh_t), intent(out) :: mesh !! its words have no line
 
     type(token_t) :: nowhere
 

@@ -1,4 +1,4 @@
-!> MATERIAL: what a link is made of.
+!> MATERIAL card: the material of a link.
 module materials
   use card_reader, only: check_form, entry_number, has_key, read_entry_quantity, read_name, &
     require_positive
@@ -17,23 +17,25 @@ module materials
     type(token_t) :: name
     real(wp) :: youngs_modulus = 0.0_wp !! [Pa]
     real(wp) :: density = 0.0_wp        !! [kg/m³]
-    real(wp) :: poissons_ratio = 0.0_wp !! where the deck gives it
-    logical :: has_ratio = .false.
+    real(wp) :: poissons_ratio = 0.0_wp !! [-]; 0 without `nu=`
+    logical :: has_ratio = .false.      !! the card has `nu=`
   end type material_t
 
-  !> Longitudinal waves run at 1200 m/s in lead, 5100 in steel, 17,000 in diamond, 300 in cork;
-  !! links are made of nothing slower, unless of rubber. A thousandfold slip (E in GPa for MPa,
-  !! density in kg for tonne) turns steel's 5100 into 160 [m/s].
+  !> Limits of the speed of longitudinal waves, √(E/ρ) [m/s]. It is 1200 in lead, 5100 in steel,
+  !! 17,000 in diamond, 300 in cork; of the materials of links only rubber is slower. A unit error
+  !! by a factor of 1000 (E in GPa for MPa, density in kg for tonne) turns steel's 5100 into 160.
   real(wp), parameter :: slowest_wave = 200.0_wp, fastest_wave = 30000.0_wp
 
 contains
 
-  !> Reads `MATERIAL name E= density= [nu=]`; units that have slipped show in the speed of sound.
+  !> Reads `MATERIAL name E= density= [nu=]`. Errors: words or keys that do not fit the card, an
+  !! invalid name, a missing or unreadable value, E or density of 0 or less, ν outside (−1, 0.5].
+  !! Warning: a speed of sound that points to wrong units.
   pure subroutine read_material(card, system, diagnostics, material)
-    type(card_t), intent(in) :: card
-    type(unit_system_t), intent(in) :: system
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(material_t), intent(out) :: material
+    type(card_t), intent(in) :: card                  !! the MATERIAL card
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors and warnings are added
+    type(material_t), intent(out) :: material         !! as read
 
     logical :: fine, known_keys, has_modulus, has_density
     real(wp) :: wave_speed

@@ -1,5 +1,5 @@
-!> MOTOR and LOAD: what drives a linkage that moves by itself, and what resists; names are not yet
-!! looked up.
+!> MOTOR and LOAD cards: driving torque and resistances of forward dynamics (REPORT motion). Names
+!! are looked up later, by `body_checks`.
 module motor_cards
   use card_reader, only: check_form, entry_number, has_key, read_entry_quantity, refuse_negative
   use card_table, only: pattern_of
@@ -14,32 +14,34 @@ module motor_cards
 
   public :: motor_t, resistance_t, read_motor, read_resistance
 
-  !> What turns the driven link: a constant torque, or `stall (1 − ω2/noload)`.
+  !> Torque on the driven link: constant, or `stall (1 − ω2/noload)`.
   type :: motor_t
-    type(token_t) :: keyword       !! without a line if there is no motor
-    logical :: is_line = .false.   !! torque falls with speed
+    type(token_t) :: keyword       !! without a line if the deck has no motor
+    logical :: is_line = .false.   !! torque falls linearly with speed
     real(wp) :: torque = 0.0_wp    !! constant, counter-clockwise [N m]
-    real(wp) :: stall = 0.0_wp     !! torque at rest [N m]
-    real(wp) :: noload = 0.0_wp    !! speed without torque, of the same sign [rad/s]
+    real(wp) :: stall = 0.0_wp     !! torque at rest, counter-clockwise [N m]
+    real(wp) :: noload = 0.0_wp    !! speed at zero torque, of the same sign [rad/s]
   end type motor_t
 
-  !> What a link gives away: `torque + damping × its angular velocity`.
+  !> Resisting torque on a link: `torque + damping × angular velocity of the link`.
   type :: resistance_t
     type(token_t) :: keyword
-    type(token_t) :: link_name     !! without a line if it cannot be read
-    integer :: link = 0            !! number in the model's list
+    type(token_t) :: link_name     !! without a line if the card lacks it
+    integer :: link = 0            !! number in the model's list; 0: unknown
     real(wp) :: torque = 0.0_wp    !! taken from the link, counter-clockwise [N m]
     real(wp) :: damping = 0.0_wp   !! not negative [N m s/rad]
   end type resistance_t
 
 contains
 
-  !> Reads `MOTOR torque=` or `MOTOR stall= noload=`.
+  !> Reads `MOTOR torque=` or `MOTOR stall= noload=`. Errors: words or keys that do not fit the
+  !! card, both forms at once or neither, a missing or unreadable value, `stall=` or `noload=` of 0
+  !! or with different signs.
   pure subroutine read_motor(card, system, diagnostics, motor)
-    type(card_t), intent(in) :: card
-    type(unit_system_t), intent(in) :: system
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(motor_t), intent(out) :: motor
+    type(card_t), intent(in) :: card                  !! the MOTOR card
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(motor_t), intent(out) :: motor               !! as read
 
     logical :: fine, known_keys, stalls, runs
 
@@ -80,7 +82,7 @@ contains
       "'"//key//"=' must not be 0")
   end subroutine refuse_zero
 
-  !> A torque is constant or falls with speed.
+  !> Reports a motor with both a constant torque and one that falls with speed.
   pure subroutine refuse_mixture(card, diagnostics)
     type(card_t), intent(in) :: card
     type(diagnostics_t), intent(inout) :: diagnostics
@@ -100,12 +102,13 @@ contains
       "speed, 'stall= noload=', not both", card%entries(constant)%key, "'torque=' is given here")
   end subroutine refuse_mixture
 
-  !> Reads `LOAD link [torque=] [damping=]`.
+  !> Reads `LOAD link [torque=] [damping=]`. Errors: words or keys that do not fit the card, neither
+  !! `torque=` nor `damping=`, an unreadable value, negative damping.
   pure subroutine read_resistance(card, system, diagnostics, resistance)
-    type(card_t), intent(in) :: card
-    type(unit_system_t), intent(in) :: system
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(resistance_t), intent(out) :: resistance
+    type(card_t), intent(in) :: card                  !! the LOAD card
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(resistance_t), intent(out) :: resistance     !! as read; the link is not looked up
 
     logical :: fine, known_keys
 

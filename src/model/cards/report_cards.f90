@@ -1,4 +1,4 @@
-!> REPORT: a table, or several, that is asked for.
+!> REPORT card: requests one or several tables.
 module report_cards
   use card_reader, only: check_words, entry_number, has_key, read_choice, read_entry_count, &
     read_entry_quantity, require_positive
@@ -20,10 +20,10 @@ module report_cards
   type :: report_t
     type(token_t) :: keyword
     type(report_kind_t) :: kind  !! without a name if it is unknown
-    type(value_list_t) :: crank  !! of `crank=` [deg]; empty: every position
-    type(value_list_t) :: speed  !! of `speed=` [rad/s]; empty: every speed
-    integer :: points = 21       !! of `points=`, along each link
-    ! Of REPORT motion, each with its word; the words have no line if the deck does not say.
+    type(value_list_t) :: crank  !! `crank=` of shapes and geometry [deg]; empty: all positions
+    type(value_list_t) :: speed  !! `speed=` of shapes [rad/s]; empty: all speeds
+    integer :: points = 21       !! `points=` of shapes, along each link
+    ! REPORT motion: each value with its word, which has no line if the card does not give it.
     real(wp) :: start_angle = 0.0_wp !! of the crank [deg]
     real(wp) :: start_speed = 0.0_wp !! of the crank [rad/s]
     real(wp) :: end_time = 0.0_wp    !! [s]
@@ -31,19 +31,21 @@ module report_cards
     type(token_t) :: start_angle_word, start_speed_word, end_time_word, time_step_word
   end type report_t
 
-  !> More rows of a motion than this are a slip of the pen.
+  !> A motion with more rows than this is taken for a mistake.
   integer, parameter :: most_rows = 1000000
 
 contains
 
-  !> Reads `REPORT kind`, for shapes with `crank=`, `speed=` and `points=`, for a drawing with its
-  !! crank angles, for a motion with its start and its times.
+  !> Reads `REPORT kind`; shapes with `crank=`, `speed=` and `points=`, geometry with its crank
+  !! angles, motion with start, end and step. Errors: an unknown kind, words or keys that do not fit
+  !! it, a missing or unreadable value, fewer than two `points=`, a motion whose end or step is not
+  !! above 0, whose step exceeds its end, or which has more than a million steps.
   pure subroutine read_report(card, reports, system, diagnostics, report)
-    type(card_t), intent(in) :: card
-    type(report_kind_t), intent(in) :: reports(:) !! that there are
-    type(unit_system_t), intent(in) :: system
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(report_t), intent(out) :: report
+    type(card_t), intent(in) :: card                  !! the REPORT card
+    type(report_kind_t), intent(in) :: reports(:)     !! (kinds) all that exist
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(report_t), intent(out) :: report             !! as read
 
     character(len=:), allocatable :: pattern
     integer :: number
@@ -97,7 +99,7 @@ contains
   !> Reads `REPORT geometry crank=a,b,...`.
   pure subroutine read_geometry(card, known_keys, system, diagnostics, report)
     type(card_t), intent(in) :: card
-    logical, intent(in) :: known_keys !! no key is unknown
+    logical, intent(in) :: known_keys !! no key is unknown: a missing one is an error
     type(unit_system_t), intent(in) :: system
     type(diagnostics_t), intent(inout) :: diagnostics
     type(report_t), intent(inout) :: report
@@ -112,7 +114,7 @@ contains
   !> Reads `REPORT motion crank= [speed=0] end= step=`.
   pure subroutine read_motion(card, known_keys, system, diagnostics, report)
     type(card_t), intent(in) :: card
-    logical, intent(in) :: known_keys !! no key is unknown
+    logical, intent(in) :: known_keys !! no key is unknown: missing ones are an error
     type(unit_system_t), intent(in) :: system
     type(diagnostics_t), intent(inout) :: diagnostics
     type(report_t), intent(inout) :: report

@@ -1,5 +1,5 @@
-!> What is computed: TITLE, DRIVE, CRANK, SPEED, MODES, and the cards that choose one word of
-!! several.
+!> TITLE, DRIVE, CRANK, SPEED and MODES cards, and cards that choose one of several words (BRANCH,
+!! INERTIA, SOLVER).
 module request_cards
   use card_reader, only: check_form, read_choice, read_entry_quantity
   use card_table, only: card_kind_t, kind_of_card
@@ -19,11 +19,11 @@ module request_cards
 
 contains
 
-  !> Reads `TITLE text`.
+  !> Reads `TITLE text`. Errors: no blank between keyword and text.
   pure subroutine read_title(card, diagnostics, title)
-    type(card_t), intent(in) :: card
-    type(diagnostics_t), intent(inout) :: diagnostics
-    character(len=:), allocatable, intent(inout) :: title
+    type(card_t), intent(in) :: card                      !! the TITLE card
+    type(diagnostics_t), intent(inout) :: diagnostics     !! errors are added
+    character(len=:), allocatable, intent(inout) :: title !! unchanged if the card has no text
 
     if (size(card%words) == 0) return
     title = card%words(1)%text
@@ -31,11 +31,12 @@ contains
       card%words(1), "a blank must stand between TITLE and its text")
   end subroutine read_title
 
-  !> Reads `DRIVE link`.
+  !> Reads `DRIVE link`. Errors: words or keys that do not fit the card, a link driven before.
   pure subroutine read_drive(card, diagnostics, drive)
-    type(card_t), intent(in) :: card
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(token_t), intent(inout) :: drive !! name of the driven link; without a line before
+    type(card_t), intent(in) :: card                  !! the DRIVE card
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(token_t), intent(inout) :: drive             !! name of the driven link; without a line
+                                                      !! before the first card
 
     logical :: fine
 
@@ -49,13 +50,14 @@ contains
     end if
   end subroutine read_drive
 
-  !> Reads a card of one word, such as `BRANCH open|crossed`.
+  !> Reads a card of one word, such as `BRANCH open|crossed`. Errors: words or keys that do not fit
+  !! the card, an unknown word.
   pure subroutine read_option(card, diagnostics, option, word)
-    type(card_t), intent(in) :: card
-    type(diagnostics_t), intent(inout) :: diagnostics
-    integer, intent(inout) :: option             !! number among the words of the table of cards;
-                                                 !! as it was if the word is none of them
-    type(token_t), intent(inout), optional :: word
+    type(card_t), intent(in) :: card                  !! BRANCH, INERTIA or SOLVER
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    integer, intent(inout) :: option                  !! number among the card's words in the table
+                                                      !! of cards; unchanged after an error
+    type(token_t), intent(inout), optional :: word    !! the word read; unchanged after an error
 
     type(card_kind_t) :: kind
     integer :: choice
@@ -70,13 +72,14 @@ contains
     if (present(word)) word = card%words(1)
   end subroutine read_option
 
-  !> Reads `CRANK` angles [deg]: numbers and ranges `a to b step s`, perhaps with one unit at the
-  !! end for all of them.
+  !> Reads `CRANK` angles [deg]: numbers and ranges `a to b step s`, with or without one unit at the
+  !! end for all. Errors: words or keys that do not fit the card, unreadable values or ranges, a
+  !! value given twice.
   pure subroutine read_crank(card, system, diagnostics, crank)
-    type(card_t), intent(in) :: card
-    type(unit_system_t), intent(in) :: system
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(value_list_t), intent(out) :: crank
+    type(card_t), intent(in) :: card                  !! the CRANK card
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(value_list_t), intent(out) :: crank          !! angles [deg]
 
     logical :: fine
 
@@ -84,13 +87,14 @@ contains
     call read_values(card%words, dimension_angle, system, "crank angle", diagnostics, crank)
   end subroutine read_crank
 
-  !> Reads `SPEED` values [rad/s], listed like crank angles, and `alpha=` [rad/s²].
+  !> Reads `SPEED` values [rad/s], listed like crank angles, and `alpha=` [rad/s²]. Errors: as for
+  !! CRANK, and an unreadable `alpha=`.
   pure subroutine read_speed(card, system, diagnostics, speed, acceleration)
-    type(card_t), intent(in) :: card
-    type(unit_system_t), intent(in) :: system
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(value_list_t), intent(out) :: speed
-    real(wp), intent(out) :: acceleration !! [rad/s²]
+    type(card_t), intent(in) :: card                  !! the SPEED card
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(value_list_t), intent(out) :: speed          !! ω2 [rad/s]
+    real(wp), intent(out) :: acceleration             !! α2 [rad/s²]
 
     logical :: fine
 
@@ -100,12 +104,14 @@ contains
       diagnostics, acceleration, fine)
   end subroutine read_speed
 
-  !> Reads `MODES number`.
+  !> Reads `MODES number`. Errors: words or keys that do not fit the card, a number that is not
+  !! whole or is below 1.
   pure subroutine read_modes(card, diagnostics, modes, word)
-    type(card_t), intent(in) :: card
-    type(diagnostics_t), intent(inout) :: diagnostics
-    integer, intent(inout) :: modes      !! as it was if the number is none
-    type(token_t), intent(inout) :: word !! likewise
+    type(card_t), intent(in) :: card                  !! the MODES card
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    integer, intent(inout) :: modes                   !! number of modes; unchanged after an error
+    type(token_t), intent(inout) :: word              !! its word in the deck; unchanged after an
+                                                      !! error
 
     type(error_t), allocatable :: error
     logical :: fine

@@ -1,4 +1,4 @@
-!> SECTION: the cross-section of a link.
+!> SECTION card: the cross-section of a link.
 module sections
   use card_reader, only: check_form, entry_number, has_key, read_choice, read_entry_quantity, &
     read_name, require_positive
@@ -17,13 +17,13 @@ module sections
 
   type :: section_t
     type(token_t) :: name
-    integer :: shape = 0               !! one of the shape_… numbers; 0: unknown
+    integer :: shape = 0               !! one of the shape_… constants; 0: unknown
     real(wp) :: area = 0.0_wp          !! [m²]
     real(wp) :: second_moment = 0.0_wp !! about the axis normal to the plane of motion [m⁴]
-    real(wp) :: depth = 0.0_wp         !! in the plane of motion [m]; 0 if the deck does not tell
-    real(wp) :: inner_share = 0.0_wp   !! of a tube: inner diameter, of the outer one
-    real(wp) :: shear_coefficient = 0.0_wp !! that of the deck; 0 if it gives none
-    type(token_t) :: shear_word        !! where it stands
+    real(wp) :: depth = 0.0_wp         !! in the plane of motion [m]; 0: not given
+    real(wp) :: inner_share = 0.0_wp   !! inner/outer diameter of a tube [-]
+    real(wp) :: shear_coefficient = 0.0_wp !! from the deck [-]; 0: not given
+    type(token_t) :: shear_word        !! its value on the card; without a line if not given
   end type section_t
 
   integer, parameter :: shape_rectangle = 1, shape_circle = 2, shape_tube = 3, shape_general = 4
@@ -31,12 +31,14 @@ module sections
 contains
 
   !> Reads `SECTION name rectangle thickness= width= | circle diameter= | tube outer= inner= |
-  !! general A= I= [depth=]`, all of them with `[shear_coefficient=]`.
+  !! general A= I= [depth=]`, all of them with `[shear_coefficient=]`. Errors: words or keys that do
+  !! not fit the shape, an invalid name, an unknown shape, a missing or unreadable value, a
+  !! dimension of 0 or less, `inner=` not below `outer=`, a shear coefficient outside (0, 1].
   pure subroutine read_section(card, system, diagnostics, section)
-    type(card_t), intent(in) :: card
-    type(unit_system_t), intent(in) :: system
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(section_t), intent(out) :: section
+    type(card_t), intent(in) :: card                  !! the SECTION card
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(section_t), intent(out) :: section           !! as read
 
     type(card_kind_t) :: kind
     logical :: fine
@@ -123,7 +125,7 @@ contains
     section%depth = diameter
   end subroutine read_circle
 
-  !> `I = π (D² − d²)(D² + d²)/64`: factored, so that a thin wall costs no digits.
+  !> `I = π (D² − d²)(D² + d²)/64`, factored to keep all digits of a thin wall.
   pure subroutine read_tube(card, system, diagnostics, section)
     type(card_t), intent(in) :: card
     type(unit_system_t), intent(in) :: system
@@ -164,15 +166,15 @@ contains
     call read_positive(card, "depth", dimension_length, system, .false., diagnostics, section%depth)
   end subroutine read_general
 
-  !> A quantity greater than zero; zero when it is missing or wrong, and then `diagnostics` says so.
+  !> Reads a quantity greater than zero; 0 after an error.
   pure subroutine read_positive(card, key, dimension, system, required, diagnostics, value)
     type(card_t), intent(in) :: card
     character(len=*), intent(in) :: key
     integer, intent(in) :: dimension(4)
     type(unit_system_t), intent(in) :: system
-    logical, intent(in) :: required
+    logical, intent(in) :: required !! a missing key is an error
     type(diagnostics_t), intent(inout) :: diagnostics
-    real(wp), intent(out) :: value
+    real(wp), intent(out) :: value !! [SI]
 
     logical :: fine
 

@@ -1,4 +1,4 @@
-!> UNITS: what bare numbers mean.
+!> UNITS card: the units of bare numbers.
 module unit_cards
   use card_reader, only: check_form
   use cards, only: card_t
@@ -14,12 +14,12 @@ module unit_cards
 
 contains
 
-  !> Reads `UNITS length mass time`. What is wrong with a word is noted, and leaves its unit as it
-  !! was.
+  !> Reads `UNITS length mass time`. Errors: words or keys that do not fit the card, an unknown unit
+  !! or one of another dimension; that unit then keeps its value.
   subroutine read_units(card, diagnostics, system)
-    type(card_t), intent(in) :: card
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(unit_system_t), intent(inout) :: system
+    type(card_t), intent(in) :: card                  !! the UNITS card
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(unit_system_t), intent(inout) :: system      !! has default units before
 
     logical :: fine
 

@@ -1,4 +1,5 @@
-!> Names on MASS, POINT, FORCE, TORQUE and LOAD cards, and whether the bodies are complete.
+!> Checks of MASS, POINT, FORCE, TORQUE and LOAD cards: the links and pins that they name, and
+!! whether rigid bodies have all their data.
 module body_checks
   use diagnostics, only: add_error, diagnostics_t
   use link_cards, only: link_t
@@ -13,26 +14,28 @@ module body_checks
 
 contains
 
-  !> Gives every card its link, and complains about what cannot be.
+  !> Looks up the links of all these cards. Errors: an unknown link or pin, a point named like a
+  !! pin, a force on a ground pivot, a link with a mass but no moment of inertia.
   pure subroutine check_bodies(diagnostics, model)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(inout) :: model !! whose links have their materials and sections
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(model_t), intent(inout) :: model             !! has its links with materials and sections;
+                                                      !! link numbers of the cards are set
 
     type(name_index_t) :: links
     integer :: i
 
     links = new_name_index(token_texts(model%links%name))
     do i = 1, size(model%masses)
-      call find_link(model%masses(i)%link_name, links, diagnostics, model%masses(i)%link)
+      call seek_link(model%masses(i)%link_name, links, diagnostics, model%masses(i)%link)
     end do
     do i = 1, size(model%points)
-      call find_link(model%points(i)%link_name, links, diagnostics, model%points(i)%link)
+      call seek_link(model%points(i)%link_name, links, diagnostics, model%points(i)%link)
     end do
     do i = 1, size(model%torques)
-      call find_link(model%torques(i)%link_name, links, diagnostics, model%torques(i)%link)
+      call seek_link(model%torques(i)%link_name, links, diagnostics, model%torques(i)%link)
     end do
     do i = 1, size(model%resistances)
-      call find_link(model%resistances(i)%link_name, links, diagnostics, model%resistances(i)%link)
+      call seek_link(model%resistances(i)%link_name, links, diagnostics, model%resistances(i)%link)
     end do
     call check_points(diagnostics, model)
     call check_forces(diagnostics, model)
@@ -41,16 +44,16 @@ contains
     end do
   end subroutine check_bodies
 
-  pure subroutine find_link(word, links, diagnostics, link)
-    type(token_t), intent(in) :: word
+  pure subroutine seek_link(word, links, diagnostics, link)
+    type(token_t), intent(in) :: word !! without a line if the card lacks it
     type(name_index_t), intent(in) :: links
     type(diagnostics_t), intent(inout) :: diagnostics
-    integer, intent(inout) :: link !! 0 if the card could not be read
+    integer, intent(inout) :: link !! unchanged if the card lacks it, 0 if unknown
 
     if (word%line > 0) call look_up(word, links, "link", diagnostics, link)
-  end subroutine find_link
+  end subroutine seek_link
 
-  !> In the tables a point has its name, and so has a pin.
+  !> Refuses points named like pins: in the tables both appear by their names.
   pure subroutine check_points(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
@@ -72,7 +75,7 @@ contains
     end do
   end subroutine check_points
 
-  !> Forces act on moving pins.
+  !> Forces must act on moving pins.
   pure subroutine check_forces(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
@@ -97,7 +100,8 @@ contains
     end do
   end subroutine check_forces
 
-  !> A mass without a shape says nothing of how it turns.
+  !> A link with `mass=` also needs a moment of inertia: `inertia=`, or that of material and
+  !! section.
   pure subroutine check_inertia(diagnostics, link)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(link_t), intent(in) :: link

@@ -1,4 +1,4 @@
-!> What the meshes of all links are together, and what else on the deck must suit them.
+!> Checks of MESH cards against each other and against SOLVER and INERTIA.
 module mesh_checks
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
@@ -13,15 +13,16 @@ module mesh_checks
 
 contains
 
-  !> Where an accuracy is wanted, the program chooses the mesh of the whole mechanism, for a solver
-  !! of its own.
+  !> Checks `accuracy=`: the program then chooses the mesh of the whole mechanism, for the
+  !! deformation solver. Errors: other links with `elements=`, two different accuracies, a solver or
+  !! lumped inertia that needs given elements.
   subroutine check_meshes(cards, diagnostics, model)
-    type(card_t), intent(in) :: cards(:)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(in) :: model !! whose links have their meshes
+    type(card_t), intent(in) :: cards(:)              !! (cards) of the deck
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(model_t), intent(in) :: model                !! whose links have their meshes
 
     integer :: accurate, divided
-    !> used, and given so
+    ! Meshes in use, with `accuracy=` or with `elements=`.
     logical :: by_accuracy(size(model%meshes)), by_elements(size(model%meshes))
 
     by_elements = .false.
@@ -37,17 +38,17 @@ contains
         model%meshes(divided)%keyword, "their card is here")
     end if
     call refuse_other_accuracies(diagnostics, model, by_accuracy)
-    ! A MESH card that is there, but misspelt, is not missing as well.
+    ! A misspelt MESH card has been reported: it is not missing as well.
     if (model%meshes(accurate)%keyword%line == 0 .and. has_card(cards, "MESH")) return
     call check_solver(diagnostics, model, accurate)
     call check_lumped_inertia(diagnostics, model, accurate)
   end subroutine check_meshes
 
-  !> The error of a frequency comes from all links together.
+  !> The error of a frequency comes from all links together: only one accuracy is possible.
   pure subroutine refuse_other_accuracies(diagnostics, model, by_accuracy)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
-    logical, intent(in) :: by_accuracy(:) !! (meshes)
+    logical, intent(in) :: by_accuracy(:) !! (meshes) in use, with `accuracy=`
 
     integer :: first, i
 
@@ -63,10 +64,11 @@ contains
     end do
   end subroutine refuse_other_accuracies
 
+  !> The solvers `dense` and `band` need given elements.
   pure subroutine check_solver(diagnostics, model, accurate)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
-    integer, intent(in) :: accurate
+    integer, intent(in) :: accurate !! number of the mesh with `accuracy=`
 
     if (model%solver /= solver_dense .and. model%solver /= solver_band) return
     associate (mesh => model%meshes(accurate))
@@ -82,11 +84,11 @@ contains
     end associate
   end subroutine check_solver
 
-  !> Lumped masses sit on the nodes that the user has chosen.
+  !> Lumped masses sit on nodes, so the deck must give the elements.
   pure subroutine check_lumped_inertia(diagnostics, model, accurate)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
-    integer, intent(in) :: accurate
+    integer, intent(in) :: accurate !! number of the mesh with `accuracy=`
 
     if (model%inertia /= inertia_lumped) return
     if (.not. needs_inertia(model)) return

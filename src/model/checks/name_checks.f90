@@ -1,4 +1,4 @@
-!> Names across cards: who is defined twice, who refers to whom.
+!> Names across cards: duplicate definitions, and references from card to card.
 module name_checks
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use link_cards, only: link_t
@@ -12,15 +12,18 @@ module name_checks
 
   public :: check_names, look_up, link_ends
 
-  !> There are fewer kinds of reports than this.
+  !> More than the number of report kinds: limits the comparisons in a deck of very many cards.
   integer, parameter :: most_reports = 100
 
 contains
 
-  !> Complains about every name that is wrong, and gives each link its material, section and mesh.
+  !> Checks names, and gives each link its material, section and mesh. Errors: a name defined twice,
+  !! an unknown material, section, link or pin, two meshes for a link or one for a rigid link, a
+  !! moving pin at one link only, an unused ground pivot. Warning: a mass at a ground pivot.
   subroutine check_names(diagnostics, model)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(inout) :: model
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors and warnings are added
+    type(model_t), intent(inout) :: model             !! material, section and mesh numbers of its
+                                                      !! links are set
 
     call refuse_same_names(diagnostics, model)
     call find_materials_and_sections(diagnostics, model)
@@ -29,8 +32,8 @@ contains
     call check_pin_masses(diagnostics, model)
   end subroutine check_names
 
-  !> Two parts of one kind with the same name, two masses or forces at one pin, two torques or loads
-  !! on one link, two reports of one kind.
+  !> Refuses two parts of one kind with the same name, two masses or forces at one pin, two torques
+  !! or loads on one link, two reports of one kind.
   subroutine refuse_same_names(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
@@ -76,7 +79,7 @@ contains
 
   end subroutine refuse_same_names
 
-  !> Looks up the names on LINK cards.
+  !> Looks up the materials and sections on LINK cards.
   pure subroutine find_materials_and_sections(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(inout) :: model
@@ -96,7 +99,7 @@ contains
     end do
   end subroutine find_materials_and_sections
 
-  !> Gives every link its mesh: a card that names the link goes before `MESH *`.
+  !> Gives every link its mesh: a card that names the link takes precedence over `MESH *`.
   pure subroutine find_meshes(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(inout) :: model
@@ -114,7 +117,7 @@ contains
           link = 0
           if (word%text /= "*") call look_up(word, links, "link", diagnostics, link)
           if (word%text /= "*" .and. link == 0) then
-            ! Some link is meant: it is not told to lack a mesh as well.
+            ! Some link is meant: it is not reported to lack a mesh as well.
             misnamed = i
             cycle
           end if
@@ -138,20 +141,20 @@ contains
       misnamed, for_all > 0)
   end subroutine find_meshes
 
-  !> Finds a name in a list, or complains and offers the nearest.
+  !> Finds a name in a list. Errors: it is not in the list; the message suggests the nearest.
   pure subroutine look_up(word, list, noun, diagnostics, number)
-    type(token_t), intent(in) :: word
-    type(name_index_t), intent(in) :: list
-    character(len=*), intent(in) :: noun
-    type(diagnostics_t), intent(inout) :: diagnostics
-    integer, intent(out) :: number
+    type(token_t), intent(in) :: word                 !! the name, in the deck
+    type(name_index_t), intent(in) :: list            !! to search
+    character(len=*), intent(in) :: noun              !! kind of name, for the message: `link`
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    integer, intent(out) :: number                    !! in the list, from 1; 0: unknown
 
     number = find_name(list, word%text)
     if (number == 0) call add_error(diagnostics, word, "unknown "//noun//" '"//word%text//"'"// &
       suggestion(word%text, list%name))
   end subroutine look_up
 
-  !> Every pin joins two links; every ground pivot carries one.
+  !> Every moving pin joins at least two links; every ground pivot carries at least one.
   pure subroutine check_pins(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
@@ -160,7 +163,7 @@ contains
     integer, allocatable :: uses(:)
     integer :: i, k, first
 
-    ! A card that could not be read would make every pin on it look forgotten.
+    ! An unreadable card would make the pins on it look unused.
     if (any(model%grounds%pin%line == 0)) return
     do i = 1, size(model%links)
       if (any(model%links(i)%pin%line == 0)) return
@@ -193,7 +196,7 @@ contains
 
   !> The pins of all links: those of link i at 2i − 1 and 2i.
   pure function link_ends(links) result(pins)
-    type(link_t), intent(in) :: links(:)
+    type(link_t), intent(in) :: links(:) !! (links)
     type(token_t) :: pins(2*size(links))
 
     integer :: i
@@ -203,8 +206,8 @@ contains
     end do
   end function link_ends
 
-  !> The names that a misspelt pin may stand for: all but itself. A deck of many pins is not
-  !! searched.
+  !> Names that a misspelt pin may stand for: all pins and ground pivots but itself. Empty for a
+  !! deck with more than 100 link ends.
   pure function other_names(ends, grounds, name) result(list)
     type(name_index_t), intent(in) :: ends, grounds
     character(len=*), intent(in) :: name
@@ -221,7 +224,7 @@ contains
     list = [list, grounds%name]
   end function other_names
 
-  !> Masses sit at moving pins.
+  !> Pin masses must sit at moving pins; at a ground pivot they only cause a warning.
   pure subroutine check_pin_masses(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model

@@ -1,4 +1,4 @@
-!> What the reports asked for need, and whether the deck has it.
+!> Whether the deck has all that its reports need.
 module report_needs
   use card_table, only: pattern_of
   use diagnostics, only: add_error, diagnostics_t
@@ -13,10 +13,13 @@ module report_needs
 
 contains
 
-  !> Links need material, section and mesh, or a mass; loads need INERTIA; paths need points.
+  !> Checks what reports need. Errors: a link without material, section or mesh, or without a mass;
+  !! a bending link with its own mass; no INERTIA card where results depend on it; REPORT points
+  !! without POINT cards.
   pure subroutine check_report_needs(diagnostics, model)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(in) :: model !! whose links have their materials, sections and meshes
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(model_t), intent(in) :: model                !! whose links have their materials, sections
+                                                      !! and meshes
 
     integer :: i, points
 
@@ -31,7 +34,7 @@ contains
       "expected: "//pattern_of("POINT"))
   end subroutine check_report_needs
 
-  !> What a link lacks: as a beam, or as a body with a mass.
+  !> Reports what a link lacks, as a beam or as a body with a mass.
   pure subroutine check_link(diagnostics, model, link)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
@@ -50,7 +53,7 @@ contains
         "expected 'rigid' on this card, or no '"//link%body_word%text//"='")
       return
     end if
-    ! A mass without moment of inertia has been told.
+    ! A mass without moment of inertia has been reported by `check_bodies`.
     if (.not. beam) mass = mass .and. .not. link%has_mass
     lacking = ""
     if ((beam .or. mass) .and. link%material_name%line == 0) lacking = lacking//" material"
@@ -64,7 +67,7 @@ contains
       trim(merge("it  ", "them", index(lacking(2:), " ") == 0))//way_out)
   end subroutine check_link
 
-  !> How the mass of beams makes loads is for the deck to say.
+  !> INERTIA has no default: it is required where results depend on it.
   pure subroutine check_inertia_card(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model

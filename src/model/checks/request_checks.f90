@@ -1,4 +1,4 @@
-!> What is asked for: whether the deck has all it takes, and whether it makes sense.
+!> Checks of what a deck requests: whether all it needs is there, and whether it makes sense.
 module request_checks
   use card_table, only: card_names, pattern_of
   use cards, only: card_t
@@ -18,23 +18,23 @@ module request_checks
 
   public :: check_required, check_requests, has_card
 
-  !> A link stockier than this is no slender beam: shear and rotary inertia decide.
+  !> Below this ratio of length to depth, shear and rotary inertia matter.
   real(wp), parameter :: least_slenderness = 10.0_wp
 
   integer, parameter :: most_modes = 100
 
 contains
 
-  !> Cards that no deck can do without.
+  !> Adds an error for every required card that is missing.
   subroutine check_required(cards, reports, diagnostics, model)
-    type(card_t), intent(in) :: cards(:)
-    type(report_kind_t), intent(in) :: reports(:) !! that there are
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(in) :: model !! with its reports
+    type(card_t), intent(in) :: cards(:)              !! of the deck
+    type(report_kind_t), intent(in) :: reports(:)     !! all that exist
+    type(diagnostics_t), intent(inout) :: diagnostics !! to which errors are added
+    type(model_t), intent(in) :: model                !! with its reports
 
     if (.not. has_card(cards, "UNITS")) &
       call missing("there is no UNITS card; expected: "//pattern_of("UNITS"))
-    ! What a file holds that cannot be included is not missing from the deck.
+    ! Cards of a file that could not be included are not missing from the deck.
     if (has_card(cards, "INCLUDE")) return
     if (.not. has_card(cards, "GROUND") .or. .not. has_card(cards, "LINK")) then
       call missing("there are no "//trim(merge("GROUND", "LINK  ", &
@@ -64,10 +64,10 @@ contains
 
   end subroutine check_required
 
-  !> Whether a deck has a card, be it misspelt.
+  !> Whether a deck has a card, correctly spelt or not.
   function has_card(cards, keyword) result(has)
-    type(card_t), intent(in) :: cards(:)
-    character(len=*), intent(in) :: keyword
+    type(card_t), intent(in) :: cards(:)    !! of the deck
+    character(len=*), intent(in) :: keyword !! of the card
     logical :: has
 
     type(string_t), allocatable :: known(:)
@@ -84,8 +84,8 @@ contains
     has = .false.
   end function has_card
 
-  !> Whether an unknown keyword is likely a misspelt `keyword`: then that card is not missing but
-  !! wrong.
+  !> Whether an unknown keyword is probably a misspelt `keyword`; that card is then wrong, not
+  !! missing.
   pure function means(unknown, keyword, known)
     character(len=*), intent(in) :: unknown, keyword
     type(string_t), intent(in) :: known(:) !! all keywords
@@ -94,7 +94,7 @@ contains
     integer :: i, nearest
 
     means = .false.
-    ! Most are no misspelt ones, and comparing spellings takes its time.
+    ! Most keywords are spelt correctly, and comparing spellings takes time.
     do i = 1, size(known)
       if (same_word(known(i)%text, unknown)) return
     end do
@@ -102,31 +102,33 @@ contains
     if (nearest > 0) means = same_word(known(nearest)%text, keyword)
   end function means
 
-  !> What reports need, values that must be on other cards, and what deserves a warning.
+  !> Checks what reports need, and values that must stand on other cards too; warns of requests that
+  !! are doubtful.
   subroutine check_requests(cards, diagnostics, model)
-    type(card_t), intent(in) :: cards(:)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(in) :: model
+    type(card_t), intent(in) :: cards(:)              !! of the deck
+    type(diagnostics_t), intent(inout) :: diagnostics !! to which errors and warnings are added
+    type(model_t), intent(in) :: model                !! as far as its cards could be read
 
     call check_report_needs(diagnostics, model)
     call check_vibrations(diagnostics, model)
-    call check_modes(diagnostics, model)
+    call refuse_too_many_modes(diagnostics, model)
     call check_shapes(diagnostics, model)
     call warn_of_stocky_links(diagnostics, model)
     call warn_of_static_loads(cards, diagnostics, model)
     call warn_of_idle_motors(diagnostics, model)
   end subroutine check_requests
 
-  pure subroutine check_modes(diagnostics, model)
+  !> Refuses more modes than are certified.
+  pure subroutine refuse_too_many_modes(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
     if (.not. needs_frequencies(model) .or. model%modes <= most_modes) return
     call add_error(diagnostics, model%modes_word, "at most "//to_string(most_modes)// &
       " modes are certified, not "//to_string(model%modes))
-  end subroutine check_modes
+  end subroutine refuse_too_many_modes
 
-  !> Shapes are drawn where positions are computed.
+  !> Angles and speeds of REPORT shapes must be among those of CRANK and SPEED.
   subroutine check_shapes(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
@@ -209,7 +211,7 @@ contains
     end do
   end subroutine warn_of_static_loads
 
-  !> What drives a motion and what resists it says nothing where the crank angle is prescribed.
+  !> MOTOR and LOAD have no effect where the crank angle is prescribed.
   pure subroutine warn_of_idle_motors(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model

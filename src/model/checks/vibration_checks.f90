@@ -1,4 +1,4 @@
-!> Links that bend beside links that do not, and what they carry: whether frequencies can be found.
+!> Whether frequencies can be found with the rigid links and the masses of a deck.
 module vibration_checks
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
@@ -11,10 +11,11 @@ module vibration_checks
 
 contains
 
-  !> Something must bend, by a solver that knows rigid links, and masses on beams sit on their axes.
+  !> Checks rigid links and masses where beams are needed. Errors: all links rigid; rigid links with
+  !! `SOLVER dense` or `band`; a mass beside or beyond the axis of a bending link.
   pure subroutine check_vibrations(diagnostics, model)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(in) :: model
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(model_t), intent(in) :: model                !! whose masses have their links
 
     integer :: report, rigid
 
@@ -35,7 +36,8 @@ contains
     call check_masses(diagnostics, model)
   end subroutine check_vibrations
 
-  !> A mass beside or beyond a beam would need an arm that is not there.
+  !> Masses on beams must sit on their axes: there is no rigid arm to a mass beside or beyond a
+  !! beam.
   pure subroutine check_masses(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model

@@ -1,4 +1,4 @@
-!> Checks of a model that need mechanics, with complaints that point at the deck.
+!> Checks of a model that need mechanics; their messages point at the deck.
 module deck_checks
   use beam_mesh, only: moving_unknowns
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
@@ -31,8 +31,8 @@ contains
   !> Whether the linkage closes, reaches every position, has as many unknowns as modes, and a mesh
   !! that keeps enough digits.
   subroutine check_mechanics(model, diagnostics)
-    type(model_t), intent(in) :: model !! without errors so far
-    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model                !! without errors so far
+    type(diagnostics_t), intent(inout) :: diagnostics !! to which errors and warnings are added
 
     type(mechanism_t) :: mechanism
     type(reach_t) :: reach
@@ -62,10 +62,10 @@ contains
     call check_motion(model, mechanism, reach, reachable(reach), diagnostics)
     if (.not. needs_frequencies(model) .or. .not. has_mesh(mechanism) .or. &
       .not. has_beams(mechanism)) return
-    ! Where the program chooses orders there are unknowns enough; in deformation coordinates no
-    ! digits are lost.
+    ! Where the program chooses the orders there are enough unknowns, and deformation coordinates
+    ! lose no digits.
     if (mechanism%accuracy > 0.0_wp) return
-    call check_modes(model, mechanism, diagnostics)
+    call check_unknowns(model, mechanism, diagnostics)
     if (has_errors(diagnostics) .or. all(model%solver /= [solver_dense, solver_band])) return
     call check_round_off(model, mechanism, diagnostics)
   end subroutine check_mechanics
@@ -95,7 +95,7 @@ contains
     end associate
   end subroutine report_open_linkage
 
-  !> Positions out of reach: one complaint with all that the user needs to mend the deck.
+  !> Positions out of reach: one message with all that is needed to correct the deck.
   subroutine check_reach(model, reach, diagnostics)
     type(model_t), intent(in) :: model
     type(reach_t), intent(in) :: reach
@@ -222,7 +222,8 @@ contains
     end if
   end function interval
 
-  subroutine check_modes(model, mechanism, diagnostics)
+  !> Refuses more modes than the mesh has unknowns, or than SOLVER band finds of them.
+  subroutine check_unknowns(model, mechanism, diagnostics)
     type(model_t), intent(in) :: model
     type(mechanism_t), intent(in) :: mechanism
     type(diagnostics_t), intent(inout) :: diagnostics
@@ -243,12 +244,12 @@ contains
         plural(mechanism%mesh%unknowns - 2, "mode")// &
         " of this mesh (two fewer than its unknowns), not "//to_string(model%modes))
     end if
-  end subroutine check_modes
+  end subroutine check_unknowns
 
   !> Refuses a mesh so fine that the rounding of its matrices spoils the lowest frequencies.
   !!
-  !! The bound is `ε‖K_e‖/(λ‖M_e‖)`. The median of the positions decides: one of them near a dead
-  !! point is a matter of its own row.
+  !! The bound is `ε‖K_e‖/(λ‖M_e‖)`, at the median of the positions: one position near a dead point
+  !! affects its own row only.
   subroutine check_round_off(model, mechanism, diagnostics)
     type(model_t), intent(in) :: model
     type(mechanism_t), intent(in) :: mechanism

@@ -1,7 +1,7 @@
 !> The memory that a run will take, estimated before it takes any.
 !!
-!! An estimate on the safe side from the sizes of what is kept, and constants measured with the peak
-!! of the process.
+!! The estimate is on the safe side. It adds up the sizes of the data that are kept, and constants
+!! measured with the peak memory of the process.
 module memory_needs
   use available_memory, only: available_memory_t, memory_text
   use beam_element, only: axial_degree, element_unknowns
@@ -18,33 +18,35 @@ module memory_needs
 
   public :: memory_need_t, memory_of_run, check_memory
 
-  !> One part of it.
+  !> Memory of one part of a run.
   type :: memory_need_t
-    real(wp) :: bytes = 0.0_wp
-    character(len=:), allocatable :: what !! takes it, in the plural
-    type(token_t) :: place                !! the card that asks for it
+    real(wp) :: bytes = 0.0_wp            !! 0: the run does not have this part
+    character(len=:), allocatable :: what !! name of the part, in the plural, for the message
+    type(token_t) :: place                !! the card that requests it
   end type memory_need_t
 
-  !> What the parts of the memory belong to.
+  !> The parts of a run that take memory.
   integer, parameter :: of_results = 1, of_shapes = 2, of_branches = 3, of_mesh = 4, &
     of_matrices = 5, of_motion = 6, parts = 6
 
-  !> Bytes of a number; of a pose with its motion; of the results at a position, and at one of its
-  !! speeds, besides their numbers.
+  !> Bytes of a number; of a pose with its kinematic coefficients; of the results at a position, and
+  !! at one of its speeds, without their numbers.
   real(wp), parameter :: number = 8.0_wp, of_pose = 1050.0_wp, of_position = 600.0_wp, &
     of_speed = 230.0_wp
 
-  !> What every run takes, and what goes to waste between the pieces.
+  !> Bytes that every run takes; factor for memory that is wasted between allocated pieces.
   real(wp), parameter :: of_process = 1.0e7_wp, spare = 1.1_wp
 
 contains
 
-  !> Refuses a deck that asks for more memory than there is, at the card that asks for most of it.
+  !> Compares the estimated memory with the available memory.
+  !!
+  !! Errors: the run needs more; the message points at the card that requests most of it.
   subroutine check_memory(model, threads, available, diagnostics)
-    type(model_t), intent(in) :: model !! without errors so far
-    integer, intent(in) :: threads
-    type(available_memory_t), intent(in) :: available
-    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model                !! without errors so far
+    integer, intent(in) :: threads                    !! that will compute it
+    type(available_memory_t), intent(in) :: available !! on this machine
+    type(diagnostics_t), intent(inout) :: diagnostics !! to which the error is appended
 
     type(memory_need_t) :: needs(parts)
     character(len=:), allocatable :: of_all
@@ -58,14 +60,14 @@ contains
     of_all = ""
     if (needs(most)%bytes < 0.8_wp*total) of_all = " of "//memory_text(total)//" in all"
     call add_error(diagnostics, needs(most)%place, needs(most)%what//" need "// &
-      memory_text(needs(most)%bytes)//of_all//", and "//available%told)
+      memory_text(needs(most)%bytes)//of_all//", and "//available%clause)
   end subroutine check_memory
 
-  !> The parts, some of them zero.
+  !> The memory of all parts of a run.
   subroutine memory_of_run(model, threads, needs)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: threads
-    type(memory_need_t), intent(out) :: needs(:)
+    type(model_t), intent(in) :: model           !! without errors
+    integer, intent(in) :: threads               !! that will compute it
+    type(memory_need_t), intent(out) :: needs(:) !! (parts) some of them zero
 
     real(wp) :: rows !! of results
     integer :: speeds
@@ -78,19 +80,19 @@ contains
     needs(of_results)%what = "the results at "//plural(size(model%crank%value), "position")
     needs(of_results)%bytes = size(model%crank%value)*(of_pose + &
       number*sum(model%reports%kind%numbers))
-    call add_motion(model, needs(of_motion))
+    call add_needs_of_motion(model, needs(of_motion))
     if (any(model%links%mesh > 0) .and. all(model%links%mesh > 0 .or. model%links%rigid)) &
-      call add_mesh(model, threads, needs)
+      call add_needs_of_mesh(model, threads, needs)
     if (.not. needs_frequencies(model)) return
     needs(of_results)%what = needs(of_results)%what//" and "//plural(speeds, "speed")
     needs(of_results)%bytes = needs(of_results)%bytes + size(model%crank%value)*of_position + &
       rows*(of_speed + 2*model%modes*number)
-    call add_shapes(model, speeds, needs(of_shapes))
+    call add_needs_of_shapes(model, speeds, needs(of_shapes))
     call add_branches(model, rows, needs(of_branches))
   end subroutine memory_of_run
 
-  !> Every instant of a motion, kept until it is written.
-  pure subroutine add_motion(model, need)
+  !> All instants of a motion, kept until they are written.
+  pure subroutine add_needs_of_motion(model, need)
     type(model_t), intent(in) :: model
     type(memory_need_t), intent(inout) :: need
 
@@ -102,10 +104,10 @@ contains
     need%place = model%reports(report)%keyword
     need%what = "the "//plural(motion_instants_of(model), "instant")//" of the motion"
     need%bytes = numbers*number*motion_instants_of(model)
-  end subroutine add_motion
+  end subroutine add_needs_of_motion
 
-  !> Displacements at the points of all links in every mode, kept until they are written.
-  pure subroutine add_shapes(model, speeds, need)
+  !> Displacements at the points of all links for every mode, kept until they are written.
+  pure subroutine add_needs_of_shapes(model, speeds, need)
     type(model_t), intent(in) :: model
     integer, intent(in) :: speeds
     type(memory_need_t), intent(inout) :: need
@@ -123,10 +125,10 @@ contains
         " positions and speeds"
       need%bytes = drawn*model%modes*3*number*size(model%links)*asked%points
     end associate
-  end subroutine add_shapes
+  end subroutine add_needs_of_shapes
 
-  !> What modes are recognised by: the border and the first own modes of every link, of y and of M
-  !! y; and what is written of them.
+  !> Loci: the prints by which modes are recognised from position to position (components of y and
+  !! M y for the border and the first own modes of every link), and the rows of the table.
   pure subroutine add_branches(model, rows, need)
     type(model_t), intent(in) :: model
     real(wp), intent(in) :: rows
@@ -145,14 +147,15 @@ contains
     need%bytes = rows*(of_print + model%modes*(of_branch + 2*kept*number))
   end subroutine add_branches
 
-  !> The mesh, and the matrices or vectors of its unknowns, which every thread has for itself.
-  subroutine add_mesh(model, threads, needs)
+  !> The mesh, and the matrices or vectors of its unknowns. Every thread has its own, except band
+  !! matrices, with which only one thread works.
+  subroutine add_needs_of_mesh(model, threads, needs)
     type(model_t), intent(in) :: model
     integer, intent(in) :: threads
     type(memory_need_t), intent(inout) :: needs(:)
 
-    !> Copies of the numbers of unknowns, each of four bytes; numbers with every element (forces,
-    !! masses).
+    !> Copies of the table of each element's unknowns, four bytes an entry; reals per element
+    !! (forces, masses).
     real(wp), parameter :: copies = 3.0_wp, of_element = 20.0_wp
     integer, allocatable :: links(:), elements(:), order(:)
     integer :: finest, i
@@ -188,10 +191,10 @@ contains
       needs(of_matrices)%what = "vectors of "//to_string(unknowns, 9)//" unknowns"
       needs(of_matrices)%bytes = threads*number*unknowns*chain_numbers(model%modes)
     end select
-  end subroutine add_mesh
+  end subroutine add_needs_of_mesh
 
-  !> As `beam_mesh` numbers them: every element brings what it has but one of its nodes. A loop of
-  !! links has as many pins' displacements and links' rotations more as its supports hold.
+  !> Number of unknowns, as `beam_mesh` numbers them: each element brings its own less the 3 of one
+  !! node. Of the 9 that three links have besides, pins share 4 and supports hold 5.
   pure function nodal_unknowns(elements, order, sheared) result(unknowns)
     integer, intent(in) :: elements(:), order(:)
     logical, intent(in) :: sheared
@@ -200,7 +203,7 @@ contains
     unknowns = sum(real(elements, wp)*(element_unknowns(order, sheared) - 3))
   end function nodal_unknowns
 
-  !> Numbers per unknown for ARPACK: eight band matrices, its basis, vectors.
+  !> Reals per unknown for ARPACK: eight band matrices, its basis, vectors.
   pure function band_numbers(modes, bandwidth) result(numbers)
     integer, intent(in) :: modes, bandwidth
     real(wp) :: numbers
@@ -208,8 +211,8 @@ contains
     numbers = 8.0_wp*bandwidth + max(2*modes + 1, 20) + 2*modes + 8
   end function band_numbers
 
-  !> Numbers per unknown for running sums: the basis of `subspace_eigensolver` with its products,
-  !! nine times the modes each; vectors.
+  !> Reals per unknown for running sums: the basis of `subspace_eigensolver` and its two products,
+  !! nine vectors per mode each; other vectors.
   pure function chain_numbers(modes) result(numbers)
     integer, intent(in) :: modes
     real(wp) :: numbers

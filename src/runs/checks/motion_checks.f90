@@ -1,4 +1,4 @@
-!> Checks of a motion that need mechanics: where it starts, and whether there is anything to move.
+!> Checks of REPORT motion that need mechanics: initial crank angle, moving masses.
 module motion_checks
   use curve_dynamics, only: curve_dynamics_t, new_curve_dynamics
   use diagnostics, only: add_error, diagnostics_t
@@ -16,13 +16,15 @@ module motion_checks
 
 contains
 
-  !> Whether REPORT motion, if it is asked for, can start.
+  !> Whether REPORT motion can start, if the deck has it.
+  !!
+  !! Errors: the linkage does not close at the initial crank angle; nothing that moves has a mass.
   subroutine check_motion(model, mechanism, reach, reachable, diagnostics)
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
-    type(reach_t), intent(in) :: reach
-    character(len=*), intent(in) :: reachable !! the angles at which the linkage closes, in words
-    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model                !! without errors so far
+    type(mechanism_t), intent(in) :: mechanism        !! of the model
+    type(reach_t), intent(in) :: reach                !! crank angles at which the linkage closes
+    character(len=*), intent(in) :: reachable         !! the same in words
+    type(diagnostics_t), intent(inout) :: diagnostics !! to which errors are appended
 
     integer :: number
 
@@ -39,15 +41,15 @@ contains
     end associate
   end subroutine check_motion
 
-  !> Whether any body or pin takes kinetic energy when it moves: a body that is hung on the ground,
-  !! when it turns about its pivot.
+  !> Whether any body or pin has kinetic energy when the linkage moves. A body on a ground pivot
+  !! moves by turning about it.
   pure function has_moving_mass(linkage, elements) result(has)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: elements(:) !! (bodies) on whose nodes their masses sit; 0: distributed
     logical :: has
 
-    ! What is left of a mass at its ground pivot where moments of inertia about either pin are taken
-    ! from each other.
+    ! Bound of the rounding, relative to the moment of inertia, that a mass at its ground pivot
+    ! leaves: moments of inertia about the two pins are subtracted from each other.
     real(wp), parameter :: rounding = 4.0_wp*epsilon(1.0_wp)
     type(rigid_body_t) :: rigid(size(linkage%bodies))
     type(curve_dynamics_t) :: dynamics

@@ -1,4 +1,4 @@
-!> What `flexmech --help-cards` prints: every card and every report, from their tables.
+!> The output of `flexmech --help-cards`: every card and every report, from their tables.
 module card_help
   use card_table, only: card_kind_t, card_kinds
   use report_kinds, only: report_kind_t
@@ -14,7 +14,7 @@ module card_help
 
 contains
 
-  !> Two lines a card: how it is written, and what it is for.
+  !> Two lines per card: its pattern and its purpose.
   pure function card_help_text() result(text)
     character(len=:), allocatable :: text
 
@@ -26,7 +26,7 @@ contains
       line_feed//"| separates words of which one is written, = is followed "//"by a value."// &
       line_feed//line_feed)
     do i = 1, size(card_kinds)
-      call append_card(buffer, card_kinds(i))
+      call append_card_help(buffer, card_kinds(i))
     end do
     do i = 1, size(reports)
       call append_report(buffer, reports(i))
@@ -35,7 +35,8 @@ contains
     text = buffer_text(buffer)
   end function card_help_text
 
-  pure subroutine append_card(buffer, kind)
+  !> A card, with the default of a missing entry or of a missing card.
+  pure subroutine append_card_help(buffer, kind)
     type(text_buffer_t), intent(inout) :: buffer
     type(card_kind_t), intent(in) :: kind
 
@@ -46,8 +47,9 @@ contains
     if (len_trim(kind%default) > 0) help = help//" (without this card: "//trim(kind%keyword)// &
       " "//trim(kind%default)//")"
     call append_entry(buffer, trim(kind%pattern), help)
-  end subroutine append_card
+  end subroutine append_card_help
 
+  !> A report like a card, with the files that it writes.
   pure subroutine append_report(buffer, kind)
     type(text_buffer_t), intent(inout) :: buffer
     type(report_kind_t), intent(in) :: kind

@@ -1,5 +1,5 @@
-!> `summary.json`, and the parts of it that `--json` prints too: errors, warnings and failed
-!! positions as JSON.
+!> `summary.json`, and its parts that `--json` prints too: errors, warnings and failed positions as
+!! JSON.
 module deck_summary
   use deck_source, only: file_of_line, last_line, path_from_deck, source_t
   use diagnostics, only: diagnostic_t, diagnostics_t, errors_of, untold_errors, untold_warnings, &
@@ -23,15 +23,15 @@ contains
   !> The text of `summary.json`.
   pure function summary_text(name, file, diagnostics, source, findings, model, totals, parameters, &
     tables) result(text)
-    character(len=*), intent(in) :: name             !! of the output folder
-    character(len=*), intent(in) :: file             !! name of the deck's file, without its folder
-    type(diagnostics_t), intent(in) :: diagnostics
-    type(source_t), intent(in) :: source
-    type(findings_t), intent(in) :: findings
-    type(model_t), intent(in) :: model
-    type(run_totals_t), intent(in) :: totals
-    type(string_t), intent(in) :: parameters(:)      !! names of what varies
-    type(table_t), intent(in) :: tables(:)           !! all rows written
+    character(len=*), intent(in) :: name           !! of the output folder
+    character(len=*), intent(in) :: file           !! name of the deck's file, without its folder
+    type(diagnostics_t), intent(in) :: diagnostics !! of the deck, without errors
+    type(source_t), intent(in) :: source           !! lines of the deck
+    type(findings_t), intent(in) :: findings       !! of all variants
+    type(model_t), intent(in) :: model             !! of the first variant
+    type(run_totals_t), intent(in) :: totals       !! of all variants
+    type(string_t), intent(in) :: parameters(:)    !! names of the VARY parameters
+    type(table_t), intent(in) :: tables(:)         !! with all rows written
     character(len=:), allocatable :: text
 
     type(json_list_t) :: object, list
@@ -52,6 +52,7 @@ contains
     text = json_object(object)//achar(10)
   end function summary_text
 
+  !> Numbers of variants, positions, speeds, modes, failures and rows.
   pure function count_object(model, totals, tables, findings) result(value)
     type(model_t), intent(in) :: model
     type(run_totals_t), intent(in) :: totals
@@ -71,6 +72,7 @@ contains
     value = json_object(object)
   end function count_object
 
+  !> Files, numbers of rows, and columns of a table.
   pure function table_object(table) result(value)
     type(table_t), intent(in) :: table
     character(len=:), allocatable :: value
@@ -93,6 +95,7 @@ contains
     value = json_object(object)
   end function table_object
 
+  !> Name and unit of a column; the unit is null if it has none.
   pure function column_object(column) result(value)
     type(column_t), intent(in) :: column
     character(len=:), allocatable :: value
@@ -108,11 +111,11 @@ contains
     value = json_object(object)
   end function column_object
 
-  !> All errors of a deck, in the order of its lines.
+  !> The errors of a deck in the order of its lines, then the number of those beyond the kept ones.
   pure function error_list(diagnostics, source, file) result(list)
-    type(diagnostics_t), intent(in) :: diagnostics
-    type(source_t), intent(in) :: source
-    character(len=*), intent(in) :: file
+    type(diagnostics_t), intent(in) :: diagnostics !! of the deck
+    type(source_t), intent(in) :: source           !! lines of the deck
+    character(len=*), intent(in) :: file           !! name of the deck's file
     type(json_list_t) :: list
 
     call add_messages(list, errors_of(diagnostics), source, file)
@@ -120,12 +123,13 @@ contains
       plural(untold_errors(diagnostics), "more error"))
   end function error_list
 
-  !> All warnings of a deck, in the order of its lines, then those of its run.
+  !> The warnings of a deck in the order of its lines, the number of those beyond the kept ones,
+  !! then the warnings of its run.
   pure function warning_list(diagnostics, source, findings, file) result(list)
-    type(diagnostics_t), intent(in) :: diagnostics
-    type(source_t), intent(in) :: source
-    type(findings_t), intent(in) :: findings
-    character(len=*), intent(in) :: file
+    type(diagnostics_t), intent(in) :: diagnostics !! of the deck
+    type(source_t), intent(in) :: source           !! lines of the deck
+    type(findings_t), intent(in) :: findings       !! of its run
+    character(len=*), intent(in) :: file           !! name of the deck's file
     type(json_list_t) :: list
 
     integer :: i
@@ -138,6 +142,7 @@ contains
     end do
   end function warning_list
 
+  !> Appends messages with their places.
   pure subroutine add_messages(list, diagnostics, source, file)
     type(json_list_t), intent(inout) :: list
     type(diagnostic_t), intent(in) :: diagnostics(:)
@@ -155,11 +160,13 @@ contains
     end do
   end subroutine add_messages
 
-  !> Appends a message about no place in particular, or about a line and column.
+  !> Appends a message without a place, or about a line and column; without a second place.
   pure subroutine add_plain_message(list, file, message, line, column)
-    type(json_list_t), intent(inout) :: list
-    character(len=*), intent(in) :: file, message
-    integer, intent(in), optional :: line, column
+    type(json_list_t), intent(inout) :: list !! to which it is appended
+    character(len=*), intent(in) :: file     !! name of the deck's file
+    character(len=*), intent(in) :: message  !! in words
+    integer, intent(in), optional :: line    !! number, from 1
+    integer, intent(in), optional :: column  !! number, from 1; counts only with `line`
 
     type(json_list_t) :: object
 
@@ -178,8 +185,8 @@ contains
     call add_item(list, json_object(object))
   end subroutine add_plain_message
 
-  !> File, line, column and length of a word. What a deck lacks is told at its end, with the length
-  !! 0.
+  !> File, line, column and length of a word. A message about something that the deck lacks points
+  !! at its last line, with the length 0.
   pure function place_members(place, source, file) result(object)
     type(token_t), intent(in) :: place
     type(source_t), intent(in) :: source
@@ -205,7 +212,7 @@ contains
     end if
   end function place_members
 
-  !> The second place of a message with what is said about it, or null.
+  !> The second place of a message with its note, or null.
   pure function second_place(diagnostic, source, file) result(value)
     type(diagnostic_t), intent(in) :: diagnostic
     type(source_t), intent(in) :: source
@@ -221,11 +228,11 @@ contains
     value = json_object(object)
   end function second_place
 
-  !> Positions without a pose, for which the speed is null, positions × speeds without modes, and
-  !! motions that ended too soon.
+  !> Positions without a pose (speed null), positions × speeds without modes, and motions that
+  !! ended too soon (speed null, with their time).
   pure function failure_array(findings, parameters) result(value)
-    type(findings_t), intent(in) :: findings
-    type(string_t), intent(in) :: parameters(:) !! names of what varies
+    type(findings_t), intent(in) :: findings    !! of all variants
+    type(string_t), intent(in) :: parameters(:) !! names of the VARY parameters
     character(len=:), allocatable :: value
 
     type(json_list_t) :: list
@@ -237,6 +244,7 @@ contains
     value = json_array(list)
   end function failure_array
 
+  !> A failed position, or a motion that ended too soon, with its variant and the reason.
   pure function failure_object(failure, parameters) result(value)
     type(failure_t), intent(in) :: failure
     type(string_t), intent(in) :: parameters(:)

@@ -1,4 +1,4 @@
-!> `echo.deck`: the deck as the program understood it, a valid deck itself.
+!> `echo.deck`: the deck as the program understood it, itself a valid deck.
 module echo
   use body_lines, only: place_words
   use card_echo, only: echo_line_t
@@ -19,14 +19,14 @@ module echo
 
   public :: echo_text
 
+  !> Column in which comments on cards begin.
   integer, parameter :: comment_column = 72
 
 contains
 
-  !> All cards with the user's own digits, the defaults as cards, and what follows from them as
-  !! comments.
+  !> All cards with the user's own digits, defaults as cards, derived values as comments.
   pure function echo_text(model) result(text)
-    type(model_t), intent(in) :: model
+    type(model_t), intent(in) :: model !! of the first variant
     character(len=:), allocatable :: text
 
     type(text_buffer_t) :: buffer
@@ -43,6 +43,7 @@ contains
     text = buffer_text(buffer)
   end function echo_text
 
+  !> A card, with its origin as a comment.
   pure subroutine append_card(buffer, line)
     type(text_buffer_t), intent(inout) :: buffer
     type(echo_line_t), intent(in) :: line
@@ -55,7 +56,7 @@ contains
     call append_text(buffer, achar(10))
   end subroutine append_card
 
-  !> Writes a card with a default if the deck leaves it out.
+  !> Appends the card of a default, if the deck leaves it out.
   pure subroutine append_default_card(buffer, model, kind)
     type(text_buffer_t), intent(inout) :: buffer
     type(model_t), intent(in) :: model
@@ -64,18 +65,18 @@ contains
     select case (kind%keyword)
     case ("MESH")
       ! A model without MESH cards has a mesh only where a report needs one.
-      if (size(model%meshes) > 0) call append_default(buffer, model, trim(kind%keyword), &
+      if (size(model%meshes) > 0) call append_default_text(buffer, model, trim(kind%keyword), &
         trim(kind%default))
     case ("EFFECTS")
-      call append_default(buffer, model, trim(kind%keyword), effect_words(model%effects, .false., &
-        .false.))
+      call append_default_text(buffer, model, trim(kind%keyword), effect_words(model%effects, &
+        .false., .false.))
     case default
-      call append_default(buffer, model, trim(kind%keyword), trim(kind%default))
+      call append_default_text(buffer, model, trim(kind%keyword), trim(kind%default))
     end select
   end subroutine append_default_card
 
-  !> Writes a card that the deck leaves out.
-  pure subroutine append_default(buffer, model, keyword, value)
+  !> Appends a card, unless the deck has one with its keyword.
+  pure subroutine append_default_text(buffer, model, keyword, value)
     type(text_buffer_t), intent(inout) :: buffer
     type(model_t), intent(in) :: model
     character(len=*), intent(in) :: keyword, value
@@ -91,9 +92,9 @@ contains
     line%text = keyword//" "//value
     line%origin = "default"
     call append_card(buffer, line)
-  end subroutine append_default
+  end subroutine append_default_text
 
-  !> What the program made of the cards, in the deck's units.
+  !> Values that the program derived from the cards, in the deck's units.
   pure subroutine append_derived(buffer, model)
     type(text_buffer_t), intent(inout) :: buffer
     type(model_t), intent(in) :: model
@@ -124,12 +125,12 @@ contains
     end do
   end subroutine append_derived
 
-  !> What a link with a mass of its own is as a rigid body.
+  !> A link with a mass of its own as a rigid body.
   pure subroutine append_body(buffer, model, link, derived)
     type(text_buffer_t), intent(inout) :: buffer
     type(model_t), intent(in) :: model
-    integer, intent(in) :: link
-    character(len=*), intent(in) :: derived !! that begins the line
+    integer, intent(in) :: link             !! number in the model's list
+    character(len=*), intent(in) :: derived !! beginning of the line
 
     type(unit_t) :: length, mass, inertia
 
@@ -143,12 +144,12 @@ contains
       " from "//model%links(link)%pin(1)%text//achar(10))
   end subroutine append_body
 
-  !> Rotary inertia and shear stiffness of a link, where they are asked for.
+  !> Rotary inertia and shear stiffness of a link, if EFFECTS requests them.
   pure subroutine append_thickness(buffer, model, link, derived)
     type(text_buffer_t), intent(inout) :: buffer
     type(model_t), intent(in) :: model
-    integer, intent(in) :: link
-    character(len=*), intent(in) :: derived !! that begins the line
+    integer, intent(in) :: link             !! number in the model's list
+    character(len=*), intent(in) :: derived !! beginning of the line
 
     type(unit_t) :: measure
     character(len=:), allocatable :: origin

@@ -1,4 +1,4 @@
-!> What a run has found, in words: for standard error and for the log.
+!> Findings of a run in words, for standard error and the log.
 module findings_texts
   use run_findings, only: at_position, failure_t, findings_t, in_motion, place_in_words
   use text, only: to_string
@@ -8,7 +8,7 @@ module findings_texts
 
   public :: findings_messages, findings_log
 
-  !> More warnings, or failed rows, than this are listed in the log only.
+  !> Warnings, and failed rows, that standard error shows at most; the log lists all.
   integer, parameter :: most_shown = 20
 
   character(len=*), parameter :: line_feed = achar(10)
@@ -32,10 +32,10 @@ contains
     if (len(failure%variant) > 0) line = failure%variant//", "//line
   end function failure_line
 
-  !> Everything for standard error, each line with the deck's path.
+  !> Warnings, then failed rows, for standard error. Each line begins with the deck's path.
   pure function findings_messages(findings, path) result(text)
-    type(findings_t), intent(in) :: findings
-    character(len=*), intent(in) :: path
+    type(findings_t), intent(in) :: findings !! of all variants
+    character(len=*), intent(in) :: path     !! of the deck
     character(len=:), allocatable :: text
 
     integer :: i
@@ -57,9 +57,9 @@ contains
     end if
   end function findings_messages
 
-  !> The same for the log, complete and without the path.
+  !> Warnings, then failed rows, for the log: all of them, without the path.
   pure function findings_log(findings) result(text)
-    type(findings_t), intent(in) :: findings
+    type(findings_t), intent(in) :: findings !! of all variants
     character(len=:), allocatable :: text
 
     type(text_buffer_t) :: buffer

@@ -1,4 +1,4 @@
-!> A line that counts on a terminal, for runs longer than a second.
+!> A progress line on the terminal, for runs longer than a second.
 module progress
   use, intrinsic :: iso_fortran_env, only: error_unit
   use file_system, only: standard_error_is_terminal
@@ -9,22 +9,24 @@ module progress
 
   public :: progress_t, start_progress, show_progress, end_progress
 
+  !> A progress line; silent until it is started.
   type :: progress_t
-    logical, private :: wanted = .false.
-    logical, private :: shown = .false.
-    integer(long), private :: last = 0_long !! clock ticks when a line was last written, or at the
-                                            !! start
-    character(len=:), allocatable, private :: name, noun
+    logical, private :: wanted = .false.           !! and standard error is a terminal
+    logical, private :: shown = .false.            !! there is a line to wipe out
+    integer(long), private :: last = 0_long        !! clock ticks at the start, or when the line was
+                                                   !! last written
+    character(len=:), allocatable, private :: name !! of the deck
+    character(len=:), allocatable, private :: noun !! what is counted
   end type progress_t
 
 contains
 
-  !> Nothing is ever shown when standard error is a file or a pipe.
+  !> Starts the clock. Nothing is ever shown when standard error is a file or a pipe.
   subroutine start_progress(progress, name, noun, wanted)
-    type(progress_t), intent(out) :: progress
-    character(len=*), intent(in) :: name !! of the deck
-    character(len=*), intent(in) :: noun !! what is counted
-    logical, intent(in) :: wanted
+    type(progress_t), intent(out) :: progress !! ready to be shown
+    character(len=*), intent(in) :: name      !! of the deck
+    character(len=*), intent(in) :: noun      !! what is counted
+    logical, intent(in) :: wanted             !! whether the user wants it
 
     progress%name = name
     progress%noun = noun
@@ -33,10 +35,11 @@ contains
     call system_clock(progress%last)
   end subroutine start_progress
 
-  !> Tells how far the run has come, once a second.
+  !> Shows how far the run is, at most once a second.
   subroutine show_progress(progress, done, total)
-    type(progress_t), intent(inout) :: progress
-    integer, intent(in) :: done, total
+    type(progress_t), intent(inout) :: progress !! started, else nothing is shown
+    integer, intent(in) :: done                 !! number of things done
+    integer, intent(in) :: total                !! number of all
 
     integer(long) :: now, rate
 
@@ -50,9 +53,9 @@ contains
     flush (error_unit)
   end subroutine show_progress
 
-  !> Wipes the line out.
+  !> Wipes out the line.
   subroutine end_progress(progress)
-    type(progress_t), intent(inout) :: progress
+    type(progress_t), intent(inout) :: progress !! perhaps shown
 
     if (progress%shown) write (error_unit, "(a)", advance="no") achar(13)// &
       repeat(" ", len(progress%name) + 50)//achar(13)

@@ -1,4 +1,4 @@
-!> What `--json` prints: the errors, warnings and failed positions of all decks in one document.
+!> The output of `--json`: errors, warnings and failed positions of all decks in one document.
 module run_document
   use deck_readings, only: deck_t
   use deck_runs, only: run_result_t
@@ -14,20 +14,20 @@ module run_document
 
   public :: deck_outcome_t, document_text
 
-  !> How a deck fared.
+  !> The outcome of a deck.
   type :: deck_outcome_t
     integer :: exit_status = -1                  !! -1: not run, because of another deck
-    type(string_t), allocatable :: complaints(:) !! what kept it from being run, or its run from its
-                                                 !! end
-    type(run_result_t) :: result                 !! empty if it was not run
+    type(string_t), allocatable :: complaints(:) !! what prevented the run, or stopped it
+    type(run_result_t) :: result                 !! empty if the deck was not run
   end type deck_outcome_t
 
 contains
 
-  !> The whole document; `complaint` is what is wrong with the command line, empty if nothing is.
+  !> The whole document.
   pure function document_text(exit_status, complaint, paths, decks, outcomes) result(text)
-    integer, intent(in) :: exit_status
-    character(len=*), intent(in) :: complaint
+    integer, intent(in) :: exit_status              !! of the program
+    character(len=*), intent(in) :: complaint       !! what is wrong with the command line; empty if
+                                                    !! nothing
     type(string_t), intent(in) :: paths(:)          !! of the decks, as the user gave them
     type(deck_t), intent(in) :: decks(:)            !! (as paths)
     type(deck_outcome_t), intent(in) :: outcomes(:) !! (as paths)
@@ -48,6 +48,7 @@ contains
     text = json_object(object)//achar(10)
   end function document_text
 
+  !> An error of the command line.
   pure function message_object(message) result(value)
     character(len=*), intent(in) :: message
     character(len=:), allocatable :: value
@@ -58,8 +59,9 @@ contains
     value = json_object(object)
   end function message_object
 
+  !> Messages and failed positions of one deck.
   pure function deck_object(path, deck, outcome) result(value)
-    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: path !! as the user gave it
     type(deck_t), intent(in) :: deck
     type(deck_outcome_t), intent(in) :: outcome
     character(len=:), allocatable :: value

@@ -18,9 +18,9 @@ module run_log
 
 contains
 
-  !> Title, links in the order of the loop, masses, requests: a few lines.
+  !> Title, links in the order of the loop, masses, loads, requests: a few lines.
   pure function model_summary(model) result(text)
-    type(model_t), intent(in) :: model
+    type(model_t), intent(in) :: model !! without errors
     character(len=:), allocatable :: text
 
     character(len=:), allocatable :: where_to
@@ -52,8 +52,8 @@ contains
     do i = 1, size(model%masses)
       text = text//mass_line(model, i)//line_feed
     end do
-    if (total_mass(model) > 0.0_wp) then
-      text = text//"total mass: "//to_string(from_si(total_mass(model), mass), 12)//" "// &
+    if (mass_of_model(model) > 0.0_wp) then
+      text = text//"total mass: "//to_string(from_si(mass_of_model(model), mass), 12)//" "// &
         mass%name//line_feed
     end if
     text = text//"branch: "//trim(merge("crossed", "open   ", model%branch == branch_crossed))// &
@@ -68,7 +68,7 @@ contains
       plural(size(model%speed%value), "speed")//line_feed
   end function model_summary
 
-  !> Constant loads, a line each.
+  !> Constant loads, one per line.
   pure function load_lines(model) result(text)
     type(model_t), intent(in) :: model
     character(len=:), allocatable :: text
@@ -92,7 +92,7 @@ contains
     end do
   end function load_lines
 
-  !> What drives a linkage that moves by itself, and what resists: a line each.
+  !> Drive and resistances of a forward motion, one per line.
   pure function motor_lines(model) result(text)
     type(model_t), intent(in) :: model
     character(len=:), allocatable :: text
@@ -131,8 +131,8 @@ contains
       12)//" "//measure%name
   end function pair_text
 
-  !> Mass of all links and pins that the deck gives a mass, and of what sits on links [kg].
-  pure function total_mass(model) result(mass)
+  !> Mass of all links, pin masses, and masses fixed to links [kg].
+  pure function mass_of_model(model) result(mass)
     type(model_t), intent(in) :: model
     real(wp) :: mass
 
@@ -144,6 +144,6 @@ contains
     end do
     if (size(model%pin_masses) > 0) mass = mass + sum(model%pin_masses%mass)
     if (size(model%masses) > 0) mass = mass + sum(model%masses%mass)
-  end function total_mass
+  end function mass_of_model
 
 end module run_log

@@ -10,10 +10,9 @@ module run_statistics
   implicit none (type, external)
   private
 
-  public :: run_times_t, statistics_text, sweep_summary, &
-    accuracy_summary
+  public :: run_times_t, statistics_text, sweep_summary, accuracy_summary
 
-  !> How long the parts of a run took, besides what its totals know.
+  !> Times of the parts of a run, besides those in its totals.
   type :: run_times_t
     real(wp) :: first_computing = 0.0_wp !! studies of the first variant [s]
     real(wp) :: first_writing = 0.0_wp   !! its rows found and written [s]
@@ -25,9 +24,9 @@ contains
 
   !> The ledger of `--stats`.
   pure function statistics_text(name, totals, times) result(text)
-    character(len=*), intent(in) :: name !! of the deck
-    type(run_totals_t), intent(in) :: totals
-    type(run_times_t), intent(in) :: times
+    character(len=*), intent(in) :: name     !! of the deck
+    type(run_totals_t), intent(in) :: totals !! over all variants
+    type(run_times_t), intent(in) :: times   !! what the totals do not have
     character(len=:), allocatable :: text
 
     character(len=*), parameter :: line_feed = achar(10)
@@ -63,7 +62,7 @@ contains
     text = to_string(1000.0_wp*seconds, 3)//" ms"
   end function milliseconds
 
-  !> What frequencies took, and what was not needed.
+  !> The work that frequencies took, and what was skipped.
   pure function frequency_lines(name, totals) result(text)
     character(len=*), intent(in) :: name
     type(run_totals_t), intent(in) :: totals
@@ -102,8 +101,8 @@ contains
 
   !> How the frequencies were found, for the log.
   pure function sweep_summary(sweep, mesh) result(text)
-    type(sweep_t), intent(in) :: sweep
-    type(beam_mesh_t), intent(in) :: mesh
+    type(sweep_t), intent(in) :: sweep     !! finished
+    type(beam_mesh_t), intent(in) :: mesh  !! of the deck
     character(len=:), allocatable :: text
 
     character(len=*), parameter :: line_feed = achar(10)
@@ -139,10 +138,10 @@ contains
     text = text//line_feed
   end function sweep_summary
 
-  !> How sure the frequencies are, for the log.
+  !> The error bound of the frequencies, and whether all modes were found, for the log.
   pure function accuracy_summary(method, largest) result(text)
     integer, intent(in) :: method    !! as in `vibration_models`
-    real(wp), intent(in) :: largest  !! error of any frequency; below 0 there is none
+    real(wp), intent(in) :: largest  !! relative error of any frequency; below 0: no frequencies
     character(len=:), allocatable :: text
 
     character(len=*), parameter :: line_feed = achar(10)
