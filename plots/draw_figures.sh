@@ -32,12 +32,17 @@ done
 PLOTS=$(CDPATH='' cd "$(dirname "$script")" && pwd) || exit 1
 export PLOTS
 
-# Linkages are placed by the program: the one of this checkout, the one installed with these scripts, any other.
-for FLEXMECH in "${FLEXMECH-}" "$PLOTS/../build/release/flexmech" "$PLOTS/../../../bin/flexmech" \
-    "$(command -v flexmech)" ''; do
-    [ -n "$FLEXMECH" ] && [ -x "$FLEXMECH" ] && break
-done
-case $FLEXMECH in '' | /*) ;; *) FLEXMECH=$(pwd)/$FLEXMECH ;; esac
+# Linkages are placed by the program: the one that FLEXMECH names, else that of this checkout, the one installed with these
+# scripts, or any other.
+places() { [ -n "$1" ] && "$1" --help-cards 2> /dev/null | grep -q '^REPORT geometry'; }
+if [ -n "${FLEXMECH-}" ]; then
+    places "$FLEXMECH" || fail "FLEXMECH=$FLEXMECH is not the program flexmech of these scripts" 2
+else
+    for FLEXMECH in "$PLOTS/../build/release/flexmech" "$PLOTS/../../../bin/flexmech" "$(command -v flexmech)" ''; do
+        places "$FLEXMECH" && break
+    done
+fi
+case $FLEXMECH in */*) FLEXMECH=$(CDPATH='' cd "$(dirname "$FLEXMECH")" && pwd)/$(basename "$FLEXMECH") ;; esac
 export FLEXMECH
 
 cd "$outdir" || fail "cannot enter $outdir"

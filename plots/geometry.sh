@@ -13,11 +13,8 @@ mkdir "$work" || exit 1
 
 # The program takes an angle once: nearer to each other than it tells apart, they are one position.
 awk '{ printf "%.17g %s\n", $1 + 0, $2 == "" ? "-" : $2 }' "$angles" > "$work/asked"
-for branch in - open crossed; do
-    awk -v branch=$branch '$2 == branch { print $1 }' "$work/asked" | sort -g |
-        awk '{ apart = ($1 < 0 ? -$1 : $1) + 1 } NR == 1 || $1 - kept > 2e-12*apart { kept = $1 } { print $1, kept }' \
-        > "$work/kept"
-    [ -s "$work/kept" ] || continue
+# place CRANK,…: the deck's linkage, or that of $branch, at these angles, in the order in which they are given.
+place() {
     {
         if [ $branch = - ]; then
             grep -v '^\(REPORT\|END\)' echo.deck
@@ -25,13 +22,30 @@ for branch in - open crossed; do
             grep -v '^\(REPORT\|END\|BRANCH\)' echo.deck
             echo "BRANCH $branch"
         fi
-        echo "REPORT geometry crank=$(cut -d' ' -f2 "$work/kept" | uniq | paste -s -d, -)"
+        echo "REPORT geometry crank=$1"
     } > "$work/drawn.deck"
-    "$FLEXMECH" --quiet --out "$work" "$work/drawn.deck" || [ $? -eq 1 ] || exit 1
+    "$FLEXMECH" --quiet --out "$work" "$work/drawn.deck" 2> "$work/told" || [ $? -eq 1 ] || {
+        cat "$work/told" >&2
+        return 1
+    }
+}
+
+for branch in - open crossed; do
+    awk -v branch=$branch '$2 == branch { print $1 }' "$work/asked" | sort -g |
+        awk '{ apart = ($1 < 0 ? -$1 : $1) + 1 } NR == 1 || $1 - kept > 2e-12*apart { kept = $1 } { print $1, kept }' \
+        > "$work/kept"
+    [ -s "$work/kept" ] || continue
+    place "$(cut -d' ' -f2 "$work/kept" | uniq | paste -s -d, -)" || exit 1
     sed "s/^/$branch /" "$work/kept" >> "$work/places"
     awk -v want=poses -f "$PLOTS/tables.awk" < "$work/drawn/geometry.dat" | sed "s/^/$branch /" >> "$work/poses"
     turns=0
     grep -q '^# limit positions of the crank: none$' "$work/drawn/geometry.dat" && turns=1
+    # Where two pins meet the linkage has no place of its own: it is drawn as it tends to be.
+    sed -n 's/^# *failed crank=\([^ ]*\) .*/\1/p' "$work/drawn/geometry.dat" > "$work/failed"
+    [ -s "$work/failed" ] || continue
+    place "$(awk '{ printf "%s%.17g", (NR > 1 ? "," : ""), $1 + 1e-6 }' "$work/failed")" || exit 1
+    awk -v want=poses -f "$PLOTS/tables.awk" < "$work/drawn/geometry.dat" | sed 's/^[^ ]* //' | paste -d' ' "$work/failed" - |
+        awk -v branch=$branch 'NF > 1 { $1 = sprintf("%.17g", $1); print branch, $0 }' >> "$work/poses"
 done
 [ -z "$points" ] || awk -v want='distinct point' -f "$PLOTS/tables.awk" < "$points" > "$work/points"
 [ -n "$points" ] || : > "$work/points"

@@ -104,12 +104,13 @@ asked[1] == "change" {
 }
 
 asked[1] == "poses" {
-    if ($at["link"] == "-" && link_drawn != "-") {
+    # Names that look like numbers are names.
+    if ($at["link"] == "(ground)" && link_drawn != "(ground)") {
         if (pose) print pose
         pose = sprintf("%.17g", $at["crank"])
         links = 0
-    } else if ($at["link"] != link_drawn) links++
-    link_drawn = $at["link"]
+    } else if ($at["link"] "" != link_drawn "") links++
+    link_drawn = $at["link"] ""
     pose = pose " " ($at["part"] == "point" ? -links : links) " " $at["place"] " " $at["x"] " " $at["y"]
 }
 

@@ -8,12 +8,12 @@ module tables
   use output_files, only: append_output, discard_output, finish_output, open_output, &
     output_file_t, publish_output
   use table_rows, only: item_failure, item_gap, item_row, next_item, row_item_t, rows_t
-  use text, only: string_t, to_string, word_list
+  use text, only: string_t, to_string
   implicit none (type, external)
   private
 
   public :: table_t, open_table, begin_variant, finish_table, publish_table, discard_table
-  public :: column_t, real_column, integer_column, name_column, append_column, append_real_columns
+  public :: column_t, real_column, integer_column, name_column, append_column
   public :: write_header, write_notes, write_rows
   public :: real_cells, integer_cell, name_cell, has_unit
 
@@ -166,21 +166,6 @@ contains
     wider(n + 1) = column
     call move_alloc(wider, columns)
   end subroutine append_column
-
-  !> Appends columns of real numbers that share a unit.
-  pure subroutine append_real_columns(columns, names, unit)
-    type(column_t), allocatable, intent(inout) :: columns(:) !! may be unallocated: no columns
-    character(len=*), intent(in) :: names                    !! separated by single blanks
-    character(len=*), intent(in) :: unit                     !! of all; `-`: none
-
-    type(string_t), allocatable :: words(:)
-    integer :: i
-
-    words = word_list(names)
-    do i = 1, size(words)
-      call append_column(columns, real_column(words(i)%text, unit))
-    end do
-  end subroutine append_real_columns
 
   !> Separates a variant from the one before: two empty lines, and those of its notes that the
   !! header does not have.

@@ -13,7 +13,7 @@ module geometry_report
   public :: geometry_notes, geometry_words, add_geometry
 
   !> Stands in the column `link` for the fixed pivots.
-  character(len=*), parameter :: ground = "-"
+  character(len=*), parameter :: ground = "(ground)"
 
 contains
 

@@ -292,7 +292,7 @@ contains
       if (number > 1) call add_gap(rows, 2)
       call add_shapes(variant, plan%layout, plan%drawn(1, number), plan%drawn(2, number), rows)
     case default
-      ! A block a speed, in it position after position.
+      ! One block per speed; within it, position after position.
       position = 1 + mod(number - 1, plan%positions)
       speed = 1 + (number - 1)/plan%positions
       if (position == 1 .and. speed > 1) call add_gap(rows, 2)

@@ -53,6 +53,7 @@ contains
     type(card_t), allocatable :: cards(:)
     type(available_memory_t) :: available
     type(string_t) :: none(0)
+
     deck%base = base_name(path)
     if (path == "-") deck%base = "stdin"
     deck%errors = ""

@@ -37,6 +37,12 @@ contains
           end if
         end associate
       end do
+      if (allocated(found%geometry%outcome)) then
+        do i = 1, size(found%geometry%crank)
+          if (allocated(found%geometry%outcome(i)%error)) call note_failure(variant, at_position, &
+            found%geometry%outcome(i)%error, found%geometry%crank(i), 0.0_wp, 0.0_wp, findings)
+        end do
+      end if
       if (allocated(found%motion%error)) call note_failure(variant, in_motion, found%motion%error, &
         found%motion%last%angle(1), 0.0_wp, found%motion%last%time, findings)
     end associate

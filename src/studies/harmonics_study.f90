@@ -3,7 +3,7 @@
 module harmonics_study
   use constants, only: degree
   use counterweights, only: balanced_linkage, find_counterweights
-  use crank_cycle, only: cycle_t, cycle_values, drive_torque, largest_values, quantity_count, &
+  use crank_cycle, only: cycle_t, cycle_values, drive_torque, largest_value, quantity_count, &
     quantity_names, shaking_moment, turns_freely, usual_values
   use harmonics, only: highest_harmonic, spectrum_of, spectrum_t
   use interruption, only: was_interrupted
@@ -53,7 +53,7 @@ contains
     type(linkage_t) :: linkages(2)
     type(cycle_t) :: turns(2)
     real(wp), allocatable :: largest(:, :, :) !! (quantities, linkages, speeds)
-    integer :: i, k
+    integer :: i, k, q
 
     found%has_cycle = turns_freely(linkage)
     if (.not. found%has_cycle) return
@@ -63,12 +63,14 @@ contains
     found%samples = size(turns(1)%part, 3)
     allocate (found%of(quantity_count, 2, size(speed)), largest(quantity_count, 2, size(speed)))
     largest = 0.0_wp
-    !$omp parallel do collapse(2) num_threads(threads) schedule(dynamic) default(shared) &
-    !$omp   private(i, k)
+    !$omp parallel do collapse(3) num_threads(threads) schedule(dynamic) default(shared) &
+    !$omp   private(i, k, q)
     do k = 1, size(speed)
       do i = 1, 2
-        if (.not. was_interrupted()) largest(:, i, k) = &
-          largest_values(linkages(i), elements, turns(i), speed(k), acceleration)
+        do q = 1, quantity_count
+          if (.not. was_interrupted()) largest(q, i, k) = &
+            largest_value(linkages(i), elements, turns(i), q, speed(k), acceleration)
+        end do
       end do
     end do
     !$omp end parallel do

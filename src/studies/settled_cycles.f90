@@ -72,7 +72,7 @@ contains
       step = 2
       part(:, :, 1::2) = turn%part
     end if
-    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i)
+    !$omp parallel do num_threads(threads) schedule(dynamic, 8) default(shared) private(i)
     do i = step, samples, step
       part(:, :, i) = parts_at(linkage, elements, 360.0_wp*real(i - 1, wp)/samples)
     end do
@@ -94,29 +94,35 @@ contains
     real(wp) :: change
 
     real(wp) :: mine
-    integer :: k
-    logical :: is_enough
+    integer :: i, k
+    logical :: over, is_enough
 
     change = 0.0_wp
     is_enough = .false.
-    !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k, mine) &
-    !$omp   reduction(max: change)
+    !$omp parallel do collapse(2) num_threads(threads) schedule(dynamic) default(shared) &
+    !$omp   private(i, k, mine, over) reduction(max: change)
     do k = 1, size(speed)
-      if (is_enough .or. was_interrupted()) cycle
-      mine = change_at(linkages, elements, turns, speed(k), acceleration)
-      change = max(change, mine)
-      !$omp critical (change_is_enough)
-      is_enough = is_enough .or. mine > enough
-      !$omp end critical (change_is_enough)
+      do i = 1, size(turns)
+        !$omp atomic read
+        over = is_enough
+        if (over .or. was_interrupted()) cycle
+        mine = change_at(linkages, elements, turns, i, speed(k), acceleration)
+        change = max(change, mine)
+        if (mine > enough) then
+          !$omp atomic write
+          is_enough = .true.
+        end if
+      end do
     end do
     !$omp end parallel do
   end function largest_change
 
-  !> The difference at one speed.
-  function change_at(linkages, elements, turns, speed, acceleration) result(change)
+  !> The difference of one turn at one speed, relative to the largest values of all turns.
+  function change_at(linkages, elements, turns, number, speed, acceleration) result(change)
     type(linkage_t), intent(in) :: linkages(:)
     integer, intent(in) :: elements(:)
     type(cycle_t), intent(in) :: turns(:)
+    integer, intent(in) :: number !! of the turn
     real(wp), intent(in) :: speed, acceleration
     real(wp) :: change
 
@@ -129,9 +135,9 @@ contains
     do i = 1, size(turns)
       values = cycle_values(turns(i), speed, acceleration)
       largest = max(largest, maxval(abs(values), dim=1))
+      if (i /= number) cycle
       do q = 1, quantity_count
-        difference(q) = max(difference(q), distance(spectrum_of(values(:, q)), &
-          spectrum_of(values(::2, q))))
+        difference(q) = distance(spectrum_of(values(:, q)), spectrum_of(values(::2, q)))
       end do
     end do
     ! Quantities that are zero throughout have no difference.

@@ -26,7 +26,7 @@ contains
   !> Solves the deck's mesh in nodal displacements, for every speed. The difference to the
   !! continuous links, whose frequencies are in `result`, is added to the error of each frequency.
   !!
-  !! Matrices are assembled once a position; the geometric stiffness of a speed is the sum of unit
+  !! Matrices are assembled once per position; the geometric stiffness of a speed is the sum of unit
   !! matrices, one for each unit load that occurs, times their factors.
   !!
   !! Errors, speed by speed in `result%outcome`: those of `find_modes`.

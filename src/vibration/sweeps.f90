@@ -13,7 +13,8 @@ module sweeps
   !> One result for each different position.
   type :: sweep_t
     type(mode_request_t) :: request                    !! modes, method, speeds, loads
-    type(vibration_models_t) :: models                 !! used at most positions
+    type(vibration_models_t) :: models                 !! of the first attempt; positions that
+                                                       !! need higher orders have others
     type(position_result_t), allocatable :: results(:) !! (states); empty where there is no pose
     logical, allocatable :: drawn(:, :)                !! (states, speeds) whether shapes are
                                                        !! requested

@@ -163,10 +163,49 @@ without_program() {
   rm -rf "$scratch/share"
   cp -R plots "$scratch/share" || return 1
   run 0 --quiet --out "$scratch/out" inputs/rigid.deck || return 1
-  FLEXMECH=/nowhere timeout 300 sh "$scratch/share/draw_figures.sh" "$scratch/out/rigid" >"$scratch/stdout" 2>"$scratch/stderr" ||
+  FLEXMECH= timeout 300 sh "$scratch/share/draw_figures.sh" "$scratch/out/rigid" >"$scratch/stdout" 2>"$scratch/stderr" ||
     { cat "$scratch/stderr"; return 1; }
   says "linkages are drawn only with the program flexmech" && grep -q /motion.png "$scratch/stdout" || return 1
-  ! grep -q -e special_positions -e coupler_curve "$scratch/stdout"
+  ! grep -q -e special_positions -e coupler_curve "$scratch/stdout" || { echo "it has drawn a linkage"; return 1; }
+  for other in /nowhere /tmp /bin/true; do
+    FLEXMECH=$other sh plots/draw_figures.sh "$scratch/out/rigid" >"$scratch/stdout" 2>"$scratch/stderr"
+    [ $? -eq 2 ] && says "FLEXMECH=$other is not the program" || return 1
+  done
+}
+
+# Links that are called 1, 1e0 and 1.0, or like the ground in no table.
+odd_names() {
+  { motion_deck && echo "POINT p coupler along=100 offset=50" && echo "REPORT points"; } >"$scratch/plain.deck"
+  sed 's/\bcrank\b/1/; s/\bcoupler\b/1e0/; s/\bfollower\b/1.0/' "$scratch/plain.deck" >"$scratch/numbers.deck"
+  sed 's/\bcrank\b/-/' "$scratch/plain.deck" >"$scratch/dash.deck"
+  for deck in plain numbers dash; do
+    run 0 --quiet --out "$scratch/out" "$scratch/$deck.deck" || return 1
+    printf '%s\n' 10 200 >"$scratch/angles.$deck"
+    rm -rf "$scratch/angles.$deck.d"
+    (cd "$scratch/out/$deck" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/geometry.sh" placed "$scratch/angles.$deck" points.dat) \
+      >"$scratch/placed.$deck" || return 1
+    cmp "$scratch/placed.plain" "$scratch/placed.$deck" || return 1
+  done
+}
+
+# Where A stands on O4 the linkage has no place of its own; it is drawn as it tends to be there.
+meeting_pins() {
+  cat >"$scratch/meeting.deck" <<'END_OF_DECK'
+UNITS mm tonne s
+GROUND O2 0 0
+GROUND O4 254 0
+LINK crank O2 A length=254
+LINK coupler A B length=279.4
+LINK follower O4 B length=279.4
+DRIVE crank
+CRANK 10 to 350 step 20
+REPORT linkage
+REPORT kinematics
+END_OF_DECK
+  run 0 --quiet --out "$scratch/out" "$scratch/meeting.deck" || return 1
+  drawn meeting figures kinematics_angles special_positions || return 1
+  { sed '/^REPORT/d' "$scratch/meeting.deck" && echo "REPORT geometry crank=0,10"; } >"$scratch/drawn.deck"
+  run 1 --quiet --out "$scratch/out" "$scratch/drawn.deck" && says "crank 0 deg" && grep -q '^# *failed crank=0 ' "$scratch/out/drawn/geometry.dat"
 }
 
 # A copy of the scripts, called through a link.
@@ -188,4 +227,6 @@ check "nothing to animate" nothing_to_animate
 check "a linkage is placed by the program" placed
 check "a linkage at its dead point" dead_point
 check "no program, no linkage" without_program
+check "links with odd names are placed" odd_names
+check "pins that meet" meeting_pins
 check "installed scripts" installed_plots

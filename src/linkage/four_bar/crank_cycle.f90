@@ -12,7 +12,7 @@ module crank_cycle
   implicit none (type, external)
   private
 
-  public :: cycle_t, turns_freely, parts_at, cycle_values, largest_values, usual_values
+  public :: cycle_t, turns_freely, parts_at, cycle_values, largest_value, usual_values
   public :: quantity_names, quantity_count, shaking_x, shaking_y, shaking_force, shaking_moment, &
     drive_torque
 
@@ -127,42 +127,42 @@ contains
     values([shaking_moment, drive_torque]) = force*length
   end function usual_values
 
-  !> Largest absolute value of every quantity in a turn, also between its samples.
+  !> Largest absolute value of a quantity in a turn, also between its samples.
   !!
   !! Around each of the three highest peaks among the samples the maximum is enclosed by
   !! golden-section search. A turn with so many samples that more of them do not change its
   !! harmonics has no peaks that its samples do not show.
-  pure function largest_values(linkage, elements, turn, speed, acceleration) result(largest)
+  pure function largest_value(linkage, elements, turn, quantity, speed, acceleration) &
+    result(largest)
     type(linkage_t), intent(in) :: linkage !! whose crank turns freely
     integer, intent(in) :: elements(:)     !! (bodies) elements whose nodes carry the mass;
                                            !! 0: distributed mass
     type(cycle_t), intent(in) :: turn      !! its samples
+    integer, intent(in) :: quantity        !! its number
     real(wp), intent(in) :: speed          !! ω2 [rad/s]
     real(wp), intent(in) :: acceleration   !! α2 [rad/s²]
-    real(wp) :: largest(quantity_count)
+    real(wp) :: largest
 
     integer, parameter :: most_peaks = 3
-    real(wp), allocatable :: size_of(:)
-    real(wp) :: values(size(turn%part, 3), quantity_count), step
-    integer :: n, q, k, at
+    real(wp), allocatable :: values(:, :), size_of(:)
+    real(wp) :: step
+    integer :: k, at
 
-    n = size(values, 1)
-    step = 360.0_wp/n
     values = abs(cycle_values(turn, speed, acceleration))
-    largest = maxval(values, dim=1)
-    do q = 1, quantity_count
+    step = 360.0_wp/size(values, 1)
+    associate (value => values(:, quantity))
+      largest = maxval(value)
       ! Samples that are not peaks are set to zero.
-      size_of = merge(values(:, q), 0.0_wp, values(:, q) >= cshift(values(:, q), 1) .and. &
-        values(:, q) >= cshift(values(:, q), -1))
-      do k = 1, most_peaks
-        at = maxloc(size_of, dim=1)
-        if (size_of(at) <= 0.0_wp) exit
-        size_of(at) = 0.0_wp
-        largest(q) = max(largest(q), peak_between(linkage, elements, q, speed, acceleration, &
-          step*(at - 2), step*at))
-      end do
+      size_of = merge(value, 0.0_wp, value >= cshift(value, 1) .and. value >= cshift(value, -1))
+    end associate
+    do k = 1, most_peaks
+      at = maxloc(size_of, dim=1)
+      if (size_of(at) <= 0.0_wp) exit
+      size_of(at) = 0.0_wp
+      largest = max(largest, peak_between(linkage, elements, quantity, speed, acceleration, &
+        step*(at - 2), step*at))
     end do
-  end function largest_values
+  end function largest_value
 
   !> Golden-section search for the largest absolute value of a quantity between two crank angles.
   pure function peak_between(linkage, elements, quantity, speed, acceleration, first, &
