@@ -1,13 +1,14 @@
 !> Converts values to bytes and back without loss, for data kept from a run and data passed between
 !! tasks.
 module byte_streams
+  use errors, only: error_t, set_error
   use kinds, only: wp
   use text_buffer, only: append_text, text_buffer_t
   implicit none (type, external)
   private
 
-  public :: put_integers, put_logicals, put_reals, put_string
-  public :: get_integers, get_logicals, get_reals, get_string
+  public :: put_integers, put_logicals, put_reals, put_string, put_error
+  public :: get_integers, get_logicals, get_reals, get_string, get_error
 
   integer, parameter :: real_bytes = storage_size(1.0_wp)/8, integer_bytes = storage_size(1)/8
 
@@ -51,6 +52,17 @@ contains
     call put_integers(buffer, [len(text)])
     call append_text(buffer, text)
   end subroutine put_string
+
+  !> Appends kind and text of an error to a buffer, or that there is none. Its place is not kept.
+  pure subroutine put_error(buffer, error)
+    type(text_buffer_t), intent(inout) :: buffer     !! bytes so far
+    type(error_t), allocatable, intent(in) :: error  !! may be unallocated: no error
+
+    call put_logicals(buffer, [allocated(error)])
+    if (.not. allocated(error)) return
+    call put_integers(buffer, [error%kind])
+    call put_string(buffer, error%text)
+  end subroutine put_error
 
   !> Reads integers; `at` moves past them.
   pure subroutine get_integers(bytes, at, values)
@@ -96,5 +108,22 @@ contains
     text = bytes(at:at + length(1) - 1)
     at = at + length(1)
   end subroutine get_string
+
+  !> Reads an error, or that there is none; `at` moves past it.
+  pure subroutine get_error(bytes, at, error)
+    character(len=*), intent(in) :: bytes            !! as filled by the put_… procedures
+    integer, intent(inout) :: at                     !! place of the next byte, from 1
+    type(error_t), allocatable, intent(out) :: error !! without its place
+
+    character(len=:), allocatable :: text
+    integer :: kind(1)
+    logical :: is_there(1)
+
+    call get_logicals(bytes, at, is_there)
+    if (.not. is_there(1)) return
+    call get_integers(bytes, at, kind)
+    call get_string(bytes, at, text)
+    call set_error(error, kind(1), text)
+  end subroutine get_error
 
 end module byte_streams

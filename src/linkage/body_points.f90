@@ -3,7 +3,7 @@ module body_points
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t, normal_to
-  use poses, only: pose_t
+  use poses, only: arm_to_place, pose_t
   implicit none (type, external)
   private
 
@@ -31,7 +31,7 @@ contains
 
     real(wp) :: arm(2)
 
-    arm = place(1)*pose%direction(:, body) + place(2)*normal_to(pose%direction(:, body))
+    arm = arm_to_place(pose, body, place)
     associate (pin => linkage%bodies(body)%first_pin, h => coefficients%turn(body))
       point%place = pose%pin(:, pin) + arm
       point%rate = coefficients%pin(:, pin) + h*normal_to(arm)

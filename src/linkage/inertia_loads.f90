@@ -3,7 +3,7 @@ module inertia_loads
   use acceleration_fields, only: acceleration_field_t, point_acceleration
   use kinds, only: wp
   use linkages, only: body_t, cross, linkage_t, normal_to
-  use poses, only: pose_t
+  use poses, only: arm_to_place, pose_t
   implicit none (type, external)
   private
 
@@ -98,8 +98,8 @@ contains
 
     if (.not. allocated(body%lumps)) return
     do i = 1, size(body%lumps)
-      associate (lump => body%lumps(i), axis => pose%direction(:, number))
-        arm = lump%place(1)*axis + lump%place(2)*normal_to(axis)
+      associate (lump => body%lumps(i))
+        arm = arm_to_place(pose, number, lump%place)
         force = -lump%mass*point_acceleration(field, number, lump%place(1), lump%place(2))
         load%force = load%force + force
         load%moment = load%moment + cross(arm, force) - lump%inertia*field%angular(number)

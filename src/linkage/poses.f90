@@ -8,8 +8,8 @@ module poses
   implicit none (type, external)
   private
 
-  public :: pose_t, find_pose, place_links, arm_to_middle, body_angle, transmission_angle, &
-    dead_point_sine
+  public :: pose_t, find_pose, place_links, arm_to_middle, arm_to_place, body_angle, &
+    transmission_angle, dead_point_sine
 
   !> Positions of the pins and directions of the bodies.
   type :: pose_t
@@ -180,6 +180,16 @@ contains
     end do
     angle = atan2(abs(pose%sine(dyad)), dot_product(arm(:, 1), arm(:, 2)))
   end function transmission_angle
+
+  !> From the first pin of a body to a place on it, in global axes [m].
+  pure function arm_to_place(pose, body, place) result(arm)
+    type(pose_t), intent(in) :: pose !! directions of the bodies
+    integer, intent(in) :: body      !! number, from 1
+    real(wp), intent(in) :: place(2) !! from the first pin, in the axes of the body [m]
+    real(wp) :: arm(2)
+
+    arm = place(1)*pose%direction(:, body) + place(2)*normal_to(pose%direction(:, body))
+  end function arm_to_place
 
   !> Unit vector along a body of a dyad, from its base to the middle pin.
   pure function arm_to_middle(linkage, dyad, pose, k) result(arm)

@@ -39,7 +39,7 @@ contains
     grounded = count([(find_name(grounds, model%links(link)%pin(i)%text) > 0, i=1, 2)])
     if (size(model%links) /= 3 .or. size(model%grounds) /= 2) then
       call add_error(diagnostics, model%links(min(4, size(model%links)))%name, &
-        "only the four-bar can be solved: three links "//"and two ground pivots; this deck has "// &
+        "only the four-bar can be solved: three links and two ground pivots; this deck has "// &
         to_string(size(model%links))//" and "//to_string(size(model%grounds)))
       return
     else if (grounded /= 1) then
@@ -81,7 +81,7 @@ contains
       if (find_name(grounds, model%links(i)%pin(1)%text) == 0 .or. find_name(grounds, &
         model%links(i)%pin(2)%text) == 0) cycle
       call add_error(diagnostics, model%links(i)%name, "link '"//model%links(i)%name%text// &
-        "' joins the two ground pivots "//"and cannot move")
+        "' joins the two ground pivots and cannot move")
       return
     end do
     call add_error(diagnostics, model%drive, "the links do not form a loop that '"// &

@@ -85,7 +85,7 @@ contains
         if (material%has_ratio .or. .not. any(model%links%material == i .and. &
           .not. model%links%rigid)) cycle
         call add_error(diagnostics, material%name, "material '"//material%name%text// &
-          "' has no 'nu=', and the shear modulus "//"E/(2(1 + nu)) needs it", model%shear_word, &
+          "' has no 'nu=', and the shear modulus E/(2(1 + nu)) needs it", model%shear_word, &
           "shear is asked for here")
       end associate
     end do

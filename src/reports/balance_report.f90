@@ -7,7 +7,9 @@ module balance_report
   use kinds, only: wp
   use load_notes, only: acceleration_note
   use numbers, only: shortest_text
-  use reactions_study, only: reactions_at_speed, reactions_result_t, shaking_values, torque_value
+  use position_rows, only: add_position_row
+  use reactions_study, only: reaction_values, reactions_at_speed, reactions_result_t, &
+    shaking_values, torque_value
   use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
     table_unit
   use table_rows, only: add_gap, add_row, rows_t
@@ -106,11 +108,10 @@ contains
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which it is appended
 
-    associate (omega => variant%model%speed%value(speed), positions => variant%found%positions, &
-        balance => variant%found%balance, state => variant%found%positions%state(position))
-      call add_row(rows, cells(layout, 1, [omega, positions%crank(position), &
-        balance%centre(:, state), row_quantities(variant%found%reactions), &
-        row_quantities(balance%balanced)]))
+    associate (balance => variant%found%balance, &
+        state => variant%found%positions%state(position))
+      call add_position_row(variant, layout, position, speed, [balance%centre(:, state), &
+        row_quantities(variant%found%reactions), row_quantities(balance%balanced)], rows)
     end associate
 
   contains
@@ -120,11 +121,11 @@ contains
       type(reactions_result_t), intent(in) :: reactions
       real(wp) :: values(4)
 
-      real(wp) :: all(16)
+      real(wp) :: every(reaction_values)
 
-      all = reactions_at_speed(reactions, variant%found%positions%state(position), &
+      every = reactions_at_speed(reactions, variant%found%positions%state(position), &
         variant%model%speed%value(speed), variant%model%acceleration)
-      values = [all(shaking_values), all(torque_value)]
+      values = [every(shaking_values), every(torque_value)]
     end function row_quantities
 
   end subroutine add_balance

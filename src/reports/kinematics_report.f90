@@ -4,8 +4,9 @@ module kinematics_report
   use kinematics_study, only: kinematics_at
   use linkage_notes, only: angle_note, notes_on_linkage
   use load_notes, only: acceleration_note
-  use table_columns, only: cells, table_layout_t
-  use table_rows, only: add_row, rows_t
+  use position_rows, only: add_position_row
+  use table_columns, only: table_layout_t
+  use table_rows, only: rows_t
   use text, only: append_string, string_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -36,10 +37,11 @@ contains
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which it is appended
 
-    associate (omega => variant%model%speed%value(speed), positions => variant%found%positions)
-      call add_row(rows, cells(layout, 1, [omega, positions%crank(position), &
-        kinematics_at(variant%found%kinematics, positions%state(position), omega, &
-        variant%model%acceleration)]))
+    associate (omega => variant%model%speed%value(speed), &
+        state => variant%found%positions%state(position))
+      call add_position_row(variant, layout, position, speed, &
+        kinematics_at(variant%found%kinematics, state, omega, &
+        variant%model%acceleration), rows)
     end associate
   end subroutine add_kinematics
 

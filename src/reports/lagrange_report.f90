@@ -2,8 +2,9 @@
 module lagrange_report
   use lagrange_study, only: lagrange_at_speed
   use load_notes, only: append_load_notes, append_motion_notes
-  use table_columns, only: cells, table_layout_t
-  use table_rows, only: add_row, rows_t
+  use position_rows, only: add_position_row
+  use table_columns, only: table_layout_t
+  use table_rows, only: rows_t
   use text, only: append_string, string_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -37,10 +38,11 @@ contains
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which it is appended
 
-    associate (omega => variant%model%speed%value(speed), positions => variant%found%positions)
-      call add_row(rows, cells(layout, 1, [omega, positions%crank(position), &
-        lagrange_at_speed(variant%found%lagrange(positions%state(position)), omega, &
-        variant%model%acceleration)]))
+    associate (omega => variant%model%speed%value(speed), &
+        state => variant%found%positions%state(position))
+      call add_position_row(variant, layout, position, speed, &
+        lagrange_at_speed(variant%found%lagrange(state), omega, &
+        variant%model%acceleration), rows)
     end associate
   end subroutine add_lagrange
 

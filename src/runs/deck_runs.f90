@@ -72,6 +72,10 @@ module deck_runs
 
   character(len=*), parameter :: line_feed = achar(10)
 
+  !> Form of the bytes in a journal: another number wherever they mean something else, since the
+  !! version of the program may stay the same.
+  character(len=*), parameter :: journal_form = "journal 2"
+
 contains
 
   !> Computes the reports of a sound deck and writes its files.
@@ -126,13 +130,14 @@ contains
     result%statistics = statistics_text(deck%base, session%totals, times)
   end subroutine run_deck
 
-  !> What must be the same for a run to resume from the results of another: program, compiler, and
-  !! the deck with its settings.
+  !> What must be the same for a run to resume from the results of another: program, compiler, form
+  !! of the journal, and the deck with its settings.
   pure function journal_title(deck) result(title)
     type(deck_t), intent(in) :: deck
     character(len=:), allocatable :: title
 
-    title = version_number//line_feed//compiler_version()//line_feed//echo_text(deck%model)
+    title = version_number//line_feed//compiler_version()//line_feed//journal_form//line_feed// &
+      echo_text(deck%model)
   end function journal_title
 
   !> What --resume had to go on from; empty without it.

@@ -1,7 +1,8 @@
 !> What a run reports besides its tables: failed rows and warnings about results.
 module run_findings
-  use byte_streams, only: get_integers, get_reals, get_string, put_integers, put_reals, put_string
-  use errors, only: error_t, set_error
+  use byte_streams, only: get_error, get_integers, get_reals, get_string, put_error, put_integers, &
+    put_reals, put_string
+  use errors, only: error_t
   use kinds, only: wp
   use text, only: string_t, to_string
   use text_buffer, only: text_buffer_t
@@ -113,9 +114,9 @@ contains
     call put_integers(buffer, [findings%failures, findings%warning_count])
     do i = 1, findings%failures
       associate (failure => findings%failed(i))
-        call put_integers(buffer, [failure%stage, failure%error%kind, size(failure%varied)])
+        call put_integers(buffer, [failure%stage, size(failure%varied)])
         call put_reals(buffer, [failure%crank, failure%speed, failure%time, failure%varied])
-        call put_string(buffer, failure%error%text)
+        call put_error(buffer, failure%error)
         call put_string(buffer, failure%variant)
       end associate
     end do
@@ -152,9 +153,8 @@ contains
     integer, intent(inout) :: at
     type(failure_t), intent(inout) :: failure
 
-    character(len=:), allocatable :: text
     real(wp) :: numbers(3)
-    integer :: codes(3)
+    integer :: codes(2)
 
     call get_integers(bytes, at, codes)
     call get_reals(bytes, at, numbers)
@@ -162,10 +162,9 @@ contains
     failure%crank = numbers(1)
     failure%speed = numbers(2)
     failure%time = numbers(3)
-    allocate (failure%varied(codes(3)))
+    allocate (failure%varied(codes(2)))
     call get_reals(bytes, at, failure%varied)
-    call get_string(bytes, at, text)
-    call set_error(failure%error, codes(2), text)
+    call get_error(bytes, at, failure%error)
     call get_string(bytes, at, failure%variant)
   end subroutine get_failure
 

@@ -1,9 +1,8 @@
 !> Results of positions as bytes and back, exact to the last bit: the form in which blocks of a
 !! sweep are kept in the journal.
 module sweep_bytes
-  use byte_streams, only: get_integers, get_logicals, get_reals, get_string, put_integers, &
-    put_logicals, put_reals, put_string
-  use errors, only: error_t, set_error
+  use byte_streams, only: get_error, get_integers, get_logicals, get_reals, put_error, &
+    put_integers, put_logicals, put_reals
   use kinds, only: wp
   use ledger, only: ledger_t
   use modal_assurance, only: mode_prints_t
@@ -30,11 +29,7 @@ contains
     call put_ledger(buffer, result%counts)
     call put_reals(buffer, [result%lambda, result%error, result%deflection, [result%order_error]])
     do k = 1, size(result%outcome)
-      call put_logicals(buffer, [allocated(result%outcome(k)%error)])
-      if (allocated(result%outcome(k)%error)) then
-        call put_integers(buffer, [result%outcome(k)%error%kind])
-        call put_string(buffer, result%outcome(k)%error%text)
-      end if
+      call put_error(buffer, result%outcome(k)%error)
       call put_logicals(buffer, [allocated(result%shapes(k)%displacement)])
       if (allocated(result%shapes(k)%displacement)) then
         call put_integers(buffer, shape(result%shapes(k)%displacement))
@@ -100,22 +95,6 @@ contains
     call get_integers(bytes, at, numbers)
     counts = transfer(numbers, counts)
   end subroutine get_ledger
-
-  pure subroutine get_error(bytes, at, error)
-    character(len=*), intent(in) :: bytes
-    integer, intent(inout) :: at
-    type(error_t), allocatable, intent(out) :: error
-
-    character(len=:), allocatable :: text
-    integer :: kind(1)
-    logical :: is_there(1)
-
-    call get_logicals(bytes, at, is_there)
-    if (.not. is_there(1)) return
-    call get_integers(bytes, at, kind)
-    call get_string(bytes, at, text)
-    call set_error(error, kind(1), text)
-  end subroutine get_error
 
   pure subroutine get_shapes(bytes, at, shapes)
     character(len=*), intent(in) :: bytes

@@ -13,7 +13,7 @@ module frequency_study
   private
 
   public :: begin_sweep, solve_block, finish_sweep, block_count, block_of, missed_states
-  public :: station_on_link, frequency_values, has_result, failure_at, sweep_t, most_attempts
+  public :: station_on_link, frequency_values, has_result, failure_at, most_attempts
 
   !> Number of neighbouring positions that are solved one after another. The division into blocks,
   !! and with it the results, does not depend on the number of threads.

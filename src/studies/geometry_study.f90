@@ -2,8 +2,8 @@
 module geometry_study
   use errors, only: error_t, outcome_t
   use kinds, only: wp
-  use linkages, only: linkage_t, normal_to
-  use poses, only: place_links, pose_t
+  use linkages, only: linkage_t
+  use poses, only: arm_to_place, place_links, pose_t
   implicit none (type, external)
   private
 
@@ -61,10 +61,8 @@ contains
     if (allocated(error)) return
     pin = pose%pin
     do p = 1, size(body)
-      associate (axis => pose%direction(:, body(p)))
-        point(:, p) = pose%pin(:, linkage%bodies(body(p))%first_pin) + place(1, p)*axis + &
-          place(2, p)*normal_to(axis)
-      end associate
+      point(:, p) = pose%pin(:, linkage%bodies(body(p))%first_pin) + &
+        arm_to_place(pose, body(p), place(:, p))
     end do
   end subroutine place_all
 

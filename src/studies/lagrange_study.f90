@@ -8,7 +8,7 @@ module lagrange_study
   implicit none (type, external)
   private
 
-  public :: find_lagrange_terms, lagrange_at_speed, lagrange_values
+  public :: find_lagrange_terms, lagrange_at_speed
 
   !> Number of values of `lagrange_at_speed`.
   integer, parameter :: lagrange_values = 8

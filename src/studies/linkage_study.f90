@@ -11,7 +11,7 @@ module linkage_study
   private
 
   public :: linkage_class_t, linkage_result_t, branch_result_t, classify_linkage, find_linkage, &
-    event_names, branch_range_t, special_position_t
+    event_names, special_position_t
 
   !> The two branches: open and crossed.
   real(wp), parameter :: sides(2) = [1.0_wp, -1.0_wp]

@@ -8,7 +8,7 @@ module points_study
   implicit none (type, external)
   private
 
-  public :: find_points, point_at_speed, point_values
+  public :: find_points, point_at_speed
 
   !> Number of values of `point_at_speed`.
   integer, parameter :: point_values = 6

@@ -67,7 +67,7 @@ contains
     if (runs) call refuse_zero(card, "noload", motor%noload, diagnostics)
     if (.not. (stalls .and. runs) .or. motor%stall*motor%noload >= 0.0_wp) return
     call add_error(diagnostics, card%entries(entry_number(card, "noload"))%value, &
-      "'stall=' and 'noload=' must have the same "//"sign: a motor runs the way that it pulls", &
+      "'stall=' and 'noload=' must have the same sign: a motor runs the way that it pulls", &
       card%entries(entry_number(card, "stall"))%value, "'stall=' is given here")
   end subroutine read_motor
 

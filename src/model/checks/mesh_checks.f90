@@ -34,7 +34,7 @@ contains
     if (accurate == 0) return
     if (divided > 0) then
       call add_error(diagnostics, model%meshes(accurate)%accuracy_word, &
-        "'accuracy=' is for the whole mechanism, and other "//"links have 'elements='", &
+        "'accuracy=' is for the whole mechanism, and other links have 'elements='", &
         model%meshes(divided)%keyword, "their card is here")
     end if
     call refuse_other_accuracies(diagnostics, model, by_accuracy)

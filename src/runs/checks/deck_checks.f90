@@ -278,7 +278,7 @@ contains
       if (bound < 1.0e3_wp) amount = to_string(bound, 2)
       call add_error(diagnostics, model%meshes(model%links(model%loop(body))%mesh)%keyword, &
         fault//"; round-off in '"//mechanism%names(body)%text//"' may reach "//amount// &
-        " times the lowest eigenvalue, "//"and the limit is "//to_string(most_round_off))
+        " times the lowest eigenvalue, and the limit is "//to_string(most_round_off))
     end do
   end subroutine check_round_off
 

@@ -22,8 +22,8 @@ contains
     integer :: i
 
     call append_text(buffer, &
-      "A deck has one card a line, in any order. What stands in brackets "//"may be left out;"// &
-      line_feed//"| separates words of which one is written, = is followed "//"by a value."// &
+      "A deck has one card a line, in any order. What stands in brackets may be left out;"// &
+      line_feed//"| separates words of which one is written, = is followed by a value."// &
       line_feed//line_feed)
     do i = 1, size(card_kinds)
       call append_card_help(buffer, card_kinds(i))
