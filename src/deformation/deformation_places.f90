@@ -1,6 +1,6 @@
 !> Displacement, slope and rotation that the deformations of a link cause at a place along it.
 module deformation_places
-  use deformation_shapes, only: bending_column, deformation_shapes_t, shear_scale
+  use deformation_shapes, only: deformation_shapes_t, shear_scale
   use kinds, only: wp
   use legendre, only: legendre_values
   implicit none (type, external)
@@ -62,8 +62,9 @@ contains
     call find_element(shapes, xi, element, zeta)
     h = shapes%length/shapes%elements*shapes%part(element)
     p = legendre_values(shapes%coefficients - 1, zeta)
-    do j = 0, shapes%unknowns/shapes%elements/2 - 1
-      column = bending_column(shapes, element, j) + 1
+    do j = 0, ubound(shapes%column, 1)
+      if (shapes%column(j, element) == 0) cycle
+      column = shapes%column(j, element) + 1
       row(column) = row(column) - shear_scale(j, shapes%shear_stiffness, h)*p(j)
     end do
   end function rotation_row

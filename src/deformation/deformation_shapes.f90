@@ -13,8 +13,7 @@ module deformation_shapes
   implicit none (type, external)
   private
 
-  public :: deformation_shapes_t, bending_shapes, axial_shapes, bending_unknowns, bending_column, &
-    shear_scale
+  public :: deformation_shapes_t, bending_shapes, axial_shapes, bending_unknowns, shear_scale
 
   !> Effect of every unknown along the link. A function is stored as its Legendre coefficients in
   !! every element, element by element, each coefficient times √(μ h/(2j+1)): `∫ μ f g dx` is then
@@ -28,6 +27,11 @@ module deformation_shapes
     integer :: elements = 0
     logical :: by_degree = .false.              !! unknowns ordered by degree, within a degree by
                                                 !! element; else by element
+    integer, allocatable :: column(:, :)        !! (0:highest degree, elements) number of the
+                                                !! unknown of this curvature (axial: strain; those
+                                                !! of degree 0 have none of their own); 0: none
+    integer :: kept = 0                         !! unknowns in use, the first of all; the rest are
+                                                !! those of higher orders
     real(wp), allocatable :: last(:)            !! (0:elements) end of each element; entry 0 is the
                                                 !! first pin [mean elements]
     real(wp), allocatable :: part(:)            !! (elements) length of each [mean elements]
@@ -68,20 +72,52 @@ contains
     unknowns = merge(2, 1, sheared)*(order - 1)
   end function bending_unknowns
 
-  !> Number of the unknown of the curvature of degree j in an element. With shear, the next unknown
-  !! is the shear strain of the same degree.
-  pure function bending_column(shapes, element, j) result(column)
-    type(deformation_shapes_t), intent(in) :: shapes !! bending
-    integer, intent(in) :: element                   !! its number
-    integer, intent(in) :: j                         !! degree, from 0
-    integer :: column
+  !> Numbers of the unknowns of every degree in every element, and how many of them are in use: as
+  !! many degrees as given for each element. The unknowns of `beyond` further degrees come last.
+  pure subroutine number_unknowns(shapes, first, degrees, beyond, kinds, before)
+    type(deformation_shapes_t), intent(inout) :: shapes
+    integer, intent(in) :: first      !! lowest degree
+    integer, intent(in) :: degrees(:) !! (elements) number of degrees in use
+    integer, intent(in) :: beyond     !! number of further degrees in each element
+    integer, intent(in) :: kinds      !! unknowns of a degree
+    integer, intent(in) :: before     !! unknowns that come before all of these
 
-    integer :: kinds
+    integer :: e, i, j, next
 
-    kinds = merge(2, 1, shapes%shear_stiffness > 0.0_wp)
-    column = 1 + merge(kinds*(j*shapes%elements + element - 1), &
-      (element - 1)*shapes%unknowns/shapes%elements + kinds*j, shapes%by_degree)
-  end function bending_column
+    allocate (shapes%column(0:first + maxval(degrees) + beyond - 1, shapes%elements))
+    shapes%column = 0
+    next = before + 1
+    if (shapes%by_degree) then
+      do j = first, first + maxval(degrees) - 1
+        do e = 1, shapes%elements
+          if (j < first + degrees(e)) call set_column(shapes%column(j, e), next, kinds)
+        end do
+      end do
+      shapes%kept = next - 1
+      do i = 0, beyond - 1
+        do e = 1, shapes%elements
+          call set_column(shapes%column(first + degrees(e) + i, e), next, kinds)
+        end do
+      end do
+    else
+      do e = 1, shapes%elements
+        do j = first, first + degrees(e) - 1
+          call set_column(shapes%column(j, e), next, kinds)
+        end do
+      end do
+      shapes%kept = next - 1
+    end if
+  end subroutine number_unknowns
+
+  !> Gives a column the next number.
+  pure subroutine set_column(column, next, kinds)
+    integer, intent(out) :: column
+    integer, intent(inout) :: next
+    integer, intent(in) :: kinds !! numbers that it takes
+
+    column = next
+    next = next + kinds
+  end subroutine set_column
 
   !> `√((2j+1)/(kGA h))`: coefficient of P_j in the shear strain, per unit of the unknown [1/√J].
   elemental function shear_scale(j, shear_stiffness, h) result(scale)
@@ -93,12 +129,13 @@ contains
     scale = sqrt((2*j + 1)/(shear_stiffness*h))
   end function shear_scale
 
-  !> Transverse deformations of a link, of polynomial degree `order` in every element.
+  !> Transverse deformations of a link, of polynomial degree `order` in every element, or of one of
+  !! its own in each.
   !!
   !! As kGA grows, the effect of the shear strains vanishes like 1/√kGA and leaves the slender beam:
   !! there is no shear locking.
   pure function bending_shapes(length, line_density, bending_stiffness, elements, order, &
-      shear_stiffness, rotary_inertia, ends, cuts) result(shapes)
+      shear_stiffness, rotary_inertia, ends, cuts, orders, beyond) result(shapes)
     real(wp), intent(in) :: length                    !! [m]
     real(wp), intent(in) :: line_density              !! μ [kg/m]
     real(wp), intent(in) :: bending_stiffness         !! EI [N m²]
@@ -110,24 +147,34 @@ contains
                                                       !! 1; absent: equal elements
     real(wp), intent(in), optional :: cuts(:)         !! (jumps) ξ where the axial force jumps
                                                       !! inside elements; absent: no jumps
+    integer, intent(in), optional :: orders(:)        !! (elements) order in each; absent: `order`
+    integer, intent(in), optional :: beyond           !! further orders, whose unknowns come last;
+                                                      !! only with `ends` or for one element
     type(deformation_shapes_t) :: shapes
 
-    real(wp) :: h, scale, coefficient(0:order), slope_coefficient(0:order)
-    integer :: e, j, column
+    real(wp), allocatable :: coefficient(:), slope_coefficient(:)
+    real(wp) :: h, scale
+    integer :: own(elements), more, e, j, column
     logical :: sheared
 
     sheared = .false.
     if (present(shear_stiffness)) sheared = shear_stiffness > 0.0_wp
-    shapes = empty_shapes(length, line_density, elements, order + 1, &
-      elements*bending_unknowns(order, sheared), rotary_inertia, ends)
+    own = order
+    if (present(orders)) own = orders
+    more = 0
+    if (present(beyond)) more = beyond
+    shapes = empty_shapes(length, line_density, elements, maxval(own) + more + 1, &
+      sum(bending_unknowns(own + more, sheared)), rotary_inertia, ends)
+    call number_unknowns(shapes, 0, own - 1, more, merge(2, 1, sheared), 0)
     if (sheared) shapes%shear_stiffness = shear_stiffness
     allocate (shapes%start_slope(shapes%unknowns))
-    call place_gauss_points(shapes, order + 1, cuts)
+    allocate (coefficient(0:maxval(own) + more), slope_coefficient(0:maxval(own) + more))
+    call place_gauss_points(shapes, own + more + 1, cuts)
     allocate (shapes%slope(size(shapes%place), shapes%unknowns))
     do e = 1, elements
       h = length/elements*shapes%part(e)
-      do j = 0, order - 2
-        column = bending_column(shapes, e, j)
+      do j = 0, own(e) + more - 2
+        column = shapes%column(j, e)
         scale = 0.5_wp*h*sqrt((2*j + 1)/(bending_stiffness*h))
         slope_coefficient = 0.0_wp
         slope_coefficient(:j + 1) = scale*once_integrated(j)
@@ -181,20 +228,27 @@ contains
   !! the whole link is not among them: the uniform strain is taken out, and the displacement
   !! vanishes at both ends.
   pure function axial_shapes(length, line_density, axial_stiffness, elements, degree, &
-    ends) result(shapes)
+    ends, degrees, beyond) result(shapes)
     real(wp), intent(in) :: length             !! [m]
     real(wp), intent(in) :: line_density       !! μ [kg/m]
     real(wp), intent(in) :: axial_stiffness    !! EA [N]
     integer, intent(in) :: elements            !! how many
     integer, intent(in) :: degree              !! at least 1
     real(wp), intent(in), optional :: ends(0:) !! as in `bending_shapes`
+    integer, intent(in), optional :: degrees(:) !! (elements) degree in each; absent: `degree`
+    integer, intent(in), optional :: beyond     !! as in `bending_shapes`
     type(deformation_shapes_t) :: shapes
 
     real(wp) :: h, scale, elongation
-    integer :: e, j, k, column
+    integer :: own(elements), more, e, j, k, column
 
-    shapes = empty_shapes(length, line_density, elements, degree + 1, elements*degree - 1, &
-      ends=ends)
+    own = degree
+    if (present(degrees)) own = degrees
+    more = 0
+    if (present(beyond)) more = beyond
+    shapes = empty_shapes(length, line_density, elements, maxval(own) + more + 1, &
+      sum(own + more) - 1, ends=ends)
+    call number_unknowns(shapes, 1, own - 1, more, 1, elements - 1)
     h = length/elements
     column = 0
     ! Uniform strains of the elements that sum to zero: elements 1 to e stretched, the next one
@@ -211,9 +265,8 @@ contains
     end do
     do e = 1, elements
       h = length/elements*shapes%part(e)
-      do j = 1, degree - 1
-        column = elements - 1 + merge((j - 1)*elements + e, (e - 1)*(degree - 1) + j, &
-          shapes%by_degree)
+      do j = 1, own(e) + more - 1
+        column = shapes%column(j, e)
         scale = 0.5_wp*h*sqrt((2*j + 1)/(axial_stiffness*h))
         call add_in_element(shapes, e, column, scale*once_integrated(j))
       end do
@@ -281,27 +334,31 @@ contains
   !! quadratic N exactly.
   pure subroutine place_gauss_points(shapes, points, cuts)
     type(deformation_shapes_t), intent(inout) :: shapes
-    integer, intent(in) :: points !! per element, or per part between cuts
+    integer, intent(in) :: points(:) !! (elements) in each, or per part between cuts
     real(wp), intent(in), optional :: cuts(:)
 
-    real(wp) :: x(points), w(points), here(0:1)
-    integer :: k
+    real(wp) :: x(maxval(points)), w(maxval(points)), here(0:1)
+    integer :: k, n
 
-    call gauss_rule(x, w)
+    n = 0
     allocate (shapes%place(0), shapes%root(0), shapes%first_point(shapes%elements + 1))
     do k = 1, shapes%elements
       shapes%first_point(k) = size(shapes%place) + 1
+      if (points(k) /= n) then
+        n = points(k)
+        call gauss_rule(x(:n), w(:n))
+      end if
       here = shapes%last(k - 1:k)
       if (present(cuts)) then
         do
           here(1) = min(shapes%last(k), minval(shapes%elements*cuts, &
             mask=shapes%elements*cuts > here(0)))
           if (here(1) >= shapes%last(k)) exit
-          call add_gauss_points(shapes, here, x, w)
+          call add_gauss_points(shapes, here, x(:n), w(:n))
           here(0) = here(1)
         end do
       end if
-      call add_gauss_points(shapes, here, x, w)
+      call add_gauss_points(shapes, here, x(:n), w(:n))
     end do
     shapes%first_point(shapes%elements + 1) = size(shapes%place) + 1
   end subroutine place_gauss_points

@@ -11,10 +11,12 @@ module link_modes
   use deformation_places, only: displacement_row, slope_row
   use deformation_shapes, only: deformation_shapes_t
   use kinds, only: wp
+  use next_orders, only: new_next_orders, next_orders_t
+  use sorting, only: ascending_order
   implicit none (type, external)
   private
 
-  public :: link_modes_t, next_order_t, held_shapes, new_link_modes, end_rotation, rigid, clamp, &
+  public :: link_modes_t, held_shapes, new_link_modes, end_rotation, rigid, clamp, &
     stations
 
   !> Numbers of the first two rows of slopes: the chord's, and the curve of the clamped end; own
@@ -23,17 +25,6 @@ module link_modes
 
   !> Places along a link, its ends among them, at which the static deflection is looked at.
   integer, parameter :: stations = 9
-
-  !> Unknowns of the next polynomial orders (two of the transverse displacement, four of the axial
-  !! one), to estimate how much they would change.
-  type :: next_order_t
-    real(wp), allocatable :: square(:)                !! (unknowns) own inertia [s²]
-    real(wp), allocatable :: mass(:, :)               !! (modes, unknowns) with the own modes [s²]
-    real(wp), allocatable :: participation(:, :)      !! (3, unknowns) as that of the modes
-    real(wp), allocatable :: geometric(:, :, :)       !! (2 + modes, unknowns, force functions) `∫ b
-                                                      !! v' v'`
-    real(wp), allocatable :: geometric_square(:, :)   !! (unknowns, force functions)
-  end type next_order_t
 
   type :: link_modes_t
     integer :: modes = 0        !! transverse
@@ -59,9 +50,8 @@ module link_modes
     real(wp), allocatable :: axial_participation(:, :) !! (2, axial modes)
     real(wp), allocatable :: geometric(:, :, :)       !! (2 + modes, 2 + modes, force functions) `∫
                                                       !! b v' v' dx`
-    type(next_order_t) :: next                        !! of the transverse displacement; empty on a
-                                                      !! mesh of several elements
-    type(next_order_t) :: axial_next
+    type(next_orders_t) :: next                       !! of the transverse displacement
+    type(next_orders_t) :: axial_next
     real(wp) :: clamp_station(stations) = 0.0_wp      !! the curve of the clamped end there
     real(wp) :: sag(stations, 2) = 0.0_wp             !! deflection there of the held link under the
                                                       !! loads μ (1 − ξ) and μ ξ
@@ -133,7 +123,7 @@ contains
     real(wp), intent(in) :: axial_own(:, :) !! (axial kept, axial modes)
     type(link_modes_t), intent(out) :: link !! with all its integrals
 
-    real(wp), allocatable :: shape(:, :), slope(:, :), next_slope(:, :)
+    real(wp), allocatable :: shape(:, :), slope(:, :), functions(:, :)
     integer :: i, kept, moved
 
     kept = size(own, 1)
@@ -171,15 +161,13 @@ contains
     allocate (slope(size(bending%place), link%modes + 2))
     slope(:, rigid) = bending%root
     slope(:, clamp:) = matmul(bending%slope(:, :kept), link%bending)
-    call integrate_slopes(bending, lumped, jumps, slope, slope, link%geometric)
+    call integrate_slopes(bending, lumped, jumps, slope, link%geometric)
     call place_stations(link)
     call add_axial(axial, size(axial_own, 1), link)
-    if (bending%by_degree) then
-      next_slope = bending%slope(:, kept + 1:)
-    else
-      next_slope = bending%slope(:, 1:0)
+    if (bending%by_degree .and. bending%unknowns > kept .and. .not. lumped) then
+      functions = reshape([bending%linear, shape(:, 1)], [size(shape, 1), 3])
+      link%next = new_next_orders(bending, shape(:, 2:), functions, slope, jumps)
     end if
-    call add_next_order(bending, kept, shape, slope, next_slope, lumped, jumps, link)
   end subroutine new_link_modes
 
   !> Rotation of a link's end under a moment there that does unit work, the other end hinged: the
@@ -213,26 +201,31 @@ contains
   end subroutine turn_last_end_up
 
   !> `∫ b f g dx` of slopes f and g, for every axial force function b.
-  pure subroutine integrate_slopes(shapes, lumped, jumps, first, second, integral)
+  pure subroutine integrate_slopes(shapes, lumped, jumps, slope, integral)
     type(deformation_shapes_t), intent(in) :: shapes
     logical, intent(in) :: lumped
     real(wp), intent(in) :: jumps(:)
-    real(wp), intent(in) :: first(:, :), second(:, :) !! (Gauss points, functions) with the root of
-                                                      !! the weight
+    real(wp), intent(in) :: slope(:, :) !! (Gauss points, functions) with the root of the weight
     real(wp), allocatable, intent(out) :: integral(:, :, :)
 
-    real(wp) :: force(size(shapes%place))
-    integer :: j, smooth
+    real(wp) :: force(size(shapes%place)), sum_so_far(size(slope, 2), size(slope, 2))
+    integer :: i, j, smooth, first, last, order(size(jumps))
 
     smooth = merge(shapes%elements, 3, lumped)
-    allocate (integral(size(first, 2), size(second, 2), smooth + size(jumps)))
-    do j = 1, size(integral, 3)
-      if (j <= smooth) then
-        force = force_function(shapes, lumped, j)
-      else
-        force = merge(1.0_wp, 0.0_wp, shapes%place < jumps(j - smooth))
-      end if
-      integral(:, :, j) = matmul(transpose(first), spread(force, 2, size(second, 2))*second)
+    allocate (integral(size(slope, 2), size(slope, 2), smooth + size(jumps)))
+    do j = 1, smooth
+      force = force_function(shapes, lumped, j)
+      integral(:, :, j) = matmul(transpose(slope), spread(force, 2, size(slope, 2))*slope)
+    end do
+    ! The force that ends at a jump is 1 up to there: integrals are summed up along the link.
+    sum_so_far = 0.0_wp
+    first = 1
+    order = ascending_order(jumps)
+    do i = 1, size(jumps)
+      last = count(shapes%place < jumps(order(i)))
+      sum_so_far = sum_so_far + matmul(transpose(slope(first:last, :)), slope(first:last, :))
+      integral(:, :, smooth + order(i)) = sum_so_far
+      first = last + 1
     end do
   end subroutine integrate_slopes
 
@@ -270,47 +263,14 @@ contains
     type(link_modes_t), intent(inout) :: link
 
     real(wp), allocatable :: shape(:, :)
-    integer :: i, extra
+    real(wp) :: no_slope(0, 0), no_jumps(0)
+    integer :: i
 
     shape = matmul(axial%displacement(:, :kept), link%axial)
     link%axial_square = [(dot_product(shape(:, i), shape(:, i)), i=1, link%axial_modes)]
     link%axial_participation = matmul(transpose(axial%linear), shape)
-    extra = merge(axial%unknowns - kept, 0, axial%by_degree)
-    associate (next => axial%displacement(:, kept + 1:kept + extra))
-      link%axial_next%mass = matmul(transpose(shape), next)
-      link%axial_next%participation = matmul(transpose(axial%linear), next)
-      link%axial_next%square = [(dot_product(next(:, i), next(:, i)), i=1, extra)]
-    end associate
+    if (axial%by_degree .and. axial%unknowns > kept) link%axial_next = new_next_orders(axial, &
+      shape, axial%linear, no_slope, no_jumps)
   end subroutine add_axial
-
-  !> What the unknowns left out by `kept` have to do with those in use.
-  pure subroutine add_next_order(bending, kept, shape, slope, next_slope, lumped, jumps, link)
-    type(deformation_shapes_t), intent(in) :: bending
-    integer, intent(in) :: kept
-    real(wp), intent(in) :: shape(:, 0:)      !! (coefficients, 0:modes)
-    real(wp), intent(in) :: slope(:, :)       !! (Gauss points, 2 + modes)
-    real(wp), intent(in) :: next_slope(:, :)  !! (Gauss points, unknowns of the next orders)
-    logical, intent(in) :: lumped
-    real(wp), intent(in) :: jumps(:)
-    type(link_modes_t), intent(inout) :: link
-
-    real(wp), allocatable :: all_squares(:, :, :)
-    integer :: extra, i, j
-
-    extra = size(next_slope, 2)
-    associate (next => bending%displacement(:, kept + 1:kept + extra))
-      link%next%square = [(dot_product(next(:, i), next(:, i)), i=1, extra)]
-      link%next%mass = matmul(transpose(shape(:, 1:)), next)
-      allocate (link%next%participation(3, extra))
-      link%next%participation(1:2, :) = matmul(transpose(bending%linear), next)
-      link%next%participation(3, :) = matmul(shape(:, 0), next)
-    end associate
-    call integrate_slopes(bending, lumped, jumps, slope, next_slope, link%next%geometric)
-    call integrate_slopes(bending, lumped, jumps, next_slope, next_slope, all_squares)
-    allocate (link%next%geometric_square(extra, size(all_squares, 3)))
-    do j = 1, size(all_squares, 3)
-      link%next%geometric_square(:, j) = [(all_squares(i, i, j), i=1, extra)]
-    end do
-  end subroutine add_next_order
 
 end module link_modes

@@ -15,8 +15,8 @@ module reduced_assembly
   implicit none (type, external)
   private
 
-  public :: reduced_layout, reduced_mass, reduced_geometric_stiffness, next_order_change, &
-    reduced_deflection, first_axial
+  public :: reduced_layout, reduced_mass, reduced_geometric_stiffness, reduced_deflection, &
+    first_axial
 
 contains
 
@@ -127,56 +127,6 @@ contains
       end do
     end do
   end subroutine reduced_geometric_stiffness
-
-  !> Estimated decrease of an eigenvalue by the next polynomial orders, link by link: the next two
-  !! orders of the transverse displacement, the next four degrees of the axial one.
-  !!
-  !! With r the residual of the mode in their equations, the eigenvalue changes by `−Σ r²/(k − λ m)`
-  !! to first order, which suffices once the change is small. The unknowns of the next orders do not
-  !! couple with those of another link.
-  pure function next_order_change(links, layout, chords, force, vector, lambda) result(change)
-    type(link_modes_t), intent(in) :: links(:) !! (bodies)
-    type(layout_t), intent(in) :: layout       !! of these links
-    type(chords_t), intent(in) :: chords       !! of this position
-    real(wp), intent(in) :: force(:, :)        !! (force functions, bodies) at this speed; no
-                                               !! functions: static [N]
-    real(wp), intent(in) :: vector(:)          !! (unknowns) mode with yᵀMy = 1
-    real(wp), intent(in) :: lambda             !! its eigenvalue [1/s²]
-    real(wp) :: change(size(links))            !! (bodies) never negative [1/s²]
-
-    real(wp) :: ends(3), turn, residual, pivot
-    integer :: b, i, j, first, axial
-
-    change = 0.0_wp
-    do b = 1, size(links)
-      associate (link => links(b), border => vector(:layout%border))
-        first = layout%first(b)
-        ends = matmul(chords%across(:, :, b), border)
-        turn = dot_product(chords%turn(:, b), border)
-        do i = 1, size(link%next%square)
-          residual = -lambda*(dot_product(ends, link%next%participation(:, i)) + &
-            dot_product(vector(first:first + link%modes - 1), link%next%mass(:, i)))
-          pivot = 1.0_wp - lambda*link%next%square(i)
-          do j = 1, min(size(force, 1), size(link%next%geometric, 3))
-            residual = residual + force(j, b)*(turn*link%next%geometric(rigid, i, j) + &
-              ends(3)*link%next%geometric(clamp, i, j) + &
-              dot_product(vector(first:first + link%modes - 1), link%next%geometric(clamp + 1:, i, &
-              j)))
-            pivot = pivot + force(j, b)*link%next%geometric_square(i, j)
-          end do
-          change(b) = change(b) + residual**2/max(abs(pivot), 0.1_wp)
-        end do
-        axial = first_axial(layout, links, b)
-        ends(1:2) = matmul(chords%along(:, :, b), border)
-        do i = 1, size(link%axial_next%square)
-          residual = lambda*(dot_product(ends(1:2), link%axial_next%participation(:, i)) + &
-            dot_product(vector(axial:axial + link%axial_modes - 1), link%axial_next%mass(:, i)))
-          change(b) = change(b) + residual**2/max(abs(1.0_wp - lambda*link%axial_next%square(i)), &
-            0.1_wp)
-        end do
-      end associate
-    end do
-  end function next_order_change
 
   !> Static displacements along and across every link, at its stations, under the loads of a load
   !! case.

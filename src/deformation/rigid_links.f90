@@ -34,7 +34,6 @@ contains
     allocate (link%geometric(2, 2, 1))
     link%geometric = 0.0_wp
     link%geometric(rigid, rigid, 1) = body%length
-    allocate (link%next%square(0), link%axial_next%square(0))
   end function new_rigid_link
 
 end module rigid_links

@@ -65,6 +65,14 @@ module bordered_eigensolver
   !! `easy_rest` without them.
   real(wp), parameter :: most_rest = 0.999_wp, easy_rest = 0.8_wp
 
+  !> Up to this number of modes wanted, sums of squares are tried first: for more they are rarely
+  !! sharp enough, and cost more than a factorization.
+  integer, parameter :: most_by_norm = 8
+
+  !> Relative distances from the last wanted mode up to which a factorization is to prove that there
+  !! is no other. The first bounds the error of the last mode better, if there is none so near.
+  real(wp), parameter :: proof_margins(2) = [1.0e-3_wp, count_margin]
+
   !> Modes beyond those wanted in a search without a start: at first, and at most.
   integer, parameter :: first_guards = 2, most_guards = 32
 
@@ -99,6 +107,7 @@ contains
     type(error_t), allocatable, intent(out) :: error !! allocated on failure
 
     type(start_t) :: dense_start
+    integer, allocatable :: leading(:)
     integer :: guards
     logical :: proven
 
@@ -112,21 +121,25 @@ contains
         proven)
       if (proven) return
     end if
-    if (4*(wanted + first_guards) < pencil%layout%unknowns) then
-      call solve_dense_start(pencil, leading_unknowns(pencil%layout, wanted), &
-        wanted + first_guards, dense_start, error)
+    leading = leading_unknowns(pencil, wanted)
+    guards = first_guards
+    ! Nearly all unknowns cost as much as all of them.
+    do while (4*size(leading) < 3*pencil%layout%unknowns)
+      call solve_dense_start(pencil, leading, wanted + guards, dense_start, found%factorizations, &
+        error)
       if (.not. allocated(error)) then
         found%reduced_solutions = found%reduced_solutions + 1
-        call improve_all(pencil, wanted, accurate_vectors, dense_start, &
-          found, proven)
+        call improve_all(pencil, wanted, accurate_vectors, dense_start, found, proven)
         if (proven) return
       end if
-    end if
+      leading = softest_unknowns(pencil, 2*size(leading))
+      guards = min(2*guards, most_guards)
+    end do
     guards = first_guards
     do
       guards = min(2*guards, pencil%layout%unknowns - wanted)
-      call solve_dense_start(pencil, all_unknowns(pencil%layout), &
-        wanted + guards, dense_start, error)
+      call solve_dense_start(pencil, all_unknowns(pencil%layout), wanted + guards, dense_start, &
+        found%factorizations, error)
       found%full_solutions = found%full_solutions + 1
       if (allocated(error)) return
       call improve_all(pencil, wanted, accurate_vectors, dense_start, &
@@ -317,37 +330,43 @@ contains
   !! Let μ lie just above the last of k modes, Q be an orthonormal basis of their K y, and P the
   !! projection on its complement. If `‖P (μM − G) P‖ < 1`, then `K − μM` is positive on the
   !! complement, so no more than k modes lie below μ: those found. The norm is the Frobenius norm,
-  !! from sums of squares. Where it is not below 1, a Cholesky factorization may still prove
-  !! completeness.
+  !! from sums of squares. Where it is not below 1, and for many modes, a Cholesky factorization may
+  !! still prove completeness.
   subroutine check(pencil, wanted, found, proven)
     type(bordered_pencil_t), intent(in) :: pencil
     integer, intent(in) :: wanted
     type(bordered_modes_t), intent(inout) :: found
     logical, intent(out) :: proven
 
-    real(wp) :: limit, rest(size(found%lambda))
-    integer :: i, kept, below
+    real(wp) :: limit, rest(size(found%lambda)), margin
+    integer :: i, kept
 
-    rest = huge(1.0_wp)
-    do i = wanted, size(rest)
-      rest(i) = rest_norm(pencil, count_limit(found%lambda(i)), &
-        found%stiffness_times(:, :i))
-      if (rest(i) < easy_rest) exit
-    end do
-    kept = wanted - 1 + minloc(rest(wanted:), dim=1)
-    found%rest = rest(kept)
-    proven = found%rest < most_rest
-    if (.not. proven) then
-      limit = count_limit(found%lambda(wanted))
-      below = count(found%lambda < limit)
-      call is_complete(pencil, limit, found%lambda(:below), &
-        found%mass_times(:, :below), proven)
-      found%factorizations = found%factorizations + 1
-      kept = below
+    proven = .false.
+    found%rest = 0.0_wp
+    if (wanted <= most_by_norm) then
+      rest = huge(1.0_wp)
+      do i = wanted, size(rest)
+        rest(i) = rest_norm(pencil, count_limit(found%lambda(i)), &
+          found%stiffness_times(:, :i))
+        if (rest(i) < easy_rest) exit
+      end do
+      kept = wanted - 1 + minloc(rest(wanted:), dim=1)
+      found%rest = rest(kept)
+      proven = found%rest < most_rest
+      margin = 1.0_wp - found%rest
     end if
+    do i = 1, size(proof_margins)
+      if (proven) exit
+      margin = proof_margins(i)
+      limit = found%lambda(wanted) + margin*abs(found%lambda(wanted))
+      kept = count(found%lambda < limit)
+      call is_complete(pencil, limit, found%lambda(:kept), &
+        found%mass_times(:, :kept), proven)
+      found%factorizations = found%factorizations + 1
+    end do
     if (.not. proven) return
     do i = 1, kept
-      found%error(i) = found%error(i)/true_gap(found%lambda, i, wanted, found%rest) + &
+      found%error(i) = found%error(i)/true_gap(found%lambda, i, wanted, margin) + &
         rounding*epsilon(1.0_wp)*cancellation(pencil%mass, pencil%layout, found%vector(:, i), &
         found%stiffness_times(:, i), found%lambda(i))
     end do
@@ -355,30 +374,30 @@ contains
   end subroutine check
 
   !> Relative distance of an eigenvalue to the nearest other one. From the last wanted mode on, the
-  !! next mode may not be known; the proof then limits how near it can be: `1 − rest`, or the margin
-  !! of the count where the proof gives no more.
-  pure function true_gap(lambda, i, wanted, rest) result(distance)
+  !! next mode may not be known; the proof then limits how near it can be.
+  pure function true_gap(lambda, i, wanted, margin) result(distance)
     real(wp), intent(in) :: lambda(:)
     integer, intent(in) :: i, wanted
-    real(wp), intent(in) :: rest
+    real(wp), intent(in) :: margin !! relative distance that the proof leaves
     real(wp) :: distance
 
     distance = max(relative_gap(lambda, i), epsilon(1.0_wp))
-    if (i >= wanted) distance = min(distance, max(1.0_wp - rest, count_margin))
+    if (i >= wanted) distance = min(distance, max(margin, count_margin))
   end function true_gap
 
   !> Start from the dense eigenproblem of some unknowns, with the others fixed at zero.
-  subroutine solve_dense_start(pencil, chosen, modes, start, error)
+  subroutine solve_dense_start(pencil, chosen, modes, start, factorizations, error)
     type(bordered_pencil_t), intent(in) :: pencil
     integer, intent(in) :: chosen(:) !! numbers of unknowns
     integer, intent(in) :: modes
     type(start_t), intent(out) :: start
+    integer, intent(inout) :: factorizations !! counter
     type(error_t), allocatable, intent(out) :: error
 
     type(band_matrix_t) :: m, k
     real(wp) :: shift, inverse(modes), full(pencil%layout%unknowns)
     real(wp), allocatable :: vector(:, :), dense(:, :), diagonal(:)
-    integer :: i, factorizations
+    integer :: i
 
     if (modes > size(chosen)) then
       call set_error(error, error_of_numerics, to_string(modes)//" modes of "// &
@@ -394,7 +413,6 @@ contains
     end do
     k = full_band(dense)
     shift = 0.0_wp
-    factorizations = 0
     if (pencil%loaded) call find_definite_shift(k, m, shift, factorizations)
     ! Quotients of the diagonals approximate the eigenvalues, and so the size of the last one
     ! wanted.
@@ -414,18 +432,54 @@ contains
   end subroutine solve_dense_start
 
   !> The border and the first own modes of every link: a cheap basis that gives good starts for the
-  !! lowest modes.
-  pure function leading_unknowns(layout, wanted) result(chosen)
-    type(layout_t), intent(in) :: layout
+  !! lowest modes. Where that is more than enough, only the softest of them.
+  pure function leading_unknowns(pencil, wanted) result(chosen)
+    type(bordered_pencil_t), intent(in) :: pencil
     integer, intent(in) :: wanted
     integer, allocatable :: chosen(:)
 
+    !> A mode of the linkage at a high number is made of own modes of all links up to about this
+    !! part of its number more.
+    integer, parameter :: share = 3, least = 12
     integer :: b, i
 
-    chosen = [(i, i=1, layout%border)]
-    do b = 1, size(layout%size)
-      chosen = [chosen, (layout%first(b) + i - 1, i=1, min(layout%size(b), wanted + 2))]
-    end do
+    associate (layout => pencil%layout)
+      chosen = [(i, i=1, layout%border)]
+      do b = 1, size(layout%size)
+        chosen = [chosen, (layout%first(b) + i - 1, i=1, min(layout%size(b), wanted + 2))]
+      end do
+      i = layout%border + wanted + wanted/share + least
+      if (size(chosen) > i) chosen = softest_unknowns(pencil, i)
+    end associate
   end function leading_unknowns
+
+  !> The border and the own modes, along and across, that the matrices' diagonals make the softest.
+  pure function softest_unknowns(pencil, number) result(chosen)
+    type(bordered_pencil_t), intent(in) :: pencil
+    integer, intent(in) :: number !! at most, with the border
+    integer, allocatable :: chosen(:)
+
+    real(wp) :: softness(pencil%layout%unknowns)
+    integer :: b, i, k, order(pencil%layout%unknowns)
+    logical :: taken(pencil%layout%unknowns)
+
+    associate (layout => pencil%layout)
+      softness = pencil%mass%diagonal
+      softness(:layout%border) = huge(softness)
+      if (pencil%loaded) then
+        do b = 1, size(layout%size)
+          do i = 1, layout%size(b)
+            k = layout%first(b) + i - 1
+            softness(k) = softness(k)/max(1.0_wp + pencil%geometric%block(i, i, b), &
+              epsilon(1.0_wp))
+          end do
+        end do
+      end if
+      order = ascending_order(-softness)
+      taken = .false.
+      taken(order(:min(max(number, layout%border), layout%unknowns))) = .true.
+      chosen = pack(all_unknowns(layout), taken)
+    end associate
+  end function softest_unknowns
 
 end module bordered_eigensolver

@@ -114,19 +114,36 @@ contains
 
   !> `L D Lᵀ` of the first m rows; the rows below are updated with them. Column k then holds that of
   !! `L D`.
+  !!
+  !! Four columns are taken off the others at a time, one after another in each entry: the digits are
+  !! those of one column at a time, and memory is read and written a quarter as often.
   pure subroutine eliminate(panel, m)
     real(wp), intent(inout) :: panel(:, :)
     integer, intent(in) :: m
 
-    real(wp) :: factor
-    integer :: i, j, k
+    integer, parameter :: wide = 4
+    real(wp) :: factor(wide)
+    integer :: i, j, k, p, last
 
-    do k = 1, m
-      panel(k, k) = off_zero(panel(k, k))
-      do j = k + 1, m
-        factor = panel(j, k)/panel(k, k)
+    do k = 1, m, wide
+      last = min(k + wide - 1, m)
+      do p = k, last
+        panel(p, p) = off_zero(panel(p, p))
+        do j = p + 1, last
+          factor(1) = panel(j, p)/panel(p, p)
+          do i = j, size(panel, 1)
+            panel(i, j) = panel(i, j) - factor(1)*panel(i, p)
+          end do
+        end do
+      end do
+      ! The last, narrower group has no columns after it.
+      do j = last + 1, m
+        do p = 1, wide
+          factor(p) = panel(j, k + p - 1)/panel(k + p - 1, k + p - 1)
+        end do
         do i = j, size(panel, 1)
-          panel(i, j) = panel(i, j) - factor*panel(i, k)
+          panel(i, j) = (((panel(i, j) - factor(1)*panel(i, k)) - factor(2)*panel(i, k + 1)) - &
+            factor(3)*panel(i, k + 2)) - factor(4)*panel(i, k + 3)
         end do
       end do
     end do

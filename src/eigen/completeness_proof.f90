@@ -2,7 +2,7 @@
 !! factorization.
 module completeness_proof
   use band_matrix, only: band_matrix_t, full_band
-  use bordered_matrix, only: all_unknowns, bordered_times_vector, dense_form
+  use bordered_matrix, only: all_unknowns, bordered_times_vector
   use bordered_pencil, only: bordered_pencil_t
   use cholesky_factor, only: factor_band
   use errors, only: error_t
@@ -169,13 +169,19 @@ contains
   end function squared_norm
 
   !> Whether no modes other than those given lie below a limit. Sharper than sums of squares, which
-  !! are too coarse under heavy loads.
+  !! are too coarse under heavy loads and for many modes.
   !!
-  !! With s = |μ|, `K − μM + Σ (μ + s − λ_i)(M y_i)(M y_i)ᵀ` differs from `K − μM` by at most as
-  !! many positive terms as modes are given. If it is positive definite, `K − μM` has no more
-  !! negative eigenvalues than there are terms, however inaccurate λ_i and y_i are. It is proven to
-  !! be so if its Cholesky factorization succeeds after a bound of the rounding has been subtracted
-  !! from the diagonal (Demmel 1989; Rump 2006).
+  !! With s = |μ|, `K − μM + Σ (μ + s − λ_i) w_i w_iᵀ` differs from `K − μM` by at most as many
+  !! positive terms as modes are given, whatever the w_i. If it is positive definite, `K − μM` has no
+  !! more negative eigenvalues than there are terms, however inaccurate λ_i and y_i are. It is proven
+  !! to be so if its Cholesky factorization succeeds after a bound of the rounding has been
+  !! subtracted from the diagonal (Demmel 1989; Rump 2006).
+  !!
+  !! Only the lower own modes of every link need to be factored. On the higher ones, the tail, `K −
+  !! μM` is dominated by its diagonal: it is at least the diagonal D of what Gershgorin's circles
+  !! leave, and with B, what couples the tail to the rest, `A − B D⁻¹ Bᵀ > 0` proves that the whole
+  !! is positive. w_i is the part of M y_i outside the tail. Where that is too coarse, everything is
+  !! factored.
   subroutine is_complete(pencil, limit, lambda, mass_times, proven)
     type(bordered_pencil_t), intent(in) :: pencil !! G and M
     real(wp), intent(in) :: limit                 !! μ [1/s²]
@@ -183,45 +189,171 @@ contains
     real(wp), intent(in) :: mass_times(:, :)      !! (unknowns, modes) M y
     logical, intent(out) :: proven                !! .false.: nothing is proven
 
-    real(wp), allocatable :: dense(:, :), geometric_form(:, :)
+    real(wp) :: dominance(pencil%layout%unknowns)
+
+    call find_tail(pencil, limit, dominance)
+    call factor_without_tail(pencil, limit, lambda, mass_times, dominance, proven)
+    if (proven .or. all(dominance <= 0.0_wp)) return
+    dominance = 0.0_wp
+    call factor_without_tail(pencil, limit, lambda, mass_times, dominance, proven)
+  end subroutine is_complete
+
+  !> The unknowns on which the diagonal of `K − μM` dominates: as many of the last of each block as
+  !! possible, and single ones. `dominance` is what Gershgorin's circles leave of the diagonal, less
+  !! rounding; zero outside the tail.
+  pure subroutine find_tail(pencil, limit, dominance)
+    type(bordered_pencil_t), intent(in) :: pencil
+    real(wp), intent(in) :: limit
+    real(wp), intent(out) :: dominance(:) !! (unknowns)
+
+    !> Share of the unit diagonal that must be left.
+    real(wp), parameter :: least = 0.5_wp
+    real(wp) :: left(maxval(pencil%layout%size))
+    real(wp), dimension(maxval(pencil%layout%size)) :: others, with_this
+    integer :: b, i, k, m, first
+
+    dominance = 0.0_wp
+    associate (layout => pencil%layout)
+      do b = 1, size(layout%size)
+        m = layout%size(b)
+        first = layout%first(b) - 1
+        others = 0.0_wp
+        do k = m, 1, -1
+          left(k) = 1.0_wp - max(0.0_wp, limit*pencil%mass%diagonal(first + k))
+          with_this = others
+          if (pencil%loaded) then
+            left(k) = left(k) + pencil%geometric%block(k, k, b)
+            do i = k + 1, m
+              with_this(i) = others(i) + abs(pencil%geometric%block(i, k, b))
+              with_this(k) = with_this(k) + abs(pencil%geometric%block(i, k, b))
+            end do
+          end if
+          if (any(left(k:m) - with_this(k:m) < least)) exit
+          others = with_this
+        end do
+        do i = k + 1, m
+          dominance(first + i) = left(i) - others(i) - epsilon(1.0_wp)*(m + 4)*(2.0_wp + &
+            abs(left(i)) + others(i))
+        end do
+      end do
+      do k = layout%border + sum(layout%size) + 1, layout%unknowns
+        left(1) = 1.0_wp - max(0.0_wp, limit*pencil%mass%diagonal(k))
+        if (left(1) >= least) dominance(k) = left(1) - 4.0_wp*epsilon(1.0_wp)
+      end do
+    end associate
+  end subroutine find_tail
+
+  !> The factorization of `A − B D⁻¹ Bᵀ`, with the terms of the modes added.
+  subroutine factor_without_tail(pencil, limit, lambda, mass_times, dominance, proven)
+    type(bordered_pencil_t), intent(in) :: pencil
+    real(wp), intent(in) :: limit
+    real(wp), intent(in) :: lambda(:)
+    real(wp), intent(in) :: mass_times(:, :)
+    real(wp), intent(in) :: dominance(:) !! (unknowns) D in the tail, zero outside it
+    logical, intent(out) :: proven
+
+    real(wp), allocatable :: dense(:, :), column(:)
+    integer, allocatable :: leading(:), place(:)
     type(band_matrix_t) :: band
     type(error_t), allocatable :: error
     real(wp) :: margin, lift
-    integer :: i, j, n
+    integer :: b, i, j, k, n, first, kept
 
-    n = pencil%layout%unknowns
-    dense = dense_form(pencil%layout, pencil%mass, all_unknowns(pencil%layout))
-    ! Sum of the magnitudes of all terms of the diagonal: the rounding is proportional to it.
-    margin = n
-    do i = 1, n
-      margin = margin + abs(limit)*dense(i, i)
-    end do
-    dense = -limit*dense
-    if (pencil%loaded) then
-      geometric_form = dense_form(pencil%layout, pencil%geometric, all_unknowns(pencil%layout))
-      do i = 1, n
-        margin = margin + abs(geometric_form(i, i))
+    associate (layout => pencil%layout, mass => pencil%mass, geometric => pencil%geometric)
+      leading = pack(all_unknowns(layout), dominance <= 0.0_wp)
+      n = size(leading)
+      allocate (place(layout%unknowns), dense(n, n), column(n))
+      place = 0
+      place(leading) = [(i, i=1, n)]
+      dense = 0.0_wp
+      ! Sum of the magnitudes of all terms of the diagonal: the rounding is proportional to it.
+      margin = n
+      do k = 1, layout%border
+        dense(:layout%border, k) = -limit*mass%border(:, k)
+        margin = margin + abs(limit*mass%border(k, k))
+        if (pencil%loaded) then
+          dense(:layout%border, k) = dense(:layout%border, k) + geometric%border(:, k)
+          margin = margin + abs(geometric%border(k, k))
+        end if
+        dense(k, k) = dense(k, k) + 1.0_wp
       end do
-      dense = dense + geometric_form
-    end if
-    do i = 1, n
-      dense(i, i) = dense(i, i) + 1.0_wp
-    end do
-    do i = 1, size(lambda)
-      lift = max(0.0_wp, limit + abs(limit) - lambda(i))
-      margin = margin + lift*dot_product(mass_times(:, i), mass_times(:, i))
-      do j = 1, n
-        dense(:, j) = dense(:, j) + lift*mass_times(j, i)*mass_times(:, i)
+      do b = 1, size(layout%size)
+        first = layout%first(b) - 1
+        kept = count(dominance(first + 1:first + layout%size(b)) <= 0.0_wp)
+        do k = 1, layout%size(b)
+          call fill_column(first + k, kept, b, k)
+        end do
       end do
-    end do
-    ! Rounding of the sums and, for the factorization, (n + 2) ε/2 times the trace.
-    margin = margin*epsilon(margin)*(n + 2 + 8*size(lambda))
+      do k = layout%border + sum(layout%size) + 1, layout%unknowns
+        call fill_column(k, 0, 0, 0)
+      end do
+      do i = 1, size(lambda)
+        lift = max(0.0_wp, limit + abs(limit) - lambda(i))
+        column = mass_times(leading, i)
+        margin = margin + lift*dot_product(column, column)
+        do j = 1, n
+          dense(j:, j) = dense(j:, j) + lift*column(j)*column(j:)
+        end do
+      end do
+      ! Rounding of the sums and, for the factorization, (n + 2) ε/2 times the trace.
+      margin = margin*epsilon(margin)*(layout%unknowns + 2 + 8*size(lambda))
+    end associate
     do i = 1, n
       dense(i, i) = dense(i, i) - margin
     end do
     band = full_band(dense)
     call factor_band(band, error)
     proven = .not. allocated(error)
-  end subroutine is_complete
+
+  contains
+
+    !> What an unknown beyond the border adds to the lower triangle: its column, or in the tail the
+    !! term of `B D⁻¹ Bᵀ`.
+    subroutine fill_column(unknown, kept, block, number)
+      integer, intent(in) :: unknown
+      integer, intent(in) :: kept   !! unknowns of its block outside the tail
+      integer, intent(in) :: block  !! 0: a single unknown
+      integer, intent(in) :: number !! in its block
+
+      real(wp) :: coupling(pencil%layout%border + kept), diagonal
+      integer :: i, j, at, border
+
+      border = pencil%layout%border
+      coupling(:border) = -limit*pencil%mass%coupling(:, unknown)
+      diagonal = -limit*pencil%mass%diagonal(unknown)
+      if (pencil%loaded) coupling(:border) = coupling(:border) + &
+        pencil%geometric%coupling(:, unknown)
+      if (block > 0 .and. pencil%loaded) coupling(border + 1:) = &
+        pencil%geometric%block(:kept, number, block)
+      if (block > 0 .and. .not. pencil%loaded) coupling(border + 1:) = 0.0_wp
+      at = place(unknown)
+      if (at > 0) then
+        dense(at, :border) = coupling(:border)
+        margin = margin + abs(diagonal)
+        if (block > 0) then
+          if (pencil%loaded) margin = margin + abs(pencil%geometric%block(number, number, block))
+          dense(at - number + 1:at - number + kept, at) = coupling(border + 1:)
+        end if
+        dense(at, at) = dense(at, at) + 1.0_wp + diagonal
+        return
+      end if
+      do j = 1, size(coupling)
+        margin = margin + coupling(j)**2/dominance(unknown)
+        do i = j, size(coupling)
+          dense(row(i), row(j)) = dense(row(i), row(j)) - coupling(i)*coupling(j)/dominance(unknown)
+        end do
+      end do
+    end subroutine fill_column
+
+    !> Row of an entry of a column: border first, then the block.
+    pure function row(i)
+      integer, intent(in) :: i
+      integer :: row
+
+      row = i
+      if (i > pencil%layout%border) row = place(first + i - pencil%layout%border)
+    end function row
+
+  end subroutine factor_without_tail
 
 end module completeness_proof

@@ -12,6 +12,9 @@ module singular_vectors
 
   integer, parameter :: most_sweeps = 60
 
+  !> Up to this number of columns rotations start from the matrix itself.
+  integer, parameter :: few_columns = 24
+
   !> Where columns are dependent, a column this small beside the whole matrix is only rounding [ε].
   real(wp), parameter :: no_column = 64.0_wp
 
@@ -27,7 +30,12 @@ contains
   !! at which the debug build stops.
   !!
   !! Dependent columns end as zero except for rounding. Such remainders can never all be
-  !! perpendicular, so they are left alone and their vectors are left out. Errors: no convergence.
+  !! perpendicular, so they are left alone and their vectors are left out.
+  !!
+  !! Of many columns, vectors that are nearly right are found first, from the triangular factor of
+  !! the matrix, whose rows are nearly perpendicular (Drmač and Veselić, SIAM J. Matrix Anal. Appl.
+  !! 29 (2008) 1322): that takes a quarter of the rotations. The rotations of the matrix itself end
+  !! in any case when its columns are perpendicular. Errors: no convergence.
   pure subroutine find_right_singular_vectors(matrix, vectors, error, rank)
     real(wp), intent(in) :: matrix(:, :)                !! (rows, columns) no fewer rows than
                                                         !! independent columns
@@ -36,43 +44,118 @@ contains
     integer, intent(in), optional :: rank               !! number of independent columns; absent:
                                                         !! all
 
-    real(wp) :: a(size(matrix, 1), size(matrix, 2)), squared(size(matrix, 2)), least
-    integer :: i, j, sweep, n
-    logical :: turned
+    real(wp), allocatable :: a(:, :)
+    real(wp) :: least
+    integer :: i, n
 
     n = size(matrix, 2)
-    allocate (vectors(n, n))
-    vectors = 0.0_wp
-    do i = 1, n
-      vectors(i, i) = 1.0_wp
-    end do
-    a = matrix
+    if (present(rank)) n = rank
     least = -1.0_wp
-    if (present(rank)) then
-      if (rank < n) least = (no_column*epsilon(1.0_wp))**2*sum(matrix**2)
-    end if
-    do sweep = 1, most_sweeps
-      turned = .false.
-      do i = 1, n - 1
-        do j = i + 1, n
-          call make_perpendicular(a(:, i), a(:, j), vectors(:, i), vectors(:, j), least, turned)
-        end do
+    if (size(matrix, 2) > few_columns) then
+      call find_starts(matrix, n, vectors, error)
+      if (allocated(error)) return
+      a = matmul(matrix, vectors)
+    else
+      n = size(matrix, 2)
+      allocate (vectors(n, n))
+      vectors = 0.0_wp
+      do i = 1, n
+        vectors(i, i) = 1.0_wp
       end do
-      if (.not. turned) exit
-    end do
-    if (turned .and. n > 1) then
-      call set_error(error, error_of_numerics, "the own vibrations of a link were not found in "// &
-        to_string(most_sweeps)//" sweeps of rotations")
-      return
+      a = matrix
+      if (present(rank)) then
+        if (rank < n) least = (no_column*epsilon(1.0_wp))**2*sum(matrix**2)
+      end if
     end if
-    squared = sum(a**2, dim=1)
-    vectors = vectors(:, ascending_order(-squared))
+    call rotate(a, vectors, least, error)
+    if (allocated(error)) return
+    vectors = vectors(:, ascending_order(-sum(a**2, dim=1)))
     ! Thousands of rotations have changed the lengths in the last digits, all in the same direction.
     do i = 1, n
       vectors(:, i) = vectors(:, i)/norm2(vectors(:, i))
     end do
     if (present(rank)) vectors = vectors(:, :rank)
   end subroutine find_right_singular_vectors
+
+  !> Rotates pairs of columns, and the vectors with them, until all are perpendicular.
+  pure subroutine rotate(a, vectors, least, error)
+    real(wp), intent(inout) :: a(:, :)       !! (rows, columns)
+    real(wp), intent(inout) :: vectors(:, :) !! (any number, columns)
+    real(wp), intent(in) :: least            !! squared length up to which a column counts as zero
+    type(error_t), allocatable, intent(out) :: error
+
+    integer :: i, j, sweep
+    logical :: turned
+
+    do sweep = 1, most_sweeps
+      turned = .false.
+      do i = 1, size(a, 2) - 1
+        do j = i + 1, size(a, 2)
+          call make_perpendicular(a(:, i), a(:, j), vectors(:, i), vectors(:, j), least, turned)
+        end do
+      end do
+      if (.not. turned) return
+    end do
+    if (size(a, 2) > 1) call set_error(error, error_of_numerics, &
+      "the own vibrations of a link were not found in "//to_string(most_sweeps)// &
+      " sweeps of rotations")
+  end subroutine rotate
+
+  !> Vectors near the right singular vectors: with `A P = Q R`, those of A are the left ones of
+  !! `P Rᵀ`, whose columns hold them once rotations have made these perpendicular.
+  pure subroutine find_starts(matrix, rank, vectors, error)
+    real(wp), intent(in) :: matrix(:, :)
+    integer, intent(in) :: rank                         !! number of independent columns
+    real(wp), allocatable, intent(out) :: vectors(:, :) !! (columns, rank) of unit length
+    type(error_t), allocatable, intent(out) :: error
+
+    real(wp) :: r(size(matrix, 1), size(matrix, 2)), none(0, rank)
+    real(wp), allocatable :: turned(:, :)
+    integer :: order(size(matrix, 2)), i, j
+
+    r = matrix
+    call reduce_to_triangle(r, rank, order)
+    allocate (turned(size(matrix, 2), rank))
+    turned = 0.0_wp
+    do i = 1, rank
+      do j = i, size(matrix, 2)
+        turned(order(j), i) = r(i, j)
+      end do
+    end do
+    call rotate(turned, none, -1.0_wp, error)
+    if (allocated(error)) return
+    do i = 1, rank
+      turned(:, i) = turned(:, i)/norm2(turned(:, i))
+    end do
+    call move_alloc(turned, vectors)
+  end subroutine find_starts
+
+  !> `A P = Q R` by Householder's reflections, the longest remaining column next.
+  pure subroutine reduce_to_triangle(a, rank, order)
+    real(wp), intent(inout) :: a(:, :)     !! A; its upper triangle becomes that of R
+    integer, intent(in) :: rank            !! columns to be reduced
+    integer, intent(out) :: order(:)       !! (columns) P: number in A of each column of R
+
+    real(wp) :: mirror(size(a, 1)), column(size(a, 1)), length, factor
+    integer :: j, k, next
+
+    order = [(k, k=1, size(a, 2))]
+    do k = 1, rank
+      next = k - 1 + maxloc(sum(a(k:, k:)**2, dim=1), dim=1)
+      column = a(:, k)
+      a(:, k) = a(:, next)
+      a(:, next) = column
+      order([k, next]) = order([next, k])
+      length = norm2(a(k:, k))
+      if (length <= 0.0_wp) return
+      mirror(k:) = a(k:, k)
+      mirror(k) = mirror(k) + sign(length, mirror(k))
+      factor = 2.0_wp/dot_product(mirror(k:), mirror(k:))
+      do j = k, size(a, 2)
+        a(k:, j) = a(k:, j) - factor*dot_product(mirror(k:), a(k:, j))*mirror(k:)
+      end do
+    end do
+  end subroutine reduce_to_triangle
 
   !> Rotates two columns, and the vectors with them, so that the columns are perpendicular to within
   !! rounding.

@@ -55,13 +55,17 @@ contains
     real(wp), allocatable :: basis(:, :), mass_times(:, :), stiffness_times(:, :), small(:, :)
     real(wp) :: residual(size(start, 1)), squared(size(start, 2))
     logical :: converged(size(start, 2))
-    integer :: i, step, modes, number
+    real(wp), allocatable, dimension(:, :) :: small_mass, small_stiffness
+    integer :: i, step, modes, number, known
 
     modes = size(start, 2)
     allocate (basis(size(start, 1), (most_growth + 1)*modes))
     allocate (mass_times, mold=basis)
     allocate (stiffness_times, mold=basis)
+    allocate (small_mass(size(basis, 2), size(basis, 2)))
+    allocate (small_stiffness, mold=small_mass)
     number = 0
+    known = 0
     do i = 1, modes
       call extend(pencil, start(:, i), basis, mass_times, stiffness_times, number, found%products)
     end do
@@ -70,14 +74,20 @@ contains
       return
     end if
     do step = 1, most_steps
-      call solve_small(basis(:, :number), mass_times(:, :number), stiffness_times(:, :number), &
-        modes, found%lambda, small, error)
+      do i = known + 1, number
+        call project(basis(:, i), mass_times(:, :i), stiffness_times(:, :i), small_mass(:i, i), &
+          small_stiffness(:i, i))
+      end do
+      known = number
+      call solve_small(small_mass(:number, :number), small_stiffness(:number, :number), modes, &
+        found%lambda, small, error)
       if (allocated(error)) return
       found%vector = matmul(basis(:, :number), small)
       found%mass_times = matmul(mass_times(:, :number), small)
       found%stiffness_times = matmul(stiffness_times(:, :number), small)
       if (number + modes > size(basis, 2)) then
         number = 0
+        known = 0
         do i = 1, modes
           call extend(pencil, found%vector(:, i), basis, mass_times, stiffness_times, number, &
             found%products)
@@ -117,12 +127,12 @@ contains
 
     ! A full basis, or one that spans all unknowns, takes no more.
     if (number == min(size(basis, 2), size(direction))) return
-    unit = direction/sqrt(long_dot(direction, direction))
+    unit = direction/norm2(direction)
     do pass = 1, 3
       do j = 1, number
-        unit = unit - long_dot(basis(:, j), unit)*basis(:, j)
+        unit = unit - dot_product(basis(:, j), unit)*basis(:, j)
       end do
-      length = sqrt(long_dot(unit, unit))
+      length = norm2(unit)
       ! Only rounding is left: the direction is in the basis already.
       if (length < 1.0e-3_wp*epsilon(1.0_wp)) return
       unit = unit/length
@@ -134,9 +144,23 @@ contains
     call pencil%multiply(unit, mass_times(:, number), stiffness_times(:, number))
   end subroutine extend
 
+  !> What a new vector of the basis adds to the two matrices in it: their last column.
+  pure subroutine project(new, mass_times, stiffness_times, mass, stiffness)
+    real(wp), intent(in) :: new(:) !! the last vector
+    real(wp), intent(in) :: mass_times(:, :), stiffness_times(:, :) !! (unknowns, all up to it)
+    real(wp), intent(out) :: mass(:), stiffness(:)
+
+    integer :: i
+
+    do i = 1, size(mass_times, 2)
+      mass(i) = long_dot(new, mass_times(:, i))
+      stiffness(i) = long_dot(new, stiffness_times(:, i))
+    end do
+  end subroutine project
+
   !> Rayleigh–Ritz: the modes in the subspace of the basis.
-  subroutine solve_small(basis, mass_times, stiffness_times, modes, lambda, small, error)
-    real(wp), intent(in) :: basis(:, :), mass_times(:, :), stiffness_times(:, :)
+  subroutine solve_small(mass, stiffness, modes, lambda, small, error)
+    real(wp), intent(in) :: mass(:, :), stiffness(:, :) !! in the basis; the upper triangles are read
     integer, intent(in) :: modes
     real(wp), allocatable, intent(out) :: lambda(:)
     real(wp), allocatable, intent(out) :: small(:, :) !! (basis vectors, modes)
@@ -146,12 +170,12 @@ contains
     real(wp) :: shift, inverse(modes)
     integer :: i, j, factorizations
 
-    m = new_band_matrix(size(basis, 2), size(basis, 2) - 1)
+    m = new_band_matrix(size(mass, 2), size(mass, 2) - 1)
     k = m
-    do j = 1, size(basis, 2)
-      do i = j, size(basis, 2)
-        m%entry(1 + i - j, j) = long_dot(basis(:, i), mass_times(:, j))
-        k%entry(1 + i - j, j) = long_dot(basis(:, i), stiffness_times(:, j))
+    do j = 1, size(mass, 2)
+      do i = j, size(mass, 2)
+        m%entry(1 + i - j, j) = mass(j, i)
+        k%entry(1 + i - j, j) = stiffness(j, i)
       end do
     end do
     factorizations = 0

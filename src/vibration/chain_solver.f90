@@ -87,13 +87,15 @@ contains
     real(wp), intent(out) :: vectors(:, :) !! (unknowns of the mesh, modes)
 
     real(wp), allocatable :: bending(:, :, :), strain(:, :, :), own(:), own_strain(:)
-    integer :: b, i, first, j, kinds, longest, pieces
+    integer :: b, i, first, longest
 
     longest = 1
     do b = 1, size(near%links)
       if (.not. near%links(b)%bends) cycle
-      longest = max(longest, near%links(b)%bending_shapes%unknowns, &
-        near%links(b)%axial_shapes%unknowns + 1)
+      associate (link => near%links(b))
+        longest = max(longest, link%bending_shapes%unknowns, link%axial_shapes%unknowns + 1, &
+          2*size(link%bending_shapes%column), size(link%axial_shapes%column))
+      end associate
     end do
     allocate (bending(longest, size(vectors, 2), size(near%links)))
     allocate (strain, mold=bending)
@@ -110,10 +112,9 @@ contains
           own_strain = matmul(link%axial, mode(first:first + link%axial_modes - 1))
           own_strain = element_strains(link%axial_shapes, mode(chain%number(b)), own_strain)
           if (link%bending_shapes%by_degree) then
-            pieces = link%bending_shapes%elements
-            kinds = pieces*merge(2, 1, link%bending_shapes%shear_stiffness > 0.0_wp)
-            own = [(sqrt(2*((j - 1)/kinds) + 1.0_wp)*own(j), j=1, size(own))]
-            own_strain = [(sqrt(2*((j - 1)/pieces) + 1.0_wp)*own_strain(j), j=1, size(own_strain))]
+            own = legendre_coefficients(link%bending_shapes, own, &
+              merge(2, 1, link%bending_shapes%shear_stiffness > 0.0_wp), 0)
+            own_strain = legendre_coefficients(link%axial_shapes, own_strain, 1, 1)
           end if
           bending(:size(own), i, b) = own
           strain(:size(own_strain), i, b) = own_strain
@@ -122,6 +123,33 @@ contains
     end do
     call project_modes(chain, near%links, bending, strain, vectors)
   end subroutine find_starts
+
+  !> Unknowns of a continuous link as coefficients of Legendre polynomials, degree by degree and
+  !! within a degree element by element, with zeros where an element has no such degree.
+  pure function legendre_coefficients(shapes, own, kinds, numbered) result(coefficients)
+    type(deformation_shapes_t), intent(in) :: shapes !! with unknowns ordered by degree
+    real(wp), intent(in) :: own(:) !! (unknowns in use); axial: with the uniform strains of all
+                                   !! elements first
+    integer, intent(in) :: kinds    !! unknowns of a degree in an element, one after another
+    integer, intent(in) :: numbered !! lowest degree whose unknowns have a number in the shapes;
+                                    !! of the degrees below every element has its own, in order
+    real(wp), allocatable :: coefficients(:)
+
+    integer :: e, i, j, from
+
+    allocate (coefficients(kinds*size(shapes%column)))
+    coefficients = 0.0_wp
+    do j = 0, ubound(shapes%column, 1)
+      do e = 1, shapes%elements
+        from = shapes%column(j, e) + numbered
+        if (j < numbered) from = e
+        if (from == numbered .or. from > size(own)) cycle
+        do i = 0, kinds - 1
+          coefficients(kinds*(j*shapes%elements + e - 1) + 1 + i) = sqrt(2*j + 1.0_wp)*own(from + i)
+        end do
+      end do
+    end do
+  end function legendre_coefficients
 
   !> Axial strains of all elements, scaled to energy, from the elongation of the link and the
   !! unknowns of `axial_shapes`.

@@ -7,6 +7,7 @@ module link_store
   use beam_mesh, only: beam_t
   use body_lumps, only: lump_masses, lump_places
   use kinds, only: wp
+  use link_degrees, only: link_degrees_t, same_degrees
   use link_modes, only: link_modes_t
   use linkages, only: body_t
   implicit none (type, external)
@@ -24,7 +25,7 @@ module link_store
     real(wp) :: rotary_inertia = 0.0_wp !! ρI [kg m]
     type(beam_t) :: beam                !! stiffnesses
     integer :: elements = 0             !! 0: one between masses along the link
-    integer :: order = 0                !! polynomial degree of the transverse displacement
+    type(link_degrees_t) :: degrees     !! of its elements
     logical :: clamped = .false.        !! at its first end
     logical :: lumped = .false.         !! axial force constant in each element
     real(wp), allocatable :: lumps(:)   !! (2 × masses) masses along the link, then their places ξ
@@ -41,11 +42,11 @@ module link_store
 contains
 
   !> The key of a link that bends.
-  pure function new_link_key(body, beam, elements, order, clamped, lumped) result(key)
+  pure function new_link_key(body, beam, elements, degrees, clamped, lumped) result(key)
     type(body_t), intent(in) :: body    !! length, masses
     type(beam_t), intent(in) :: beam    !! stiffnesses
     integer, intent(in) :: elements     !! 0: one between masses along the link
-    integer, intent(in) :: order        !! polynomial degree of the transverse displacement
+    type(link_degrees_t), intent(in) :: degrees !! of its elements
     logical, intent(in) :: clamped      !! at its first end
     logical, intent(in) :: lumped       !! axial force constant in each element
     type(link_key_t) :: key
@@ -55,7 +56,7 @@ contains
     key%rotary_inertia = body%rotary_inertia
     key%beam = beam
     key%elements = elements
-    key%order = order
+    key%degrees = degrees
     key%clamped = clamped
     key%lumped = lumped
     key%lumps = [lump_masses(body), lump_places(body)]
@@ -98,7 +99,7 @@ contains
     type(link_key_t), intent(in) :: a, b
     logical :: is_same
 
-    is_same = a%elements == b%elements .and. a%order == b%order .and. &
+    is_same = a%elements == b%elements .and. same_degrees(a%degrees, b%degrees) .and. &
       (a%clamped .eqv. b%clamped) .and. (a%lumped .eqv. b%lumped)
     if (is_same) is_same = size(a%lumps) == size(b%lumps)
     if (is_same) is_same = all(abs(a%lumps - b%lumps) <= 0.0_wp)

@@ -1,16 +1,19 @@
 !> Choice of the polynomial orders that reach a given accuracy, link by link.
 module order_choice
   use axial_forces, only: distributed_unit_forces, total_force
+  use beam_element, only: axial_degree
   use beam_mesh, only: beam_t
-  use body_lumps, only: pieces_of
+  use body_lumps, only: lump_places, pieces_of
   use bordered_eigensolver, only: bordered_modes_t
   use deformation_model, only: deformation_model_t, new_deformation_model
   use errors, only: clear_outcome, error_t, outcome_t
   use kinds, only: wp
   use ledger, only: ledger_t
+  use link_degrees, only: link_degrees_t, uniform_degrees
   use link_store, only: link_store_t
   use linkages, only: body_t, linkage_t
   use load_cases, only: find_unit_loads, unit_loads_t
+  use order_changes, only: part_count, part_of
   use order_errors, only: order_error
   use position_equations, only: assemble_equations
   use positions, only: positions_t
@@ -29,14 +32,13 @@ module order_choice
     real(wp) :: bound = 0.0_wp            !! on the relative error of their eigenvalues
   end type order_demand_t
 
-  !> Highest order of a link without masses along it: this number, 56, plus two thirds of the number
-  !! of modes (where all three links bend). That exceeds what any accuracy within the precision
-  !! needs, except under loads that buckle a link many times over, as beside a dead point.
-  integer, parameter :: spare_orders = digits(1.0_wp) + 3
+  !> Highest degree of a displacement in a piece of a link, and most unknowns of a link across. Only
+  !! links that buckle very many times over, as beside a dead point, ask for more.
+  integer, parameter :: most_order = 3*digits(1.0_wp), most_unknowns = 12*digits(1.0_wp)
 
-  !> The elements between masses along a link share its highest order. Each element beyond the first
-  !! adds this many orders, which are needed for the last digits.
-  integer, parameter :: more_orders = 16
+  !> Orders that every link may have at least, whatever its number of masses: `spare_orders` for
+  !! one piece, for each mode its share of two, and `more_orders` for each further piece.
+  integer, parameter :: spare_orders = digits(1.0_wp) + 3, more_orders = 16
 
   integer, parameter :: least_order = 4
 
@@ -44,8 +46,20 @@ module order_choice
   !! error is estimated at every row of the sweep.
   integer, parameter :: positions_a_sample = 9, least_samples = 2, most_samples = 6
 
-  !> Share of the accuracy that one link may use at the samples: other positions may be worse.
+  !> Share of the accuracy that one part of a link may use at the samples: other positions may be
+  !! worse.
   real(wp), parameter :: share = 0.1_wp
+
+  !> Unknowns across beyond the number of modes that all links together have at least.
+  integer, parameter :: spare_unknowns = 8
+
+  !> What the samples show.
+  type :: sample_t
+    real(wp), allocatable :: error(:)       !! (parts) largest relative error of any eigenvalue
+    real(wp), allocatable :: least_force(:) !! (bodies) most compressive axial force, or 0 [N]
+    real(wp), allocatable :: most_force(:)  !! (bodies) largest tension, or 0 [N]
+    real(wp) :: highest = 0.0_wp            !! largest |eigenvalue| [1/s²]
+  end type sample_t
 
 contains
 
@@ -54,11 +68,11 @@ contains
   !! or one between masses along it. That is enough for any accuracy, since links are uniform and
   !! loads smooth between masses.
   !!
-  !! The error of order p is about `((kL/4)^{p−1}/(p−1)!)²` for the wave number k and the length L
-  !! of the element. This gives a first guess; where the model's own error estimate is above the
-  !! bound, the order is raised.
+  !! Degrees are chosen piece by piece, across and along, from the shortest waves that occur there:
+  !! the error of order p is about `((kL/4)^{p−1}/(p−1)!)²` for the wave number k and the length L of
+  !! the piece. Where the model's own error estimate is above the bound, the degree is raised.
   !!
-  !! Errors: those of `new_deformation_model`. A bound that is not reached at the highest order is
+  !! Errors: those of `new_deformation_model`. A bound that is not reached at the highest degrees is
   !! no error.
   subroutine choose_orders(structure, positions, demand, store, model, counts, error)
     type(structure_t), intent(in) :: structure       !! with beams
@@ -69,49 +83,158 @@ contains
     type(ledger_t), intent(inout) :: counts          !! of the work done
     type(error_t), allocatable, intent(out) :: error !! why there is no model
 
-    real(wp) :: link_error(size(structure%beams)), highest, wave
-    integer :: order(size(structure%beams)), highest_order(size(structure%beams)), b, bending, &
-      pieces
+    type(sample_t) :: sample
+    type(link_degrees_t) :: degrees(size(structure%beams)), highest(size(structure%beams))
     integer, allocatable :: chosen(:)
-    integer :: between_masses(size(structure%beams))
-    logical :: continuous(size(structure%beams))
+    real(wp) :: part_bound
+    integer :: b, pieces, bending, first
+    logical :: raised
 
-    associate (linkage => structure%linkage, beams => structure%beams, modes => demand%modes, &
-        link_bound => share*demand%bound)
+    associate (linkage => structure%linkage, beams => structure%beams, modes => demand%modes)
+      part_bound = share*demand%bound
       chosen = sample_states(positions, demand%states)
       bending = count(linkage%bodies%bends)
       do b = 1, size(beams)
         pieces = size(pieces_of(linkage%bodies(b))) - 1
-        order(b) = max(least_order, (max(8, (3*modes)/(2*bending) + 6) + pieces - 1)/pieces)
-        highest_order(b) = (spare_orders + (2*modes)/bending + (pieces - 1)*more_orders)/pieces
+        highest(b) = highest_degrees(pieces, modes, bending, beams(b)%shear_stiffness > 0.0_wp)
+        first = max(least_order, (max(8, (3*modes)/(2*bending) + 6) + pieces - 1)/pieces)
+        degrees(b) = uniform_degrees(pieces, first, axial_degree(first))
       end do
-      between_masses = 0
-      continuous = .false. ! no masses on nodes
-      call new_deformation_model(linkage, beams, between_masses, order, continuous, model, error, &
-        store)
+      call make_model(model, error)
       if (allocated(error) .or. size(chosen) == 0) return
       ! One position is enough to estimate the shortest wave.
       call try_samples(linkage, model, positions, chosen(size(chosen)/2 + 1:size(chosen)/2 + 1), &
-        demand, link_error, highest, counts)
+        demand, sample, counts)
       do b = 1, size(beams)
-        if (.not. linkage%bodies(b)%bends) cycle
-        wave = longest_piece(linkage%bodies(b))*wave_number(linkage%bodies(b), beams(b), highest)
-        order(b) = guessed_order(wave, link_bound, order(b), highest_order(b), modes, bending)
+        if (linkage%bodies(b)%bends) degrees(b) = guessed_degrees(linkage%bodies(b), beams(b), &
+          sample, b, part_bound, highest(b))
       end do
-      do
-        call new_deformation_model(linkage, beams, between_masses, order, continuous, model, &
-          error, store)
-        if (allocated(error)) return
-        call try_samples(linkage, model, positions, chosen, demand, link_error, highest, counts)
-        if (all(link_error <= link_bound .or. order >= highest_order)) exit
+      do while (unknowns_of(degrees, linkage%bodies%bends) < modes + spare_unknowns)
         do b = 1, size(beams)
-          if (link_error(b) <= link_bound) cycle
-          wave = longest_piece(linkage%bodies(b))*wave_number(linkage%bodies(b), beams(b), highest)
-          order(b) = raised_order(wave, link_bound/link_error(b), order(b), highest_order(b))
+          degrees(b)%across = degrees(b)%across + 1
         end do
       end do
+      do
+        call make_model(model, error)
+        if (allocated(error)) return
+        call try_samples(linkage, model, positions, chosen, demand, sample, counts)
+        raised = .false.
+        do b = 1, size(beams)
+          if (linkage%bodies(b)%bends) call raise_degrees(linkage%bodies(b), beams(b), model, &
+            sample, b, part_bound, highest(b), degrees(b), raised)
+        end do
+        if (.not. raised) exit
+      end do
     end associate
+
+  contains
+
+    subroutine make_model(model, error)
+      type(deformation_model_t), intent(out) :: model
+      type(error_t), allocatable, intent(out) :: error
+
+      call new_deformation_model(structure%linkage, structure%beams, spread(0, 1, &
+        size(degrees)), spread(0, 1, size(degrees)), spread(.false., 1, size(degrees)), model, &
+        error, store, degrees)
+    end subroutine make_model
+
   end subroutine choose_orders
+
+  !> The limits of the degrees of a link.
+  pure function highest_degrees(pieces, modes, bending, sheared) result(highest)
+    integer, intent(in) :: pieces  !! of the link
+    integer, intent(in) :: modes   !! wanted
+    integer, intent(in) :: bending !! number of links that bend
+    logical, intent(in) :: sheared
+    type(link_degrees_t) :: highest
+
+    integer :: most
+
+    most = min(most_order, most_unknowns/(pieces*merge(2, 1, sheared)))
+    most = max(most, (spare_orders + (2*modes)/bending + (pieces - 1)*more_orders)/pieces)
+    highest = uniform_degrees(pieces, most, most)
+  end function highest_degrees
+
+  !> Unknowns across of all links that bend.
+  pure function unknowns_of(degrees, bends) result(unknowns)
+    type(link_degrees_t), intent(in) :: degrees(:)
+    logical, intent(in) :: bends(:)
+    integer :: unknowns
+
+    integer :: b
+
+    unknowns = 0
+    do b = 1, size(degrees)
+      if (bends(b)) unknowns = unknowns + sum(degrees(b)%across - 1)
+    end do
+  end function unknowns_of
+
+  !> Degrees from the waves that occur in each piece.
+  pure function guessed_degrees(body, beam, sample, b, bound, highest) result(degrees)
+    type(body_t), intent(in) :: body
+    type(beam_t), intent(in) :: beam
+    type(sample_t), intent(in) :: sample
+    integer, intent(in) :: b       !! number of the body
+    real(wp), intent(in) :: bound  !! on the relative error of eigenvalues
+    type(link_degrees_t), intent(in) :: highest
+    type(link_degrees_t) :: degrees
+
+    real(wp), allocatable :: length(:)
+    real(wp) :: across, along, pulled
+    integer :: e, layer
+
+    length = piece_lengths(body)
+    degrees = highest
+    across = wave_number(body, beam, sample%highest, sample%least_force(b))
+    along = sqrt(sample%highest*body%line_density/beam%axial_stiffness)
+    ! A link that is pulled bends in layers at its ends: exp(−p²/κL) is left beyond order p.
+    pulled = sqrt(max(0.0_wp, sample%most_force(b))/beam%bending_stiffness)
+    do e = 1, size(length)
+      layer = ceiling(min(sqrt(0.5_wp*pulled*length(e)*abs(log(bound))), &
+        real(highest%across(e), wp)))
+      degrees%across(e) = max(layer, guessed_order(across*length(e), bound, highest%across(e)))
+      degrees%along(e) = max(1, guessed_order(along*length(e), bound, highest%along(e)) - 2)
+    end do
+  end function guessed_degrees
+
+  !> Raises the degrees of the parts whose error is above the bound.
+  pure subroutine raise_degrees(body, beam, model, sample, b, bound, highest, degrees, raised)
+    type(body_t), intent(in) :: body
+    type(beam_t), intent(in) :: beam
+    type(deformation_model_t), intent(in) :: model
+    type(sample_t), intent(in) :: sample
+    integer, intent(in) :: b       !! number of the body
+    real(wp), intent(in) :: bound
+    type(link_degrees_t), intent(in) :: highest
+    type(link_degrees_t), intent(inout) :: degrees
+    logical, intent(inout) :: raised
+
+    real(wp), allocatable :: length(:)
+    real(wp) :: across, along
+    integer :: e
+
+    length = piece_lengths(body)
+    across = wave_number(body, beam, sample%highest, sample%least_force(b))
+    along = sqrt(sample%highest*body%line_density/beam%axial_stiffness)
+    do e = 1, size(length)
+      call raise(degrees%across(e), highest%across(e), across*length(e), bound, &
+        sample%error(part_of(model%links, b, e, .false.)), raised)
+      call raise(degrees%along(e), highest%along(e), along*length(e), bound, &
+        sample%error(part_of(model%links, b, e, .true.)), raised)
+    end do
+  end subroutine raise_degrees
+
+  !> Raises one degree if its error is above the bound and its limit is not reached.
+  pure subroutine raise(order, most, wave, bound, error, raised)
+    integer, intent(inout) :: order
+    integer, intent(in) :: most
+    real(wp), intent(in) :: wave, bound, error
+    logical, intent(inout) :: raised
+
+    if (error <= bound .or. order >= most) return
+    order = raised_order(wave, bound/error, order, most)
+    raised = .true.
+  end subroutine raise
 
   !> A sample of the states that have a pose, spread evenly over the list.
   pure function sample_states(positions, states) result(chosen)
@@ -131,64 +254,58 @@ contains
     chosen = [(sound(1 + ((i - 1)*(count - 1))/max(1, number - 1)), i=1, number)]
   end function sample_states
 
-  !> Length of the longest part of a link between masses [m].
-  pure function longest_piece(body) result(length)
+  !> Lengths of the pieces of a link [m].
+  pure function piece_lengths(body) result(length)
     type(body_t), intent(in) :: body
-    real(wp) :: length
+    real(wp), allocatable :: length(:)
 
     real(wp), allocatable :: ends(:)
 
     ends = pieces_of(body)
-    length = body%length*maxval(ends(2:) - ends(:size(ends) - 1))
-  end function longest_piece
+    length = body%length*(ends(2:) - ends(:size(ends) - 1))
+  end function piece_lengths
 
-  !> Wave number k of the shortest bending waves in a link at a frequency.
+  !> Wave number k of the shortest bending waves in a link at a frequency and axial force N.
   !!
-  !! `EI k⁴ − (ρI + EI μ/kGA) ω² k² − μω² (1 − ρI ω²/kGA) = 0`
-  pure function wave_number(body, beam, lambda) result(k)
+  !! `EI(1 + N/kGA) k⁴ + (N − (ρI + EI μ/kGA) ω²) k² − μω² (1 − ρI ω²/kGA) = 0`
+  pure function wave_number(body, beam, lambda, force) result(k)
     type(body_t), intent(in) :: body
     type(beam_t), intent(in) :: beam
     real(wp), intent(in) :: lambda !! ω² [1/s²]
+    real(wp), intent(in) :: force  !! the least N: tension lengthens waves [N]
     real(wp) :: k                  !! [1/m]
 
-    real(wp) :: slender, added
+    real(wp) :: slender, added, stiffness
 
-    slender = body%line_density*lambda/beam%bending_stiffness
-    k = slender**0.25_wp
-    if (body%rotary_inertia <= 0.0_wp .and. beam%shear_stiffness <= 0.0_wp) return
-    added = body%rotary_inertia/beam%bending_stiffness
+    stiffness = beam%bending_stiffness
+    added = -min(force, 0.0_wp) + body%rotary_inertia*lambda
+    slender = body%line_density*lambda
     if (beam%shear_stiffness > 0.0_wp) then
-      added = added + body%line_density/beam%shear_stiffness
+      added = added + body%line_density*lambda*stiffness/beam%shear_stiffness
       slender = slender*(1.0_wp - body%rotary_inertia*lambda/beam%shear_stiffness)
+      ! Near −kGA waves become infinitely short.
+      stiffness = stiffness*max(0.1_wp, 1.0_wp + min(force, 0.0_wp)/beam%shear_stiffness)
     end if
-    added = 0.5_wp*added*lambda
-    k = sqrt(added + sqrt(max(0.0_wp, added**2 + slender)))
+    added = 0.5_wp*added/stiffness
+    k = sqrt(added + sqrt(max(0.0_wp, added**2 + slender/stiffness)))
   end function wave_number
 
-  !> Order estimated from the wave number times the length of an element and an error bound. Where
-  !! many modes are wanted it is not below the order of the first model, so that there are enough
-  !! unknowns for all of them.
-  pure function guessed_order(wave, bound, first, highest, modes, bending) result(order)
+  !> Order estimated from the wave number times the length of an element and an error bound.
+  pure function guessed_order(wave, bound, highest) result(order)
     real(wp), intent(in) :: wave     !! kL
     real(wp), intent(in) :: bound    !! on the relative error of eigenvalues
-    integer, intent(in) :: first     !! order of the first model
     integer, intent(in) :: highest   !! upper limit of the order
-    integer, intent(in) :: modes     !! number wanted
-    integer, intent(in) :: bending   !! number of links that bend
     integer :: order
 
     real(wp) :: term
-    integer :: least
 
     order = highest
     ! Waves too short for any order; kL may be too large for an integer.
     if (0.5_wp*wave > highest) return
-    least = least_order
-    if (2*modes > bending*least) least = first
     term = 1.0_wp
     do order = 2, highest
       term = term*0.25_wp*wave/(order - 1)
-      if (order >= max(least, nint(0.5_wp*wave)) .and. term**2 <= bound) return
+      if (order >= max(least_order, nint(0.5_wp*wave)) .and. term**2 <= bound) return
     end do
     order = highest
   end function guessed_order
@@ -213,23 +330,21 @@ contains
     raised = min(order + most_raised, highest)
   end function raised_order
 
-  !> Solves the samples at the lowest and the highest speed: the largest error of any mode, link by
-  !! link, and the largest eigenvalue in absolute value.
-  subroutine try_samples(linkage, model, positions, chosen, demand, link_error, highest, counts)
+  !> Solves the samples at the lowest and the highest speed.
+  subroutine try_samples(linkage, model, positions, chosen, demand, sample, counts)
     type(linkage_t), intent(in) :: linkage
     type(deformation_model_t), intent(in) :: model
     type(positions_t), intent(in) :: positions
     integer, intent(in) :: chosen(:)        !! numbers of the sampled states
     type(order_demand_t), intent(in) :: demand
-    real(wp), intent(out) :: link_error(:)  !! (bodies) relative, of eigenvalues
-    real(wp), intent(out) :: highest        !! |eigenvalue| [1/s²]
+    type(sample_t), intent(out) :: sample
     type(ledger_t), intent(inout) :: counts
 
     type(speed_work_t) :: work
     type(unit_loads_t) :: loads
     type(bordered_modes_t), allocatable :: found(:)
     type(outcome_t), allocatable :: outcome(:)
-    real(wp), allocatable :: force(:, :, :), tried(:, :)
+    real(wp), allocatable :: force(:, :, :), tried(:, :), present_force(:, :)
     integer :: i, k
 
     tried = demand%factor(:, [minloc(demand%factor(1, :), dim=1), maxloc(demand%factor(1, :), &
@@ -237,8 +352,11 @@ contains
     if (all(abs(tried(:, 1) - tried(:, 2)) <= 0.0_wp)) tried = tried(:, :1)
     allocate (found(size(tried, 2)), outcome(size(tried, 2)))
     work = new_speed_work(model, size(tried, 2))
-    link_error = 0.0_wp
-    highest = 0.0_wp
+    allocate (sample%error(part_count(model%links)))
+    allocate (sample%least_force(size(model%links)), sample%most_force(size(model%links)))
+    sample%error = 0.0_wp
+    sample%least_force = 0.0_wp
+    sample%most_force = 0.0_wp
     do i = 1, size(chosen)
       associate (state => positions%states(chosen(i)))
         loads = find_unit_loads(linkage, state%pose, state%coefficients, &
@@ -251,11 +369,40 @@ contains
       end associate
       do k = 1, size(found)
         if (allocated(outcome(k)%error)) cycle
-        highest = max(highest, maxval(abs(found(k)%lambda(:demand%modes))))
-        link_error = max(link_error, maxval(order_error(model, work%equations%chords, &
-          total_force(force, tried(:, k)), found(k), demand%modes), dim=2))
+        present_force = total_force(force, tried(:, k))
+        call add_force_range(linkage, present_force, sample)
+        sample%highest = max(sample%highest, maxval(abs(found(k)%lambda(:demand%modes))))
+        sample%error = max(sample%error, maxval(order_error(model, work%equations%chords, &
+          present_force, found(k), demand%modes), dim=2))
       end do
     end do
   end subroutine try_samples
+
+  !> Extends the range of axial forces by those of a position: at ends and middles of all pieces.
+  pure subroutine add_force_range(linkage, force, sample)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), intent(in) :: force(:, :) !! (1, ξ, ξ², jumps; bodies) [N]
+    type(sample_t), intent(inout) :: sample
+
+    real(wp), allocatable :: ends(:), places(:)
+    real(wp) :: xi, here
+    integer :: b, e, i
+
+    if (size(force, 1) == 0) return
+    do b = 1, size(linkage%bodies)
+      if (.not. linkage%bodies(b)%bends) cycle
+      ends = pieces_of(linkage%bodies(b))
+      places = lump_places(linkage%bodies(b))
+      do e = 1, size(ends) - 1
+        do i = 0, 2
+          xi = ends(e) + 0.5_wp*i*(ends(e + 1) - ends(e))
+          here = force(1, b) + xi*(force(2, b) + xi*force(3, b)) + &
+            sum(force(4:3 + size(places), b), mask=places > 0.5_wp*(ends(e) + ends(e + 1)))
+          sample%least_force(b) = min(sample%least_force(b), here)
+          sample%most_force(b) = max(sample%most_force(b), here)
+        end do
+      end do
+    end do
+  end subroutine add_force_range
 
 end module order_choice

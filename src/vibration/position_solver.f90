@@ -11,6 +11,7 @@ module position_solver
   use mesh_solver, only: solve_long_mesh, solve_mesh
   use modal_assurance, only: new_mode_prints
   use nodal_solver, only: solve_nodal
+  use order_changes, only: part_count
   use order_errors, only: order_error
   use pin_displacements, only: chords_t
   use pose_rounding, only: pose_error
@@ -64,8 +65,8 @@ contains
     type(bordered_modes_t) :: found(size(request%speed))
     type(unit_loads_t) :: loads
     real(wp), allocatable :: unit_force(:, :, :)
-    real(wp) :: factor(case_count, size(request%speed)), discretisation(size(structure%beams), &
-      request%modes)
+    real(wp) :: factor(case_count, size(request%speed))
+    real(wp) :: discretisation(part_count(models%continuum%links), request%modes)
     real(wp) :: rounding(request%modes)
     integer :: k, n
 

@@ -136,7 +136,8 @@ contains
       is_long = is_long_link(mesh%elements, mesh%order, mesh%sheared)
       call new_deformation_model(linkage, beams, merge(0, mesh%elements, is_long), &
         merge(models%continuum%order, mesh%order, is_long), &
-        request%lumped .and. request%axial .and. .not. is_long, models%mesh, error, store)
+        request%lumped .and. request%axial .and. .not. is_long, models%mesh, error, store, &
+        models%continuum%degrees)
       if (request%method == by_long_mesh) models%chain = new_deformation_chain(linkage, beams, &
         mesh%elements, mesh%order, axial_degree(mesh%order))
     end associate
