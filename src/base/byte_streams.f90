@@ -53,14 +53,15 @@ contains
     call append_text(buffer, text)
   end subroutine put_string
 
-  !> Appends kind and text of an error to a buffer, or that there is none. Its place is not kept.
+  !> Appends kind, text and link of an error to a buffer, or that there is none. Its place in a file
+  !! is not kept.
   pure subroutine put_error(buffer, error)
     type(text_buffer_t), intent(inout) :: buffer     !! bytes so far
     type(error_t), allocatable, intent(in) :: error  !! may be unallocated: no error
 
     call put_logicals(buffer, [allocated(error)])
     if (.not. allocated(error)) return
-    call put_integers(buffer, [error%kind])
+    call put_integers(buffer, [error%kind, error%place%body])
     call put_string(buffer, error%text)
   end subroutine put_error
 
@@ -113,17 +114,17 @@ contains
   pure subroutine get_error(bytes, at, error)
     character(len=*), intent(in) :: bytes            !! as filled by the put_… procedures
     integer, intent(inout) :: at                     !! place of the next byte, from 1
-    type(error_t), allocatable, intent(out) :: error !! without its place
+    type(error_t), allocatable, intent(out) :: error !! without its place in a file
 
     character(len=:), allocatable :: text
-    integer :: kind(1)
+    integer :: numbers(2)
     logical :: is_there(1)
 
     call get_logicals(bytes, at, is_there)
     if (.not. is_there(1)) return
-    call get_integers(bytes, at, kind)
+    call get_integers(bytes, at, numbers)
     call get_string(bytes, at, text)
-    call set_error(error, kind(1), text)
+    call set_error(error, numbers(1), text, body=numbers(2))
   end subroutine get_error
 
 end module byte_streams

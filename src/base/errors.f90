@@ -17,6 +17,8 @@ module errors
   type :: place_t
     character(len=:), allocatable :: file
     integer :: line = 0, column = 0 !! from 1; 0: the file, or the line, as a whole
+    integer :: body = 0             !! number of the link it is about, which who knows the names
+                                    !! tells in words; 0: none
   end type place_t
 
   type :: error_t
@@ -33,12 +35,13 @@ module errors
 contains
 
   !> Makes an error; it replaces an earlier one.
-  pure subroutine set_error(error, kind, text, file, line, column)
+  pure subroutine set_error(error, kind, text, file, line, column, body)
     type(error_t), allocatable, intent(inout) :: error !! allocated on return
     integer, intent(in) :: kind                    !! one of the error_of_… numbers
     character(len=*), intent(in) :: text           !! without the place
     character(len=*), intent(in), optional :: file !! path
     integer, intent(in), optional :: line, column  !! from 1, in the file
+    integer, intent(in), optional :: body          !! number of the link it is about
 
     if (allocated(error)) deallocate (error)
     allocate (error)
@@ -47,6 +50,7 @@ contains
     if (present(file)) error%place%file = file
     if (present(line)) error%place%line = line
     if (present(column)) error%place%column = column
+    if (present(body)) error%place%body = body
   end subroutine set_error
 
   !> Makes outcomes those of tasks that have not failed.

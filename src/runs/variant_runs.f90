@@ -17,8 +17,10 @@ module variant_runs
   use report_table, only: find_study, study_names
   use study_requests, only: drawn_states, mode_request_of, motion_request_of
   use sweep_bytes, only: get_result, put_result
+  use sweeps, only: sweep_t
   use task_journal, only: journal_t
   use tasks, only: job_t, run_tasks
+  use text, only: string_t
   use text_buffer, only: text_buffer_t
   use variant_results, only: variant_results_t
   use vibration_models, only: by_band, mode_request_t, new_vibration_models, vibration_models_t
@@ -150,8 +152,28 @@ contains
       end do
       sweep%counts%link_models = store%made - made
       call finish_sweep(sweep)
+      call name_links(mechanism%names, sweep)
     end associate
   end subroutine compute_sweep
+
+  !> Puts the name of the link before every error that is about one: a sweep knows its number only.
+  pure subroutine name_links(names, sweep)
+    type(string_t), intent(in) :: names(:) !! (bodies) of the links
+    type(sweep_t), intent(inout) :: sweep
+
+    integer :: i, k
+
+    do i = 1, size(sweep%results)
+      if (.not. allocated(sweep%results(i)%outcome)) cycle
+      do k = 1, size(sweep%results(i)%outcome)
+        if (.not. allocated(sweep%results(i)%outcome(k)%error)) cycle
+        associate (error => sweep%results(i)%outcome(k)%error)
+          if (error%place%body > 0) error%text = "link '"//names(error%place%body)%text//"': "// &
+            error%text
+        end associate
+      end do
+    end do
+  end subroutine name_links
 
   !> Solves a block of the sweep.
   subroutine run_block(self, number)

@@ -1,6 +1,7 @@
 !> Modes followed by their shapes along crank angle and speed.
 module frequency_loci
   use axial_forces, only: distributed_unit_forces
+  use axial_limits, only: refuse_crushed
   use bordered_eigensolver, only: bordered_modes_t
   use errors, only: error_t, outcome_t
   use kinds, only: wp
@@ -246,6 +247,7 @@ contains
     type(mode_request_t) :: here
     type(bordered_modes_t) :: modes(1)
     type(outcome_t) :: outcome(1)
+    real(wp), allocatable :: unit_force(:, :, :)
     real(wp) :: factor(case_count, 1)
 
     found = .false.
@@ -258,8 +260,11 @@ contains
     work%tracks(1)%length = 0
     coefficients = find_kinematic_coefficients(linkage, pose)
     loads = find_unit_loads(linkage, pose, coefficients, abs(factor(:, 1)) > 0.0_wp)
-    call assemble_equations(linkage, models%continuum, pose, &
-      distributed_unit_forces(linkage, pose, loads), factor, work%equations, counts)
+    unit_force = distributed_unit_forces(linkage, pose, loads)
+    call refuse_crushed(linkage, models%continuum, unit_force, factor, outcome)
+    if (allocated(outcome(1)%error)) return
+    call assemble_equations(linkage, models%continuum, pose, unit_force, factor, work%equations, &
+      counts)
     call solve_speeds(place(1), factor, request%modes, [.false.], work, modes, outcome, counts)
     found = .not. allocated(outcome(1)%error)
     if (found) prints = new_mode_prints(models%continuum%layout, modes(1), request%modes)

@@ -2,6 +2,7 @@
 !! estimated error.
 module position_solver
   use axial_forces, only: distributed_unit_forces, total_force
+  use axial_limits, only: refuse_crushed
   use bordered_eigensolver, only: bordered_modes_t
   use deformation_model, only: deformation_model_t
   use kinds, only: wp
@@ -51,8 +52,8 @@ contains
   !! has a mesh of its own, that is solved as well and its frequencies are the result; their error
   !! includes the difference to the continuous links.
   !!
-  !! Errors, speed by speed in `result%outcome`: a solver does not converge, or a mode may be
-  !! missing.
+  !! Errors, speed by speed in `result%outcome`: a link is compressed by more than its shear
+  !! stiffness, a solver does not converge, or a mode may be missing.
   subroutine solve_position(structure, models, state, request, want_shapes, work, result)
     type(structure_t), intent(in) :: structure     !! with a mesh unless the method is `by_orders`
     type(vibration_models_t), intent(in) :: models !! of this structure
@@ -81,6 +82,7 @@ contains
     loads = find_unit_loads(structure%linkage, state%pose, state%coefficients, &
       any(abs(factor) > 0.0_wp, dim=2))
     unit_force = distributed_unit_forces(structure%linkage, state%pose, loads)
+    call refuse_crushed(structure%linkage, models%continuum, unit_force, factor, result%outcome)
     call assemble_equations(structure%linkage, models%continuum, state%pose, unit_force, factor, &
       work%continuum%equations, result%counts)
     call solve_speeds(state%crank, factor, request%modes, &

@@ -85,3 +85,40 @@ crushed() {
   run 1 --out "$scratch/out" "$scratch/force.deck" && says "error: speed 0 rad/s, crank 0 deg"
 }
 check "a force that crushes all links is a failed row" crushed
+
+# Bars soft in shear, pressed down at B: at 30 and 60 degrees by more than the follower's kGA.
+crushed_deck() {
+  cat <<END_OF_DECK
+UNITS    mm tonne s
+MATERIAL steel E=200GPa density=7800kg/m3 nu=0.3
+SECTION  soft rectangle thickness=20 width=20 shear_coefficient=0.01
+GROUND   O2 0 0
+GROUND   O4 254 0
+LINK     crank    O2 A length=100   material=steel section=soft
+LINK     coupler  A  B length=279.4 material=steel section=soft
+LINK     follower O4 B length=266.7 material=steel section=soft
+DRIVE    crank
+FORCE    B 0 -300000
+EFFECTS  axial rotary shear
+MESH     * $1
+CRANK    0 30 60 90
+INERTIA  distributed
+SOLVER   $2
+REPORT   frequencies
+REPORT   shapes points=2
+END_OF_DECK
+}
+above_shear_stiffness() {
+  crushed_deck "$1" "$2" >"$scratch/crushed.deck"
+  run 1 --out "$scratch/out" "$scratch/crushed.deck" || return 1
+  why=": link 'follower': the compression, 309749 N, exceeds the shear stiffness kGA, 307692 N: no lowest frequency exists"
+  says "crushed.deck: error: speed 0 rad/s, crank 60 deg$why" && says "crank 30 deg: link 'follower': " || return 1
+  for table in frequencies shapes; do
+    grep -q "^# failed speed=0 crank=60 $why" "$scratch/out/crushed/$table.dat" || { echo "$table.dat does not say why"; return 1; }
+  done
+  [ "$(grep -vc -e '^#' -e '^$' "$scratch/out/crushed/frequencies.dat")" -eq 2 ] || { echo "wrong number of rows"; return 1; }
+}
+check "a compression above kGA is a failed row" above_shear_stiffness accuracy=1e-8 auto
+check "a compression above kGA on a mesh" above_shear_stiffness elements=2 auto
+check "a compression above kGA on a long mesh" above_shear_stiffness elements=50 auto
+check "a compression above kGA by a nodal solver" above_shear_stiffness elements=2 dense

@@ -1,0 +1,108 @@
+!> Axial forces at which a link with shear has no lowest frequency.
+!!
+!! The energy of shear and axial force is `½∫ kGA γ² + N (θ + γ)² dx`. Where the tension N is below
+!! −kGA, ever shorter waves of γ lower it without bending the link or moving its mass: eigenvalues
+!! of higher and higher orders go to −∞, and none of them is that of the beam.
+module axial_limits
+  use axial_forces, only: total_force
+  use body_lumps, only: lump_count, lump_places
+  use deformation_model, only: deformation_model_t
+  use errors, only: error_of_numerics, outcome_t, set_error
+  use kinds, only: wp
+  use linkages, only: body_t, linkage_t
+  use text, only: to_string
+  implicit none (type, external)
+  private
+
+  public :: least_axial_force, crushed_link, refuse_crushed
+
+contains
+
+  !> Fails every speed at which a link has no lowest frequency.
+  !!
+  !! Errors, speed by speed in `outcome`: the compression of a link exceeds its shear stiffness; the
+  !! error has the number of the link.
+  pure subroutine refuse_crushed(linkage, model, unit_force, factor, outcome)
+    type(linkage_t), intent(in) :: linkage         !! of the structure
+    type(deformation_model_t), intent(in) :: model !! its links' own deformations
+    real(wp), intent(in) :: unit_force(:, :, :)    !! (1, ξ, ξ², jumps; bodies; cases) axial forces
+                                                   !! of the unit loads [N]
+    real(wp), intent(in) :: factor(:, :)           !! (cases, speeds) of the unit loads: ω2², α2, 1
+    type(outcome_t), intent(inout) :: outcome(:)   !! (speeds) an error already present is kept
+
+    real(wp) :: force(size(unit_force, 1), size(unit_force, 2))
+    integer :: b, k
+
+    do k = 1, size(outcome)
+      if (allocated(outcome(k)%error)) cycle
+      force = total_force(unit_force, factor(:, k))
+      b = crushed_link(linkage, model, force)
+      if (b == 0) cycle
+      call set_error(outcome(k)%error, error_of_numerics, "the compression, "// &
+        to_string(-least_axial_force(linkage%bodies(b), force(:, b)), 4)// &
+        " N, exceeds the shear stiffness kGA, "// &
+        to_string(model%links(b)%bending_shapes%shear_stiffness, 4)// &
+        " N: no lowest frequency exists", body=b)
+    end do
+  end subroutine refuse_crushed
+
+  !> Number of the first link whose axial force is anywhere below −kGA; 0: none.
+  pure function crushed_link(linkage, model, force) result(body)
+    type(linkage_t), intent(in) :: linkage         !! of the structure
+    type(deformation_model_t), intent(in) :: model !! its links' own deformations
+    real(wp), intent(in) :: force(:, :)            !! (1, ξ, ξ², jumps; bodies) axial forces [N]; no
+                                                   !! functions: no loads
+    integer :: body
+
+    if (size(force, 1) > 0) then
+      do body = 1, size(model%links)
+        if (.not. model%links(body)%bends) cycle
+        associate (limit => model%links(body)%bending_shapes%shear_stiffness)
+          if (limit <= 0.0_wp) cycle
+          if (least_axial_force(linkage%bodies(body), force(:, body)) < -limit) return
+        end associate
+      end do
+    end if
+    body = 0
+  end function crushed_link
+
+  !> Least axial force anywhere in a link that bends: at one of its ends, beside one of its masses,
+  !! or where the parabola between them is lowest.
+  pure function least_axial_force(body, force) result(least)
+    type(body_t), intent(in) :: body !! its masses
+    real(wp), intent(in) :: force(:) !! of 1, ξ, ξ², then the jump from the first pin up to each
+                                     !! mass [N]
+    real(wp) :: least                !! tension positive [N]
+
+    real(wp) :: places(lump_count(body) + 3), lowest
+    integer :: i
+
+    lowest = 0.0_wp
+    if (force(3) > 0.0_wp) lowest = min(1.0_wp, max(0.0_wp, -0.5_wp*force(2)/force(3)))
+    places = [0.0_wp, lump_places(body), 1.0_wp, lowest]
+    least = huge(least)
+    do i = 1, size(places)
+      if (places(i) > 0.0_wp) least = min(least, force_at(body, force, places(i), .true.))
+      if (places(i) < 1.0_wp) least = min(least, force_at(body, force, places(i), .false.))
+    end do
+  end function least_axial_force
+
+  !> Axial force beside a place, on the side of the first pin or of the last [N].
+  pure function force_at(body, force, xi, before) result(value)
+    type(body_t), intent(in) :: body
+    real(wp), intent(in) :: force(:)
+    real(wp), intent(in) :: xi      !! from 0 to 1 along the link
+    logical, intent(in) :: before   !! on the side of the first pin
+    real(wp) :: value
+
+    real(wp) :: place(lump_count(body))
+    logical :: is_beyond(lump_count(body))
+
+    place = lump_places(body)
+    is_beyond = place > xi
+    if (before) is_beyond = place >= xi
+    value = force(1) + xi*(force(2) + xi*force(3)) + &
+      sum(force(4:3 + size(place)), mask=is_beyond)
+  end function force_at
+
+end module axial_limits
