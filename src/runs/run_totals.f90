@@ -17,6 +17,7 @@ module run_totals
     integer :: variants = 0                !! computed
     integer(long) :: rows = 0_long         !! positions as the variants list them
     integer(long) :: positions = 0_long    !! different ones
+    integer(long) :: kinematic_solutions = 0_long !! poses sought, at positions and by studies
     integer :: speeds = 0                  !! of the first variant
     integer(long) :: motion_steps = 0_long !! of forward dynamics
     logical :: has_frequencies = .false.   !! whether any variant has
@@ -41,6 +42,10 @@ contains
       totals%rows = size(found%positions%crank)
       totals%positions = size(found%positions%states)
       totals%motion_steps = found%motion%steps
+      totals%kinematic_solutions = totals%positions + found%harmonics%solutions + &
+        found%sweep%counts%kinematic_solutions + merge(1, 0, found%motion%has_begun)
+      if (allocated(found%geometry%crank)) totals%kinematic_solutions = &
+        totals%kinematic_solutions + size(found%geometry%crank)
       totals%has_frequencies = allocated(found%sweep%results)
       if (.not. totals%has_frequencies) return
       totals%speeds = size(found%sweep%request%speed)
@@ -66,6 +71,7 @@ contains
     totals%variants = totals%variants + more%variants
     totals%rows = totals%rows + more%rows
     totals%positions = totals%positions + more%positions
+    totals%kinematic_solutions = totals%kinematic_solutions + more%kinematic_solutions
     totals%motion_steps = totals%motion_steps + more%motion_steps
     totals%has_frequencies = totals%has_frequencies .or. more%has_frequencies
     call add_ledger(totals%counts, more%counts)
@@ -80,7 +86,8 @@ contains
     type(run_totals_t), intent(in) :: totals     !! of one variant or more
 
     call put_integers(buffer, [totals%variants, totals%speeds])
-    call put_integers(buffer, transfer([totals%rows, totals%positions, totals%motion_steps], [0]))
+    call put_integers(buffer, transfer([totals%rows, totals%positions, &
+      totals%kinematic_solutions, totals%motion_steps], [0]))
     call put_logicals(buffer, [totals%has_frequencies])
     call put_ledger(buffer, totals%counts)
     call put_reals(buffer, [totals%largest_error])
@@ -92,8 +99,8 @@ contains
     integer, intent(inout) :: at              !! place of the first byte; on return, behind the last
     type(run_totals_t), intent(out) :: totals !! with times of 0
 
-    integer(long) :: counts(3)
-    integer :: numbers(2), words(size(transfer([0_long, 0_long, 0_long], [0])))
+    integer(long) :: counts(4)
+    integer :: numbers(2), words(size(transfer([0_long, 0_long, 0_long, 0_long], [0])))
     logical :: has_frequencies(1)
     real(wp) :: largest_error(1)
 
@@ -107,7 +114,8 @@ contains
     totals%speeds = numbers(2)
     totals%rows = counts(1)
     totals%positions = counts(2)
-    totals%motion_steps = counts(3)
+    totals%kinematic_solutions = counts(3)
+    totals%motion_steps = counts(4)
     totals%has_frequencies = has_frequencies(1)
     totals%largest_error = largest_error(1)
   end subroutine get_totals

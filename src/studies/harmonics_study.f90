@@ -3,7 +3,7 @@
 module harmonics_study
   use constants, only: degree
   use counterweights, only: balanced_linkage, find_counterweights
-  use crank_cycle, only: cycle_t, cycle_values, drive_torque, largest_value, quantity_count, &
+  use crank_cycle, only: cycle_t, cycle_values, drive_torque, find_largest_value, quantity_count, &
     quantity_names, shaking_moment, turns_freely, usual_values
   use harmonics, only: highest_harmonic, spectrum_of, spectrum_t
   use interruption, only: was_interrupted
@@ -29,6 +29,7 @@ module harmonics_study
     logical :: has_cycle = .false. !! else the crank does not turn fully, and all that follows is
                                    !! empty
     integer :: samples = 0         !! of a turn
+    integer :: solutions = 0       !! poses found, for samples and largest values
     real(wp) :: change = 0.0_wp    !! difference to the results from every second sample, relative
                                    !! to the largest value [-]
     type(harmonic_t), allocatable :: of(:, :, :) !! (quantities; linkage as given, balanced; speeds)
@@ -53,7 +54,7 @@ contains
     type(linkage_t) :: linkages(2)
     type(cycle_t) :: turns(2)
     real(wp), allocatable :: largest(:, :, :) !! (quantities, linkages, speeds)
-    integer :: i, k, q
+    integer :: solutions, i, k, q
 
     found%has_cycle = turns_freely(linkage)
     if (.not. found%has_cycle) return
@@ -63,13 +64,18 @@ contains
     found%samples = size(turns(1)%part, 3)
     allocate (found%of(quantity_count, 2, size(speed)), largest(quantity_count, 2, size(speed)))
     largest = 0.0_wp
+    ! Two more have shown that the crank turns.
+    found%solutions = 2 + size(turns)*found%samples
     !$omp parallel do collapse(3) num_threads(threads) schedule(dynamic) default(shared) &
-    !$omp   private(i, k, q)
+    !$omp   private(i, k, q, solutions)
     do k = 1, size(speed)
       do i = 1, 2
         do q = 1, quantity_count
-          if (.not. was_interrupted()) largest(q, i, k) = &
-            largest_value(linkages(i), elements, turns(i), q, speed(k), acceleration)
+          if (was_interrupted()) cycle
+          call find_largest_value(linkages(i), elements, turns(i), q, speed(k), acceleration, &
+            largest(q, i, k), solutions)
+          !$omp atomic
+          found%solutions = found%solutions + solutions
         end do
       end do
     end do

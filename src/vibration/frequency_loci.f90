@@ -252,6 +252,7 @@ contains
 
     found = .false.
     call find_pose(linkage, place(1), pose, error)
+    counts%kinematic_solutions = counts%kinematic_solutions + 1
     if (allocated(error)) return
     here = request
     here%speed = place(2:2)

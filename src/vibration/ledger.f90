@@ -6,11 +6,15 @@ module ledger
   public :: ledger_t, add_ledger
 
   type :: ledger_t
+    integer :: kinematic_solutions = 0  !! poses sought besides those of the positions: with changed
+                                        !! lengths, and between rows
     integer :: link_models = 0          !! links decomposed into their own modes
-    integer :: mass_matrices = 0        !! assembled, one a position and model
+    integer :: mass_matrices = 0        !! assembled, one a position and model, and one for each
+                                        !! pose with changed lengths
     integer :: stiffness_matrices = 0   !! assembled, by nodal solvers only; elsewhere K is the unit
                                         !! matrix
-    integer :: geometric_matrices = 0   !! assembled, one for each unit load that occurs
+    integer :: geometric_matrices = 0   !! assembled, one for each unit load that occurs, and one
+                                        !! for each pose with changed lengths under loads
     integer :: factorizations = 0       !! of any matrix: inverse iterations, shifts, inertia counts
     integer :: extrapolated = 0         !! eigenproblems started from neighbouring positions
     integer :: reduced_solutions = 0    !! eigenproblems started from the first own modes of every
@@ -29,6 +33,7 @@ contains
     type(ledger_t), intent(inout) :: total !! counts so far
     type(ledger_t), intent(in) :: part     !! counts to add
 
+    total%kinematic_solutions = total%kinematic_solutions + part%kinematic_solutions
     total%link_models = total%link_models + part%link_models
     total%mass_matrices = total%mass_matrices + part%mass_matrices
     total%stiffness_matrices = total%stiffness_matrices + part%stiffness_matrices

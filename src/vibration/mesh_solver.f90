@@ -108,6 +108,7 @@ contains
         call take_jumps(near, total, work%chain)
         call lower_to_mesh(structure, near, work%chain%axial_force, total)
         call assemble_stiffness_of(near, total, work%mesh%equations)
+        result%counts%geometric_matrices = result%counts%geometric_matrices + 1
       end if
       least = work%mesh%equations%pencil
       call find_chain_modes(near, own, least, start(k), request%modes, want_shapes(k), &

@@ -10,6 +10,7 @@ module pose_rounding
   use errors, only: error_t
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
+  use ledger, only: ledger_t
   use linkages, only: linkage_t
   use load_cases, only: case_count, find_unit_loads, unit_loads_t
   use poses, only: find_pose, pose_t
@@ -47,7 +48,7 @@ contains
   !! some soften with the sine, others do not depend on it, and loads grow like powers of 1/sin.
   !! There each length is changed a little, and `yᵀ(ΔK_G − λ ΔM) y` is the effect. If the linkage
   !! closes with neither a longer nor a shorter link, the error is at least 1.
-  subroutine pose_error(linkage, model, state, factor, found, modes, error)
+  subroutine pose_error(linkage, model, state, factor, found, modes, error, counts)
     type(linkage_t), intent(in) :: linkage         !! of the structure
     type(deformation_model_t), intent(in) :: model !! of continuous links
     type(state_t), intent(in) :: state             !! with a pose
@@ -55,6 +56,7 @@ contains
     type(bordered_modes_t), intent(in) :: found    !! modes at this position and speed
     integer, intent(in) :: modes                   !! number, lowest first
     real(wp), intent(out) :: error(:)              !! (modes) relative, of eigenvalues
+    type(ledger_t), intent(inout) :: counts        !! of poses found and matrices assembled
 
     real(wp) :: sine, least_sine, spread, energy, own_work(modes)
     type(position_equations_t) :: equations
@@ -77,7 +79,7 @@ contains
       return
     end if
     equations = new_position_equations(model)
-    call assemble_lengths(linkage, model, state%crank, factor, equations, reached)
+    call assemble_lengths(linkage, model, state%crank, factor, equations, reached, counts)
     own_work = 0.0_wp
     if (reached) own_work = residual_work(equations%pencil, found, modes)
     error = 0.0_wp
@@ -85,7 +87,7 @@ contains
       do side = 1, -1, -2
         other = linkage
         other%bodies(b)%length = linkage%bodies(b)%length*(1.0_wp + side*small_change*sine**2)
-        call assemble_lengths(other, model, state%crank, factor, equations, reached)
+        call assemble_lengths(other, model, state%crank, factor, equations, reached, counts)
         if (reached) exit
       end do
       if (.not. reached) then
@@ -122,13 +124,14 @@ contains
 
   !> Assembles M, and K_G of one speed, of a linkage whose lengths may differ slightly from those of
   !! the model.
-  subroutine assemble_lengths(linkage, model, crank, factor, equations, reached)
+  subroutine assemble_lengths(linkage, model, crank, factor, equations, reached, counts)
     type(linkage_t), intent(in) :: linkage
     type(deformation_model_t), intent(in) :: model
     real(wp), intent(in) :: crank              !! [deg]
     real(wp), intent(in) :: factor(case_count) !! of the unit loads: ω2², α2, 1
     type(position_equations_t), intent(inout) :: equations !! of the model
     logical, intent(out) :: reached            !! whether the linkage closes there
+    type(ledger_t), intent(inout) :: counts
 
     type(pose_t) :: pose
     type(kinematic_coefficients_t) :: coefficients
@@ -137,14 +140,17 @@ contains
     real(wp), allocatable :: force(:, :, :)
 
     call find_pose(linkage, crank, pose, error)
+    counts%kinematic_solutions = counts%kinematic_solutions + 1
     reached = .not. allocated(error)
     if (.not. reached) return
     call assemble_mass_at(linkage, model, pose, equations)
+    counts%mass_matrices = counts%mass_matrices + 1
     if (all(abs(factor) <= 0.0_wp)) return
     coefficients = find_kinematic_coefficients(linkage, pose)
     loads = find_unit_loads(linkage, pose, coefficients, abs(factor) > 0.0_wp)
     force = distributed_unit_forces(linkage, pose, loads)
     call assemble_stiffness_of(model, total_force(force, factor), equations)
+    counts%geometric_matrices = counts%geometric_matrices + 1
   end subroutine assemble_lengths
 
 end module pose_rounding

@@ -98,7 +98,7 @@ contains
         result%order_error = max(result%order_error, maxval(sum(discretisation, dim=1)))
         result%lambda(:, k) = found(k)%lambda(:request%modes)
         call pose_error(structure%linkage, models%continuum, state, factor(:, k), found(k), &
-          request%modes, rounding)
+          request%modes, rounding, result%counts)
         result%error(:, k) = of_frequency*(sum(discretisation, dim=1) + &
           found(k)%error(:request%modes) + rounding)
       end do

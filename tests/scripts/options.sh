@@ -102,6 +102,50 @@ stats_shapes() {
   ! grep -q "skipped mode shapes" "$scratch/stderr" || { echo "it tells that shapes are skipped"; return 1; }
 }
 
+# By hand, four positions away from dead points: each with a mass matrix for the continuous links and one for the mesh, and
+# orders are tried at one position, then at all four. One geometric matrix with each: the one unit load of a constant speed.
+stats_counted() {
+  told counted "CRANK 10 70 130 190" "SPEED 2 4" "REPORT frequencies" || return 1
+  says "counted: rows 4, positions 4, kinematic solutions 4" &&
+    says "mass matrices 13, stiffness matrices 0, geometric stiffness matrices 13" && says "no mode is missing 26,"
+}
+
+# near_dead_point NAME CARD...: a double rocker whose crank turns back at 107.75 degrees
+near_dead_point() {
+  name=$1
+  shift
+  beam_deck "$@" | sed 's/=279.4/=150/; s/=266.7/=150/; s/^MESH.*/MESH * accuracy=1e-6/; s/lumped/distributed/' >"$scratch/$name.deck"
+  run 0 --stats --out "$out" "$scratch/$name.deck"
+}
+
+# By hand: a position away from the limit and one beside it, there once more with the lengths as they are and with each of the
+# three changed; orders are tried at one position, then at both, and that is enough.
+stats_near_dead_point() {
+  near_dead_point rest "CRANK 90 107.5" "REPORT frequencies" || return 1
+  says "rest: rows 2, positions 2, kinematic solutions 6" &&
+    says "mass matrices 9, stiffness matrices 0, geometric stiffness matrices 0" && says "no mode is missing 5," || return 1
+  # Changed lengths for each of two speeds: 1 + 2*4. Two eigenproblems for each mass matrix but these eight.
+  near_dead_point moving "CRANK 107.5" "SPEED 0.001 0.002" "REPORT frequencies" || return 1
+  says "moving: rows 1, positions 1, kinematic solutions 9" || return 1
+  mass=$(sed -n 's/.*mass matrices \([0-9]*\),.*/\1/p' "$scratch/stderr")
+  proofs=$(sed -n 's/.*is missing \([0-9]*\),.*/\1/p' "$scratch/stderr")
+  [ $((2*(mass - 8))) -eq "$proofs" ] || { echo "$mass mass matrices, $proofs proofs"; return 1; }
+}
+
+# By hand: 12 positions, 5 drawings, and the start of a motion.
+stats_studies() {
+  motion_deck >"$scratch/studies.deck"
+  cat >>"$scratch/studies.deck" <<END_OF_CARDS
+REPORT geometry crank=10,20,30,40,50
+REPORT motion crank=60 speed=5 end=1 step=0.5
+PINMASS A 1kg
+PINMASS B 1kg
+INERTIA distributed
+END_OF_CARDS
+  sed 's/length=[0-9.]*/& mass=1kg inertia=1kg*mm2/' "$scratch/studies.deck" >"$scratch/studied.deck"
+  run 0 --stats --out "$out" "$scratch/studied.deck" && says "studied: rows 13, positions 12, kinematic solutions 18"
+}
+
 threads() {
   beam_deck "CRANK 0 to 360 step 5" "SPEED 0 10 20" "REPORT frequencies" "REPORT shapes" "REPORT inertia" >"$scratch/beam.deck"
   for number in 1 3 8; do
@@ -126,4 +170,7 @@ check "--stats: motion alone" stats
 check "--stats: static frequencies" stats_static
 check "--stats: more speeds" stats_speeds
 check "--stats: shapes" stats_shapes
+check "--stats: work counted by hand" stats_counted
+check "--stats: poses with changed lengths" stats_near_dead_point
+check "--stats: poses of studies" stats_studies
 check "the same bytes whatever the threads" threads

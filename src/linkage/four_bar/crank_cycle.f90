@@ -12,7 +12,7 @@ module crank_cycle
   implicit none (type, external)
   private
 
-  public :: cycle_t, turns_freely, parts_at, cycle_values, largest_value, usual_values
+  public :: cycle_t, turns_freely, parts_at, cycle_values, find_largest_value, usual_values
   public :: quantity_names, quantity_count, shaking_x, shaking_y, shaking_force, shaking_moment, &
     drive_torque
 
@@ -132,8 +132,8 @@ contains
   !! Around each of the three highest peaks among the samples the maximum is enclosed by
   !! golden-section search. A turn with so many samples that more of them do not change its
   !! harmonics has no peaks that its samples do not show.
-  pure function largest_value(linkage, elements, turn, quantity, speed, acceleration) &
-    result(largest)
+  pure subroutine find_largest_value(linkage, elements, turn, quantity, speed, acceleration, &
+      largest, solutions)
     type(linkage_t), intent(in) :: linkage !! whose crank turns freely
     integer, intent(in) :: elements(:)     !! (bodies) elements whose nodes carry the mass;
                                            !! 0: distributed mass
@@ -141,15 +141,17 @@ contains
     integer, intent(in) :: quantity        !! its number
     real(wp), intent(in) :: speed          !! ω2 [rad/s]
     real(wp), intent(in) :: acceleration   !! α2 [rad/s²]
-    real(wp) :: largest
+    real(wp), intent(out) :: largest       !! absolute value
+    integer, intent(out) :: solutions      !! poses found besides the samples
 
     integer, parameter :: most_peaks = 3
     real(wp), allocatable :: values(:, :), size_of(:)
-    real(wp) :: step
+    real(wp) :: peak, step
     integer :: k, at
 
     values = abs(cycle_values(turn, speed, acceleration))
     step = 360.0_wp/size(values, 1)
+    solutions = 0
     associate (value => values(:, quantity))
       largest = maxval(value)
       ! Samples that are not peaks are set to zero.
@@ -159,18 +161,20 @@ contains
       at = maxloc(size_of, dim=1)
       if (size_of(at) <= 0.0_wp) exit
       size_of(at) = 0.0_wp
-      largest = max(largest, peak_between(linkage, elements, quantity, speed, acceleration, &
-        step*(at - 2), step*at))
+      call find_peak(linkage, elements, quantity, speed, acceleration, step*(at - 2), step*at, &
+        peak, solutions)
+      largest = max(largest, peak)
     end do
-  end function largest_value
+  end subroutine find_largest_value
 
   !> Golden-section search for the largest absolute value of a quantity between two crank angles.
-  pure function peak_between(linkage, elements, quantity, speed, acceleration, first, &
-    last) result(peak)
+  pure subroutine find_peak(linkage, elements, quantity, speed, acceleration, first, last, peak, &
+      solutions)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: elements(:), quantity
     real(wp), intent(in) :: speed, acceleration, first, last !! angles [deg]
-    real(wp) :: peak
+    real(wp), intent(out) :: peak
+    integer, intent(inout) :: solutions !! each value needs another
 
     real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
     ! A peak is flat: this close to it [deg] the value is exact to the last digits.
@@ -182,7 +186,9 @@ contains
     x = [b - golden*(b - a), a + golden*(b - a)]
     y = [value_at(linkage, elements, quantity, speed, acceleration, x(1)), &
       value_at(linkage, elements, quantity, speed, acceleration, x(2))]
+    solutions = solutions + 2
     do while (b - a > near)
+      solutions = solutions + 1
       if (y(1) >= y(2)) then
         b = x(2)
         x = [b - golden*(b - a), x(1)]
@@ -194,7 +200,7 @@ contains
       end if
     end do
     peak = maxval(y)
-  end function peak_between
+  end subroutine find_peak
 
   !> Absolute value of a quantity at a crank angle.
   pure function value_at(linkage, elements, quantity, speed, acceleration, crank) result(value)

@@ -34,7 +34,7 @@ contains
     text = name//":"
     if (totals%variants > 1) text = text//" variants "//to_string(totals%variants)//","
     text = text//" rows "//to_string(totals%rows)//", positions "//to_string(totals%positions)// &
-      ", kinematic solutions "//to_string(totals%positions)//line_feed
+      ", kinematic solutions "//to_string(totals%kinematic_solutions)//line_feed
     if (totals%motion_steps > 0) then
       text = text//name//": steps of forward motion "//to_string(totals%motion_steps)//line_feed
     end if
