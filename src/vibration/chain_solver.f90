@@ -16,6 +16,7 @@ module chain_solver
   use deformation_shapes, only: deformation_shapes_t
   use errors, only: error_of_numerics, error_t, set_error
   use kinds, only: wp
+  use ledger, only: ledger_t
   use reduced_assembly, only: first_axial
   use subspace_eigensolver, only: find_subspace_modes, subspace_modes_t
   use text, only: to_string
@@ -34,8 +35,8 @@ contains
   !! missing. Without a proof it tries again with more modes.
   !!
   !! Errors: no convergence, or no proof even with the largest number of extra modes.
-  subroutine find_chain_modes(near, own, least, start, wanted, accurate_vectors, chain, found, &
-      error)
+  subroutine find_chain_modes(near, own, least, start, wanted, accurate_vectors, chain, counts, &
+      found, error)
     type(deformation_model_t), intent(in) :: near  !! continuous links in place of the long ones
     type(bordered_pencil_t), intent(in) :: own     !! matrices of the near model at this position
                                                    !! and speed
@@ -45,6 +46,7 @@ contains
     integer, intent(in) :: wanted                  !! number of modes
     logical, intent(in) :: accurate_vectors        !! eigenvectors also to full precision
     type(deformation_chain_t), intent(in) :: chain !! the long mesh at this position and speed
+    type(ledger_t), intent(inout) :: counts        !! of the work done
     type(subspace_modes_t), intent(out) :: found   !! lowest modes of the mesh; may include extra
                                                    !! ones
     type(error_t), allocatable, intent(out) :: error !! why the modes are not usable
@@ -61,17 +63,26 @@ contains
       if (i > 1) then
         call find_bordered_modes(own, wanted + guards(i), accurate_vectors, new_start(), modes, &
           error)
+        counts%factorizations = counts%factorizations + modes%factorizations
+        counts%reduced_solutions = counts%reduced_solutions + modes%reduced_solutions
+        counts%full_solutions = counts%full_solutions + modes%full_solutions
         if (allocated(error)) return
+        counts%proofs = counts%proofs + 1
       end if
       allocate (vectors(chain%unknowns, size(modes%lambda)))
       call find_starts(near, modes, chain, vectors)
       call find_subspace_modes(chain, vectors, accurate_vectors, found, error)
+      counts%operator_products = counts%operator_products + found%products
       products = products + found%products
       found%products = products
       if (allocated(error)) return
       call is_complete(least, count_limit(found%lambda(wanted + guards(i))), &
         modes%lambda(:wanted + guards(i)), modes%mass_times(:, :wanted + guards(i)), proven)
-      if (proven) return
+      counts%factorizations = counts%factorizations + 1
+      if (proven) then
+        counts%proofs = counts%proofs + 1
+        return
+      end if
       deallocate (vectors)
     end do
     call set_error(error, error_of_numerics, &

@@ -112,9 +112,7 @@ contains
       end if
       least = work%mesh%equations%pencil
       call find_chain_modes(near, own, least, start(k), request%modes, want_shapes(k), &
-        work%chain, found, error)
-      result%counts%operator_products = result%counts%operator_products + found%products
-      result%counts%factorizations = result%counts%factorizations + 1
+        work%chain, result%counts, found, error)
       if (allocated(error)) then
         call move_alloc(error, result%outcome(k)%error)
         cycle
