@@ -1,6 +1,7 @@
 !> Choice of the polynomial orders that reach a given accuracy, link by link.
 module order_choice
   use axial_forces, only: distributed_unit_forces, total_force
+  use axial_limits, only: refuse_crushed
   use beam_element, only: axial_degree
   use beam_mesh, only: beam_t
   use body_lumps, only: lump_places, pieces_of
@@ -48,7 +49,7 @@ module order_choice
 
   !> Share of the accuracy that one part of a link may use at the samples: other positions may be
   !! worse.
-  real(wp), parameter :: share = 0.1_wp
+  real(wp), parameter :: share = 0.05_wp
 
   !> Unknowns across beyond the number of modes that all links together have at least.
   integer, parameter :: spare_unknowns = 8
@@ -363,6 +364,7 @@ contains
           any(abs(tried) > 0.0_wp, dim=2))
         force = distributed_unit_forces(linkage, state%pose, loads)
         call clear_outcome(outcome)
+        call refuse_crushed(linkage, model, force, tried, outcome)
         call assemble_equations(linkage, model, state%pose, force, tried, work%equations, counts)
         call solve_speeds(state%crank, tried, demand%modes, spread(.false., 1, size(found)), work, &
           found, outcome, counts)

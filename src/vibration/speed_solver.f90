@@ -53,6 +53,10 @@ contains
     logical :: from_track
 
     do k = 1, size(factor, 2)
+      if (allocated(outcome(k)%error)) then
+        work%tracks(k)%length = 0
+        cycle
+      end if
       call set_speed(work%equations, factor(:, k))
       start = extrapolated_start(work%tracks(k), place, longest_step)
       call find_bordered_modes(work%equations%pencil, modes, accurate_vectors(k), start, found(k), &
@@ -61,7 +65,7 @@ contains
       counts%reduced_solutions = counts%reduced_solutions + found(k)%reduced_solutions
       counts%full_solutions = counts%full_solutions + found(k)%full_solutions
       if (allocated(error)) then
-        if (.not. allocated(outcome(k)%error)) call move_alloc(error, outcome(k)%error)
+        call move_alloc(error, outcome(k)%error)
         work%tracks(k)%length = 0
         cycle
       end if
