@@ -50,6 +50,13 @@ module link_modes
     real(wp), allocatable :: axial_participation(:, :) !! (2, axial modes)
     real(wp), allocatable :: geometric(:, :, :)       !! (2 + modes, 2 + modes, force functions) `∫
                                                       !! b v' v' dx`
+    !> Norms of the magnitudes of which the curve of the clamped end (0) and the own modes are made:
+    !! as large as the modes, or larger where terms cancel in them (0:modes; modes) [√kg]
+    real(wp), allocatable :: terms(:)
+    real(wp), allocatable :: axial_terms(:)
+    real(wp), allocatable :: slope_norm(:)            !! (2 + modes) norms of the slopes of the chord,
+                                                      !! the curve of the clamped end, the own modes
+    real(wp), allocatable :: slope_terms(:)           !! (2 + modes) and of the magnitudes in them
     type(next_orders_t) :: next                       !! of the transverse displacement
     type(next_orders_t) :: axial_next
     real(wp) :: clamp_station(stations) = 0.0_wp      !! the curve of the clamped end there
@@ -162,6 +169,10 @@ contains
     slope(:, rigid) = bending%root
     slope(:, clamp:) = matmul(bending%slope(:, :kept), link%bending)
     call integrate_slopes(bending, lumped, jumps, slope, link%geometric)
+    link%terms = norms_of_terms(bending%displacement(:, :kept), link%bending)
+    link%slope_norm = norm2(slope, dim=1)
+    link%slope_terms = [link%slope_norm(rigid), norms_of_terms(bending%slope(:, :kept), &
+      link%bending)]
     call place_stations(link)
     call add_axial(axial, size(axial_own, 1), link)
     if (bending%by_degree .and. bending%unknowns > kept .and. .not. lumped) then
@@ -169,6 +180,14 @@ contains
       link%next = new_next_orders(bending, shape(:, 2:), functions, slope, jumps)
     end if
   end subroutine new_link_modes
+
+  !> Norms of the columns of `|A| |B|`.
+  pure function norms_of_terms(a, b) result(norms)
+    real(wp), intent(in) :: a(:, :), b(:, :)
+    real(wp) :: norms(size(b, 2))
+
+    norms = norm2(matmul(abs(a), abs(b)), dim=1)
+  end function norms_of_terms
 
   !> Rotation of a link's end under a moment there that does unit work, the other end hinged: the
   !! norm of the start slopes.
@@ -269,6 +288,7 @@ contains
     shape = matmul(axial%displacement(:, :kept), link%axial)
     link%axial_square = [(dot_product(shape(:, i), shape(:, i)), i=1, link%axial_modes)]
     link%axial_participation = matmul(transpose(axial%linear), shape)
+    link%axial_terms = norms_of_terms(axial%displacement(:, :kept), link%axial)
     if (axial%by_degree .and. axial%unknowns > kept) link%axial_next = new_next_orders(axial, &
       shape, axial%linear, no_slope, no_jumps)
   end subroutine add_axial

@@ -9,6 +9,7 @@ module position_solver
   use link_modes, only: stations
   use linkages, only: linkage_t
   use load_cases, only: case_count, find_unit_loads, unit_loads_t
+  use matrix_rounding, only: force_sizes, matrix_error
   use mesh_solver, only: solve_long_mesh, solve_mesh
   use modal_assurance, only: new_mode_prints
   use nodal_solver, only: solve_nodal
@@ -99,8 +100,9 @@ contains
         result%lambda(:, k) = found(k)%lambda(:request%modes)
         call pose_error(structure%linkage, models%continuum, state, factor(:, k), found(k), &
           request%modes, rounding, result%counts)
-        result%error(:, k) = of_frequency*(sum(discretisation, dim=1) + &
-          found(k)%error(:request%modes) + rounding)
+        rounding = rounding + found(k)%error(:request%modes) + matrix_error(models%continuum, &
+          chords, force_sizes(unit_force, factor(:, k)), found(k), request%modes)
+        result%error(:, k) = of_frequency*(sum(discretisation, dim=1) + rounding)
       end do
     end associate
     if (request%follow) then
