@@ -21,8 +21,8 @@ unit_tests = $(if $(PFUNIT_DIR),pfunit,funit)/unit_tests
 
 ifndef kind
 # ---------------------------------------------------------------------------------------------- what a person types
-.PHONY: all debug quad thesis run figures animate check bench bench-pictures stress references fuzz memory golden install setup \
-        clean help
+.PHONY: all debug quad thesis run figures animate check bench bench-pictures stress accuracies references fuzz memory golden \
+        install setup clean help
 
 all: setup
 	$(stage) kind=release $(program)
@@ -92,6 +92,11 @@ memory:
 stress: all
 	@python3 -B tests/stress/run_stress.py $(program)
 
+# The same SEED makes the same decks.
+FREQUENCIES ?= 100000
+accuracies: all
+	@python3 -B tests/stress/compare_accuracies.py $(program) --frequencies $(FREQUENCIES) --seed $(SEED)
+
 # Quadruple precision for every case of `make stress`: some minutes.
 references: all quad
 	@python3 -B tests/stress/make_references.py $(program) build/quad/flexmech
@@ -128,6 +133,7 @@ help:
 	@echo "make fuzz               10,000 odd decks under the debug build; FUZZ=500 SEED=7 for fewer, and for others"
 	@echo "make memory             every deck of inputs/ under the sanitizers of addresses, leaks and undefined behaviour"
 	@echo "make stress             errors told against errors made, in all corners, with figures, in outputs/stress/"
+	@echo "make accuracies         random decks at several accuracies, each against the finest; FREQUENCIES=5000 SEED=7"
 	@echo "make references         make the quadruple-precision values of make stress anew (hours)"
 	@echo "make quad               build build/quad/flexmech, the program in quadruple precision (slow)"
 	@echo "make golden CASE=NAME   make tests/golden/NAME/ anew from inputs/NAME.deck"

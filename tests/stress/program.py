@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+import threading
 from decimal import Decimal
 
 LONGEST = 1800  # seconds
@@ -15,20 +16,45 @@ class Row:
         self.place, self.frequencies, self.errors, self.failure = place, frequencies, errors, failure
 
 
+class Run:
+    """What came of a deck: exit status (none if it took too long), all messages, rows, processor time [s]."""
+
+    def __init__(self, status, messages, rows, seconds):
+        self.status, self.messages, self.rows, self.seconds = status, messages, rows, seconds
+
+
 def run_deck(program, deck, folder, name):
     """Exit status, the error messages, and the rows of the table."""
+    run = timed_run(program, deck, folder, name, ("--quiet",))
+    if run.status is None:
+        raise TimeoutError(f"{name}: no end after {LONGEST} s")
+    return run.status, run.messages, run.rows
+
+
+def timed_run(program, deck, folder, name, options=(), longest=None):
+    """The same, with the processor time of the run; one that takes longer than told has no exit status."""
     os.makedirs(folder, exist_ok=True)
-    path = os.path.join(folder, name + ".deck")
-    with open(path, "w", encoding="utf-8") as file:
+    path = os.path.join(folder, name)
+    with open(path + ".deck", "w", encoding="utf-8") as file:
         file.write(deck)
-    run = subprocess.run([program, "--quiet", "--out", folder, path], stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                         timeout=LONGEST, check=False)
-    table = os.path.join(folder, name, "frequencies.dat")
-    rows = read_table(table) if run.returncode in (0, 1) else []
-    if run.returncode in (0, 1):
-        shutil.rmtree(os.path.join(folder, name), ignore_errors=True)
-    os.remove(path)
-    return run.returncode, run.stderr, rows
+    with open(path + ".messages", "w", encoding="utf-8") as told:
+        process = subprocess.Popen([program, *options, "--out", folder, path + ".deck"], stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.DEVNULL, stderr=told)
+        stopped = threading.Event()
+        alarm = threading.Timer(longest or LONGEST, lambda: (stopped.set(), process.kill()))
+        alarm.start()
+        # The usage of this one child; that of all would mix what runs at a time.
+        _, status, usage = os.wait4(process.pid, 0)
+        alarm.cancel()
+    process.returncode = os.waitstatus_to_exitcode(status)
+    status = None if stopped.is_set() else process.returncode
+    with open(path + ".messages", encoding="utf-8", errors="replace") as file:
+        messages = file.read()
+    rows = read_table(os.path.join(path, "frequencies.dat")) if status in (0, 1) else []
+    shutil.rmtree(path, ignore_errors=True)
+    os.remove(path + ".messages")
+    os.remove(path + ".deck")
+    return Run(status, messages, rows, usage.ru_utime + usage.ru_stime)
 
 
 def read_table(path):
