@@ -1,14 +1,23 @@
 """The families of the stress test: every function yields its cases."""
 
+import glob
+import os
 from decimal import Decimal
 
-from decks import FIRST, RADIAN, Case, Linkage
+from decks import FIRST, RADIAN, Case, Linkage, WrittenCase
 from random_linkages import random_cases
+from verdicts import BOUNDED, FAILED
 
 TEN = Decimal(10)
 SOLVERS = ("deformation", "dense", "band")
 STRIP_AREA, STRIP_INERTIA = Decimal("40.64"), Decimal("8.6698666666666666667")  # 1.6 × 25.4 mm
+LINKS = ("crank", "coupler", "follower")
+TIMOSHENKO = "axial rotary shear"
 LINK_MASS = Decimal("7.8e-9") * STRIP_AREA * Decimal("279.4")
+
+# Of the decks in bounds/: one has no lowest frequency, one is near a dead point but far enough; one takes long.
+BOUNDS_WANTED = {17: FAILED, 18: BOUNDED}
+BOUNDS_ALONE = (16,)
 
 # Crank speed at which the lowest eigenvalue of the first mechanism at 60 degrees is zero [rad/s].
 CRITICAL_SPEED = Decimal("197.81054170615117302248815671116894")
@@ -172,6 +181,100 @@ def units():
                 yield Case("units", TEN**k, f"{name}-{label}", linkage, (0, 60, 240), (0, 20*TEN**-t), mesh, solver)
 
 
+def masses_on(ratio, number, thickness=Decimal("1.6")):
+    """Cards of masses spread along every link of the first mechanism, together so many times the mass of their link."""
+    for link, length in zip(LINKS, FIRST.lengths):
+        mass = ratio*Decimal("7.8e-9")*Decimal("25.4")*thickness*length/number
+        for i in range(number):
+            # Not evenly, so that no two pieces of a link are alike.
+            at = Decimal(length)*(2*i + 1)/(2*number)*(1 - Decimal(i % 2)/20)
+            yield f"MASS {link} {mass.normalize():e} at={round(at, 10).normalize():f}"
+
+
+def link_masses():
+    """Masses along links, in units of the mass of their link."""
+    for ratio in ladder(-2, 6):
+        speed = round(2/max(Decimal(1), ratio).sqrt(), 20)  # so that the loads stay what they are
+        for number, modes in ((1, 3), (1, 20), (3, 3), (3, 10), (3, 20)):
+            linkage = Linkage(254, FIRST.lengths, more=tuple(masses_on(ratio, number)))
+            yield Case("link_masses", ratio, f"{number}-{modes}modes", linkage, (40,), (0, speed), modes=modes)
+        linkage = Linkage(254, FIRST.lengths, more=tuple(masses_on(ratio, 1)))
+        for label, mesh, solver in list(ways(2, 8))[1:]:
+            yield Case("link_masses", ratio, label, linkage, (40,), (0, speed), mesh, solver)
+
+
+def many_modes():
+    """Ever more modes of slender links."""
+    for modes in (3, 5, 10, 20, 30, 40, 60, 80, 100):
+        yield Case("many_modes", modes, "accuracy", FIRST, (60,), (0, 20), modes=modes)
+        yield Case("many_modes", modes, "loose", FIRST, (60,), (0, 20), "MESH * accuracy=1e-4", modes=modes)
+        for solver in SOLVERS:
+            yield Case("many_modes", modes, solver, FIRST, (60,), (0, 20), "MESH * elements=40", solver, modes=modes)
+
+
+def stout(ratio):
+    """The first mechanism with links so many thicknesses long."""
+    sections = [f"rectangle thickness={round(length/ratio, 12).normalize():f} width=25.4" for length in map(Decimal, FIRST.lengths)]
+    return Linkage(254, FIRST.lengths, sections, ["E=200000 density=7.8e-9 nu=0.3"]*3)
+
+
+def thick_links():
+    """Stout links with rotary inertia and shear; speeds in step with the stiffness."""
+    for ratio in (Decimal("2.5"), Decimal("3.5"), Decimal(5), Decimal(7), Decimal(10)):
+        speed = round(2000/ratio, 10)
+        for modes in (5, 10, 20, 40):
+            yield Case("thick_links", ratio, f"{modes}modes", stout(ratio), (60,), (0, speed), modes=modes, effects=TIMOSHENKO)
+        for label, mesh, solver in list(ways(3, 6))[1:]:
+            yield Case("thick_links", ratio, label, stout(ratio), (60,), (0, speed), mesh, solver, modes=5, effects=TIMOSHENKO)
+
+
+def compression():
+    """A force on pin B that compresses the links there, up to a thousand times what buckles the follower."""
+    for times in (Decimal(k)*TEN**e for e in range(-1, 3) for k in (1, 2, 5)):
+        yield from compressed(times)
+    yield from compressed(Decimal(1000))
+
+
+def compressed(times):
+    for label, linkage, effects in (("strip", Linkage(254, FIRST.lengths), "axial"), ("thick", stout(Decimal(100)), TIMOSHENKO)):
+        thickness = Decimal(linkage.sections[2].split("thickness=")[1].split()[0])
+        euler = Decimal("9.8696044010893586188")*200000*Decimal("25.4")*thickness**3/12/Decimal("266.7")**2
+        linkage.more = (f"FORCE B 0 {round(-times*euler, 12).normalize():f}",)
+        for modes in (3, 10):
+            yield Case("compression", times, f"{label}-{modes}modes", linkage, (60,), modes=modes, effects=effects)
+        yield Case("compression", times, f"{label}-mesh", linkage, (60,), (0,), "MESH * elements=6 order=8", "deformation",
+                   effects=effects)
+
+
+def promises():
+    """The orders chosen for an accuracy where links carry masses, are stout, compressed, or have many modes."""
+    for k in range(2, 13):
+        mesh = f"MESH * accuracy=1e-{k}"
+        loaded = Linkage(254, FIRST.lengths, more=tuple(masses_on(TEN**2, 3)))
+        yield Case("promises", TEN**-k, "masses", loaded, (40,), (0, Decimal("0.2")), mesh, modes=10)
+        yield Case("promises", TEN**-k, "slender", FIRST, (60,), (0, 20), mesh, modes=40)
+        yield Case("promises", TEN**-k, "stout", stout(Decimal(5)), (60,), (0, 400), mesh, modes=10, effects=TIMOSHENKO)
+        for times in (10, 100):
+            case = next(case for case in compressed(Decimal(times)) if case.variant == "strip-3modes")
+            case.family, case.parameter, case.variant, case.mesh = "promises", TEN**-k, f"compressed-{times}", mesh
+            yield case
+
+
+def bounds():
+    """Decks whose errors were once above what was told of them, or above accuracy=; at the accuracies of then and others."""
+    for path in sorted(glob.glob(os.path.join("tests", "stress", "bounds", "*.deck"))):
+        name = os.path.basename(path)
+        number = int(name.split("_")[0])
+        wanted = BOUNDS_WANTED.get(number)
+        own = WrittenCase("bounds", number, path, wanted=wanted)
+        yield own
+        if number not in BOUNDS_ALONE:
+            for accuracy in ("1e-2", "1e-5", "1e-8", "1e-10", "1e-13"):
+                if accuracy != own.variant:
+                    yield WrittenCase("bounds", number, path, accuracy, wanted)
+
+
 FAMILIES = {function.__name__: function for function in (
-    elements, orders, accuracy, thickness, stiffness, lengths, pin_masses, dead_points, speeds, divergence, near_equal, units)}
+    elements, orders, accuracy, thickness, stiffness, lengths, pin_masses, dead_points, speeds, divergence, near_equal, units,
+    link_masses, many_modes, thick_links, compression, promises, bounds)}
 FAMILIES["random"] = random_cases
