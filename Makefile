@@ -214,8 +214,8 @@ $(build)/flexmech: $(modules) $(build)/main.o
 	$(compile) $^ $(libraries) -o $@
 
 # ------------------------------------------------------------- the program that times solvers; sources in the order of use
-bench_sources = $(patsubst %,tests/bench/%.f90,bench_cases exact_values nodal_runs bench_models bench_runs bench_plans machine \
-                                               bench_tables bench_ratios bench)
+bench_sources = $(patsubst %,tests/bench/%.f90,bench_cases exact_values nodal_runs bench_models bench_runs bench_corners bench_plans \
+                                               machine bench_tables bench_ratios bench)
 
 $(build)/bench/bench: $(bench_sources) $(modules)
 	@echo "link $@"

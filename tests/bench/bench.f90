@@ -1,11 +1,13 @@
 !> Times the program's solvers and the usual ones, in turn, and writes tables.
 !!
-!!     bench PROGRAM FOLDER LIBRARIES [short]
+!!     bench PROGRAM FOLDER LIBRARIES [short|corners]
 !!
+!! `short`: a few cases once. `corners`: only the decks of tests/bench/corners, those that are slow once or three times.
 !! PROGRAM is also timed as a whole; tables go to FOLDER; LIBRARIES names the BLAS that was linked. Run in the root of the repository.
 program bench
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
   use bench_cases, only: plan_t, table_names, with_accuracy
+  use bench_corners, only: corner_t, prepare_corner, read_corners, time_corner, write_corners
   use bench_models, only: base_t, read_base
   use bench_plans, only: plan_cases
   use bench_ratios, only: write_ratios
@@ -24,6 +26,7 @@ program bench
   character(len=*), parameter :: job_list = "--version inputs/mechanism1.deck inputs/exact.deck tests/bench/typical.deck"
   character(len=*), parameter :: long_job_list = " tests/bench/positions.deck tests/bench/variants.deck"
   type(plan_t) :: plan
+  type(corner_t), allocatable :: corners(:)
   type(base_t) :: base
   type(exact_values_t) :: exact
   type(error_t), allocatable :: error
@@ -31,11 +34,17 @@ program bench
   real(wp), allocatable :: times(:, :)
   integer(long) :: start
   integer :: i, k, order(3), rounds
-  logical :: short, done
+  logical :: short, only_corners, done
 
   words = arguments()
-  if (size(words) < 3 .or. size(words) > 4) call give_up("usage: bench PROGRAM FOLDER LIBRARIES [short]")
-  short = size(words) == 4
+  if (size(words) < 3 .or. size(words) > 4) call give_up("usage: bench PROGRAM FOLDER LIBRARIES [short|corners]")
+  short = .false.
+  only_corners = .false.
+  if (size(words) == 4) then
+    short = words(4)%text == "short"
+    only_corners = words(4)%text == "corners"
+    if (.not. (short .or. only_corners)) call give_up(words(4)%text//": neither short nor corners")
+  end if
   rounds = merge(short_repetitions, repetitions, short)
   call make_directories(words(2)%text, done, made)
   if (.not. done) call give_up(words(2)%text//": this folder cannot be made")
@@ -45,7 +54,7 @@ program bench
   call give_up_on(error)
 
   call system_clock(start)
-  plan = plan_cases(omp_get_num_procs(), short)
+  if (.not. only_corners) plan = plan_cases(omp_get_num_procs(), short)
   order = 3
   do i = 1, plan%count
     associate (this => plan%cases(i))
@@ -55,16 +64,30 @@ program bench
       if (this%solver == with_accuracy) order = this%order
     end associate
   end do
-  write (output_unit, "(a)") "bench: "//to_string(plan%count)//" cases solved once, "//to_string(seconds_since(start), 3)//" s"
+  call read_corners(short, corners, error)
+  call give_up_on(error)
+  do i = 1, size(corners)
+    call prepare_corner(corners(i), error)
+    call give_up_on(error)
+    write (output_unit, "(a)") "bench: "//corners(i)%name//" solved once, "//to_string(seconds_since(start), 3)//" s"
+  end do
+  write (output_unit, "(a)") "bench: "//to_string(plan%count)//" cases and "//to_string(size(corners))// &
+    " decks solved once, "//to_string(seconds_since(start), 3)//" s"
 
   ! In turn: a slow minute of the machine then comes to all.
   jobs = word_list(job_list//long_job_list)
   if (short) jobs = word_list(job_list)
+  if (only_corners) jobs = jobs(:0)
   allocate (times(size(jobs), rounds))
   do k = 1, rounds
     do i = 1, plan%count
       if (len(plan%cases(i)%failure) > 0 .or. (plan%cases(i)%is_long .and. k > of_long)) cycle
       call time_case(base, plan%cases(i), error)
+      call give_up_on(error)
+    end do
+    do i = 1, size(corners)
+      if (k > corners(i)%most_rounds) cycle
+      call time_corner(corners(i), error)
       call give_up_on(error)
     end do
     do i = 1, size(jobs)
@@ -75,6 +98,9 @@ program bench
   end do
 
   notes = machine_notes(words(3)%text)
+  call write_corners(words(2)%text, notes, corners, error)
+  call give_up_on(error)
+  if (only_corners) stop
   do i = 1, size(table_names())
     call write_plan(words(2)%text, i, notes, plan, error)
     call give_up_on(error)
