@@ -70,6 +70,7 @@ program bench
     call prepare_corner(corners(i), error)
     call give_up_on(error)
     write (output_unit, "(a)") "bench: "//corners(i)%name//" solved once, "//to_string(seconds_since(start), 3)//" s"
+    flush (output_unit)
   end do
   write (output_unit, "(a)") "bench: "//to_string(plan%count)//" cases and "//to_string(size(corners))// &
     " decks solved once, "//to_string(seconds_since(start), 3)//" s"
@@ -100,7 +101,7 @@ program bench
   notes = machine_notes(words(3)%text)
   call write_corners(words(2)%text, notes, corners, error)
   call give_up_on(error)
-  if (only_corners) stop
+  if (only_corners) stop, quiet=.true.
   do i = 1, size(table_names())
     call write_plan(words(2)%text, i, notes, plan, error)
     call give_up_on(error)

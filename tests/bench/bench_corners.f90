@@ -95,7 +95,7 @@ contains
     new%failure = ""
   end function new_corner
 
-  !> The first round of a deck: rows, unknowns, the error of LAPACK beside it, and how often both are timed again. Errors: a row fails.
+  !> The first round of a deck: rows, unknowns, the error of LAPACK beside it, how often both are timed again. Errors: a row fails.
   subroutine prepare_corner(this, error)
     type(corner_t), intent(inout) :: this
     type(error_t), allocatable, intent(out) :: error

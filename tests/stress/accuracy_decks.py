@@ -114,7 +114,8 @@ def link_cards(draw, links, things):
             if draw.uniform() < 0.6:
                 mass = few_digits(link.mass()*draw.power(-1, 1))
                 card += f" mass={mass} inertia={few_digits(mass*link.length**2*draw.power(-2, 0))}"
-                card += f" center={few_digits(link.length*draw.uniform(-0.3, 1.3))},{few_digits(link.length*draw.uniform(-0.5, 0.5))}"
+                along, beside = link.length*draw.uniform(-0.3, 1.3), link.length*draw.uniform(-0.5, 0.5)
+                card += f" center={few_digits(along)},{few_digits(beside)}"
         lines.append(card)
     return lines
 
