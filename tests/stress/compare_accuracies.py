@@ -87,7 +87,7 @@ def judge_deck(found, deck, runs):
 def judge_run(found, deck, accuracy, text, run, is_reference):
     """Exit status, time, failed rows, and whether the accuracy was kept."""
     if run.status is None:
-        found.slow.add(f"{deck.kind} at accuracy={accuracy}", deck.name)
+        found.slow.add(deck.kind, deck.name, f"{accuracy}: ")
     elif run.status == 2 and run.messages.strip():
         refusal = next((line for line in run.messages.splitlines() if "error: " in line), run.messages)
         found.refused.add(refusal.split("error: ", 1)[-1], deck.name)
