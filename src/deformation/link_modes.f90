@@ -52,7 +52,7 @@ module link_modes
                                                       !! b v' v' dx`
     !> Norms of the magnitudes of which the curve of the clamped end (0) and the own modes are made:
     !! as large as the modes, or larger where terms cancel in them (0:modes; modes) [√kg]
-    real(wp), allocatable :: terms(:)
+    real(wp), allocatable :: terms(:)                 !! from 0
     real(wp), allocatable :: axial_terms(:)
     real(wp), allocatable :: slope_norm(:)            !! (2 + modes) norms of the slopes of the chord,
                                                       !! the curve of the clamped end, the own modes
@@ -169,6 +169,7 @@ contains
     slope(:, rigid) = bending%root
     slope(:, clamp:) = matmul(bending%slope(:, :kept), link%bending)
     call integrate_slopes(bending, lumped, jumps, slope, link%geometric)
+    allocate (link%terms(0:link%modes))
     link%terms = norms_of_terms(bending%displacement(:, :kept), link%bending)
     link%slope_norm = norm2(slope, dim=1)
     link%slope_terms = [link%slope_norm(rigid), norms_of_terms(bending%slope(:, :kept), &

@@ -2,7 +2,8 @@
 !!
 !! With r the residual of a mode in the equations of the unknowns of these orders, and C their
 !! matrix `K + K_G − λ M`, the eigenvalue falls by `rᵀ C⁻¹ r` as long as that is little. The unknowns of
-!! one piece are not coupled with those of another.
+!! one piece are not coupled with those of another. What they do, `C⁻¹ r`, acts back on the unknowns
+!! in use, which yield; where links are pressed or pulled hard, that adds as much again.
 module order_changes
   use bordered_matrix, only: layout_t
   use kinds, only: wp
@@ -19,9 +20,15 @@ module order_changes
   type :: order_change_t
     real(wp) :: near = 0.0_wp   !! by the first half of these orders [1/s²]
     real(wp) :: all = 0.0_wp    !! by all of them [1/s²]
+    real(wp) :: echo = 0.0_wp   !! what is added, to first order, because the unknowns in use yield to
+                                !! the new ones [1/s²]
     logical :: definite = .true. !! C is positive definite; if not, the orders are far too low, and
                                  !! the changes are magnitudes only
   end type order_change_t
+
+  !> Unknowns in use whose own eigenvalue is near that of the mode take part in the mode itself: no
+  !! unknown is taken to be softer than this.
+  real(wp), parameter :: least_stiffness = 0.25_wp
 
 contains
 
@@ -45,10 +52,12 @@ contains
   end function part_of
 
   !> The changes of some eigenvalues by the next orders.
-  pure subroutine find_order_changes(links, layout, chords, force, vectors, lambda, change)
+  pure subroutine find_order_changes(links, layout, chords, border_mass, force, vectors, lambda, &
+      change)
     type(link_modes_t), intent(in) :: links(:) !! (bodies)
     type(layout_t), intent(in) :: layout       !! of these links
     type(chords_t), intent(in) :: chords       !! of this position
+    real(wp), intent(in) :: border_mass(:)     !! (border) diagonal of M [s²]
     real(wp), intent(in) :: force(:, :)        !! (force functions, bodies) at this speed; no
                                                !! functions: static [N]
     real(wp), intent(in) :: vectors(:, :)      !! (unknowns, modes) with yᵀMy = 1
@@ -56,6 +65,7 @@ contains
     type(order_change_t), intent(out) :: change(:, :) !! (parts, modes)
 
     real(wp) :: ends(3), turn
+    real(wp), allocatable :: stiffness(:)
     integer :: b, e, i, k, first, last, axial, part, low, high
 
     part = 0
@@ -63,6 +73,7 @@ contains
       associate (link => links(b), next => links(b)%next)
         first = layout%first(b)
         last = first + link%modes - 1
+        stiffness = own_stiffness(link, force, b)
         do e = 1, next%pieces
           part = part + 1
           low = (e - 1)*next%number + 1
@@ -93,18 +104,23 @@ contains
               end associate
               matrix = square - lambda(i)*next%mass_square(:, :, e)
               call eliminate(matrix, residual, change(part, i))
+              call add_echo(next%mass(:, low:high), slopes, link%square, stiffness, lambda(i), &
+                residual, change(part, i)%echo)
+              call add_border_echo(chords%across(:, :, b), next%participation(:, low:high), &
+                border_mass, lambda(i), residual, change(part, i)%echo)
             end do
           end block
         end do
       end associate
       associate (next => links(b)%axial_next)
+        stiffness = spread(1.0_wp, 1, links(b)%axial_modes)
         axial = first_axial(layout, links, b)
         last = axial + links(b)%axial_modes - 1
         do e = 1, next%pieces
           part = part + 1
           low = (e - 1)*next%number + 1
           block
-            real(wp) :: residual(next%number), matrix(next%number, next%number)
+            real(wp) :: residual(next%number), matrix(next%number, next%number), no_slopes(0, 0)
 
             do i = 1, size(lambda)
               associate (border => vectors(:layout%border, i), own => vectors(axial:last, i))
@@ -118,6 +134,10 @@ contains
               end associate
               matrix = -lambda(i)*next%mass_square(:, :, e)
               call eliminate(matrix, residual, change(part, i))
+              call add_echo(next%mass(:, low:low + next%number - 1), no_slopes, &
+                links(b)%axial_square, stiffness, lambda(i), residual, change(part, i)%echo)
+              call add_border_echo(chords%along(:, :, b), next%participation(:, low:low + &
+                next%number - 1), border_mass, lambda(i), residual, change(part, i)%echo)
             end do
           end block
         end do
@@ -150,35 +170,109 @@ contains
     end do
   end subroutine weigh
 
-  !> `rᵀ C⁻¹ r`, by elimination: of the first half of the unknowns, and of all.
+  !> Diagonal of `K + K_G` of the own modes of a link.
+  pure function own_stiffness(link, force, b) result(stiffness)
+    type(link_modes_t), intent(in) :: link
+    real(wp), intent(in) :: force(:, :)
+    integer, intent(in) :: b
+    real(wp) :: stiffness(link%modes)
+
+    integer :: j, k
+
+    stiffness = 1.0_wp
+    do j = 1, min(size(force, 1), size(link%geometric, 3))
+      do k = 1, link%modes
+        stiffness(k) = stiffness(k) + force(j, b)*link%geometric(clamp + k, clamp + k, j)
+      end do
+    end do
+  end function own_stiffness
+
+  !> `rᵀ C⁻¹ r`, of the first half of the unknowns, and of all; and `C⁻¹ r`.
   pure subroutine eliminate(matrix, residual, change)
     real(wp), intent(inout) :: matrix(:, :)  !! C less the unit matrix; destroyed
-    real(wp), intent(inout) :: residual(:)   !! r; destroyed
+    real(wp), intent(inout) :: residual(:)   !! r; becomes C⁻¹ r
     type(order_change_t), intent(out) :: change
 
     !> Pivots below this are not trusted: the eigenvalue is near, or above, those of the new
     !! unknowns alone.
     real(wp), parameter :: least_pivot = 0.1_wp
-    real(wp) :: pivot, factor
+    real(wp) :: pivot(size(residual)), factor
     integer :: i, j, k, n
 
     n = size(residual)
     do k = 1, n
-      pivot = 1.0_wp + matrix(k, k)
-      if (pivot < least_pivot) then
+      pivot(k) = 1.0_wp + matrix(k, k)
+      if (pivot(k) < least_pivot) then
         change%definite = .false.
-        pivot = max(abs(pivot), least_pivot)
+        pivot(k) = max(abs(pivot(k)), least_pivot)
       end if
-      change%all = change%all + residual(k)**2/pivot
+      change%all = change%all + residual(k)**2/pivot(k)
       if (2*k <= n) change%near = change%all
       do j = k + 1, n
-        factor = matrix(j, k)/pivot
+        factor = matrix(j, k)/pivot(k)
         residual(j) = residual(j) - factor*residual(k)
         do i = j, n
           matrix(i, j) = matrix(i, j) - factor*matrix(i, k)
         end do
       end do
     end do
+    do k = n, 1, -1
+      do i = k + 1, n
+        residual(k) = residual(k) - matrix(i, k)*residual(i)
+      end do
+      residual(k) = residual(k)/pivot(k)
+    end do
   end subroutine eliminate
+
+  !> What the own modes of the link add by yielding, each by itself.
+  pure subroutine add_echo(mass, slopes, square, stiffness, lambda, response, echo)
+    real(wp), intent(in) :: mass(:, :)   !! (modes, unknowns) of a piece
+    real(wp), intent(in) :: slopes(:, :) !! (2 + modes, unknowns) its geometric stiffness; no rows:
+                                         !! none
+    real(wp), intent(in) :: square(:)    !! (modes) own inertia
+    real(wp), intent(in) :: stiffness(:) !! (modes) diagonal of K + K_G
+    real(wp), intent(in) :: lambda
+    real(wp), intent(in) :: response(:)  !! (unknowns)
+    real(wp), intent(inout) :: echo
+
+    real(wp) :: acting
+    integer :: i, k
+
+    do k = 1, size(square)
+      acting = 0.0_wp
+      do i = 1, size(response)
+        acting = acting - lambda*mass(k, i)*response(i)
+      end do
+      if (size(slopes) > 0) then
+        do i = 1, size(response)
+          acting = acting + slopes(clamp + k, i)*response(i)
+        end do
+      end if
+      echo = echo + acting**2/max(abs(stiffness(k) - lambda*square(k)), least_stiffness)
+    end do
+  end subroutine add_echo
+
+  !> What the border adds by yielding to the inertia of the new unknowns.
+  pure subroutine add_border_echo(ends, participation, border_mass, lambda, response, echo)
+    real(wp), intent(in) :: ends(:, :)          !! (functions, border) what the border does to the
+                                                !! link
+    real(wp), intent(in) :: participation(:, :) !! (functions, unknowns)
+    real(wp), intent(in) :: border_mass(:)
+    real(wp), intent(in) :: lambda
+    real(wp), intent(in) :: response(:)
+    real(wp), intent(inout) :: echo
+
+    real(wp) :: acting(size(participation, 1))
+    integer :: i
+
+    acting = 0.0_wp
+    do i = 1, size(response)
+      acting = acting - lambda*participation(:, i)*response(i)
+    end do
+    do i = 1, size(border_mass)
+      echo = echo + dot_product(acting, ends(:, i))**2/max(abs(1.0_wp - lambda*border_mass(i)), &
+        least_stiffness)
+    end do
+  end subroutine add_border_echo
 
 end module order_changes

@@ -38,6 +38,10 @@ module bordered_eigensolver
                                                    !! these matrices
     integer, allocatable :: origin(:)              !! (modes) number of the mode of the start that
                                                    !! led to it
+    integer :: near = 0                            !! modes wanted, and those within the clearance
+                                                   !! above them
+    real(wp) :: clear = 0.0_wp                     !! relative distance above the last wanted mode
+                                                   !! up to which no mode is missing
     real(wp) :: rest = 0.0_wp                      !! norm that, below 1, proves that no mode up to
                                                    !! the last wanted one is missing
     integer :: factorizations = 0                  !! of the bordered matrix: one per inverse
@@ -76,6 +80,9 @@ module bordered_eigensolver
   !> Modes beyond those wanted in a search without a start: at first, and at most.
   integer, parameter :: first_guards = 2, most_guards = 32
 
+  !> Searches for modes within the clearance, once those wanted are proven.
+  integer, parameter :: most_attempts = 3
+
   !> Approximate relative accuracy of the last eigenvalue of a dense start. Inverse iteration finds
   !! the remaining digits.
   real(wp), parameter :: start_accuracy = 1.0e-6_wp
@@ -94,10 +101,10 @@ contains
   !! complete, from a dense eigenproblem.
   !!
   !! Every mode is improved by inverse iteration at its Rayleigh quotient until the error of its
-  !! eigenvalue is below rounding. Errors: more modes wanted than unknowns; the dense eigenproblem
+  !! eigenvalue is below rounding. If there are modes within the clearance above the last one wanted,
+  !! they are found, too, if that can be done; `found%near` counts them in. Errors: more modes wanted than unknowns; the dense eigenproblem
   !! fails; no start leads to enough modes that are proven to be complete.
-  subroutine find_bordered_modes(pencil, wanted, accurate_vectors, start, &
-    found, error)
+  subroutine find_bordered_modes(pencil, wanted, accurate_vectors, start, found, error, clearance)
     type(bordered_pencil_t), intent(in) :: pencil    !! G and M
     integer, intent(in) :: wanted                    !! number of modes
     logical, intent(in) :: accurate_vectors          !! all digits in the vectors, too, not only in
@@ -105,62 +112,108 @@ contains
     type(start_t), intent(in) :: start               !! used if it has at least the modes wanted
     type(bordered_modes_t), intent(out) :: found     !! the modes wanted, perhaps more
     type(error_t), allocatable, intent(out) :: error !! allocated on failure
+    real(wp), intent(in), optional :: clearance      !! relative distance above the last wanted mode
+                                                     !! within which modes are to be found, too;
+                                                     !! absent: 0
 
     type(start_t) :: dense_start
+    type(bordered_modes_t) :: proven_modes
     integer, allocatable :: leading(:)
-    integer :: guards
-    logical :: proven
+    integer :: guards, attempt
+    real(wp) :: distance
+    logical :: proven, known
 
     if (wanted > pencil%layout%unknowns) then
       call set_error(error, error_of_numerics, to_string(wanted)// &
         " modes are asked for, and there are only "//to_string(pencil%layout%unknowns)//" unknowns")
       return
     end if
+    distance = 0.0_wp
+    if (present(clearance)) distance = clearance
+    known = .false.
     if (start%modes >= wanted) then
-      call improve_all(pencil, wanted, accurate_vectors, start, found, &
-        proven)
-      if (proven) return
+      call improve_all(pencil, wanted, accurate_vectors, distance, start, found, proven)
+      if (is_enough(found, proven, distance, proven_modes, known)) return
     end if
     leading = leading_unknowns(pencil, wanted)
     guards = first_guards
+    attempt = 0
     ! Nearly all unknowns cost as much as all of them.
     do while (4*size(leading) < 3*pencil%layout%unknowns)
       call solve_dense_start(pencil, leading, wanted + guards, dense_start, found%factorizations, &
         error)
       if (.not. allocated(error)) then
         found%reduced_solutions = found%reduced_solutions + 1
-        call improve_all(pencil, wanted, accurate_vectors, dense_start, found, proven)
-        if (proven) return
+        call improve_all(pencil, wanted, accurate_vectors, distance, dense_start, found, proven)
+        if (is_enough(found, proven, distance, proven_modes, known)) return
       end if
+      attempt = attempt + 1
+      if (known .and. attempt == most_attempts) exit
       leading = softest_unknowns(pencil, 2*size(leading))
       guards = min(2*guards, most_guards)
     end do
-    guards = first_guards
-    do
-      guards = min(2*guards, pencil%layout%unknowns - wanted)
-      call solve_dense_start(pencil, all_unknowns(pencil%layout), wanted + guards, dense_start, &
-        found%factorizations, error)
-      found%full_solutions = found%full_solutions + 1
-      if (allocated(error)) return
-      call improve_all(pencil, wanted, accurate_vectors, dense_start, &
-        found, proven)
-      if (proven) return
-      if (guards == pencil%layout%unknowns - wanted .or. guards >= most_guards) exit
-    end do
-    if (found%rest > 0.0_wp) then
+    if (.not. known) then
+      guards = first_guards
+      do
+        guards = min(2*guards, pencil%layout%unknowns - wanted)
+        call solve_dense_start(pencil, all_unknowns(pencil%layout), wanted + guards, dense_start, &
+          found%factorizations, error)
+        found%full_solutions = found%full_solutions + 1
+        if (allocated(error)) return
+        call improve_all(pencil, wanted, accurate_vectors, distance, dense_start, found, proven)
+        if (is_enough(found, proven, distance, proven_modes, known)) return
+        attempt = attempt + 1
+        if (known .and. attempt >= most_attempts) exit
+        if (guards == pencil%layout%unknowns - wanted .or. guards >= most_guards) exit
+      end do
+    end if
+    if (known) then
+      ! Proven up to the modes wanted; what is just above them was not found.
+      call keep_counts(found, proven_modes)
+      found = proven_modes
+      return
+    end if
+    if (found%rest > 0.0_wp .and. found%rest < huge(found%rest)) then
       call set_error(error, error_of_numerics, &
         "it could not be proven that no mode is missing (norm of the rest "// &
         to_string(found%rest, 3)//")")
+    else if (size(found%lambda) >= wanted) then
+      call set_error(error, error_of_numerics, "it could not be proven that no mode is missing")
     else
       call set_error(error, error_of_numerics, "fewer modes were found than are wanted")
     end if
   end subroutine find_bordered_modes
 
+  !> Whether the modes are proven and reach far enough; if they are proven only, they are kept.
+  logical function is_enough(found, proven, distance, proven_modes, known)
+    type(bordered_modes_t), intent(in) :: found
+    logical, intent(in) :: proven
+    real(wp), intent(in) :: distance
+    type(bordered_modes_t), intent(inout) :: proven_modes
+    logical, intent(inout) :: known !! whether there are proven modes already
+
+    is_enough = proven .and. found%clear >= distance
+    if (is_enough .or. .not. proven .or. known) return
+    proven_modes = found
+    known = .true.
+  end function is_enough
+
+  !> Adds up the work of further attempts.
+  pure subroutine keep_counts(from, to)
+    type(bordered_modes_t), intent(in) :: from
+    type(bordered_modes_t), intent(inout) :: to
+
+    to%factorizations = from%factorizations
+    to%full_solutions = from%full_solutions
+    to%reduced_solutions = from%reduced_solutions
+  end subroutine keep_counts
+
   !> Improves every mode of a start, sorts them, and checks that they are complete.
-  subroutine improve_all(pencil, wanted, accurate_vectors, start, found, proven)
+  subroutine improve_all(pencil, wanted, accurate_vectors, distance, start, found, proven)
     type(bordered_pencil_t), intent(in) :: pencil
     integer, intent(in) :: wanted
     logical, intent(in) :: accurate_vectors
+    real(wp), intent(in) :: distance
     type(start_t), intent(in) :: start
     type(bordered_modes_t), intent(inout) :: found
     logical, intent(out) :: proven
@@ -182,12 +235,15 @@ contains
       number = number + 1
       found%origin(number) = i
     end do
-    if (number < wanted) return
+    if (number < wanted) then
+      call choose_modes(found, [(i, i=1, number)])
+      return
+    end if
     order(:number) = ascending_order(found%lambda(:number))
     if (number < start%modes .or. any(order(2:number) < order(:number - 1))) then
       call choose_modes(found, order(:number))
     end if
-    call check(pencil, wanted, found, proven)
+    call check(pencil, wanted, distance, found, proven)
   end subroutine improve_all
 
   !> Allocates arrays for this many modes; previous contents are lost.
@@ -332,13 +388,14 @@ contains
   !! complement, so no more than k modes lie below μ: those found. The norm is the Frobenius norm,
   !! from sums of squares. Where it is not below 1, and for many modes, a Cholesky factorization may
   !! still prove completeness.
-  subroutine check(pencil, wanted, found, proven)
+  subroutine check(pencil, wanted, distance, found, proven)
     type(bordered_pencil_t), intent(in) :: pencil
     integer, intent(in) :: wanted
+    real(wp), intent(in) :: distance !! relative, above the last wanted mode, to be cleared
     type(bordered_modes_t), intent(inout) :: found
     logical, intent(out) :: proven
 
-    real(wp) :: limit, rest(size(found%lambda)), margin
+    real(wp) :: rest(size(found%lambda)), margin
     integer :: i, kept
 
     proven = .false.
@@ -354,16 +411,15 @@ contains
       found%rest = rest(kept)
       proven = found%rest < most_rest
       margin = 1.0_wp - found%rest
+      found%clear = margin
     end if
-    do i = 1, size(proof_margins)
-      if (proven) exit
-      margin = proof_margins(i)
-      limit = found%lambda(wanted) + margin*abs(found%lambda(wanted))
-      kept = count(found%lambda < limit)
-      call is_complete(pencil, limit, found%lambda(:kept), &
-        found%mass_times(:, :kept), proven)
-      found%factorizations = found%factorizations + 1
-    end do
+    if (proven .and. found%clear < distance) call clear_up_to(distance)
+    if (.not. proven) then
+      if (distance > proof_margins(1)) call clear_up_to(distance)
+      do i = 1, size(proof_margins)
+        if (.not. proven) call clear_up_to(proof_margins(i))
+      end do
+    end if
     if (.not. proven) return
     do i = 1, kept
       found%error(i) = found%error(i)/true_gap(found%lambda, i, wanted, margin) + &
@@ -371,6 +427,31 @@ contains
         found%stiffness_times(:, i), found%lambda(i))
     end do
     if (kept < size(found%lambda)) call choose_modes(found, [(i, i=1, kept)])
+    found%near = max(wanted, count(found%lambda <= found%lambda(wanted) + &
+      distance*abs(found%lambda(wanted))))
+
+  contains
+
+    !> Proves, if it can, that there are no modes but those found up to a relative distance above the
+    !! last wanted one.
+    subroutine clear_up_to(reach)
+      real(wp), intent(in) :: reach
+
+      integer :: below
+      real(wp) :: limit
+      logical :: is_clear
+
+      limit = found%lambda(wanted) + reach*abs(found%lambda(wanted))
+      below = count(found%lambda < limit)
+      call is_complete(pencil, limit, found%lambda(:below), found%mass_times(:, :below), is_clear)
+      found%factorizations = found%factorizations + 1
+      if (.not. is_clear) return
+      proven = .true.
+      kept = below
+      margin = reach
+      found%clear = reach
+    end subroutine clear_up_to
+
   end subroutine check
 
   !> Relative distance of an eigenvalue to the nearest other one. From the last wanted mode on, the

@@ -39,13 +39,16 @@ contains
     type(bordered_pencil_t), intent(in) :: pencil !! G and M
     real(wp), intent(in) :: limit                 !! μ [1/s²]
     real(wp), intent(in) :: directions(:, :)      !! (unknowns, directions) linearly independent
-    real(wp) :: norm
+    real(wp) :: norm                              !! huge where rounding leaves no digit of it
 
     real(wp) :: q(size(directions, 1), size(directions, 2)), e_times_q(size(directions, 1), &
       size(directions, 2))
     real(wp) :: product(size(directions, 1)), square
     integer :: i
 
+    norm = huge(norm)
+    square = squared_norm(pencil, limit)
+    if (loss*square >= most_loss) return
     do i = 1, size(q, 2)
       q(:, i) = perpendicular(directions(:, i), q(:, :i - 1))
       call bordered_times_vector(pencil%layout, pencil%mass, q(:, i), product)
@@ -55,44 +58,8 @@ contains
         e_times_q(:, i) = e_times_q(:, i) - product
       end if
     end do
-    square = squared_norm(pencil, limit)
-    if (loss*square < most_loss) then
-      norm = projected_norm(square, q, e_times_q)
-    else
-      ! With many modes ‖E‖² is so large that the difference has no digits left: the projected
-      ! matrix itself is computed.
-      norm = worked_out_norm(pencil, limit, q)
-    end if
+    norm = projected_norm(square, q, e_times_q)
   end function rest_norm
-
-  !> The same norm, computed column by column of `P E P`.
-  pure function worked_out_norm(pencil, limit, q) result(norm)
-    type(bordered_pencil_t), intent(in) :: pencil
-    real(wp), intent(in) :: limit
-    real(wp), intent(in) :: q(:, :) !! orthonormal columns
-    real(wp) :: norm
-
-    real(wp) :: column(pencil%layout%unknowns), product(pencil%layout%unknowns), &
-      turned(pencil%layout%unknowns), square
-    integer :: i
-
-    square = 0.0_wp
-    do i = 1, pencil%layout%unknowns
-      column = 0.0_wp
-      column(i) = 1.0_wp
-      column = column - matmul(q, q(i, :))
-      call bordered_times_vector(pencil%layout, pencil%mass, column, product)
-      if (pencil%loaded) then
-        call bordered_times_vector(pencil%layout, pencil%geometric, column, turned)
-        product = limit*product - turned
-      else
-        product = limit*product
-      end if
-      product = product - matmul(q, matmul(product, q))
-      square = square + dot_product(product, product)
-    end do
-    norm = sqrt(square)
-  end function worked_out_norm
 
   !> Unit vector along the part of a direction that is perpendicular to others.
   pure function perpendicular(direction, others) result(unit)
@@ -175,7 +142,7 @@ contains
   !! positive terms as modes are given, whatever the w_i. If it is positive definite, `K − μM` has no
   !! more negative eigenvalues than there are terms, however inaccurate λ_i and y_i are. It is proven
   !! to be so if its Cholesky factorization succeeds after a bound of the rounding has been
-  !! subtracted from the diagonal (Demmel 1989; Rump 2006).
+  !! subtracted from the diagonal, entry by entry (Demmel 1989; Rump 2006).
   !!
   !! Only the lower own modes of every link need to be factored. On the higher ones, the tail, `K −
   !! μM` is dominated by its diagonal: it is at least the diagonal D of what Gershgorin's circles
@@ -252,28 +219,30 @@ contains
     real(wp), intent(in) :: dominance(:) !! (unknowns) D in the tail, zero outside it
     logical, intent(out) :: proven
 
-    real(wp), allocatable :: dense(:, :), column(:)
+    real(wp), allocatable :: dense(:, :), column(:), terms(:)
     integer, allocatable :: leading(:), place(:)
     type(band_matrix_t) :: band
     type(error_t), allocatable :: error
-    real(wp) :: margin, lift
+    real(wp) :: lift
     integer :: b, i, j, k, n, first, kept
 
     associate (layout => pencil%layout, mass => pencil%mass, geometric => pencil%geometric)
       leading = pack(all_unknowns(layout), dominance <= 0.0_wp)
       n = size(leading)
-      allocate (place(layout%unknowns), dense(n, n), column(n))
+      allocate (place(layout%unknowns), dense(n, n), column(n), terms(n))
       place = 0
       place(leading) = [(i, i=1, n)]
       dense = 0.0_wp
-      ! Sum of the magnitudes of all terms of the diagonal: the rounding is proportional to it.
-      margin = n
+      ! Magnitudes of all terms of a diagonal entry: rounding is proportional to them, in an entry
+      ! (i, j) to the root of those of i times those of j. Where G has no such bound, to its rows.
+      terms = 1.0_wp
       do k = 1, layout%border
         dense(:layout%border, k) = -limit*mass%border(:, k)
-        margin = margin + abs(limit*mass%border(k, k))
+        terms(k) = terms(k) + abs(limit*mass%border(k, k))
         if (pencil%loaded) then
           dense(:layout%border, k) = dense(:layout%border, k) + geometric%border(:, k)
-          margin = margin + abs(geometric%border(k, k))
+          terms(k) = terms(k) + sum(abs(geometric%border(:, k))) + sum(abs(geometric%coupling(k, &
+            layout%border + 1:)))
         end if
         dense(k, k) = dense(k, k) + 1.0_wp
       end do
@@ -290,17 +259,17 @@ contains
       do i = 1, size(lambda)
         lift = max(0.0_wp, limit + abs(limit) - lambda(i))
         column = mass_times(leading, i)
-        margin = margin + lift*dot_product(column, column)
+        terms = terms + lift*column**2
         do j = 1, n
           dense(j:, j) = dense(j:, j) + lift*column(j)*column(j:)
         end do
       end do
-      ! Rounding of the sums and, for the factorization, (n + 2) ε/2 times the trace.
-      margin = margin*epsilon(margin)*(layout%unknowns + 2 + 8*size(lambda))
+      ! Rounding of the sums and, for the factorization, (n + 2) ε/2 of the terms; n times, for a
+      ! matrix of n rows with entries up to d_i d_j is at most n times the diagonal of d_i².
+      do i = 1, n
+        dense(i, i) = dense(i, i) - n*epsilon(lift)*(layout%unknowns + 2 + 8*size(lambda))*terms(i)
+      end do
     end associate
-    do i = 1, n
-      dense(i, i) = dense(i, i) - margin
-    end do
     band = full_band(dense)
     call factor_band(band, error)
     proven = .not. allocated(error)
@@ -329,16 +298,17 @@ contains
       at = place(unknown)
       if (at > 0) then
         dense(at, :border) = coupling(:border)
-        margin = margin + abs(diagonal)
+        terms(at) = terms(at) + abs(diagonal)
+        if (pencil%loaded) terms(at) = terms(at) + sum(abs(pencil%geometric%coupling(:, unknown)))
         if (block > 0) then
-          if (pencil%loaded) margin = margin + abs(pencil%geometric%block(number, number, block))
+          if (pencil%loaded) terms(at) = terms(at) + sum(abs(coupling(border + 1:)))
           dense(at - number + 1:at - number + kept, at) = coupling(border + 1:)
         end if
         dense(at, at) = dense(at, at) + 1.0_wp + diagonal
         return
       end if
       do j = 1, size(coupling)
-        margin = margin + coupling(j)**2/dominance(unknown)
+        terms(row(j)) = terms(row(j)) + coupling(j)**2/dominance(unknown)
         do i = j, size(coupling)
           dense(row(i), row(j)) = dense(row(i), row(j)) - coupling(i)*coupling(j)/dominance(unknown)
         end do

@@ -13,7 +13,7 @@ module matrix_rounding
   implicit none (type, external)
   private
 
-  public :: matrix_error, force_sizes
+  public :: find_matrix_errors, force_sizes
 
   !> Rounding error of an entry, in units of ε times the terms that it is made of; measured against
   !! quadruple precision.
@@ -42,36 +42,44 @@ contains
   !!
   !! By the Cauchy–Schwarz inequality an entry between two shapes f and g is at most ‖f‖ ‖g‖, and its
   !! rounding ε ‖f‖ times the norm of the magnitudes of which g is made.
-  pure function matrix_error(model, chords, force_size, found, modes) result(error)
+  pure subroutine find_matrix_errors(model, chords, force_size, found, modes, error, load_work)
     type(deformation_model_t), intent(in) :: model !! of the links
     type(chords_t), intent(in) :: chords           !! at this position
     real(wp), intent(in) :: force_size(:)          !! (bodies) of `force_sizes` [N]
     type(bordered_modes_t), intent(in) :: found    !! modes at this position and speed
     integer, intent(in) :: modes                   !! number, lowest first
-    real(wp) :: error(modes)
+    real(wp), intent(out) :: error(:)              !! (modes) relative, of eigenvalues
+    real(wp), intent(out) :: load_work(:)          !! (modes) bound of `∫ N v'² dx` for yᵀMy = 1 with
+                                                   !! the largest force of all links in each: forces
+                                                   !! pass from link to link, and their errors, too
+                                                   !! [1/s²]
 
-    real(wp) :: mass_error, slope_error
+    real(wp) :: mass_error, slope_error, slopes
     integer :: b, i
 
     do i = 1, modes
       mass_error = 0.0_wp
       slope_error = 0.0_wp
+      slopes = 0.0_wp
       do b = 1, size(model%links)
-        call add_link(model, chords, found%vector(:, i), b, force_size(b), mass_error, slope_error)
+        call add_link(model, chords, found%vector(:, i), b, force_size(b), mass_error, slope_error, &
+          slopes)
       end do
       error(i) = multiple*epsilon(1.0_wp)*(mass_error + slope_error/max(abs(found%lambda(i)), &
         tiny(1.0_wp)))
+      load_work(i) = maxval(force_size)*slopes
     end do
-  end function matrix_error
+  end subroutine find_matrix_errors
 
   !> Adds the terms of one link.
-  pure subroutine add_link(model, chords, vector, b, force_size, mass_error, slope_error)
+  pure subroutine add_link(model, chords, vector, b, force_size, mass_error, slope_error, slopes)
     type(deformation_model_t), intent(in) :: model
     type(chords_t), intent(in) :: chords
     real(wp), intent(in) :: vector(:)
     integer, intent(in) :: b
     real(wp), intent(in) :: force_size
     real(wp), intent(inout) :: mass_error, slope_error
+    real(wp), intent(inout) :: slopes !! bound of `∫ v'² dx`
 
     real(wp) :: ends(3), turn, norm, terms
     integer :: i, first
@@ -80,7 +88,9 @@ contains
       if (.not. link%bends) then
         ends = abs(matmul(body_displacement(chords, b), border))
         mass_error = mass_error + dot_product(ends, matmul(abs(link%rigid_mass), ends))
-        slope_error = slope_error + force_size*link%length*dot_product(chords%turn(:, b), border)**2
+        turn = link%length*dot_product(chords%turn(:, b), border)**2
+        slope_error = slope_error + force_size*turn
+        slopes = slopes + turn
         return
       end if
       do i = 1, 3
@@ -104,6 +114,7 @@ contains
           terms = terms + link%slope_terms(clamp + i)*abs(vector(first + i))
         end do
         slope_error = slope_error + force_size*norm*terms
+        slopes = slopes + norm**2
       end if
       do i = 1, 2
         ends(i) = abs(dot_product(chords%along(i, :, b), border))

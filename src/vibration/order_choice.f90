@@ -352,7 +352,7 @@ contains
       dim=1)])
     if (all(abs(tried(:, 1) - tried(:, 2)) <= 0.0_wp)) tried = tried(:, :1)
     allocate (found(size(tried, 2)), outcome(size(tried, 2)))
-    work = new_speed_work(model, size(tried, 2))
+    work = new_speed_work(model, size(tried, 2), demand%bound)
     allocate (sample%error(part_count(model%links)))
     allocate (sample%least_force(size(model%links)), sample%most_force(size(model%links)))
     sample%error = 0.0_wp
@@ -374,8 +374,8 @@ contains
         present_force = total_force(force, tried(:, k))
         call add_force_range(linkage, present_force, sample)
         sample%highest = max(sample%highest, maxval(abs(found(k)%lambda(:demand%modes))))
-        sample%error = max(sample%error, maxval(order_error(model, work%equations%chords, &
-          present_force, found(k), demand%modes), dim=2))
+        sample%error = max(sample%error, maxval(order_error(model, work%equations, &
+          present_force, found(k), found(k)%near), dim=2))
       end do
     end do
   end subroutine try_samples

@@ -4,29 +4,34 @@ module order_errors
   use deformation_model, only: deformation_model_t
   use kinds, only: wp
   use order_changes, only: find_order_changes, order_change_t, part_count
-  use pin_displacements, only: chords_t
+  use position_equations, only: position_equations_t
   implicit none (type, external)
   private
 
-  public :: order_error
+  public :: order_error, with_modes_above
 
   !> The change made by the next orders, and what their series leaves, is multiplied by
-  !! `order_margin`. Where the change of the eigenvalue is above `rough_change`, the order may be far
-  !! too low (a link compressed so hard that it buckles many times over), and `rough_margin` is used
-  !! instead.
-  real(wp), parameter :: order_margin = 1.5_wp, rough_margin = 16.0_wp, rough_change = 1.0e-5_wp
+  !! `order_margin`. Where the change of the eigenvalue is above
+  !! `rough_change` it is no longer small beside the distances of eigenvalues, and where the matrix of
+  !! the next orders is not definite, orders are far too low (a link compressed so hard that it
+  !! buckles many times over): larger margins are used instead.
+  real(wp), parameter :: order_margin = 1.5_wp, rough_margin = 4.0_wp, rough_change = 1.0e-4_wp, &
+    indefinite_margin = 16.0_wp
 
   !> What a pair of orders changes is a share of what the pair before does. The orders beyond are
   !! taken for a geometric series of this ratio, which is limited to `most_ratio`.
   real(wp), parameter :: most_ratio = 0.95_wp
 
+  !> Limit of the share of a change that the orders in use add by yielding.
+  real(wp), parameter :: most_echo = 0.75_wp
+
 contains
 
   !> Estimated relative error of every eigenvalue due to the finite polynomial order, part by part:
   !! the pieces of every link across, then along.
-  pure function order_error(model, chords, force, found, modes) result(error)
+  pure function order_error(model, equations, force, found, modes) result(error)
     type(deformation_model_t), intent(in) :: model !! of continuous links
-    type(chords_t), intent(in) :: chords           !! at this position
+    type(position_equations_t), intent(in) :: equations !! of this position: chords, M
     real(wp), intent(in) :: force(:, :)            !! (force functions, bodies) at this speed [N]
     type(bordered_modes_t), intent(in) :: found    !! modes at this position and speed
     integer, intent(in) :: modes                   !! number, lowest first
@@ -35,25 +40,49 @@ contains
     type(order_change_t) :: change(size(error, 1), modes)
     integer :: i
 
-    call find_order_changes(model%links, model%layout, chords, force, found%vector(:, :modes), &
-      found%lambda(:modes), change)
+    call find_order_changes(model%links, model%layout, equations%chords, &
+      [(equations%pencil%mass%border(i, i), i=1, model%layout%border)], force, &
+      found%vector(:, :modes), found%lambda(:modes), change)
     do i = 1, modes
       error(:, i) = remainder(change(:, i))/max(abs(found%lambda(i)), tiny(1.0_wp))
-      error(:, i) = merge(rough_margin, order_margin, sum(error(:, i)) >= rough_change .or. &
-        any(.not. change(:, i)%definite))*error(:, i)
+      if (any(.not. change(:, i)%definite)) then
+        error(:, i) = indefinite_margin*error(:, i)
+      else if (sum(error(:, i)) >= rough_change) then
+        error(:, i) = rough_margin*error(:, i)
+      end if
     end do
   end function order_error
 
-  !> The change by the next orders and, as a geometric series, by all beyond them.
+  !> Errors of the lowest modes, of which each is told to be as far off as a mode above it may be below
+  !! it: with more orders modes change their places.
+  pure function with_modes_above(lambda, error, modes) result(whole)
+    real(wp), intent(in) :: lambda(:) !! (modes found) ascending [1/s²]
+    real(wp), intent(in) :: error(:)  !! (modes, and those near above them) relative
+    integer, intent(in) :: modes      !! number, lowest first
+    real(wp) :: whole(modes)
+
+    real(wp) :: least
+    integer :: i
+
+    least = huge(least)
+    do i = size(error), 1, -1
+      least = min(least, lambda(i) - abs(lambda(i))*error(i))
+      if (i <= modes) whole(i) = max(error(i), (lambda(i) - least)/max(abs(lambda(i)), tiny(least)))
+    end do
+  end function with_modes_above
+
+  !> The change by the next orders and, as a geometric series, by all beyond them, with a margin.
   elemental function remainder(change)
     type(order_change_t), intent(in) :: change
     real(wp) :: remainder !! [1/s²]
 
-    real(wp) :: ratio, last
+    real(wp) :: ratio, last, echo
 
     last = max(0.0_wp, change%all - change%near)
     ratio = min(last/max(change%near, tiny(last)), most_ratio)
-    remainder = change%all + last*ratio/(1.0_wp - ratio)
+    ! The orders in use yield, what they do acts on the next again, and so on.
+    echo = min(change%echo/max(change%all, tiny(echo)), most_echo)
+    remainder = order_margin*(change%all + last*ratio/(1.0_wp - ratio))/(1.0_wp - echo)**2
   end function remainder
 
 end module order_errors

@@ -43,16 +43,17 @@ contains
   !! sensitivity of the eigenvalue to the lengths of the links.
   !!
   !! Far from dead points a multiple of `ε/sin²(θ4 − θ3)` is a bound, larger where terms cancel in
-  !! λ. The sine is reduced where a link of a dyad is short compared with the distances that place
+  !! λ, and where the loads of other links cancel in the axial force of one. The sine is reduced where a link of a dyad is short compared with the distances that place
   !! it, for the angle of that link takes up all of their rounding. Near dead points modes differ:
   !! some soften with the sine, others do not depend on it, and loads grow like powers of 1/sin.
   !! There each length is changed a little, and `yᵀ(ΔK_G − λ ΔM) y` is the effect. If the linkage
   !! closes with neither a longer nor a shorter link, the error is at least 1.
-  subroutine pose_error(linkage, model, state, factor, found, modes, error, counts)
+  subroutine pose_error(linkage, model, state, factor, load_work, found, modes, error, counts)
     type(linkage_t), intent(in) :: linkage         !! of the structure
     type(deformation_model_t), intent(in) :: model !! of continuous links
     type(state_t), intent(in) :: state             !! with a pose
     real(wp), intent(in) :: factor(case_count)     !! of the unit loads: ω2², α2, 1
+    real(wp), intent(in) :: load_work(:)           !! (modes) of `find_matrix_errors` [1/s²]
     type(bordered_modes_t), intent(in) :: found    !! modes at this position and speed
     integer, intent(in) :: modes                   !! number, lowest first
     real(wp), intent(out) :: error(:)              !! (modes) relative, of eigenvalues
@@ -72,7 +73,7 @@ contains
     if (any(abs(factor) > 0.0_wp)) least_sine = merge(loaded_near_sine, 1.0_wp, spread <= 1.0_wp)
     if (sine >= least_sine) then
       do i = 1, modes
-        energy = dot_product(found%vector(:, i), found%vector(:, i))
+        energy = dot_product(found%vector(:, i), found%vector(:, i)) + load_work(i)
         error(i) = 2.0_wp*far_multiple*epsilon(1.0_wp)/sine**2*(1.0_wp + &
           energy/max(abs(found%lambda(i)), tiny(energy)))
       end do

@@ -9,12 +9,11 @@ module position_solver
   use link_modes, only: stations
   use linkages, only: linkage_t
   use load_cases, only: case_count, find_unit_loads, unit_loads_t
-  use matrix_rounding, only: force_sizes, matrix_error
+  use matrix_rounding, only: find_matrix_errors, force_sizes
   use mesh_solver, only: solve_long_mesh, solve_mesh
   use modal_assurance, only: new_mode_prints
   use nodal_solver, only: solve_nodal
-  use order_changes, only: part_count
-  use order_errors, only: order_error
+  use order_errors, only: order_error, with_modes_above
   use pin_displacements, only: chords_t
   use pose_rounding, only: pose_error
   use poses, only: pose_t
@@ -40,7 +39,7 @@ contains
     type(mode_request_t), intent(in) :: request    !! method and speeds
     type(position_work_t) :: work
 
-    work%continuum = new_speed_work(models%continuum, size(request%speed))
+    work%continuum = new_speed_work(models%continuum, size(request%speed), request%accuracy)
     if (any(request%method == [by_link_modes, by_long_mesh])) work%mesh = &
       new_speed_work(models%mesh, size(request%speed))
     if (request%method == by_long_mesh) work%chain = models%chain
@@ -68,8 +67,7 @@ contains
     type(unit_loads_t) :: loads
     real(wp), allocatable :: unit_force(:, :, :)
     real(wp) :: factor(case_count, size(request%speed))
-    real(wp) :: discretisation(part_count(models%continuum%links), request%modes)
-    real(wp) :: rounding(request%modes)
+    real(wp), dimension(request%modes) :: discretisation, rounding, of_matrices, load_work
     integer :: k, n
 
     n = size(request%speed)
@@ -94,15 +92,17 @@ contains
         state%pose, loads, factor, result%deflection)
       do k = 1, n
         if (allocated(result%outcome(k)%error)) cycle
-        discretisation = order_error(models%continuum, chords, &
-          total_force(unit_force, factor(:, k)), found(k), request%modes)
-        result%order_error = max(result%order_error, maxval(sum(discretisation, dim=1)))
+        discretisation = with_modes_above(found(k)%lambda, sum(order_error(models%continuum, &
+          work%continuum%equations, total_force(unit_force, factor(:, k)), found(k), &
+          found(k)%near), dim=1), request%modes)
+        result%order_error = max(result%order_error, maxval(discretisation))
         result%lambda(:, k) = found(k)%lambda(:request%modes)
-        call pose_error(structure%linkage, models%continuum, state, factor(:, k), found(k), &
-          request%modes, rounding, result%counts)
-        rounding = rounding + found(k)%error(:request%modes) + matrix_error(models%continuum, &
-          chords, force_sizes(unit_force, factor(:, k)), found(k), request%modes)
-        result%error(:, k) = of_frequency*(sum(discretisation, dim=1) + rounding)
+        call find_matrix_errors(models%continuum, chords, force_sizes(unit_force, factor(:, k)), &
+          found(k), request%modes, of_matrices, load_work)
+        call pose_error(structure%linkage, models%continuum, state, factor(:, k), load_work, &
+          found(k), request%modes, rounding, result%counts)
+        rounding = rounding + found(k)%error(:request%modes) + of_matrices
+        result%error(:, k) = of_frequency*(discretisation + rounding)
       end do
     end associate
     if (request%follow) then

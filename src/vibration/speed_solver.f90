@@ -15,20 +15,31 @@ module speed_solver
   !> Largest step from the last position over which modes are extrapolated [deg].
   real(wp), parameter :: longest_step = 10.0_wp
 
+  !> A mode just above those wanted may be off by this many times the bound of theirs; and the
+  !! largest distance at which modes are looked for.
+  real(wp), parameter :: clearances = 4.0_wp, most_clearance = 0.25_wp
+
   !> The equations, filled at every position, and the modes of the last positions.
   type :: speed_work_t
     type(position_equations_t) :: equations !! of the present position
     type(track_t), allocatable :: tracks(:) !! (speeds) modes of the last positions
+    real(wp) :: clearance = 0.0_wp          !! relative distance above the last wanted mode within
+                                            !! which modes are to be found, too
   end type speed_work_t
 
 contains
 
   !> Work space for a model at a number of speeds; no modes are remembered yet.
-  pure function new_speed_work(model, speeds) result(work)
+  pure function new_speed_work(model, speeds, bound) result(work)
     type(deformation_model_t), intent(in) :: model !! gives the size of the matrices
     integer, intent(in) :: speeds                  !! number of them
+    real(wp), intent(in), optional :: bound        !! on the relative error of the eigenvalues of
+                                                   !! continuous links: modes that are so near those
+                                                   !! wanted that they may belong below them are
+                                                   !! found, too; absent: 0
     type(speed_work_t) :: work
 
+    if (present(bound)) work%clearance = min(clearances*bound, most_clearance)
     work%equations = new_position_equations(model)
     allocate (work%tracks(speeds))
   end function new_speed_work
@@ -60,7 +71,7 @@ contains
       call set_speed(work%equations, factor(:, k))
       start = extrapolated_start(work%tracks(k), place, longest_step)
       call find_bordered_modes(work%equations%pencil, modes, accurate_vectors(k), start, found(k), &
-        error)
+        error, work%clearance)
       counts%factorizations = counts%factorizations + found(k)%factorizations
       counts%reduced_solutions = counts%reduced_solutions + found(k)%reduced_solutions
       counts%full_solutions = counts%full_solutions + found(k)%full_solutions
