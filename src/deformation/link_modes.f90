@@ -36,6 +36,7 @@ module link_modes
     !> Mass of a rigid link: between the displacements of its first pin, along it and across it, and
     !! its rotation [kg, kg m, kg m²]
     real(wp) :: rigid_mass(3, 3) = 0.0_wp
+    real(wp) :: bending_stiffness = 0.0_wp            !! EI [N m²]
     real(wp) :: elongation = 0.0_wp                   !! √(L/EA): of a unit unknown [m/√J]
     real(wp) :: end_rotation = 0.0_wp                 !! √(L/3EI + 1/(kGA L)): of a unit unknown of
                                                       !! the clamped end [rad/√J]
@@ -138,6 +139,7 @@ contains
     link%axial_modes = size(axial_own, 2)
     link%clamped = clamped
     link%length = bending%length
+    link%bending_stiffness = stiffness(2)
     link%elongation = sqrt(bending%length/stiffness(1))
     link%end_rotation = end_rotation(bending%length, stiffness(2), bending%shear_stiffness)
     link%bending_shapes = bending

@@ -30,6 +30,9 @@ module order_changes
   !! unknown is taken to be softer than this.
   real(wp), parameter :: least_stiffness = 0.25_wp
 
+  !> The same for the new unknowns.
+  real(wp), parameter :: least_pivot = 0.1_wp
+
 contains
 
   !> Number of parts of all links: every piece across, then every piece along, link by link.
@@ -57,7 +60,7 @@ contains
     type(link_modes_t), intent(in) :: links(:) !! (bodies)
     type(layout_t), intent(in) :: layout       !! of these links
     type(chords_t), intent(in) :: chords       !! of this position
-    real(wp), intent(in) :: border_mass(:)     !! (border) diagonal of M [s²]
+    real(wp), intent(in) :: border_mass(:, :)  !! (border, border) M between the border's unknowns [s²]
     real(wp), intent(in) :: force(:, :)        !! (force functions, bodies) at this speed; no
                                                !! functions: static [N]
     real(wp), intent(in) :: vectors(:, :)      !! (unknowns, modes) with yᵀMy = 1
@@ -103,7 +106,7 @@ contains
                 end if
               end associate
               matrix = square - lambda(i)*next%mass_square(:, :, e)
-              call eliminate(matrix, residual, change(part, i))
+              call eliminate(matrix, residual, least_pivot, change(part, i))
               call add_echo(next%mass(:, low:high), slopes, link%square, stiffness, lambda(i), &
                 residual, change(part, i)%echo)
               call add_border_echo(chords%across(:, :, b), next%participation(:, low:high), &
@@ -133,7 +136,7 @@ contains
                 end do
               end associate
               matrix = -lambda(i)*next%mass_square(:, :, e)
-              call eliminate(matrix, residual, change(part, i))
+              call eliminate(matrix, residual, least_pivot, change(part, i))
               call add_echo(next%mass(:, low:low + next%number - 1), no_slopes, &
                 links(b)%axial_square, stiffness, lambda(i), residual, change(part, i)%echo)
               call add_border_echo(chords%along(:, :, b), next%participation(:, low:low + &
@@ -188,14 +191,13 @@ contains
   end function own_stiffness
 
   !> `rᵀ C⁻¹ r`, of the first half of the unknowns, and of all; and `C⁻¹ r`.
-  pure subroutine eliminate(matrix, residual, change)
+  pure subroutine eliminate(matrix, residual, least_pivot, change)
     real(wp), intent(inout) :: matrix(:, :)  !! C less the unit matrix; destroyed
     real(wp), intent(inout) :: residual(:)   !! r; becomes C⁻¹ r
+    real(wp), intent(in) :: least_pivot      !! smaller ones are not trusted: the eigenvalue is near,
+                                             !! or above, those of these unknowns alone
     type(order_change_t), intent(out) :: change
 
-    !> Pivots below this are not trusted: the eigenvalue is near, or above, those of the new
-    !! unknowns alone.
-    real(wp), parameter :: least_pivot = 0.1_wp
     real(wp) :: pivot(size(residual)), factor
     integer :: i, j, k, n
 
@@ -257,22 +259,26 @@ contains
     real(wp), intent(in) :: ends(:, :)          !! (functions, border) what the border does to the
                                                 !! link
     real(wp), intent(in) :: participation(:, :) !! (functions, unknowns)
-    real(wp), intent(in) :: border_mass(:)
+    real(wp), intent(in) :: border_mass(:, :)
     real(wp), intent(in) :: lambda
     real(wp), intent(in) :: response(:)
     real(wp), intent(inout) :: echo
 
-    real(wp) :: acting(size(participation, 1))
+    real(wp) :: acting(size(participation, 1)), residual(size(border_mass, 1)), &
+      matrix(size(border_mass, 1), size(border_mass, 1))
+    type(order_change_t) :: yielding
     integer :: i
 
     acting = 0.0_wp
     do i = 1, size(response)
       acting = acting - lambda*participation(:, i)*response(i)
     end do
-    do i = 1, size(border_mass)
-      echo = echo + dot_product(acting, ends(:, i))**2/max(abs(1.0_wp - lambda*border_mass(i)), &
-        least_stiffness)
+    do i = 1, size(residual)
+      residual(i) = dot_product(acting, ends(:, i))
     end do
+    matrix = -lambda*border_mass
+    call eliminate(matrix, residual, least_stiffness, yielding)
+    echo = echo + yielding%all
   end subroutine add_border_echo
 
 end module order_changes

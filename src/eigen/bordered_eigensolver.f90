@@ -148,11 +148,11 @@ contains
         if (is_enough(found, proven, distance, proven_modes, known)) return
       end if
       attempt = attempt + 1
-      if (known .and. attempt == most_attempts) exit
+      if (known .and. attempt >= most_attempts) exit
       leading = softest_unknowns(pencil, 2*size(leading))
       guards = min(2*guards, most_guards)
     end do
-    if (.not. known) then
+    if (.not. (known .and. attempt >= most_attempts)) then
       guards = first_guards
       do
         guards = min(2*guards, pencil%layout%unknowns - wanted)

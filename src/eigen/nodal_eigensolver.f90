@@ -110,6 +110,8 @@ contains
     ! A diagonal entry may vanish by chance; the largest entry of the matrix does not.
     shift = max(small*minval(abs(stiffness%entry(1, :))/mass%entry(1, :)), &
       small**2*maxval(abs(stiffness%entry))/maxval(mass%entry(1, :)))
+    ! No lesser shift makes the diagonal positive.
+    shift = max(shift, maxval(-stiffness%entry(1, :)/mass%entry(1, :)))
     do
       factorizations = factorizations + 1
       ! If rounding has made M indefinite, there is no such shift: factorizing K + σM then fails.

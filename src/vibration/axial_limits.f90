@@ -1,11 +1,13 @@
-!> Axial forces at which a link with shear has no lowest frequency.
+!> Axial forces at which a link has no lowest frequency, or none that polynomials represent.
 !!
 !! The energy of shear and axial force is `½∫ kGA γ² + N (θ + γ)² dx`. Where the tension N is below
 !! −kGA, ever shorter waves of γ lower it without bending the link or moving its mass: eigenvalues
-!! of higher and higher orders go to −∞, and none of them is that of the beam.
+!! of higher and higher orders go to −∞, and none of them is that of the beam. Any link that is
+!! pressed with thousands of times Euler's load buckles in waves too short for the highest order.
 module axial_limits
   use axial_forces, only: total_force
   use body_lumps, only: lump_count, lump_places
+  use constants, only: pi
   use deformation_model, only: deformation_model_t
   use errors, only: error_of_numerics, outcome_t, set_error
   use kinds, only: wp
@@ -16,12 +18,15 @@ module axial_limits
 
   public :: least_axial_force, crushed_link, refuse_crushed
 
+  !> Largest compression in units of Euler's load of the link, π² EI/L²: some sixty half-waves.
+  real(wp), parameter :: most_euler_loads = 4000.0_wp
+
 contains
 
-  !> Fails every speed at which a link has no lowest frequency.
+  !> Fails every speed at which a link has no lowest frequency, or buckles too many times over.
   !!
-  !! Errors, speed by speed in `outcome`: the compression of a link exceeds its shear stiffness; the
-  !! error has the number of the link.
+  !! Errors, speed by speed in `outcome`: the compression of a link exceeds its shear stiffness, or
+  !! the largest number of Euler loads; the error has the number of the link.
   pure subroutine refuse_crushed(linkage, model, unit_force, factor, outcome)
     type(linkage_t), intent(in) :: linkage         !! of the structure
     type(deformation_model_t), intent(in) :: model !! its links' own deformations
@@ -36,6 +41,7 @@ contains
     do k = 1, size(outcome)
       if (allocated(outcome(k)%error)) cycle
       force = total_force(unit_force, factor(:, k))
+      call refuse_folded(linkage, model, force, outcome(k))
       b = crushed_link(linkage, model, force)
       if (b == 0) cycle
       call set_error(outcome(k)%error, error_of_numerics, "the compression, "// &
@@ -45,6 +51,29 @@ contains
         " N: no lowest frequency exists", body=b)
     end do
   end subroutine refuse_crushed
+
+  !> Fails a speed at which a link is pressed with too many times its Euler load.
+  pure subroutine refuse_folded(linkage, model, force, outcome)
+    type(linkage_t), intent(in) :: linkage
+    type(deformation_model_t), intent(in) :: model
+    real(wp), intent(in) :: force(:, :) !! as in `crushed_link`
+    type(outcome_t), intent(inout) :: outcome
+
+    real(wp) :: euler, pressed
+    integer :: b
+
+    if (size(force, 1) == 0) return
+    do b = 1, size(model%links)
+      if (.not. model%links(b)%bends) cycle
+      euler = pi**2*model%links(b)%bending_stiffness/model%links(b)%length**2
+      pressed = -least_axial_force(linkage%bodies(b), force(:, b))
+      if (pressed <= most_euler_loads*euler) cycle
+      call set_error(outcome%error, error_of_numerics, "the compression, "//to_string(pressed, 4)// &
+        " N, is "//to_string(pressed/euler, 3)//" times Euler's load: above "// &
+        to_string(most_euler_loads, 4)//" no frequencies are computed", body=b)
+      return
+    end do
+  end subroutine refuse_folded
 
   !> Number of the first link whose axial force is anywhere below −kGA; 0: none.
   pure function crushed_link(linkage, model, force) result(body)

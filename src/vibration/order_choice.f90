@@ -198,7 +198,8 @@ contains
     end do
   end function guessed_degrees
 
-  !> Raises the degrees of the parts whose error is above the bound.
+  !> Raises the degrees of the parts whose error is above the bound; at least to those that the
+  !! waves now known ask for.
   pure subroutine raise_degrees(body, beam, model, sample, b, bound, highest, degrees, raised)
     type(body_t), intent(in) :: body
     type(beam_t), intent(in) :: beam
@@ -210,30 +211,32 @@ contains
     type(link_degrees_t), intent(inout) :: degrees
     logical, intent(inout) :: raised
 
+    type(link_degrees_t) :: guessed
     real(wp), allocatable :: length(:)
     real(wp) :: across, along
     integer :: e
 
     length = piece_lengths(body)
+    guessed = guessed_degrees(body, beam, sample, b, bound, highest)
     across = wave_number(body, beam, sample%highest, sample%least_force(b))
     along = sqrt(sample%highest*body%line_density/beam%axial_stiffness)
     do e = 1, size(length)
-      call raise(degrees%across(e), highest%across(e), across*length(e), bound, &
+      call raise(degrees%across(e), guessed%across(e), highest%across(e), across*length(e), bound, &
         sample%error(part_of(model%links, b, e, .false.)), raised)
-      call raise(degrees%along(e), highest%along(e), along*length(e), bound, &
+      call raise(degrees%along(e), guessed%along(e), highest%along(e), along*length(e), bound, &
         sample%error(part_of(model%links, b, e, .true.)), raised)
     end do
   end subroutine raise_degrees
 
   !> Raises one degree if its error is above the bound and its limit is not reached.
-  pure subroutine raise(order, most, wave, bound, error, raised)
+  pure subroutine raise(order, guessed, most, wave, bound, error, raised)
     integer, intent(inout) :: order
-    integer, intent(in) :: most
+    integer, intent(in) :: guessed, most
     real(wp), intent(in) :: wave, bound, error
     logical, intent(inout) :: raised
 
     if (error <= bound .or. order >= most) return
-    order = raised_order(wave, bound/error, order, most)
+    order = max(raised_order(wave, bound/error, order, most), min(guessed, most))
     raised = .true.
   end subroutine raise
 

@@ -41,8 +41,7 @@ contains
     integer :: i
 
     call find_order_changes(model%links, model%layout, equations%chords, &
-      [(equations%pencil%mass%border(i, i), i=1, model%layout%border)], force, &
-      found%vector(:, :modes), found%lambda(:modes), change)
+      equations%pencil%mass%border, force, found%vector(:, :modes), found%lambda(:modes), change)
     do i = 1, modes
       error(:, i) = remainder(change(:, i))/max(abs(found%lambda(i)), tiny(1.0_wp))
       if (any(.not. change(:, i)%definite)) then
@@ -55,19 +54,28 @@ contains
 
   !> Errors of the lowest modes, of which each is told to be as far off as a mode above it may be below
   !! it: with more orders modes change their places.
+  !!
+  !! Where eigenvalues are so near that the next orders mix their modes, the lower one falls to the
+  !! lesser eigenvalue of `[λ_i − c_i, √(c_i c_j); √(c_i c_j), λ_j − c_j]` at most, with c what orders
+  !! change each by itself.
   pure function with_modes_above(lambda, error, modes) result(whole)
     real(wp), intent(in) :: lambda(:) !! (modes found) ascending [1/s²]
     real(wp), intent(in) :: error(:)  !! (modes, and those near above them) relative
     integer, intent(in) :: modes      !! number, lowest first
     real(wp) :: whole(modes)
 
-    real(wp) :: least
-    integer :: i
+    real(wp) :: change(size(error)), least, apart
+    integer :: i, j
 
-    least = huge(least)
-    do i = size(error), 1, -1
-      least = min(least, lambda(i) - abs(lambda(i))*error(i))
-      if (i <= modes) whole(i) = max(error(i), (lambda(i) - least)/max(abs(lambda(i)), tiny(least)))
+    change = abs(lambda(:size(error)))*error
+    do i = 1, modes
+      least = lambda(i) - change(i)
+      do j = i + 1, size(error)
+        apart = 0.5_wp*((lambda(j) - change(j)) - (lambda(i) - change(i)))
+        ! The lesser eigenvalue, written so that small changes are not lost beside λ.
+        least = min(least, lambda(i) - change(i) + apart - sqrt(apart**2 + change(i)*change(j)))
+      end do
+      whole(i) = max(error(i), (lambda(i) - least)/max(abs(lambda(i)), tiny(least)))
     end do
   end function with_modes_above
 

@@ -17,7 +17,7 @@ module speed_solver
 
   !> A mode just above those wanted may be off by this many times the bound of theirs; and the
   !! largest distance at which modes are looked for.
-  real(wp), parameter :: clearances = 4.0_wp, most_clearance = 0.25_wp
+  real(wp), parameter :: clearances = 25.0_wp, most_clearance = 0.25_wp
 
   !> The equations, filled at every position, and the modes of the last positions.
   type :: speed_work_t
