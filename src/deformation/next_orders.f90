@@ -30,6 +30,10 @@ module next_orders
     real(wp), allocatable :: geometric(:, :, :)     !! (2 + modes, unknowns, 1 ξ ξ²) `∫ b v' v'`;
                                                     !! across only
     real(wp), allocatable :: geometric_square(:, :, :, :) !! (number, number, pieces, 1 ξ ξ²)
+    !> Frobenius norms of the parts of `mass`, `participation` and `geometric` in each piece
+    real(wp), allocatable :: mass_norm(:)           !! (pieces) [s²]
+    real(wp), allocatable :: participation_norm(:)  !! (pieces)
+    real(wp), allocatable :: geometric_norm(:, :)   !! (1 ξ ξ², pieces)
     logical, allocatable :: reached(:, :)           !! (pieces, jumps) whether the force that ends at
                                                     !! the jump acts in the piece
   end type next_orders_t
@@ -59,6 +63,8 @@ contains
       size(slope, 2) > 0)))
     allocate (next%geometric_square(next%number, next%number, next%pieces, size(next%geometric, 3)))
     allocate (next%reached(next%pieces, size(jumps)))
+    allocate (next%mass_norm(next%pieces), next%participation_norm(next%pieces))
+    allocate (next%geometric_norm(size(next%geometric, 3), next%pieces))
     do e = 1, next%pieces
       own = next_columns(shapes, e, next%number)
       low = (e - 1)*next%number + 1
@@ -66,6 +72,8 @@ contains
       shape = shapes%displacement(:, own)
       next%mass(:, low:high) = matmul(transpose(displacement), shape)
       next%participation(:, low:high) = matmul(transpose(functions), shape)
+      next%mass_norm(e) = norm2(next%mass(:, low:high))
+      next%participation_norm(e) = norm2(next%participation(:, low:high))
       next%mass_square(:, :, e) = matmul(transpose(shape), shape)
       ! The middle of the piece decides: rounding may put a jump beside the end of its piece.
       next%reached(e, :) = shapes%middle(e) < shapes%elements*jumps
@@ -78,6 +86,7 @@ contains
           of_force(row, :) = shapes%place(first + row - 1)**(j - 1)*of_force(row, :)
         end do
         next%geometric(:, low:high, j) = matmul(transpose(slope(first:last, :)), of_force)
+        next%geometric_norm(j, e) = norm2(next%geometric(:, low:high, j))
         next%geometric_square(:, :, e, j) = matmul(transpose(shapes%slope(first:last, own)), &
           of_force)
       end do

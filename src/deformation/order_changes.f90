@@ -67,8 +67,7 @@ contains
     real(wp), intent(in) :: lambda(:)          !! (modes) their eigenvalues [1/s²]
     type(order_change_t), intent(out) :: change(:, :) !! (parts, modes)
 
-    real(wp) :: ends(3), turn
-    real(wp), allocatable :: stiffness(:)
+    real(wp) :: ends(3), turn, slope_reach, ends_norm
     integer :: b, e, i, k, first, last, axial, part, low, high
 
     part = 0
@@ -76,7 +75,7 @@ contains
       associate (link => links(b), next => links(b)%next)
         first = layout%first(b)
         last = first + link%modes - 1
-        stiffness = own_stiffness(link, force, b)
+        ends_norm = norm2(chords%across(:, :, b))
         do e = 1, next%pieces
           part = part + 1
           low = (e - 1)*next%number + 1
@@ -87,7 +86,9 @@ contains
               next%number)
 
             square = 0.0_wp
-            if (size(force, 1) > 0) call weigh(next, e, force(:, b), low, high, slopes, square)
+            slope_reach = 0.0_wp
+            if (size(force, 1) > 0) call weigh(next, e, force(:, b), low, high, slopes, square, &
+              slope_reach)
             do i = 1, size(lambda)
               associate (border => vectors(:layout%border, i), own => vectors(first:last, i))
                 do k = 1, 3
@@ -105,10 +106,12 @@ contains
                   end do
                 end if
               end associate
+              if (is_nothing(residual, lambda(i))) cycle
               matrix = square - lambda(i)*next%mass_square(:, :, e)
               call eliminate(matrix, residual, least_pivot, change(part, i))
-              call add_echo(next%mass(:, low:high), slopes, link%square, stiffness, lambda(i), &
-                residual, change(part, i)%echo)
+              if (is_silent(next, e, lambda(i), slope_reach, ends_norm)) cycle
+              call add_echo(next%mass(:, low:high), slopes, link%square, own_stiffness(link, force, &
+                b), lambda(i), residual, change(part, i)%echo)
               call add_border_echo(chords%across(:, :, b), next%participation(:, low:high), &
                 border_mass, lambda(i), residual, change(part, i)%echo)
             end do
@@ -116,7 +119,7 @@ contains
         end do
       end associate
       associate (next => links(b)%axial_next)
-        stiffness = spread(1.0_wp, 1, links(b)%axial_modes)
+        ends_norm = norm2(chords%along(:, :, b))
         axial = first_axial(layout, links, b)
         last = axial + links(b)%axial_modes - 1
         do e = 1, next%pieces
@@ -135,10 +138,12 @@ contains
                     1)) + dot_product(own, next%mass(:, low + k - 1)))
                 end do
               end associate
+              if (is_nothing(residual, lambda(i))) cycle
               matrix = -lambda(i)*next%mass_square(:, :, e)
               call eliminate(matrix, residual, least_pivot, change(part, i))
+              if (is_silent(next, e, lambda(i), 0.0_wp, ends_norm)) cycle
               call add_echo(next%mass(:, low:low + next%number - 1), no_slopes, &
-                links(b)%axial_square, stiffness, lambda(i), residual, change(part, i)%echo)
+                links(b)%axial_square, spread(1.0_wp, 1, links(b)%axial_modes), lambda(i), residual, change(part, i)%echo)
               call add_border_echo(chords%along(:, :, b), next%participation(:, low:low + &
                 next%number - 1), border_mass, lambda(i), residual, change(part, i)%echo)
             end do
@@ -150,13 +155,14 @@ contains
 
   !> The geometric stiffness of a piece's unknowns at the present axial forces, with the own modes
   !! and with each other.
-  pure subroutine weigh(next, piece, force, low, high, slopes, square)
+  pure subroutine weigh(next, piece, force, low, high, slopes, square, norm)
     type(next_orders_t), intent(in) :: next
     integer, intent(in) :: piece
     real(wp), intent(in) :: force(:) !! 1, ξ, ξ², jumps [N]
     integer, intent(in) :: low, high !! numbers of its unknowns
     real(wp), intent(out) :: slopes(:, :)
     real(wp), intent(out) :: square(:, :)
+    real(wp), intent(out) :: norm    !! bound of the norm of `slopes`
 
     real(wp) :: smooth(smooth_functions)
     integer :: j
@@ -165,6 +171,7 @@ contains
     do j = 1, size(next%reached, 2)
       if (next%reached(piece, j)) smooth(1) = smooth(1) + force(smooth_functions + j)
     end do
+    norm = dot_product(abs(smooth), next%geometric_norm(:, piece))
     slopes = smooth(1)*next%geometric(:, low:high, 1)
     square = smooth(1)*next%geometric_square(:, :, piece, 1)
     do j = 2, smooth_functions
@@ -225,6 +232,31 @@ contains
       residual(k) = residual(k)/pivot(k)
     end do
   end subroutine eliminate
+
+  !> Whether the new unknowns change less than the last digit of the eigenvalue, by far.
+  pure function is_nothing(residual, lambda) result(nothing)
+    real(wp), intent(in) :: residual(:)
+    real(wp), intent(in) :: lambda
+    logical :: nothing
+
+    nothing = dot_product(residual, residual) <= 1.0e-3_wp*least_pivot*epsilon(lambda)*abs(lambda)
+  end function is_nothing
+
+  !> Whether the unknowns in use can add next to nothing by yielding, however they are moved.
+  pure function is_silent(next, piece, lambda, slope_reach, ends_norm) result(silent)
+    type(next_orders_t), intent(in) :: next
+    integer, intent(in) :: piece
+    real(wp), intent(in) :: lambda
+    real(wp), intent(in) :: slope_reach !! norm of the geometric stiffness with the own modes
+    real(wp), intent(in) :: ends_norm   !! of what the border does to the link
+    logical :: silent
+
+    !> Share of the change that the margin of an estimate covers.
+    real(wp), parameter :: little = 0.02_wp
+
+    silent = (abs(lambda)*next%mass_norm(piece) + slope_reach)**2 + &
+      (lambda*next%participation_norm(piece)*ends_norm)**2 <= little*least_stiffness
+  end function is_silent
 
   !> What the own modes of the link add by yielding, each by itself.
   pure subroutine add_echo(mass, slopes, square, stiffness, lambda, response, echo)

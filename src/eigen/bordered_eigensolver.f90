@@ -110,7 +110,8 @@ contains
     logical, intent(in) :: accurate_vectors          !! all digits in the vectors, too, not only in
                                                      !! the eigenvalues
     type(start_t), intent(in) :: start               !! used if it has at least the modes wanted
-    type(bordered_modes_t), intent(out) :: found     !! the modes wanted, perhaps more
+    type(bordered_modes_t), intent(inout) :: found   !! the modes wanted, perhaps more; what it held
+                                                     !! is lost, but its room is used again
     type(error_t), allocatable, intent(out) :: error !! allocated on failure
     real(wp), intent(in), optional :: clearance      !! relative distance above the last wanted mode
                                                      !! within which modes are to be found, too;
@@ -123,6 +124,9 @@ contains
     real(wp) :: distance
     logical :: proven, known
 
+    found%factorizations = 0
+    found%full_solutions = 0
+    found%reduced_solutions = 0
     if (wanted > pencil%layout%unknowns) then
       call set_error(error, error_of_numerics, to_string(wanted)// &
         " modes are asked for, and there are only "//to_string(pencil%layout%unknowns)//" unknowns")
@@ -251,8 +255,11 @@ contains
     type(bordered_modes_t), intent(inout) :: found
     integer, intent(in) :: unknowns, modes
 
-    if (allocated(found%lambda)) deallocate (found%lambda, found%vector, found%mass_times, &
-      found%stiffness_times, found%error, found%origin)
+    if (allocated(found%lambda)) then
+      if (all(shape(found%vector) == [unknowns, modes])) return
+      deallocate (found%lambda, found%vector, found%mass_times, found%stiffness_times, found%error, &
+        found%origin)
+    end if
     allocate (found%lambda(modes), found%error(modes), found%origin(modes))
     allocate (found%vector(unknowns, modes), found%mass_times(unknowns, modes), &
       found%stiffness_times(unknowns, modes))

@@ -21,8 +21,7 @@ contains
     real(wp), intent(in) :: right_side(:)         !! (unknowns) b
     real(wp), intent(out) :: solution(:)          !! (unknowns) x
 
-    real(wp) :: panel(pencil%layout%border + maxval(pencil%layout%size) + 1, &
-      merge(maxval(pencil%layout%size), 0, pencil%loaded), size(pencil%layout%size))
+    real(wp), allocatable :: panel(:, :, :)
     real(wp) :: border(pencil%layout%border + 1, pencil%layout%border), pivot, factor
     integer :: b, i, j, k, first_single
 
@@ -37,6 +36,7 @@ contains
 
       first_single = n + 1
       if (loaded) then
+        allocate (panel(n + maxval(layout%size) + 1, maxval(layout%size), size(layout%size)))
         do b = 1, size(layout%size)
           call eliminate_block(pencil, shift, right_side, b, panel(:, :, b), border)
         end do

@@ -74,7 +74,7 @@ module deck_runs
 
   !> Form of the bytes in a journal: another number wherever they mean something else, since the
   !! version of the program may stay the same.
-  character(len=*), parameter :: journal_form = "journal 3"
+  character(len=*), parameter :: journal_form = "journal 4"
 
 contains
 

@@ -3,6 +3,7 @@ module result_warnings
   use kinds, only: wp
   use mechanisms, only: mechanism_t
   use models, only: needs_frequencies
+  use position_results, only: error_of_divergence, error_of_orders, error_of_position
   use positions, only: positions_t
   use run_findings, only: add_warnings, findings_t, place_in_words
   use sweeps, only: has_result, sweep_t
@@ -130,8 +131,8 @@ contains
       " % the axial frequencies begin to mislead")
   end function deflections
 
-  !> Number of rows with a frequency less accurate than requested, mostly because of rounding, and
-  !! the worst of them.
+  !> Number of rows with a frequency less accurate than requested, the worst of them, and what limits
+  !! it there.
   pure function missed_accuracy(positions, sweep) result(warning)
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
@@ -161,7 +162,24 @@ contains
     call append_string(warning, "the accuracy "//to_string(sweep%request%accuracy)// &
       " is not reached in "//plural(rows, "row")//": the error is up to "//to_string(worst, 2)// &
       ", at "//place_in_words(positions%crank(at_position), sweep%request%speed(at_speed))// &
-      " (near a dead point or a divergence digits are lost; the error columns tell how many)")
+      " ("//reason_of(sweep%results(positions%state(at_position))%cause(at_speed))//")")
   end function missed_accuracy
+
+  !> What limits the accuracy of a row, in words.
+  pure function reason_of(cause) result(text)
+    integer, intent(in) :: cause
+    character(len=:), allocatable :: text
+
+    select case (cause)
+    case (error_of_orders)
+      text = "the highest polynomial orders do not give more: waves are too short for them"
+    case (error_of_position)
+      text = "so near a dead point rounding leaves no more digits of the position"
+    case (error_of_divergence)
+      text = "near a divergence loads and stiffness cancel, and digits with them"
+    case default
+      text = "rounding in double precision leaves no more digits"
+    end select
+  end function reason_of
 
 end module result_warnings

@@ -28,6 +28,7 @@ contains
     call put_integers(buffer, [shape(result%lambda), size(result%deflection, 1)])
     call put_ledger(buffer, result%counts)
     call put_reals(buffer, [result%lambda, result%error, result%deflection, [result%order_error]])
+    call put_integers(buffer, result%cause)
     do k = 1, size(result%outcome)
       call put_error(buffer, result%outcome(k)%error)
       call put_logicals(buffer, [allocated(result%shapes(k)%displacement)])
@@ -61,7 +62,7 @@ contains
     associate (modes => n(1), speeds => n(2), bodies => n(3))
       allocate (result%lambda(modes, speeds), result%error(modes, speeds), &
         result%deflection(bodies, speeds))
-      allocate (result%outcome(speeds), result%shapes(speeds))
+      allocate (result%outcome(speeds), result%shapes(speeds), result%cause(speeds))
       if (is_there(2)) allocate (result%prints(speeds))
     end associate
     call get_matrix(bytes, at, result%lambda)
@@ -69,6 +70,7 @@ contains
     call get_matrix(bytes, at, result%deflection)
     call get_reals(bytes, at, order_error)
     result%order_error = order_error(1)
+    call get_integers(bytes, at, result%cause)
     do k = 1, size(result%outcome)
       call get_error(bytes, at, result%outcome(k)%error)
       call get_shapes(bytes, at, result%shapes(k))

@@ -2,8 +2,8 @@
 module frequency_study
   use interruption, only: was_interrupted
   use kinds, only: wp
-  use ledger, only: add_ledger
-  use position_results, only: frequency_of, position_result_t, position_work_t
+  use ledger, only: add_ledger, ledger_t
+  use position_results, only: frequency_of, position_work_t
   use position_solver, only: new_position_work, solve_position
   use positions, only: positions_t, state_t
   use structures, only: structure_t
@@ -67,7 +67,7 @@ contains
                                                    !! their work is added to that done before
 
     type(position_work_t) :: work
-    type(position_result_t) :: result
+    type(ledger_t) :: before
     integer :: i, k
 
     work = new_position_work(models, sweep%request)
@@ -75,10 +75,10 @@ contains
       i = states(k)
       if (was_interrupted()) return
       if (allocated(positions%states(i)%error)) cycle
+      before = sweep%results(i)%counts
       call solve_position(structure, models, positions%states(i), sweep%request, &
-        sweep%drawn(i, :), work, result)
-      call add_ledger(result%counts, sweep%results(i)%counts)
-      sweep%results(i) = result
+        sweep%drawn(i, :), work, sweep%results(i))
+      call add_ledger(sweep%results(i)%counts, before)
     end do
   end subroutine solve_block
 

@@ -12,6 +12,14 @@ module position_results
   private
 
   public :: position_result_t, position_work_t, of_frequency, frequency_of, take_mesh_value
+  public :: largest_error, error_of_orders, error_of_position, error_of_divergence, &
+    error_of_rounding
+
+  !> What the largest error of a row is made of: polynomial orders that reach their limit; the
+  !! rounding of the position, as beside a dead point; terms that cancel in an eigenvalue, as beside
+  !! a divergence; other rounding of the matrices.
+  integer, parameter :: error_of_orders = 1, error_of_position = 2, error_of_divergence = 3, &
+    error_of_rounding = 4
 
   !> Relative error of a frequency as a share of that of its eigenvalue.
   real(wp), parameter :: of_frequency = 0.5_wp
@@ -26,6 +34,8 @@ module position_results
     type(shapes_t), allocatable :: shapes(:)   !! (speeds) empty unless requested
     type(mode_prints_t), allocatable :: prints(:) !! (speeds) for following modes from position to
                                                   !! position; unallocated unless requested
+    integer, allocatable :: cause(:)           !! (speeds) what the largest error is made of; 0:
+                                               !! not known, on a mesh
     real(wp) :: order_error = 0.0_wp           !! largest relative error of an eigenvalue that
                                                !! higher orders would reduce
     type(ledger_t) :: counts                   !! of the work done here
@@ -39,6 +49,20 @@ module position_results
   end type position_work_t
 
 contains
+
+  !> What the largest of the errors of a row is made of.
+  pure function largest_error(orders, position, matrices, cancels) result(cause)
+    real(wp), intent(in) :: orders(:), position(:), matrices(:) !! (modes) parts of the error
+    logical, intent(in) :: cancels(:)                           !! (modes) large terms cancel in the
+                                                                !! eigenvalue
+    integer :: cause                                            !! one of the causes above
+
+    integer :: worst
+
+    worst = maxloc(orders + position + matrices, dim=1)
+    cause = maxloc([orders(worst), position(worst), matrices(worst)], dim=1)
+    if (cause == 3) cause = merge(error_of_divergence, error_of_rounding, cancels(worst))
+  end function largest_error
 
   !> Frequency of an eigenvalue, `sign(λ) sqrt(|λ|)/2π` [Hz]: negative past a divergence.
   elemental function frequency_of(lambda) result(frequency)

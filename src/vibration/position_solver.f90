@@ -18,7 +18,7 @@ module position_solver
   use pose_rounding, only: pose_error
   use poses, only: pose_t
   use position_equations, only: assemble_equations
-  use position_results, only: of_frequency, position_result_t, position_work_t
+  use position_results, only: largest_error, of_frequency, position_result_t, position_work_t
   use positions, only: state_t
   use reduced_assembly, only: reduced_deflection
   use shape_samples, only: sample_reduced
@@ -30,6 +30,9 @@ module position_solver
   private
 
   public :: new_position_work, solve_position
+
+  !> An elastic energy this many times the eigenvalue is nearly cancelled by the loads.
+  real(wp), parameter :: many_times = 100.0_wp
 
 contains
 
@@ -63,7 +66,7 @@ contains
     type(position_work_t), intent(inout) :: work   !! from the positions before
     type(position_result_t), intent(out) :: result !! for all speeds
 
-    type(bordered_modes_t) :: found(size(request%speed))
+    type(bordered_modes_t), allocatable :: found(:)
     type(unit_loads_t) :: loads
     real(wp), allocatable :: unit_force(:, :, :)
     real(wp) :: factor(case_count, size(request%speed))
@@ -77,6 +80,8 @@ contains
     result%lambda = 0.0_wp
     result%error = 0.0_wp
     result%deflection = 0.0_wp
+    allocate (result%cause(n))
+    result%cause = 0
     factor = load_factors(request)
     loads = find_unit_loads(structure%linkage, state%pose, state%coefficients, &
       any(abs(factor) > 0.0_wp, dim=2))
@@ -84,6 +89,7 @@ contains
     call refuse_crushed(structure%linkage, models%continuum, unit_force, factor, result%outcome)
     call assemble_equations(structure%linkage, models%continuum, state%pose, unit_force, factor, &
       work%continuum%equations, result%counts)
+    call move_alloc(work%continuum%found, found)
     call solve_speeds(state%crank, factor, request%modes, &
       want_shapes .and. request%method == by_orders, work%continuum, found, result%outcome, &
       result%counts)
@@ -101,7 +107,10 @@ contains
           found(k), request%modes, of_matrices, load_work)
         call pose_error(structure%linkage, models%continuum, state, factor(:, k), load_work, &
           found(k), request%modes, rounding, result%counts)
-        rounding = rounding + found(k)%error(:request%modes) + of_matrices
+        of_matrices = of_matrices + found(k)%error(:request%modes)
+        result%cause(k) = largest_error(discretisation, rounding, of_matrices, &
+          energies(found(k), request%modes) > many_times*abs(found(k)%lambda(:request%modes)))
+        rounding = rounding + of_matrices
         result%error(:, k) = of_frequency*(discretisation + rounding)
       end do
     end associate
@@ -130,7 +139,19 @@ contains
     case (by_dense, by_band)
       call solve_nodal(structure, state, loads, request, factor, want_shapes, result)
     end select
+    call move_alloc(found, work%continuum%found)
   end subroutine solve_position
+
+  !> Elastic energies of modes of unit mass, twice [1/s²].
+  pure function energies(found, modes) result(energy)
+    type(bordered_modes_t), intent(in) :: found
+    integer, intent(in) :: modes
+    real(wp) :: energy(modes)
+
+    integer :: i
+
+    energy = [(dot_product(found%vector(:, i), found%vector(:, i)), i=1, modes)]
+  end function energies
 
   !> Largest static deflection of every link / its length, at every speed.
   subroutine find_deflection(linkage, model, chords, pose, loads, factor, ratio)

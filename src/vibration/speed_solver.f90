@@ -23,6 +23,7 @@ module speed_solver
   type :: speed_work_t
     type(position_equations_t) :: equations !! of the present position
     type(track_t), allocatable :: tracks(:) !! (speeds) modes of the last positions
+    type(bordered_modes_t), allocatable :: found(:) !! (speeds) modes of the present position
     real(wp) :: clearance = 0.0_wp          !! relative distance above the last wanted mode within
                                             !! which modes are to be found, too
   end type speed_work_t
@@ -41,7 +42,7 @@ contains
 
     if (present(bound)) work%clearance = min(clearances*bound, most_clearance)
     work%equations = new_position_equations(model)
-    allocate (work%tracks(speeds))
+    allocate (work%tracks(speeds), work%found(speeds))
   end function new_speed_work
 
   !> Solves `(I + K_G) y = λ M y` for every speed, starting from the modes of the last positions.
@@ -54,7 +55,8 @@ contains
     integer, intent(in) :: modes               !! number wanted
     logical, intent(in) :: accurate_vectors(:) !! (speeds) eigenvectors also to full precision
     type(speed_work_t), intent(inout) :: work  !! with the equations of this position
-    type(bordered_modes_t), intent(out) :: found(:) !! (speeds) at least `modes` of each
+    type(bordered_modes_t), intent(inout) :: found(:) !! (speeds) at least `modes` of each; what they
+                                                      !! held is lost, but their room is used again
     type(outcome_t), intent(inout) :: outcome(:)    !! (speeds) an error already present is kept
     type(ledger_t), intent(inout) :: counts    !! of the work done
 
