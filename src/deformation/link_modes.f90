@@ -55,8 +55,9 @@ module link_modes
     !! as large as the modes, or larger where terms cancel in them (0:modes; modes) [√kg]
     real(wp), allocatable :: terms(:)                 !! from 0
     real(wp), allocatable :: axial_terms(:)
-    real(wp), allocatable :: slope_norm(:)            !! (2 + modes) norms of the slopes of the chord,
-                                                      !! the curve of the clamped end, the own modes
+    real(wp), allocatable :: slope_norm(:)            !! (2 + modes) norms of the slopes of the
+                                                      !! chord, the curve of the clamped end, the
+                                                      !! own modes
     real(wp), allocatable :: slope_terms(:)           !! (2 + modes) and of the magnitudes in them
     type(next_orders_t) :: next                       !! of the transverse displacement
     type(next_orders_t) :: axial_next

@@ -24,9 +24,10 @@ module next_orders
     integer :: number = 0  !! of unknowns in each piece, lowest orders first
     real(wp), allocatable :: mass(:, :)             !! (modes, unknowns of all pieces) with the own
                                                     !! modes [s²]
-    real(wp), allocatable :: participation(:, :)    !! (functions, unknowns) with 1 − ξ, ξ and, across,
-                                                    !! the curve of the clamped end
-    real(wp), allocatable :: mass_square(:, :, :)   !! (number, number, pieces) between each other [s²]
+    real(wp), allocatable :: participation(:, :)    !! (functions, unknowns) with 1 − ξ, ξ and,
+                                                    !! across, the curve of the clamped end
+    real(wp), allocatable :: mass_square(:, :, :)   !! (number, number, pieces) between each other
+                                                    !! [s²]
     real(wp), allocatable :: geometric(:, :, :)     !! (2 + modes, unknowns, 1 ξ ξ²) `∫ b v' v'`;
                                                     !! across only
     real(wp), allocatable :: geometric_square(:, :, :, :) !! (number, number, pieces, 1 ξ ξ²)
@@ -34,8 +35,8 @@ module next_orders
     real(wp), allocatable :: mass_norm(:)           !! (pieces) [s²]
     real(wp), allocatable :: participation_norm(:)  !! (pieces)
     real(wp), allocatable :: geometric_norm(:, :)   !! (1 ξ ξ², pieces)
-    logical, allocatable :: reached(:, :)           !! (pieces, jumps) whether the force that ends at
-                                                    !! the jump acts in the piece
+    logical, allocatable :: reached(:, :)           !! (pieces, jumps) whether the force that ends
+                                                    !! at the jump acts in the piece
   end type next_orders_t
 
 contains

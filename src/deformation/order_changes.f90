@@ -1,9 +1,10 @@
 !> How much the next polynomial orders would lower an eigenvalue, piece by piece of every link.
 !!
 !! With r the residual of a mode in the equations of the unknowns of these orders, and C their
-!! matrix `K + K_G − λ M`, the eigenvalue falls by `rᵀ C⁻¹ r` as long as that is little. The unknowns of
-!! one piece are not coupled with those of another. What they do, `C⁻¹ r`, acts back on the unknowns
-!! in use, which yield; where links are pressed or pulled hard, that adds as much again.
+!! matrix `K + K_G − λ M`, the eigenvalue falls by `rᵀ C⁻¹ r` as long as that is little. The
+!! unknowns of one piece are not coupled with those of another. What they do, `C⁻¹ r`, acts back on
+!! the unknowns in use, which yield; where links are pressed or pulled hard, that adds as much
+!! again.
 module order_changes
   use bordered_matrix, only: layout_t
   use kinds, only: wp
@@ -20,8 +21,8 @@ module order_changes
   type :: order_change_t
     real(wp) :: near = 0.0_wp   !! by the first half of these orders [1/s²]
     real(wp) :: all = 0.0_wp    !! by all of them [1/s²]
-    real(wp) :: echo = 0.0_wp   !! what is added, to first order, because the unknowns in use yield to
-                                !! the new ones [1/s²]
+    real(wp) :: echo = 0.0_wp   !! what is added, to first order, because the unknowns in use yield
+                                !! to the new ones [1/s²]
     logical :: definite = .true. !! C is positive definite; if not, the orders are far too low, and
                                  !! the changes are magnitudes only
   end type order_change_t
@@ -60,7 +61,8 @@ contains
     type(link_modes_t), intent(in) :: links(:) !! (bodies)
     type(layout_t), intent(in) :: layout       !! of these links
     type(chords_t), intent(in) :: chords       !! of this position
-    real(wp), intent(in) :: border_mass(:, :)  !! (border, border) M between the border's unknowns [s²]
+    real(wp), intent(in) :: border_mass(:, :)  !! (border, border) M between the border's unknowns
+                                               !! [s²]
     real(wp), intent(in) :: force(:, :)        !! (force functions, bodies) at this speed; no
                                                !! functions: static [N]
     real(wp), intent(in) :: vectors(:, :)      !! (unknowns, modes) with yᵀMy = 1
@@ -95,8 +97,8 @@ contains
                   ends(k) = dot_product(chords%across(k, :, b), border)
                 end do
                 do k = 1, next%number
-                  residual(k) = -lambda(i)*(dot_product(ends, next%participation(:, low + k - 1)) + &
-                    dot_product(own, next%mass(:, low + k - 1)))
+                  residual(k) = -lambda(i)*(dot_product(ends, next%participation(:, low + k - &
+                    1)) + dot_product(own, next%mass(:, low + k - 1)))
                 end do
                 if (size(force, 1) > 0) then
                   turn = dot_product(chords%turn(:, b), border)
@@ -110,8 +112,8 @@ contains
               matrix = square - lambda(i)*next%mass_square(:, :, e)
               call eliminate(matrix, residual, least_pivot, change(part, i))
               if (is_silent(next, e, lambda(i), slope_reach, ends_norm)) cycle
-              call add_echo(next%mass(:, low:high), slopes, link%square, own_stiffness(link, force, &
-                b), lambda(i), residual, change(part, i)%echo)
+              call add_echo(next%mass(:, low:high), slopes, link%square, own_stiffness(link, &
+                force, b), lambda(i), residual, change(part, i)%echo)
               call add_border_echo(chords%across(:, :, b), next%participation(:, low:high), &
                 border_mass, lambda(i), residual, change(part, i)%echo)
             end do
@@ -143,7 +145,8 @@ contains
               call eliminate(matrix, residual, least_pivot, change(part, i))
               if (is_silent(next, e, lambda(i), 0.0_wp, ends_norm)) cycle
               call add_echo(next%mass(:, low:low + next%number - 1), no_slopes, &
-                links(b)%axial_square, spread(1.0_wp, 1, links(b)%axial_modes), lambda(i), residual, change(part, i)%echo)
+                links(b)%axial_square, spread(1.0_wp, 1, links(b)%axial_modes), lambda(i), &
+                residual, change(part, i)%echo)
               call add_border_echo(chords%along(:, :, b), next%participation(:, low:low + &
                 next%number - 1), border_mass, lambda(i), residual, change(part, i)%echo)
             end do
@@ -201,8 +204,8 @@ contains
   pure subroutine eliminate(matrix, residual, least_pivot, change)
     real(wp), intent(inout) :: matrix(:, :)  !! C less the unit matrix; destroyed
     real(wp), intent(inout) :: residual(:)   !! r; becomes C⁻¹ r
-    real(wp), intent(in) :: least_pivot      !! smaller ones are not trusted: the eigenvalue is near,
-                                             !! or above, those of these unknowns alone
+    real(wp), intent(in) :: least_pivot      !! smaller ones are not trusted: the eigenvalue is
+                                             !! near, or above, those of these unknowns alone
     type(order_change_t), intent(out) :: change
 
     real(wp) :: pivot(size(residual)), factor

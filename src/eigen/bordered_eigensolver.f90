@@ -101,9 +101,10 @@ contains
   !! complete, from a dense eigenproblem.
   !!
   !! Every mode is improved by inverse iteration at its Rayleigh quotient until the error of its
-  !! eigenvalue is below rounding. If there are modes within the clearance above the last one wanted,
-  !! they are found, too, if that can be done; `found%near` counts them in. Errors: more modes wanted than unknowns; the dense eigenproblem
-  !! fails; no start leads to enough modes that are proven to be complete.
+  !! eigenvalue is below rounding. If there are modes within the clearance above the last one
+  !! wanted, they are found, too, if that can be done; `found%near` counts them in. Errors: more
+  !! modes wanted than unknowns; the dense eigenproblem fails; no start leads to enough modes that
+  !! are proven to be complete.
   subroutine find_bordered_modes(pencil, wanted, accurate_vectors, start, found, error, clearance)
     type(bordered_pencil_t), intent(in) :: pencil    !! G and M
     integer, intent(in) :: wanted                    !! number of modes
@@ -255,11 +256,15 @@ contains
     type(bordered_modes_t), intent(inout) :: found
     integer, intent(in) :: unknowns, modes
 
-    if (allocated(found%lambda)) then
-      if (all(shape(found%vector) == [unknowns, modes])) return
-      deallocate (found%lambda, found%vector, found%mass_times, found%stiffness_times, found%error, &
-        found%origin)
+    if (allocated(found%lambda) .and. allocated(found%stiffness_times)) then
+      if (all(shape(found%stiffness_times) == [unknowns, modes])) return
     end if
+    if (allocated(found%lambda)) deallocate (found%lambda)
+    if (allocated(found%error)) deallocate (found%error)
+    if (allocated(found%origin)) deallocate (found%origin)
+    if (allocated(found%vector)) deallocate (found%vector)
+    if (allocated(found%mass_times)) deallocate (found%mass_times)
+    if (allocated(found%stiffness_times)) deallocate (found%stiffness_times)
     allocate (found%lambda(modes), found%error(modes), found%origin(modes))
     allocate (found%vector(unknowns, modes), found%mass_times(unknowns, modes), &
       found%stiffness_times(unknowns, modes))
@@ -439,8 +444,8 @@ contains
 
   contains
 
-    !> Proves, if it can, that there are no modes but those found up to a relative distance above the
-    !! last wanted one.
+    !> Proves, if it can, that there are no modes but those found up to a relative distance above
+    !! the last wanted one.
     subroutine clear_up_to(reach)
       real(wp), intent(in) :: reach
 

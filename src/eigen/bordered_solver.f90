@@ -115,8 +115,8 @@ contains
   !> `L D Lᵀ` of the first m rows; the rows below are updated with them. Column k then holds that of
   !! `L D`.
   !!
-  !! Four columns are taken off the others at a time, one after another in each entry: the digits are
-  !! those of one column at a time, and memory is read and written a quarter as often.
+  !! Four columns are taken off the others at a time, one after another in each entry: the digits
+  !! are those of one column at a time, and memory is read and written a quarter as often.
   pure subroutine eliminate(panel, m)
     real(wp), intent(inout) :: panel(:, :)
     integer, intent(in) :: m

@@ -139,9 +139,9 @@ contains
   !! are too coarse under heavy loads and for many modes.
   !!
   !! With s = |μ|, `K − μM + Σ (μ + s − λ_i) w_i w_iᵀ` differs from `K − μM` by at most as many
-  !! positive terms as modes are given, whatever the w_i. If it is positive definite, `K − μM` has no
-  !! more negative eigenvalues than there are terms, however inaccurate λ_i and y_i are. It is proven
-  !! to be so if its Cholesky factorization succeeds after a bound of the rounding has been
+  !! positive terms as modes are given, whatever the w_i. If it is positive definite, `K − μM` has
+  !! no more negative eigenvalues than there are terms, however inaccurate λ_i and y_i are. It is
+  !! proven to be so if its Cholesky factorization succeeds after a bound of the rounding has been
   !! subtracted from the diagonal, entry by entry (Demmel 1989; Rump 2006).
   !!
   !! Only the lower own modes of every link need to be factored. On the higher ones, the tail, `K −

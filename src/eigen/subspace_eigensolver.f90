@@ -160,7 +160,8 @@ contains
 
   !> Rayleigh–Ritz: the modes in the subspace of the basis.
   subroutine solve_small(mass, stiffness, modes, lambda, small, error)
-    real(wp), intent(in) :: mass(:, :), stiffness(:, :) !! in the basis; the upper triangles are read
+    real(wp), intent(in) :: mass(:, :), stiffness(:, :) !! in the basis; the upper triangles are
+                                                        !! read
     integer, intent(in) :: modes
     real(wp), allocatable, intent(out) :: lambda(:)
     real(wp), allocatable, intent(out) :: small(:, :) !! (basis vectors, modes)

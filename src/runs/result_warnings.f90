@@ -131,8 +131,8 @@ contains
       " % the axial frequencies begin to mislead")
   end function deflections
 
-  !> Number of rows with a frequency less accurate than requested, the worst of them, and what limits
-  !! it there.
+  !> Number of rows with a frequency less accurate than requested, the worst of them, and what
+  !! limits it there.
   pure function missed_accuracy(positions, sweep) result(warning)
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep

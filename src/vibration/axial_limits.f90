@@ -68,8 +68,8 @@ contains
       euler = pi**2*model%links(b)%bending_stiffness/model%links(b)%length**2
       pressed = -least_axial_force(linkage%bodies(b), force(:, b))
       if (pressed <= most_euler_loads*euler) cycle
-      call set_error(outcome%error, error_of_numerics, "the compression, "//to_string(pressed, 4)// &
-        " N, is "//to_string(pressed/euler, 3)//" times Euler's load: above "// &
+      call set_error(outcome%error, error_of_numerics, "the compression, "// &
+        to_string(pressed, 4)//" N, is "//to_string(pressed/euler, 3)//" times Euler's load: above "// &
         to_string(most_euler_loads, 4)//" no frequencies are computed", body=b)
       return
     end do

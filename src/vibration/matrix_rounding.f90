@@ -40,8 +40,8 @@ contains
 
   !> Estimated relative error of every eigenvalue due to the rounding of the integrals in M and K_G.
   !!
-  !! By the Cauchy–Schwarz inequality an entry between two shapes f and g is at most ‖f‖ ‖g‖, and its
-  !! rounding ε ‖f‖ times the norm of the magnitudes of which g is made.
+  !! By the Cauchy–Schwarz inequality an entry between two shapes f and g is at most ‖f‖ ‖g‖, and
+  !! its rounding ε ‖f‖ times the norm of the magnitudes of which g is made.
   pure subroutine find_matrix_errors(model, chords, force_size, found, modes, error, load_work)
     type(deformation_model_t), intent(in) :: model !! of the links
     type(chords_t), intent(in) :: chords           !! at this position
@@ -49,10 +49,10 @@ contains
     type(bordered_modes_t), intent(in) :: found    !! modes at this position and speed
     integer, intent(in) :: modes                   !! number, lowest first
     real(wp), intent(out) :: error(:)              !! (modes) relative, of eigenvalues
-    real(wp), intent(out) :: load_work(:)          !! (modes) bound of `∫ N v'² dx` for yᵀMy = 1 with
-                                                   !! the largest force of all links in each: forces
-                                                   !! pass from link to link, and their errors, too
-                                                   !! [1/s²]
+    real(wp), intent(out) :: load_work(:)          !! (modes) bound of `∫ N v'² dx` for yᵀMy = 1
+                                                   !! with the largest force of all links in each:
+                                                   !! forces pass from link to link, and their
+                                                   !! errors, too [1/s²]
 
     real(wp) :: mass_error, slope_error, slopes
     integer :: b, i
@@ -62,8 +62,8 @@ contains
       slope_error = 0.0_wp
       slopes = 0.0_wp
       do b = 1, size(model%links)
-        call add_link(model, chords, found%vector(:, i), b, force_size(b), mass_error, slope_error, &
-          slopes)
+        call add_link(model, chords, found%vector(:, i), b, force_size(b), mass_error, &
+          slope_error, slopes)
       end do
       error(i) = multiple*epsilon(1.0_wp)*(mass_error + slope_error/max(abs(found%lambda(i)), &
         tiny(1.0_wp)))

@@ -70,8 +70,8 @@ contains
   !! loads smooth between masses.
   !!
   !! Degrees are chosen piece by piece, across and along, from the shortest waves that occur there:
-  !! the error of order p is about `((kL/4)^{p−1}/(p−1)!)²` for the wave number k and the length L of
-  !! the piece. Where the model's own error estimate is above the bound, the degree is raised.
+  !! the error of order p is about `((kL/4)^{p−1}/(p−1)!)²` for the wave number k and the length L
+  !! of the piece. Where the model's own error estimate is above the bound, the degree is raised.
   !!
   !! Errors: those of `new_deformation_model`. A bound that is not reached at the highest degrees is
   !! no error.

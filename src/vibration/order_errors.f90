@@ -12,8 +12,8 @@ module order_errors
 
   !> The change made by the next orders, and what their series leaves, is multiplied by
   !! `order_margin`. Where the change of the eigenvalue is above
-  !! `rough_change` it is no longer small beside the distances of eigenvalues, and where the matrix of
-  !! the next orders is not definite, orders are far too low (a link compressed so hard that it
+  !! `rough_change` it is no longer small beside the distances of eigenvalues, and where the matrix
+  !! of the next orders is not definite, orders are far too low (a link compressed so hard that it
   !! buckles many times over): larger margins are used instead.
   real(wp), parameter :: order_margin = 1.5_wp, rough_margin = 4.0_wp, rough_change = 1.0e-4_wp, &
     indefinite_margin = 16.0_wp
@@ -52,12 +52,12 @@ contains
     end do
   end function order_error
 
-  !> Errors of the lowest modes, of which each is told to be as far off as a mode above it may be below
-  !! it: with more orders modes change their places.
+  !> Errors of the lowest modes, of which each is told to be as far off as a mode above it may be
+  !! below it: with more orders modes change their places.
   !!
   !! Where eigenvalues are so near that the next orders mix their modes, the lower one falls to the
-  !! lesser eigenvalue of `[λ_i − c_i, √(c_i c_j); √(c_i c_j), λ_j − c_j]` at most, with c what orders
-  !! change each by itself.
+  !! lesser eigenvalue of `[λ_i − c_i, √(c_i c_j); √(c_i c_j), λ_j − c_j]` at most, with c what
+  !! orders change each by itself.
   pure function with_modes_above(lambda, error, modes) result(whole)
     real(wp), intent(in) :: lambda(:) !! (modes found) ascending [1/s²]
     real(wp), intent(in) :: error(:)  !! (modes, and those near above them) relative

@@ -43,11 +43,12 @@ contains
   !! sensitivity of the eigenvalue to the lengths of the links.
   !!
   !! Far from dead points a multiple of `ε/sin²(θ4 − θ3)` is a bound, larger where terms cancel in
-  !! λ, and where the loads of other links cancel in the axial force of one. The sine is reduced where a link of a dyad is short compared with the distances that place
-  !! it, for the angle of that link takes up all of their rounding. Near dead points modes differ:
-  !! some soften with the sine, others do not depend on it, and loads grow like powers of 1/sin.
-  !! There each length is changed a little, and `yᵀ(ΔK_G − λ ΔM) y` is the effect. If the linkage
-  !! closes with neither a longer nor a shorter link, the error is at least 1.
+  !! λ, and where the loads of other links cancel in the axial force of one. The sine is reduced
+  !! where a link of a dyad is short compared with the distances that place it, for the angle of
+  !! that link takes up all of their rounding. Near dead points modes differ: some soften with the
+  !! sine, others do not depend on it, and loads grow like powers of 1/sin. There each length is
+  !! changed a little, and `yᵀ(ΔK_G − λ ΔM) y` is the effect. If the linkage closes with neither a
+  !! longer nor a shorter link, the error is at least 1.
   subroutine pose_error(linkage, model, state, factor, load_work, found, modes, error, counts)
     type(linkage_t), intent(in) :: linkage         !! of the structure
     type(deformation_model_t), intent(in) :: model !! of continuous links

@@ -55,8 +55,9 @@ contains
     integer, intent(in) :: modes               !! number wanted
     logical, intent(in) :: accurate_vectors(:) !! (speeds) eigenvectors also to full precision
     type(speed_work_t), intent(inout) :: work  !! with the equations of this position
-    type(bordered_modes_t), intent(inout) :: found(:) !! (speeds) at least `modes` of each; what they
-                                                      !! held is lost, but their room is used again
+    type(bordered_modes_t), intent(inout) :: found(:) !! (speeds) at least `modes` of each; what
+                                                      !! they held is lost, but their room is used
+                                                      !! again
     type(outcome_t), intent(inout) :: outcome(:)    !! (speeds) an error already present is kept
     type(ledger_t), intent(inout) :: counts    !! of the work done
 

@@ -65,7 +65,7 @@ errors_asked_for() {
 
 wrong_use() {
   "$bench" >"$scratch/stdout" 2>"$scratch/stderr" </dev/null
-  [ $? -eq 2 ] && says "usage: bench PROGRAM FOLDER LIBRARIES [short]"
+  [ $? -eq 2 ] && says "usage: bench PROGRAM FOLDER LIBRARIES [short|corners]"
 }
 
 check "make bench: a short run" short_run
