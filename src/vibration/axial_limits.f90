@@ -69,8 +69,9 @@ contains
       pressed = -least_axial_force(linkage%bodies(b), force(:, b))
       if (pressed <= most_euler_loads*euler) cycle
       call set_error(outcome%error, error_of_numerics, "the compression, "// &
-        to_string(pressed, 4)//" N, is "//to_string(pressed/euler, 3)//" times Euler's load: above "// &
-        to_string(most_euler_loads, 4)//" no frequencies are computed", body=b)
+        to_string(pressed, 4)//" N, is "//to_string(pressed/euler, 3)// &
+        " times Euler's load: above "//to_string(most_euler_loads, 4)// &
+        " no frequencies are computed", body=b)
       return
     end do
   end subroutine refuse_folded

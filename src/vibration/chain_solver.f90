@@ -75,7 +75,13 @@ contains
       counts%operator_products = counts%operator_products + found%products
       products = products + found%products
       found%products = products
-      if (allocated(error)) return
+      if (allocated(error)) then
+        ! With more vectors the next mode is farther away, and the last one wanted converges.
+        if (i == size(guards) .or. wanted + guards(min(i + 1, size(guards))) > &
+          near%layout%unknowns) return
+        deallocate (error, vectors)
+        cycle
+      end if
       call is_complete(least, count_limit(found%lambda(wanted + guards(i))), &
         modes%lambda(:wanted + guards(i)), modes%mass_times(:, :wanted + guards(i)), proven)
       counts%factorizations = counts%factorizations + 1
