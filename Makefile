@@ -212,7 +212,7 @@ $(build)/%.o: %.f90 $(build)/command
 small = acceleration_fields axial_forces axial_limits body_lumps bordered_matrix bordered_solver completeness_proof \
         eigenvalue_gaps eigenvalue_sensitivity inertia_loads joint_forces kinematic_coefficients linkages load_cases \
         matrix_rounding order_changes order_errors pin_displacements pose_rounding poses position_equations position_solver \
-        positions reduced_assembly rigid_bodies speed_solver start_extrapolation
+        reduced_assembly rigid_bodies speed_solver start_extrapolation
 ifeq ($(kind),release)
 $(small:%=$(build)/%.o): stack = -fstack-arrays
 endif
