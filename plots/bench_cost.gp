@@ -12,7 +12,10 @@ rows_of(solver) = rows_where(table, where_is("solver", solver))
 drawn = ""                                          # the solvers that the table has, by number
 do for [k=1:words(solvers)] { if (count_where(table, where_is("solver", word(solvers, k))) > 0) { drawn = drawn." ".k } }
 
-eval legend_page(1000, words(drawn))
+lower = foot(lines_of_notes(note, remark))
+longest = 0
+do for [k in drawn] { longest = larger(longest, text_width(heading_of(k), 20)) }
+eval legend_page(1000, words(drawn), longest, 80, 1)
 eval heading
 set logscale y
 set format y "10^{%T}"
@@ -26,9 +29,9 @@ if (value("high_".name) > 8) {
     set xrange [value("low_".name) - 0.3 : value("high_".name) + 0.3]
 }
 set tmargin at screen down(125)
-set bmargin at screen up(foot(lines_of_notes(note, remark)))
+set bmargin at screen up(lower)
 set xlabel argument(6)
-set ylabel "time of a position [µs]"
+eval axis_title("time of a position [µs]", lower, @panel_room - lower)
 
 plot for [k in drawn] rows_of(word(solvers, k + 0)) using (field(name)):(1e6*field(cost)) with linespoints \
     lt line_of(k) lw width_of(k) pt mark_of(k) ps 1.7 title heading_of(k)
