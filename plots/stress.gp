@@ -45,9 +45,10 @@ bottom = 1e-17
 at_least(error) = error > bottom ? error : bottom
 top = bottom
 stats table using (strcol(10) eq "bounded" ? (top = larger(top, larger(column(6), column(7))), column(1)) : NaN) name "parameter" nooutput
-top = 10.0**ceil(log10(top))
+top = 10.0**ceil(log10(top) + 0.3)
 longest = 0
 do for [k=1:n] { longest = larger(longest, text_width(mark_text(k), 20)) }
+do for [k=1:words(cases)] { longest = larger(longest, text_width(case_text(k), 20) - 100) }
 
 if (numbered_cases) {
     note = "above the line the estimate is on the safe side"
@@ -74,28 +75,26 @@ if (numbered_cases) {
 } else {
     note = "filled: true error, against quadruple precision; hollow: estimated error"
     lower = foot(lines_of_notes(note, remark))
-    full_height = panels == 1 ? 740 : panels == 2 ? 430 : 300
+    full_height = panels == 1 ? 740 : panels == 2 ? 430 : panels < 5 ? 280 : 37*larger(4, n) + 70
     gap = 35
     eval legend_page(125 + lower + panels*(full_height + gap) - gap, n, longest, 80, 1)
     panel_height = (@panel_room - lower + gap)/panels - gap
     eval heading
-    set logscale xy
-    x_low = parameter_min; x_high = parameter_max
-    linear = parameter_min <= 0 || parameter_max/parameter_min < 20         # a few decades at least take a logarithmic axis
-    side(k) = column(1)                             # side by side where points would hide each other
-    if (parameter_min < 0) { side(k) = abs(column(1)); linear = 0; stats table using (strcol(10) eq "bounded" ? abs(column(1)) : NaN) name "parameter" nooutput }
+    set logscale y
+    # A few decades at least take a logarithmic axis, on which zero has the place of the decade before the least.
+    least = 1e300; greatest = 0; zeros = 0
+    stats table using (strcol(10) ne "bounded" ? NaN : (value = abs(column(1)), zeros = zeros || value == 0, \
+        least = value > 0 ? lesser(least, value) : least, greatest = larger(greatest, value), value)) name "parameter" nooutput
+    linear = greatest/least < 20
+    if (zeros) { least = least/10 }
+    spread = linear ? lesser(0.25, 0.02*(greatest - least)) : (greatest/least)**0.005
+    place(value, k) = linear ? value + spread*(k - 0.5*(n + 1)) : (value == 0 ? least : abs(value))*spread**(k - 0.5*(n + 1))
     if (linear) {
-        unset logscale x
-        spread = (parameter_max - parameter_min)/(4.0*(rows_apart = larger(1, parameter_records/larger(1, n*panels))))
-        spread = lesser(spread, 0.02*(parameter_max - parameter_min))
-        side(k) = column(1) + spread*(k - 0.5*(n + 1))
-        set xrange [parameter_min - 0.04*(parameter_max - parameter_min):parameter_max + 0.04*(parameter_max - parameter_min)]
+        set xrange [least - 0.04*(greatest - least):greatest + 0.04*(greatest - least)]
     } else {
-        ratio = (parameter_max/parameter_min)**0.005
-        if (parameter_min < 0) { }
-        side(k) = abs(column(1))*ratio**(k - 0.5*(n + 1))
-        set xrange [parameter_min/ratio**8:parameter_max*ratio**8]
-        set xtics (parameter_max/parameter_min > 1e9 ? 100 : 10)
+        set logscale x
+        set xrange [least/spread**8:greatest*spread**8]
+        set xtics 10.0**ceil(log10(greatest/least)/10)
         set mxtics 10
     }
     set yrange [bottom:top]
@@ -108,13 +107,13 @@ if (numbered_cases) {
         set tmargin at screen up(base + panel_height)
         set key at screen across(key_left), up(base + panel_height)
         if (panel > 1) { do for [label=901:904] { unset label label }; unset key }
-        if (panel == panels) { set format x linear ? "%h" : "10^{%T}"; set xlabel axis noenhanced } else { set format x "" }
+        if (panel == panels) { set format x (linear ? "%h" : "10^{%T}"); if (zeros) { set xtics add ("0" least) }; set xlabel axis noenhanced } else { set format x "" }
         set format y "10^{%T}"
         eval axis_title("relative error", base, panel_height)
-        set label 906 case_text(panel) at graph 0.015, 0.93 noenhanced font ",18"
-        plot for [k=1:n] table using (bounded(k, panel) ? side(k) : NaN):(at_least(column(7))) \
+        set label 906 case_text(panel) at screen across(key_left + 12), up(base + 22) left noenhanced
+        plot for [k=1:n] table using (bounded(k, panel) ? place(column(1), k) : NaN):(at_least(column(7))) \
                 with points lt k pt hollow(k) ps 1.4 lw 1.5 notitle, \
-            for [k=1:n] table using (bounded(k, panel) ? side(k) : NaN):(at_least(column(6))) \
+            for [k=1:n] table using (bounded(k, panel) ? place(column(1), k) : NaN):(at_least(column(6))) \
                 with points lt k pt filled(k) ps 0.8 notitle, \
             for [k=1:n] keyentry with points lt k pt filled(k) ps 1.3 title mark_text(k)
     }
