@@ -96,7 +96,7 @@ do for [panel=1:panels] {
     if (from_zero && low_of[panel] >= 0 && low_of[panel] < 0.5*high_of[panel]) { high_of[panel] = high_of[panel] + extra } \
     else { low_of[panel] = low_of[panel] - extra; high_of[panel] = high_of[panel] + extra }
     tick_room = larger(tick_room, value_width(low_of[panel], high_of[panel], full_height))
-    lines = larger(lines, title_lines(title_of(panel), full_height))
+    lines = larger(lines, planned_lines(title_of(panel), full_height))
 }
 eval legend_page(125 + lower + panels*(full_height + gap) - gap, most_entries, text_width("branch 888", 20), tick_room, lines)
 panel_height = (@panel_room - lower + gap)/panels - gap

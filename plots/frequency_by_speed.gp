@@ -31,7 +31,7 @@ do for [k=1:n] { longest = larger(longest, text_width(speed_text(k), 20)) }
 title_above = value_title(sprintf("natural frequency f%d", mode), value("unit_".name), lowest, highest)
 title_below = sprintf("change against %.5g %s [%s]", reference, typeset(unit_speed), unit_and_power("%", value_power(least, most)))
 eval legend_page(1150, n + 1, longest, larger(value_width(lowest, highest, 500), value_width(least, most, 280)), \
-    larger(title_lines(title_above, 500), title_lines(title_below, 280)))
+    larger(planned_lines(title_above, 500), planned_lines(title_below, 280)))
 eval heading
 eval crank_axis(low_crank, high_crank)
 set key title "crank speed ω₂" left

@@ -51,7 +51,7 @@ panels = words(kept)
 do for [k in kept] {
     title_of[k + 0] = value_title(named(word(quantities, k + 0)), unit_for(word(quantities, k + 0)), 0, most[k + 0])
     tick_room = larger(tick_room, value_width(0, most[k + 0], full_height))
-    lines = larger(lines, title_lines(title_of[k + 0], full_height))
+    lines = larger(lines, planned_lines(title_of[k + 0], full_height))
 }
 
 headline = numbered(figure, sprintf("Harmonics over a turn of the crank, %s", at_speed(speed, unit_speed)))

@@ -37,7 +37,7 @@ lines = 1
 do for [k=1:n_kept] {
     panel = int(word(kept, k))
     tick_room = larger(tick_room, value_width(low_of[panel], high_of[panel], full_height))
-    lines = larger(lines, title_lines(title_of(panel), full_height))
+    lines = larger(lines, planned_lines(title_of(panel), full_height))
 }
 eval legend_page(125 + lower + n_kept*(full_height + panel_gap) - panel_gap, 1, longest, tick_room, lines)
 panel_height = (@panel_room - lower + panel_gap)/n_kept - panel_gap

@@ -38,7 +38,7 @@ sized = exists("figure_width") && figure_width > 0
 in_mm = sized && figure_unit eq "mm"
 inches(length) = length/(in_mm ? 25.4 : 96.0)
 page_scale = 1
-smaller(scale) = sprintf("page_scale = %g; sized = 0; terminal_name = 'pngcairo'; extension = ''", scale)
+smaller(scale) = sprintf("page_scale = %g; sized = 0; top_cut = 0; terminal_name = 'pngcairo'; extension = ''", scale)
 top_cut = titled ? 0 : 92                          # pixels of the head that a page without titles has not
 
 plan_scale(w, h) = figure_width/(1.0*w) < figure_height/(1.0*h) ? figure_width/(1.0*w) : figure_height/(1.0*h)
@@ -47,26 +47,26 @@ sheet_h(w, h) = sized ? figure_height/plan_scale(w, h) : h
 pdf_inches(w, sheet) = sized ? inches(figure_width)*w/sheet : w/228.6
 raster_scale(w) = sized ? (in_mm ? 300*inches(figure_width) : figure_width)/(1.0*w) : page_scale
 terminal_options(w, h) = terminal_name eq "pdfcairo" \
-    ? sprintf("enhanced size %.6gin,%.6gin font 'Sans,20' fontscale %.6g linewidth %.6g", pdf_inches(w, w), pdf_inches(h, w), \
-        96*pdf_inches(w, w)/w, 96*pdf_inches(w, w)/w) \
+    ? sprintf("enhanced size %.6gin,%.6gin font 'Sans,20' fontscale %.6g linewidth %.6g pointscale %.6g", \
+        pdf_inches(w, w), pdf_inches(h, w), 72*pdf_inches(w, w)/w, 144*pdf_inches(w, w)/w, 72*pdf_inches(w, w)/w) \
     : terminal_name eq "pngcairo" \
     ? sprintf("enhanced size %d,%d font 'Sans,20' fontscale %.6g linewidth %.6g pointscale %.6g background rgb 'white'", \
         w*raster_scale(w) + 0.01, h*raster_scale(w) + 0.01, raster_scale(w), raster_scale(w), raster_scale(w)) \
     : terminal_name eq "svg" \
-    ? sprintf("enhanced size %d,%d font 'Sans,20' fontscale 1.3333 background rgb 'white'", w + 0.5, h + 0.5) \
+    ? sprintf("enhanced size %d,%d font 'Sans,20' fontscale 1.3333 dashed background rgb 'white'", w + 0.5, h + 0.5) \
     : sprintf("enhanced size %d,%d font 'Sans,20' fontscale %.6g linewidth %.6g", \
-        w*raster_scale(w) + 0.01, h*raster_scale(w) + 0.01, 0.96*raster_scale(w), raster_scale(w))
+        w*raster_scale(w) + 0.01, h*raster_scale(w) + 0.01, raster_scale(w), raster_scale(w))
 open_page(w, h) = open_sheet(floor(w), floor(h) - top_cut)
 open_sheet(w, h) = sprintf("page_width = %d; page_height = %d; sheet_width = %.9g; sheet_height = %.9g; ", \
     w, h, sheet_w(w, h), sheet_h(w, h)).\
     sprintf("set terminal %s %s; set output out.extension", terminal_name, terminal_options(sheet_w(w, h), sheet_h(w, h)))
 
-# An SVG is as large as it says in its first lines, whatever its coordinates.
-of_size(length) = sprintf("%g%s", length, in_mm ? "mm" : "")
-svg_sized = "sed '/<svg/,/viewBox/s/width=\"[^\"]*\" height=\"[^\"]*\"/width=\"%s\" height=\"%s\"/'"
-resize(file) = sprintf(svg_sized." %s > %s && mv %s %s", of_size(figure_width), of_size(figure_height), \
-    quoted(file), quoted(file."~"), quoted(file."~"), quoted(file))
-close = "unset output; if (sized && terminal_name eq 'svg') { system(resize(out.extension)) }; reset"
+# An SVG needs some work when it is done.
+of_size(length) = sized ? sprintf("%g%s", length, in_mm ? "mm" : "") : ""
+finish_svg(file) = system(sprintf("awk -v width='%s' -v height='%s' -f ", \
+    of_size(sized ? figure_width : 0), of_size(sized ? figure_height : 0)).quoted(plots."svg.awk")." < ".quoted(file)." > ".quoted(file."~").\
+    " && mv ".quoted(file."~")." ".quoted(file))
+close = "unset output; if (terminal_name eq 'svg') { said = finish_svg(out.extension) }; reset"
 
 across(pixels) = (pixels + 0.5*(sheet_width - page_width))/sheet_width     # from the left edge, as a screen coordinate
 up(pixels) = (pixels + 0.5*(sheet_height - page_height))/sheet_height      # from the lower edge
@@ -225,6 +225,7 @@ value_title(name, unit, low, high) = name.bracketed(unit_and_power(unit, value_p
 # The title of a value axis stands at the left edge of the page, however wide the ticks; two lines if one is too long.
 title_size(text, length) = fit_size(text, length + 24, 20, 15)
 title_lines(text, length) = text_width(text, title_size(text, length)) > length + 24 ? 2 : 1
+planned_lines(text, length) = title_lines(text, sized ? 0.6*length : length)       # a given size may leave panels less height
 title_text(text, length) = title_lines(text, length) == 1 ? text : broken(text)
 axis_title(text, base, length) = sprintf("title_font = %d; ", title_lines(text, length) == 1 ? title_size(text, length) \
     : fit_size(text, 1.7*length, 18, 9)).\
@@ -245,11 +246,11 @@ columns_of(entries) = entries > 2*legend_rows ? 3 : entries > legend_rows ? 2 : 
 unlisted(n) = n > listed(n) ? sprintf("… +%d", n - listed(n)) : ""
 
 # The plan of a page h high, with ticks and words of the legend so wide and titles of so many lines. A page of a given size
-# keeps its letters at 7 points, if the plot keeps 420 pixels, and panels at two thirds of their height.
+# keeps its letters at 7 points, if the plot keeps 420 pixels, and three quarters of its height.
 left_room(ticks, lines) = larger(130, 60 + 34*lines + ticks)
 legend_width(entries, longest) = columns_of(entries)*larger(310, 130 + longest) - 15
 plan_width(fixed, h) = !sized ? fixed + 1160 : larger(larger(lesser(fixed + 1160, 96*inches(figure_width)/0.35), fixed + 420), \
-    0.66*h*figure_width/figure_height)
+    0.75*h*figure_width/figure_height)
 legend_plan(h, left, legend) = sprintf("plot_left = %d; plot_width = %d; ", left, plan_width(left + legend + 15, h) - left - legend - 15).\
     (sized ? open_page(plan_width(left + legend + 15, h), top_cut + plan_width(left + legend + 15, h)*figure_height/(1.0*figure_width)) \
     : open_page(plan_width(left + legend + 15, h), h)).\
@@ -260,7 +261,7 @@ panel_room = "(page_height + top_cut - 125)"       # pixels below the heading
 
 # A page of one panel: entries of the legend and the width of the widest, the title of the value axis and its unit.
 page_of_one(entries, longest, name, unit, low, high) = "lower = foot(lines_of_notes(note, remark)); ".\
-    legend_page(1000, entries, longest, value_width(low, high, 700), title_lines(value_title(name, unit, low, high), 700)).\
+    legend_page(1000, entries, longest, value_width(low, high, 700), planned_lines(value_title(name, unit, low, high), 700)).\
     "; eval heading; plot_height = @panel_room - lower; set tmargin at screen down(125); set bmargin at screen up(lower)".\
     sprintf("; eval value_axis(%.15g, %.15g, plot_height); eval axis_title(%s, lower, plot_height)", low, high, \
         quoted_twice(value_title(name, unit, low, high)))

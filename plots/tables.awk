@@ -2,6 +2,7 @@
 #   want=facts                     title, the note that names links 3 and 4, number of rows, and of every column its
 #                                  place, unit, least and greatest value, as gnuplot assignments
 #   want="distinct crank speed"    the distinct values of these columns, a line each, in the table's order; =crank with all digits
+#   want="moving torque O2x"       the distinct speeds at which some of these columns is not zero throughout
 #   want="range f1 f2"             the least and the greatest value found in these columns
 #   want="positive error1 error2"  the same of values above zero; nothing if there are none
 #   want="change f1 0"             speed, crank and f1's change in percent against the rows of speed 0
@@ -65,6 +66,15 @@ asked[1] == "facts" {
         number = $i + 0
         if (rows == 1 || number < low[i]) low[i] = number
         if (rows == 1 || number > high[i]) high[i] = number
+    }
+}
+
+asked[1] == "moving" && !($at["speed"] in moving) {
+    for (i = 2; i <= n_asked; i++) {
+        if (asked[i] in at && $at[asked[i]] + 0 != 0) {
+            if (!($at["speed"] in moving)) print cell("speed")
+            moving[$at["speed"]] = 1
+        }
     }
 }
 
