@@ -183,26 +183,23 @@ telling_crank() {
 
 greatest_speed() { ask 'distinct speed' "$1" | sort -n | tail -n 1; }
 
+# The table of a distributed inertia knows mass centres only.
 plan_mechanism() {
     mesh=
     if ask facts inertia.dat | grep -q col_moment; then
-        mesh=mesh.dat
-        if ! have mesh.dat; then
-            remark 'the mechanism of a distributed inertia is drawn only with mesh.dat (REPORT mesh)'
-            return
-        fi
+        if have mesh.dat; then mesh=mesh.dat; else can_place || return; fi
     fi
     add mechanism mechanism.gp inertia.dat "$(telling_crank inertia.dat)" "$(greatest_speed inertia.dat)" "$mesh"
 }
 
-# plan_speeds NAME TABLE [COLUMNS]: NAME.gp draws one speed of the table; not where all of these columns are zero.
+# plan_speeds NAME TABLE [COLUMNS [SCRIPT]]: NAME.gp, or SCRIPT, draws one speed of the table, unless all these columns are zero.
 plan_speeds() {
     speeds=$(ask 'distinct speed' "$2")
     n=$(printf '%s\n' "$speeds" | wc -l)
     [ -z "${3-}" ] || speeds=$(ask "moving $3" "$2")
     for speed in $speeds; do
         if [ "$n" -eq 1 ]; then name=$1; else name=$1_speed_$speed; fi
-        add "$name" "$1.gp" "$2" "$speed"
+        add "$name" "${4-$1.gp}" "$2" "$speed"
     done
 }
 
@@ -215,9 +212,11 @@ plan_frequencies() {
     done
 }
 
+# All modes on a page for each speed, and every one alone.
 plan_modes() {
+    [ -n "${animate-}" ] || [ "$(ask 'distinct mode crank' shapes.dat | wc -l)" -eq 1 ] || plan_speeds modes shapes.dat
     ask 'distinct mode crank speed' shapes.dat | while read -r mode crank speed; do
-        add "mode_${mode}_crank_${crank}_speed_$speed" "${animate-mode_shape.gp}" shapes.dat "$mode" "$crank" "$speed"
+        add "mode_${mode}_crank_${crank}_speed_$speed" "${animate:-mode_shape.gp}" shapes.dat "$mode" "$crank" "$speed"
     done
 }
 
@@ -251,6 +250,9 @@ can_animate() {
     esac
 }
 
+# plan_forces SCRIPT: at the speeds at which there is a force at all.
+plan_forces() { plan_speeds forces reactions.dat 'O2x O2y A3x A3y B3x B3y O4x O4y shaking_x shaking_y' "$1"; }
+
 # The shaking force is drawn once, with counterweights if they are known.
 plan_rigid_dynamics() {
     balance=
@@ -267,6 +269,7 @@ plan_rigid_dynamics() {
     have linkage.dat && can_place && add special_positions special_positions.gp linkage.dat
     have reactions.dat &&
         plan_speeds reactions reactions.dat 'O2x O2y A2x A2y A3x A3y B3x B3y B4x B4y O4x O4y torque'
+    have reactions.dat && can_place && plan_forces forces.gp
     [ -n "$balance" ] || ! have reactions.dat || plan_speeds shaking_force reactions.dat 'shaking_x shaking_y'
     if [ -n "$balance" ]; then
         plan_speeds shaking_force balance.dat 'shaking_x shaking_y'
@@ -281,6 +284,9 @@ plan_rigid_dynamics() {
 plan_animations() {
     can_animate || fail 'this gnuplot has not both of the terminals pngcairo and gif: nothing can be animated'
     have shapes.dat && animate=animate_mode.gp plan_modes
+    if have reactions.dat && [ "$(ask 'distinct crank' reactions.dat | wc -l)" -ge 12 ] && can_place; then
+        plan_forces animate_forces.gp
+    fi
     points=
     have points.dat && points=points.dat
     have kinematics.dat || return

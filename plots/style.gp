@@ -294,35 +294,3 @@ line_width(n) = few(n) ? 1.5 : 3
 dot_size(n) = few(n) ? 0.9 : n <= 150 ? 0.4 : 0.1
 mark_step(n) = n > 24 ? n/12 : 1
 mark_first(curve, curves, n) = n > 24 ? ((curve - 1)*mark_step(n))/curves : 0
-
-# ---- Drawings of mechanisms -----------------------------------------------------------------------------------
-# Equal axes: the page takes the shape of the mechanism, with room for headline, legend and note.
-
-frame(x0, x1, y0, y1, notes) = \
-    sprintf("x0 = %.12g; x1 = %.12g; y0 = %.12g; y1 = %.12g; bottom = foot(%d); ", x0, x1, y0, y1, notes).\
-    "pixel = (x1 - x0)/(y1 - y0) > 1.75 ? 1400/(x1 - x0) : 800/(y1 - y0); ".\
-    "box_width = pixel*(x1 - x0); box_height = pixel*(y1 - y0); ".\
-    "box_left = box_width > 950 ? 150 : (1180 - box_width)/2; ".\
-    "eval open_page(box_width > 950 ? box_width + 300 : 1180, bottom + box_height + 165); ".\
-    "set lmargin at screen across(box_left); set rmargin at screen across(box_left + box_width); ".\
-    "set bmargin at screen up(bottom); set tmargin at screen up(bottom + box_height); ".\
-    "set xrange [x0:x1]; set yrange [y0:y1]; set size ratio -1; step = nice(((x1 - x0) + (y1 - y0))/17); ".\
-    "set xtics step; set ytics step; unset grid; ".\
-    "set key at screen 0.5, down(115) center center vertical maxrows 1 Left reverse samplen 2.5 width 2"
-
-# Extent, both ends and the shortest element of the chain of links; the script sets nodes, the name of the block.
-measure = "stats nodes using 2:3 name 'all' nooutput; ".\
-    "x_min = all_min_x; x_max = all_max_x; y_min = all_min_y; y_max = all_max_y; ".\
-    "span = x_max - x_min > y_max - y_min ? x_max - x_min : y_max - y_min; begun = 0; nearest = span; ".\
-    "stats nodes using (begun == 0 ? (first_x = $2, first_y = $3, begun = 1) : 0, last_x = $2, last_y = $3, ".\
-    "nearest = $9 > 0 && $9 < nearest ? $9 : nearest, 0) nooutput"
-
-# Of those nodes: pins (where a link begins, but for the clamped root of the first, and the end of the last).
-is_pin(value) = ($6 == 0 && ($2 != first_x || $3 != first_y)) || ($2 == last_x && $3 == last_y) ? value : NaN
-
-# Places for their numbers. Where a number needs more room (a share of the span) than there is, every nth is shown.
-crowded(share) = ceil(share*span/nearest)
-every_nth(share) = $9 > 0 ? ceil(share*span/$9) : 1
-shown(share, value) = $6 == 0 || $6 == $7 || (int($6) % every_nth(share) == 0 && $7 - $6 >= every_nth(share)) ? value : NaN
-beside_x(room) = $2 + $10*room
-beside_y(room) = $3 + $11*room
