@@ -51,16 +51,25 @@ run: all
 	$(need_deck)
 	$(program) "$(DECK)"
 
+# FORMAT=svg, SIZE=1200x800, TITLES=no, ERRORS=yes: what flexmech-plot has options for.
+yes_or_no = @case "$($(1))" in ''|yes|no) ;; *) echo "make: $(1)=$($(1)): yes or no" >&2; exit 2 ;; esac
+figure_options = $(if $(FORMAT),--format "$(FORMAT)") $(if $(SIZE),--size "$(SIZE)") $(if $(filter no,$(TITLES)),--no-titles) \
+                 $(if $(filter yes,$(ERRORS)),--errors)
+draw = FLEXMECH_PLOT=make sh plots/draw_figures.sh
+
 figures: all
 	$(need_deck)
+	$(call yes_or_no,TITLES)
+	$(call yes_or_no,ERRORS)
+	@$(draw) $(figure_options) --help > /dev/null
 	@# Exit status 1: some rows could not be computed. The figures show where.
 	$(program) "$(DECK)" || test $$? -eq 1
-	@name=$$(basename "$(DECK)"); sh plots/draw_figures.sh "outputs/$${name%.*}"
+	@name=$$(basename "$(DECK)"); $(draw) $(figure_options) "outputs/$${name%.*}"
 
 animate: all
 	$(need_deck)
 	$(program) "$(DECK)" || test $$? -eq 1
-	@name=$$(basename "$(DECK)"); sh plots/draw_figures.sh --animate "outputs/$${name%.*}"
+	@name=$$(basename "$(DECK)"); $(draw) --animate "outputs/$${name%.*}"
 
 check: setup
 	@rm -f build/check.count
@@ -115,6 +124,7 @@ install:
 	install -d "$(DESTDIR)$(PREFIX)/bin" "$(DESTDIR)$(PREFIX)/share/flexmech"
 	install -m 755 $(program) "$(DESTDIR)$(PREFIX)/bin/flexmech"
 	cp -R plots "$(DESTDIR)$(PREFIX)/share/flexmech/"
+	install -m 755 plots/flexmech-plot "$(DESTDIR)$(PREFIX)/bin/flexmech-plot"
 
 clean:
 	rm -rf build outputs
@@ -124,7 +134,8 @@ help:
 	@echo "make debug              build build/debug/flexmech, with every check the compiler has"
 	@echo "make thesis             run both mechanisms of the thesis and draw their figures, in outputs/"
 	@echo "make run DECK=FILE      run one deck"
-	@echo "make figures DECK=FILE  run one deck and draw what its tables allow"
+	@echo "make figures DECK=FILE  run one deck and draw what its tables allow; FORMAT=svg or pdf, SIZE=1200x800 or 160x100mm,"
+	@echo "                        TITLES=no for bare figures, ERRORS=yes for the estimated errors of the frequencies too"
 	@echo "make animate DECK=FILE  run one deck and animate it: the linkage as it moves, and as it swings in its modes"
 	@echo "make check              all tests, in the release and in the debug build"
 	@echo "make check PFUNIT_DIR=D the same, with the unit tests run by the pFUnit 4 installed in the folder D"
@@ -137,7 +148,7 @@ help:
 	@echo "make references         make the quadruple-precision values of make stress anew (hours)"
 	@echo "make quad               build build/quad/flexmech, the program in quadruple precision (slow)"
 	@echo "make golden CASE=NAME   make tests/golden/NAME/ anew from inputs/NAME.deck"
-	@echo "make install PREFIX=DIR copy the program to DIR/bin, the plots to DIR/share/flexmech (DESTDIR is honoured)"
+	@echo "make install PREFIX=DIR copy flexmech and flexmech-plot to DIR/bin, the plots to DIR/share/flexmech (DESTDIR is honoured)"
 	@echo "make setup              only install what is missing"
 	@echo "make clean              remove build/ and outputs/"
 	@echo "BLAS=openblas           link OpenBLAS instead of the reference LAPACK and BLAS"
