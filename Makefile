@@ -123,7 +123,7 @@ install:
 	@test -x $(program) || { echo "make: nothing is built yet; say: make" >&2; exit 2; }
 	install -d "$(DESTDIR)$(PREFIX)/bin" "$(DESTDIR)$(PREFIX)/share/flexmech"
 	install -m 755 $(program) "$(DESTDIR)$(PREFIX)/bin/flexmech"
-	cp -R plots "$(DESTDIR)$(PREFIX)/share/flexmech/"
+	cp -R plots library "$(DESTDIR)$(PREFIX)/share/flexmech/"
 	install -m 755 plots/flexmech-plot "$(DESTDIR)$(PREFIX)/bin/flexmech-plot"
 
 clean:
@@ -148,7 +148,7 @@ help:
 	@echo "make references         make the quadruple-precision values of make stress anew (hours)"
 	@echo "make quad               build build/quad/flexmech, the program in quadruple precision (slow)"
 	@echo "make golden CASE=NAME   make tests/golden/NAME/ anew from inputs/NAME.deck"
-	@echo "make install PREFIX=DIR copy flexmech and flexmech-plot to DIR/bin, the plots to DIR/share/flexmech (DESTDIR is honoured)"
+	@echo "make install PREFIX=DIR copy flexmech and flexmech-plot to DIR/bin, plots and library to DIR/share/flexmech (DESTDIR is honoured)"
 	@echo "make setup              only install what is missing"
 	@echo "make clean              remove build/ and outputs/"
 	@echo "BLAS=openblas           link OpenBLAS instead of the reference LAPACK and BLAS"
