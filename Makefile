@@ -21,7 +21,7 @@ unit_tests = $(if $(PFUNIT_DIR),pfunit,funit)/unit_tests
 
 ifndef kind
 # ---------------------------------------------------------------------------------------------- what a person types
-.PHONY: all debug quad thesis run figures animate check bench bench-pictures stress accuracies references fuzz memory golden \
+.PHONY: all debug quad thesis run figures animate check documents bench bench-pictures stress accuracies references fuzz memory golden \
         install setup clean help
 
 all: setup
@@ -68,6 +68,10 @@ check: setup
 	$(stage) kind=debug build/debug/flexmech build/debug/$(unit_tests) build/debug/bench/bench
 	@python3 -B $(support)/check.py $(unit_tests)
 
+# Numbers of the documents that runs of some seconds give. STRESS=yes: those of the last `make stress` instead.
+documents: all
+	@python3 -B tests/documents/documents.py $(program) --write $(if $(STRESS),--stress)
+
 bench: all
 	$(stage) kind=release build/release/bench/bench
 	build/release/bench/bench $(program) outputs/bench $(BLAS)
@@ -91,6 +95,7 @@ memory:
 
 stress: all
 	@python3 -B tests/stress/run_stress.py $(program)
+	@python3 -B tests/documents/documents.py $(program) --stress
 
 # The same SEED makes the same decks.
 FREQUENCIES ?= 100000
@@ -128,11 +133,12 @@ help:
 	@echo "make animate DECK=FILE  run one deck and animate it: the linkage as it moves, and as it swings in its modes"
 	@echo "make check              all tests, in the release and in the debug build"
 	@echo "make check PFUNIT_DIR=D the same, with the unit tests run by the pFUnit 4 installed in the folder D"
+	@echo "make documents          write the numbers of README.md and docs/ anew that runs of some seconds give"
 	@echo "make bench              time every solver in turn, tables and figures in outputs/bench/; four minutes"
 	@echo "make bench-pictures     copy these figures to docs/pictures/"
 	@echo "make fuzz               10,000 odd decks under the debug build; FUZZ=500 SEED=7 for fewer, and for others"
 	@echo "make memory             every deck of inputs/ under the sanitizers of addresses, leaks and undefined behaviour"
-	@echo "make stress             errors told against errors made, in all corners, with figures, in outputs/stress/"
+	@echo "make stress             estimated errors against true ones in extreme cases, with figures, in outputs/stress/"
 	@echo "make accuracies         random decks at several accuracies, each against the finest; FREQUENCIES=5000 SEED=7"
 	@echo "make references         make the quadruple-precision values of make stress anew (hours)"
 	@echo "make quad               build build/quad/flexmech, the program in quadruple precision (slow)"

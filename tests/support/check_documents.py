@@ -50,6 +50,14 @@ def anchors(text):
     return {re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-") for heading in re.findall(r"^#+ (.*)$", text, re.MULTILINE)}
 
 
+def faults_of_contents(text):
+    """A document with contents has every section there."""
+    contents = re.search(r"(?:^- \[.*\n(?:  .*\n)*)+", text.partition("\n## ")[0] + "\n", re.MULTILINE)
+    if contents:
+        listed = re.findall(r"\]\(#([\w-]+)\)", contents[0])
+        yield from (f"its contents lack #{anchor}" for anchor in sorted(anchors(re.sub(r"(?m)^# .*$", "", text)) - set(listed)))
+
+
 def faults_of_links(path, text):
     for target in re.findall(r"\]\(([^)\s]+)\)", text):
         if re.match(r"\w+:", target):
@@ -107,6 +115,7 @@ def main():
     for path in ["README.md"] + sorted(glob(os.path.join("docs", "*.md"))):
         text = read(path)
         found = list(faults_of_links(path, text)) + list(faults_of_paths(text)) + list(faults_of_procedures(text))
+        found += faults_of_contents(text)
         if path.endswith("architecture.md"):
             found += faults_of_calls(text, sources)
         for why in found:
