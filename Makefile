@@ -114,12 +114,18 @@ golden: all
 	@rm -rf "tests/golden/$(CASE)" && mkdir -p "tests/golden/$(CASE)"
 	cp build/golden/$(CASE)/*.dat "tests/golden/$(CASE)/"
 
+share = $(DESTDIR)$(PREFIX)/share
 # Not `all`: `sudo make install` after `make` must not write into build/ as root.
 install:
 	@test -x $(program) || { echo "make: nothing is built yet; say: make" >&2; exit 2; }
-	install -d "$(DESTDIR)$(PREFIX)/bin" "$(DESTDIR)$(PREFIX)/share/flexmech"
+	install -d "$(DESTDIR)$(PREFIX)/bin" "$(DESTDIR)$(PREFIX)/share/flexmech" "$(share)/man/man1" \
+	    "$(share)/bash-completion/completions" "$(share)/zsh/site-functions" "$(share)/fish/vendor_completions.d"
 	install -m 755 $(program) "$(DESTDIR)$(PREFIX)/bin/flexmech"
 	cp -R plots "$(DESTDIR)$(PREFIX)/share/flexmech/"
+	$(program) --man > "$(share)/man/man1/flexmech.1"
+	$(program) --completion bash > "$(share)/bash-completion/completions/flexmech"
+	$(program) --completion zsh > "$(share)/zsh/site-functions/_flexmech"
+	$(program) --completion fish > "$(share)/fish/vendor_completions.d/flexmech.fish"
 
 clean:
 	rm -rf build outputs
@@ -143,7 +149,7 @@ help:
 	@echo "make references         make the quadruple-precision values of make stress anew (hours)"
 	@echo "make quad               build build/quad/flexmech, the program in quadruple precision (slow)"
 	@echo "make golden CASE=NAME   make tests/golden/NAME/ anew from inputs/NAME.deck"
-	@echo "make install PREFIX=DIR copy the program to DIR/bin, the plots to DIR/share/flexmech (DESTDIR is honoured)"
+	@echo "make install PREFIX=DIR copy the program to DIR/bin, plots, manual page and completions to DIR/share (DESTDIR is honoured)"
 	@echo "make setup              only install what is missing"
 	@echo "make clean              remove build/ and outputs/"
 	@echo "BLAS=openblas           link OpenBLAS instead of the reference LAPACK and BLAS"
