@@ -5,7 +5,8 @@
     documents.py PROGRAM --write    writes the numbers anew
     documents.py PROGRAM --stress   those that `make stress` has left in outputs/stress/; also with --write
 
-Which numbers: tables below a line `<!-- computed: NAME -->`, and the sentences of sentences.py. Words, heads of tables and what
+Which numbers: tables below a line `<!-- computed: NAME -->`, and the sentences of sentences.py, also in comments of inputs/*.deck.
+Words, heads of tables and what
 others have published belong to the documents. Decks, messages and commands that the documents show are tried (examples.py).
 """
 
@@ -55,8 +56,9 @@ def computed(jobs):
 
 
 def read_documents():
+    """Path → text; the comments of the decks that come along are documents as well."""
     texts = {}
-    for path in ["README.md"] + sorted(glob(os.path.join("docs", "*.md"))):
+    for path in ["README.md"] + sorted(glob(os.path.join("docs", "*.md")) + glob(os.path.join("inputs", "*.deck"))):
         with open(path, encoding="utf-8") as file:
             texts[path] = file.read()
     return texts

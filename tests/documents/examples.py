@@ -120,6 +120,7 @@ def commands_on_tables(program, texts):
 
 
 def targets(_, texts):
+    """Every `make TARGET` is there."""
     with open("Makefile", encoding="utf-8") as file:
         known = set(re.findall(r"^([a-z-]+):", file.read(), re.MULTILINE))
     for path, text in texts.items():
