@@ -6,8 +6,8 @@
     documents.py PROGRAM --stress   those that `make stress` has left in outputs/stress/; also with --write
 
 Which numbers: tables below a line `<!-- computed: NAME -->`, and the sentences of sentences.py, also in comments of inputs/*.deck.
-Words, heads of tables and what
-others have published belong to the documents. Decks, messages and commands that the documents show are tried (examples.py).
+Words, heads of tables and what others have published belong to the documents. Decks, messages and
+commands that the documents show are tried (examples.py).
 """
 
 import os
