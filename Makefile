@@ -136,6 +136,8 @@ install:
 	$(program) --completion bash > "$(share)/bash-completion/completions/flexmech"
 	$(program) --completion zsh > "$(share)/zsh/site-functions/_flexmech"
 	$(program) --completion fish > "$(share)/fish/vendor_completions.d/flexmech.fish"
+	sh plots/flexmech-plot --help | awk -v version="$$($(program) --version)" -f plots/manual_page.awk > "$(share)/man/man1/flexmech-plot.1"
+	sh plots/flexmech-plot --help | awk -f plots/completion.awk > "$(share)/bash-completion/completions/flexmech-plot"
 
 clean:
 	rm -rf build outputs

@@ -56,6 +56,8 @@ contains
     call append_entry(page, program_name//" --check my.deck", "Reads and checks a deck.")
     call append_entry(page, program_name//" --threads 4 --set L=120mm my.deck", &
       "Runs it on four threads, with another length for $L.")
+    call append_section(page, "SEE ALSO")
+    call append_text(page, ".BR "//program_name//"\-plot (1)"//line_feed)
     text = buffer_text(page)
   end function manual_page_text
 

@@ -21,26 +21,49 @@ has_options() {
   done
 }
 
-# renders COMMAND...: without a warning, with the options as they are typed
-renders() {
-  "$@" "$scratch/flexmech.1" >"$scratch/rendered" 2>"$scratch/warnings" || { cat "$scratch/warnings"; return 1; }
-  [ ! -s "$scratch/warnings" ] || { head -n 3 "$scratch/warnings"; return 1; }
-  for words in NAME "flexmech - dynamics" --threads --help-cards "REPORT motion crank= \[speed=0\]" "EXIT STATUS"; do
-    sed 's/.\x08//g; s/\x1b\[[0-9;]*m//g' "$scratch/rendered" | grep -q -e "$words" || { echo "'$words' is not on the page"; return 1; }
+# rendered PAGE WORDS... -- COMMAND...: without a warning, with these words as they are typed
+rendered() {
+  source=$1
+  shift
+  : >"$scratch/words"
+  while [ "$1" != -- ]; do
+    printf '%s\n' "$1" >>"$scratch/words"
+    shift
   done
+  shift
+  "$@" "$source" >"$scratch/rendered" 2>"$scratch/warnings" || { cat "$scratch/warnings"; return 1; }
+  [ ! -s "$scratch/warnings" ] || { head -n 3 "$scratch/warnings"; return 1; }
+  sed 's/.\x08//g; s/\x1b\[[0-9;]*m//g' "$scratch/rendered" >"$scratch/plain"
+  while read -r words; do
+    grep -qF -e "$words" "$scratch/plain" || { echo "'$words' is not on the page"; return 1; }
+  done <"$scratch/words"
 }
 
-# complete WORD...: what bash offers for the last word, one a line, sorted
+renders() {
+  rendered "$scratch/flexmech.1" NAME "flexmech - dynamics" --threads --help-cards "REPORT motion crank= [speed=0]" "EXIT STATUS" -- "$@"
+}
+
+# The page of flexmech-plot, made as `make install` makes it.
+renders_plot() {
+  sh plots/flexmech-plot --help | awk -v version="flexmech 1.2.3" -f plots/manual_page.awk >"$scratch/flexmech-plot.1"
+  rendered "$scratch/flexmech-plot.1" NAME "flexmech-plot - draws" "flexmech 1.2.3" $(plot_options) "EXIT STATUS" -- "$@"
+}
+
+plot_options() {
+  sh plots/flexmech-plot --help | sed -n 's/^  \(--.*\)/ \1/p' | grep -o ' --[a-z-]*'
+}
+
+# complete WORD...: what bash offers for the last word, one a line, sorted; by the completion in $file
 complete() {
   (cd "$scratch/folder" && bash -c '
     compopt() { :; }
-    complete() { :; }
+    complete() { function=$2; }
     source "$1"
     shift
-    COMP_WORDS=(flexmech "$@")
+    COMP_WORDS=(command "$@")
     COMP_CWORD=$#
-    _flexmech
-    printf "%s\n" "${COMPREPLY[@]}"' - "$scratch/flexmech.bash" "$@" | LC_ALL=C sort)
+    $function
+    printf "%s\n" "${COMPREPLY[@]}"' - "$file" "$@" | LC_ALL=C sort)
 }
 
 # offers EXPECTED WORD...
@@ -52,7 +75,8 @@ offers() {
 }
 
 bash_completes() {
-  run 0 --completion bash && silent && mv "$scratch/stdout" "$scratch/flexmech.bash" || return 1
+  file=$scratch/flexmech.bash
+  run 0 --completion bash && silent && mv "$scratch/stdout" "$file" || return 1
   bash -n "$scratch/flexmech.bash" || return 1
   mkdir -p "$scratch/folder/deep"
   touch "$scratch/folder/one.deck" "$scratch/folder/a two.deck" "$scratch/folder/notes.txt"
@@ -60,6 +84,15 @@ bash_completes() {
   offers "--check" --ch && offers "--help --help-cards" --he && offers "a two.deck deep one.deck" "" &&
     offers "one.deck" --check o && offers "csv plain" --format "" && offers "csv" --format = c && offers "csv plain" --format = &&
     offers "deep" --out "" && offers "" --threads "" && offers "" --set "" && offers "bash fish zsh" --completion ""
+}
+
+bash_completes_plot() {
+  file=$scratch/flexmech-plot.bash
+  sh plots/flexmech-plot --help | awk -f plots/completion.awk >"$file"
+  bash -n "$file" || return 1
+  mkdir -p "$scratch/folder/deep"
+  offers "$(plot_options | LC_ALL=C sort | tr -d ' ' | tr '\n' ' ' | sed 's/ $//')" -- && offers "--format" --fo &&
+    offers "pdf png svg" --format "" && offers "" --size "" && offers "deep" ""
 }
 
 # other_shell SHELL: takes its file
@@ -82,7 +115,9 @@ install_puts_them() {
   build/release/flexmech --man | cmp - "$share/man/man1/flexmech.1" &&
     cmp "$scratch/flexmech.bash" "$share/bash-completion/completions/flexmech" &&
     cmp "$scratch/flexmech.zsh" "$share/zsh/site-functions/_flexmech" &&
-    cmp "$scratch/flexmech.fish" "$share/fish/vendor_completions.d/flexmech.fish"
+    cmp "$scratch/flexmech.fish" "$share/fish/vendor_completions.d/flexmech.fish" &&
+    grep -q "^.TH FLEXMECH-PLOT 1 .*$(build/release/flexmech --version)" "$share/man/man1/flexmech-plot.1" &&
+    grep -q "^complete -F _flexmech_plot flexmech-plot" "$share/bash-completion/completions/flexmech-plot"
 }
 
 check "every option has its entry on the manual page" has_options
@@ -91,12 +126,14 @@ for formatter in "groff -man -Tutf8 -ww" "man -l --warnings=w"; do
   printf '.TH A 1\n.SH NAME\na \\- b\n' >"$scratch/small.1"
   if command -v "$name" >/dev/null && $formatter "$scratch/small.1" 2>/dev/null | grep -q 'a - b'; then
     check "the manual page by $name" renders $formatter
+    check "the manual page of flexmech-plot by $name" renders_plot $formatter
   else
     skip "the manual page by $name" "$name is not there, or formats nothing"
   fi
 done
 if command -v bash >/dev/null; then
   check "bash completes options, values and decks" bash_completes
+  check "bash completes the options of flexmech-plot" bash_completes_plot
 else
   skip "bash completes options, values and decks" "there is no bash"
 fi

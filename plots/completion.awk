@@ -1,0 +1,43 @@
+# The completion of flexmech-plot in bash, from its --help:
+#   flexmech-plot --help | awk -f completion.awk > flexmech-plot
+# An option with a value has it in capitals behind its name; values that are few stand first in what the option is for, as
+# in `png, svg or pdf; …`.
+
+/^usage: / { name = $2 }
+
+/^  -/ {
+    count = split($0, words, /[ ,]+/)
+    for (i = 2; i <= count && words[i] ~ /^-/; i++) options = options " " words[i]
+    if (words[i] !~ /^[A-Z]+$/) next
+    value = $0
+    sub(/^  -[^ ]* [A-Z]*  */, "", value)
+    choices = value ~ /^[a-z]+(, [a-z]+)* or [a-z]+;/ ? value : ""
+    sub(/;.*/, "", choices)
+    gsub(/, | or /, " ", choices)
+    valued[++number] = words[2]
+    of[number] = choices
+}
+
+END {
+    function_name = "_" name
+    gsub(/-/, "_", function_name)
+    print "# Completion of " name " in bash."
+    print function_name "() {"
+    print "  local word=${COMP_WORDS[COMP_CWORD]}"
+    print "  COMPREPLY=()"
+    print "  case ${COMP_WORDS[COMP_CWORD-1]} in"
+    for (i = 1; i <= number; i++) {
+        print "    " valued[i] ")"
+        if (of[i] != "") print "      mapfile -t COMPREPLY < <(compgen -W '" of[i] "' -- \"$word\")"
+        print "      return ;;"
+    }
+    print "  esac"
+    print "  if [[ $word == -* ]]; then"
+    print "    mapfile -t COMPREPLY < <(compgen -W '" substr(options, 2) "' -- \"$word\")"
+    print "  else"
+    print "    compopt -o filenames"
+    print "    mapfile -t COMPREPLY < <(compgen -d -- \"$word\")"
+    print "  fi"
+    print "}"
+    print "complete -F " function_name " " name
+}
