@@ -1,7 +1,9 @@
 !> Cards: a keyword, words and `key=value` entries.
 module cards
+  use card_table, only: card_kind_number, card_kinds
   use deck_source, only: first_line, last_line, source_line, source_t
   use diagnostics, only: add_error, diagnostics_t
+  use list_words, only: split_at_commas
   use text, only: character_count, same_word
   use tokens, only: code_length, split_words, token_t
   implicit none (type, external)
@@ -247,7 +249,11 @@ contains
           if (pass == 2) call read_entry(words, i, card%entries(keyed), diagnostics)
           i = i + merge(3, 2, has_value(words, i))
         else if (words(i)%text == "=" .and. .not. is_title) then
-          if (pass == 1) call add_error(diagnostics, words(i), "'=' needs a key before it")
+          if (pass == 1 .and. i == 2) then
+            call add_error(diagnostics, words(i), "no '=' follows the keyword of a card")
+          else if (pass == 1) then
+            call add_error(diagnostics, words(i), "'=' needs a key before it")
+          end if
           i = i + 1
         else
           plain = plain + 1
@@ -257,7 +263,26 @@ contains
       end do
       if (pass == 1) allocate (card%words(plain), card%entries(keyed))
     end do
+    call split_list(card, diagnostics)
   end subroutine sort_words
+
+  !> Splits the words of a card that takes a list at their commas.
+  pure subroutine split_list(card, diagnostics)
+    type(card_t), intent(inout) :: card
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: kind, i
+    logical :: any_comma
+
+    any_comma = .false.
+    do i = 1, size(card%words)
+      any_comma = any_comma .or. index(card%words(i)%text, ",") > 0
+    end do
+    if (.not. any_comma) return
+    kind = card_kind_number(card%keyword%text)
+    if (kind == 0) return
+    if (card_kinds(kind)%is_list) call split_at_commas(card%words, diagnostics)
+  end subroutine split_list
 
   !> Whether a value follows the key at `words(i)` and its equals sign. A word followed by an equals
   !! sign is the next key.

@@ -16,6 +16,7 @@ module card_table
     character(len=8) :: keyword = ""   !! in capitals
     character(len=9) :: form = ""      !! the second word, if the form depends on it
     logical :: is_single = .false.     !! a deck has at most one
+    logical :: is_list = .false.       !! commas may stand between its words
     integer :: least = 0, most = 0     !! words besides the keyword
     character(len=128) :: pattern = "" !! correct form of the card; its keys end with `=`
     character(len=96) :: keys = ""     !! separated by blanks, if the pattern does not name them all
@@ -37,7 +38,7 @@ module card_table
     card_kind_t("INCLUDE", least=1, most=1, pattern="INCLUDE file", &
       help="the cards of another file"), &
     card_kind_t("SET", least=2, most=2, pattern="SET name value", help="a value for $name"), &
-    card_kind_t("VARY", least=2, most=many, &
+    card_kind_t("VARY", is_list=.true., least=2, most=many, &
       pattern="VARY name a to b step s, or VARY name and a list of values", &
       help="values for $name, one after the other: the variants of the deck"), &
     card_kind_t("MATERIAL", least=1, most=1, pattern="MATERIAL name E= density= [nu=]", &
@@ -98,9 +99,9 @@ module card_table
       help="what turns the driven link in REPORT motion"), &
     card_kind_t("LOAD", least=1, most=1, pattern="LOAD link [torque=] [damping=]", &
       help="what a link has to overcome in REPORT motion"), &
-    card_kind_t("CRANK", is_single=.true., least=1, most=many, &
+    card_kind_t("CRANK", is_single=.true., is_list=.true., least=1, most=many, &
       pattern="CRANK a to b step s, or a list of angles", help="the positions"), &
-    card_kind_t("SPEED", is_single=.true., least=1, most=many, &
+    card_kind_t("SPEED", is_single=.true., is_list=.true., least=1, most=many, &
       pattern="SPEED a list or range of speeds [rad/s|rpm] [alpha=]", default="0", &
       help="of the crank; alpha is its angular acceleration at all of them"), &
     card_kind_t("INERTIA", is_single=.true., least=1, most=1, &
