@@ -25,7 +25,8 @@ contains
   end function suggestion
 
   !> Number of the candidate nearest to `word`, ignoring case; 0 if none is within an edit distance
-  !! of a third of its length, rounded up.
+  !! of a third of its length, rounded up. A letter and a digit that look alike (O and 0, l and 1)
+  !! count as the same.
   pure function nearest_word(word, candidates) result(nearest)
     character(len=*), intent(in) :: word        !! as written
     type(string_t), intent(in) :: candidates(:) !! known words
@@ -39,6 +40,9 @@ contains
     do i = 1, size(candidates)
       if (abs(len(candidates(i)%text) - len(word)) > best) cycle
       distance = edit_distance(lower_case(word), lower_case(candidates(i)%text))
+      if (distance > 0) then
+        if (looks_like(word, candidates(i)%text)) distance = 0
+      end if
       ! A word of one or two letters is near everything. Unless the words differ in case only, at
       ! least one letter must be right.
       if (distance > 0 .and. distance >= max(len(word), len(candidates(i)%text))) cycle
@@ -53,6 +57,29 @@ contains
       end if
     end do
   end function nearest_word
+
+  !> Whether two words differ only in letters and digits that look alike.
+  pure function looks_like(a, b) result(alike)
+    character(len=*), intent(in) :: a, b
+    logical :: alike
+
+    alike = len(a) == len(b)
+    if (alike) alike = look(a) == look(b)
+  end function looks_like
+
+  !> A word with one of the letters and digits that look alike in place of the others.
+  pure function look(word)
+    character(len=*), intent(in) :: word
+    character(len=len(word)) :: look
+
+    integer :: i
+
+    look = lower_case(word)
+    do i = 1, len(look)
+      if (look(i:i) == "0") look(i:i) = "o"
+      if (look(i:i) == "1" .or. look(i:i) == "i") look(i:i) = "l"
+    end do
+  end function look
 
   !> Smallest number of insertions, deletions, replacements and swaps of neighbours that turn `a`
   !! into `b`: the optimal string alignment distance (Damerau 1964).

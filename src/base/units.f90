@@ -7,7 +7,7 @@ module units
   use errors, only: error_of_input, error_t, set_error
   use kinds, only: wp
   use spelling, only: suggestion
-  use text, only: string_t, to_string
+  use text, only: lower_case, string_t, to_string
   implicit none (type, external)
   private
 
@@ -114,8 +114,8 @@ contains
 
   !> Reads `mm`, `kg/m3`, `N/mm^2`, `lbf*s2/in`, …
   !!
-  !! Powers are whole numbers behind a name, with or without `^`. A factor behind `*` multiplies, a
-  !! factor behind `/` divides. Names are case-sensitive.
+  !! Powers are whole numbers behind a name, with or without `^`, or ² and ³. A factor behind `*` or
+  !! `·` multiplies, a factor behind `/` divides. `°` is `deg`. Names are case-sensitive.
   !!
   !! Errors: a part is not a unit; the message suggests the nearest one of the wanted dimension.
   pure subroutine read_unit(text, wanted, measure, error)
@@ -126,19 +126,49 @@ contains
                                                      !! error
     type(error_t), allocatable, intent(out) :: error !! names the unknown part
 
+    character(len=:), allocatable :: name
     integer :: first, last, step
 
-    measure = unit(text, dimension_none, 1.0_wp, 1.0_wp)
+    call use_ascii(text, name)
+    measure = unit(name, dimension_none, 1.0_wp, 1.0_wp)
     first = 1
     step = 1
     do
-      last = first - 1 + scan(text(first:)//"*", "*/") - 1
-      call multiply_by_power(measure, text(first:last), step, wanted, error)
-      if (allocated(error) .or. last >= len(text)) return
-      step = merge(-1, 1, text(last + 1:last + 1) == "/")
+      last = first - 1 + scan(name(first:)//"*", "*/") - 1
+      call multiply_by_power(measure, name(first:last), step, wanted, error)
+      if (allocated(error) .or. last >= len(name)) return
+      step = merge(-1, 1, name(last + 1:last + 1) == "/")
       first = last + 2
     end do
   end subroutine read_unit
+
+  !> A unit with its degree sign, raised powers and dots as they are named here. A subroutine:
+  !! gfortran 12 keeps the length of a function result in one place for all threads.
+  pure subroutine use_ascii(text, name)
+    character(len=*), intent(in) :: text !! UTF-8
+    character(len=:), allocatable, intent(out) :: name
+
+    character(len=2), parameter :: sign(4) = char(194)//[char(176), char(183), char(178), char(179)]
+    character(len=3), parameter :: meaning(4) = ["deg", "*  ", "2  ", "3  "]
+    character(len=2*len(text)) :: buffer
+    integer :: at, length, i
+
+    at = 1
+    length = 0
+    characters: do while (at <= len(text))
+      do i = 1, size(sign)
+        if (index(text(at:), sign(i)) /= 1) cycle
+        buffer(length + 1:) = meaning(i)
+        length = length + len_trim(meaning(i))
+        at = at + len(sign)
+        cycle characters
+      end do
+      length = length + 1
+      buffer(length:length) = text(at:at)
+      at = at + 1
+    end do characters
+    name = buffer(:length)
+  end subroutine use_ascii
 
   !> Multiplies (`step = 1`) or divides (`step = -1`) a unit by a named unit to a power.
   pure subroutine multiply_by_power(measure, factor, step, wanted, error)
@@ -174,9 +204,51 @@ contains
       return
     end do
     call set_error(error, error_of_input, "unknown unit '"//factor//"'"// &
-      suggestion(name, names_of_dimension(known, wanted))//"; expected a unit of "// &
-      dimension_noun(wanted))
+      unit_hint(name, known, wanted)//"; expected a unit of "//dimension_noun(wanted))
   end subroutine multiply_by_power
+
+  !> ` (did you mean 'in'?)`: the name here of a unit under another one, or the nearest spelling;
+  !! empty if there is none.
+  pure function unit_hint(name, known, wanted) result(hint)
+    character(len=*), intent(in) :: name !! unknown
+    type(unit_t), intent(in) :: known(:)
+    integer, intent(in) :: wanted(4)     !! dimension of the whole
+    character(len=:), allocatable :: hint
+
+    select case (lower_case(name))
+    case ("degree", "degrees", "grad")
+      hint = "deg"
+    case ("radian", "radians")
+      hint = "rad"
+    case ("u/min", "upm", "rev/min", "r/min")
+      hint = "rpm"
+    case ("inch", "inches", """", "''")
+      hint = "in"
+    case ("foot", "feet", "'")
+      hint = "ft"
+    case ("metre", "meter", "metres", "meters")
+      hint = "m"
+    case ("millimetre", "millimeter", "millimetres", "millimeters")
+      hint = "mm"
+    case ("sec", "second", "seconds")
+      hint = "s"
+    case ("gram", "grams", "gr")
+      hint = "g"
+    case ("t", "to", "ton", "tons", "tonnes")
+      hint = "tonne"
+    case ("lb", "lbs", "pound", "pounds")
+      ! Of a force or stress, time is to the power −2.
+      hint = trim(merge("lbf", "lbm", wanted(3) == -2))
+    case ("newton", "newtons")
+      hint = "N"
+    case ("cc", "ccm")
+      hint = "cm3"
+    case default
+      hint = suggestion(name, names_of_dimension(known, wanted))
+      return
+    end select
+    hint = " (did you mean '"//hint//"'?)"
+  end function unit_hint
 
   !> Names of the units of a dimension; of all units if none has this dimension.
   pure function names_of_dimension(known, wanted) result(names)

@@ -39,6 +39,9 @@ module deck_source
   character(len=*), parameter :: line_feed = achar(10), carriage_return = achar(13), tab = achar(9)
   integer, parameter :: most_bytes = 500000000
   character(len=*), parameter :: unreadable = "the deck cannot be read: "
+  character(len=*), parameter :: no_break_space = char(194)//char(160)
+  !> At the beginning of a file in UTF-16, the Unicode of some editors.
+  character(len=2), parameter :: marks_of_utf16(2) = [char(255)//char(254), char(254)//char(255)]
   character(len=*), parameter :: byte_order_mark = char(239)//char(187)//char(191)
 
 contains
@@ -146,7 +149,7 @@ contains
   end subroutine read_lines
 
   !> A source from a text in memory: splits it into lines and drops a byte order mark and the
-  !! carriage returns at the ends of lines.
+  !! carriage returns at the ends of lines. No-break spaces, which look like blanks, become blanks.
   pure function source_from_text(path, text) result(source)
     character(len=*), intent(in) :: path !! for messages
     character(len=*), intent(in) :: text !! the last line may lack its line feed
@@ -168,6 +171,12 @@ contains
       end if
       length = length + 1
       kept(length:length) = text(i:i)
+      if (length > 1) then
+        if (kept(length - 1:length) == no_break_space) then
+          length = length - 1
+          kept(length:length) = " "
+        end if
+      end if
       if (text(i:i) == line_feed) lines = lines + 1
     end do
     if (length > 0) then
@@ -317,6 +326,13 @@ contains
     integer :: i, line
     character(len=2) :: code
 
+    if (len(source%text) > 1) then
+      if (any(marks_of_utf16 == source%text(:2))) then
+        call set_error(error, error_of_files, "this file is in UTF-16; save it as UTF-8", &
+          source%path)
+        return
+      end if
+    end if
     do i = 1, len(source%text)
       if (iachar(source%text(i:i)) >= 32 .and. iachar(source%text(i:i)) /= 127) cycle
       if (source%text(i:i) == line_feed .or. source%text(i:i) == tab) cycle

@@ -144,7 +144,7 @@ contains
     type(error_t), allocatable, intent(inout) :: error !! unchanged if it is valid
 
     if (.not. is_name(word)) call set_error(error, error_of_input, "'"//word// &
-      "' is not a name (letters, digits and _ - . ' make one)")
+      "' is not a name (letters a to z, digits and _ - . ' make one)")
   end subroutine check_name
 
 end module tokens

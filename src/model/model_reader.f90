@@ -23,7 +23,7 @@ module model_reader
   use sections, only: read_section
   use shear, only: check_shear
   use spelling, only: suggestion
-  use text, only: same_word, string_t
+  use text, only: joined, same_word, string_t, upper_case
   use tokens, only: token_t
   use unit_cards, only: read_units
   use units, only: si_units, unit_system_t
@@ -87,17 +87,53 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
 
     type(string_t), allocatable :: known(:)
+    character(len=:), allocatable :: hint
+    logical :: listed
     integer :: i
 
     known = card_names()
+    listed = .false.
     do i = 1, size(cards)
       associate (keyword => cards(i)%keyword)
         if (card_kind_number(keyword%text) > 0) cycle
-        call add_error(diagnostics, keyword, "unknown card '"//keyword%text//"'"// &
-          suggestion(keyword%text, known))
+        hint = keyword_hint(keyword%text, known)
+        if (len(hint) == 0 .and. .not. listed) then
+          ! Once a deck: a file that is no deck at all has an unknown card in every line.
+          hint = "; the cards are: "//joined(known)//", END"
+          listed = .true.
+        end if
+        call add_error(diagnostics, keyword, "unknown card '"//keyword%text//"'"//hint)
       end associate
     end do
   end subroutine check_keywords
+
+  !> What an unknown keyword may mean: a misspelt one, a part of mechanisms that this program does
+  !! not have, a comment of another language. Empty if nothing is known.
+  pure function keyword_hint(keyword, known) result(hint)
+    character(len=*), intent(in) :: keyword
+    type(string_t), intent(in) :: known(:)
+    character(len=:), allocatable :: hint
+
+    ! In any spelling with or without an s at its end.
+    character(len=*), parameter :: not_built = " SLIDER SLIDE PISTON PRISMATIC GUIDE SLOT RACK "// &
+      "SPRING TORSION DAMPER DASHPOT CAM GEAR BELT CHAIN FRICTION CONTACT CLEARANCE JOINT "
+    character(len=*), parameter :: signs(*) = ["//", "/*", "--", "% ", "* ", "; ", "''"]
+    character(len=:), allocatable :: word
+
+    word = upper_case(keyword)
+    if (len(word) > 1 .and. word(len(word):) == "S") word = word(:len(word) - 1)
+    if (index(not_built, " "//word//" ") > 0) then
+      hint = ": this program computes four-bar linkages; sliders, springs, dampers, cams and "// &
+        "gears are not built yet"
+      return
+    end if
+    if (any(signs(:3) == keyword(:min(2, len(keyword)))) .or. &
+      any(signs(4:)(1:1) == keyword(1:1))) then
+      hint = " (a comment begins with ! or #)"
+      return
+    end if
+    hint = suggestion(keyword, known)
+  end function keyword_hint
 
   !> Reports a second card of a kind that a deck may have only once.
   pure subroutine refuse_second_cards(cards, diagnostics)

@@ -30,6 +30,8 @@ check "tabs" written_as tabs 's/  */	/g'
 check "comments" written_as comments 's/$/ ! & # =/; s/^U/# LINK\n\n!!\nU/'
 check "continued lines" written_as continued 's/ length/ \&  # more below\n   length/; s/ to / \&\n\n  to /'
 check "units of their own" written_as units 's/279.4/11in/; s/254/ 25.4cm/; s/step 30/step 30 deg/; s/=100/=0.1m/'
+check "commas between positions" eval 'sed "s/^CRANK.*/CRANK 0, 30 to 330 step 30, 360/" "$scratch/plain.deck" | accepted commas'
+check "degree signs, raised powers and blanks of web pages" written_as signs 's/step 30/step 30°/; s/LINK  /LINK\xc2\xa0/; $a MATERIAL steel E=200000N/mm² density=7850kg/m³'
 check "other digits" written_as digits 's/=100/=+1.d2/; s/254/ .254E+3/; s/279.4/2794e-1/'
 check "other order" eval 'sort -r "$scratch/plain.deck" | sed "/LINK/d; /GROUND/d" | cat - "$scratch/plain.deck" |
   awk "/LINK|GROUND/ || !seen[\$1]++" | accepted order'

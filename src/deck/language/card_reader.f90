@@ -5,17 +5,18 @@ module card_reader
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_of_input, error_t, set_error
+  use key_hints, only: key_hint
   use kinds, only: wp
   use numbers, only: number_length, read_integer, read_real
   use spelling, only: suggestion
   use text, only: joined, same_word, string_t, to_string, word_list
   use tokens, only: check_name, token_part, token_t
-  use units, only: coherent_factor, dimension_name, read_unit, serves_for, to_si, unit_system_t, &
-    unit_t, wrong_unit
+  use units, only: coherent_factor, dimension_name, dimension_none, read_unit, serves_for, &
+    to_si, unit_system_t, unit_t, wrong_unit
   implicit none (type, external)
   private
 
-  public :: check_form, check_words, has_key, entry_number, read_name, read_quantity, &
+  public :: check_form, check_words, unit_apart, has_key, entry_number, read_name, read_quantity, &
     read_measure, require_positive, refuse_negative
   public :: read_entry_quantity, read_entry_count, read_choice
 
@@ -58,8 +59,9 @@ contains
     if (size(card%words) < least) then
       call add_error(diagnostics, card%keyword, "this card is too short; expected: "//pattern)
     else if (size(card%words) > most) then
-      call add_error(diagnostics, card%words(most + 1), &
-        "unexpected '"//card%words(most + 1)%text//"'; expected: "//pattern)
+      call add_error(diagnostics, card%words(most + 1), "unexpected '"// &
+        card%words(most + 1)%text//"'"//unit_apart(card%words(most + 1)%text)//"; expected: "// &
+        pattern)
     end if
     allowed = word_list(keys)
     if (present(known_keys)) known_keys = .true.
@@ -68,12 +70,8 @@ contains
       associate (key => card%entries(i)%key)
         if (.not. any_same(allowed, key%text)) then
           if (present(known_keys)) known_keys = .false.
-          if (size(allowed) > 0) then
-            call add_error(diagnostics, key, "unknown key '"//key%text//"'"//suggestion(key%text, &
-              allowed)//"; expected: "//pattern)
-          else
-            call add_error(diagnostics, key, "unknown key '"//key%text//"'; expected: "//pattern)
-          end if
+          call add_error(diagnostics, key, "unknown key '"//key%text//"'"//key_hint(key%text, &
+            allowed)//"; expected: "//pattern)
         end if
         do j = 1, i - 1
           if (.not. same_word(card%entries(j)%key%text, key%text)) cycle
@@ -84,6 +82,19 @@ contains
       end associate
     end do
   end subroutine check_words
+
+  !> For a word too many that is a unit: that a unit stands at its number. Else an empty text.
+  pure function unit_apart(word) result(hint)
+    character(len=*), intent(in) :: word !! unexpected
+    character(len=:), allocatable :: hint
+
+    type(unit_t) :: measure
+    type(error_t), allocatable :: error
+
+    hint = ""
+    call read_unit(word, dimension_none, measure, error)
+    if (.not. allocated(error)) hint = " (a unit follows its number without a blank)"
+  end function unit_apart
 
   pure function any_same(list, word) result(any_is)
     type(string_t), intent(in) :: list(:)
@@ -149,8 +160,8 @@ contains
     place = word
     length = number_length(word%text)
     if (length == 0) then
-      call add_error(diagnostics, word, "'"//word%text//"' is not a number; expected "// &
-        dimension_name(dimension))
+      call add_error(diagnostics, word, "'"//word%text//"' is not a number"// &
+        dash_hint(word%text)//"; expected "//dimension_name(dimension))
       return
     end if
     call read_real(word%text(:length), value, error)
@@ -159,8 +170,14 @@ contains
     else if (length < len(word%text)) then
       if (word%text(length + 1:length + 1) == ",") then
         call set_error(error, error_of_input, "'"//word%text//"' is not a number: no commas "// &
-          "here; expected "//dimension_name(dimension))
-      else if (scan(word%text(length + 1:length + 1), ".*/+-0123456789") == 1) then
+          "here"//comma_hint(word%text)//"; expected "//dimension_name(dimension))
+      else if (word%text(length + 1:length + 1) == ":" .or. index(word%text, "..") > 0) then
+        call set_error(error, error_of_input, "'"//word%text//"' is not a number (a range "// &
+          "reads: a to b step s); expected "//dimension_name(dimension))
+      else if (word%text == "1/min") then
+        call set_error(error, error_of_input, "'1/min' is not a unit here (did you mean "// &
+          "'rpm'?); expected "//dimension_name(dimension))
+      else if (scan(word%text(length + 1:length + 1), ".*/+-;)0123456789") == 1) then
         call set_error(error, error_of_input, "'"//word%text//"' is not a number; expected "// &
           dimension_name(dimension))
       else
@@ -178,6 +195,36 @@ contains
     if (fine) return
     call add_error(diagnostics, place, error%text)
   end subroutine read_measure
+
+  !> For a number with one decimal comma: the number with a point. Three digits behind a comma may
+  !! be thousands. Else an empty text.
+  pure function comma_hint(word) result(hint)
+    character(len=*), intent(in) :: word !! begins with a number
+    character(len=:), allocatable :: hint
+
+    integer :: comma, digits
+
+    hint = ""
+    comma = index(word, ",")
+    if (comma == len(word) .or. index(word, ",", back=.true.) > comma) return
+    digits = verify(word(comma + 1:)//" ", "0123456789") - 1
+    if (digits == 0 .or. digits == 3) return
+    hint = " (did you mean '"//word(:comma - 1)//"."//word(comma + 1:)//"'?)"
+  end function comma_hint
+
+  !> For a number with a dash in place of its minus sign, as word processors write it: that it has
+  !! one. Else an empty text.
+  pure function dash_hint(word) result(hint)
+    character(len=*), intent(in) :: word !! UTF-8
+    character(len=:), allocatable :: hint
+
+    character(len=3), parameter :: minus = char(226)//char(136)//char(146), &
+      dash = char(226)//char(128)//char(147)
+
+    hint = ""
+    if (index(word, minus) == 1 .or. index(word, dash) == 1) hint = &
+      " (did you mean '-"//word(len(minus) + 1:)//"', with the minus sign of the keyboard?)"
+  end function dash_hint
 
   !> Errors: a number is unreasonably large or small.
   !!

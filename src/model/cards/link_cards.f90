@@ -1,7 +1,7 @@
 !> LINK card: a beam with a material and a section, or a rigid body of any shape.
 module link_cards
   use card_reader, only: check_form, entry_number, has_key, read_entry_quantity, read_name, &
-    refuse_negative, require_positive
+    refuse_negative, require_positive, unit_apart
   use card_table, only: pattern_of
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
@@ -99,7 +99,7 @@ contains
       link%rigid_word = word
     else
       call add_error(diagnostics, word, "unexpected '"//word%text//"'"//suggestion(word%text, &
-        word_list("rigid"))//"; expected: "//pattern_of("LINK"))
+        word_list("rigid"))//unit_apart(word%text)//"; expected: "//pattern_of("LINK"))
     end if
   end subroutine read_rigid
 

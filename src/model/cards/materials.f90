@@ -37,12 +37,13 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics !! errors and warnings are added
     type(material_t), intent(out) :: material         !! as read
 
-    logical :: fine, known_keys, has_modulus, has_density
+    logical :: fine, known_keys, is_whole, has_modulus, has_density
     real(wp) :: wave_speed
 
     call check_form(card, diagnostics, fine, known_keys)
+    is_whole = fine .and. known_keys
     material%name = card%keyword
-    if (fine) then
+    if (size(card%words) > 0) then
       material%name = card%words(1)
       call read_name(material%name, diagnostics)
     end if
@@ -61,7 +62,8 @@ contains
         card%entries(entry_number(card, "nu"))%value%text)
     end if
 
-    if (.not. (has_modulus .and. has_density)) return
+    ! A unit behind a blank is refused, and its number has the wrong one.
+    if (.not. (is_whole .and. has_modulus .and. has_density)) return
     if (material%youngs_modulus <= 0.0_wp .or. material%density <= 0.0_wp) return
     wave_speed = sqrt(material%youngs_modulus/material%density)
     if (wave_speed < slowest_wave .or. wave_speed > fastest_wave) then

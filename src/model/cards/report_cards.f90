@@ -71,6 +71,10 @@ contains
       report%kind = reports(number)
       if (len_trim(report%kind%pattern) > 0) pattern = trim(report%kind%pattern)
     end if
+    if (size(card%words) > 1) then
+      if (kind_named(reports, lower_case(card%words(2)%text)) > 0) pattern = "REPORT "// &
+        trim(report%kind%name)//", and a REPORT card of its own for "//card%words(2)%text
+    end if
     call check_words(card, 1, 1, keys_in(pattern), pattern, diagnostics, fine, known_keys)
     select case (report%kind%name)
     case ("shapes")

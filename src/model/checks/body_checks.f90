@@ -21,21 +21,23 @@ contains
     type(model_t), intent(inout) :: model             !! has its links with materials and sections;
                                                       !! link numbers of the cards are set
 
-    type(name_index_t) :: links
+    type(name_index_t) :: links, pins
     integer :: i
 
     links = new_name_index(token_texts(model%links%name))
+    pins = new_name_index(token_texts(link_ends(model%links)))
     do i = 1, size(model%masses)
-      call seek_link(model%masses(i)%link_name, links, diagnostics, model%masses(i)%link)
+      call seek_link(model%masses(i)%link_name, links, pins, diagnostics, model%masses(i)%link)
     end do
     do i = 1, size(model%points)
-      call seek_link(model%points(i)%link_name, links, diagnostics, model%points(i)%link)
+      call seek_link(model%points(i)%link_name, links, pins, diagnostics, model%points(i)%link)
     end do
     do i = 1, size(model%torques)
-      call seek_link(model%torques(i)%link_name, links, diagnostics, model%torques(i)%link)
+      call seek_link(model%torques(i)%link_name, links, pins, diagnostics, model%torques(i)%link)
     end do
     do i = 1, size(model%resistances)
-      call seek_link(model%resistances(i)%link_name, links, diagnostics, model%resistances(i)%link)
+      call seek_link(model%resistances(i)%link_name, links, pins, diagnostics, &
+        model%resistances(i)%link)
     end do
     call check_points(diagnostics, model)
     call check_forces(diagnostics, model)
@@ -44,13 +46,19 @@ contains
     end do
   end subroutine check_bodies
 
-  pure subroutine seek_link(word, links, diagnostics, link)
+  pure subroutine seek_link(word, links, pins, diagnostics, link)
     type(token_t), intent(in) :: word !! without a line if the card lacks it
-    type(name_index_t), intent(in) :: links
+    type(name_index_t), intent(in) :: links, pins
     type(diagnostics_t), intent(inout) :: diagnostics
     integer, intent(inout) :: link !! unchanged if the card lacks it, 0 if unknown
 
-    if (word%line > 0) call look_up(word, links, "link", diagnostics, link)
+    if (word%line == 0) return
+    if (find_name(links, word%text) == 0 .and. find_name(pins, word%text) > 0) then
+      link = 0
+      call add_error(diagnostics, word, "'"//word%text//"' is a pin; this card wants a link")
+    else
+      call look_up(word, links, "link", diagnostics, link)
+    end if
   end subroutine seek_link
 
   !> Refuses points named like pins: in the tables both appear by their names.
@@ -80,11 +88,14 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
-    type(name_index_t) :: pins, grounds
+    character(len=*), parameter :: only_pins = "; a FORCE acts on a moving pin only"
+    type(name_index_t) :: pins, grounds, points, links
     integer :: i, number
 
     pins = new_name_index(token_texts(link_ends(model%links)))
     grounds = new_name_index(token_texts(model%grounds%pin))
+    points = new_name_index(token_texts(model%points%name))
+    links = new_name_index(token_texts(model%links%name))
     do i = 1, size(model%forces)
       associate (pin => model%forces(i)%pin)
         if (pin%line == 0) cycle
@@ -93,6 +104,15 @@ contains
           call add_error(diagnostics, pin, &
             "a load on a fixed pin: it would load nothing but the ground", &
             model%grounds(number)%pin, "'"//pin%text//"' is fixed here")
+        else if (find_name(pins, pin%text) > 0) then
+          cycle
+        else if (find_name(points, pin%text) > 0) then
+          call add_error(diagnostics, pin, "'"//pin%text//"' is a point"//only_pins// &
+            " (the weight of a body there comes from MASS and GRAVITY)", &
+            model%points(find_name(points, pin%text))%name, "the point is here")
+        else if (find_name(links, pin%text) > 0) then
+          call add_error(diagnostics, pin, "'"//pin%text//"' is a link"//only_pins// &
+            ", a TORQUE on a link")
         else
           call look_up(pin, pins, "pin", diagnostics, number)
         end if
