@@ -21,7 +21,7 @@ unit_tests = $(if $(PFUNIT_DIR),pfunit,funit)/unit_tests
 
 ifndef kind
 # ---------------------------------------------------------------------------------------------- what a person types
-.PHONY: all debug quad thesis run figures animate check bench bench-pictures stress accuracies references fuzz memory golden \
+.PHONY: all debug quad thesis run figures animate check documents bench bench-pictures stress accuracies references fuzz memory golden \
         install setup clean help
 
 all: setup
@@ -51,22 +51,35 @@ run: all
 	$(need_deck)
 	$(program) "$(DECK)"
 
+# FORMAT=svg, SIZE=1200x800, TITLES=no, ERRORS=yes: what flexmech-plot has options for.
+yes_or_no = @case "$($(1))" in ''|yes|no) ;; *) echo "make: $(1)=$($(1)): yes or no" >&2; exit 2 ;; esac
+figure_options = $(if $(FORMAT),--format "$(FORMAT)") $(if $(SIZE),--size "$(SIZE)") $(if $(filter no,$(TITLES)),--no-titles) \
+                 $(if $(filter yes,$(ERRORS)),--errors)
+draw = FLEXMECH_PLOT=make sh plots/draw_figures.sh
+
 figures: all
 	$(need_deck)
+	$(call yes_or_no,TITLES)
+	$(call yes_or_no,ERRORS)
+	@$(draw) $(figure_options) --help > /dev/null
 	@# Exit status 1: some rows could not be computed. The figures show where.
 	$(program) "$(DECK)" || test $$? -eq 1
-	@name=$$(basename "$(DECK)"); sh plots/draw_figures.sh "outputs/$${name%.*}"
+	@name=$$(basename "$(DECK)"); $(draw) $(figure_options) "outputs/$${name%.*}"
 
 animate: all
 	$(need_deck)
 	$(program) "$(DECK)" || test $$? -eq 1
-	@name=$$(basename "$(DECK)"); sh plots/draw_figures.sh --animate "outputs/$${name%.*}"
+	@name=$$(basename "$(DECK)"); $(draw) --animate "outputs/$${name%.*}"
 
 check: setup
 	@rm -f build/check.count
 	$(stage) kind=release $(program) build/release/$(unit_tests) build/release/bench/bench
 	$(stage) kind=debug build/debug/flexmech build/debug/$(unit_tests) build/debug/bench/bench
 	@python3 -B $(support)/check.py $(unit_tests)
+
+# Numbers of the documents that runs of some seconds give. STRESS=yes: those of the last `make stress` instead.
+documents: all
+	@python3 -B tests/documents/documents.py $(program) --write $(if $(STRESS),--stress)
 
 bench: all
 	$(stage) kind=release build/release/bench/bench
@@ -91,6 +104,7 @@ memory:
 
 stress: all
 	@python3 -B tests/stress/run_stress.py $(program)
+	@python3 -B tests/documents/documents.py $(program) --stress
 
 # The same SEED makes the same decks.
 FREQUENCIES ?= 100000
@@ -109,12 +123,19 @@ golden: all
 	@rm -rf "tests/golden/$(CASE)" && mkdir -p "tests/golden/$(CASE)"
 	cp build/golden/$(CASE)/*.dat "tests/golden/$(CASE)/"
 
+share = $(DESTDIR)$(PREFIX)/share
 # Not `all`: `sudo make install` after `make` must not write into build/ as root.
 install:
 	@test -x $(program) || { echo "make: nothing is built yet; say: make" >&2; exit 2; }
-	install -d "$(DESTDIR)$(PREFIX)/bin" "$(DESTDIR)$(PREFIX)/share/flexmech"
+	install -d "$(DESTDIR)$(PREFIX)/bin" "$(DESTDIR)$(PREFIX)/share/flexmech" "$(share)/man/man1" \
+	    "$(share)/bash-completion/completions" "$(share)/zsh/site-functions" "$(share)/fish/vendor_completions.d"
 	install -m 755 $(program) "$(DESTDIR)$(PREFIX)/bin/flexmech"
-	cp -R plots "$(DESTDIR)$(PREFIX)/share/flexmech/"
+	cp -R plots library "$(DESTDIR)$(PREFIX)/share/flexmech/"
+	install -m 755 plots/flexmech-plot "$(DESTDIR)$(PREFIX)/bin/flexmech-plot"
+	$(program) --man > "$(share)/man/man1/flexmech.1"
+	$(program) --completion bash > "$(share)/bash-completion/completions/flexmech"
+	$(program) --completion zsh > "$(share)/zsh/site-functions/_flexmech"
+	$(program) --completion fish > "$(share)/fish/vendor_completions.d/flexmech.fish"
 
 clean:
 	rm -rf build outputs
@@ -124,20 +145,23 @@ help:
 	@echo "make debug              build build/debug/flexmech, with every check the compiler has"
 	@echo "make thesis             run both mechanisms of the thesis and draw their figures, in outputs/"
 	@echo "make run DECK=FILE      run one deck"
-	@echo "make figures DECK=FILE  run one deck and draw what its tables allow"
+	@echo "make figures DECK=FILE  run one deck and draw what its tables allow; FORMAT=svg or pdf, SIZE=1200x800 or 160x100mm,"
+	@echo "                        TITLES=no for bare figures, ERRORS=yes for the estimated errors of the frequencies too"
 	@echo "make animate DECK=FILE  run one deck and animate it: the linkage as it moves, and as it swings in its modes"
 	@echo "make check              all tests, in the release and in the debug build"
 	@echo "make check PFUNIT_DIR=D the same, with the unit tests run by the pFUnit 4 installed in the folder D"
+	@echo "make documents          write the numbers of README.md and docs/ anew that runs of some seconds give"
 	@echo "make bench              time every solver in turn, tables and figures in outputs/bench/; four minutes"
 	@echo "make bench-pictures     copy these figures to docs/pictures/"
 	@echo "make fuzz               10,000 odd decks under the debug build; FUZZ=500 SEED=7 for fewer, and for others"
 	@echo "make memory             every deck of inputs/ under the sanitizers of addresses, leaks and undefined behaviour"
-	@echo "make stress             errors told against errors made, in all corners, with figures, in outputs/stress/"
+	@echo "make stress             estimated errors against true ones in extreme cases, with figures, in outputs/stress/"
 	@echo "make accuracies         random decks at several accuracies, each against the finest; FREQUENCIES=5000 SEED=7"
 	@echo "make references         make the quadruple-precision values of make stress anew (hours)"
 	@echo "make quad               build build/quad/flexmech, the program in quadruple precision (slow)"
 	@echo "make golden CASE=NAME   make tests/golden/NAME/ anew from inputs/NAME.deck"
-	@echo "make install PREFIX=DIR copy the program to DIR/bin, the plots to DIR/share/flexmech (DESTDIR is honoured)"
+	@echo "make install PREFIX=DIR copy flexmech and flexmech-plot to DIR/bin, plots, library, manual page and completions to DIR/share"
+	@echo "                        (DESTDIR is honoured)"
 	@echo "make setup              only install what is missing"
 	@echo "make clean              remove build/ and outputs/"
 	@echo "BLAS=openblas           link OpenBLAS instead of the reference LAPACK and BLAS"

@@ -4,12 +4,13 @@
 load ARG0[1 : strlen(ARG0) - strlen("animate_mode.gp")]."style.gp"
 table = ARG1; out = ARG2; mode = ARG3 + 0; crank = ARG4 + 0; speed = ARG5 + 0; figure = argument(6); remark = argument(7)
 eval smaller(0.6)
+load plots."drawing.gp"
 
 eval answer(table, "facts")
 load plots."mode_page.gp"
 pictures = 40
 do for [picture=1:pictures] {
-    if (picture == 1) { eval mode_page } else { eval open_page(page_width, page_height) }
+    if (picture == 1) { eval mode_frame } else { eval open_page(page_width, page_height) }
     set output sprintf("%s_%03d", out, picture)
     eval mode_shape(sin(2*pi*(picture - 1)/pictures))
 }

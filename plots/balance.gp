@@ -10,9 +10,10 @@ note = "balanced: with the counterweights of balance.dat on crank and follower, 
 source_of(k) = table
 picked = "same(field('speed'),speed)"
 x = "field('crank')"
-x_axis = crank_axis(low_crank, high_crank)."; set xlabel 'crank angle θ₂'.unit('crank')"
+x_axis = "eval crank_axis(low_crank, high_crank)"
 panels = 3
-array axis_of[3] = ["shaking force".unit("shaking_x"), "shaking moment".unit("shaking_moment"), "driving torque".unit("torque")]
+array axis_of[3] = ["shaking force", "shaking moment", "driving torque"]
+array unit_of[3] = [unit_shaking_x, unit_shaking_moment, unit_torque]
 array curves_of[3] = ["sqrt(field('shaking_x')**2+field('shaking_y')**2) sqrt(field('balanced_x')**2+field('balanced_y')**2)", \
     "field('shaking_moment') field('balanced_moment')", "field('torque') field('balanced_torque')"]
 array titles_of[3] = ["given balanced", "given balanced", "given balanced"]

@@ -8,8 +8,8 @@ eval answer(table, "facts")
 deck_title = machine_of(table)
 headline = sprintf("Run time of a turn of %d positions against error: %s", high_positions, \
     loads eq "static" ? "at rest" : "with the axial forces at 20 rad/s")
-note = "down and to the left is better;  error: largest of f1 to f3 against exact values;  everything that a run does is in the time"
-remark = "deformation, sweep and accuracy= also tell the error of every frequency and prove that none is missing"
+note = "down and to the left is better;  error: largest of f1 to f3 against exact values;  the time is that of a whole run"
+remark = "deformation, sweep and accuracy= also estimate the error of every frequency and prove that none is missing"
 rows_of(solver, family) = rows_where(table, where_is("load", loads)." && ".where_is("solver", solver)." && ".where_is("family", family))
 
 eval open_page(1800, 1080)

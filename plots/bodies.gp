@@ -42,4 +42,12 @@ body(row, link) = shape(row, link, half_width + rim, dark).shape(row, link, half
 pin(z) = disc(z, 0.75*half_width, dark).disc(z, 0.45*half_width, "#FFFFFF")
 marks(p, row) = p > points ? "" : \
     disc(at(row, column_of(p)), 0.75*half_width, dark).disc(at(row, column_of(p)), 0.5*half_width, point_ink(p)).marks(p + 1, row)
-mechanism(row) = body(row, 4).body(row, 3).body(row, 2).pin(O2).pin(O4).pin(at(row, 2)).pin(at(row, 4)).marks(1, row)
+mechanism_below(row) = body(row, 4).body(row, 3).body(row, 2)
+mechanism_pins(row) = pin(O2).pin(O4).pin(at(row, 2)).pin(at(row, 4)).marks(1, row)
+mechanism(row) = mechanism_below(row).mechanism_pins(row)
+
+# So pale that arrows stand out.
+pale(link) = word("- #C9DAEC #FFEBC4 #D7EBD7", link)
+pale_body(row, link) = capsule(first_pin(row, link), last_pin(row, link), half_width + 0.8*rim, "#8C8C8C").\
+    capsule(first_pin(row, link), last_pin(row, link), half_width, pale(link))
+pale_mechanism(row) = pale_body(row, 4).pale_body(row, 3).pale_body(row, 2).pin(O2).pin(O4).pin(at(row, 2)).pin(at(row, 4))

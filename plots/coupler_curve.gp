@@ -1,10 +1,11 @@
-# The paths of the points of points.dat, and the mechanism at several positions.
+# The paths of the points of points.dat, and the mechanism at one position.
 #   gnuplot -c coupler_curve.gp points.dat OUT CRANK [balance.dat [FIGURE [REMARK]]]
 # The mechanism is drawn as bodies at CRANK; with balance.dat the path of the mass centre is drawn too.
 
 load ARG0[1 : strlen(ARG0) - strlen("coupler_curve.gp")]."style.gp"
 table = ARG1; out = ARG2; crank = ARG3 + 0; masses = argument(4); figure = argument(5); remark = argument(6)
 
+load plots."drawing.gp"
 eval answer(table, "facts")
 low = low_crank
 high = high_crank
@@ -14,59 +15,115 @@ print sprintf("%.17g", crank)
 unset print
 load poses_as("there")
 eval pivots
-shown = $there[1]
-turning = turns_fully && high - low >= 240
-positions = turning ? 8 : 5
-crank_of(k, n) = turning ? crank + 360.0*k/n : low + (high - low)*k/(n - 1.0)
+shown_row = $there[1]
 
-# The paths, with a dot every 10 degrees; the ghosts; the mechanism.
+# The paths, with dots every 10 degrees, every third of them large; a large one at 0, 60, 120 … degrees has its angle beside it.
+turning = turns_fully && high - low >= 240
+rows_of_path = turning ? 360 : 180
+every = turning ? 10 : 5*ceil(rows_of_path/60.0)
 set print angles
-do for [k=0:turning ? 360 : 180] { print sprintf("%.17g", turning ? k : low + (high - low)*k/180.0) }
+do for [k=0:rows_of_path] { print sprintf("%.17g", turning ? k : low + (high - low)*k/rows_of_path) }
 unset print
 load poses_as("paths")
-dots = turning ? 10 : ceil(10*180/(high - low))
-set print angles
-do for [k=0:positions - 1] { print sprintf("%.17g", crank_of(k, positions)) }
-unset print
-load poses_as("ghosts")
-centre_of_mass = ""
-poses = "$paths"
+poses = "$there"
 eval extent
-if (masses ne "") {
-    eval answer(masses, "facts")
-    speed_of_masses = word(answer(masses, "distinct speed"), 1) + 0
-    centre_of_mass = ", masses using (same(field('speed'), speed_of_masses) ? field('xG') : NaN):(field('yG')) ".\
-        "with lines lw 3 dt (10,5,3,5) lc rgb dark title 'mass centre'"
+do for [p=1:points] { stats $paths using (include(column(column_of(p)), column(column_of(p) + 1))) nooutput }
+span = larger(x_max - x_min, y_max - y_min)
+
+has_masses = masses ne ""
+if (has_masses) {
+    speed_of_masses = word(answer(masses, "distinct speed"), 1)
+    load keep("masses", masses, "path ".speed_of_masses." xG yG")
+    stats $masses using (include($1, $2)) nooutput
+    stats $masses using ($4 == 1 && abs($3 - crank) < 1e-6 ? (mass_x = $1, mass_y = $2, 1) : 0) nooutput
+    if (!exists("mass_x")) { stats $masses using (mass_x = $1, mass_y = $2, 1) nooutput }
 }
-eval answer(table, "facts")
-room = 0.08*span
+room = 0.09*span
 size = 0.05*span
-call plots."bodies.gp" sprintf("%g", 0.016*span)
+call plots."bodies.gp" sprintf("%g", 0.014*span)
+x0 = x_min - room - 0.4*size
+x1 = x_max + room
+y0 = y_min - room - size
+y1 = y_max + room
 
 headline = numbered(figure, sprintf("Paths of points, with the mechanism at %s", at_crank(crank)))
-note = turning ? sprintf("dots: every %d° of the crank; grey: the mechanism every %g°", dots, 360.0/positions) \
-    : "dots: crank angles at equal steps; grey: the mechanism at other positions of its range"
-eval frame(x_min - room - 0.4*size, x_max + room, y_min - room - size, y_max + room, lines_of_notes(note, remark))
-eval heading
-set xlabel "x".unit("x")
-set ylabel "y".unit("y")
-call plots."ground.gp" O2_x O2_y size 1 "pinned"
-call plots."ground.gp" O4_x O4_y size 11 "pinned"
+note = turning ? "small dots: every 10° of the crank, large ones every 30°; numbers: crank angle θ₂" \
+    : sprintf("small dots: every %.4g° of the crank, large ones every %.4g°; numbers: crank angle θ₂", \
+        (high - low)*every/rows_of_path, 3*(high - low)*every/rows_of_path)
+load plots."legend.gp"
+path_style(p) = sprintf("lw 4 dt solid lc rgb '%s'", point_ink(p))
+mass_style = "lw 2.5 dt solid lc rgb '#333333'"
+do for [p=1:points] { eval entry_line(short_name(point_names, p), path_style(p)) }
+if (has_masses) { eval entry_line("mass centre of the mechanism", mass_style) }
+length_unit = unit_x
+load plots."frame.gp"
+call plots."ground.gp" sprintf("%.12g", O2_x) sprintf("%.12g", O2_y) size 1 "pinned"
+call plots."ground.gp" sprintf("%.12g", O4_x) sprintf("%.12g", O4_y) size 11 "pinned"
 
-# A ghost is the lines of its links, and of its points to the pins of their links.
-line_of(p, q) = sprintf("$corners every ::0::1 using ($1 == 0 ? %.7g : %.7g):($1 == 0 ? %.7g : %.7g) ".\
-    "with lines lw 1.5 dt solid lc rgb '#B0B0B0' notitle, ", real(p), real(q), imag(p), imag(q))
-rays(p, row) = p > points ? "" : line_of(first_pin(row, point_link[p]), at(row, column_of(p))).\
-    line_of(last_pin(row, point_link[p]), at(row, column_of(p))).rays(p + 1, row)
-ghost(row) = line_of(O2, at(row, 2)).line_of(at(row, 2), at(row, 4)).line_of(O4, at(row, 4)).rays(1, row)
-ghosts = ""
-do for [k=1:positions] { if (k > 1 || !turning) { ghosts = ghosts.ghost($ghosts[k]) } }
-paths = ""
+# Numbers keep clear of the paths, of pins and of each other. Two dots at one place, on a path that is gone to and fro, have one.
+set print places
+print sprintf("page %g %g %g %g", box_left + 4, box_left + box_width - 4, box_bottom + 4, box_bottom + box_height - 4)
 do for [p=1:points] {
-    paths = paths.sprintf("$paths using %d:%d with lines lw 4 dt solid lc rgb '%s' title word(point_names, %d), ", \
-        column_of(p), column_of(p) + 1, point_ink(p), p)
-    paths = paths.sprintf("$paths every %d using %d:%d with points pt 7 ps 0.9 lc rgb '%s' notitle, ", \
-        dots, column_of(p), column_of(p) + 1, point_ink(p))
+    print "curve"
+    do for [k=1:|$paths|:2] {
+        print sprintf("curve %.6g %.6g", page_x(word($paths[k], column_of(p)) + 0), page_y(word($paths[k], column_of(p) + 1) + 0))
+    }
 }
-eval "plot ".ghosts.paths.mechanism(shown)."NaN notitle".centre_of_mass
+if (has_masses) {
+    print "curve"
+    do for [k=1:|$masses|:2] {
+        if (words($masses[k]) == 4) { print sprintf("curve %.6g %.6g", page_x(word($masses[k], 1) + 0), page_y(word($masses[k], 2) + 0)) }
+    }
+}
+print_way(p, q) = sprintf("curve\ncurve %.6g %.6g\ncurve %.6g %.6g", page_x(real(p)), page_y(imag(p)), page_x(real(q)), page_y(imag(q)))
+do for [link=2:4] { print print_way(first_pin(shown_row, link), last_pin(shown_row, link)) }
+do for [p=1:points] {
+    print print_way(first_pin(shown_row, point_link[p]), at(shown_row, column_of(p)))
+    print print_way(last_pin(shown_row, point_link[p]), at(shown_row, column_of(p)))
+}
+box_at(z) = sprintf("box %.6g %.6g 40 40", page_x(real(z)), page_y(imag(z)))
+print box_at(O2)
+print box_at(O4)
+print box_at(at(shown_row, 2))
+print box_at(at(shown_row, 4))
+do for [p=1:points] { print box_at(at(shown_row, column_of(p))) }
+step_of_numbers = turning ? 60 : 60*every/10
+do for [p=1:points] {
+    do for [k=0:rows_of_path - 1:step_of_numbers] {
+        angle = word($paths[k + 1], 1) + 0
+        z = at($paths[k + 1], column_of(p))
+        text = sprintf("%.4g°", angle)
+        print sprintf("label %.6g %.6g 12 %.4g %.4g 45 %s", page_x(real(z)), page_y(imag(z)), text_width(text, 15), text_height(15), \
+            sprintf("%d %s", p, text))
+    }
+}
+unset print
+load labels_as("numbers")
+
+# A path that is short on the page has large dots only.
+steps_apart(p) = sum [k=1:rows_of_path] pixel*abs(at($paths[k + 1], column_of(p)) - at($paths[k], column_of(p)))*every/rows_of_path
+halos = ""
+paths = ""
+if (has_masses) {
+    halos = "$masses using 1:2 with lines lw 6 dt solid lc rgb 'white' notitle, "
+    paths = "$masses using 1:2 with lines ".mass_style." notitle, ".\
+        sprintf("'+' using (%.9g):(%.9g) every ::0::0 with points pt 7 ps 2.2 lc rgb 'white' notitle, ", mass_x, mass_y).\
+        sprintf("'+' using (%.9g):(%.9g) every ::0::0 with points pt 6 ps 2.2 lw 2.5 lc rgb '#333333' notitle, ", mass_x, mass_y).\
+        sprintf("'+' using (%.9g):(%.9g) every ::0::0 with points pt 1 ps 2.2 lw 2.5 lc rgb '#333333' notitle, ", mass_x, mass_y)
+}
+do for [p=1:points] {
+    columns_of_path = sprintf("%d:%d", column_of(p), column_of(p) + 1)
+    halos = halos."$paths using ".columns_of_path." with lines lw 9 dt solid lc rgb 'white' notitle, "
+    paths = paths."$paths using ".columns_of_path." with lines ".path_style(p)." notitle, ".\
+        (steps_apart(p) < 14 ? "" : sprintf("$paths every %d using %s with points pt 7 ps 0.8 lc rgb '%s' notitle, ", \
+            every, columns_of_path, point_ink(p))).\
+        sprintf("$paths every %d using %s with points pt 7 ps 1.5 lc rgb '%s' notitle, ", 3*every, columns_of_path, point_ink(p))
+}
+# A label begins with the number of its point.
+text_behind(label) = label[strstrt(label, " ") + 1 : *]
+ink_before(label) = int("0x".point_ink(int(label))[2:*])
+eval "plot ".mechanism_below(shown_row).halos.paths.mechanism_pins(shown_row).\
+    "$numbers using ($5 == 1 ? unscaled_x($3) : NaN):(unscaled_y($4)):(unscaled_x($7) - unscaled_x($3)):(unscaled_y($8) - unscaled_y($4)) ".\
+    "with vectors nohead lw 1 dt solid lc rgb '#808080' notitle, ".\
+    "$numbers using (unscaled_x($1)):(unscaled_y($2)):(text_behind(strcol(6))):(ink_before(strcol(6))) with labels tc rgb variable noenhanced font point_size(15) notitle"
 eval close

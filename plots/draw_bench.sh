@@ -22,14 +22,14 @@ for load in static axial; do
     draw bench_work_precision.gp work_precision "work_precision_$load" $load
 done
 draw bench_cost.gp cost_elements cost_elements elements each \
-    'A position against the elements of a link (order 3, at 20 rad/s, 3 modes)' 'elements on every link' \
-    'without what comes once a run; a curve ends where its solver is refused or takes too long'
+    'Time of a position against the elements of a link (order 3, at 20 rad/s, 3 modes)' 'elements on every link' \
+    'without what is done once a run; a curve ends where its solver is refused or takes too long'
 draw bench_cost.gp cost_positions cost_positions positions per_position \
-    'A position against their number in a turn (3 modes at 20 rad/s, 1e-8)' 'positions in a turn' \
-    'with what comes once a run; dsygv, dsygvx and band on the elements that the program chose'
+    'Time of a position against their number in a turn (3 modes at 20 rad/s, 1e-8)' 'positions in a turn' \
+    'including what is done once a run; dsygv, dsygvx and band on the elements that the program chose'
 draw bench_cost.gp cost_modes cost_modes modes each \
-    'A position against the number of modes (at 20 rad/s, 1e-8)' 'modes' \
-    'without what comes once a run; dsygv, dsygvx and band on the elements that the program chose'
+    'Time of a position against the number of modes (at 20 rad/s, 1e-8)' 'modes' \
+    'without what is done once a run; dsygv, dsygvx and band on the elements that the program chose'
 draw bench_cost.gp cost_threads cost_threads threads per_position \
-    'A position against threads (3 modes at 20 rad/s, 1e-8)' 'threads' \
-    'with what comes once a run; ARPACK serves one thread at a time'
+    'Time of a position against threads (3 modes at 20 rad/s, 1e-8)' 'threads' \
+    'including what is done once a run; ARPACK serves one thread at a time'

@@ -1,25 +1,111 @@
 #!/bin/sh
 # Draws every figure that the tables of one deck allow, into the folder `figures` beside them (the linkage that draws the
-# paths of points, as an animated GIF too), or animates all that moves in them, into the folder `animations`.
-#   draw_figures.sh [--animate] outputs/mechanism1
+# paths of points, as an animated GIF too), or animates all that moves in them, into the folder `animations`. This is the
+# command flexmech-plot; `draw_figures.sh --help` lists its options.
 # A figure of the thesis gets its number (thesis_figures.txt). The figures of the last run stay until all new ones are
 # drawn; then they go, and files that this script did not draw stay. Prints a line a figure.
 
 set -u
 LC_ALL=C
 export LC_ALL
+command=${FLEXMECH_PLOT-draw_figures.sh}
 
 fail() {
-    printf 'draw_figures.sh: %s\n' "$1" >&2
+    printf '%s: %s\n' "$command" "$1" >&2
     exit "${2:-1}"
 }
 
+remark() { printf '%s: %s\n' "$command" "$1" >&2; }
+
+# On the command line: say how to call it.
+misused() {
+    remark "$1"
+    [ "$command" = make ] || printf "say '%s --help' for its options\n" "$command" >&2
+    exit 2
+}
+
+help() {
+    cat << END_OF_HELP
+usage: $command [options] FOLDER...
+
+Draws the figures that the tables of a deck allow, into FOLDER/figures; FOLDER is what flexmech
+has written, such as outputs/mechanism1.
+
+  --animate        animate the linkage and its modes instead, as GIFs, into FOLDER/animations
+  --errors         draw the estimated errors of the frequencies too
+  --format FORMAT  png, svg or pdf; default: png
+  --size SIZE      of every figure: WIDTHxHEIGHT in pixels, such as 1200x800, or in millimetres,
+                   such as 160x100mm; default: 1600 pixels wide, as high as it needs to be
+  --no-titles      no heading and no notes, for figures with a caption of their own
+  --help, --version
+
+Exit status: 0, 1 if something could not be drawn, 2 if the command line is wrong.
+END_OF_HELP
+}
+
+# size_words SIZE: width, height and unit of 1200x800 or 160x100mm, if that is a size.
+size_words() {
+    printf '%s\n' "$1" | sed -n 's/^\([0-9][0-9]*\)x\([0-9][0-9]*\)$/\1 \2 px/p; s/^\([0-9][0-9]*\)x\([0-9][0-9]*\)\(px\|mm\)$/\1 \2 \3/p' |
+        awk '{ least = $3 == "mm" ? 40 : 150; most = $3 == "mm" ? 2000 : 10000 }
+            $1 >= least && $1 <= most && $2 >= least && $2 <= most'
+}
+
 figures=figures
-[ "${1-}" = --animate ] && figures=animations && shift
-[ $# -eq 1 ] || fail 'usage: draw_figures.sh [--animate] OUTDIR   (the folder with the tables of one deck)' 2
-outdir=${1%/}
-[ -d "$outdir" ] || fail "no folder $outdir"
-command -v gnuplot > /dev/null || fail 'gnuplot is not installed'
+format=
+size=
+titles=yes
+errors=no
+wanted=
+options=
+folders=0
+while [ $# -gt 0 ]; do
+    case $1 in
+        --format | --size)
+            [ $# -gt 1 ] || misused "$1 takes a value"
+            [ "$1" = --format ] && format=$2
+            [ "$1" = --size ] && size=$2
+            options="$options $1 $2"
+            shift ;;
+        --animate) figures=animations options="$options $1" ;;
+        --errors) errors=yes options="$options $1" ;;
+        --no-titles) titles=no options="$options $1" ;;
+        --help | --version) wanted=$1 ;;
+        --)
+            shift
+            break ;;
+        -?*) misused "unknown option $1" ;;
+        *) break ;;
+    esac
+    shift
+done
+# Typed at make, options have other names.
+[ "$command" = make ] && format_option=FORMAT= && size_option=SIZE= || { format_option='--format '; size_option='--size '; }
+for folder in "$@"; do
+    case $folder in
+        --animate | --errors | --no-titles | --format | --size | --help | --version)
+            misused "options stand before the folder: $folder" ;;
+    esac
+    folders=$((folders + 1))
+done
+case $format in
+    '' | png | svg | pdf) ;;
+    *) misused "$format_option$format: png, svg or pdf" ;;
+esac
+settings="figure_format = '$format'; figure_titles = $([ $titles = no ]; echo $?); figure_width = 0"
+if [ -n "$size" ]; then
+    set_size=$(size_words "$size")
+    [ -n "$set_size" ] ||
+        misused "$size_option$size: WIDTHxHEIGHT of 150 to 10000 pixels or 40 to 2000 mm each, such as 1200x800 or 160x100mm"
+    settings="$settings; $(echo "$set_size" | awk '{ printf "figure_width = %d; figure_height = %d; figure_unit = \"%s\"", $1, $2, $3 }')"
+fi
+if [ $figures = animations ]; then
+    [ -z "$format$size" ] && [ $errors = no ] ||
+        misused '--animate takes no --format, --size or --errors: an animation is a GIF of a size of its own'
+fi
+if [ "$wanted" = --help ]; then
+    help
+    exit
+fi
 
 script=$0
 while [ -h "$script" ]; do
@@ -45,6 +131,25 @@ fi
 case $FLEXMECH in */*) FLEXMECH=$(CDPATH='' cd "$(dirname "$FLEXMECH")" && pwd)/$(basename "$FLEXMECH") ;; esac
 export FLEXMECH
 
+if [ "$wanted" = --version ]; then
+    version=$(${FLEXMECH:+"$FLEXMECH" --version})
+    printf '%s %s\n' "$command" "${version#flexmech }"
+    exit
+fi
+[ $folders -gt 0 ] || misused 'the folder with the tables of a deck is missing'
+if [ $folders -gt 1 ]; then
+    status=0
+    for folder in "$@"; do
+        # The options are plain words.
+        sh "$PLOTS/draw_figures.sh" $options -- "$folder" || status=1
+    done
+    exit $status
+fi
+outdir=${1%/}
+[ ! -f "$outdir" ] || fail "$outdir is a file: name the folder with the tables of a deck, such as outputs/mechanism1" 2
+[ -d "$outdir" ] || fail "no folder $outdir" 2
+command -v gnuplot > /dev/null || fail 'gnuplot is not installed'
+
 cd "$outdir" || fail "cannot enter $outdir"
 deck=$(basename "$(pwd)")
 new=.figures.$$
@@ -61,7 +166,7 @@ ask() { awk -v want="$1" -f "$PLOTS/tables.awk" < "$2"; }
 have() {
     [ -f "$1" ] || return 1
     [ -n "$(ask 'distinct crank' "$1")" ] && return 0
-    printf 'draw_figures.sh: %s/%s has no row that could be computed\n' "$outdir" "$1" >&2
+    remark "$outdir/$1 has no row that could be computed"
     return 1
 }
 
@@ -78,40 +183,40 @@ telling_crank() {
 
 greatest_speed() { ask 'distinct speed' "$1" | sort -n | tail -n 1; }
 
+# The table of a distributed inertia knows mass centres only.
 plan_mechanism() {
     mesh=
     if ask facts inertia.dat | grep -q col_moment; then
-        mesh=mesh.dat
-        if ! have mesh.dat; then
-            echo 'draw_figures.sh: the mechanism of a distributed inertia is drawn only with mesh.dat (REPORT mesh)' >&2
-            return
-        fi
+        if have mesh.dat; then mesh=mesh.dat; else can_place || return; fi
     fi
     add mechanism mechanism.gp inertia.dat "$(telling_crank inertia.dat)" "$(greatest_speed inertia.dat)" "$mesh"
 }
 
-# plan_speeds NAME TABLE: NAME.gp draws one speed of the table.
+# plan_speeds NAME TABLE [COLUMNS [SCRIPT]]: NAME.gp, or SCRIPT, draws one speed of the table, unless all these columns are zero.
 plan_speeds() {
     speeds=$(ask 'distinct speed' "$2")
     n=$(printf '%s\n' "$speeds" | wc -l)
+    [ -z "${3-}" ] || speeds=$(ask "moving $3" "$2")
     for speed in $speeds; do
         if [ "$n" -eq 1 ]; then name=$1; else name=$1_speed_$speed; fi
-        add "$name" "$1.gp" "$2" "$speed"
+        add "$name" "${4-$1.gp}" "$2" "$speed"
     done
 }
 
 plan_frequencies() {
     plan_speeds frequencies frequencies.dat
-    ask facts frequencies.dat | grep -q col_error1 && plan_speeds errors frequencies.dat
+    [ $errors = yes ] && ask facts frequencies.dat | grep -q col_error1 && plan_speeds errors frequencies.dat
     [ "$n" -gt 1 ] || return 0
     for mode in $(ask facts frequencies.dat | tr ' ' '\n' | sed -n 's/^col_f\([0-9][0-9]*\)$/\1/p'); do
         add "frequency_${mode}_by_speed" frequency_by_speed.gp frequencies.dat "$mode"
     done
 }
 
+# All modes on a page for each speed, and every one alone.
 plan_modes() {
+    [ -n "${animate-}" ] || [ "$(ask 'distinct mode crank' shapes.dat | wc -l)" -eq 1 ] || plan_speeds modes shapes.dat
     ask 'distinct mode crank speed' shapes.dat | while read -r mode crank speed; do
-        add "mode_${mode}_crank_${crank}_speed_$speed" "${animate-mode_shape.gp}" shapes.dat "$mode" "$crank" "$speed"
+        add "mode_${mode}_crank_${crank}_speed_$speed" "${animate:-mode_shape.gp}" shapes.dat "$mode" "$crank" "$speed"
     done
 }
 
@@ -127,39 +232,50 @@ plan_kinematics() {
 # The program can place the linkage anew.
 can_place() {
     [ -n "$FLEXMECH" ] && [ -f echo.deck ] && return 0
-    echo 'draw_figures.sh: linkages are drawn only with the program flexmech (FLEXMECH=PATH says where it is) and echo.deck' >&2
+    remark 'linkages are drawn only with the program flexmech (FLEXMECH=PATH says where it is) and echo.deck'
     return 1
 }
 
 # several TABLE: it has more positions than one.
 several() { [ "$(ask 'distinct crank' "$1" | wc -l)" -gt 1 ]; }
 
+# What this gnuplot can write.
+terminals() { LC_ALL=C.UTF-8 gnuplot -e 'set print "-"; print GPVAL_TERMINALS'; }
+
 # An animation is made of pictures that pngcairo draws.
 can_animate() {
-    case " $(LC_ALL=C.UTF-8 gnuplot -e 'set print "-"; print GPVAL_TERMINALS') " in
+    case " $(terminals) " in
         *' gif '*' pngcairo '* | *' pngcairo '*' gif '*) ;;
         *) return 1 ;;
     esac
 }
+
+# plan_forces SCRIPT: at the speeds at which there is a force at all.
+plan_forces() { plan_speeds forces reactions.dat 'O2x O2y A3x A3y B3x B3y O4x O4y shaking_x shaking_y' "$1"; }
 
 # The shaking force is drawn once, with counterweights if they are known.
 plan_rigid_dynamics() {
     balance=
     have balance.dat && balance=balance.dat
     if have points.dat; then
-        plan_speeds point_rates points.dat
+        plan_speeds point_rates points.dat 'vx vy ax ay'
         if ! several points.dat; then
-            echo 'draw_figures.sh: paths of points are drawn only of several positions' >&2
+            remark 'paths of points are drawn only of several positions'
         elif can_place; then
             add coupler_curve coupler_curve.gp points.dat "$(telling_crank points.dat)" "$balance"
-            can_animate && add linkage animate_linkage.gp points.dat points.dat
+            [ "${format:-png}" = png ] && can_animate && add linkage animate_linkage.gp points.dat points.dat
         fi
     fi
     have linkage.dat && can_place && add special_positions special_positions.gp linkage.dat
-    have reactions.dat && plan_speeds reactions reactions.dat
-    [ -n "$balance" ] || ! have reactions.dat || plan_speeds shaking_force reactions.dat
-    [ -z "$balance" ] || { plan_speeds shaking_force balance.dat; plan_speeds balance balance.dat; }
-    have harmonics.dat && plan_speeds harmonics harmonics.dat
+    have reactions.dat &&
+        plan_speeds reactions reactions.dat 'O2x O2y A2x A2y A3x A3y B3x B3y B4x B4y O4x O4y torque'
+    have reactions.dat && can_place && plan_forces forces.gp
+    [ -n "$balance" ] || ! have reactions.dat || plan_speeds shaking_force reactions.dat 'shaking_x shaking_y'
+    if [ -n "$balance" ]; then
+        plan_speeds shaking_force balance.dat 'shaking_x shaking_y'
+        plan_speeds balance balance.dat 'shaking_x shaking_y shaking_moment torque balanced_moment balanced_torque'
+    fi
+    have harmonics.dat && plan_speeds harmonics harmonics.dat largest
     have lagrange.dat && plan_speeds lagrange lagrange.dat
     have motion.dat && add motion motion.gp motion.dat
 }
@@ -168,11 +284,14 @@ plan_rigid_dynamics() {
 plan_animations() {
     can_animate || fail 'this gnuplot has not both of the terminals pngcairo and gif: nothing can be animated'
     have shapes.dat && animate=animate_mode.gp plan_modes
+    if have reactions.dat && [ "$(ask 'distinct crank' reactions.dat | wc -l)" -ge 12 ] && can_place; then
+        plan_forces animate_forces.gp
+    fi
     points=
     have points.dat && points=points.dat
     have kinematics.dat || return
     if ! several kinematics.dat; then
-        echo 'draw_figures.sh: a linkage is animated if kinematics.dat has more than one position' >&2
+        remark 'a linkage is animated if kinematics.dat has more than one position'
         return
     fi
     can_place || return
@@ -185,6 +304,16 @@ varied=
 for table in *.dat; do
     [ -z "$varied" ] && [ -f "$table" ] && varied=$(ask varied "$table")
 done
+
+case $format in
+    svg) terminal=svg ;;
+    pdf) terminal=pdfcairo ;;
+    *) terminal= ;;
+esac
+case " $(terminals) " in
+    *" $terminal "*) ;;
+    *) [ -z "$terminal" ] || fail "this gnuplot cannot write $format: it has no terminal $terminal" ;;
+esac
 
 : > "$new/plan"
 if [ -n "$varied" ]; then
@@ -237,9 +366,9 @@ awk -v deck="$deck" -v new="$new" -v animated="${figures#figures}" '
 
 # The scripts are UTF-8; in the C locale gnuplot warns about every degree sign.
 # It counts the pictures of an animation on standard error.
-LC_ALL=C.UTF-8 gnuplot "$new/draw0" 2> "$new/told0" &
+LC_ALL=C.UTF-8 gnuplot -e "$settings" "$new/draw0" 2> "$new/told0" &
 first=$!
-LC_ALL=C.UTF-8 gnuplot -e 'fallback_told = 1' "$new/draw1" 2> "$new/told1"
+LC_ALL=C.UTF-8 gnuplot -e "$settings; fallback_told = 1" "$new/draw1" 2> "$new/told1"
 second_status=$?
 wait "$first"
 first_status=$?

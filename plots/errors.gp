@@ -22,10 +22,11 @@ if (top - bottom < 2) { top = bottom + 2 }
 pick(name) = same(field("speed"), speed) ? (field(name) > 0 ? field(name) : 10.0**bottom) : NaN
 
 positions = rows/words(answer(table, "distinct speed"))
-headline = numbered(figure, sprintf("Errors of the natural frequencies against crank angle, %s", at_speed(speed, unit_speed)))
+headline = numbered(figure, sprintf("Estimated errors of the natural frequencies against crank angle, %s", at_speed(speed, unit_speed)))
 note = zeros ? "on the lower edge: no error" : ""
 
-eval legend_page(1000, modes)
+lower = foot(lines_of_notes(note, remark))
+eval legend_page(1000, modes, text_width(sprintf("mode %d", modes), 20), 80, 1)
 eval heading
 eval crank_axis(low_crank, high_crank)
 set logscale y
@@ -34,12 +35,11 @@ set format y "10^{%T}"
 set ytics 10.0**ceil((top - bottom)/12.0)
 set mytics top - bottom <= 12 ? 10 : 1
 set tmargin at screen down(125)
-set bmargin at screen up(foot(lines_of_notes(note, remark)))
-set xlabel "crank angle θ₂".unit("crank")
-set ylabel "relative error (estimated)"
+set bmargin at screen up(lower)
+eval axis_title("estimated relative error", lower, @panel_room - lower)
 
-plot for [k=1:modes] table using (field("crank")):(pick("error".k)) with lines lt k notitle, \
-    for [k=1:modes] table using (field("crank")):(pick("error".k)) with points lt k pt 7 ps 0.4 notitle, \
+plot for [k=1:modes] table using (field("crank")):(pick("error".k)) with lines lt k lw line_width(positions) notitle, \
+    for [k=1:modes] table using (field("crank")):(pick("error".k)) with points lt k pt 7 ps dot_size(positions) notitle, \
     for [k=1:modes] table every mark_step(positions)::mark_first(k, modes, positions) \
         using (field("crank")):(pick("error".k)) with points lt k notitle, \
     for [k=1:listed(modes)] keyentry with linespoints lt k title sprintf("mode %d", k), \

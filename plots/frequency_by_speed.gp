@@ -14,48 +14,55 @@ name = "f".mode
 pick(k, value) = same(field("speed"), word(speeds, k) + 0) ? value : NaN
 
 lowest = value("low_".name)
+highest = value("high_".name)
 positions = rows/n
 headline = numbered(figure, sprintf("%s natural frequency against crank angle", capital(ordinal(mode))))
 note = lowest < 0 ? divergence."; it has no change in percent" : ""
 lower = foot(lines_of_notes(note, remark))
+speed_text(k) = sprintf("%.5g %s", word(speeds, k) + 0, typeset(unit_speed))
 
-eval curve_page(1150)
-eval heading
-eval crank_axis(low_crank, high_crank)
-eval value_axis(lowest, value("high_".name))
-set offsets graph 0, 0, 0.04, 0.04
-set key title "crank speed ω₂" left
-set multiplot
-
-set tmargin at screen down(125)
-set bmargin at screen up(lower + 345)
-set format x ""
-set ylabel sprintf("natural frequency %s%s", name, unit(name)) noenhanced
-if (lowest < 0) { eval zero_line }
-plot for [k=1:n] table using (field("crank")):(pick(k, field(name))) with lines lt k notitle, \
-    for [k=1:n] table using (field("crank")):(pick(k, field(name))) with points lt k pt 7 ps 0.4 notitle, \
-    for [k=1:n] table every mark_step(positions)::mark_first(k, n, positions) using (field("crank")):(pick(k, field(name))) \
-        with points lt k notitle, \
-    for [k=1:n] keyentry with linespoints lt k title sprintf("%.5g %s", word(speeds, k) + 0, unit_speed)
-
-unset label
-set tmargin at screen up(lower + 315)
-set bmargin at screen up(lower)
-set format x "%h"
-set xlabel "crank angle θ₂".unit("crank")
-set ylabel sprintf("change against\n%.5g %s [%%]", reference, unit_speed)
-eval zero_line
-unset key
 load keep("changes", table, sprintf("change %s %.12g", name, reference))
 changed(k) = same(column(1), word(speeds, k) + 0) && column(1) != reference ? column(3) : NaN
-highest = 0; lowest = 0
-stats $changes using (highest = $3 > highest ? $3 : highest, lowest = $3 < lowest ? $3 : lowest, 0) nooutput
-if (highest == lowest) { highest = 1; lowest = -1 }
-set yrange [lowest - 0.07*(highest - lowest):highest + 0.07*(highest - lowest)]
-set ytics nice((highest - lowest)/5)
-set offsets 0, 0, 0, 0
-plot for [k=1:n] $changes using 2:(changed(k)) with lines lt k, \
-    for [k=1:n] $changes using 2:(changed(k)) with points lt k pt 7 ps 0.4, \
+most = 0.0; least = 0.0
+stats $changes using (most = $3 > most ? $3 : most, least = $3 < least ? $3 : least, 0) nooutput
+
+longest = 0
+do for [k=1:n] { longest = larger(longest, text_width(speed_text(k), 20)) }
+title_above = value_title(sprintf("natural frequency f%d", mode), value("unit_".name), lowest, highest)
+title_below = sprintf("change against %.5g %s [%s]", reference, typeset(unit_speed), unit_and_power("%", value_power(least, most)))
+eval legend_page(1150, n + 1, longest, larger(value_width(lowest, highest, 500), value_width(least, most, 280)), \
+    larger(planned_lines(title_above, 500), planned_lines(title_below, 280)))
+eval heading
+eval crank_axis(low_crank, high_crank)
+set key title "crank speed ω₂" left
+gap = 30
+below = 0.36*(@panel_room - lower - gap)            # the height of the lower panel
+above = @panel_room - lower - gap - below
+set multiplot
+
+set tmargin at screen up(lower + below + gap + above)
+set bmargin at screen up(lower + below + gap)
+set format x ""
+set xlabel ""
+eval value_axis(lowest, highest, above)
+eval axis_title(title_above, lower + below + gap, above)
+plot for [k=1:n] table using (field("crank")):(pick(k, field(name))) with lines lt k lw line_width(positions) notitle, \
+    for [k=1:n] table using (field("crank")):(pick(k, field(name))) with points lt k pt 7 ps dot_size(positions) notitle, \
+    for [k=1:n] table every mark_step(positions)::mark_first(k, n, positions) using (field("crank")):(pick(k, field(name))) \
+        with points lt k notitle, \
+    for [k=1:n] keyentry with linespoints lt k title speed_text(k)
+
+unset label
+set tmargin at screen up(lower + below)
+set bmargin at screen up(lower)
+set format x "%h"
+unset key
+eval crank_axis(low_crank, high_crank)
+eval value_axis(least, most, below)
+eval zero_line
+eval axis_title(title_below, lower, below)
+plot for [k=1:n] $changes using 2:(changed(k)) with lines lt k lw line_width(positions), \
+    for [k=1:n] $changes using 2:(changed(k)) with points lt k pt 7 ps dot_size(positions), \
     for [k=1:n] $changes every mark_step(positions)::mark_first(k, n, positions) using 2:(changed(k)) with points lt k
 unset multiplot
 eval close

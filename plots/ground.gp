@@ -1,17 +1,25 @@
-# A fixed pivot at x y: call "ground.gp" x y size first_tag kind, with kind `pinned` or `clamped`.
-# pinned: the usual triangle. clamped: a block that holds the shaft. Both stand on hatched ground.
+# A fixed pivot at x y: call "ground.gp" x y size first_tag kind [angle], with kind `pinned` or `clamped`.
+# pinned: the usual triangle on hatched ground. clamped: a hatched wall at a right angle to the link, whose angle in degrees is
+# given: it turns with the link.
 
-gx = ARG1 + 0; gy = ARG2 + 0; gs = ARG3 + 0; tag = ARG4 + 0
-half = 0.55*gs
-if (ARG5 eq "clamped") {
-    set object tag rectangle from gx - 0.6*half, gy - gs to gx + 0.6*half, gy + 0.6*half \
-        fs solid 1 border rgb ink fc rgb "#C8C8C8" lw 2 behind
+pivot = ARG1 + {0, 1}*ARG2
+gs = ARG3 + 0
+tag = ARG4 + 0
+clamped = ARG5 eq "clamped"
+up_from = clamped ? exp({0, 1}*(argument(6) + 0)*pi/180) : {0, 1}       # out of the ground
+beside = -{0, 1}*up_from
+foot_of = clamped ? pivot : pivot - gs*up_from
+reach = clamped ? 0.9*gs : 0.8*gs
+ground_point(a, b) = sprintf("%.12g, %.12g", real(foot_of + a*gs*up_from + b*reach*beside), imag(foot_of + a*gs*up_from + b*reach*beside))
+if (clamped) {
+    eval sprintf("set object tag polygon from %s to %s to %s to %s to %s fs solid 1 noborder fc rgb '#DDDDDD' behind", \
+        ground_point(0, -1), ground_point(0, 1), ground_point(-0.4, 1), ground_point(-0.4, -1), ground_point(0, -1))
 } else {
-    set object tag polygon from gx, gy to gx - half, gy - gs to gx + half, gy - gs to gx, gy \
-        fs solid 1 border rgb ink fc rgb "white" lw 2 behind
+    eval sprintf("set object tag polygon from %s to %s to %s to %s fs solid 1 border rgb ink fc rgb 'white' lw 2 behind", \
+        ground_point(1, 0), ground_point(0, -0.65), ground_point(0, 0.65), ground_point(1, 0))
 }
-set arrow tag from gx - 1.5*half, gy - gs to gx + 1.5*half, gy - gs nohead lw 3 lc rgb ink
+eval sprintf("set arrow tag from %s to %s nohead lw 3 lc rgb ink back", ground_point(0, -1), ground_point(0, 1))
 do for [i=0:5] {
-    right = gx - 1.5*half + 0.6*half*i
-    set arrow tag + 1 + i from right, gy - gs to right - 0.35*gs, gy - 1.35*gs nohead lw 1.5 lc rgb ink
+    eval sprintf("set arrow tag + 1 + %d from %s to %s nohead lw 1.5 lc rgb ink back", i, \
+        ground_point(0, -0.8 + 0.36*i), ground_point(-0.4, -1.2 + 0.36*i))
 }

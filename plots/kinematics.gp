@@ -19,7 +19,7 @@ speeds = answer(table, "distinct speed")
 n = words(speeds)
 positions = rows/n
 headline = numbered(figure, subject." against crank angle")
-note = cut(link_note, 110)
+note = link_note
 lower = foot(lines_of_notes(note, remark))
 pick(k, name) = same(field("speed"), word(speeds, k) + 0) ? field(name) : NaN
 
@@ -30,46 +30,51 @@ unwrapped(id, angle) = (turns = curve eq id ? turns + turn(angle - previous) : 0
     curve = id, previous = angle, angle + 360*turns)
 angle(pass, name) = same(field("speed"), word(speeds, 1) + 0) ? unwrapped(pass.name, field(name)) : NaN
 
+speed_text(k) = sprintf("%.5g %s", word(speeds, k) + 0, typeset(unit_speed))
+
 if (kind eq "angles") {
     drawn = drawn." transmission_angle"
     m = words(drawn)
-    eval curve_page(1000)
-    eval heading
+    low = 0.0; high = 0.0; begun = 0
+    do for [j=1:m] {
+        stats table using (a = angle("extent", word(drawn, j)), low = !begun || a < low ? a : low, \
+            high = !begun || a > high ? a : high, begun = a == a ? 1 : begun, a) name "extent" nooutput
+    }
+    eval page_of_one(m, 60, "angle", unit_theta3, low, high)
     eval crank_axis(low_crank, high_crank)
-    set tmargin at screen down(125)
-    set bmargin at screen up(lower)
-    set offsets graph 0, 0, 0.03, 0.03
-    set ytics 30
-    set xlabel "crank angle θ₂".unit("crank")
-    set ylabel "angle".unit("theta3")
+    if (high - low > 100) { set ytics auto; set ytics high - low > 600 ? 90 : 30 }
     plot for [j=1:m] table using (field("crank")):(angle("line", word(drawn, j))) \
-            with linespoints lt j pointinterval mark_step(positions) notitle, \
-        for [j=1:m] table using (field("crank")):(angle("dot", word(drawn, j))) with points lt j pt 7 ps 0.4 notitle, \
+            with linespoints lt j lw line_width(positions) pointinterval mark_step(positions) notitle, \
+        for [j=1:m] table using (field("crank")):(angle("dot", word(drawn, j))) with points lt j pt 7 ps dot_size(positions) notitle, \
         for [j=1:m] keyentry with linespoints lt j title j < m ? symbol(word(drawn, j)) : "μ"
 } else {
     m = words(drawn)
     panel = 365
     gap = 35
-    eval curve_page(125 + lower + m*(panel + gap) - gap)
+    ticks_room = 0
+    do for [name in drawn] { ticks_room = larger(ticks_room, value_width(value("low_".name), value("high_".name), panel)) }
+    longest = 0
+    do for [k=1:n] { longest = larger(longest, text_width(speed_text(k), 20)) }
+    eval legend_page(125 + lower + m*(panel + gap) - gap, n + 1, longest, ticks_room, 1)
+    panel = (@panel_room - lower + gap)/m - gap
     eval heading
-    eval crank_axis(low_crank, high_crank)
-    set offsets graph 0, 0, 0.05, 0.05
     set key title "crank speed ω₂" left
-    eval zero_line
     set multiplot
     do for [j=1:m] {
         name = word(drawn, j)
-        set bmargin at screen up(lower + (m - j)*(panel + gap))
-        set tmargin at screen up(lower + (m - j)*(panel + gap) + panel)
-        if (j < m) { set format x "" } else { set format x "%h"; set xlabel "crank angle θ₂".unit("crank") }
+        base = lower + (m - j)*(panel + gap)
+        set bmargin at screen up(base)
+        set tmargin at screen up(base + panel)
+        eval crank_axis(low_crank, high_crank)
+        if (j < m) { set format x ""; set xlabel "" } else { set format x "%h" }
         if (j > 1) { unset label; unset key }
-        eval value_axis(value("low_".name), value("high_".name))
-        set ylabel symbol(name).unit(name)
-        plot for [k=1:n] table using (field("crank")):(pick(k, name)) with lines lt k notitle, \
-            for [k=1:n] table using (field("crank")):(pick(k, name)) with points lt k pt 7 ps 0.4 notitle, \
+        eval value_axis(value("low_".name), value("high_".name), panel)
+        eval axis_title(value_title(symbol(name), value("unit_".name), value("low_".name), value("high_".name)), base, panel)
+        plot for [k=1:n] table using (field("crank")):(pick(k, name)) with lines lt k lw line_width(positions) notitle, \
+            for [k=1:n] table using (field("crank")):(pick(k, name)) with points lt k pt 7 ps dot_size(positions) notitle, \
             for [k=1:n] table every mark_step(positions)::mark_first(k, n, positions) using (field("crank")):(pick(k, name)) \
                 with points lt k notitle, \
-            for [k=1:n] keyentry with linespoints lt k title sprintf("%.5g %s", word(speeds, k) + 0, unit_speed)
+            for [k=1:n] keyentry with linespoints lt k title speed_text(k)
     }
     unset multiplot
 }

@@ -1,4 +1,4 @@
-# The moment of inertia that the crank feels and the terms of its equation of motion, of one speed, against the crank angle.
+# The moment of inertia reduced to the crank and the terms of its equation of motion, of one speed, against the crank angle.
 #   gnuplot -c lagrange.gp lagrange.dat OUT SPEED [FIGURE [REMARK]]
 
 load ARG0[1 : strlen(ARG0) - strlen("lagrange.gp")]."style.gp"
@@ -10,7 +10,7 @@ note = "torque = M α₂ + V + gravity + load,  V = ½ M′ ω₂²"
 source_of(k) = table
 picked = "same(field('speed'),speed)"
 x = "field('crank')"
-x_axis = crank_axis(low_crank, high_crank)."; set xlabel 'crank angle θ₂'.unit('crank')"
+x_axis = "eval crank_axis(low_crank, high_crank)"
 
 # Terms that are zero throughout are left out.
 terms = ""
@@ -22,7 +22,8 @@ do for [name in "torque V gravity load"] {
     }
 }
 panels = 3
-array axis_of[3] = ["inertia M".unit("M"), "torque".unit("torque"), "energy [".typeset(unit_kinetic)."]"]
+array axis_of[3] = ["reduced inertia M", "torque", "energy"]
+array unit_of[3] = [unit_M, unit_torque, unit_kinetic]
 array curves_of[3] = ["field('M')", terms, "field('kinetic') field('potential')"]
 array titles_of[3] = ["M", titles, "kinetic potential"]
 call plots."panels.gp"

@@ -5,8 +5,9 @@
 load ARG0[1 : strlen(ARG0) - strlen("mode_shape.gp")]."style.gp"
 table = ARG1; out = ARG2; mode = ARG3 + 0; crank = ARG4 + 0; speed = ARG5 + 0; figure = argument(6); remark = argument(7)
 
+load plots."drawing.gp"
 eval answer(table, "facts")
 load plots."mode_page.gp"
-eval mode_page
+eval mode_frame
 eval mode_shape(1)
 eval close

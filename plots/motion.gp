@@ -6,14 +6,14 @@ table = ARG1; out = ARG2; figure = argument(3); remark = argument(4)
 
 eval answer(table, "facts")
 headline = numbered(figure, "Motion of the linkage under its motor and loads")
-note = "work: of the motor, less what the loads take;  kinetic + potential − work stays the same"
+note = "work: done by the motor less that taken by the loads;  kinetic + potential − work is constant"
 source_of(k) = table
 picked = "1"
 x = "field('time')"
-x_axis = sprintf("set xrange [%.12g:%.12g]; set xlabel 'time'.unit('time')", low_time, \
-    high_time > low_time ? high_time : low_time + 1)
+x_axis = "eval abscissa(low_time, high_time); set xlabel abscissa_title('time', unit_time, low_time, high_time)"
 panels = 3
-array axis_of[3] = ["angular velocity".unit("omega2"), "motor torque".unit("torque"), "energy [".typeset(unit_kinetic)."]"]
+array axis_of[3] = ["angular velocity", "motor torque", "energy"]
+array unit_of[3] = [unit_omega2, unit_torque, unit_kinetic]
 array curves_of[3] = ["field('omega2') field('omega4')", "field('torque')", "field('kinetic') field('potential') field('work')"]
 array titles_of[3] = ["'crank ω₂' 'follower ω₄'", "motor", "kinetic potential work"]
 call plots."panels.gp"

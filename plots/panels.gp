@@ -1,48 +1,72 @@
 # Panels below one another with one abscissa, each with curves and a legend of its own: call "panels.gp"
-# The script sets headline, note and remark; x, the abscissa, and x_axis, its settings; picked, what is true on the rows to be
-# drawn; panels, their number, and of each panel axis_of[k], its label, curves_of[k], expressions without blanks in the columns
-# of a row, and titles_of[k], their titles; source_of(k), the table of curve k.
+# The script sets headline, note and remark; x, the abscissa, and x_axis, its settings, as text; picked, what is true on the rows
+# to be drawn; panels, their number, and of each panel axis_of[k] and unit_of[k], its title and unit, curves_of[k], expressions
+# without blanks in the columns of a row, and titles_of[k], their titles, each one word or in quotes; source_of(k), the table of
+# curve k of every panel. Panels of nothing but zeros are left out, unless all are.
 
-panel_height = 330
+full_height = 330
 panel_gap = 35
 lower = foot(lines_of_notes(note, remark))
-eval legend_page(125 + lower + panels*(panel_height + panel_gap) - panel_gap, 1)
-eval heading
-set multiplot
+array low_of[panels]
+array high_of[panels]
+kept = ""
+longest = 0
+drawn_rows = 0
 do for [panel=1:panels] {
-    base = lower + (panels - panel)*(panel_height + panel_gap)
-    set bmargin at screen up(base)
-    set tmargin at screen up(base + panel_height)
-    set key at screen across(1305), up(base + panel_height)
-    if (panel > 1) { do for [label=901:904] { unset label label } }
-    set ylabel axis_of[panel] font strlen(axis_of[panel]) > 26 ? ",17" : ",20"
-
-    n = words(curves_of[panel])
-    set xrange [*:*]                                # stats would leave out what lies beyond
-    set yrange [*:*]
     low = 1e300
     high = -1e300
-    drawn_rows = 0
-    parts = ""
-    keys = ""
-    do for [k=1:n] {
+    do for [k=1:words(curves_of[panel])] {
         expression = sprintf("(%s ? %s : NaN)", picked, word(curves_of[panel], k))
         eval "stats source_of(k) using (value = ".expression.", low = value < low ? value : low, ".\
             "high = value > high ? value : high, value) name 'curve' nooutput"
-        drawn_rows = curve_records
-        of_curve = sprintf("source_of(%d) using (%s):%s", k, x, expression)
-        parts = parts.sprintf("%s with lines lt %d notitle, %s with points lt %d pt 7 ps %g notitle, ", of_curve, k, of_curve, k, \
-            drawn_rows <= 150 ? 0.4 : 0.1)
-        parts = parts.sprintf("source_of(%d) every %d::%d using (%s):%s with points lt %d notitle, ", \
-            k, mark_step(drawn_rows), mark_first(k, n, drawn_rows), x, expression, k)
-        keys = keys.sprintf(", keyentry with linespoints lt %d title word(titles_of[panel], %d)", k, k)
+        if (curve_records > drawn_rows) { drawn_rows = curve_records }
     }
+    if (low > high) { low = 0; high = 0 }
+    low_of[panel] = low
+    high_of[panel] = high
+    if (low != 0 || high != 0) { kept = kept." ".panel; longest = larger(longest, widest(titles_of[panel], 20)) }
+}
+if (kept eq "") { do for [panel=1:panels] { kept = kept." ".panel; longest = larger(longest, widest(titles_of[panel], 20)) } }
+n_kept = words(kept)
+title_of(panel) = value_title(axis_of[panel], unit_of[panel], low_of[panel], high_of[panel])
+
+# A page of one or two panels has higher ones.
+full_height = n_kept == 1 ? 700 : n_kept == 2 ? 400 : full_height
+tick_room = 0
+lines = 1
+do for [k=1:n_kept] {
+    panel = int(word(kept, k))
+    tick_room = larger(tick_room, value_width(low_of[panel], high_of[panel], full_height))
+    lines = larger(lines, planned_lines(title_of(panel), full_height))
+}
+eval legend_page(125 + lower + n_kept*(full_height + panel_gap) - panel_gap, 1, longest, tick_room, lines)
+panel_height = (@panel_room - lower + panel_gap)/n_kept - panel_gap
+eval heading
+set multiplot
+do for [place=1:n_kept] {
+    panel = int(word(kept, place))
+    base = lower + (n_kept - place)*(panel_height + panel_gap)
+    set bmargin at screen up(base)
+    set tmargin at screen up(base + panel_height)
+    set key at screen across(key_left), up(base + panel_height)
+    if (place > 1) { do for [label=901:904] { unset label label } }
+    n = words(curves_of[panel])
+    parts = ""
+    keys = ""
+    do for [k=1:n] {
+        of_curve = sprintf("source_of(%d) using (%s):(%s ? %s : NaN)", k, x, picked, word(curves_of[panel], k))
+        parts = parts.sprintf("%s with lines lt %d lw %g notitle, %s with points lt %d pt 7 ps %g notitle, ", of_curve, k, \
+            line_width(drawn_rows), of_curve, k, dot_size(drawn_rows))
+        parts = parts.sprintf("source_of(%d) every %d::%d using (%s):(%s ? %s : NaN) with points lt %d notitle, ", \
+            k, mark_step(drawn_rows), mark_first(k, n, drawn_rows), x, picked, word(curves_of[panel], k), k)
+        if (n > 1) { keys = keys.sprintf(", keyentry with linespoints lt %d title word(titles_of[%d], %d)", k, panel, k) }
+    }
+    bare = place < n_kept
     eval x_axis
-    if (panel < panels) { set format x ""; set xlabel "" } else { set format x "%h" }
-    eval value_axis(low, high)
-    set offsets graph 0, 0, 0.06, 0.06
-    if (low >= 0 && low < 0.5*high) { set yrange [0:*]; set offsets graph 0, 0, 0.06, 0 }
-    if (low < 0 && high > 0) { eval zero_line } else { unset xzeroaxis }
+    if (bare) { set format x ""; set xlabel "" } else { set format x "%h" }
+    bare = 0
+    eval value_axis(low_of[panel], high_of[panel], panel_height)
+    eval axis_title(title_of(panel), base, panel_height)
     eval "plot ".parts."NaN notitle".keys
 }
 unset multiplot

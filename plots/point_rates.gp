@@ -9,16 +9,18 @@ names = names_in(table, "point")
 headline = numbered(figure, sprintf("Speed and acceleration of points against crank angle, %s", at_speed(speed, unit_speed)))
 note = ""
 x = "field('crank')"
-x_axis = crank_axis(low_crank, high_crank)."; set xlabel 'crank angle θ₂'.unit('crank')"
+x_axis = "eval crank_axis(low_crank, high_crank)"
 picked = "same(field('speed'),speed)"
 
 # Every point is a table of its own, with an empty line where rows have failed.
 source_of(k) = "< awk ".quoted(sprintf("NF == 0 { print } !/^#/ && $%d == \"%s\"", col_point, word(names, k)))." ".quoted(table)
 repeated(k, text) = k < 1 ? "" : repeated(k - 1, text)." ".text
 panels = 2
-array axis_of[2] = ["speed".unit("vx"), "acceleration".unit("ax")]
+array axis_of[2] = ["speed", "acceleration"]
+array unit_of[2] = [unit_vx, unit_ax]
 array curves_of[2] = [repeated(words(names), "sqrt(field('vx')**2+field('vy')**2)"), \
     repeated(words(names), "sqrt(field('ax')**2+field('ay')**2)")]
-array titles_of[2] = [names, names]
+shown_names = short_names(names, 1)
+array titles_of[2] = [shown_names, shown_names]
 call plots."panels.gp"
 eval close

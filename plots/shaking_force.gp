@@ -4,71 +4,115 @@
 load ARG0[1 : strlen(ARG0) - strlen("shaking_force.gp")]."style.gp"
 table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
 
+load plots."drawing.gp"
 eval answer(table, "facts")
 balanced = strstrt(" ".columns." ", " balanced_x ") > 0
-pick(value) = same(field("speed"), speed) ? value : NaN
-greatest = 0
-stats table using (value = pick(sqrt(field("shaking_x")**2 + field("shaking_y")**2)), \
-    greatest = value > greatest ? value : greatest, value) name "force" nooutput
+load keep("given", table, "path ".ARG3." shaking_x shaking_y")          # columns: see tables.awk
+if (balanced) { load keep("balanced", table, "path ".ARG3." balanced_x balanced_y") }
+stats $given using (sqrt($1**2 + $2**2)) name "given" nooutput
+greatest = given_max
 if (balanced) {
-    stats table using (value = pick(sqrt(field("balanced_x")**2 + field("balanced_y")**2)), \
-        greatest = value > greatest ? value : greatest, value) name "rest" nooutput
+    stats $balanced using (sqrt($1**2 + $2**2)) name "balanced" nooutput
+    greatest = larger(greatest, balanced_max)
 }
 ring = nice((greatest > 0 ? greatest : 1.0)/5)
 radius = ring*ceil((greatest > 0 ? greatest : 1.0)/ring - 0.001)
 
-stats table using (pick(field("shaking_x"))) name "middle_x" nooutput
-stats table using (pick(field("shaking_y"))) name "middle_y" nooutput
-
 headline = numbered(figure, sprintf("Shaking force, %s", at_speed(speed, unit_speed)))
-note = "the force on the frame points from the centre to the curve; numbers: crank angle in degrees"
-extent = 1.13*radius
-eval open_page(1180, 1150 + (remark ne "" ? 31 : 0))
+note = "resultant of the inertia forces, from the centre to the curve; numbers: crank angle θ₂"
+load plots."legend.gp"
+given_style = "lt 1 lw 4 dt solid"
+balanced_style = "lw 4 dt (16,7) lc rgb '#0060A8'"
+if (balanced) {
+    eval entry_line("as given", given_style)
+    eval entry_line("with counterweights", balanced_style)
+}
+
+# The greatest ring fills the page but for its names of axes.
+circle = 400.0
+pixel = circle/radius
+page = 1130
+legend_room = legend_height(page - 60)
+bottom = lines_of_notes(note, remark) > 0 ? 50 + 31*lines_of_notes(note, remark) : 10
+centre_x = page/2.0
+centre_y = bottom + circle + 30
+eval open_page(page, centre_y + circle + 45 + legend_room + 110)
 eval heading
+eval draw_legend(112)
+page_x(x) = centre_x + pixel*x
+page_y(y) = centre_y + pixel*y
+unscaled_x(x) = (x - centre_x)/pixel
+unscaled_y(y) = (y - centre_y)/pixel
 unset border
 unset tics
 unset grid
-set lmargin at screen across(130)
-set rmargin at screen across(1050)
-set tmargin at screen down(140)
-set bmargin at screen down(1060)
-set xrange [-extent:extent]
-set yrange [-extent:extent]
-set size ratio -1
-set key at screen 0.5, down(115) center center vertical maxrows 1 Left reverse samplen 2.5 width 2
+unset key
+set lmargin at screen across(centre_x - circle - 60)
+set rmargin at screen across(centre_x + circle + 60)
+set bmargin at screen up(centre_y - circle - 30)
+set tmargin at screen up(centre_y + circle + 30)
+set xrange [unscaled_x(centre_x - circle - 60):unscaled_x(centre_x + circle + 60)]
+set yrange [unscaled_y(centre_y - circle - 30):unscaled_y(centre_y + circle + 30)]
 
 # Rings and spokes.
-do for [k=1:int(radius/ring + 0.5)] {
+rings = int(radius/ring + 0.5)
+do for [k=1:rings] {
     set object k circle at 0, 0 size k*ring fs empty border rgb "#C0C0C0" lw 1.5 behind
-    set label k sprintf("%g%s", k*ring, k*ring >= radius - 0.5*ring ? " ".typeset(unit_shaking_x) : "") \
-        at k*ring*cos(1.309), k*ring*sin(1.309) left offset 0.3, 0.5 font ",16" tc rgb "#606060"
 }
 do for [k=0:11] {
     set arrow 20 + k from 0, 0 to radius*cos(k*pi/6), radius*sin(k*pi/6) nohead lw 1 lc rgb "#D0D0D0" back
 }
 set arrow 40 from -radius, 0 to radius, 0 nohead lw 1.5 lc rgb "#909090" back
 set arrow 41 from 0, -radius to 0, radius nohead lw 1.5 lc rgb "#909090" back
-set label 60 "x" at 1.03*radius, 0 left
-set label 61 "y" at 0, 1.03*radius center offset 0, 0.4
+set label 60 "x" at radius, 0 left offset 0.8, 0
+set label 61 "y" at 0, radius center offset 0, 0.8
 
-# A mark every 30 degrees of the crank, and the angle beside it, at a right angle to the curve and not where another stands.
-last_x = 100*radius; last_y = 100*radius; begun = 0; before_x = 0; before_y = 0; off_x = 0; off_y = 0
-every_30 = "abs(field('crank')/30 - floor(field('crank')/30 + 0.5)) < 1e-9 && field('crank') < low_crank + 360"
-marked(value) = (@every_30) ? pick(value) : NaN
-normal(x, y) = (tx = x - before_x, ty = y - before_y, before_x = x, before_y = y, \
-    begun == 0 || (tx == 0 && ty == 0) ? (begun = 1, ty = middle_x_mean - x, tx = y - middle_y_mean) : 0, \
-    t = sqrt(tx**2 + ty**2), t = t > 0 ? t : 1, t = ty*(x - middle_x_mean) - tx*(y - middle_y_mean) < 0 ? -t : t, \
-    off_x = 0.06*radius*ty/t, off_y = -0.06*radius*tx/t, 0)
-far(x, y) = (apart = sqrt((x - last_x)**2 + (y - last_y)**2) > 0.12*radius, \
-    last_x = apart ? x : last_x, last_y = apart ? y : last_y, apart)
-labelled(x, y) = pick(0) == 0 ? (normal(x, y), @every_30 ? (far(x, y) ? x + off_x : NaN) : NaN) : NaN
+# Labels: the forces of the rings, then the crank angle at every 30 degrees, both clear of the curves.
+ring_name(k) = k == rings ? amount(k*ring, unit_shaking_x) : amount_in(k*ring, amount_power(radius, unit_shaking_x))
+set print places
+print sprintf("page %g %g %g %g", 10, page - 10, centre_y - circle - 32, centre_y + circle + 40)
+show(row) = words(row) == 4 ? sprintf("curve %.6g %.6g", page_x(word(row, 1) + 0), page_y(word(row, 2) + 0)) : "curve"
+do for [k=1:|$given|] { print show($given[k]) }
+if (balanced) {
+    print "curve"
+    do for [k=1:|$balanced|] { print show($balanced[k]) }
+}
+print sprintf("box %g %g 30 30", centre_x + circle + 15, centre_y)
+print sprintf("box %g %g 30 30", centre_x, centre_y + circle + 25)
+do for [k=1:rings] {
+    print sprintf("spoke %g %g %.6g %.4g %.4g %s", centre_x, centre_y, pixel*k*ring, text_width(ring_name(k), 15), text_height(15), \
+        ring_name(k))
+}
+at_30(angle) = abs(angle/30 - floor(angle/30 + 0.5)) < 1e-9
+# A label leans away from the middle of the curve.
+stats $given using 1 name "across" nooutput
+stats $given using 2 name "up" nooutput
+middle_x = 0.5*(across_min + across_max)
+middle_y = 0.5*(up_min + up_max)
+first_angle = word($given[1], 3) + 0
+is_marked(row) = words(row) == 4 && word(row, 4) == 1 && at_30(word(row, 3) + 0.0) \
+    && word(row, 3) < first_angle + 360 - 1e-9
+do for [k=1:|$given|] {
+    if (is_marked($given[k])) {
+        text = sprintf("%g°", word($given[k], 3) + 0)
+        print sprintf("label %.6g %.6g 13 %.4g %.4g %.4g %s", page_x(word($given[k], 1) + 0), page_y(word($given[k], 2) + 0), \
+            text_width(text, 16), text_height(16), \
+            180/pi*arg(word($given[k], 1) + 0.0 - middle_x + {0, 1}*(word($given[k], 2) - middle_y)), text)
+    }
+}
+unset print
+load labels_as("numbers")
 
-balanced_part = !balanced ? "" : ", table using (pick(field('balanced_x'))):(field('balanced_y')) with lines lt 2 notitle, ".\
-    "table using (pick(field('balanced_x'))):(field('balanced_y')) every 12 with points lt 2 notitle, ".\
-    "keyentry with linespoints lt 2 title 'balanced'"
-plot table using (pick(field("shaking_x"))):(field("shaking_y")) with lines lt 1 lw 4 notitle, \
-    table using (marked(field("shaking_x"))):(field("shaking_y")) with points lt 1 pt 7 ps 1.2 notitle, \
-    table using (labelled(field("shaking_x"), field("shaking_y"))):(field("shaking_y") + off_y): \
-        (sprintf("%g", field("crank"))) with labels font ",16" notitle, \
-    keyentry with lines lt 1 lw 4 title balanced ? "as given" : "shaking force" @balanced_part
+set style textbox opaque margins 0.3, 0.2 fillcolor rgb "white" noborder
+marked(value) = $4 == 1 && at_30($3) ? value : NaN
+is_angle(label) = label[strlen(label) : *] eq "°"
+balanced_part = !balanced ? "" : ", $balanced using 1:2 with lines ".balanced_style." notitle".\
+    (balanced_max < 0.02*radius ? ", $balanced using 1:2 every ::0::0 with points pt 7 ps 1.6 lc rgb '#0060A8' notitle" : "")
+eval "plot $numbers using (is_angle(strcol(6)) ? NaN : unscaled_x($1)):(unscaled_y($2)):(strcol(6)) ".\
+    "with labels boxed noenhanced font point_size(15) tc rgb '#606060' notitle, ".\
+    "$given using 1:2 with lines ".given_style." notitle, $given using (marked($1)):2 with points lt 1 pt 7 ps 1.3 notitle, ".\
+    "$numbers using ($5 == 1 ? unscaled_x($3) : NaN):(unscaled_y($4)):(unscaled_x($7) - unscaled_x($3)):(unscaled_y($8) - unscaled_y($4)) ".\
+    "with vectors nohead lw 1 dt solid lc rgb '#808080' notitle, ".\
+    "$numbers using (is_angle(strcol(6)) ? unscaled_x($1) : NaN):(unscaled_y($2)):(strcol(6)) ".\
+    "with labels noenhanced font point_size(16) notitle".balanced_part
 eval close

@@ -7,37 +7,70 @@ style_name = "style.gp"
 plots = ARG0[1 : strlen(ARG0) - strlen(style_name)]
 
 # ---- Terminal -------------------------------------------------------------------------------------------------
-# The first of these that this gnuplot was built with. To try another: gnuplot -e "terminals='svg'" -c script.gp …
+# What draw_figures.sh hands over, each with a default: figure_format (png, svg or pdf), figure_titles (0: no heading and no
+# notes), and figure_width, figure_height and figure_unit (px or mm), the size of every figure.
+# Of the terminals of that format the first that this gnuplot was built with. To try another:
+#   gnuplot -e "terminals='svg'" -c script.gp …
 
 if (!exists("terminals")) terminals = GPVAL_TERMINALS
 has(name) = strstrt(" ".terminals." ", " ".name." ") > 0
-terminal_name = has("pngcairo") ? "pngcairo" : has("png") ? "png" : has("svg") ? "svg" : has("pdfcairo") ? "pdfcairo" : ""
+given_format = exists("figure_format") ? figure_format : ""
+terminal_name = given_format eq "svg" ? (has("svg") ? "svg" : "") : given_format eq "pdf" ? (has("pdfcairo") ? "pdfcairo" : "") \
+    : has("pngcairo") ? "pngcairo" : has("png") ? "png" : given_format eq "png" ? "" \
+    : has("svg") ? "svg" : has("pdfcairo") ? "pdfcairo" : ""
 extension = terminal_name eq "svg" ? ".svg" : terminal_name eq "pdfcairo" ? ".pdf" : ".png"
 if (terminal_name eq "") {
-    print "this gnuplot has none of the terminals pngcairo, png, svg, pdfcairo: no figure can be drawn"
+    print given_format eq "" ? "this gnuplot has none of the terminals pngcairo, png, svg, pdfcairo: no figure can be drawn" \
+        : "this gnuplot has no terminal that writes ".given_format.": no figure can be drawn"
     exit status 1
 }
-if (terminal_name ne "pngcairo" && !exists("fallback_told")) {
+if (given_format eq "" && terminal_name ne "pngcairo" && !exists("fallback_told")) {
     print "this gnuplot has no terminal pngcairo: drawing with ".terminal_name.", files end in ".extension
 }
 fallback_told = 1
 
-# Pages are planned in pixels; pdfcairo counts in inches. Pictures of an animation are the same pages made smaller.
+# Pages are planned in pixels of 1/96 inch, and text in points of 4/3 pixels. A page of a given size is planned in its
+# proportions, with empty strips where that cannot be, and then made smaller or larger; `sheet` is the page with those strips.
+# Without a size a PDF has 9 pixels of the plan to the millimetre, which makes a page 178 mm wide. A PNG of millimetres has
+# 300 pixels to the inch. Pictures of an animation are pages made smaller.
+titled = !exists("figure_titles") || figure_titles
+sized = exists("figure_width") && figure_width > 0
+in_mm = sized && figure_unit eq "mm"
+inches(length) = length/(in_mm ? 25.4 : 96.0)
 page_scale = 1
-smaller(scale) = sprintf("page_scale = %g; extension = ''", scale)
-terminal_options(w, h) = terminal_name eq "pdfcairo" \
-    ? sprintf("enhanced size %gin,%gin font 'Sans,16'", w/100.0, h/100.0) \
-    : terminal_name eq "pngcairo" \
-    ? sprintf("enhanced size %d,%d font 'Sans,20' fontscale %g linewidth %g pointscale %g background rgb 'white'", \
-        w*page_scale, h*page_scale, page_scale, page_scale, page_scale) \
-    : sprintf("enhanced size %d,%d font 'Sans,%d'", w, h, terminal_name eq "svg" ? 24 : 15)
-open_page(w, h) = sprintf("set terminal %s %s; set output out.extension; page_width = %d; page_height = %d", \
-    terminal_name, terminal_options(w, h), w, h)
-close = "unset output; reset"
+smaller(scale) = sprintf("page_scale = %g; sized = 0; top_cut = 0; terminal_name = 'pngcairo'; extension = ''", scale)
+top_cut = titled ? 0 : 92                          # pixels of the head that a page without titles has not
 
-across(pixels) = pixels / (1.0 * page_width)       # from the left edge, as a screen coordinate
-up(pixels) = pixels / (1.0 * page_height)          # from the lower edge
-down(pixels) = 1 - up(pixels)                      # from the upper edge
+plan_scale(w, h) = figure_width/(1.0*w) < figure_height/(1.0*h) ? figure_width/(1.0*w) : figure_height/(1.0*h)
+sheet_w(w, h) = sized ? figure_width/plan_scale(w, h) : w
+sheet_h(w, h) = sized ? figure_height/plan_scale(w, h) : h
+pdf_inches(w, sheet) = sized ? inches(figure_width)*w/sheet : w/228.6
+raster_scale(w) = sized ? (in_mm ? 300*inches(figure_width) : figure_width)/(1.0*w) : page_scale
+terminal_options(w, h) = terminal_name eq "pdfcairo" \
+    ? sprintf("enhanced size %.6gin,%.6gin font 'Sans,20' fontscale %.6g linewidth %.6g pointscale %.6g", \
+        pdf_inches(w, w), pdf_inches(h, w), 72*pdf_inches(w, w)/w, 144*pdf_inches(w, w)/w, 72*pdf_inches(w, w)/w) \
+    : terminal_name eq "pngcairo" \
+    ? sprintf("enhanced size %d,%d font 'Sans,20' fontscale %.6g linewidth %.6g pointscale %.6g background rgb 'white'", \
+        w*raster_scale(w) + 0.01, h*raster_scale(w) + 0.01, raster_scale(w), raster_scale(w), raster_scale(w)) \
+    : terminal_name eq "svg" \
+    ? sprintf("enhanced size %d,%d font 'Sans,20' fontscale 1.3333 dashed background rgb 'white'", w + 0.5, h + 0.5) \
+    : sprintf("enhanced size %d,%d font 'Sans,20' fontscale %.6g linewidth %.6g", \
+        w*raster_scale(w) + 0.01, h*raster_scale(w) + 0.01, raster_scale(w), raster_scale(w))
+open_page(w, h) = open_sheet(floor(w), floor(h) - top_cut)
+open_sheet(w, h) = sprintf("page_width = %d; page_height = %d; sheet_width = %.9g; sheet_height = %.9g; ", \
+    w, h, sheet_w(w, h), sheet_h(w, h)).\
+    sprintf("set terminal %s %s; set output out.extension", terminal_name, terminal_options(sheet_w(w, h), sheet_h(w, h)))
+
+# An SVG needs some work when it is done.
+of_size(length) = sized ? sprintf("%g%s", length, in_mm ? "mm" : "") : ""
+finish_svg(file) = system(sprintf("awk -v width='%s' -v height='%s' -f ", \
+    of_size(sized ? figure_width : 0), of_size(sized ? figure_height : 0)).quoted(plots."svg.awk")." < ".quoted(file)." > ".quoted(file."~").\
+    " && mv ".quoted(file."~")." ".quoted(file))
+close = "unset output; if (terminal_name eq 'svg') { said = finish_svg(out.extension) }; reset"
+
+across(pixels) = (pixels + 0.5*(sheet_width - page_width))/sheet_width     # from the left edge, as a screen coordinate
+up(pixels) = (pixels + 0.5*(sheet_height - page_height))/sheet_height      # from the lower edge
+down(pixels) = 1 - up(pixels - top_cut)                                   # from the upper edge
 
 # ---- Lines: told apart without colour by dashes and marks ------------------------------------------------------
 
@@ -68,6 +101,7 @@ set key noenhanced
 set tics out nomirror
 set xtics format "%h"
 set ytics format "%h"
+set minussign
 
 # ---- Tables ---------------------------------------------------------------------------------------------------
 
@@ -81,7 +115,7 @@ argument(k) = exists("ARG".k) ? value("ARG".k) : ""     # of the script; one not
 field(name) = column(value("col_".name))            # this row's value in a column, after `eval answer(table, "facts")`
 unit(name) = " [".typeset(value("unit_".name))."]"
 typeset(text) = text eq "" ? "" : symbol_of(text[1:1]).typeset(text[2:*])      # kg.mm2/s2 becomes kg·mm²/s²
-symbol_of(letter) = letter eq "." ? "·" : letter eq "2" ? "²" : letter eq "3" ? "³" : letter eq "4" ? "⁴" : letter
+symbol_of(letter) = letter eq "." || letter eq "*" ? "·" : letter eq "2" ? "²" : letter eq "3" ? "³" : letter eq "4" ? "⁴" : letter
 names_in(table, name) = system(ask(table, "distinct ".name)." | sed 's/.*/\"&\"/'")     # each a word, whatever is in it
 
 # ---- Words ----------------------------------------------------------------------------------------------------
@@ -95,68 +129,168 @@ numbered(figure, text) = figure eq "" ? text : "Figure ".figure.".  ".text
 divergence = "below zero: −√(−ω²)/2π of a mode that has diverged (static instability)"
 cut(text, n) = strlen(text) <= n ? text : text[1 : n - 1]."…"
 nice(x) = (power = 10.0**floor(log10(x)), x/power > 5 ? 10*power : x/power > 2 ? 5*power : x/power > 1 ? 2*power : power)
+larger(a, b) = a > b ? a : b
+lesser(a, b) = a < b ? a : b
+
+# The width of a text: advances of DejaVu Sans, which is as wide as such fonts are, in ems, rounded up; a letter that is not
+# here has a whole em.
+ems_of(letter) = strstrt("ijl'", letter) ? 0.28 : strstrt("|.,:; I/\\·", letter) ? 0.34 : strstrt("()[]-ftr!°²³⁴₂₃₄", letter) ? 0.43 \
+    : strstrt("abcdeghknopqsuvxyz0123456789*?_\"$θμα", letter) ? 0.65 : strstrt("ABCEFJKLPRSTVXYZ", letter) ? 0.71 \
+    : strstrt("DGHNOQU+=<>~w&ω−×", letter) ? 0.84 : 1.0
+ems(text) = strlen(text) == 0 ? 0 : strlen(text) == 1 ? ems_of(text) \
+    : ems(text[1 : strlen(text)/2]) + ems(text[strlen(text)/2 + 1 : *])
+text_width(text, size) = ems(text)*size*4/3.0                              # in pixels, of a size in points
+widest(list, size) = (widest_one = 0.0, sum [k_of=1:words(list)] \
+    (widest_one = larger(widest_one, text_width(word(list, k_of), size)), 0), widest_one)
+
+# A text in the size at which it has room, the least at worst, and if that is too large still, cut.
+fit_size(text, room, size, least) = text_width(text, size) <= room ? size \
+    : larger(least, floor(size*room/text_width(text, size)))
+fitted(text, room, size) = text_width(text, size) <= room ? text : text[1 : cut_place(text, room, size, 0, strlen(text))]."…"
+cut_place(text, room, size, low, high) = high - low <= 1 ? low \
+    : text_width(text[1 : (low + high)/2]."…", size) <= room ? cut_place(text, room, size, (low + high)/2, high) \
+    : cut_place(text, room, size, low, (low + high)/2)
+point_size(size) = sprintf(",%g", size)
+
+# In two lines, broken at the blank that is nearest to the middle.
+blank_near(text, middle, away) = away >= strlen(text)/2 || away > 100 ? 0 : text[middle - away : middle - away] eq " " ? middle - away \
+    : text[middle + away : middle + away] eq " " ? middle + away : blank_near(text, middle, away + 1)
+broken_at(text, place) = place < 1 ? text : text[1 : place - 1]."\n".text[place + 1 : *]
+broken(text) = broken_at(text, blank_near(text, strlen(text)/2, 0))
+in_two(text, room, size) = text_width(text, size) <= room ? text : broken(fitted(text, 1.8*room, size))
+
+# A name of a legend that is too long keeps its beginning and its end, and gets its number where that leaves it like another.
+name_length = 30
+inside(text, n) = strlen(text) <= n ? text : text[1 : n - n/3 - 1]."…".text[strlen(text) - n/3 + 1 : *]
+alike(list, k, n) = sum [k_of=1:words(list)] (k_of != k && inside(word(list, k_of), n) eq inside(word(list, k), n) ? 1 : 0)
+short_name(list, k) = alike(list, k, name_length) == 0 ? inside(word(list, k), name_length) \
+    : sprintf("%d: %s", k, inside(word(list, k), name_length - 5))
+short_names(list, k) = k > words(list) ? "" : " \"".short_name(list, k)."\"".short_names(list, k + 1)
 
 # Title, deck and notes at the foot: the script sets headline, deck_title, note and remark (empty: none).
-lines_of_notes(note, remark) = (note ne "") + (remark ne "")
+lines_of_notes(note, remark) = titled ? (note ne "") + (remark ne "") : 0
 foot(lines) = lines > 0 ? 134 + 31*lines : 118     # pixels below the lowest axis
-heading = "set label 901 headline at screen 0.5, down(38) center noenhanced font ',23'; ".\
-    "set label 902 cut(deck_title, page_width/14) at screen 0.5, down(82) center noenhanced font ',18' tc rgb '#505050'; ".\
-    "set label 903 note at screen 0.5, up(remark eq '' ? 30 : 61) center noenhanced font ',17' tc rgb '#303030'; ".\
-    "set label 904 remark at screen 0.5, up(30) center noenhanced font ',17' tc rgb '#303030'"
+heading_room = "(page_width - 50)"
+label_of(tag, text, room, size, least, place) = sprintf("text_size = fit_size(%s, %s, %d, %d); ", text, room, size, least).\
+    sprintf("set label %d fitted(%s, %s, text_size) at screen across(0.5*page_width), %s center noenhanced font point_size(text_size)", \
+        tag, text, room, place)
+heading = !titled ? "" : label_of(901, "headline", heading_room, 23, 14, "down(38)")."; ".\
+    "text_size = fit_size(deck_title, page_width - 50, 18, 14); ".\
+    "set label 902 in_two(deck_title, page_width - 50, text_size) at screen across(0.5*page_width), down(82) ".\
+    "center noenhanced font point_size(text_size) tc rgb '#505050'; ".\
+    label_of(903, "note", heading_room, 17, 11, "up(remark eq '' ? 30 : 61)")." tc rgb '#303030'; ".\
+    label_of(904, "remark", heading_room, 17, 11, "up(30)")." tc rgb '#303030'"
+
+# ---- Axes -----------------------------------------------------------------------------------------------------
+# An axis has ticks of one form: all with as many decimals, and of large or small values a power of a thousand in its title,
+# as a prefix where the unit takes one. Lengths are in pixels; a value axis is for values between low and high.
+
+from_zero = 1                                       # values far from zero only have an axis without it
+constant(low, high) = high - low <= 1e-9*larger(abs(low), abs(high))
+value_bottom(low, high) = constant(low, high) ? (low == 0 ? -1.0 : low > 0 ? 0.0 : 1.25*low) \
+    : low >= 0 && (low < 0.5*high && from_zero || low < 0.06*(high - low)) ? 0.0 : low - 0.06*(high - low)
+value_top(low, high) = constant(low, high) ? (low == 0 ? 1.0 : low > 0 ? 1.25*low : 0.0) \
+    : high <= 0 && (high > 0.5*low && from_zero || high > -0.06*(high - low)) ? 0.0 : high + 0.06*(high - low)
+power_of(bottom, top) = (largest = larger(abs(bottom), abs(top)), largest >= 0.01 && largest < 10000 ? 0 \
+    : int(3*floor(log10(largest)/3 + 1e-9)))
+decimals_of(step, power) = larger(0, int(ceil(-log10(step/10.0**power) - 1e-6)))
+tick_text(value, step, power) = minus(sprintf(sprintf("%%.%df", decimals_of(step, power)), value/10.0**power))
+minus(text) = text[1:1] eq "-" ? "−".text[2:*] : text
+bare = 0                                            # ticks without their text
+ticks(k, last, step, power) = k > last ? "" : sprintf("%s'%s' %.15g", k > ticks_first ? ", " : "", \
+    bare ? "" : tick_text(k*step, step, power), k*step).ticks(k + 1, last, step, power)
+ticks_between(bottom, top, step, power) = (ticks_first = int(ceil(bottom/step - 1e-6)), \
+    ticks(ticks_first, int(floor(top/step + 1e-6)), step, power))
+tick_width(bottom, top, step, power) = larger(text_width(tick_text(step*ceil(bottom/step - 1e-6), step, power), 20), \
+    text_width(tick_text(step*floor(top/step + 1e-6), step, power), 20))
+
+value_step(low, high, length) = nice((value_top(low, high) - value_bottom(low, high))/larger(2, lesser(10, length/48.0)))
+value_power(low, high) = power_of(value_bottom(low, high), value_top(low, high))
+value_width(low, high, length) = tick_width(value_bottom(low, high), value_top(low, high), value_step(low, high, length), \
+    value_power(low, high))
+value_axis(low, high, length) = sprintf("set yrange [%.15g:%.15g]; set ytics (%s); ", value_bottom(low, high), value_top(low, high), \
+    ticks_between(value_bottom(low, high), value_top(low, high), value_step(low, high, length), value_power(low, high))).\
+    (low < 0 && high > 0 ? zero_line : "unset xzeroaxis")
+
+# [kN], [µm/s], [10³ kg·mm²/s²]
+takes_prefix(unit, power) = strstrt(" N N.m J W Pa Hz V A ", " ".unit." ") > 0 && abs(power) <= 12 || unit eq "s" && power < 0 && power >= -12
+prefix(power) = power == 0 ? "" : word("p n µ m - k M G T", 5 + power/3)
+power_text(power) = power == 0 ? "" : "10".raised(minus(sprintf("%d", power)))." "
+raised(text) = text eq "" ? "" : (text[1:1] eq "−" ? "⁻" : word("⁰ ¹ ² ³ ⁴ ⁵ ⁶ ⁷ ⁸ ⁹", 1 + text[1:1])).raised(text[2:*])
+unit_and_power(unit, power) = takes_prefix(unit, power) ? prefix(power).typeset(unit) \
+    : unit eq "-" || unit eq "" ? substr(power_text(power), 1, strlen(power_text(power)) - 1) : power_text(power).typeset(unit)
+bracketed(text) = text eq "" ? "" : " [".text."]"
+value_title(name, unit, low, high) = name.bracketed(unit_and_power(unit, value_power(low, high)))
+
+# The title of a value axis stands at the left edge of the page, however wide the ticks; two lines if one is too long.
+title_size(text, length) = fit_size(text, length + 24, 20, 15)
+title_lines(text, length) = text_width(text, title_size(text, length)) > length + 24 ? 2 : 1
+planned_lines(text, length) = title_lines(text, sized ? 0.6*length : length)       # a given size may leave panels less height
+title_text(text, length) = title_lines(text, length) == 1 ? text : broken(text)
+axis_title(text, base, length) = sprintf("title_font = %d; ", title_lines(text, length) == 1 ? title_size(text, length) \
+    : fit_size(text, 1.7*length, 18, 9)).\
+    "unset ylabel; set label 905 ".quoted_twice(title_text(text, length)).\
+    sprintf(" at screen across(%g), up(%g) center rotate by 90 noenhanced font point_size(title_font)", \
+        14 + 17*title_lines(text, length), base + 0.5*length)
+quoted_twice(text) = "\"".escaped(text)."\""
+escaped(text) = text eq "" ? "" : (text[1:1] eq "\n" ? "\\n" : text[1:1] eq "\\" || text[1:1] eq "\"" ? "\\".text[1:1] : text[1:1])\
+    .escaped(text[2:*])
 
 # ---- Curves against the crank angle ---------------------------------------------------------------------------
 # The legend stands in columns of its own at the right, so it never meets a curve; what is beyond three columns is counted.
+# The page is as wide as its ticks and the words of its legend make it.
 
 legend_rows = 14
 listed(n) = n > 3*legend_rows ? 3*legend_rows - 1 : n
 columns_of(entries) = entries > 2*legend_rows ? 3 : entries > legend_rows ? 2 : 1
 unlisted(n) = n > listed(n) ? sprintf("… +%d", n - listed(n)) : ""
-legend_page(h, entries) = open_page(1600 + 310*(columns_of(entries) - 1), h).\
-    "; set lmargin at screen across(165); set rmargin at screen across(1290); ".\
-    "set key at screen across(1305), down(125) left top Left reverse vertical samplen 3.2 spacing 1.35 maxrows ".legend_rows
-curve_page(h) = legend_page(h, 1)
-crank_axis(lowest, highest) = lowest == highest \
+
+# The plan of a page h high, with ticks and words of the legend so wide and titles of so many lines. A page of a given size
+# keeps its letters at 7 points, if the plot keeps 420 pixels, and three quarters of its height.
+left_room(ticks, lines) = larger(130, 60 + 34*lines + ticks)
+legend_width(entries, longest) = columns_of(entries)*larger(310, 130 + longest) - 15
+plan_width(fixed, h) = !sized ? fixed + 1160 : larger(larger(lesser(fixed + 1160, 96*inches(figure_width)/0.35), fixed + 420), \
+    0.75*h*figure_width/figure_height)
+legend_plan(h, left, legend) = sprintf("plot_left = %d; plot_width = %d; ", left, plan_width(left + legend + 15, h) - left - legend - 15).\
+    (sized ? open_page(plan_width(left + legend + 15, h), top_cut + plan_width(left + legend + 15, h)*figure_height/(1.0*figure_width)) \
+    : open_page(plan_width(left + legend + 15, h), h)).\
+    "; set lmargin at screen across(plot_left); set rmargin at screen across(plot_left + plot_width); key_left = plot_left + plot_width + 15; ".\
+    "set key at screen across(key_left), down(125) left top Left reverse vertical samplen 3.2 spacing 1.35 maxrows ".legend_rows
+legend_page(h, entries, longest, ticks, lines) = legend_plan(h, left_room(ticks, lines), legend_width(entries, longest))
+panel_room = "(page_height + top_cut - 125)"       # pixels below the heading
+
+# A page of one panel: entries of the legend and the width of the widest, the title of the value axis and its unit.
+page_of_one(entries, longest, name, unit, low, high) = "lower = foot(lines_of_notes(note, remark)); ".\
+    legend_page(1000, entries, longest, value_width(low, high, 700), planned_lines(value_title(name, unit, low, high), 700)).\
+    "; eval heading; plot_height = @panel_room - lower; set tmargin at screen down(125); set bmargin at screen up(lower)".\
+    sprintf("; eval value_axis(%.15g, %.15g, plot_height); eval axis_title(%s, lower, plot_height)", low, high, \
+        quoted_twice(value_title(name, unit, low, high)))
+crank_step(lowest, highest) = highest - lowest > 150 ? (plot_width < 800 ? 60 : 30) : 15
+crank_axis(lowest, highest) = (lowest == highest \
     ? sprintf("set xrange [%g:%g]; set xtics 10; set mxtics 2", lowest - 30, highest + 30) \
     : highest - lowest > 150 \
-    ? sprintf("set xrange [%d:%d]; set xtics 30; set mxtics 3", 30*floor(lowest/30.0), 30*ceil(highest/30.0)) \
-    : sprintf("set xrange [%.12g:%.12g]; set xtics %s; set mxtics 3", lowest, highest, highest - lowest > 60 ? "15" : "auto")
+    ? sprintf("set xrange [%d:%d]; set xtics %d; set mxtics 3", 30*floor(lowest/30.0), 30*ceil(highest/30.0), \
+        crank_step(lowest, highest)) \
+    : sprintf("set xrange [%.12g:%.12g]; set xtics %s; set mxtics 3", lowest, highest, highest - lowest > 60 ? "15" : "auto")).\
+    "; set xlabel 'crank angle θ₂'.unit('crank')"
 
-# Room for values that are all one, which gnuplot would warn of.
-value_axis(low, high) = low == high ? sprintf("set yrange [%g:%g]", low - 1, high + 1) : "set yrange [*:*]"
+# An abscissa between low and high.
+abscissa_high(low, high) = high > low ? 1.0*high : low + larger(1, 0.1*abs(low))
+abscissa_low(low, high) = high > low ? 1.0*low : low - larger(1, 0.1*abs(low))
+abscissa_fine(low, high) = nice((abscissa_high(low, high) - abscissa_low(low, high))/9.0)
+abscissa_count(low, high) = larger(2, lesser(9, plot_width/(45 + tick_width(abscissa_low(low, high), abscissa_high(low, high), \
+    abscissa_fine(low, high), power_of(abscissa_low(low, high), abscissa_high(low, high))))))
+abscissa_step(low, high) = nice((abscissa_high(low, high) - abscissa_low(low, high))/abscissa_count(low, high))
+abscissa(low, high) = abscissa_between(abscissa_low(low, high), abscissa_high(low, high), abscissa_step(low, high))
+abscissa_between(low, high, step) = sprintf("set xrange [%.15g:%.15g]; set xtics (%s)", low, high, \
+    ticks_between(low, high, step, power_of(low, high)))
+abscissa_title(name, unit, low, high) = name.bracketed(unit_and_power(unit, power_of(abscissa_low(low, high), abscissa_high(low, high))))
 
-# A curve is a line, a dot at every computed position (so that one alone shows), and marks on some of them,
-# shifted from curve to curve so that curves lying on one another can still be told apart.
+# A curve is a line, a dot at every computed position, and marks on some of these, shifted from curve to curve so that curves
+# lying on one another can still be told apart. Where positions are few, the line is thin and the dots are thick: what was
+# computed is the dots.
+few(n) = n <= 60
+line_width(n) = few(n) ? 1.5 : 3
+dot_size(n) = few(n) ? 0.9 : n <= 150 ? 0.4 : 0.1
 mark_step(n) = n > 24 ? n/12 : 1
 mark_first(curve, curves, n) = n > 24 ? ((curve - 1)*mark_step(n))/curves : 0
-
-# ---- Drawings of mechanisms -----------------------------------------------------------------------------------
-# Equal axes: the page takes the shape of the mechanism, with room for headline, legend and note.
-
-frame(x0, x1, y0, y1, notes) = \
-    sprintf("x0 = %.12g; x1 = %.12g; y0 = %.12g; y1 = %.12g; bottom = foot(%d); ", x0, x1, y0, y1, notes).\
-    "pixel = (x1 - x0)/(y1 - y0) > 1.75 ? 1400/(x1 - x0) : 800/(y1 - y0); ".\
-    "box_width = pixel*(x1 - x0); box_height = pixel*(y1 - y0); ".\
-    "box_left = box_width > 950 ? 150 : (1180 - box_width)/2; ".\
-    "eval open_page(box_width > 950 ? box_width + 300 : 1180, bottom + box_height + 165); ".\
-    "set lmargin at screen across(box_left); set rmargin at screen across(box_left + box_width); ".\
-    "set bmargin at screen up(bottom); set tmargin at screen up(bottom + box_height); ".\
-    "set xrange [x0:x1]; set yrange [y0:y1]; set size ratio -1; step = nice(((x1 - x0) + (y1 - y0))/17); ".\
-    "set xtics step; set ytics step; unset grid; ".\
-    "set key at screen 0.5, down(115) center center vertical maxrows 1 Left reverse samplen 2.5 width 2"
-
-# Extent, both ends and the shortest element of the chain of links; the script sets nodes, the name of the block.
-measure = "stats nodes using 2:3 name 'all' nooutput; ".\
-    "x_min = all_min_x; x_max = all_max_x; y_min = all_min_y; y_max = all_max_y; ".\
-    "span = x_max - x_min > y_max - y_min ? x_max - x_min : y_max - y_min; begun = 0; nearest = span; ".\
-    "stats nodes using (begun == 0 ? (first_x = $2, first_y = $3, begun = 1) : 0, last_x = $2, last_y = $3, ".\
-    "nearest = $9 > 0 && $9 < nearest ? $9 : nearest, 0) nooutput"
-
-# Of those nodes: pins (where a link begins, but for the clamped root of the first, and the end of the last).
-is_pin(value) = ($6 == 0 && ($2 != first_x || $3 != first_y)) || ($2 == last_x && $3 == last_y) ? value : NaN
-
-# Places for their numbers. Where a number needs more room (a share of the span) than there is, every nth is shown.
-crowded(share) = ceil(share*span/nearest)
-every_nth(share) = $9 > 0 ? ceil(share*span/$9) : 1
-shown(share, value) = $6 == 0 || $6 == $7 || (int($6) % every_nth(share) == 0 && $7 - $6 >= every_nth(share)) ? value : NaN
-beside_x(room) = $2 + $10*room
-beside_y(room) = $3 + $11*room

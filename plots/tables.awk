@@ -2,6 +2,7 @@
 #   want=facts                     title, the note that names links 3 and 4, number of rows, and of every column its
 #                                  place, unit, least and greatest value, as gnuplot assignments
 #   want="distinct crank speed"    the distinct values of these columns, a line each, in the table's order; =crank with all digits
+#   want="moving torque O2x"       the distinct speeds at which some of these columns is not zero throughout
 #   want="range f1 f2"             the least and the greatest value found in these columns
 #   want="positive error1 error2"  the same of values above zero; nothing if there are none
 #   want="change f1 0"             speed, crank and f1's change in percent against the rows of speed 0
@@ -11,6 +12,21 @@
 #   want="masses 60 20"            the same of the lumped masses of inertia.dat at crank 60, speed 20; elements are 0
 #   want="shape 1 60 20"           mode 1 of shapes.dat at crank 60, speed 20, drawn finer: x, y, ux, uy, 1 at a link's
 #                                  ends, frequency
+#   want="shapes 20 0.15"          all modes of shapes.dat at speed 20 as above, an index a mode at a crank angle; displacements
+#                                  are made so large that the largest of a mode is that share of the longest link; after
+#                                  them mode and crank
+#   want="shapes_found 20"         a line a mode of these: its index, mode, crank
+#   want="reach 60 0.15"           the least and the greatest x and y, two lines, of all these modes at crank 60, at any speed,
+#                                  with their displacements and with the opposite ones; without a crank, at all
+#   want="arrows 60 20"            the inertia forces of inertia.dat there, those of masses at one place as one: x, y, Fx, Fy
+#                                  (a third number is the share of the drawing's larger side that the longest arrow takes:
+#                                  arrows on one line that would cover each other are drawn beside each other)
+#   want="path 20 xG yG"           these columns at speed 20 as a path that is smooth where rows are no farther apart than 15
+#                                  degrees of the crank: x, y, crank, 1 at a row of the table
+#   want="forces 20 8"             the forces of reactions.dat at speed 20, at eight positions at most (six, if these
+#                                  divide a turn better): crank, then x
+#                                  and y of those on the crank at O2, on the coupler at A and B, on the follower at O4, and the
+#                                  shaking force; without a number, all positions
 #   want="branches 20"             the branches of branches.dat at speed 20, an index a branch, an empty line where rows
 #                                  have failed: crank, frequency, branch, 1 on its first row, 1 where a mark is drawn
 #   want="varied"                  the columns of varied parameters: those before the table's own
@@ -68,6 +84,15 @@ asked[1] == "facts" {
     }
 }
 
+asked[1] == "moving" && !($at["speed"] in moving) {
+    for (i = 2; i <= n_asked; i++) {
+        if (asked[i] in at && $at[asked[i]] + 0 != 0) {
+            if (!($at["speed"] in moving)) print cell("speed")
+            moving[$at["speed"]] = 1
+        }
+    }
+}
+
 asked[1] == "range" {
     for (i = 2; i <= n_asked; i++) {
         number = $at[asked[i]] + 0
@@ -121,6 +146,41 @@ asked[1] == "band" {
     if (kept) band($at[asked[2]])
 }
 
+# Twice through a table would be slower than to keep what has been read.
+asked[1] == "reach" || (asked[1] ~ /^shapes/ && same($at["speed"], asked[2])) {
+    key = $at["mode"] " " short($at["crank"]) " " ($at["speed"] + 0)
+    if (key != key_of[shapes]) key_of[++shapes] = key
+    kept++
+    of_shape[kept] = shapes
+    link_at[kept] = $at["link"]
+    frequency_at[kept] = $at["frequency"]
+    for (i = 1; i <= 4; i++) value[i, kept] = $at[i == 1 ? "x" : i == 2 ? "y" : i == 3 ? "ux" : "uy"]
+    moved = sqrt($at["ux"]^2 + $at["uy"]^2)
+    if (moved > most_moved[shapes]) most_moved[shapes] = moved
+    if ($at["s"] + 0 > longest) longest = $at["s"] + 0
+}
+
+asked[1] == "forces" && same($at["speed"], asked[2]) {
+    forces++
+    crank[forces] = $at["crank"] + 0
+    value[forces] = $at["crank"]
+    for (i = 3; i <= 12; i++) value[forces] = value[forces] " " $at[word_of("speed crank O2x O2y A3x A3y B3x B3y O4x O4y shaking_x shaking_y", i)]
+}
+
+asked[1] == "path" && same($at["speed"], asked[2]) {
+    path_gap[++path_rows] = gap[rows]
+    path_crank[path_rows] = $at["crank"] + 0
+    path[1, path_rows] = $at[asked[3]] + 0
+    path[2, path_rows] = $at[asked[4]] + 0
+}
+
+asked[1] == "arrows" && same($at["crank"], asked[2]) && same($at["speed"], asked[3]) {
+    for (i = 1; i <= arrows; i++) if (same($at["x"], arrow[1, i]) && same($at["y"], arrow[2, i])) break
+    if (i > arrows) { arrows++; arrow[1, i] = $at["x"] + 0; arrow[2, i] = $at["y"] + 0 }
+    arrow[3, i] += $at["Fx"]
+    arrow[4, i] += $at["Fy"]
+}
+
 asked[1] == "shape" && same($at["mode"], asked[2]) && same($at["crank"], asked[3]) && same($at["speed"], asked[4]) {
     if ($at["link"] != link_drawn) print_link()
     link_drawn = $at["link"]
@@ -148,6 +208,12 @@ END {
     if (asked[1] == "branches") print_branches()
     if (asked[1] == "events") print_events()
     if (asked[1] == "shape") print_link()
+    if (asked[1] == "shapes") print_shapes()
+    if (asked[1] == "shapes_found") for (i = 1; i <= shapes; i++) { split(key_of[i], part, " "); print i - 1, part[1], part[2] }
+    if (asked[1] == "reach") print_reach()
+    if (asked[1] == "path") print_path()
+    if (asked[1] == "forces") print_forces()
+    if (asked[1] == "arrows") print_arrows()
     if (asked[1] == "change") print_change()
     if (asked[1] == "varied") for (i = 1; i <= n_columns && name[i] !~ /^(speed|crank|time|branch)$/; i++) print name[i]
     if (asked[1] == "poses" && pose) print pose
@@ -253,7 +319,7 @@ function print_link(    i, k, j, first, t) {
         for (k = 0; k < (j < points && points > 3 ? 4 : 1); k++) {
             t = j + k / 4 - first
             for (i = 1; i <= 4; i++) printf "%.9g ", k == 0 ? shape[i, j] : cubic(i, first, t)
-            print k == 0 && (j == 1 || j == points), frequency
+            print k == 0 && (j == 1 || j == points), frequency tail
         }
     }
     if (points) print ""
@@ -263,6 +329,124 @@ function print_link(    i, k, j, first, t) {
 function cubic(i, j, t) {
     return -shape[i, j] * (t - 1) * (t - 2) * (t - 3) / 6 + shape[i, j + 1] * t * (t - 2) * (t - 3) / 2 \
         - shape[i, j + 2] * t * (t - 1) * (t - 3) / 2 + shape[i, j + 3] * t * (t - 1) * (t - 2) / 6
+}
+
+function print_arrows(    i, j, k, low, high, span, longest, size, along, across, drawn, same_way, aside) {
+    for (i = 1; i <= arrows; i++) {
+        arrow[5, i] = sqrt(arrow[3, i]^2 + arrow[4, i]^2)
+        if (arrow[5, i] > longest) longest = arrow[5, i]
+        for (k = 1; k <= 2; k++) {
+            if (i == 1 || arrow[k, i] < low[k]) low[k] = arrow[k, i]
+            if (i == 1 || arrow[k, i] > high[k]) high[k] = arrow[k, i]
+        }
+    }
+    span = -smaller(low[1] - high[1], low[2] - high[2])
+    for (i = 1; i <= arrows; i++) {
+        aside = 0
+        for (j = 1; j < i; j++) {
+            size = arrow[5, i] * arrow[5, j]
+            if (size == 0 || absolute(arrow[3, i] * arrow[4, j] - arrow[4, i] * arrow[3, j]) > 0.1 * size) continue
+            along = ((arrow[1, i] - arrow[1, j]) * arrow[3, j] + (arrow[2, i] - arrow[2, j]) * arrow[4, j]) / arrow[5, j]
+            across = ((arrow[1, i] - arrow[1, j]) * arrow[4, j] - (arrow[2, i] - arrow[2, j]) * arrow[3, j]) / arrow[5, j]
+            drawn = asked[4] * span / longest
+            same_way = arrow[3, i] * arrow[3, j] + arrow[4, i] * arrow[4, j] > 0
+            if (absolute(across) > 0.03 * span) continue
+            if (along < drawn * arrow[5, j] && along > -drawn * arrow[5, i] * same_way) aside++
+        }
+        size = arrow[5, i] > 0 ? 0.02 * span * aside / arrow[5, i] : 0
+        print arrow[1, i] - size * arrow[4, i], arrow[2, i] + size * arrow[3, i], arrow[3, i] + 0, arrow[4, i] + 0
+    }
+}
+
+function word_of(list, i,    part) { split(list, part, " "); return part[i] }
+
+# The last row of a whole turn is the first again; a turn is divided by 8 or by 6, so that the angles are even.
+function print_forces(    n, i, turn) {
+    n = asked[3] == "" || asked[3] + 0 > forces ? forces : asked[3] + 0
+    if (forces > 1 && same(crank[forces], crank[1] + 360) && (n < forces || asked[3] != "")) {
+        forces--
+        if (n > forces) n = forces
+    }
+    turn = forces > 1 && same(crank[forces] - crank[1] + crank[2] - crank[1], 360)
+    if (turn && n == 8 && forces % 8 && forces % 6 == 0) n = 6
+    for (i = 0; i < n; i++) print value[n == forces ? i + 1 : int(1.5 + i * (turn ? forces / n : (forces - 1) / (n - 1)))]
+}
+
+function scale_of(shape) { return most_moved[shape] > 0 ? asked[3] * longest / most_moved[shape] : 0 }
+
+function print_shapes(    k, i) {
+    for (k = 1; k <= kept; k++) {
+        if (k > 1 && (of_shape[k] != of_shape[k - 1] || link_at[k] != link_at[k - 1])) end_link(k - 1)
+        if (k > 1 && of_shape[k] != of_shape[k - 1]) print ""
+        points++
+        frequency = frequency_at[k]
+        for (i = 1; i <= 4; i++) shape[i, points] = i > 2 ? scale_of(of_shape[k]) * value[i, k] : value[i, k]
+    }
+    end_link(kept)
+}
+
+function end_link(k,    part) {
+    split(key_of[of_shape[k]], part, " ")
+    tail = " " part[1] " " part[2]
+    print_link()
+}
+
+function print_reach(    part, k, i, side, place, low, high, begun, scale) {
+    for (k = 1; k <= kept; k++) {
+        split(key_of[of_shape[k]], part, " ")
+        if (asked[2] != "all" && !same(part[2], asked[2])) continue
+        scale = scale_of(of_shape[k])
+        for (side = -1; side <= 1; side++) {
+            for (i = 1; i <= 2; i++) {
+                place = value[i, k] + side * scale * value[i + 2, k]
+                if (begun < i || place < low[i]) low[i] = place
+                if (begun < i || place > high[i]) high[i] = place
+                if (begun < i) begun = i
+            }
+        }
+    }
+    print low[1], low[2]
+    print high[1], high[2]
+}
+
+# Between two rows the cubic through the four nearest; round a whole turn the first row follows the last.
+function print_path(    i, j, first, last, round, parts) {
+    for (first = 1; first <= path_rows; first = last + 1) {
+        for (last = first; last < path_rows && !path_gap[last + 1]; ) last++
+        round = same(path_crank[last], path_crank[first] + 360)
+        if (first > 1) print ""
+        for (i = first; i < last; i++) {
+            parts = path_crank[i + 1] - path_crank[i]
+            parts = parts > 15.000001 || last - first < 3 ? 1 : int(parts / 0.5 + 0.999)
+            if (parts < 4 && parts > 1) parts = 4
+            for (j = 0; j < parts; j++) print_path_point(i, j / parts, first, last, round)
+        }
+        print_path_point(last, 0, first, last, round)
+    }
+}
+
+function print_path_point(i, t, first, last, round,    at_crank, start, m, n, k, weight, sum_x, sum_y, place_of, turns) {
+    if (t == 0) { print path[1, i], path[2, i], path_crank[i], 1; return }
+    at_crank = path_crank[i] + t * (path_crank[i + 1] - path_crank[i])
+    start = i - 1
+    if (!round && start < first) start = first
+    if (!round && start > last - 3) start = last - 3
+    sum_x = sum_y = 0
+    for (m = 0; m < 4; m++) {
+        place_of[m] = start + m
+        turns[m] = 0
+        if (place_of[m] < first) { place_of[m] += last - first; turns[m] = -360 }
+        if (place_of[m] > last) { place_of[m] -= last - first; turns[m] = 360 }
+    }
+    for (m = 0; m < 4; m++) {
+        weight = 1
+        for (n = 0; n < 4; n++)
+            if (n != m) weight *= (at_crank - path_crank[place_of[n]] - turns[n]) \
+                / (path_crank[place_of[m]] + turns[m] - path_crank[place_of[n]] - turns[n])
+        sum_x += weight * path[1, place_of[m]]
+        sum_y += weight * path[2, place_of[m]]
+    }
+    print sum_x, sum_y, at_crank, 0
 }
 
 # Elements bring their inner nodes twice.

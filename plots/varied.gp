@@ -1,6 +1,6 @@
 # Natural frequencies against a varied parameter: for every mode a band between the least and the greatest over the positions.
 #   gnuplot -c varied.gp frequencies.dat OUT PARAMETER [FIGURE [REMARK]]
-# Other parameters and the speed are those of the first row.
+# Other parameters and the speed are those of the first row. What the parameter is, is in echo.deck beside the table.
 
 load ARG0[1 : strlen(ARG0) - strlen("varied.gp")]."style.gp"
 table = ARG1; out = ARG2; parameter = ARG3; figure = argument(4); remark = argument(5)
@@ -11,32 +11,37 @@ names = ""
 do for [name in columns] { if (name eq sprintf("f%d", modes + 1)) { modes = modes + 1; names = names." ".name } }
 range = answer(table, "range".names)
 lowest = word(range, 1) + 0.0
-others = ""
-do for [name in answer(table, "varied")." speed"] {
-    if (name ne parameter) { others = others.(others eq "" ? "" : ", ").sprintf("%s = %s", name, word(answer(table, "distinct ".name), 1)) }
+highest = word(range, 2) + 0.0
+unit_named(name) = value("unit_".name) eq "-" ? "" : typeset(value("unit_".name))
+with_unit(text, name) = unit_named(name) eq "" ? text : text." ".unit_named(name)
+fixed = at_speed(word(answer(table, "distinct speed"), 1) + 0, unit_speed)
+do for [name in answer(table, "varied")] {
+    if (name ne parameter) { fixed = fixed.", ".with_unit(sprintf("%s = %.10g", name, word(answer(table, "distinct ".name), 1) + 0), name) }
 }
+echo = system("dirname ".quoted(table))."/echo.deck"
+meaning = system("[ ! -f ".quoted(echo)." ] || awk -v name=".quoted(parameter)." -f ".quoted(plots."meaning.awk")." < ".quoted(echo))
 load keep("bands", table, "band ".parameter)
+values = |$bands|
 
-headline = numbered(figure, sprintf("Natural frequencies against %s, over all crank angles; %s", parameter, others))
-note = lowest < 0 ? divergence : ""
+headline = numbered(figure, "Natural frequencies against ".(meaning eq "" ? parameter : "the ".meaning))
+note = "bands: least to greatest over the computed crank angles;  ".fixed
+if (lowest < 0 && remark eq "") { remark = divergence }
 
-eval legend_page(1000, modes)
-eval heading
-eval value_axis(lowest, word(range, 2) + 0.0)
-set tmargin at screen down(125)
-set bmargin at screen up(foot(lines_of_notes(note, remark)))
-set offsets graph 0, 0, 0.03, 0.03
+eval page_of_one(modes, text_width(sprintf("mode %d", modes), 20), "natural frequency", unit_f1, lowest, highest)
 set style fill transparent solid 0.25 noborder
-if (lowest < 0) { eval zero_line }
-set xlabel parameter.(value("unit_".parameter) eq "-" ? "" : unit(parameter)) noenhanced
-x = value("low_".parameter)
+low = value("low_".parameter)
+high = value("high_".parameter)
+eval abscissa(low, high)
 # A single value has a band without width: its ends are drawn as points.
-if (value("high_".parameter) == x) { set xrange [x - (x == 0 ? 1 : 0.01*abs(x)) : x + (x == 0 ? 1 : 0.01*abs(x))] }
-set ylabel "natural frequency".unit("f1")
+if (high == low) { eval abscissa(low - (low == 0 ? 1 : 0.01*abs(low)), low + (low == 0 ? 1 : 0.01*abs(low))) }
+x_title = abscissa_title(meaning eq "" ? parameter : meaning.", ".parameter, value("unit_".parameter), low, high)
+set xlabel fitted(x_title, plot_width + 100, 16) noenhanced font point_size(fit_size(x_title, plot_width + 100, 20, 16))
 
 plot for [k=1:modes] $bands using 1:(column(2*k)):(column(2*k + 1)) with filledcurves lt k notitle, \
-    for [k=1:modes] $bands using 1:(column(2*k)) with linespoints lt k pt 7 ps 0.4 notitle, \
-    for [k=1:modes] $bands using 1:(column(2*k + 1)) with linespoints lt k pt 7 ps 0.4 notitle, \
+    for [k=1:modes] $bands using 1:(column(2*k)) with lines lt k lw line_width(values) notitle, \
+    for [k=1:modes] $bands using 1:(column(2*k + 1)) with lines lt k lw line_width(values) notitle, \
+    for [k=1:modes] $bands using 1:(column(2*k)) with points lt k pt 7 ps dot_size(values) notitle, \
+    for [k=1:modes] $bands using 1:(column(2*k + 1)) with points lt k pt 7 ps dot_size(values) notitle, \
     for [k=1:listed(modes)] keyentry with lines lt k title sprintf("mode %d", k), \
     keyentry title unlisted(modes)
 eval close

@@ -2,6 +2,7 @@
 module command_line
   use errors, only: error_of_input, error_t, set_error
   use numbers, only: read_integer
+  use option_table, only: column_of_help, option_names, options, takes_value
   use program_version, only: program_name, version_number
   use spelling, only: suggestion
   use text, only: same_word, string_t, word_list
@@ -27,6 +28,8 @@ module command_line
     logical :: help = .false.
     logical :: help_cards = .false.
     logical :: version = .false.
+    logical :: manual = .false.
+    character(len=:), allocatable :: shell     !! of `--completion`
     character(len=:), allocatable, private :: valued !! the options with a value that were given,
                                                      !! between blanks
   end type command_t
@@ -72,7 +75,8 @@ contains
     end do
     ! `--json` holds even if the command line is wrong before it.
     if (allocated(error)) command%json = any([(words(i)%text == "--json", i=1, size(words))])
-    if (allocated(error) .or. command%help .or. command%help_cards .or. command%version) return
+    if (allocated(error) .or. command%help .or. command%help_cards .or. command%version .or. &
+      command%manual .or. allocated(command%shell)) return
     if (size(command%decks) == 0) call set_error(error, error_of_input, &
       "no deck given; flexmech --help tells how to run one")
   end subroutine read_command_line
@@ -119,17 +123,13 @@ contains
     type(command_t), intent(inout) :: command
     type(error_t), allocatable, intent(out) :: error
 
-    character(len=*), parameter :: known = &
-      "--check --out --set --threads --format --resume --quiet --stats --json --version --help "// &
-      "--help-cards"
     character(len=:), allocatable :: name, value
     integer :: k
 
     name = words(i)%text
     k = index(name, "=")
     if (k > 0) name = name(:k - 1)
-    select case (name)
-    case ("--out", "--set", "--threads", "--format")
+    if (takes_value(name)) then
       if (k > 0) then
         value = words(i)%text(k + 1:)
       else if (i < size(words)) then
@@ -149,7 +149,7 @@ contains
         call read_option_value(name, value, command, error)
       end if
       return
-    end select
+    end if
     if (k > 0) name = words(i)%text
     select case (name)
     case ("--check")
@@ -168,9 +168,11 @@ contains
       command%help = .true.
     case ("--help-cards")
       command%help_cards = .true.
+    case ("--man")
+      command%manual = .true.
     case default
       call set_error(error, error_of_input, "unknown option '"//name//"'"//suggestion(name, &
-        word_list(known)))
+        word_list(option_names())))
     end select
   end subroutine read_command_option
 
@@ -211,7 +213,7 @@ contains
     type(command_t), intent(inout) :: command
     type(error_t), allocatable, intent(out) :: error
 
-    character(len=*), parameter :: formats = "plain csv"
+    character(len=*), parameter :: formats = "plain csv", shells = "bash zsh fish"
     type(error_t), allocatable :: not_a_number
 
     select case (name)
@@ -230,6 +232,12 @@ contains
         call set_error(error, error_of_input, "unknown format '"//value//"'"//suggestion(value, &
           word_list(formats))//"; --format is plain or csv")
       end if
+    case ("--completion")
+      command%shell = value
+      if (value /= "bash" .and. value /= "zsh" .and. value /= "fish") then
+        call set_error(error, error_of_input, "unknown shell '"//value//"'"//suggestion(value, &
+          word_list(shells))//"; --completion is bash, zsh or fish")
+      end if
     end select
   end subroutine read_option_value
 
@@ -244,18 +252,7 @@ contains
   pure function help_text() result(text)
     character(len=:), allocatable :: text
 
-    character(len=*), parameter :: options(*) = &
-      [character(len=96) :: "--check      read and check the decks only", &
-      "--out DIR    write to DIR/<deck base name>/", &
-      "--set N=V    put V in place of the value that SET or VARY gives the name N; may be "// &
-      "repeated", "--threads N  compute N positions at a time (1)", &
-      "--format csv write every table as comma-separated values too (plain)", &
-      "--resume     go on where an earlier run of the deck was killed or interrupted", &
-      "--quiet      no warnings, no progress, no line after a run; errors are still reported", &
-      "--stats      tell what was computed and how long it took", &
-      "--json       on standard output: errors, warnings and failed rows of all decks as JSON", &
-      "--version    the program's version", "--help       this text", &
-      "--help-cards every card and report of a deck in two lines"]
+    character(len=column_of_help - 1) :: head
     integer :: i
 
     text = "usage: flexmech [options] DECK..."//line_feed//line_feed// &
@@ -264,7 +261,8 @@ contains
       "For every deck the tables are written to outputs/<deck base name>/. A deck named - is "// &
       "standard input."//line_feed//line_feed
     do i = 1, size(options)
-      text = text//"  "//trim(options(i))//line_feed
+      head = "  "//trim(options(i)%name)//" "//options(i)%value
+      text = text//head//trim(options(i)%help)//line_feed
     end do
     text = text//line_feed// &
       "Exit status: 0 done; 1 some position or mode could not be computed (the rest is "// &

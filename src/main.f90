@@ -9,7 +9,9 @@ program main
   use errors, only: error_of_interruption, error_t, rendered
   use figures_command, only: command_for_figures
   use interruption, only: watch_for_interruption
+  use manual_page, only: manual_page_text
   use run_document, only: deck_outcome_t, document_text
+  use shell_completion, only: completion_text
   use text, only: string_t
   implicit none (type, external)
 
@@ -35,6 +37,12 @@ program main
     stop 0, quiet=.true.
   else if (command%version) then
     write (output_unit, "(a)") version_text()
+    stop 0, quiet=.true.
+  else if (command%manual) then
+    write (output_unit, "(a)", advance="no") manual_page_text()
+    stop 0, quiet=.true.
+  else if (allocated(command%shell)) then
+    write (output_unit, "(a)", advance="no") completion_text(command%shell)
     stop 0, quiet=.true.
   end if
 

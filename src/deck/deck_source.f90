@@ -23,6 +23,8 @@ module deck_source
                                           !! working folder
     integer :: first_line = 1             !! number of its first line in the source
     integer :: include_line = 0           !! line of the INCLUDE card that names it; 0: none
+    character(len=:), allocatable :: library_name !! of a file of the program's library, as INCLUDE
+                                                  !! names it; else not allocated
   end type source_file_t
 
   type :: source_t
@@ -191,10 +193,12 @@ contains
   end function source_from_text
 
   !> Appends the lines of another file.
-  pure subroutine append_source(source, more, include_line)
+  pure subroutine append_source(source, more, include_line, library_name)
     type(source_t), intent(inout) :: source !! the deck and the files included so far
     type(source_t), intent(in) :: more      !! one file
     integer, intent(in) :: include_line     !! of the INCLUDE card that names it; 0: none
+    character(len=*), intent(in), optional :: library_name !! of a file of the program's library, as
+                                                           !! INCLUDE names it; empty: it is none
 
     type(source_file_t), allocatable :: files(:)
     integer :: count
@@ -205,6 +209,9 @@ contains
     files(count + 1)%path = more%path
     files(count + 1)%first_line = line_count(source) + 1
     files(count + 1)%include_line = include_line
+    if (present(library_name)) then
+      if (len(library_name) > 0) files(count + 1)%library_name = library_name
+    end if
     call move_alloc(files, source%files)
     source%line_start = [source%line_start(:line_count(source)), len(source%text) + more%line_start]
     source%text = source%text//more%text
@@ -270,14 +277,20 @@ contains
   end function line_place
 
   !> The place of a line as seen from the deck: `line 7`, or `parts/steel.deck:7` in a file that it
-  !! includes.
+  !! includes. It does not say where the program and its library are.
   pure function line_origin(source, line) result(origin)
     type(source_t), intent(in) :: source !! the deck and its files
     integer, intent(in) :: line          !! number in the source
     character(len=:), allocatable :: origin
 
-    if (file_of_line(source, line) == 1) then
+    integer :: number
+
+    number = file_of_line(source, line)
+    if (number == 1) then
       origin = "line "//to_string(line)
+    else if (allocated(source%files(number)%library_name)) then
+      origin = source%files(number)%library_name//":"// &
+        to_string(line - source%files(number)%first_line + 1)
     else
       origin = path_from_deck(source, line_place(source, line))
     end if

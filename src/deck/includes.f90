@@ -6,6 +6,7 @@ module includes
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_of_input, error_t, set_error
   use file_system, only: real_path
+  use program_library, only: find_library_file
   use text, only: same_word, string_t, to_string
   implicit none (type, external)
   private
@@ -103,13 +104,14 @@ contains
 
     type(source_t) :: more
     type(error_t), allocatable :: error
-    character(len=:), allocatable :: path
+    character(len=:), allocatable :: path, name, library_name, elsewhere
     logical :: fine
 
     allocate (cards(1))
     cards(1) = card
-    call read_path(source, card, path, fine, diagnostics)
+    call read_path(source, card, path, name, fine, diagnostics)
     if (.not. fine) return
+    call find_library_file(name, path, library_name, elsewhere)
     call refuse_loop(source, chain(:level), path, card%keyword%line, error)
     if (level == most_levels) call set_error(error, error_of_input, &
       "files include each other more than "//to_string(most_levels)//" levels deep")
@@ -117,14 +119,16 @@ contains
       "more than "//to_string(most_files)//" files are included")
     if (.not. allocated(error)) then
       call read_file(path, more, error)
-      if (allocated(error)) error%text = "'"//path//place_of(error)//"' cannot be included: "// &
-        error%text
+      if (allocated(error)) then
+        if (len(elsewhere) > 0) path = name
+        error%text = "'"//path//place_of(error)//"' cannot be included: "//error%text//elsewhere
+      end if
     end if
     if (allocated(error)) then
       call add_error(diagnostics, card%words(1), error%text)
       return
     end if
-    call append_source(source, more, card%keyword%line)
+    call append_source(source, more, card%keyword%line, library_name)
     call read_cards(source, cards, diagnostics, size(source%files))
     call drop_units(cards, diagnostics)
     chain(level + 1)%text = real_path(path)
@@ -142,14 +146,13 @@ contains
   end function place_of
 
   !> The path on an INCLUDE card, which is relative to the file with the card.
-  subroutine read_path(source, card, path, fine, diagnostics)
+  subroutine read_path(source, card, path, name, fine, diagnostics)
     type(source_t), intent(in) :: source
     type(card_t), intent(in) :: card
     character(len=:), allocatable, intent(out) :: path !! from the working folder, or absolute
+    character(len=:), allocatable, intent(out) :: name !! as on the card, without quotes
     logical, intent(out) :: fine                       !! false: the card is wrong
     type(diagnostics_t), intent(inout) :: diagnostics
-
-    character(len=:), allocatable :: name
 
     fine = .false.
     if (size(card%entries) > 0) then

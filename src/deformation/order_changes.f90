@@ -69,92 +69,88 @@ contains
     real(wp), intent(in) :: lambda(:)          !! (modes) their eigenvalues [1/s²]
     type(order_change_t), intent(out) :: change(:, :) !! (parts, modes)
 
-    real(wp) :: ends(3), turn, slope_reach, ends_norm
-    integer :: b, e, i, k, first, last, axial, part, low, high
+    real(wp), parameter :: no_stiffness(0, 0, 0) = 0.0_wp
+    integer :: b, across, along, axial, first
 
-    part = 0
+    across = 0
     do b = 1, size(links)
-      associate (link => links(b), next => links(b)%next)
-        first = layout%first(b)
-        last = first + link%modes - 1
-        ends_norm = norm2(chords%across(:, :, b))
-        do e = 1, next%pieces
-          part = part + 1
-          low = (e - 1)*next%number + 1
-          high = e*next%number
-          block
-            real(wp) :: residual(next%number), slopes(2 + link%modes, merge(next%number, 0, &
-              size(force, 1) > 0)), square(next%number, next%number), matrix(next%number, &
-              next%number)
-
-            square = 0.0_wp
-            slope_reach = 0.0_wp
-            if (size(force, 1) > 0) call weigh(next, e, force(:, b), low, high, slopes, square, &
-              slope_reach)
-            do i = 1, size(lambda)
-              associate (border => vectors(:layout%border, i), own => vectors(first:last, i))
-                do k = 1, 3
-                  ends(k) = dot_product(chords%across(k, :, b), border)
-                end do
-                do k = 1, next%number
-                  residual(k) = -lambda(i)*(dot_product(ends, next%participation(:, low + k - &
-                    1)) + dot_product(own, next%mass(:, low + k - 1)))
-                end do
-                if (size(force, 1) > 0) then
-                  turn = dot_product(chords%turn(:, b), border)
-                  do k = 1, next%number
-                    residual(k) = residual(k) + turn*slopes(rigid, k) + ends(3)*slopes(clamp, k) + &
-                      dot_product(own, slopes(clamp + 1:, k))
-                  end do
-                end if
-              end associate
-              if (is_nothing(residual, lambda(i))) cycle
-              matrix = square - lambda(i)*next%mass_square(:, :, e)
-              call eliminate(matrix, residual, least_pivot, change(part, i))
-              if (is_silent(next, e, lambda(i), slope_reach, ends_norm)) cycle
-              call add_echo(next%mass(:, low:high), slopes, link%square, own_stiffness(link, &
-                force, b), lambda(i), residual, change(part, i)%echo)
-              call add_border_echo(chords%across(:, :, b), next%participation(:, low:high), &
-                border_mass, lambda(i), residual, change(part, i)%echo)
-            end do
-          end block
-        end do
-      end associate
-      associate (next => links(b)%axial_next)
-        ends_norm = norm2(chords%along(:, :, b))
-        axial = first_axial(layout, links, b)
-        last = axial + links(b)%axial_modes - 1
-        do e = 1, next%pieces
-          part = part + 1
-          low = (e - 1)*next%number + 1
-          block
-            real(wp) :: residual(next%number), matrix(next%number, next%number), no_slopes(0, 0)
-
-            do i = 1, size(lambda)
-              associate (border => vectors(:layout%border, i), own => vectors(axial:last, i))
-                do k = 1, 2
-                  ends(k) = dot_product(chords%along(k, :, b), border)
-                end do
-                do k = 1, next%number
-                  residual(k) = -lambda(i)*(dot_product(ends(1:2), next%participation(:, low + k - &
-                    1)) + dot_product(own, next%mass(:, low + k - 1)))
-                end do
-              end associate
-              if (is_nothing(residual, lambda(i))) cycle
-              matrix = -lambda(i)*next%mass_square(:, :, e)
-              call eliminate(matrix, residual, least_pivot, change(part, i))
-              if (is_silent(next, e, lambda(i), 0.0_wp, ends_norm)) cycle
-              call add_echo(next%mass(:, low:low + next%number - 1), no_slopes, &
-                links(b)%axial_square, spread(1.0_wp, 1, links(b)%axial_modes), lambda(i), &
-                residual, change(part, i)%echo)
-              call add_border_echo(chords%along(:, :, b), next%participation(:, low:low + &
-                next%number - 1), border_mass, lambda(i), residual, change(part, i)%echo)
-            end do
-          end block
-        end do
+      associate (link => links(b))
+        along = across + link%next%pieces
+        if (link%next%pieces > 0) then
+          first = layout%first(b)
+          call find_changes_of_link(link%next, vectors(:layout%border, :), vectors(first:first + &
+            link%modes - 1, :), chords%across(:, :, b), chords%turn(:, b), force(:, b), &
+            link%square, link%geometric, border_mass, lambda, change(across + 1:along, :))
+        end if
+        across = along + link%axial_next%pieces
+        if (link%axial_next%pieces > 0) then
+          axial = first_axial(layout, links, b)
+          call find_changes_of_link(link%axial_next, vectors(:layout%border, :), &
+            vectors(axial:axial + link%axial_modes - 1, :), chords%along(:, :, b), chords%turn(:, &
+            b), force(:0, b), link%axial_square, no_stiffness, border_mass, lambda, &
+            change(along + 1:across, :))
+        end if
       end associate
     end do
   end subroutine find_order_changes
+
+  !> The changes by the next orders of all pieces of a link in one direction: across, with the
+  !! geometric stiffness of its axial forces, or along, without.
+  pure subroutine find_changes_of_link(next, border, own, moved, turned, force, own_mass, &
+      own_geometric, border_mass, lambda, change)
+    type(next_orders_t), intent(in) :: next
+    real(wp), intent(in) :: border(:, :)      !! (border, modes) part of the modes
+    real(wp), intent(in) :: own(:, :)         !! (own modes, modes) part of the modes
+    real(wp), intent(in) :: moved(:, :)       !! (functions, border) what the border does to the link
+    real(wp), intent(in) :: turned(:)         !! (border) how it turns the link's chord
+    real(wp), intent(in) :: force(:)          !! 1, ξ, ξ², jumps; none: static, or along [N]
+    real(wp), intent(in) :: own_mass(:)       !! (own modes) [s²]
+    real(wp), intent(in) :: own_geometric(:, :, :) !! (2 + own modes, 2 + own modes, force
+                                                   !! functions) `∫ b v' v'`
+    real(wp), intent(in) :: border_mass(:, :)
+    real(wp), intent(in) :: lambda(:)         !! (modes) [1/s²]
+    type(order_change_t), intent(inout) :: change(:, :) !! (pieces, modes) at first none
+
+    real(wp) :: residual(next%number), matrix(next%number, next%number), ends(size(moved, 1)), &
+      slopes(2 + size(own, 1), merge(next%number, 0, size(force) > 0)), &
+      square(next%number, next%number), turn, slope_reach, ends_norm
+    real(wp), allocatable :: stiffness(:)
+    integer :: e, i, k, low, high
+
+    ends_norm = norm2(moved)
+    square = 0.0_wp
+    slope_reach = 0.0_wp
+    do e = 1, next%pieces
+      low = (e - 1)*next%number + 1
+      high = e*next%number
+      if (size(force) > 0) call weigh(next, e, force, low, high, slopes, square, slope_reach)
+      do i = 1, size(lambda)
+        do k = 1, size(ends)
+          ends(k) = dot_product(moved(k, :), border(:, i))
+        end do
+        do k = 1, next%number
+          residual(k) = -lambda(i)*(dot_product(ends, next%participation(:, low + k - 1)) + &
+            dot_product(own(:, i), next%mass(:, low + k - 1)))
+        end do
+        if (size(force) > 0) then
+          turn = dot_product(turned, border(:, i))
+          do k = 1, next%number
+            residual(k) = residual(k) + turn*slopes(rigid, k) + ends(3)*slopes(clamp, k) + &
+              dot_product(own(:, i), slopes(clamp + 1:, k))
+          end do
+        end if
+        if (is_nothing(residual, lambda(i))) cycle
+        matrix = square - lambda(i)*next%mass_square(:, :, e)
+        call eliminate(matrix, residual, least_pivot, change(e, i))
+        if (is_silent(next, e, lambda(i), slope_reach, ends_norm)) cycle
+        if (.not. allocated(stiffness)) stiffness = own_stiffness(own_geometric, force, size(own, 1))
+        call add_echo(next%mass(:, low:high), slopes, own_mass, stiffness, lambda(i), residual, &
+          change(e, i)%echo)
+        call add_border_echo(moved, next%participation(:, low:high), border_mass, lambda(i), &
+          residual, change(e, i)%echo)
+      end do
+    end do
+  end subroutine find_changes_of_link
 
   !> The geometric stiffness of a piece's unknowns at the present axial forces, with the own modes
   !! and with each other.
@@ -184,18 +180,18 @@ contains
   end subroutine weigh
 
   !> Diagonal of `K + K_G` of the own modes of a link.
-  pure function own_stiffness(link, force, b) result(stiffness)
-    type(link_modes_t), intent(in) :: link
-    real(wp), intent(in) :: force(:, :)
-    integer, intent(in) :: b
-    real(wp) :: stiffness(link%modes)
+  pure function own_stiffness(geometric, force, modes) result(stiffness)
+    real(wp), intent(in) :: geometric(:, :, :) !! (2 + modes, 2 + modes, force functions)
+    real(wp), intent(in) :: force(:)           !! [N]
+    integer, intent(in) :: modes
+    real(wp) :: stiffness(modes)
 
     integer :: j, k
 
     stiffness = 1.0_wp
-    do j = 1, min(size(force, 1), size(link%geometric, 3))
-      do k = 1, link%modes
-        stiffness(k) = stiffness(k) + force(j, b)*link%geometric(clamp + k, clamp + k, j)
+    do j = 1, min(size(force), size(geometric, 3))
+      do k = 1, modes
+        stiffness(k) = stiffness(k) + force(j)*geometric(clamp + k, clamp + k, j)
       end do
     end do
   end function own_stiffness

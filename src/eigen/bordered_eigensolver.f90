@@ -73,9 +73,9 @@ module bordered_eigensolver
   !! sharp enough, and cost more than a factorization.
   integer, parameter :: most_by_norm = 8
 
-  !> Relative distances from the last wanted mode up to which a factorization is to prove that there
-  !! is no other. The first bounds the error of the last mode better, if there is none so near.
-  real(wp), parameter :: proof_margins(2) = [1.0e-3_wp, count_margin]
+  !> Relative distance from the last wanted mode up to which a factorization is first to prove that
+  !! there is no other: it bounds the error of the last mode better than the least one.
+  real(wp), parameter :: wide_margin = 1.0e-3_wp
 
   !> Modes beyond those wanted in a search without a start: at first, and at most.
   integer, parameter :: first_guards = 2, most_guards = 32
@@ -164,7 +164,7 @@ contains
         call solve_dense_start(pencil, all_unknowns(pencil%layout), wanted + guards, dense_start, &
           found%factorizations, error)
         found%full_solutions = found%full_solutions + 1
-        if (allocated(error)) return
+        if (allocated(error)) exit
         call improve_all(pencil, wanted, accurate_vectors, distance, dense_start, found, proven)
         if (is_enough(found, proven, distance, proven_modes, known)) return
         attempt = attempt + 1
@@ -173,11 +173,14 @@ contains
       end do
     end if
     if (known) then
-      ! Proven up to the modes wanted; what is just above them was not found.
+      ! Proven up to the modes wanted; what is just above them was not found, be it because a dense
+      ! eigenproblem failed.
+      if (allocated(error)) deallocate (error)
       call keep_counts(found, proven_modes)
       found = proven_modes
       return
     end if
+    if (allocated(error)) return
     if (found%rest > 0.0_wp .and. found%rest < huge(found%rest)) then
       call set_error(error, error_of_numerics, &
         "it could not be proven that no mode is missing (norm of the rest "// &
@@ -407,7 +410,7 @@ contains
     type(bordered_modes_t), intent(inout) :: found
     logical, intent(out) :: proven
 
-    real(wp) :: rest(size(found%lambda)), margin
+    real(wp) :: rest(size(found%lambda)), margin, margins(3)
     integer :: i, kept
 
     proven = .false.
@@ -427,9 +430,15 @@ contains
     end if
     if (proven .and. found%clear < distance) call clear_up_to(distance)
     if (.not. proven) then
-      if (distance > proof_margins(1)) call clear_up_to(distance)
-      do i = 1, size(proof_margins)
-        if (.not. proven) call clear_up_to(proof_margins(i))
+      ! A mode may be nearer than the first: then as far as is asked for, and at last the least.
+      margins = [max(distance, wide_margin), min(max(distance, count_margin), wide_margin), &
+        count_margin]
+      do i = 1, size(margins)
+        if (i > 1) then
+          if (margins(i) >= margins(i - 1)) cycle
+        end if
+        call clear_up_to(margins(i))
+        if (proven) exit
       end do
     end if
     if (.not. proven) return

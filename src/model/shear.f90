@@ -3,12 +3,15 @@
 !!
 !! The shear stiffness is kGA with G = E/(2(1 + ν)). The shear coefficient k is the deck's own, or
 !! that of G. R. Cowper, The shear coefficient in Timoshenko's beam theory, J. Appl. Mech. 33 (1966)
-!! 335.
+!! 335; that of thin walls for boxes, I sections and channels.
 module shear
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
   use models, only: model_t, needs_frequencies
-  use sections, only: section_t, shape_circle, shape_general, shape_rectangle, shape_tube
+  use sections, only: section_t, shape_box, shape_channel, shape_circle, shape_general, shape_i, &
+    shape_rectangle, shape_tube
+  use walled_sections, only: box_shear_coefficient, channel_shear_coefficient, &
+    flange_shear_coefficient, i_shear_coefficient, lying_channel_shear_coefficient, plane_of_web
   implicit none (type, external)
   private
 
@@ -35,6 +38,20 @@ contains
       m_squared = section%inner_share**2
       k = 6.0_wp*(1.0_wp + nu)*(1.0_wp + m_squared)**2/ &
         ((7.0_wp + 6.0_wp*nu)*(1.0_wp + m_squared)**2 + (20.0_wp + 12.0_wp*nu)*m_squared)
+    case (shape_box)
+      k = box_shear_coefficient(section%walls%flange_share, section%walls%flange_ratio, nu)
+    case (shape_i)
+      if (section%plane == plane_of_web) then
+        k = i_shear_coefficient(section%walls%flange_share, section%walls%flange_ratio, nu)
+      else
+        k = flange_shear_coefficient(section%walls%flange_share)
+      end if
+    case (shape_channel)
+      if (section%plane == plane_of_web) then
+        k = channel_shear_coefficient(section%walls%flange_share, section%walls%flange_ratio, nu)
+      else
+        k = lying_channel_shear_coefficient(section%walls%flange_share, section%walls%flange_ratio)
+      end if
     end select
   end function shear_coefficient
 

@@ -8,7 +8,7 @@ module study_requests
   use mechanisms, only: mechanism_t
   use models, only: effects_static, inertia_lumped, model_t, needs_loads, needs_study, &
     report_number, solver_band, solver_dense
-  use motion_study, only: motion_instants, motion_request_t
+  use motion_study, only: motion_request_t
   use positions, only: positions_t
   use vibration_models, only: any_method, by_band, by_dense, chosen_method, mode_request_t
   implicit none (type, external)
@@ -84,7 +84,7 @@ contains
       request%start_angle = asked%start_angle
       request%start_speed = asked%start_speed
       request%end_time = asked%end_time
-      request%time_step = asked%time_step
+      request%instants = asked%instants%value
     end associate
     request%drive = drive_of(model)
     request%resistances = resistances_of(model)
@@ -99,8 +99,7 @@ contains
 
     instants = 0
     number = report_number(model, "motion")
-    if (number > 0) instants = motion_instants(model%reports(number)%end_time, &
-      model%reports(number)%time_step)
+    if (number > 0) instants = size(model%reports(number)%instants%value)
   end function motion_instants_of
 
   !> The motor on the driven link; without MOTOR its torque is 0.

@@ -15,17 +15,14 @@ module motion_study
   private
 
   public :: motion_request_t, motion_result_t, motion_under_way_t, begin_motion, continue_motion, &
-    finish_motion, motion_instants
+    finish_motion
   public :: motion_tolerance
-
-  !> The end time counts as an instant if it is within this share of a time step of one.
-  real(wp), parameter :: hit = 1.0e-9_wp
 
   type :: motion_request_t
     real(wp) :: start_angle = 0.0_wp !! of the crank [deg]
     real(wp) :: start_speed = 0.0_wp !! of the crank [rad/s]
     real(wp) :: end_time = 0.0_wp    !! [s]
-    real(wp) :: time_step = 0.0_wp   !! between instants, above 0 [s]
+    real(wp), allocatable :: instants(:) !! of the samples, ascending from 0 to `end_time` [s]
     type(motor_drive_t) :: drive     !! motor on the crank
     type(resistances_t) :: resistances !! on all links
   end type motion_request_t
@@ -64,8 +61,7 @@ contains
     type(motion_result_t), intent(out) :: result       !! without samples yet
 
     under_way%request = request
-    allocate (result%samples(motion_instants(request%end_time, request%time_step)), &
-      result%turnings(0))
+    allocate (result%samples(size(request%instants)), result%turnings(0))
     result%last%angle(1) = request%start_angle
     call start_motion(linkage, rigid_bodies_of(linkage, elements), request%drive, &
       request%resistances, request%start_angle, request%start_speed, request%end_time, &
@@ -84,7 +80,7 @@ contains
 
     do i = under_way%next, min(under_way%next + instants - 1, size(result%samples))
       if (under_way%is_over) return
-      call move_until(under_way%motion, instant(under_way%request, i))
+      call move_until(under_way%motion, under_way%request%instants(i))
       under_way%is_over = was_interrupted()
       if (under_way%is_over) return
       result%last = sample_motion(under_way%motion)
@@ -114,24 +110,6 @@ contains
     end associate
     call end_motion(under_way%motion)
   end subroutine finish_motion
-
-  !> Number of instants `0, step, 2 step, …` up to the end time.
-  pure function motion_instants(end_time, time_step) result(instants)
-    real(wp), intent(in) :: end_time, time_step !! [s]
-    integer :: instants
-
-    instants = 1 + int(end_time/time_step + hit)
-  end function motion_instants
-
-  !> Time of an instant by its number, from 1 [s].
-  pure function instant(request, number) result(time)
-    type(motion_request_t), intent(in) :: request
-    integer, intent(in) :: number
-    real(wp) :: time
-
-    time = (number - 1)*request%time_step
-    if (abs(time - request%end_time) <= hit*request%time_step) time = request%end_time
-  end function instant
 
   !> Turns the reason why a motion has stopped into an error; none for `no_stop`.
   pure subroutine explain_stop(stop, error)

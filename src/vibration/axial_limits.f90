@@ -104,35 +104,34 @@ contains
                                      !! mass [N]
     real(wp) :: least                !! tension positive [N]
 
-    real(wp) :: places(lump_count(body) + 3), lowest
+    real(wp) :: masses(lump_count(body)), places(size(masses) + 3), lowest
     integer :: i
 
     lowest = 0.0_wp
     if (force(3) > 0.0_wp) lowest = min(1.0_wp, max(0.0_wp, -0.5_wp*force(2)/force(3)))
-    places = [0.0_wp, lump_places(body), 1.0_wp, lowest]
+    masses = lump_places(body)
+    places = [0.0_wp, masses, 1.0_wp, lowest]
     least = huge(least)
     do i = 1, size(places)
-      if (places(i) > 0.0_wp) least = min(least, force_at(body, force, places(i), .true.))
-      if (places(i) < 1.0_wp) least = min(least, force_at(body, force, places(i), .false.))
+      if (places(i) > 0.0_wp) least = min(least, force_at(masses, force, places(i), .true.))
+      if (places(i) < 1.0_wp) least = min(least, force_at(masses, force, places(i), .false.))
     end do
   end function least_axial_force
 
   !> Axial force beside a place, on the side of the first pin or of the last [N].
-  pure function force_at(body, force, xi, before) result(value)
-    type(body_t), intent(in) :: body
+  pure function force_at(masses, force, xi, before) result(value)
+    real(wp), intent(in) :: masses(:) !! places of the masses, from 0 to 1 along the link
     real(wp), intent(in) :: force(:)
-    real(wp), intent(in) :: xi      !! from 0 to 1 along the link
-    logical, intent(in) :: before   !! on the side of the first pin
+    real(wp), intent(in) :: xi        !! from 0 to 1 along the link
+    logical, intent(in) :: before     !! on the side of the first pin
     real(wp) :: value
 
-    real(wp) :: place(lump_count(body))
-    logical :: is_beyond(lump_count(body))
+    integer :: i
 
-    place = lump_places(body)
-    is_beyond = place > xi
-    if (before) is_beyond = place >= xi
-    value = force(1) + xi*(force(2) + xi*force(3)) + &
-      sum(force(4:3 + size(place)), mask=is_beyond)
+    value = force(1) + xi*(force(2) + xi*force(3))
+    do i = 1, size(masses)
+      if (masses(i) > xi .or. (before .and. masses(i) >= xi)) value = value + force(3 + i)
+    end do
   end function force_at
 
 end module axial_limits

@@ -1,10 +1,10 @@
 !> Choice of the polynomial orders that reach a given accuracy, link by link.
 module order_choice
   use axial_forces, only: distributed_unit_forces, total_force
-  use axial_limits, only: refuse_crushed
+  use axial_limits, only: least_axial_force, refuse_crushed
   use beam_element, only: axial_degree
   use beam_mesh, only: beam_t
-  use body_lumps, only: lump_places, pieces_of
+  use body_lumps, only: pieces_of
   use bordered_eigensolver, only: bordered_modes_t
   use deformation_model, only: deformation_model_t, new_deformation_model
   use errors, only: clear_outcome, error_t, outcome_t
@@ -53,6 +53,14 @@ module order_choice
 
   !> Unknowns across beyond the number of modes that all links together have at least.
   integer, parameter :: spare_unknowns = 8
+
+  !> Wave numbers times lengths of the pieces of a link.
+  type :: waves_t
+    real(wp), allocatable :: across(:) !! bending
+    real(wp), allocatable :: along(:)  !! along the axis
+    real(wp), allocatable :: pulled(:) !! κL: a link that is pulled bends in layers exp(−κx) at its
+                                       !! ends, of which exp(−p²/κL) is left beyond order p
+  end type waves_t
 
   !> What the samples show.
   type :: sample_t
@@ -180,21 +188,16 @@ contains
     type(link_degrees_t), intent(in) :: highest
     type(link_degrees_t) :: degrees
 
-    real(wp), allocatable :: length(:)
-    real(wp) :: across, along, pulled
+    type(waves_t) :: waves
     integer :: e, layer
 
-    length = piece_lengths(body)
+    waves = waves_in(body, beam, sample, b)
     degrees = highest
-    across = wave_number(body, beam, sample%highest, sample%least_force(b))
-    along = sqrt(sample%highest*body%line_density/beam%axial_stiffness)
-    ! A link that is pulled bends in layers at its ends: exp(−p²/κL) is left beyond order p.
-    pulled = sqrt(max(0.0_wp, sample%most_force(b))/beam%bending_stiffness)
-    do e = 1, size(length)
-      layer = ceiling(min(sqrt(0.5_wp*pulled*length(e)*abs(log(bound))), &
+    do e = 1, size(waves%across)
+      layer = ceiling(min(sqrt(0.5_wp*waves%pulled(e)*abs(log(bound))), &
         real(highest%across(e), wp)))
-      degrees%across(e) = max(layer, guessed_order(across*length(e), bound, highest%across(e)))
-      degrees%along(e) = max(1, guessed_order(along*length(e), bound, highest%along(e)) - 2)
+      degrees%across(e) = max(layer, guessed_order(waves%across(e), bound, highest%across(e)))
+      degrees%along(e) = max(1, guessed_order(waves%along(e), bound, highest%along(e)) - 2)
     end do
   end function guessed_degrees
 
@@ -212,18 +215,15 @@ contains
     logical, intent(inout) :: raised
 
     type(link_degrees_t) :: guessed
-    real(wp), allocatable :: length(:)
-    real(wp) :: across, along
+    type(waves_t) :: waves
     integer :: e
 
-    length = piece_lengths(body)
     guessed = guessed_degrees(body, beam, sample, b, bound, highest)
-    across = wave_number(body, beam, sample%highest, sample%least_force(b))
-    along = sqrt(sample%highest*body%line_density/beam%axial_stiffness)
-    do e = 1, size(length)
-      call raise(degrees%across(e), guessed%across(e), highest%across(e), across*length(e), bound, &
+    waves = waves_in(body, beam, sample, b)
+    do e = 1, size(waves%across)
+      call raise(degrees%across(e), guessed%across(e), highest%across(e), waves%across(e), bound, &
         sample%error(part_of(model%links, b, e, .false.)), raised)
-      call raise(degrees%along(e), guessed%along(e), highest%along(e), along*length(e), bound, &
+      call raise(degrees%along(e), guessed%along(e), highest%along(e), waves%along(e), bound, &
         sample%error(part_of(model%links, b, e, .true.)), raised)
     end do
   end subroutine raise_degrees
@@ -258,16 +258,23 @@ contains
     chosen = [(sound(1 + ((i - 1)*(count - 1))/max(1, number - 1)), i=1, number)]
   end function sample_states
 
-  !> Lengths of the pieces of a link [m].
-  pure function piece_lengths(body) result(length)
+  !> The shortest waves in each piece of a link, at the highest frequency and the axial forces of
+  !! the samples.
+  pure function waves_in(body, beam, sample, b) result(waves)
     type(body_t), intent(in) :: body
-    real(wp), allocatable :: length(:)
+    type(beam_t), intent(in) :: beam
+    type(sample_t), intent(in) :: sample
+    integer, intent(in) :: b !! number of the body
+    type(waves_t) :: waves
 
-    real(wp), allocatable :: ends(:)
+    real(wp), allocatable :: ends(:), length(:)
 
     ends = pieces_of(body)
     length = body%length*(ends(2:) - ends(:size(ends) - 1))
-  end function piece_lengths
+    waves%across = wave_number(body, beam, sample%highest, sample%least_force(b))*length
+    waves%along = sqrt(sample%highest*body%line_density/beam%axial_stiffness)*length
+    waves%pulled = sqrt(max(0.0_wp, sample%most_force(b))/beam%bending_stiffness)*length
+  end function waves_in
 
   !> Wave number k of the shortest bending waves in a link at a frequency and axial force N.
   !!
@@ -383,30 +390,21 @@ contains
     end do
   end subroutine try_samples
 
-  !> Extends the range of axial forces by those of a position: at ends and middles of all pieces.
+  !> Extends the range of axial forces by those of a position.
   pure subroutine add_force_range(linkage, force, sample)
     type(linkage_t), intent(in) :: linkage
     real(wp), intent(in) :: force(:, :) !! (1, ξ, ξ², jumps; bodies) [N]
     type(sample_t), intent(inout) :: sample
 
-    real(wp), allocatable :: ends(:), places(:)
-    real(wp) :: xi, here
-    integer :: b, e, i
+    integer :: b
 
     if (size(force, 1) == 0) return
     do b = 1, size(linkage%bodies)
       if (.not. linkage%bodies(b)%bends) cycle
-      ends = pieces_of(linkage%bodies(b))
-      places = lump_places(linkage%bodies(b))
-      do e = 1, size(ends) - 1
-        do i = 0, 2
-          xi = ends(e) + 0.5_wp*i*(ends(e + 1) - ends(e))
-          here = force(1, b) + xi*(force(2, b) + xi*force(3, b)) + &
-            sum(force(4:3 + size(places), b), mask=places > 0.5_wp*(ends(e) + ends(e + 1)))
-          sample%least_force(b) = min(sample%least_force(b), here)
-          sample%most_force(b) = max(sample%most_force(b), here)
-        end do
-      end do
+      sample%least_force(b) = min(sample%least_force(b), least_axial_force(linkage%bodies(b), &
+        force(:, b)))
+      sample%most_force(b) = max(sample%most_force(b), -least_axial_force(linkage%bodies(b), &
+        -force(:, b)))
     end do
   end subroutine add_force_range
 

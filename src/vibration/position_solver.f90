@@ -108,10 +108,10 @@ contains
         call pose_error(structure%linkage, models%continuum, state, factor(:, k), load_work, &
           found(k), request%modes, rounding, result%counts)
         of_matrices = of_matrices + found(k)%error(:request%modes)
-        result%cause(k) = largest_error(discretisation, rounding, of_matrices, &
+        result%error(:, k) = of_frequency*(discretisation + (rounding + of_matrices))
+        if (maxval(result%error(:, k)) > request%accuracy) result%cause(k) = &
+          largest_error(discretisation, rounding, of_matrices, &
           energies(found(k), request%modes) > many_times*abs(found(k)%lambda(:request%modes)))
-        rounding = rounding + of_matrices
-        result%error(:, k) = of_frequency*(discretisation + rounding)
       end do
     end associate
     if (request%follow) then

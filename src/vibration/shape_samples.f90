@@ -7,6 +7,7 @@ module shape_samples
   use kinds, only: wp
   use linkages, only: linkage_t, normal_to
   use pin_displacements, only: chords_t
+  use poses, only: pose_t
   use positions, only: state_t
   use reduced_shapes, only: reduced_shape_point
   use structures, only: structure_t
@@ -16,13 +17,21 @@ module shape_samples
 
   public :: shapes_t, sample_reduced, sample_chain, sample_nodal
 
-  !> Displacements along the links in every mode, in global axes, with φᵀMφ = 1. The sign does not
-  !! depend on the method: the largest transverse displacement at mid-link is to the left of its
-  !! link.
+  !> Displacements along the links in every mode, in global axes, with φᵀMφ = 1. The sign is that of
+  !! `sign_of`, whatever the method and the number of points.
   type :: shapes_t
     real(wp), allocatable :: displacement(:, :, :, :) !! (x, y, rotation; points; bodies; modes)
                                                       !! [kg^-1/2, kg^-1/2, rad kg^-1/2/m]
   end type shapes_t
+
+  !> Places along each link, from 0 to 1, that decide on the sign.
+  real(wp), parameter :: place(5) = [0.0_wp, 0.25_wp, 0.5_wp, 0.75_wp, 1.0_wp]
+  integer, parameter :: at_middle = 3, at_end = 5
+
+  !> The driven link's pin is at rest if it moves across its link by less than this share of the
+  !! largest displacement: well above the rounding of the vectors of any solver, and below what can
+  !! be seen in a figure.
+  real(wp), parameter :: at_rest = 1.0e-5_wp
 
 contains
 
@@ -36,7 +45,7 @@ contains
     type(mode_request_t), intent(in) :: request    !! modes, points along each link
     type(shapes_t), intent(out) :: shapes          !! of the modes requested
 
-    real(wp) :: middle(3, size(model%links))
+    real(wp) :: at(3, size(place), size(model%links))
     integer :: b, i, mode
 
     allocate (shapes%displacement(3, request%points, size(model%links), request%modes))
@@ -46,11 +55,13 @@ contains
           shapes%displacement(:, i, b, mode) = reduced_shape_point(model%links, model%layout, &
             chords, state%pose, found%vector(:, mode), b, real(i - 1, wp)/(request%points - 1))
         end do
-        middle(:, b) = reduced_shape_point(model%links, model%layout, chords, state%pose, &
-          found%vector(:, mode), b, 0.5_wp)
+        do i = 1, size(place)
+          at(:, i, b) = reduced_shape_point(model%links, model%layout, chords, state%pose, &
+            found%vector(:, mode), b, place(i))
+        end do
       end do
-      shapes%displacement(:, :, :, mode) = mid_link_sign(linkage, state, &
-        middle)*shapes%displacement(:, :, :, mode)
+      shapes%displacement(:, :, :, mode) = sign_of(linkage, state%pose, &
+        at)*shapes%displacement(:, :, :, mode)
     end do
   end subroutine sample_reduced
 
@@ -63,7 +74,8 @@ contains
     type(mode_request_t), intent(in) :: request    !! modes, points along each link
     type(shapes_t), intent(out) :: shapes          !! of the modes requested
 
-    real(wp) :: middle(3, size(linkage%bodies)), local(3, request%points), at_middle(3, 1)
+    real(wp) :: at(3, size(place), size(linkage%bodies)), local(3, request%points), &
+      at_places(3, size(place))
     integer :: b, i, mode
 
     allocate (shapes%displacement(3, request%points, size(linkage%bodies), request%modes))
@@ -75,11 +87,13 @@ contains
           shapes%displacement(:, i, b, mode) = in_global_axes(local(:, i), state%pose%direction(:, &
             b))
         end do
-        at_middle = chain_shape(chain, vector(:, mode), b, [0.5_wp])
-        middle(:, b) = in_global_axes(at_middle(:, 1), state%pose%direction(:, b))
+        at_places = chain_shape(chain, vector(:, mode), b, place)
+        do i = 1, size(place)
+          at(:, i, b) = in_global_axes(at_places(:, i), state%pose%direction(:, b))
+        end do
       end do
-      shapes%displacement(:, :, :, mode) = mid_link_sign(linkage, state, &
-        middle)*shapes%displacement(:, :, :, mode)
+      shapes%displacement(:, :, :, mode) = sign_of(linkage, state%pose, &
+        at)*shapes%displacement(:, :, :, mode)
     end do
   end subroutine sample_chain
 
@@ -91,7 +105,7 @@ contains
     type(mode_request_t), intent(in) :: request !! modes, points along each link
     type(shapes_t), intent(out) :: shapes       !! of the modes requested
 
-    real(wp) :: middle(3, size(structure%linkage%bodies)), length
+    real(wp) :: at(3, size(place), size(structure%linkage%bodies)), length
     integer :: b, i, mode
 
     allocate (shapes%displacement(3, request%points, size(structure%linkage%bodies), request%modes))
@@ -102,11 +116,13 @@ contains
           shapes%displacement(:, i, b, mode) = shape_point(structure%linkage, structure%mesh, &
             state%pose, vector(:, mode), b, length*(i - 1)/(request%points - 1))
         end do
-        middle(:, b) = shape_point(structure%linkage, structure%mesh, state%pose, vector(:, mode), &
-          b, 0.5_wp*length)
+        do i = 1, size(place)
+          at(:, i, b) = shape_point(structure%linkage, structure%mesh, state%pose, vector(:, mode), &
+            b, place(i)*length)
+        end do
       end do
-      shapes%displacement(:, :, :, mode) = mid_link_sign(structure%linkage, state, &
-        middle)*shapes%displacement(:, :, :, mode)
+      shapes%displacement(:, :, :, mode) = sign_of(structure%linkage, state%pose, &
+        at)*shapes%displacement(:, :, :, mode)
     end do
   end subroutine sample_nodal
 
@@ -119,27 +135,32 @@ contains
     global = [local(1)*direction + local(2)*normal_to(direction), local(3)]
   end function in_global_axes
 
-  !> The sign that makes the largest transverse displacement at mid-link positive, in that link's
-  !! own axes (those of its angle).
+  !> The sign with which the driven link's moving pin goes round its ground pivot counter-clockwise.
   !!
-  !! Displacements within 1e-9 of the largest count as equal; of these the first link round the loop
-  !! decides.
-  pure function mid_link_sign(linkage, state, middle) result(sign_of_mode)
+  !! Where that pin is at rest, the sign that makes the largest transverse displacement at mid-link
+  !! positive, in that link's own axes (those of its angle). Displacements within 1e-9 of the
+  !! largest count as equal; of these the first link round the loop decides.
+  pure function sign_of(linkage, pose, at) result(sign_of_mode)
     type(linkage_t), intent(in) :: linkage
-    type(state_t), intent(in) :: state
-    real(wp), intent(in) :: middle(:, :) !! (x, y, rotation; bodies) at mid-link
+    type(pose_t), intent(in) :: pose       !! directions of the bodies
+    real(wp), intent(in) :: at(:, :, :)    !! (x, y, rotation; places; bodies), before
     real(wp) :: sign_of_mode
 
     real(wp), parameter :: tie = 1.0e-9_wp
-    real(wp) :: across(size(linkage%bodies))
+    real(wp) :: across(size(linkage%bodies)), round
     integer :: b
 
+    round = dot_product(normal_to(pose%direction(:, 1)), at(:2, at_end, 1))
+    if (abs(round) > at_rest*sqrt(maxval(sum(at(:2, :, :)**2, dim=1)))) then
+      sign_of_mode = sign(1.0_wp, round)
+      return
+    end if
     do b = 1, size(linkage%bodies)
-      across(b) = linkage%bodies(b)%sense*dot_product(normal_to(state%pose%direction(:, b)), &
-        middle(:2, b))
+      across(b) = linkage%bodies(b)%sense*dot_product(normal_to(pose%direction(:, b)), at(:2, &
+        at_middle, b))
     end do
     b = findloc(abs(across) >= (1.0_wp - tie)*maxval(abs(across)), .true., dim=1)
     sign_of_mode = sign(1.0_wp, across(b))
-  end function mid_link_sign
+  end function sign_of
 
 end module shape_samples

@@ -234,3 +234,28 @@ many() {
   [ "$(grep -cv -e '^#' -e '^$' "$out/many/frequencies.dat")" -eq 2002 ]
 }
 check "a thousand variants in their order" many
+
+# In doubles, 270 + 17 × 0.05 and 3 × 0.1 are not 270.85 and 0.3; a person who writes these numbers expects them in the tables,
+# and the rows of the deck with the number in its place. Here in a unit that is not the deck's.
+decimals() {
+  varied "SET c 266.7" "VARY b 270mm to 271mm step 0.05mm" "CRANK 0 to 1 step 0.1" "SPEED 0 to 30.2 step 15.1 rpm" \
+    "REPORT points" "POINT p coupler along=1" | sed 's/^UNITS.*/UNITS in lbm s/; s/=100 /=100mm /; s/ 254 / 254mm /' |
+    sed 's/^SET c 266.7/SET c 266.7mm/' >"$scratch/decimals.deck"
+  run 0 --quiet --format csv --out "$out" "$scratch/decimals.deck" || return 1
+  sed 's/^VARY.*/SET b 270.85mm/; s/^CRANK.*/CRANK 0 0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1/; s/^SPEED.*/SPEED 0 15.1 30.2 rpm/' \
+    "$scratch/decimals.deck" >"$scratch/decimal.deck"
+  run 0 --quiet --format csv --out "$out" "$scratch/decimal.deck" || return 1
+  python3 -B - "$out/decimals/points.csv" "$out/decimal/points.csv" <<'END_OF_PYTHON'
+import csv, sys
+with open(sys.argv[1], encoding="utf-8", newline="") as file:
+    varied = list(csv.reader(file))[1:]
+with open(sys.argv[2], encoding="utf-8", newline="") as file:
+    plain = list(csv.reader(file))[1:]
+values = [float(row[0]) for row in varied[::33]]
+wanted = [float(f"{270 + i/20:.2f}") for i in range(21)]
+assert values == wanted, f"{values}"
+assert [float(row[1]) for row in plain[:11]] == [float(f"0.{i}") for i in range(10)] + [1.0]
+assert [row[1:] for row in varied if float(row[0]) == 270.85] == plain, "rows differ"
+END_OF_PYTHON
+}
+check "ranges have the decimals of a person" decimals

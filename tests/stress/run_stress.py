@@ -57,14 +57,14 @@ def summary(family, results):
 # What a family is drawn against.
 AXES = {
     "elements": "elements a link", "orders": "order of an element", "accuracy": "accuracy= of the deck",
-    "thickness": "thickness of the links, of the crank's length", "stiffness": "axial stiffness, multiples",
-    "lengths": "short lengths, of the others", "pin_masses": "mass of each moving pin, of that of the coupler",
+    "thickness": "thickness of the links / length of the crank", "stiffness": "axial stiffness, relative",
+    "lengths": "length of short links / length of the others", "pin_masses": "mass at each moving pin / mass of the coupler",
     "dead_points": "distance of the crank from a dead point [rad]", "speeds": "crank speed [rad/s]",
-    "divergence": "distance of the speed from that of divergence, of itself",
-    "near_equal": "link mass over pin mass; -I: difference of stiffness",
-    "units": "unit, multiples", "random": "number of the linkage",
-    "link_masses": "masses along each link, of the mass of the link", "many_modes": "modes",
-    "thick_links": "length of the links, of their thickness", "compression": "force, multiples of what buckles the follower",
+    "divergence": "relative distance of the speed from divergence",
+    "near_equal": "mass of a link / mass at a pin, or difference in stiffness",
+    "units": "size of the unit, relative", "random": "number of the linkage",
+    "link_masses": "masses along each link / mass of the link", "many_modes": "number of modes",
+    "thick_links": "length of the links / thickness", "compression": "force / buckling load of the follower",
     "promises": "accuracy= of the deck", "bounds": "number of the deck in tests/stress/bounds/",
 }
 

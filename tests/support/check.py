@@ -137,6 +137,7 @@ def layers():
 def documents():
     group = Group("documents")
     group.lines(execute([sys.executable, "-B", os.path.join("tests", "support", "check_documents.py")]))
+    group.lines(execute([sys.executable, "-B", os.path.join("tests", "documents", "documents.py"), program("release")]))
     group.end()
 
 

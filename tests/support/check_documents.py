@@ -5,7 +5,7 @@
 
 docs/deck.md has to name every card, key, report, table and option that the program lists; paths and links in README.md and
 docs/ have to lead somewhere, a file has to have the procedures that are said to be in it, and src/ those that
-docs/architecture.md calls.
+docs/architecture.md calls. The program, CHANGELOG.md and CITATION.cff have to have the same version.
 
 Prints `ok WHAT` or `not ok WHAT: why`; exit status 1 when anything is wrong.
 """
@@ -18,7 +18,7 @@ from glob import glob
 
 from deck_language import PROGRAMS, language
 
-FOLDERS = "src|tests|docs|inputs|plots"
+FOLDERS = "src|tests|docs|inputs|plots|library"
 
 
 def read(path):
@@ -45,9 +45,53 @@ def known_of_deck():
         yield f"option {option}", rf"`{option}\b"
 
 
+def faults_of_versions(program):
+    """Program, changelog and citation have one version, and no tag is newer."""
+    version = subprocess.run([program, "--version"], capture_output=True, check=True, text=True).stdout.split()[-1]
+    if not re.fullmatch(r"\d+\.\d+\.\d+", version):
+        yield f"{version} is not X.Y.Z"
+        return
+    for path, pattern in (("CHANGELOG.md", r"^## (\S+)"), ("CITATION.cff", r"^version: (\S+)")):
+        found = re.search(pattern, read(path), re.MULTILINE)
+        if not found or found[1] != version:
+            yield f"{path} has {found[1] if found else 'none'}, the program {version}"
+    sections = re.findall(r"^## (\d+)\.(\d+)\.(\d+)$", read("CHANGELOG.md"), re.MULTILINE)
+    numbers = [tuple(map(int, section)) for section in sections]
+    if numbers != sorted(set(numbers), reverse=True):
+        yield "the versions of CHANGELOG.md do not fall"
+    tags = subprocess.run(["git", "tag", "--list", "v*"], capture_output=True, check=False, text=True).stdout.split()
+    for tag in tags:
+        found = re.fullmatch(r"v(\d+)\.(\d+)\.(\d+)", tag)
+        if not found or tuple(map(int, found.groups())) > numbers[0]:
+            yield f"the tag {tag} is no version up to {version}"
+
+
+# What the Citation File Format 1.2.0 requires of a file, and of what is cited in it.
+CITATION_KEYS = ("cff-version", "message", "title", "authors")
+REFERENCE_KEYS = ("authors", "title", "type")
+
+
+def faults_of_citation(text):
+    keys = re.findall(r"^([a-z-]+):", text, re.MULTILINE)
+    yield from (f"{key} is missing" for key in CITATION_KEYS if key not in keys)
+    yield from (f"{key} stands there twice" for key in sorted(set(keys)) if keys.count(key) > 1)
+    if "\t" in text or not re.search(r"^cff-version: 1\.2\.0$", text, re.MULTILINE):
+        yield "it is not of version 1.2.0"
+    for reference in re.split(r"^  - ", text.partition("references:\n")[2], flags=re.MULTILINE)[1:]:
+        yield from (f"a reference has no {key}" for key in REFERENCE_KEYS if not re.search(rf"(?m)^(?:    )?{key}:", reference))
+
+
 def anchors(text):
     """The anchors of a document's headings, as they are made out of them."""
     return {re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-") for heading in re.findall(r"^#+ (.*)$", text, re.MULTILINE)}
+
+
+def faults_of_contents(text):
+    """A document with contents has every section there."""
+    contents = re.search(r"(?:^- \[.*\n(?:  .*\n)*)+", text.partition("\n## ")[0] + "\n", re.MULTILINE)
+    if contents:
+        listed = re.findall(r"\]\(#([\w-]+)\)", contents[0])
+        yield from (f"its contents lack #{anchor}" for anchor in sorted(anchors(re.sub(r"(?m)^# .*$", "", text)) - set(listed)))
 
 
 def faults_of_links(path, text):
@@ -103,10 +147,15 @@ def main():
     deck = read(os.path.join("docs", "deck.md"))
     for what, pattern in known_of_deck():
         tell(f"docs/deck.md, {what}", None if re.search(pattern, deck) else f"nothing matches {pattern}")
+    found = list(faults_of_versions(next(path for path in PROGRAMS if os.path.exists(path)))) + \
+        list(faults_of_citation(read("CITATION.cff")))
+    for why in found or [None]:
+        tell("version and citation", why)
     sources = "".join(read(path) for path in glob("src/**/*.f90", recursive=True))
-    for path in ["README.md"] + sorted(glob(os.path.join("docs", "*.md"))):
+    for path in ["README.md", "CHANGELOG.md"] + sorted(glob(os.path.join("docs", "*.md"))):
         text = read(path)
         found = list(faults_of_links(path, text)) + list(faults_of_paths(text)) + list(faults_of_procedures(text))
+        found += faults_of_contents(text)
         if path.endswith("architecture.md"):
             found += faults_of_calls(text, sources)
         for why in found:

@@ -204,6 +204,10 @@ def sound_deck(dice):
     side = [quantity(dice, depth*ratio, bare_length, LENGTHS) for ratio in (1.0, dice.between(0.5, 9.0), 0.7)]
     cards.append("SECTION s " + dice.choice([f"rectangle thickness={side[0]} width={side[1]}", f"circle diameter={side[0]}",
                                              f"tube outer={side[0]} inner={number(dice, 0.7*depth/bare_length)}",
+                                             f"box thickness={side[0]} width={side[1]} wall={number(dice, 0.1*depth/bare_length)}",
+                                             f"{dice.choice(['I', 'channel'])} depth={side[0]} width={side[1]} "
+                                             f"web={number(dice, 0.1*depth/bare_length)} flange={number(dice, 0.2*depth/bare_length)} "
+                                             f"plane={dice.choice(['web', 'flanges'])}",
                                              f"general A={number(dice, depth**2/bare_length**2)} "
                                              f"I={number(dice, depth**4/(12*bare_length**4))} depth={side[2]} shear_coefficient=0.8"]))
     ends = [pins[:2], pins[1:3], [pins[3], pins[2]]]

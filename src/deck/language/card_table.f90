@@ -18,8 +18,8 @@ module card_table
     logical :: is_single = .false.     !! a deck has at most one
     integer :: least = 0, most = 0     !! words besides the keyword
     character(len=128) :: pattern = "" !! correct form of the card; its keys end with `=`
-    character(len=72) :: keys = ""     !! separated by blanks, if the pattern does not name them all
-    character(len=32) :: choices = ""  !! allowed words, separated by blanks
+    character(len=96) :: keys = ""     !! separated by blanks, if the pattern does not name them all
+    character(len=48) :: choices = ""  !! allowed words, separated by blanks
     character(len=10) :: entry = ""    !! default entry, `key=value`
     character(len=16) :: default = ""  !! words of the card in a deck without it
     character(len=88) :: help = ""     !! in one line
@@ -43,9 +43,10 @@ module card_table
     card_kind_t("MATERIAL", least=1, most=1, pattern="MATERIAL name E= density= [nu=]", &
       help="what links are made of; EFFECTS shear needs nu"), &
     card_kind_t("SECTION", least=2, most=2, &
-      pattern="SECTION name rectangle|circle|tube|general ...", &
-      keys="thickness width diameter outer inner A I depth shear_coefficient", &
-      choices="rectangle circle tube general", help="the cross-section of links"), &
+      pattern="SECTION name rectangle|circle|tube|box|I|channel|general ...", &
+      keys="thickness width diameter outer inner wall depth web flange plane A I "// &
+      "shear_coefficient", choices="rectangle circle tube box I channel general", &
+      help="the cross-section of links"), &
     card_kind_t("SECTION", "rectangle", least=2, most=2, &
       pattern="SECTION name rectangle thickness= width= [shear_coefficient=]", &
       help="the thickness lies in the plane of motion"), &
@@ -53,6 +54,17 @@ module card_table
       pattern="SECTION name circle diameter= [shear_coefficient=]", help="a round bar"), &
     card_kind_t("SECTION", "tube", least=2, most=2, &
       pattern="SECTION name tube outer= inner= [shear_coefficient=]", help="by its diameters"), &
+    card_kind_t("SECTION", "box", least=2, most=2, &
+      pattern="SECTION name box thickness= width= wall= [shear_coefficient=]", &
+      help="a rectangular tube by its outer sides; the thickness lies in the plane of motion"), &
+    card_kind_t("SECTION", "I", least=2, most=2, pattern= &
+      "SECTION name I depth= width= web= flange= plane=web|flanges [shear_coefficient=]", &
+      choices="web flanges", help= &
+      "web and flange are their thicknesses; plane is what lies in the plane of motion"), &
+    card_kind_t("SECTION", "channel", least=2, most=2, pattern= &
+      "SECTION name channel depth= width= web= flange= plane=web|flanges [shear_coefficient=]", &
+      choices="web flanges", help= &
+      "as the I section; plane=web takes the forces to act through its shear centre"), &
     card_kind_t("SECTION", "general", least=2, most=2, &
       pattern="SECTION name general A= I= [depth=] [shear_coefficient=]", &
       help="I about the axis normal to the plane; the depth serves a warning only"), &

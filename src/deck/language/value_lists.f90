@@ -2,6 +2,8 @@
 module value_lists
   use card_reader, only: entry_number, read_measure, read_quantity
   use cards, only: card_t
+  use constants, only: pi
+  use decimals, only: decimal_of, decimal_point, decimal_t, decimal_value
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_t
   use kinds, only: wp
@@ -14,14 +16,27 @@ module value_lists
   implicit none (type, external)
   private
 
-  public :: value_list_t, empty_list, read_values, read_entry_list, read_entry_pair, value_number
+  public :: value_list_t, empty_list, read_values, read_entry_list, read_entry_pair, list_steps, &
+    value_number
 
   !> The numbers in a list on a card, each with the word it comes from.
   type :: value_list_t
     real(wp), allocatable :: value(:)      !! (values) angles in degrees, all others in SI
     integer, allocatable :: word(:)        !! (values) number of the word in `words`
     type(token_t), allocatable :: words(:) !! (words) with their places
+    type(unit_t) :: unit                   !! of all numbers as written, without a name if their
+                                           !! units differ or all of them are bare zeros
+    real(wp), allocatable :: written(:)    !! (values) in `unit`; not allocated without a unit
   end type value_list_t
+
+  !> A number as it is written.
+  type :: written_t
+    real(wp) :: number = 0.0_wp    !! in `unit`
+    type(decimal_t) :: decimal     !! the same
+    type(unit_t) :: unit
+    logical :: any_unit = .false.  !! a bare zero, which is the same in all units
+    real(wp) :: value = 0.0_wp     !! angle in degrees, all others in SI
+  end type written_t
 
   !> A range with more values is taken for a mistake.
   integer, parameter :: most_values = 1000000
@@ -32,7 +47,7 @@ contains
   pure function empty_list() result(list)
     type(value_list_t) :: list
 
-    allocate (list%value(0), list%word(0), list%words(0))
+    allocate (list%value(0), list%word(0), list%words(0), list%written(0))
   end function empty_list
 
   !> Reads the values of a key, separated by commas, with the units of `read_values`. Without the
@@ -55,6 +70,35 @@ contains
     call find_items(card, key, diagnostics, words, fine)
     if (fine) call read_values(words, dimension, system, key//" value", diagnostics, list)
   end subroutine read_entry_list
+
+  !> The values `0, step, 2 step, …` up to an end, which is one of them if it is within 1e-9 of a
+  !! step of one; they have no words.
+  pure subroutine list_steps(end_word, step_word, dimension, system, list)
+    type(token_t), intent(in) :: end_word, step_word !! already read without errors, both above 0
+    integer, intent(in) :: dimension(4)              !! of the values
+    type(unit_system_t), intent(in) :: system        !! units of bare numbers
+    type(value_list_t), intent(out) :: list          !! in SI
+
+    type(diagnostics_t) :: diagnostics
+    type(written_t) :: first, last, step
+    logical :: fine, one_unit
+
+    list = empty_list()
+    first%any_unit = .true.
+    first%decimal = decimal_of("0")
+    call read_value(end_word, dimension, coherent_unit(system, dimension), .true., diagnostics, &
+      last, fine)
+    call read_value(step_word, dimension, coherent_unit(system, dimension), .true., diagnostics, &
+      step, fine)
+    call find_points(first, last, step, dimension, list%written, list%value)
+    list%word = spread(0, 1, size(list%value))
+    one_unit = .true.
+    call take_unit(step, list%unit, one_unit)
+    call take_unit(last, list%unit, one_unit)
+    if (one_unit) return
+    list%unit = unit_t()
+    deallocate (list%written)
+  end subroutine list_steps
 
   !> Reads the two values of a key in SI; they may be equal.
   !!
@@ -138,9 +182,9 @@ contains
     type(value_list_t), intent(out) :: list           !! the values before the first wrong one
 
     type(unit_t) :: bare
-    real(wp) :: first, last, step
+    type(written_t) :: first, last, step
     integer :: i, count, filled
-    logical :: fine
+    logical :: fine, is_bare, one_unit
 
     list = empty_list()
     list%words = words
@@ -148,31 +192,55 @@ contains
     bare = coherent_unit(system, dimension)
     count = size(words)
     call read_common_unit(words, dimension, diagnostics, bare, count)
+    is_bare = count == size(words)
+    one_unit = .true.
     fine = .true.
     i = 1
     do while (i <= count)
-      call read_value(words(i), dimension, bare, diagnostics, first, fine)
+      call read_value(words(i), dimension, bare, is_bare, diagnostics, first, fine)
       if (.not. fine) exit
+      call take_unit(first, list%unit, one_unit)
       if (i < count) then
         if (same_word(words(i + 1)%text, "to")) then
-          call read_range_end(words(:count), i, dimension, bare, noun, diagnostics, last, step, &
-            fine)
+          call read_range_end(words(:count), i, dimension, bare, is_bare, noun, diagnostics, last, &
+            step, fine)
           if (.not. fine) exit
-          call append_range(first, last, step, i, noun, diagnostics, list, filled, fine)
+          call take_unit(last, list%unit, one_unit)
+          call take_unit(step, list%unit, one_unit)
+          call append_range(first, last, step, dimension, i, noun, diagnostics, list, filled, fine)
           if (.not. fine) exit
           i = i + 5
           cycle
         end if
       end if
-      call append_points([first], i, list, filled)
+      call append_points([first%number], [first%value], i, list, filled)
       i = i + 1
     end do
     list%value = list%value(:filled)
     list%word = list%word(:filled)
+    list%written = list%written(:filled)
+    if (.not. one_unit .or. .not. allocated(list%unit%name)) then
+      list%unit = unit_t()
+      deallocate (list%written)
+    end if
     ! Angles and speeds are zero or of the order of one; a pure number may have any magnitude.
     if (fine) call refuse_duplicates(noun, &
       merge(0.0_wp, 1.0_wp, all(dimension == dimension_none)), diagnostics, list)
   end subroutine read_values
+
+  !> Notes the unit of a number; `one_unit` becomes false if another has been noted before.
+  pure subroutine take_unit(number, unit, one_unit)
+    type(written_t), intent(in) :: number
+    type(unit_t), intent(inout) :: unit !! without a name as long as none is noted
+    logical, intent(inout) :: one_unit
+
+    if (number%any_unit) return
+    if (.not. allocated(unit%name)) then
+      unit = number%unit
+    else
+      one_unit = one_unit .and. unit%name == number%unit%name
+    end if
+  end subroutine take_unit
 
   !> A last word that is no number is the unit of all bare numbers before it; `count` is then
   !! reduced by one.
@@ -201,58 +269,79 @@ contains
     count = count - 1
   end subroutine read_common_unit
 
-  !> One number. An angle in degrees is not converted, so it keeps the user's digits.
-  pure subroutine read_value(word, dimension, bare, diagnostics, value, fine)
+  !> One number.
+  pure subroutine read_value(word, dimension, bare, is_bare, diagnostics, number, fine)
     type(token_t), intent(in) :: word
     integer, intent(in) :: dimension(4)
     type(unit_t), intent(in) :: bare
+    logical, intent(in) :: is_bare !! no unit at the end of the list holds for all numbers
     type(diagnostics_t), intent(inout) :: diagnostics
-    real(wp), intent(out) :: value
+    type(written_t), intent(out) :: number
     logical, intent(out) :: fine
 
-    type(unit_t) :: measure, degrees
-    type(error_t), allocatable :: error
+    integer :: length
 
-    call read_measure(word, dimension, bare, diagnostics, value, measure, fine)
+    call read_measure(word, dimension, bare, diagnostics, number%number, number%unit, fine)
     if (.not. fine) return
-    if (any(dimension /= dimension_angle)) then
-      value = to_si(value, measure)
-    else if (measure%name /= "deg") then
-      call read_unit("deg", dimension_angle, degrees, error)
-      value = from_si(to_si(value, measure), degrees)
-    end if
+    length = number_length(word%text)
+    number%decimal = decimal_of(word%text(:length))
+    number%any_unit = is_bare .and. length == len(word%text) .and. abs(number%number) <= 0.0_wp
+    number%value = converted(number%number, number%unit, dimension)
   end subroutine read_value
 
+  !> A number as the list has it. An angle in degrees is not converted, so it keeps the user's
+  !! digits.
+  pure function converted(number, measure, dimension) result(value)
+    real(wp), intent(in) :: number
+    type(unit_t), intent(in) :: measure !! its unit
+    integer, intent(in) :: dimension(4)
+    real(wp) :: value
+
+    type(unit_t) :: degrees
+
+    if (any(dimension /= dimension_angle)) then
+      value = to_si(number, measure)
+    else if (measure%name == "deg") then
+      value = number
+    else
+      degrees%numerator = pi
+      degrees%denominator = 180.0_wp
+      value = from_si(to_si(number, measure), degrees)
+    end if
+  end function converted
+
   !> Reads the words `to b step s` behind `words(i)`.
-  pure subroutine read_range_end(words, i, dimension, bare, noun, diagnostics, last, step, fine)
+  pure subroutine read_range_end(words, i, dimension, bare, is_bare, noun, diagnostics, last, &
+    step, fine)
     type(token_t), intent(in) :: words(:)
     integer, intent(in) :: i
     integer, intent(in) :: dimension(4)
     type(unit_t), intent(in) :: bare
+    logical, intent(in) :: is_bare
     character(len=*), intent(in) :: noun
     type(diagnostics_t), intent(inout) :: diagnostics
-    real(wp), intent(out) :: last, step
+    type(written_t), intent(out) :: last, step
     logical, intent(out) :: fine
 
     fine = size(words) >= i + 4
     if (fine) fine = same_word(words(i + 3)%text, "step")
-    last = 0.0_wp
-    step = 0.0_wp
     if (.not. fine) then
       call add_error(diagnostics, words(i + 1), "a range of "//noun//"s reads: a to b step s")
       return
     end if
-    call read_value(words(i + 2), dimension, bare, diagnostics, last, fine)
-    if (fine) call read_value(words(i + 4), dimension, bare, diagnostics, step, fine)
-    if (fine .and. abs(step) <= 0.0_wp) then
+    call read_value(words(i + 2), dimension, bare, is_bare, diagnostics, last, fine)
+    if (fine) call read_value(words(i + 4), dimension, bare, is_bare, diagnostics, step, fine)
+    if (fine .and. abs(step%value) <= 0.0_wp) then
       call add_error(diagnostics, words(i + 4), "the step must not be 0")
       fine = .false.
     end if
   end subroutine read_range_end
 
-  !> Appends the points `a + i s` up to `b`. A last point within 1e-9 of a step of `b` becomes `b`.
-  pure subroutine append_range(first, last, step, word, noun, diagnostics, list, filled, fine)
-    real(wp), intent(in) :: first, last, step
+  !> Appends the points of a range.
+  pure subroutine append_range(first, last, step, dimension, word, noun, diagnostics, list, &
+    filled, fine)
+    type(written_t), intent(in) :: first, last, step
+    integer, intent(in) :: dimension(4)
     integer, intent(in) :: word
     character(len=*), intent(in) :: noun
     type(diagnostics_t), intent(inout) :: diagnostics
@@ -260,12 +349,10 @@ contains
     integer, intent(inout) :: filled
     logical, intent(out) :: fine
 
-    real(wp), parameter :: hit = 1.0e-9_wp
-    real(wp), allocatable :: points(:)
+    real(wp), allocatable :: numbers(:), points(:)
     real(wp) :: steps
-    integer :: i
 
-    steps = (last - first)/step
+    steps = (last%value - first%value)/step%value
     fine = .false.
     if (steps < 0.0_wp) then
       call add_error(diagnostics, list%words(word + 4), "the step leads away from "// &
@@ -274,17 +361,59 @@ contains
       call add_error(diagnostics, list%words(word + 4), "this range has more than "// &
         to_string(most_values)//" "//noun//"s")
     else
-      points = [(first + i*step, i=0, floor(steps + hit))]
-      if (abs(points(size(points)) - last) <= hit*abs(step)) points(size(points)) = last
-      call append_points(points, word, list, filled)
+      call find_points(first, last, step, dimension, numbers, points)
+      call append_points(numbers, points, word, list, filled)
       fine = .true.
     end if
   end subroutine append_range
 
+  !> The points `a + i s` up to `b`, each the decimal number that a person would write. A last point
+  !! within 1e-9 of a step of `b` becomes `b`.
+  pure subroutine find_points(first, last, step, dimension, numbers, points)
+    type(written_t), intent(in) :: first, last, step
+    integer, intent(in) :: dimension(4)
+    real(wp), allocatable, intent(out) :: numbers(:), points(:) !! as written, as the list has them
+
+    real(wp), parameter :: hit = 1.0e-9_wp
+    integer :: count, i
+
+    count = floor((last%value - first%value)/step%value + hit) + 1
+    allocate (numbers(count), points(count))
+    do i = 1, count
+      call find_point(first, step, i - 1, dimension, numbers(i), points(i))
+    end do
+    if (abs(points(count) - last%value) > hit*abs(step%value)) return
+    numbers(count) = last%number
+    points(count) = last%value
+  end subroutine find_points
+
+  !> The point `a + count s` of a range, in the unit of `s` and as the list has it. Where `a` has
+  !! another unit, or the two have more digits than can be added, the point is rounded.
+  pure subroutine find_point(first, step, count, dimension, number, point)
+    type(written_t), intent(in) :: first, step
+    integer, intent(in) :: count
+    integer, intent(in) :: dimension(4)
+    real(wp), intent(out) :: number, point
+
+    type(decimal_t) :: decimal
+
+    decimal = decimal_point(first%decimal, step%decimal, count)
+    if (.not. (first%any_unit .or. first%unit%name == step%unit%name)) then
+      number = first%number
+      point = first%value + count*step%value
+      return
+    else if (decimal%is_exact) then
+      number = decimal_value(decimal)
+    else
+      number = first%number + count*step%number
+    end if
+    point = converted(number, step%unit, dimension)
+  end subroutine find_point
+
   !> Appends values that all come from one word. The arrays grow by doubling: a deck may list a
   !! million angles.
-  pure subroutine append_points(points, word, list, filled)
-    real(wp), intent(in) :: points(:)
+  pure subroutine append_points(numbers, points, word, list, filled)
+    real(wp), intent(in) :: numbers(:), points(:) !! as written, and as the list has them
     integer, intent(in) :: word
     type(value_list_t), intent(inout) :: list
     integer, intent(inout) :: filled !! values in use
@@ -294,9 +423,11 @@ contains
     if (filled + size(points) > size(list%value)) then
       capacity = 2*(filled + size(points))
       list%value = [list%value(:filled), spread(0.0_wp, 1, capacity - filled)]
+      list%written = [list%written(:filled), spread(0.0_wp, 1, capacity - filled)]
       list%word = [list%word(:filled), spread(0, 1, capacity - filled)]
     end if
     list%value(filled + 1:filled + size(points)) = points
+    list%written(filled + 1:filled + size(points)) = numbers
     list%word(filled + 1:filled + size(points)) = word
     filled = filled + size(points)
   end subroutine append_points

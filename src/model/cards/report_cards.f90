@@ -10,7 +10,7 @@ module report_cards
   use text, only: joined, lower_case, to_string, word_list
   use tokens, only: token_t
   use units, only: dimension_angle, dimension_rate, dimension_time, unit_system_t
-  use value_lists, only: empty_list, read_entry_list, value_list_t
+  use value_lists, only: empty_list, list_steps, read_entry_list, value_list_t
   implicit none (type, external)
   private
 
@@ -28,6 +28,7 @@ module report_cards
     real(wp) :: start_speed = 0.0_wp !! of the crank [rad/s]
     real(wp) :: end_time = 0.0_wp    !! [s]
     real(wp) :: time_step = 0.0_wp   !! between rows [s]
+    type(value_list_t) :: instants   !! of the rows [s]
     type(token_t) :: start_angle_word, start_speed_word, end_time_word, time_step_word
   end type report_t
 
@@ -54,6 +55,7 @@ contains
     report%keyword = card%keyword
     report%crank = empty_list()
     report%speed = empty_list()
+    report%instants = empty_list()
     report%start_angle_word = token_t("", 0, 0)
     report%start_speed_word = token_t("", 0, 0)
     report%end_time_word = token_t("", 0, 0)
@@ -152,6 +154,9 @@ contains
     else if (report%end_time > most_rows*report%time_step) then
       call add_error(diagnostics, report%time_step_word, "a motion of more than "// &
         to_string(most_rows)//" steps is asked for")
+    else
+      call list_steps(report%end_time_word, report%time_step_word, dimension_time, system, &
+        report%instants)
     end if
   end subroutine read_motion
 

@@ -10,10 +10,13 @@ module sections
   use tokens, only: token_t
   use units, only: dimension_area, dimension_length, dimension_none, dimension_second_moment, &
     unit_system_t
+  use walled_sections, only: new_box, new_channel, new_i_section, walled_section_t
   implicit none (type, external)
   private
 
-  public :: section_t, read_section, shape_rectangle, shape_circle, shape_tube, shape_general
+  public :: section_t, read_section
+  public :: shape_rectangle, shape_circle, shape_tube, shape_box, shape_i, shape_channel, &
+    shape_general
 
   type :: section_t
     type(token_t) :: name
@@ -22,18 +25,25 @@ module sections
     real(wp) :: second_moment = 0.0_wp !! about the axis normal to the plane of motion [m⁴]
     real(wp) :: depth = 0.0_wp         !! in the plane of motion [m]; 0: not given
     real(wp) :: inner_share = 0.0_wp   !! inner/outer diameter of a tube [-]
+    integer :: plane = 0               !! of an I section or channel: plane_of_web or
+                                       !! plane_of_flanges; 0: unknown
+    type(walled_section_t) :: walls    !! of a box, an I section or a channel
     real(wp) :: shear_coefficient = 0.0_wp !! from the deck [-]; 0: not given
     type(token_t) :: shear_word        !! its value on the card; without a line if not given
   end type section_t
 
-  integer, parameter :: shape_rectangle = 1, shape_circle = 2, shape_tube = 3, shape_general = 4
+  ! In the order of the words in the table of cards.
+  integer, parameter :: shape_rectangle = 1, shape_circle = 2, shape_tube = 3, shape_box = 4, &
+    shape_i = 5, shape_channel = 6, shape_general = 7
 
 contains
 
   !> Reads `SECTION name rectangle thickness= width= | circle diameter= | tube outer= inner= |
+  !! box thickness= width= wall= | I or channel depth= width= web= flange= plane=web|flanges |
   !! general A= I= [depth=]`, all of them with `[shear_coefficient=]`. Errors: words or keys that do
   !! not fit the shape, an invalid name, an unknown shape, a missing or unreadable value, a
-  !! dimension of 0 or less, `inner=` not below `outer=`, a shear coefficient outside (0, 1].
+  !! dimension of 0 or less, `inner=` not below `outer=`, walls that leave no room between them, a
+  !! shear coefficient outside (0, 1].
   pure subroutine read_section(card, system, diagnostics, section)
     type(card_t), intent(in) :: card                  !! the SECTION card
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
@@ -62,6 +72,12 @@ contains
       call read_circle(card, system, diagnostics, section)
     case (shape_tube)
       call read_tube(card, system, diagnostics, section)
+    case (shape_box)
+      call read_box(card, system, diagnostics, section)
+    case (shape_i)
+      call read_flanged(card, "I", system, diagnostics, section)
+    case (shape_channel)
+      call read_flanged(card, "channel", system, diagnostics, section)
     case (shape_general)
       call read_general(card, system, diagnostics, section)
     end select
@@ -138,18 +154,106 @@ contains
     call check_form(card, diagnostics, fine, known_keys, form="tube")
     call read_positive(card, "outer", dimension_length, system, known_keys, diagnostics, outer)
     call read_positive(card, "inner", dimension_length, system, known_keys, diagnostics, inner)
-    if (outer > 0.0_wp .and. inner >= outer) then
-      call add_error(diagnostics, card%entries(entry_number(card, "inner"))%value, &
-        "'inner=' must be less than 'outer=', "// &
-        card%entries(entry_number(card, "outer"))%value%text//", not "// &
-        card%entries(entry_number(card, "inner"))%value%text)
-      return
-    end if
+    call require_less(card, "inner", inner, "outer", outer, diagnostics, fine)
+    if (.not. fine) return
     section%area = pi*(outer - inner)*(outer + inner)/4.0_wp
     section%second_moment = section%area*(outer**2 + inner**2)/16.0_wp
     if (outer > 0.0_wp) section%inner_share = inner/outer
     section%depth = outer
   end subroutine read_tube
+
+  !> Reads a rectangular tube.
+  pure subroutine read_box(card, system, diagnostics, section)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(section_t), intent(inout) :: section
+
+    real(wp) :: thickness, width, wall
+    logical :: fine, known_keys
+
+    call check_form(card, diagnostics, fine, known_keys, form="box")
+    call read_positive(card, "thickness", dimension_length, system, known_keys, diagnostics, &
+      thickness)
+    call read_positive(card, "width", dimension_length, system, known_keys, diagnostics, width)
+    call read_positive(card, "wall", dimension_length, system, known_keys, diagnostics, wall)
+    if (min(thickness, width, wall) <= 0.0_wp) return
+    if (thickness <= width) then
+      call require_less(card, "wall", 2.0_wp*wall, "thickness", thickness, diagnostics, fine, &
+        "half of ")
+    else
+      call require_less(card, "wall", 2.0_wp*wall, "width", width, diagnostics, fine, "half of ")
+    end if
+    if (fine) call take_walls(new_box(thickness, width, wall), section)
+  end subroutine read_box
+
+  !> Reads an I section or a channel.
+  pure subroutine read_flanged(card, form, system, diagnostics, section)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: form !! of the card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(section_t), intent(inout) :: section
+
+    type(card_kind_t) :: kind
+    real(wp) :: depth, width, web, flange
+    logical :: fine, known_keys, has_room
+
+    call check_form(card, diagnostics, fine, known_keys, form=form)
+    call read_positive(card, "depth", dimension_length, system, known_keys, diagnostics, depth)
+    call read_positive(card, "width", dimension_length, system, known_keys, diagnostics, width)
+    call read_positive(card, "web", dimension_length, system, known_keys, diagnostics, web)
+    call read_positive(card, "flange", dimension_length, system, known_keys, diagnostics, flange)
+    kind = kind_of_card(card%keyword%text, form)
+    if (entry_number(card, "plane") > 0) then
+      call read_choice(card%entries(entry_number(card, "plane"))%value, trim(kind%choices), &
+        diagnostics, section%plane)
+    else if (known_keys .and. .not. has_key(card, "plane")) then
+      call add_error(diagnostics, card%keyword, "'plane=' is missing; expected plane=web or "// &
+        "plane=flanges, whichever lies in the plane of motion")
+    end if
+    if (min(depth, width, web, flange) <= 0.0_wp) return
+    call require_less(card, "flange", 2.0_wp*flange, "depth", depth, diagnostics, fine, "half of ")
+    call require_less(card, "web", web, "width", width, diagnostics, has_room)
+    if (.not. (fine .and. has_room) .or. section%plane == 0) return
+    if (section%shape == shape_i) then
+      call take_walls(new_i_section(depth, width, web, flange, section%plane), section)
+    else
+      call take_walls(new_channel(depth, width, web, flange, section%plane), section)
+    end if
+  end subroutine read_flanged
+
+  !> Gives a section the properties of its walls.
+  pure subroutine take_walls(walls, section)
+    type(walled_section_t), intent(in) :: walls
+    type(section_t), intent(inout) :: section
+
+    section%walls = walls
+    section%area = walls%area
+    section%second_moment = walls%second_moment
+    section%depth = walls%depth
+  end subroutine take_walls
+
+  !> Errors: of two dimensions that could be read, one is not less than the other.
+  pure subroutine require_less(card, key, value, limit_key, limit, diagnostics, fine, share)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: key, limit_key !! of the two dimensions
+    real(wp), intent(in) :: value, limit           !! compared; 0 after an error
+    type(diagnostics_t), intent(inout) :: diagnostics
+    logical, intent(out) :: fine                   !! false after an error
+    character(len=*), intent(in), optional :: share !! of the limit, for the message: `half of `
+
+    character(len=:), allocatable :: part
+
+    fine = limit <= 0.0_wp .or. value < limit
+    if (fine) return
+    part = ""
+    if (present(share)) part = share
+    call add_error(diagnostics, card%entries(entry_number(card, key))%value, "'"//key// &
+      "=' must be less than "//part//"'"//limit_key//"=', "// &
+      card%entries(entry_number(card, limit_key))%value%text//", not "// &
+      card%entries(entry_number(card, key))%value%text)
+  end subroutine require_less
 
   pure subroutine read_general(card, system, diagnostics, section)
     type(card_t), intent(in) :: card

@@ -8,7 +8,7 @@ module card_help
   implicit none (type, external)
   private
 
-  public :: card_help_text
+  public :: card_help_text, find_card_entries
 
   character(len=*), parameter :: line_feed = achar(10)
 
@@ -19,60 +19,70 @@ contains
     character(len=:), allocatable :: text
 
     type(text_buffer_t) :: buffer
+    type(string_t), allocatable :: patterns(:), helps(:)
     integer :: i
 
     call append_text(buffer, &
       "A deck has one card a line, in any order. What stands in brackets may be left out;"// &
       line_feed//"| separates words of which one is written, = is followed by a value."// &
       line_feed//line_feed)
-    do i = 1, size(card_kinds)
-      call append_card_help(buffer, card_kinds(i))
+    call find_card_entries(patterns, helps)
+    do i = 1, size(patterns)
+      call append_text(buffer, patterns(i)%text//line_feed//"    "//helps(i)%text//line_feed)
     end do
-    do i = 1, size(reports)
-      call append_report(buffer, reports(i))
-    end do
-    call append_entry(buffer, "END", "nothing may follow; optional")
     text = buffer_text(buffer)
   end function card_help_text
 
-  !> A card, with the default of a missing entry or of a missing card.
-  pure subroutine append_card_help(buffer, kind)
-    type(text_buffer_t), intent(inout) :: buffer
-    type(card_kind_t), intent(in) :: kind
+  !> Every card and report: how it is written, and what it is for.
+  pure subroutine find_card_entries(patterns, helps)
+    type(string_t), allocatable, intent(out) :: patterns(:), helps(:) !! as many of either
 
+    integer :: i
+
+    do i = 1, size(card_kinds)
+      call append_string(patterns, trim(card_kinds(i)%pattern))
+      call append_string(helps, help_of_card(card_kinds(i)))
+    end do
+    do i = 1, size(reports)
+      call append_string(patterns, pattern_of_report(reports(i)))
+      call append_string(helps, help_of_report(reports(i)))
+    end do
+    call append_string(patterns, "END")
+    call append_string(helps, "nothing may follow; optional")
+  end subroutine find_card_entries
+
+  !> With the default of a missing entry or of a missing card.
+  pure function help_of_card(kind) result(help)
+    type(card_kind_t), intent(in) :: kind
     character(len=:), allocatable :: help
 
     help = trim(kind%help)
     if (len_trim(kind%entry) > 0) help = help//" (default: "//trim(kind%entry)//")"
     if (len_trim(kind%default) > 0) help = help//" (without this card: "//trim(kind%keyword)// &
       " "//trim(kind%default)//")"
-    call append_entry(buffer, trim(kind%pattern), help)
-  end subroutine append_card_help
+  end function help_of_card
 
-  !> A report like a card, with the files that it writes.
-  pure subroutine append_report(buffer, kind)
-    type(text_buffer_t), intent(inout) :: buffer
+  pure function pattern_of_report(kind) result(pattern)
     type(report_kind_t), intent(in) :: kind
-
-    character(len=:), allocatable :: pattern, help
-    type(string_t), allocatable :: files(:)
-    integer :: i
+    character(len=:), allocatable :: pattern
 
     pattern = trim(kind%pattern)
     if (len(pattern) == 0) pattern = "REPORT "//trim(kind%name)
+  end function pattern_of_report
+
+  !> With the files that it writes.
+  pure function help_of_report(kind) result(help)
+    type(report_kind_t), intent(in) :: kind
+    character(len=:), allocatable :: help
+
+    type(string_t), allocatable :: files(:)
+    integer :: i
+
     do i = 1, size(kind%tables)
       if (kind%tables(i)%name /= "") call append_string(files, trim(kind%tables(i)%name)//".dat")
     end do
     help = trim(kind%help)//": "//joined(files)
     if (len_trim(kind%default) > 0) help = help//" (default: "//trim(kind%default)//")"
-    call append_entry(buffer, pattern, help)
-  end subroutine append_report
-
-  pure subroutine append_entry(buffer, pattern, help)
-    type(text_buffer_t), intent(inout) :: buffer
-    character(len=*), intent(in) :: pattern, help
-
-    call append_text(buffer, pattern//line_feed//"    "//help//line_feed)
-  end subroutine append_entry
+  end function help_of_report
 
 end module card_help

@@ -8,12 +8,14 @@ module echo
   use link_bodies, only: link_center, link_inertia
   use link_cards, only: has_own_mass
   use models, only: link_mass, model_t
+  use sections, only: shape_channel
   use shear, only: link_rotary_inertia, link_shear_stiffness, shear_coefficient
   use text, only: character_count, same_word, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use units, only: coherent_unit, dimension_area, dimension_force, dimension_inertia, &
     dimension_length, dimension_mass, dimension_rotary_inertia, dimension_second_moment, from_si, &
     unit_t
+  use walled_sections, only: plane_of_flanges
   implicit none (type, external)
   private
 
@@ -99,7 +101,7 @@ contains
     type(text_buffer_t), intent(inout) :: buffer
     type(model_t), intent(in) :: model
 
-    type(unit_t) :: area, second_moment, mass
+    type(unit_t) :: area, second_moment, mass, length
     character(len=:), allocatable :: derived
     integer :: i
 
@@ -109,11 +111,19 @@ contains
     second_moment = coherent_unit(model%units, dimension_second_moment)
     mass = coherent_unit(model%units, dimension_mass)
     do i = 1, size(model%sections)
+      ! Of a whole library only the sections in use.
+      if (.not. any(model%links%section == i)) cycle
       associate (this => model%sections(i))
         call append_text(buffer, derived//" section "//this%name%text//": A = "// &
           to_string(from_si(this%area, area), 15)//" "//area%name//", I = "// &
-          to_string(from_si(this%second_moment, second_moment), 15)//" "//second_moment%name// &
-          achar(10))
+          to_string(from_si(this%second_moment, second_moment), 15)//" "//second_moment%name)
+        if (this%shape == shape_channel .and. this%plane == plane_of_flanges) then
+          length = coherent_unit(model%units, dimension_length)
+          call append_text(buffer, ", centroid "// &
+            to_string(from_si(this%walls%centroid, length), 15)//" "//length%name// &
+            " from the back of the web")
+        end if
+        call append_text(buffer, achar(10))
       end associate
     end do
     do i = 1, size(model%links)
@@ -166,6 +176,7 @@ contains
       associate (section => model%sections(this%section), &
         nu => model%materials(this%material)%poissons_ratio)
         origin = "Cowper"
+        if (section%plane == plane_of_flanges) origin = "Cowper, nu = 0"
         if (section%shear_word%line > 0) origin = "as its section has it"
         call append_text(buffer, derived//" link "//this%name%text//": shear coefficient k = "// &
           to_string(shear_coefficient(section, nu), 15)//" ("//origin//"), k G A = "// &

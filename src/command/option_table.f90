@@ -1,0 +1,64 @@
+!> The table of the command line's options: `--help`, the manual page and the completion of shells
+!! are made from it.
+module option_table
+  implicit none (type, external)
+  private
+
+  public :: option_t, options, takes_value, option_names, column_of_help
+
+  type :: option_t
+    character(len=12) :: name = ""    !! with its two hyphens
+    character(len=5) :: value = ""    !! what its value is called; blank: it has none
+    character(len=16) :: choices = "" !! the values allowed, separated by blanks, if they are few
+    logical :: folder = .false.       !! its value is a folder
+    character(len=80) :: help = ""    !! in one line
+  end type option_t
+
+  type(option_t), parameter :: options(*) = [ &
+    option_t("--check", help="read and check the decks only"), &
+    option_t("--out", "DIR", folder=.true., help="write to DIR/<deck base name>/"), &
+    option_t("--set", "N=V", &
+      help="put V in place of the value that SET or VARY gives the name N; may be repeated"), &
+    option_t("--threads", "N", help="compute N positions at a time (1)"), &
+    option_t("--format", "FORM", choices="plain csv", &
+      help="csv: write every table as comma-separated values too (plain)"), &
+    option_t("--resume", &
+      help="continue where an earlier run of the deck was killed or interrupted"), &
+    option_t("--quiet", help="no warnings, progress or line after a run; errors are still reported"), &
+    option_t("--stats", help="report what was computed and how long it took"), &
+    option_t("--json", &
+      help="on standard output: errors, warnings and failed rows of all decks as JSON"), &
+    option_t("--version", help="the program's version"), &
+    option_t("--help", help="this list of options"), &
+    option_t("--help-cards", help="every card and report of a deck in two lines"), &
+    option_t("--man", help="the manual page, in the language of man"), &
+    option_t("--completion", "SHELL", choices="bash zsh fish", &
+      help="the file by which a shell completes options and decks")]
+
+  !> The column in which the help of `--help` begins.
+  integer, parameter :: column_of_help = 22
+
+contains
+
+  !> Whether the option of this name has a value.
+  pure logical function takes_value(name)
+    character(len=*), intent(in) :: name
+
+    integer :: i
+
+    takes_value = any([(options(i)%name == name .and. options(i)%value /= "", i=1, size(options))])
+  end function takes_value
+
+  !> The names of all options, separated by blanks.
+  pure function option_names() result(names)
+    character(len=:), allocatable :: names
+
+    integer :: i
+
+    names = trim(options(1)%name)
+    do i = 2, size(options)
+      names = names//" "//trim(options(i)%name)
+    end do
+  end function option_names
+
+end module option_table

@@ -1,0 +1,66 @@
+"""The tables of docs/deck.md that the program's own answers give."""
+
+import subprocess
+
+from deck_language import language
+from numbers_in_text import Word
+
+NEEDED, UNUSED = "yes", "–"
+
+# A deck with every card that a report may need; a report's own keys are those of its pattern.
+CARDS = {
+    "UNITS": "UNITS mm kg s",
+    "MATERIAL": "MATERIAL steel E=200GPa density=7800kg/m3",
+    "SECTION": "SECTION strip rectangle thickness=1.6 width=25.4",
+    "GROUND": "GROUND O2 0 0\nGROUND O4 254 0",
+    "LINK": "LINK crank O2 A length=100{0}\nLINK coupler A B length=279.4{0}\nLINK follower O4 B length=266.7{0}",
+    "DRIVE": "DRIVE crank",
+    "MESH": "MESH * elements=2",
+    "CRANK": "CRANK 30 60",
+    "SPEED": "SPEED 20",
+    "INERTIA": "INERTIA distributed",
+    "POINT": "POINT tip coupler along=100",
+}
+BEAMS, BODIES = " material=steel section=strip", " mass=1 inertia=1000"
+KEYS = {"motion": " crank=30 end=1 step=0.1", "geometry": " crank=30"}
+
+
+class Tables:
+    """Every method without an underscore is the maker of the table of its name."""
+
+    def __init__(self, program):
+        self._program = program
+
+    def _accepts(self, report, without=(), links=BEAMS, **others):
+        """Whether the program would run the deck with this report, without some cards and with others changed."""
+        cards = {keyword: text for keyword, text in {**CARDS, **others}.items() if keyword not in without}
+        text = "\n".join([*cards.values(), f"REPORT {report}{KEYS.get(report, '')}"]).replace("{0}", links)
+        return subprocess.run([self._program, "--check", "-"], input=text, capture_output=True, text=True,
+                              check=False).returncode == 0
+
+    def _links(self, report):
+        if self._accepts(report, links=""):
+            return UNUSED
+        return "yes, or `mass=` `inertia=`" if self._accepts(report, links=BODIES, without=["MESH"]) else NEEDED
+
+    def _mesh(self, report):
+        if self._accepts(report, links="", without=["MESH"]) or self._accepts(report, links=BODIES, without=["MESH"]):
+            lumped = self._accepts(report, without=["MESH"], INERTIA="INERTIA lumped")
+            return UNUSED if lumped else "with `INERTIA lumped`"
+        return "or the default" if self._accepts(report, without=["MESH"]) else NEEDED
+
+    def _inertia(self, report):
+        if self._accepts(report, without=["INERTIA"]):
+            return UNUSED
+        if self._accepts(report, without=["INERTIA", "MESH"], links=BODIES):
+            return "yes, unless with `mass=`"
+        return "under motion or gravity" if self._accepts(report, without=["INERTIA", "SPEED"]) else NEEDED
+
+    def report_needs(self):
+        for report in language(self._program).reports:
+            if not self._accepts(report):
+                raise ValueError(f"the deck of all cards is refused with REPORT {report}")
+            yield [Word(f"`{report}`"),
+                   Word(UNUSED if self._accepts(report, without=["CRANK"]) else NEEDED),
+                   Word(self._links(report)), Word(self._mesh(report)), Word(self._inertia(report)),
+                   Word(UNUSED if self._accepts(report, without=["POINT"]) else NEEDED)]

@@ -1,0 +1,132 @@
+"""The decks, messages and commands that the documents show: the program takes them, and says what is shown."""
+
+import os
+import re
+import subprocess
+import tempfile
+
+from runs import Run
+
+
+def blocks(text):
+    """The indented blocks of a document, without their indentation."""
+    found, block = [], []
+    for line in text.split("\n") + ["end"]:
+        if line.startswith("    "):
+            block.append(line[4:])
+        elif line.strip() or not block:
+            if block:
+                found.append("\n".join(block).rstrip())
+            block = []
+        else:
+            block.append("")
+    return found
+
+
+def block_with(text, words):
+    return next(block for block in blocks(text) if words in block)
+
+
+def said(program, files, deck):
+    """What the program says of a deck, in a folder with these files."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in files.items():
+            os.makedirs(os.path.dirname(os.path.join(folder, name)), exist_ok=True)
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                file.write(text)
+        return subprocess.run([program, "--check", deck], cwd=folder, capture_output=True, text=True, check=False).stderr
+
+
+def deck_of_readme(program, texts):
+    deck = block_with(texts["README.md"], "TITLE ")
+    run = Run(program, deck)
+    if run.status != 0 or len(run.rows("frequencies")) != 73:
+        yield f"it ends with status {run.status}: {run.errors}"
+    message = block_with(texts["README.md"], "error:")
+    number, line = re.search(r"^ *(\d+) \| (.*)$", message, re.MULTILINE).groups()
+    lines = deck.split("\n")
+    if line.replace("steal", "steel").split() != lines[int(number) - 1].split():
+        yield f"line {number} is not the one that its message shows"
+    lines[int(number) - 1] = line
+    found = said(program, {"my.deck": "\n".join(lines)}, "my.deck")
+    if not found.startswith(message):
+        yield f"the message is now\n{found}"
+
+
+def worked_deck(program, texts):
+    text = texts["docs/deck.md"]
+    run = Run(program, block_with(text, "TITLE "))
+    if run.status != 0:
+        yield f"it ends with status {run.status}: {run.errors}"
+        return
+    rows = {name: run.rows(name) for name in ("frequencies", "shapes")}
+    counts = (len({row["speed"] for row in rows["frequencies"]}), len(rows["frequencies"])/3,
+              *(len({row[name] for row in rows["shapes"]}) for name in ("mode", "crank", "speed")))
+    if counts != (3, 73, 3, 3, 3):
+        yield f"speeds, rows of each, modes, positions and speeds of shapes are {counts}"
+    yield from (f"there is no {name}" for name in re.findall(r"`([\w.]+\.(?:dat|deck|log|json))`", text.partition("answers with")[2]
+                                                              .partition("## ")[0]) if name not in run.files)
+
+
+def message_of_included_file(program, texts):
+    message = block_with(texts["docs/deck.md"], "included from")
+    path, number = re.match(r"(\S+?):(\d+):", message).groups()
+    line = re.search(r" \| (.*)$", message, re.MULTILINE)[1]
+    deck, place = re.search(r"included from (\S+):(\d+)", message).groups()
+    found = said(program, {path: "\n"*(int(number) - 1) + line, deck: "\n"*(int(place) - 1) + f"INCLUDE {path}\nUNITS mm tonne s\n"}, deck)
+    if message not in found:
+        yield f"it is now\n{found}"
+
+
+def message_of_memory(program, texts):
+    text = " ".join(texts["docs/deck.md"].split())
+    with open(os.path.join("inputs", "exact.deck"), encoding="utf-8") as file:
+        deck = file.read()
+    message = re.search(r"`(dense matrices of (\d+) unknowns.*?)`", text)
+    deck = re.sub(r"(?m)^MESH.*", f"MESH * elements={int(message[2])//9}", deck).replace("\nEND", "\nSOLVER dense\nEND")
+    found = said(program, {"big.deck": deck}, "big.deck")
+    machine = re.compile(r"this machine has .*? free")
+    if machine.sub("", message[1]) not in machine.sub("", found):
+        yield f"it is now\n{found}"
+
+
+def commands_with_decks(program, texts):
+    """Decks changed by sed, as the documents show it, are decks still."""
+    for path, text in texts.items():
+        for command in re.findall(r"^    +((?:sed|\(links|\(rocker) .*?)(?: \| build/release/flexmech.*| > \w+\.deck)$", text, re.MULTILINE):
+            if command.startswith("("):
+                continue
+            command = command.replace('"s/^MODES.*/SOLVER $s/"', "'s/^MODES.*/SOLVER dense/'")
+            done = subprocess.run(f"{command} | {program} --check -", shell=True, capture_output=True, text=True, check=False)
+            if done.returncode:
+                yield f"{path}: {command}: {done.stderr.strip()}"
+
+
+def commands_on_tables(program, texts):
+    """What awk and grep print of tables: lines that begin with a number."""
+    with tempfile.TemporaryDirectory() as folder:
+        for path, text in texts.items():
+            for command in re.findall(r"^    .*?((?:awk|grep) [^\n]* outputs/\w+/\w+\.dat)$", text, re.MULTILINE):
+                name = re.search(r"outputs/(\w+)/", command)[1]
+                deck = os.path.join("inputs", name + ".deck")
+                if not os.path.exists(deck):
+                    continue
+                subprocess.run([program, "--quiet", "--out", os.path.join(folder, "outputs"), deck], capture_output=True, check=False)
+                done = subprocess.run(command, shell=True, cwd=folder, capture_output=True, text=True, check=False)
+                lines = done.stdout.split("\n")
+                odd = [line for line in lines if line.strip() and not re.match(r" *-?\d", line)]
+                if done.returncode or odd or not done.stdout.strip():
+                    yield f"{path}: {command} prints {(odd or lines)[0]!r} {done.stderr}"
+
+
+def targets(_, texts):
+    with open("Makefile", encoding="utf-8") as file:
+        known = set(re.findall(r"^([a-z-]+):", file.read(), re.MULTILINE))
+    for path, text in texts.items():
+        shown = "\n".join(re.findall(r"`(make [^`]*)`", text) + blocks(text))
+        for target in set(re.findall(r"\bmake ((?:[A-Z]+=\S+ )*[a-z][a-z-]+)", shown)):
+            if target.split()[-1] not in known:
+                yield f"{path}: there is no make {target}"
+
+
+CHECKS = (deck_of_readme, worked_deck, message_of_included_file, message_of_memory, commands_with_decks, commands_on_tables, targets)

@@ -1,0 +1,184 @@
+"""The tables of docs/verification.md that runs of some seconds give."""
+
+import math
+import os
+import re
+
+from numbers_in_text import FACTOR, Number, Phrase, Word, count, error, fixed, rough_error
+from runs import Run, deck, largest
+
+ANGLES = range(0, 360, 30)
+TWELVE = (r"^CRANK.*", "CRANK 0 to 330 step 30")
+NO_SHAPES = (r"^REPORT +shapes.*\n", "")
+FIVE = (r"^MODES.*", "MODES 5")
+TURN = 2*math.pi
+
+
+def exact_values():
+    """Speed and crank angle → exact f1 to f5 of the first mechanism."""
+    values = {}
+    with open(os.path.join("tests", "exact", "mechanism1.dat"), encoding="utf-8") as file:
+        for line in file:
+            if line.strip() and not line.startswith("#"):
+                speed, crank, *frequencies = (float(word) for word in line.split())
+                values[speed, crank] = frequencies
+    return values
+
+
+def errors_against_exact(rows, modes=5):
+    """The largest relative error of each mode over the rows with exact values."""
+    exact = exact_values()
+    worst = [0.0]*modes
+    for row in rows:
+        truth = exact.get((row["speed"], row["crank"]))
+        if truth:
+            worst = [max(old, abs(row[f"f{i + 1}"]/truth[i] - 1)) for i, old in enumerate(worst)]
+    return worst
+
+
+def errors_against(rows, references, modes=5):
+    """The largest relative difference of each mode between two runs of the same rows."""
+    assert len(rows) == len(references)
+    return [max(abs(row[f"f{i}"]/reference[f"f{i}"] - 1) for row, reference in zip(rows, references)) for i in range(1, modes + 1)]
+
+
+def largest_estimate(rows, modes=5):
+    return max(largest(rows, f"error{i}") for i in range(1, modes + 1))
+
+
+def orders_and_unknowns(log):
+    """What run.log says of the orders chosen."""
+    found = re.search(r"orders chosen[^:]*: ([\d, ]*\d)\D.*?(\d+) unknowns", log)
+    return found[1], int(found[2])
+
+
+def bending_of_deep_beam(n):
+    """Frequency [Hz] of Timoshenko's beam on two pins, n half waves: 10 m of 2 m x 2 m, steel, Cowper's shear coefficient."""
+    modulus, density, second_moment = 200e9, 8000, 16/12
+    wave, mass = n*math.pi/10, density*4
+    stiffness = 13/15.3*modulus/2.6*4
+    a = density*second_moment*mass/stiffness
+    b = mass + (density*second_moment + modulus*second_moment*mass/stiffness)*wave**2
+    return math.sqrt((b - math.sqrt(b**2 - 4*a*modulus*second_moment*wave**4))/(2*a))/TURN
+
+
+class Tables:
+    """Every method without an underscore is the maker of the table of its name."""
+
+    def __init__(self, program):
+        self.program = program
+        self.kept = {}
+
+    def _run(self, text, *options):
+        if (text, options) not in self.kept:
+            self.kept[text, options] = Run(self.program, text, options)
+        return self.kept[text, options]
+
+    def _frequencies(self, text):
+        return self._run(text).rows("frequencies")
+
+    def thesis_mesh(self):
+        exact = exact_values()
+        for row in self._frequencies(deck("mechanism1")):
+            if row["crank"] in ANGLES:
+                truth = exact[0, row["crank"]]
+                yield [Word(f"{row['crank']:.0f}°")] + [fixed(value, 6) for pair in zip((row["f1"], row["f2"], row["f3"]), truth)
+                                                        for value in pair]
+
+    def _converging(self, modes, *changes):
+        for n in (4, 8, 16, 32):
+            rows = self._frequencies(deck("mechanism1", FIVE, TWELVE, NO_SHAPES, (r"elements=[14]", f"elements={n}"), *changes))
+            yield n, errors_against_exact(rows, modes)
+
+    def convergence(self):
+        before = None
+        for n, errors in self._converging(5):
+            orders = [fixed(math.log2(old/new), 2) for old, new in zip(before or [], errors)]
+            yield [Word(n)] + [error(value) for value in errors] + [Phrase(", ".join(["{}"]*len(orders)), orders)]
+            before = errors
+
+    def convergence_moving(self):
+        kinds = [list(self._converging(3, (r"static", "axial"), (r"lumped", kind))) for kind in ("distributed", "lumped")]
+        for (n, distributed), (_, lumped) in zip(*kinds):
+            yield [Word(n)] + [error(value) for value in distributed + lumped]
+
+    def kitis(self):
+        row = self._frequencies(deck("kitis"))[0]
+        yield [Word("published"), Word("270.380"), Word("306.864"), Word("384.395")]
+        yield [Word("here")] + [fixed(TURN*row[f"f{i}"], 4) for i in (1, 2, 3)]
+
+    def second_mechanism(self):
+        for row in self._frequencies(deck("mechanism2")):
+            if row["crank"] == 0:
+                yield [Word(f"{row['speed']:.0f} rad/s")] + [fixed(row[f"f{i}"], 5) for i in (1, 2, 3)]
+
+    def accuracies(self):
+        for accuracy in ("1e-2", "1e-4", "1e-6", "1e-8", "1e-10", "1e-12"):
+            run = self._run(deck("exact", NO_SHAPES, (r"accuracy=\S+", f"accuracy={accuracy}")))
+            rows = run.rows("frequencies")
+            orders, unknowns = orders_and_unknowns(run.log)
+            yield [Word(accuracy), Word(orders), count(unknowns)] + [error(value) for value in errors_against_exact(rows)] + \
+                [error(largest_estimate(rows))]
+
+    def thick_links(self):
+        def thick(accuracy):
+            return self._run(deck("thick", NO_SHAPES, (r"^REPORT +inertia.*\n", ""), (r"accuracy=\S+", f"accuracy={accuracy}")))
+        best = thick("1e-13").rows("frequencies")
+        for accuracy in ("1e-2", "1e-6", "1e-10", "1e-12"):
+            run = thick(accuracy)
+            rows = run.rows("frequencies")
+            yield [Word(f"accuracy={accuracy}"), count(orders_and_unknowns(run.log)[1])] + \
+                [error(value) for value in errors_against(rows, best)] + [error(largest_estimate(rows))]
+
+    def effects_of_thickness(self):
+        def thinner(n, words):
+            text = deck("thick", NO_SHAPES, (r"^REPORT +inertia.*\n", ""), (r"^PINMASS.*\n", ""), (r"^SPEED.*\n", ""),
+                        (r"accuracy=\S+", "accuracy=1e-13"), (r"^EFFECTS.*", f"EFFECTS static {words}"))
+            return re.sub(r"\b(thickness|outer|inner|diameter)=(\d+)", lambda found: f"{found[1]}={int(found[2])/n!r}", text)
+        for n in (1, 10, 100, 1000):
+            slender = self._frequencies(thinner(n, ""))
+            cells = [Word(n)]
+            for words in ("rotary", "shear", "rotary shear"):
+                fall = errors_against(self._frequencies(thinner(n, words)), slender)
+                cells += [error(fall[0]), error(fall[4])]
+            yield cells
+
+    def rotating_beam(self):
+        published = {0: "3.5160", 2: "4.1373", 4: "5.5850", 6: "7.3604", 8: "9.2568", 10: "11.2023"}
+        for row in self._frequencies(deck("rotating")):
+            if row["crank"] == 0:
+                speed = round(row["speed"])
+                yield [Word(speed), Word(published[speed])] + [fixed(TURN*row[f"f{i}"], 6) for i in (1, 2, 3)]
+
+    def deep_beam(self):
+        closed = (bending_of_deep_beam(1), 125, bending_of_deep_beam(2), bending_of_deep_beam(3), 375)
+        row = self._frequencies(deck("deep_beam"))[0]
+        for i in range(1, 6):
+            yield [None, fixed(closed[i - 1], 6), None, None, fixed(row[f"f{i}"], 6)]
+
+    def _long_mesh(self, elements):
+        return self._run(deck("exact", NO_SHAPES, (r"^MESH.*", f"MESH * elements={elements}"), (r"^CRANK.*", "CRANK 0 30 60 90"),
+                              (r"^MODES.*", "MODES 3")))
+
+    def long_meshes(self):
+        for n in (300, 3000, 30000):
+            run = self._long_mesh(n)
+            rows = run.rows("frequencies")
+            worst = errors_against_exact(rows, 3)
+            yield [count(n), count(9*n)] + [error(value) for value in worst] + [error(largest_estimate(rows, 3)), None, None]
+
+    def forward_dynamics(self):
+        links = "".join(line + "\n" for line in deck("mechanism1").splitlines()
+                        if re.match(r"(UNITS|MATERIAL|SECTION|GROUND|LINK|DRIVE)\b", line)) + "INERTIA distributed\n"
+        rocker = links.replace("length=279.4", "length=80").replace("length=100 ", "length=200 ")
+        motion = "REPORT motion crank=60 speed=20 end={} step={}\n"
+        for name, crank, text in (("crank-rocker, free", 100, links + motion.format(420, 0.42)),
+                                  ("double rocker, free", 200, rocker + motion.format(100, 0.1)),
+                                  ("double rocker under gravity", 200, rocker + "GRAVITY 0 -9810\n" + motion.format(100, 0.1))):
+            run = self._run(text, "--stats")
+            rows = run.rows("motion")
+            start = rows[0]["kinetic"] + rows[0]["potential"]
+            # Steps follow the rounding of many turns: the same on machines of a kind only.
+            steps = int(re.search(r"steps of forward motion (\d+)", run.errors)[1])
+            yield [Word(name), Number(steps, ",.0f", 1.01), rough_error(largest(rows, "energy_error")/start),
+                   Number(largest(rows, "closure")/crank, ".1e", FACTOR)]

@@ -1,0 +1,111 @@
+#!/bin/sh
+# The manual page and the completion of shells, and where `make install` puts them.
+. tests/scripts/functions.sh
+LC_ALL=C.UTF-8
+export LC_ALL
+
+# options: those of --help, one a line
+options() {
+  "$program" --help | sed -n 's/^  \(--[a-z-]*\).*/\1/p'
+}
+
+page() {
+  run 0 --man && silent && mv "$scratch/stdout" "$scratch/flexmech.1"
+}
+
+has_options() {
+  page || return 1
+  [ "$(options | wc -l)" -gt 10 ] || { echo "--help has no options"; return 1; }
+  for option in $(options); do
+    grep -q -e "^.fB$(echo "$option" | sed 's/-/\\\\-/g')\\( [A-Z=]*\\)\\{0,1\\}.fR\$" "$scratch/flexmech.1" || { echo "$option is missing"; return 1; }
+  done
+}
+
+# renders COMMAND...: without a warning, with the options as they are typed
+renders() {
+  "$@" "$scratch/flexmech.1" >"$scratch/rendered" 2>"$scratch/warnings" || { cat "$scratch/warnings"; return 1; }
+  [ ! -s "$scratch/warnings" ] || { head -n 3 "$scratch/warnings"; return 1; }
+  for words in NAME "flexmech - dynamics" --threads --help-cards "REPORT motion crank= \[speed=0\]" "EXIT STATUS"; do
+    sed 's/.\x08//g; s/\x1b\[[0-9;]*m//g' "$scratch/rendered" | grep -q -e "$words" || { echo "'$words' is not on the page"; return 1; }
+  done
+}
+
+# complete WORD...: what bash offers for the last word, one a line, sorted
+complete() {
+  (cd "$scratch/folder" && bash -c '
+    compopt() { :; }
+    complete() { :; }
+    source "$1"
+    shift
+    COMP_WORDS=(flexmech "$@")
+    COMP_CWORD=$#
+    _flexmech
+    printf "%s\n" "${COMPREPLY[@]}"' - "$scratch/flexmech.bash" "$@" | LC_ALL=C sort)
+}
+
+# offers EXPECTED WORD...
+offers() {
+  expected=$1
+  shift
+  found=$(complete "$@" | tr '\n' ' ' | sed 's/ $//')
+  [ "$found" = "$expected" ] || { echo "for '$*' bash offers '$found', not '$expected'"; return 1; }
+}
+
+bash_completes() {
+  run 0 --completion bash && silent && mv "$scratch/stdout" "$scratch/flexmech.bash" || return 1
+  bash -n "$scratch/flexmech.bash" || return 1
+  mkdir -p "$scratch/folder/deep"
+  touch "$scratch/folder/one.deck" "$scratch/folder/a two.deck" "$scratch/folder/notes.txt"
+  offers "$(options | LC_ALL=C sort | tr '\n' ' ' | sed 's/ $//')" -- || return 1
+  offers "--check" --ch && offers "--help --help-cards" --he && offers "a two.deck deep one.deck" "" &&
+    offers "one.deck" --check o && offers "csv plain" --format "" && offers "csv" --format = c && offers "csv plain" --format = &&
+    offers "deep" --out "" && offers "" --threads "" && offers "" --set "" && offers "bash fish zsh" --completion ""
+}
+
+# other_shell SHELL: takes its file
+other_shell() {
+  run 0 --completion "$1" && silent || return 1
+  "$1" -n "$scratch/stdout"
+}
+
+refuses() {
+  run 2 --completion ksh && says "unknown shell 'ksh'" && run 2 --completion && says "option --completion needs a value"
+}
+
+# The release build is what is installed, whichever is tested.
+install_puts_them() {
+  PREFIX=/opt/flexmech DESTDIR="$scratch/root" make install >"$scratch/log" 2>&1 || { tail -n 3 "$scratch/log"; return 1; }
+  share=$scratch/root/opt/flexmech/share
+  for shell in bash zsh fish; do
+    build/release/flexmech --completion $shell >"$scratch/flexmech.$shell"
+  done
+  build/release/flexmech --man | cmp - "$share/man/man1/flexmech.1" &&
+    cmp "$scratch/flexmech.bash" "$share/bash-completion/completions/flexmech" &&
+    cmp "$scratch/flexmech.zsh" "$share/zsh/site-functions/_flexmech" &&
+    cmp "$scratch/flexmech.fish" "$share/fish/vendor_completions.d/flexmech.fish"
+}
+
+check "every option has its entry on the manual page" has_options
+for formatter in "groff -man -Tutf8 -ww" "man -l --warnings=w"; do
+  name=${formatter%% *}
+  printf '.TH A 1\n.SH NAME\na \\- b\n' >"$scratch/small.1"
+  if command -v "$name" >/dev/null && $formatter "$scratch/small.1" 2>/dev/null | grep -q 'a - b'; then
+    check "the manual page by $name" renders $formatter
+  else
+    skip "the manual page by $name" "$name is not there, or formats nothing"
+  fi
+done
+if command -v bash >/dev/null; then
+  check "bash completes options, values and decks" bash_completes
+else
+  skip "bash completes options, values and decks" "there is no bash"
+fi
+for shell in zsh fish; do
+  if command -v $shell >/dev/null; then
+    check "the completion of $shell" other_shell $shell
+  else
+    skip "the completion of $shell" "there is no $shell"
+  fi
+done
+check "completion of an unknown shell" refuses
+check "make install puts manual page and completions in their places" install_puts_them
