@@ -5,7 +5,8 @@ module file_system
   implicit none (type, external)
   private
 
-  public :: is_directory, file_exists, make_directories, rename_file, remove_file, remove_empty_directory
+  public :: is_directory, file_exists, make_directories, rename_file, remove_file, &
+    remove_empty_directory
   public :: base_name, file_name, joined_path, real_path, standard_error_is_terminal
 
   interface

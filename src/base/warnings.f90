@@ -26,8 +26,8 @@ module warnings
 
 contains
 
-  !> Joins a warning of a further variant to one of the same kind and grade. The text is that of the worse
-  !! one; of equally bad ones, of the first.
+  !> Joins a warning of a further variant to one of the same kind and grade. The text is that of
+  !! the worse one; of equally bad ones, of the first.
   pure subroutine join_warning(warning, more, is_new)
     type(warning_t), intent(inout) :: warning !! of the variants before
     type(warning_t), intent(in) :: more       !! of one variant

@@ -152,8 +152,8 @@ contains
     end do
   end subroutine append_warnings
 
-  !> Number, in the list, of a warning of other variants at the same word, of the same kind and grade;
-  !! 0 if there is none.
+  !> Number, in the list, of a warning of other variants at the same word, of the same kind and
+  !! grade; 0 if there is none.
   pure function same_warning(messages, warning) result(number)
     type(message_list_t), intent(in) :: messages
     type(diagnostic_t), intent(in) :: warning

@@ -6,7 +6,6 @@ module variant_runs
   use interruption, only: was_interrupted
   use kinds, only: wp
   use link_store, only: link_store_t
-  use linkage_notes, only: open_linkage_text, reachable_text
   use linkage_study, only: classify_linkage
   use loci_study, only: follow_loci
   use mechanisms, only: new_mechanism
@@ -15,6 +14,7 @@ module variant_runs
   use position_study, only: find_all_positions
   use positions, only: by_crank_angle
   use progress, only: progress_t, show_progress
+  use reach_texts, only: open_linkage_text, reachable_text
   use report_table, only: find_study, study_names
   use study_requests, only: drawn_states, mode_request_of, motion_request_of
   use sweep_bytes, only: get_result, put_result

@@ -5,11 +5,11 @@ module deck_checks
   use errors, only: error_of_reach
   use four_bar_limits, only: can_reach, crank_reach, reach_t
   use kinds, only: wp
-  use linkage_notes, only: longest_link, open_linkage_text, reachable_intervals, reachable_text
   use mechanisms, only: mechanism_t, new_mechanism
   use models, only: model_t, needs_frequencies, report_number, solver_band, solver_dense
   use motion_checks, only: check_motion
   use nodal_eigensolver, only: most_round_off
+  use reach_texts, only: longest_link, open_linkage_text, reachable_intervals, reachable_text
   use rest_eigenvalues, only: lowest_rest_eigenvalues
   use round_off, only: round_off_error
   use sorting, only: ascending_order

@@ -31,7 +31,8 @@ contains
       do while (first <= len(search_path))
         last = index(search_path(first:)//":", ":") + first - 2
         if (last >= first) then
-          if (file_exists(joined_path(search_path(first:last), plot_program))) command = plot_program
+          if (file_exists(joined_path(search_path(first:last), plot_program))) &
+            command = plot_program
         end if
         first = last + 2
       end do
@@ -44,8 +45,8 @@ contains
     character(len=*), intent(in) :: path !! of a file or folder
     character(len=:), allocatable :: word
 
-    character(len=*), parameter :: plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"// &
-      "0123456789/._-+,=:@%"
+    character(len=*), parameter :: plain = "abcdefghijklmnopqrstuvwxyz"// &
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-+,=:@%"
     integer :: i
 
     word = path

@@ -1,4 +1,5 @@
-!> A progress line on the terminal, with an estimate of the time left, for runs longer than a second.
+!> A progress line on the terminal, with an estimate of the time left, for runs longer than a
+!! second.
 module progress
   use, intrinsic :: iso_fortran_env, only: error_unit
   use file_system, only: standard_error_is_terminal
