@@ -13,6 +13,8 @@ module command_line
   public :: command_t, read_command_line, help_text, version_text
 
   type :: command_t
+    character(len=:), allocatable :: program     !! as the user called it
+    character(len=:), allocatable :: search_path !! of the shell, the variable PATH
     character(len=:), allocatable :: folder    !! of `--out`
     integer :: threads = 1
     type(string_t), allocatable :: decks(:)
@@ -48,6 +50,8 @@ contains
     logical :: options_ended, input_taken
 
     words = arguments()
+    command%program = program_called()
+    command%search_path = search_path_of_shell()
     command%folder = "outputs"
     command%valued = " "
     allocate (command%decks(0), command%settings(0))
@@ -89,6 +93,27 @@ contains
       if (length > 0) call get_command_argument(i, words(i)%text)
     end do
   end function arguments
+
+  function program_called() result(name)
+    character(len=:), allocatable :: name
+
+    integer :: length
+
+    call get_command_argument(0, length=length)
+    allocate (character(len=length) :: name)
+    if (length > 0) call get_command_argument(0, name)
+  end function program_called
+
+  function search_path_of_shell() result(path)
+    character(len=:), allocatable :: path
+
+    integer :: length, status
+
+    call get_environment_variable("PATH", length=length, status=status)
+    if (status /= 0) length = 0
+    allocate (character(len=length) :: path)
+    if (length > 0) call get_environment_variable("PATH", path)
+  end function search_path_of_shell
 
   !> Reads one option; `i` moves on to its value if it has one. `--out=DIR` is as good as `--out
   !! DIR`.

@@ -7,6 +7,7 @@ program main
   use deck_readings, only: deck_t, read_deck
   use deck_runs, only: run_deck, run_options_t
   use errors, only: error_of_interruption, error_t, rendered
+  use figures_command, only: command_for_figures
   use interruption, only: watch_for_interruption
   use manual_page, only: manual_page_text
   use run_document, only: deck_outcome_t, document_text
@@ -19,7 +20,7 @@ program main
   type(deck_outcome_t), allocatable :: outcomes(:)
   type(run_options_t) :: options
   type(error_t), allocatable :: error
-  integer :: i, j
+  integer :: i, j, status
   logical :: refused
 
   call read_command_line(command, error)
@@ -73,6 +74,7 @@ program main
   options%quiet = command%quiet
   options%resume = command%resume
   options%csv = command%csv
+  options%figures = command_for_figures(command%program, command%search_path)
   do i = 1, size(decks)
     call run_deck(decks(i), options, outcomes(i)%result, error)
     if (allocated(error)) then
@@ -84,6 +86,9 @@ program main
     associate (result => outcomes(i)%result)
       if (.not. command%quiet .or. result%failed) call say(result%messages)
       if (command%stats) call say(result%statistics)
+      ! A reader of standard output who has gone is no error: the files are in place.
+      if (.not. (command%quiet .or. command%json)) write (output_unit, "(a)", advance="no", &
+        iostat=status) result%success
       outcomes(i)%exit_status = merge(1, 0, result%failed)
     end associate
   end do

@@ -5,7 +5,8 @@ module file_system
   implicit none (type, external)
   private
 
-  public :: is_directory, make_directories, rename_file, remove_file, remove_empty_directory
+  public :: is_directory, file_exists, make_directories, rename_file, remove_file, &
+    remove_empty_directory
   public :: base_name, file_name, joined_path, real_path, standard_error_is_terminal
 
   interface
@@ -76,6 +77,14 @@ contains
     is = c_associated(directory)
     if (is) is = c_closedir(directory) == 0
   end function is_directory
+
+  !> Whether there is a file.
+  function file_exists(path) result(exists)
+    character(len=*), intent(in) :: path !! of a file, not of a folder
+    logical :: exists
+
+    inquire (file=path, exist=exists)
+  end function file_exists
 
   !> Makes a folder and all missing folders above it.
   subroutine make_directories(path, made, is_new)

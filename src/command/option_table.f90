@@ -24,7 +24,8 @@ module option_table
       help="csv: write every table as comma-separated values too (plain)"), &
     option_t("--resume", &
       help="continue where an earlier run of the deck was killed or interrupted"), &
-    option_t("--quiet", help="no warnings, no progress; errors are still reported"), &
+    option_t("--quiet", &
+      help="no warnings, progress or line after a run; errors are still reported"), &
     option_t("--stats", help="report what was computed and how long it took"), &
     option_t("--json", &
       help="on standard output: errors, warnings and failed rows of all decks as JSON"), &

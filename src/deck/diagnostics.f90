@@ -1,16 +1,18 @@
 !> Errors and warnings about a deck, each with its place and the line of text over a caret.
 module diagnostics
   use deck_source, only: file_of_line, last_line, line_origin, line_place, source_line, source_t
+  use errors, only: error_of_input
   use kinds, only: wp
   use sorting, only: ascending_order
-  use text, only: character_count, is_continuation_byte, plural, to_string
+  use text, only: append_string, character_count, is_continuation_byte, plural, string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use tokens, only: token_t
+  use warnings, only: counted_text, grade_doubt, grade_meaningless, join_warning, warning_t
   implicit none (type, external)
   private
 
-  public :: diagnostics_t, add_error, add_warning, has_errors, error_count, render_errors, &
-    render_warnings, warning_texts
+  public :: diagnostics_t, add_error, add_warning, has_errors, has_other_errors, error_count, &
+    render_errors, render_warnings, warning_texts, join_warnings, append_warnings, count_warnings
   public :: diagnostic_t, errors_of, warnings_of, untold_errors, untold_warnings
 
   !> One message. Its place has no line if something is missing from the deck.
@@ -19,6 +21,8 @@ module diagnostics
     type(token_t) :: place                   !! the word it is about
     character(len=:), allocatable :: note    !! about the second place; empty: none
     type(token_t) :: second_place            !! a word that explains the error
+    integer :: kind = error_of_input         !! of an error: one of the error_of_… numbers
+    type(warning_t) :: warning               !! of a warning: grade and variants
   end type diagnostic_t
 
   !> Messages of one severity.
@@ -44,48 +48,140 @@ contains
 
   !> Adds an error at a word of the deck, optionally with a second word that explains it. Words
   !! marked as unknown are skipped: their error has been reported.
-  pure subroutine add_error(diagnostics, place, message, second_place, note)
+  pure subroutine add_error(diagnostics, place, message, second_place, note, kind)
     type(diagnostics_t), intent(inout) :: diagnostics   !! of the deck
     type(token_t), intent(in) :: place                  !! the word; without a line: something is
                                                         !! missing
     character(len=*), intent(in) :: message             !! without place and severity
     type(token_t), intent(in), optional :: second_place !! shown with `note`
     character(len=*), intent(in), optional :: note      !! about the second place
+    integer, intent(in), optional :: kind               !! one of the error_of_… numbers;
+                                                        !! error_of_input if not present
 
-    call add_diagnostic(diagnostics%errors, place, message, second_place, note)
+    type(diagnostic_t) :: new
+
+    new%place = place
+    new%message = message
+    new%note = ""
+    if (present(second_place)) new%second_place = second_place
+    if (present(note)) new%note = note
+    if (present(kind)) new%kind = kind
+    call add_diagnostic(diagnostics%errors, new)
   end subroutine add_error
 
-  !> Adds a warning at a word of the deck.
-  pure subroutine add_warning(diagnostics, place, message)
+  !> Adds a warning at a word of the deck. Warnings of several variants are joined if they are at
+  !! the same word and of the same kind and grade.
+  pure subroutine add_warning(diagnostics, place, message, kind, grade, amount)
     type(diagnostics_t), intent(inout) :: diagnostics !! of the deck
     type(token_t), intent(in) :: place                !! the word; without a line: something is
                                                       !! missing
     character(len=*), intent(in) :: message           !! without place and severity
+    integer, intent(in), optional :: kind             !! tells different warnings at the same word
+                                                      !! apart; 0 if not present
+    integer, intent(in), optional :: grade            !! one of the grades of `warnings`;
+                                                      !! grade_doubt if not present
+    real(wp), intent(in), optional :: amount          !! the larger, the worse; 0 if not present
 
-    call add_diagnostic(diagnostics%warnings, place, message)
+    type(diagnostic_t) :: new
+
+    new%place = place
+    new%message = message
+    new%note = ""
+    new%warning%text = message
+    new%warning%variant = ""
+    if (present(kind)) new%warning%kind = kind
+    if (present(grade)) new%warning%grade = grade
+    if (present(amount)) new%warning%amount = amount
+    call add_diagnostic(diagnostics%warnings, new)
   end subroutine add_warning
 
-  pure subroutine add_diagnostic(messages, place, message, second_place, note)
+  pure subroutine add_diagnostic(messages, new)
     type(message_list_t), intent(inout) :: messages
-    type(token_t), intent(in) :: place
-    character(len=*), intent(in) :: message
-    type(token_t), intent(in), optional :: second_place
-    character(len=*), intent(in), optional :: note
+    type(diagnostic_t), intent(in) :: new
 
     ! An unknown `$name` has been reported already.
-    if (place%set_line < 0) return
+    if (new%place%set_line < 0) return
     messages%total = messages%total + 1
     if (.not. allocated(messages%list)) allocate (messages%list(most_kept))
     if (messages%kept == most_kept) return
     messages%kept = messages%kept + 1
-    associate (new => messages%list(messages%kept))
-      new%place = place
-      new%message = message
-      new%note = ""
-      if (present(second_place)) new%second_place = second_place
-      if (present(note)) new%note = note
-    end associate
+    messages%list(messages%kept) = new
   end subroutine add_diagnostic
+
+  !> Adds the warnings of a variant to those of the variants before: one for every word, kind and
+  !! grade.
+  pure subroutine join_warnings(diagnostics, more, variant)
+    type(diagnostics_t), intent(inout) :: diagnostics !! of the deck
+    type(diagnostics_t), intent(in) :: more           !! of one variant
+    character(len=*), intent(in) :: variant           !! `L=90mm`; empty: nothing varies
+
+    type(diagnostic_t) :: new
+    integer :: i, known
+    logical, allocatable :: is_new(:) !! whether a warning kept is yet without this variant
+
+    if (more%warnings%kept == 0) return
+    allocate (is_new(most_kept))
+    is_new = .true.
+    do i = 1, more%warnings%kept
+      new = more%warnings%list(i)
+      new%warning%variant = variant
+      known = same_warning(diagnostics%warnings, new)
+      if (known == 0) then
+        call add_diagnostic(diagnostics%warnings, new)
+        is_new(diagnostics%warnings%kept) = .false.
+      else
+        associate (warning => diagnostics%warnings%list(known))
+          call join_warning(warning%warning, new%warning, is_new(known))
+          ! The value of a `$name` is that of the worst variant.
+          if (warning%warning%variant == variant) warning%place = new%place
+        end associate
+        is_new(known) = .false.
+      end if
+    end do
+  end subroutine join_warnings
+
+  !> Appends warnings as they are.
+  pure subroutine append_warnings(diagnostics, more)
+    type(diagnostics_t), intent(inout) :: diagnostics !! of the deck
+    type(diagnostics_t), intent(in) :: more           !! whose warnings are appended
+
+    integer :: i
+
+    do i = 1, more%warnings%kept
+      call add_diagnostic(diagnostics%warnings, more%warnings%list(i))
+    end do
+  end subroutine append_warnings
+
+  !> Number, in the list, of a warning of other variants at the same word, of the same kind and
+  !! grade; 0 if there is none.
+  pure function same_warning(messages, warning) result(number)
+    type(message_list_t), intent(in) :: messages
+    type(diagnostic_t), intent(in) :: warning
+    integer :: number
+
+    do number = messages%kept, 1, -1
+      associate (known => messages%list(number))
+        if (len(known%warning%variant) > 0 .and. known%place%line == warning%place%line .and. &
+          known%place%column == warning%place%column .and. &
+          known%warning%kind == warning%warning%kind .and. &
+          known%warning%grade == warning%warning%grade) return
+      end associate
+    end do
+  end function same_warning
+
+  !> Puts the number of variants into the warnings that were joined.
+  pure subroutine count_warnings(diagnostics, variants)
+    type(diagnostics_t), intent(inout) :: diagnostics !! with the warnings of all variants
+    integer, intent(in) :: variants                   !! of the deck
+
+    integer :: i
+
+    do i = 1, diagnostics%warnings%kept
+      associate (this => diagnostics%warnings%list(i))
+        this%message = counted_text(this%warning, variants)
+      end associate
+    end do
+  end subroutine count_warnings
 
   !> Whether there are errors.
   pure function has_errors(diagnostics) result(has)
@@ -94,6 +190,20 @@ contains
 
     has = diagnostics%errors%total > 0
   end function has_errors
+
+  !> Whether there are errors of other kinds than one.
+  pure function has_other_errors(diagnostics, kind) result(has)
+    type(diagnostics_t), intent(in) :: diagnostics !! of the deck
+    integer, intent(in) :: kind                    !! one of the error_of_… numbers
+    logical :: has
+
+    integer :: i
+
+    has = diagnostics%errors%total > diagnostics%errors%kept
+    do i = 1, diagnostics%errors%kept
+      has = has .or. diagnostics%errors%list(i)%kind /= kind
+    end do
+  end function has_other_errors
 
   !> Number of errors, including those that are not kept.
   pure function error_count(diagnostics) result(count)
@@ -122,22 +232,29 @@ contains
     text = rendered_list(diagnostics%warnings, source, "warning")
   end function render_warnings
 
-  !> The warnings without path and caret, one per line, for the log.
-  pure function warning_texts(diagnostics, source) result(text)
+  !> The warnings of a grade without path and caret, for the log.
+  pure function warning_texts(diagnostics, source, grade) result(texts)
     type(diagnostics_t), intent(in) :: diagnostics !! of the deck
     type(source_t), intent(in) :: source           !! that their places refer to
-    character(len=:), allocatable :: text
+    integer, intent(in) :: grade                   !! one of the grades of `warnings`
+    type(string_t), allocatable :: texts(:)        !! a line each
 
+    type(diagnostic_t), allocatable :: list(:)
     integer :: i
 
-    text = ""
+    allocate (texts(0))
+    list = in_order(diagnostics%warnings)
+    do i = 1, size(list)
+      if (list(i)%warning%grade /= grade) cycle
+      if (list(i)%place%line > 0) then
+        call append_string(texts, line_origin(source, list(i)%place%line)//": "//list(i)%message)
+      else
+        call append_string(texts, list(i)%message)
+      end if
+    end do
     associate (warnings => diagnostics%warnings)
-      do i = 1, warnings%kept
-        text = text//line_origin(source, warnings%list(i)%place%line)//": "// &
-          warnings%list(i)%message//achar(10)
-      end do
-      if (warnings%total > warnings%kept) text = text//plural(warnings%total - warnings%kept, &
-        "more warning")//achar(10)
+      if (grade == grade_doubt .and. warnings%total > warnings%kept) call append_string(texts, &
+        plural(warnings%total - warnings%kept, "more warning"))
     end associate
   end function warning_texts
 
@@ -149,7 +266,8 @@ contains
     list = in_order(diagnostics%errors)
   end function errors_of
 
-  !> The warnings kept, in the order of the deck's lines.
+  !> The warnings kept: those that make the results meaningless, then the others, each in the order
+  !! of the deck's lines.
   pure function warnings_of(diagnostics) result(list)
     type(diagnostics_t), intent(in) :: diagnostics !! of the deck
     type(diagnostic_t), allocatable :: list(:)
@@ -179,6 +297,7 @@ contains
 
     real(wp) :: place(messages%kept)
     integer :: i, order(messages%kept)
+    logical :: first(messages%kept)
 
     do i = 1, messages%kept
       ! Messages without a place refer to the deck's end and come last.
@@ -187,6 +306,8 @@ contains
         messages%list(i)%place%column
     end do
     order = ascending_order(place)
+    first = messages%list(order)%warning%grade == grade_meaningless
+    order = [pack(order, first), pack(order, .not. first)]
     allocate (list(messages%kept))
     do i = 1, messages%kept
       list(i) = messages%list(order(i))

@@ -12,7 +12,7 @@ module balance_report
     shaking_values, torque_value
   use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
     table_unit
-  use table_rows, only: add_gap, add_row, rows_t
+  use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: name_cell, real_cells
   use text, only: append_string, string_t, to_string, trimmed_list
   use units, only: from_si, unit_t
@@ -170,15 +170,17 @@ contains
   end function harmonics_words
 
   !> Appends one row per linkage (as given, balanced) and quantity, one block per speed. No rows if
-  !! the crank cannot make a full turn.
+  !! the crank cannot make a full turn; a failed row without a place if the linkage does not close.
   subroutine add_harmonics(variant, layout, rows)
     type(variant_results_t), intent(in) :: variant !! with its harmonics computed
     type(table_layout_t), intent(in) :: layout     !! of this table
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
-    real(wp) :: unit_value
+    real(wp) :: unit_value, nowhere(0)
     integer :: i, k, q
 
+    if (.not. variant%found%class%reach%closes) call add_failed_row(rows, nowhere, &
+      variant%unreachable)
     if (.not. variant%found%harmonics%has_cycle) return
     do k = 1, size(variant%model%speed%value)
       if (k > 1) call add_gap(rows, 2)

@@ -9,7 +9,8 @@ module linkage_notes
 
 contains
 
-  !> Grashof class, limit positions, extreme transmission angles.
+  !> Grashof class, limit positions, extreme transmission angles; or that the linkage does not
+  !! close.
   pure function notes_on_linkage(variant) result(notes)
     type(variant_results_t), intent(in) :: variant !! with class and kinematics computed
     type(string_t), allocatable :: notes(:)
@@ -20,6 +21,10 @@ contains
     associate (class => variant%found%class, found => variant%found%kinematics, &
         crank => variant%found%positions%crank, state => variant%found%positions%state)
       call append_string(notes, class%grashof)
+      if (.not. class%reach%closes) then
+        call append_string(notes, variant%unreachable)
+        return
+      end if
       limits = "limit positions of the crank: none"
       do i = 1, size(class%limits)
         if (i == 1) limits = "limit positions of the crank:"

@@ -5,7 +5,7 @@ module linkage_report
   use linkage_notes, only: angle_note
   use linkage_study, only: event_names, special_position_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
-  use table_rows, only: add_gap, add_row, rows_t
+  use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: name_cell
   use text, only: append_string, string_t, to_string, trimmed_list
   use variant_results, only: variant_results_t
@@ -58,14 +58,20 @@ contains
     lists(2)%names = trimmed_list(event_names)
   end function linkage_words
 
-  !> Appends one row per special position, by crank angle; one block per branch.
+  !> Appends one row per special position, by crank angle; one block per branch. A failed row
+  !! without a place if the linkage does not close.
   subroutine add_linkage(variant, layout, rows)
     type(variant_results_t), intent(in) :: variant !! with its linkage study computed
     type(table_layout_t), intent(in) :: layout     !! of this table
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
+    real(wp) :: nowhere(0)
     integer :: i, branch
 
+    if (.not. variant%found%class%reach%closes) then
+      call add_failed_row(rows, nowhere, variant%unreachable)
+      return
+    end if
     do branch = 1, size(branch_names)
       if (branch > 1) call add_gap(rows, 2)
       associate (positions => variant%found%linkage%branches(branch)%positions)

@@ -12,6 +12,8 @@ module variant_results
     type(model_t) :: model         !! description and requests of the deck, in SI
     type(mechanism_t) :: mechanism !! the model in the terms of mechanics
     type(study_results_t) :: found !! results of the studies
+    character(len=:), allocatable :: unreachable !! why positions are out of reach; unallocated if
+                                                 !! none is
   end type variant_results_t
 
 end module variant_results

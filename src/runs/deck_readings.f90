@@ -5,9 +5,10 @@ module deck_readings
   use cards, only: card_t
   use deck_checks, only: check_mechanics
   use deck_source, only: read_source, source_from_text, source_t
-  use diagnostics, only: add_error, add_warning, diagnostic_t, diagnostics_t, errors_of, &
-    has_errors, render_errors, render_warnings, warning_texts, warnings_of
-  use errors, only: error_of_input, error_t, rendered, set_error
+  use diagnostics, only: add_error, add_warning, append_warnings, count_warnings, diagnostic_t, &
+    diagnostics_t, errors_of, has_errors, has_other_errors, join_warnings, render_errors, &
+    render_warnings
+  use errors, only: error_of_input, error_of_reach, error_t, rendered, set_error
   use file_system, only: base_name
   use includes, only: read_all_cards
   use memory_needs, only: check_memory
@@ -33,8 +34,11 @@ module deck_readings
     character(len=:), allocatable :: base          !! name of its output folder
     character(len=:), allocatable :: errors        !! ready for standard error; empty if none
     character(len=:), allocatable :: warnings      !! ready for standard error; empty if none
-    character(len=:), allocatable :: warning_lines !! the warnings for the log
   end type deck_t
+
+  !> Kind of the warning about variants with positions out of reach, apart from other warnings at
+  !! the same word.
+  integer, parameter :: warning_of_reach = 1
 
 contains
 
@@ -42,7 +46,7 @@ contains
   !!
   !! Errors: the file cannot be read, or its name gives no folder for the results (both in
   !! `refusal`); a card is wrong, memory does not suffice, or a variant fails the checks (all in
-  !! `diagnostics`).
+  !! `diagnostics`). Positions that only some variants do not reach are no errors.
   subroutine read_deck(path, threads, deck, settings)
     character(len=*), intent(in) :: path                !! `-`: standard input
     integer, intent(in) :: threads                      !! that will compute the deck
@@ -58,7 +62,6 @@ contains
     if (path == "-") deck%base = "stdin"
     deck%errors = ""
     deck%warnings = ""
-    deck%warning_lines = ""
     call read_source(path, deck%source, deck%refusal)
     if (.not. allocated(deck%refusal) .and. (deck%base == "" .or. deck%base == "." .or. &
       deck%base == "..")) then
@@ -78,16 +81,16 @@ contains
       call read_deck_cards(cards, none, deck%source, reports, deck%diagnostics, deck%cards)
     end if
     available = find_available_memory(threads)
-    call read_variant(deck%cards, 1, cards, deck%diagnostics, deck%model)
-    call check_variant(deck%model, threads, available, deck%diagnostics)
-    if (.not. has_errors(deck%diagnostics)) then
-      deck%model%echo = echo_cards(deck%cards, cards, deck%model%effects, reports, &
-        deck%source)
-      call check_variants(deck%cards, cards, deck%model, threads, available, deck%diagnostics)
+    if (variant_count(deck%cards) > 1 .and. .not. has_errors(deck%diagnostics)) then
+      call read_variants(deck, cards, threads, available)
+    else
+      call read_variant(deck%cards, 1, cards, deck%diagnostics, deck%model)
+      call check_variant(deck%model, threads, available, deck%diagnostics)
+      if (.not. has_errors(deck%diagnostics)) deck%model%echo = echo_cards(deck%cards, cards, &
+        deck%model%effects, reports, deck%source)
     end if
     deck%errors = render_errors(deck%diagnostics, deck%source)
     deck%warnings = render_warnings(deck%diagnostics, deck%source)
-    deck%warning_lines = warning_texts(deck%diagnostics, deck%source)
   end subroutine read_deck
 
   !> Turns the cards of one variant into a model; files are not read again. A deck without VARY has
@@ -120,58 +123,112 @@ contains
     if (.not. has_errors(diagnostics)) call check_mechanics(model, diagnostics)
   end subroutine check_variant
 
-  !> Checks every variant but the first, which has been checked: nothing is computed before all
-  !! variants are known to be sound.
+  !> Reads and checks all variants: nothing is computed before they are known to be sound.
   !!
-  !! The first variant that is refused is reported in full, the others are counted. Of several
-  !! warnings at the same place only the first is reported.
-  subroutine check_variants(deck_cards, cards, first, threads, available, diagnostics)
-    type(deck_cards_t), intent(in) :: deck_cards
-    type(card_t), allocatable, intent(inout) :: cards(:) !! of the first variant
-    type(model_t), intent(in) :: first
+  !! Errors: the first variant that is refused is reported in full, the others are counted. Variants
+  !! that do not reach some position, or none, are refused only if no variant reaches all; else they
+  !! are computed as far as possible, and there is a warning.
+  subroutine read_variants(deck, cards, threads, available)
+    type(deck_t), intent(inout) :: deck                  !! whose cards are without errors
+    type(card_t), allocatable, intent(inout) :: cards(:) !! not allocated, or of any variant
     integer, intent(in) :: threads
     type(available_memory_t), intent(in) :: available
+
+    type(diagnostics_t) :: mine, refusals, unreachable, out_of_reach
+    type(model_t) :: model
+    character(len=:), allocatable :: name
+    integer :: number, count, refused, short, last_refused
+
+    count = variant_count(deck%cards)
+    refused = 0
+    short = 0
+    last_refused = 0
+    do number = 1, count
+      call clear(mine)
+      call read_variant(deck%cards, number, cards, mine, model)
+      call check_variant(model, threads, available, mine)
+      if (number == 1) then
+        ! As a rule it is the deck that is wrong, not this variant.
+        if (has_other_errors(mine, error_of_reach)) then
+          call read_variant(deck%cards, number, cards, deck%diagnostics, deck%model)
+          call check_variant(deck%model, threads, available, deck%diagnostics)
+          return
+        end if
+        deck%model = model
+        deck%model%echo = echo_cards(deck%cards, cards, model%effects, reports, deck%source)
+      end if
+      if (.not. has_errors(mine)) call compare_with_first(model, deck, mine)
+      name = variant_text(deck%cards, number)
+      call join_warnings(deck%diagnostics, mine, name)
+      if (.not. has_errors(mine)) cycle
+      if (has_other_errors(mine, error_of_reach)) then
+        refused = refused + 1
+        last_refused = number
+        if (refused == 1) call take_errors(mine, "with "//name//": ", refusals)
+      else
+        short = short + 1
+        if (short == 1) call take_errors(mine, "with "//name//": ", unreachable)
+        call join_out_of_reach(mine, name, out_of_reach)
+      end if
+    end do
+    if (refused == 0 .and. short == count) then
+      refusals = unreachable
+      refused = short
+      last_refused = count
+    else if (refused == 0) then
+      call append_warnings(deck%diagnostics, out_of_reach)
+    end if
+    call count_warnings(deck%diagnostics, count)
+    call take_errors(refusals, "", deck%diagnostics)
+    if (refused > 1) call add_error(deck%diagnostics, deck%cards%variations(1)%name, &
+      to_string(refused)//" of "//to_string(count)//" variants are refused, the last one with "// &
+      variant_text(deck%cards, last_refused))
+  end subroutine read_variants
+
+  !> Compares a variant with the first one. Errors: they cannot be in one table.
+  subroutine compare_with_first(model, deck, diagnostics)
+    type(model_t), intent(in) :: model
+    type(deck_t), intent(in) :: deck
     type(diagnostics_t), intent(inout) :: diagnostics
 
-    type(diagnostics_t) :: mine
-    type(model_t) :: model
-    integer :: number, refused, last_refused
+    if (model%modes /= deck%model%modes) then
+      call add_error(diagnostics, model%modes_word, &
+        "all variants must have as many modes: they are columns of one table")
+    else if (model%effects /= deck%model%effects) then
+      call add_error(diagnostics, deck%cards%variations(1)%name, &
+        "of this variant and the first one, one stands still without "// &
+        "loads and one does not: EFFECTS must say whether axial forces act")
+    end if
+  end subroutine compare_with_first
 
-    refused = 0
-    last_refused = 0
-    do number = 2, variant_count(deck_cards)
-      call clear(mine)
-      call read_variant(deck_cards, number, cards, mine, model)
-      call check_variant(model, threads, available, mine)
-      if (.not. has_errors(mine) .and. model%modes /= first%modes) then
-        call add_error(mine, model%modes_word, &
-          "all variants must have as many modes: they are columns of one table")
-      else if (.not. has_errors(mine) .and. model%effects /= first%effects) then
-        call add_error(mine, deck_cards%variations(1)%name, &
-          "of this variant and the first one, one stands still without "// &
-          "loads and one does not: EFFECTS must say whether axial forces act")
-      end if
-      call take_warnings(mine, variant_text(deck_cards, number), diagnostics)
-      if (.not. has_errors(mine)) cycle
-      refused = refused + 1
-      last_refused = number
-      if (refused == 1) call take_errors(mine, variant_text(deck_cards, number), diagnostics)
+  !> Turns the errors of a variant that does not reach all positions into warnings, and joins them
+  !! to those of the variants before.
+  subroutine join_out_of_reach(mine, variant, out_of_reach)
+    type(diagnostics_t), intent(in) :: mine
+    character(len=*), intent(in) :: variant
+    type(diagnostics_t), intent(inout) :: out_of_reach
+
+    type(diagnostics_t) :: warnings
+    type(diagnostic_t), allocatable :: list(:)
+    integer :: i
+
+    list = errors_of(mine)
+    do i = 1, size(list)
+      call add_warning(warnings, list(i)%place, "rows will be marked as failed: "// &
+        list(i)%message, kind=warning_of_reach)
     end do
-    if (refused < 2) return
-    call add_error(diagnostics, deck_cards%variations(1)%name, to_string(refused)//" of "// &
-      to_string(variant_count(deck_cards))//" variants are refused, the last one with "// &
-      variant_text(deck_cards, last_refused))
-  end subroutine check_variants
+    call join_warnings(out_of_reach, warnings, variant)
+  end subroutine join_out_of_reach
 
   !> Removes all messages.
   pure subroutine clear(diagnostics)
     type(diagnostics_t), intent(out) :: diagnostics
   end subroutine clear
 
-  !> Adds the errors of a variant, each after the values that the variant has.
-  subroutine take_errors(mine, variant, diagnostics)
+  !> Adds errors, each after a few words.
+  subroutine take_errors(mine, before, diagnostics)
     type(diagnostics_t), intent(in) :: mine
-    character(len=*), intent(in) :: variant
+    character(len=*), intent(in) :: before !! `with L=90mm: `, or empty
     type(diagnostics_t), intent(inout) :: diagnostics
 
     type(diagnostic_t), allocatable :: list(:)
@@ -180,31 +237,12 @@ contains
     list = errors_of(mine)
     do i = 1, size(list)
       if (len(list(i)%note) > 0) then
-        call add_error(diagnostics, list(i)%place, "with "//variant//": "//list(i)%message, &
-          list(i)%second_place, list(i)%note)
+        call add_error(diagnostics, list(i)%place, before//list(i)%message, &
+          list(i)%second_place, list(i)%note, list(i)%kind)
       else
-        call add_error(diagnostics, list(i)%place, "with "//variant//": "//list(i)%message)
+        call add_error(diagnostics, list(i)%place, before//list(i)%message, kind=list(i)%kind)
       end if
     end do
   end subroutine take_errors
-
-  !> Adds the warnings of a variant at places that have none yet.
-  subroutine take_warnings(mine, variant, diagnostics)
-    type(diagnostics_t), intent(in) :: mine
-    character(len=*), intent(in) :: variant
-    type(diagnostics_t), intent(inout) :: diagnostics
-
-    type(diagnostic_t), allocatable :: new(:), told(:)
-    integer :: i
-
-    new = warnings_of(mine)
-    if (size(new) == 0) return
-    told = warnings_of(diagnostics)
-    do i = 1, size(new)
-      if (any(told%place%line == new(i)%place%line .and. told%place%column == &
-        new(i)%place%column)) cycle
-      call add_warning(diagnostics, new(i)%place, "with "//variant//": "//new(i)%message)
-    end do
-  end subroutine take_warnings
 
 end module deck_readings

@@ -6,7 +6,7 @@ module deck_runs
     write_variant
   use deck_readings, only: deck_t, read_variant
   use deck_summary, only: summary_text
-  use diagnostics, only: diagnostics_t
+  use diagnostics, only: diagnostics_t, warnings_of, diagnostic_t
   use echo, only: echo_text
   use errors, only: error_of_interruption, error_t, set_error
   use file_system, only: file_name, joined_path
@@ -21,12 +21,13 @@ module deck_runs
   use progress, only: end_progress, progress_t, show_progress, start_progress
   use result_failures, only: find_failures
   use result_warnings, only: find_warnings
-  use run_findings, only: add_findings, findings_t
+  use run_findings, only: add_findings, findings_t, warnings_of_grade
   use run_log, only: model_summary
   use run_statistics, only: accuracy_summary, run_times_t, statistics_text, sweep_summary
   use run_totals, only: add_totals, run_totals_t, totals_of
   use stopwatch, only: lap, start_stopwatch, stopwatch_t
   use study_requests, only: motion_instants_of
+  use success_text, only: text_of_success
   use tables, only: column_t, real_column
   use task_journal, only: close_journal, journal_t, open_journal, remove_journal
   use text, only: plural, string_t, to_string
@@ -34,6 +35,7 @@ module deck_runs
   use variant_runs, only: begin_variant_run, compute_variant, variant_run_t
   use variant_tasks, only: run_variant_tasks, variant_job_t
   use variants, only: parameter_names, variant_count, variant_text
+  use warnings, only: grade_meaningless
   implicit none (type, external)
   private
 
@@ -46,12 +48,14 @@ module deck_runs
     logical :: quiet = .false.              !! no progress line
     logical :: resume = .false.             !! go on where an earlier run was killed
     logical :: csv = .false.                !! also write tables as comma-separated values
+    character(len=:), allocatable :: figures !! command that draws figures; empty: not known
   end type run_options_t
 
   !> What a run reports besides its files.
   type :: run_result_t
     character(len=:), allocatable :: messages   !! warnings and failed rows, for standard error
     character(len=:), allocatable :: statistics !! work done and times, for `--stats`
+    character(len=:), allocatable :: success    !! what has been done, for standard output
     logical :: failed = .false.                 !! some position or mode could not be computed
     type(findings_t) :: findings                !! on which the messages are based
   end type run_result_t
@@ -74,7 +78,7 @@ module deck_runs
 
   !> Form of the bytes in a journal: another number wherever they mean something else, since the
   !! version of the program may stay the same.
-  character(len=*), parameter :: journal_form = "journal 4"
+  character(len=*), parameter :: journal_form = "journal 5"
 
 contains
 
@@ -128,7 +132,34 @@ contains
     result%messages = resumption_message(deck, options%resume, blocks)// &
       findings_messages(result%findings, deck%source%path)
     result%statistics = statistics_text(deck%base, session%totals, times)
+    result%success = success_of(deck, session, options%figures)
   end subroutine run_deck
+
+  !> What a run has done, with the first reason why its results mean nothing, if there is one.
+  pure function success_of(deck, session, command) result(text)
+    type(deck_t), intent(in) :: deck
+    type(session_t), intent(in) :: session !! with all files written
+    character(len=*), intent(in) :: command !! that draws figures
+    character(len=:), allocatable :: text
+
+    type(diagnostic_t), allocatable :: of_deck(:)
+    type(string_t), allocatable :: of_run(:)
+    character(len=:), allocatable :: warning
+
+    warning = ""
+    of_run = warnings_of_grade(session%findings, grade_meaningless)
+    if (size(of_run) > 0) warning = of_run(1)%text
+    ! The first ones are those of meaningless results.
+    of_deck = warnings_of(deck%diagnostics)
+    if (size(of_deck) > 0) then
+      if (of_deck(1)%warning%grade == grade_meaningless) warning = of_deck(1)%message
+    end if
+    associate (tables => session%outputs%tables)
+      text = text_of_success(deck%base, session%outputs%folder, size(tables), &
+        sum(tables%failed_rows), session%totals, deck%model%modes, deck%model%units, warning, &
+        command)
+    end associate
+  end function success_of
 
   !> What must be the same for a run to resume from the results of another: program, compiler, form
   !! of the journal, and the deck with its settings.
@@ -333,9 +364,7 @@ contains
     end if
     if (session%totals%has_frequencies) text = text//accuracy_summary(session%method, &
       session%totals%largest_error)
-    if (len(deck%warning_lines) > 0) text = text//"warnings of the deck:"//line_feed// &
-      deck%warning_lines
-    text = text//findings_log(session%findings)
+    text = text//findings_log(deck%diagnostics, deck%source, session%findings)
   end function log_text
 
 end module deck_runs

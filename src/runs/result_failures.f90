@@ -1,10 +1,11 @@
 !> Rows of a variant that could not be computed.
 module result_failures
-  use errors, only: error_t
+  use errors, only: error_of_reach, error_t, set_error
   use frequency_study, only: has_result
   use kinds, only: wp
   use models, only: needs_frequencies
-  use run_findings, only: add_failure, at_frequencies, at_position, failure_t, findings_t, in_motion
+  use run_findings, only: add_failure, at_frequencies, at_position, failure_t, findings_t, &
+    in_motion, of_variant
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -14,13 +15,19 @@ module result_failures
 contains
 
   !> Appends every position, or position and speed, without a result, and a motion that ended too
-  !! soon.
+  !! soon; or the variant as a whole, if its linkage closes at no crank angle.
   pure subroutine find_failures(variant, findings)
     type(variant_results_t), intent(in) :: variant !! computed
     type(findings_t), intent(inout) :: findings    !! to which they are appended
 
+    type(error_t), allocatable :: error
     integer :: i, k
 
+    if (.not. variant%found%class%reach%closes) then
+      call set_error(error, error_of_reach, variant%unreachable)
+      call note_failure(variant, of_variant, error, 0.0_wp, 0.0_wp, 0.0_wp, findings)
+      return
+    end if
     associate (found => variant%found, crank => variant%found%positions%crank)
       do i = 1, size(crank)
         associate (state => found%positions%state(i))
@@ -50,7 +57,7 @@ contains
 
   pure subroutine note_failure(variant, stage, error, crank, speed, time, findings)
     type(variant_results_t), intent(in) :: variant
-    integer, intent(in) :: stage     !! at_position, at_frequencies or in_motion
+    integer, intent(in) :: stage     !! one of those of `run_findings`
     type(error_t), intent(in) :: error
     real(wp), intent(in) :: crank    !! [deg]
     real(wp), intent(in) :: speed    !! [rad/s]

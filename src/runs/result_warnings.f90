@@ -5,19 +5,30 @@ module result_warnings
   use models, only: needs_frequencies
   use position_results, only: error_of_divergence, error_of_orders, error_of_position
   use positions, only: positions_t
-  use run_findings, only: add_warnings, findings_t, place_in_words
+  use run_findings, only: add_warning_of_run, findings_t, place_in_words
   use sweeps, only: has_result, sweep_t
-  use text, only: append_string, plural, string_t, to_string
+  use text, only: plural, to_string
   use variant_results, only: variant_results_t
   use vibration_models, only: by_orders
+  use warnings, only: grade_meaningless, warning_t
   implicit none (type, external)
   private
 
   public :: find_warnings
+  public :: warning_of_divergence, warning_of_deflection, warning_of_accuracy
+
+  !> Kinds of warnings: an eigenvalue is negative; the loads bend a link too much; the accuracy is
+  !! not reached.
+  integer, parameter :: warning_of_divergence = 1, warning_of_deflection = 2, &
+    warning_of_accuracy = 3
 
   !> Largest static deflection without a warning, relative to the link's length: the axial
   !! frequencies assume that the loads bend the links little [-].
   real(wp), parameter :: most_deflection = 0.01_wp
+
+  !> Static deflection, relative to the link's length, beyond which the frequencies mean nothing:
+  !! no link can be bent so far [-].
+  real(wp), parameter :: impossible_deflection = 1.0_wp
 
 contains
 
@@ -26,7 +37,7 @@ contains
     type(variant_results_t), intent(in) :: variant !! computed
     type(findings_t), intent(inout) :: findings    !! to which they are appended
 
-    type(string_t), allocatable :: more(:)
+    type(warning_t) :: warning
     integer :: k
 
     ! Function results go through a variable: gfortran 12 does not free them if they are arguments.
@@ -34,19 +45,30 @@ contains
     associate (model => variant%model, positions => variant%found%positions, &
         sweep => variant%found%sweep)
       do k = 1, size(sweep%request%speed)
-        more = divergences(positions, sweep, k)
-        call add_warnings(findings, model%variant, more)
+        warning = divergences(positions, sweep, k)
+        call add_if_any(findings, model%variant, warning)
       end do
       if (sweep%request%axial) then
-        more = deflections(variant%mechanism, positions, sweep)
-        call add_warnings(findings, model%variant, more)
+        warning = deflections(variant%mechanism, positions, sweep)
+        call add_if_any(findings, model%variant, warning)
       end if
       if (sweep%request%method == by_orders) then
-        more = missed_accuracy(positions, sweep)
-        call add_warnings(findings, model%variant, more)
+        warning = missed_accuracy(positions, sweep)
+        call add_if_any(findings, model%variant, warning)
       end if
     end associate
   end subroutine find_warnings
+
+  !> Appends a warning of a variant, if it has a text.
+  pure subroutine add_if_any(findings, variant, warning)
+    type(findings_t), intent(inout) :: findings
+    character(len=*), intent(in) :: variant
+    type(warning_t), intent(inout) :: warning
+
+    if (.not. allocated(warning%text)) return
+    warning%variant = variant
+    call add_warning_of_run(findings, warning)
+  end subroutine add_if_any
 
   !> The crank angles at which an eigenvalue is negative at one speed. Neighbours in the deck's
   !! list are joined to ranges.
@@ -54,16 +76,19 @@ contains
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
     integer, intent(in) :: speed !! number
-    type(string_t), allocatable :: warning(:)
+    type(warning_t) :: warning             !! without a text if there is none
 
     character(len=:), allocatable :: ranges
     integer :: i, first
 
-    allocate (warning(0))
+    warning%kind = warning_of_divergence
     ranges = ""
     first = 0
     do i = 1, size(positions%crank)
-      if (diverges(positions, sweep, i, speed) .and. first == 0) first = i
+      if (diverges(positions, sweep, i, speed)) then
+        warning%amount = max(warning%amount, -sweep%results(positions%state(i))%lambda(1, speed))
+        if (first == 0) first = i
+      end if
       if (first == 0) cycle
       if (i < size(positions%crank)) then
         if (diverges(positions, sweep, i + 1, speed)) cycle
@@ -74,9 +99,9 @@ contains
       first = 0
     end do
     if (len(ranges) == 0) return
-    call append_string(warning, "static divergence at speed "// &
+    warning%text = "static divergence at speed "// &
       to_string(sweep%request%speed(speed), 10)//" rad/s, crank "//ranges// &
-      " deg: an eigenvalue is negative, and so the frequency written")
+      " deg: an eigenvalue is negative, and so the frequency written"
   end function divergences
 
   !> Whether the lowest eigenvalue at a position and speed is negative.
@@ -98,12 +123,12 @@ contains
     type(mechanism_t), intent(in) :: mechanism
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
-    type(string_t), allocatable :: warning(:)
+    type(warning_t) :: warning             !! without a text if there is none
 
     real(wp) :: largest
     integer :: i, body, speed, at_body, at_speed, at_position
 
-    allocate (warning(0))
+    warning%kind = warning_of_deflection
     largest = 0.0_wp
     at_body = 1
     at_speed = 1
@@ -123,12 +148,20 @@ contains
       end do
     end do
     if (largest <= most_deflection) return
-    call append_string(warning, "the "//trim(merge("loads        ", "inertia loads", &
+    warning%amount = largest
+    warning%text = "the "//trim(merge("loads        ", "inertia loads", &
       sweep%request%constant))//" at "// &
       place_in_words(positions%crank(at_position), sweep%request%speed(at_speed))// &
       " deflect link '"//mechanism%names(at_body)%text//"' by "//to_string(100.0_wp*largest, 3)// &
-      " % of its length: above "//to_string(100.0_wp*most_deflection)// &
-      " % the axial frequencies begin to mislead")
+      " % of its length: "
+    if (largest > impossible_deflection) then
+      warning%grade = grade_meaningless
+      warning%text = warning%text//"no link bends so far, and frequencies under these loads "// &
+        "mean nothing"
+    else
+      warning%text = warning%text//"above "//to_string(100.0_wp*most_deflection)// &
+        " % the axial frequencies begin to mislead"
+    end if
   end function deflections
 
   !> Number of rows with a frequency less accurate than requested, the worst of them, and what
@@ -136,12 +169,12 @@ contains
   pure function missed_accuracy(positions, sweep) result(warning)
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
-    type(string_t), allocatable :: warning(:)
+    type(warning_t) :: warning             !! without a text if there is none
 
     real(wp) :: worst, error
     integer :: i, k, rows, at_position, at_speed
 
-    allocate (warning(0))
+    warning%kind = warning_of_accuracy
     worst = 0.0_wp
     rows = 0
     at_position = 1
@@ -159,10 +192,11 @@ contains
       end do
     end do
     if (rows == 0) return
-    call append_string(warning, "the accuracy "//to_string(sweep%request%accuracy)// &
+    warning%amount = worst
+    warning%text = "the accuracy "//to_string(sweep%request%accuracy)// &
       " is not reached in "//plural(rows, "row")//": the error is up to "//to_string(worst, 2)// &
       ", at "//place_in_words(positions%crank(at_position), sweep%request%speed(at_speed))// &
-      " ("//reason_of(sweep%results(positions%state(at_position))%cause(at_speed))//")")
+      " ("//reason_of(sweep%results(positions%state(at_position))%cause(at_speed))//")"
   end function missed_accuracy
 
   !> What limits the accuracy of a row, in words.

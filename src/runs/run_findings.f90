@@ -1,26 +1,28 @@
 !> What a run reports besides its tables: failed rows and warnings about results.
 module run_findings
-  use byte_streams, only: get_error, get_integers, get_reals, get_string, put_error, put_integers, &
-    put_reals, put_string
+  use byte_streams, only: get_error, get_integers, get_logicals, get_reals, get_string, put_error, &
+    put_integers, put_logicals, put_reals, put_string
   use errors, only: error_t
   use kinds, only: wp
-  use text, only: string_t, to_string
+  use text, only: append_string, string_t, to_string
   use text_buffer, only: text_buffer_t
+  use warnings, only: counted_text, join_warning, warning_t
   implicit none (type, external)
   private
 
-  public :: findings_t, failure_t, add_failure, add_warnings, add_findings, put_findings, &
-    get_findings, place_in_words
-  public :: at_position, at_frequencies, in_motion
+  public :: findings_t, failure_t, add_failure, add_warning_of_run, add_findings, put_findings, &
+    get_findings, warnings_of_grade, place_in_words
+  public :: at_position, at_frequencies, in_motion, of_variant
 
   !> Stages at which rows fail: no pose at a crank angle, hence no row at any speed; no frequencies
-  !! at a crank angle and speed; a motion that ended too soon.
-  integer, parameter :: at_position = 1, at_frequencies = 2, in_motion = 3
+  !! at a crank angle and speed; a motion that ended too soon; a variant that has no pose at any
+  !! crank angle.
+  integer, parameter :: at_position = 1, at_frequencies = 2, in_motion = 3, of_variant = 4
 
   !> A position, or an instant of a motion, without a result.
   type :: failure_t
-    integer :: stage = at_position           !! at_position, at_frequencies or in_motion
-    real(wp) :: crank = 0.0_wp               !! [deg]
+    integer :: stage = at_position           !! one of the stages above
+    real(wp) :: crank = 0.0_wp               !! of a position or motion [deg]
     real(wp) :: speed = 0.0_wp               !! of frequencies [rad/s]
     real(wp) :: time = 0.0_wp                !! at which a motion ended [s]
     type(error_t), allocatable :: error      !! the reason
@@ -31,11 +33,13 @@ module run_findings
 
   !> Failed rows and warnings of a variant, or of several.
   type :: findings_t
-    integer :: failures = 0                    !! positions without a pose, positions × speeds
-                                               !! without modes, motions that ended too soon
-    type(failure_t), allocatable :: failed(:)  !! (at least failures)
+    integer :: variants = 0                     !! that were joined; 0: of one alone
+    integer :: failures = 0                     !! positions without a pose, positions × speeds
+                                                !! without modes, motions that ended too soon,
+                                                !! variants without any pose
+    type(failure_t), allocatable :: failed(:)   !! (at least failures)
     integer :: warning_count = 0
-    type(string_t), allocatable :: warnings(:) !! (at least warning_count)
+    type(warning_t), allocatable :: warnings(:) !! (at least warning_count)
   end type findings_t
 
 contains
@@ -57,42 +61,75 @@ contains
     findings%failed(findings%failures) = failure
   end subroutine add_failure
 
-  !> Appends warnings, each preceded by the variant that it is about.
-  pure subroutine add_warnings(findings, variant, warnings)
-    type(findings_t), intent(inout) :: findings !! to which they are appended
-    character(len=*), intent(in) :: variant     !! `L=90mm`, or empty
-    type(string_t), intent(in) :: warnings(:)   !! without the variant
+  !> Appends a warning.
+  pure subroutine add_warning_of_run(findings, warning)
+    type(findings_t), intent(inout) :: findings !! to which it is appended
+    type(warning_t), intent(in) :: warning      !! with its text and variant
 
-    type(string_t), allocatable :: larger(:)
-    integer :: i
+    type(warning_t), allocatable :: larger(:)
 
     if (.not. allocated(findings%warnings)) allocate (findings%warnings(8))
-    if (findings%warning_count + size(warnings) > size(findings%warnings)) then
-      allocate (larger(2*(findings%warning_count + size(warnings))))
-      larger(:findings%warning_count) = findings%warnings(:findings%warning_count)
+    if (findings%warning_count == size(findings%warnings)) then
+      allocate (larger(2*size(findings%warnings)))
+      larger(:findings%warning_count) = findings%warnings
       call move_alloc(larger, findings%warnings)
     end if
-    do i = 1, size(warnings)
-      associate (new => findings%warnings(findings%warning_count + i))
-        new = warnings(i)
-        if (len(variant) > 0) new%text = variant//", "//warnings(i)%text
-      end associate
-    end do
-    findings%warning_count = findings%warning_count + size(warnings)
-  end subroutine add_warnings
+    findings%warning_count = findings%warning_count + 1
+    findings%warnings(findings%warning_count) = warning
+  end subroutine add_warning_of_run
 
-  !> Appends the findings of a variant to those of the variants before.
+  !> Appends the findings of a variant to those of the variants before. Where something varies,
+  !! warnings of the same kind and grade are joined.
   pure subroutine add_findings(findings, more)
     type(findings_t), intent(inout) :: findings !! to which they are appended
     type(findings_t), intent(in) :: more        !! of one variant
 
-    integer :: i
+    integer :: i, known
+    logical :: is_new
 
-    if (more%warning_count > 0) call add_warnings(findings, "", more%warnings(:more%warning_count))
+    do i = 1, more%warning_count
+      known = 0
+      if (len(more%warnings(i)%variant) > 0) known = same_warning(findings, more%warnings(i))
+      if (known == 0) then
+        call add_warning_of_run(findings, more%warnings(i))
+      else
+        is_new = same_warning(more, more%warnings(i)) == i
+        call join_warning(findings%warnings(known), more%warnings(i), is_new)
+      end if
+    end do
     do i = 1, more%failures
       call add_failure(findings, more%failed(i))
     end do
+    findings%variants = findings%variants + 1
   end subroutine add_findings
+
+  !> Number of the first warning of the same kind and grade; 0 if there is none.
+  pure function same_warning(findings, warning) result(number)
+    type(findings_t), intent(in) :: findings
+    type(warning_t), intent(in) :: warning
+    integer :: number
+
+    do number = 1, findings%warning_count
+      if (findings%warnings(number)%kind == warning%kind .and. &
+        findings%warnings(number)%grade == warning%grade) return
+    end do
+    number = 0
+  end function same_warning
+
+  !> The warnings of a grade, each with the number of variants that have it.
+  pure function warnings_of_grade(findings, grade) result(list)
+    type(findings_t), intent(in) :: findings !! of all variants
+    integer, intent(in) :: grade             !! one of the grades of `warnings`
+    type(string_t), allocatable :: list(:)   !! a line each
+
+    integer :: i
+
+    allocate (list(0))
+    do i = 1, findings%warning_count
+      if (findings%warnings(i)%grade == grade) call append_string(list, &
+        counted_text(findings%warnings(i), findings%variants))
+    end do
+  end function warnings_of_grade
 
   !> `speed 20 rad/s, crank 45 deg`, or without the speed
   pure function place_in_words(crank, speed) result(place)
@@ -121,7 +158,13 @@ contains
       end associate
     end do
     do i = 1, findings%warning_count
-      call put_string(buffer, findings%warnings(i)%text)
+      associate (warning => findings%warnings(i))
+        call put_integers(buffer, [warning%kind, warning%grade, warning%variants])
+        call put_logicals(buffer, [warning%is_alike, warning%has_worst])
+        call put_reals(buffer, [warning%amount])
+        call put_string(buffer, warning%text)
+        call put_string(buffer, warning%variant)
+      end associate
     end do
   end subroutine put_findings
 
@@ -132,7 +175,7 @@ contains
     type(findings_t), intent(out) :: findings !! of one variant
 
     type(failure_t), allocatable :: failure
-    type(string_t) :: warning
+    type(warning_t) :: warning
     integer :: counts(2), i
 
     call get_integers(bytes, at, counts)
@@ -143,10 +186,32 @@ contains
       deallocate (failure)
     end do
     do i = 1, counts(2)
-      call get_string(bytes, at, warning%text)
-      call add_warnings(findings, "", [warning])
+      call get_warning(bytes, at, warning)
+      call add_warning_of_run(findings, warning)
     end do
   end subroutine get_findings
+
+  pure subroutine get_warning(bytes, at, warning)
+    character(len=*), intent(in) :: bytes
+    integer, intent(inout) :: at
+    type(warning_t), intent(out) :: warning
+
+    real(wp) :: amount(1)
+    integer :: codes(3)
+    logical :: marks(2)
+
+    call get_integers(bytes, at, codes)
+    call get_logicals(bytes, at, marks)
+    call get_reals(bytes, at, amount)
+    warning%kind = codes(1)
+    warning%grade = codes(2)
+    warning%variants = codes(3)
+    warning%is_alike = marks(1)
+    warning%has_worst = marks(2)
+    warning%amount = amount(1)
+    call get_string(bytes, at, warning%text)
+    call get_string(bytes, at, warning%variant)
+  end subroutine get_warning
 
   pure subroutine get_failure(bytes, at, failure)
     character(len=*), intent(in) :: bytes

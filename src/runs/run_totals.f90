@@ -1,16 +1,25 @@
-!> How much a run computed, over all variants, and how long it took.
+!> How much a run computed, over all variants, between which limits the results are, and how long it
+!! took.
 module run_totals
   use byte_streams, only: get_integers, get_logicals, get_reals, put_integers, put_logicals, &
     put_reals
   use kinds, only: long, wp
   use ledger, only: add_ledger, ledger_t
+  use position_results, only: frequency_of
+  use reactions_study, only: reaction_values, reactions_at_speed, torque_value
   use sweep_bytes, only: get_ledger, put_ledger
   use text_buffer, only: text_buffer_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
 
-  public :: run_totals_t, totals_of, add_totals, put_totals, get_totals
+  public :: run_totals_t, totals_of, add_totals, put_totals, get_totals, range_t, is_empty
+
+  !> From the least to the greatest of some values; the other way round if there is none.
+  type :: range_t
+    real(wp) :: least = huge(1.0_wp)
+    real(wp) :: most = -huge(1.0_wp)
+  end type range_t
 
   !> Sums over variants.
   type :: run_totals_t
@@ -24,6 +33,9 @@ module run_totals
     type(ledger_t) :: counts               !! of the work on frequencies
     real(wp) :: largest_error = -1.0_wp    !! largest estimated relative error of a frequency; below
                                            !! 0: no frequency found
+    type(range_t) :: lowest                !! the first frequency of every position and speed [Hz]
+    type(range_t) :: highest               !! the last one [Hz]
+    type(range_t) :: torque                !! driving torque, of REPORT reactions or balance [N m]
     real(wp) :: computing = 0.0_wp         !! studies, sum over threads [s]
     real(wp) :: writing = 0.0_wp           !! rows found and written, sum over threads [s]
   end type run_totals_t
@@ -46,6 +58,7 @@ contains
         found%sweep%counts%kinematic_solutions + merge(1, 0, found%motion%has_begun)
       if (allocated(found%geometry%crank)) totals%kinematic_solutions = &
         totals%kinematic_solutions + size(found%geometry%crank)
+      totals%torque = torque_range(variant)
       totals%has_frequencies = allocated(found%sweep%results)
       if (.not. totals%has_frequencies) return
       totals%speeds = size(found%sweep%request%speed)
@@ -54,13 +67,62 @@ contains
         associate (result => found%sweep%results(i))
           if (.not. allocated(result%outcome)) cycle
           do k = 1, size(result%outcome)
-            if (.not. allocated(result%outcome(k)%error)) totals%largest_error = &
-              max(totals%largest_error, maxval(result%error(:, k)))
+            if (allocated(result%outcome(k)%error)) cycle
+            totals%largest_error = max(totals%largest_error, maxval(result%error(:, k)))
+            call widen(totals%lowest, frequency_of(result%lambda(1, k)))
+            call widen(totals%highest, frequency_of(result%lambda(size(result%lambda, 1), k)))
           end do
         end associate
       end do
     end associate
   end function totals_of
+
+  !> The driving torque at all positions and speeds; empty without REPORT reactions or balance.
+  pure function torque_range(variant) result(range)
+    type(variant_results_t), intent(in) :: variant
+    type(range_t) :: range
+
+    real(wp) :: values(reaction_values)
+    integer :: i, k
+
+    associate (found => variant%found)
+      if (.not. allocated(found%reactions%unit)) return
+      do i = 1, size(found%positions%states)
+        if (allocated(found%positions%states(i)%error)) cycle
+        do k = 1, size(variant%model%speed%value)
+          values = reactions_at_speed(found%reactions, i, variant%model%speed%value(k), &
+            variant%model%acceleration)
+          call widen(range, values(torque_value))
+        end do
+      end do
+    end associate
+  end function torque_range
+
+  !> Takes a value into a range.
+  pure subroutine widen(range, value)
+    type(range_t), intent(inout) :: range
+    real(wp), intent(in) :: value
+
+    range%least = min(range%least, value)
+    range%most = max(range%most, value)
+  end subroutine widen
+
+  !> The range of two ranges.
+  pure subroutine join_ranges(range, more)
+    type(range_t), intent(inout) :: range
+    type(range_t), intent(in) :: more
+
+    range%least = min(range%least, more%least)
+    range%most = max(range%most, more%most)
+  end subroutine join_ranges
+
+  !> Whether a range has no value.
+  pure function is_empty(range) result(is)
+    type(range_t), intent(in) :: range !! of any values
+    logical :: is
+
+    is = range%least > range%most
+  end function is_empty
 
   !> Adds totals of further variants.
   pure subroutine add_totals(totals, more)
@@ -76,6 +138,9 @@ contains
     totals%has_frequencies = totals%has_frequencies .or. more%has_frequencies
     call add_ledger(totals%counts, more%counts)
     totals%largest_error = max(totals%largest_error, more%largest_error)
+    call join_ranges(totals%lowest, more%lowest)
+    call join_ranges(totals%highest, more%highest)
+    call join_ranges(totals%torque, more%torque)
     totals%computing = totals%computing + more%computing
     totals%writing = totals%writing + more%writing
   end subroutine add_totals
@@ -90,7 +155,8 @@ contains
       totals%kinematic_solutions, totals%motion_steps], [0]))
     call put_logicals(buffer, [totals%has_frequencies])
     call put_ledger(buffer, totals%counts)
-    call put_reals(buffer, [totals%largest_error])
+    call put_reals(buffer, [totals%largest_error, totals%lowest%least, totals%lowest%most, &
+      totals%highest%least, totals%highest%most, totals%torque%least, totals%torque%most])
   end subroutine put_totals
 
   !> Reads what `put_totals` wrote.
@@ -102,14 +168,14 @@ contains
     integer(long) :: counts(4)
     integer :: numbers(2), words(size(transfer([0_long, 0_long, 0_long, 0_long], [0])))
     logical :: has_frequencies(1)
-    real(wp) :: largest_error(1)
+    real(wp) :: reals(7)
 
     call get_integers(bytes, at, numbers)
     call get_integers(bytes, at, words)
     counts = transfer(words, counts)
     call get_logicals(bytes, at, has_frequencies)
     call get_ledger(bytes, at, totals%counts)
-    call get_reals(bytes, at, largest_error)
+    call get_reals(bytes, at, reals)
     totals%variants = numbers(1)
     totals%speeds = numbers(2)
     totals%rows = counts(1)
@@ -117,7 +183,10 @@ contains
     totals%kinematic_solutions = counts(3)
     totals%motion_steps = counts(4)
     totals%has_frequencies = has_frequencies(1)
-    totals%largest_error = largest_error(1)
+    totals%largest_error = reals(1)
+    totals%lowest = range_t(reals(2), reals(3))
+    totals%highest = range_t(reals(4), reals(5))
+    totals%torque = range_t(reals(6), reals(7))
   end subroutine get_totals
 
 end module run_totals

@@ -1,6 +1,6 @@
 !> Computes one variant of a deck; a deck without VARY has just one.
 module variant_runs
-  use errors, only: error_t
+  use errors, only: error_of_reach, error_t
   use frequency_study, only: begin_sweep, block_count, block_of, finish_sweep, missed_states, &
     most_attempts, solve_block
   use interruption, only: was_interrupted
@@ -14,6 +14,7 @@ module variant_runs
   use position_study, only: find_all_positions
   use positions, only: by_crank_angle
   use progress, only: progress_t, show_progress
+  use reach_texts, only: open_linkage_text, reachable_text
   use report_table, only: find_study, study_names
   use study_requests, only: drawn_states, mode_request_of, motion_request_of
   use sweep_bytes, only: get_result, put_result
@@ -81,6 +82,7 @@ contains
         call find_all_positions(linkage, none, threads, found%positions)
       end if
       call classify_linkage(linkage, found%class)
+      call explain_positions(run%results)
       call find_study("kinematics", threads, run%results)
       do i = 1, size(study_names)
         if (study_names(i) == "kinematics" .or. .not. needs_study(model, study_names(i))) cycle
@@ -99,6 +101,35 @@ contains
       end do
     end associate
   end subroutine compute_variant
+
+  !> Says why positions are out of reach, and which ones the linkage reaches. There are such
+  !! positions in decks with VARY only.
+  subroutine explain_positions(variant)
+    type(variant_results_t), intent(inout) :: variant !! with positions and class
+
+    logical :: is_out(size(variant%found%positions%states))
+    integer :: i
+
+    associate (states => variant%found%positions%states, reach => variant%found%class%reach)
+      is_out = .false.
+      do i = 1, size(states)
+        if (allocated(states(i)%error)) is_out(i) = states(i)%error%kind == error_of_reach
+      end do
+      if (reach%closes .and. .not. any(is_out)) return
+      ! One thread at a time makes texts: gfortran 12 keeps the lengths of such results in one place
+      ! for all threads.
+      !$omp critical (one_at_a_time)
+      if (reach%closes) then
+        variant%unreachable = "out of reach: the linkage closes "//reachable_text(reach)
+      else
+        variant%unreachable = open_linkage_text(variant%mechanism)
+      end if
+      !$omp end critical (one_at_a_time)
+      do i = 1, size(states)
+        if (is_out(i)) states(i)%error%text = variant%unreachable
+      end do
+    end associate
+  end subroutine explain_positions
 
   !> Forward motion, a number of instants at a time.
   subroutine compute_motion(run)

@@ -1,7 +1,7 @@
 !> Class, limits and special positions of a four-bar, on both branches.
 module linkage_study
   use branch_ranges, only: branch_range_t, find_branch_ranges
-  use four_bar_limits, only: crank_reach, grashof_class, limit_angles
+  use four_bar_limits, only: crank_reach, grashof_class, limit_angles, reach_t
   use kinds, only: wp
   use linkages, only: linkage_t, mobility
   use sorting, only: ascending_order
@@ -19,6 +19,7 @@ module linkage_study
   !> Properties that every run needs.
   type :: linkage_class_t
     character(len=:), allocatable :: grashof !! Grashof class in words
+    type(reach_t) :: reach                   !! crank angles at which the linkage closes
     real(wp), allocatable :: limits(:)       !! (limits) crank angles at which the crank must turn
                                              !! back, 0 ≤ angle < 360, ascending; empty if it turns
                                              !! fully [deg]
@@ -46,7 +47,8 @@ contains
 
     associate (ground => linkage%ground_position(:, [1, 4]), length => linkage%bodies%length)
       class%grashof = trim(grashof_class(norm2(ground(:, 2) - ground(:, 1)), length))
-      class%limits = modulo(limit_angles(crank_reach(ground, length)), 360.0_wp)
+      class%reach = crank_reach(ground, length)
+      class%limits = modulo(limit_angles(class%reach), 360.0_wp)
     end associate
     class%limits = class%limits(ascending_order(class%limits))
   end subroutine classify_linkage

@@ -153,6 +153,46 @@ threads() {
   done
 }
 
+# One line on standard output after a run; none with --quiet, --json and --check.
+success() {
+  motion_deck >"$scratch/told.deck"
+  (cd "$scratch" && run 0 told.deck) && silent || return 1
+  [ "$(cat "$scratch/stdout")" = "told: 1 table in outputs/told" ] || { echo "it said: $(cat "$scratch/stdout")"; return 1; }
+  run 0 --out "$out" "$scratch/told.deck" && grep -qxF "told: 1 table in $out/told; figures: sh plots/draw_figures.sh $out/told" \
+    "$scratch/stdout" || [ "$(wc -l <"$scratch/stdout")" -eq 2 ] || { echo "it said: $(cat "$scratch/stdout")"; return 1; }
+  for option in --quiet --check; do
+    run 0 $option --out "$out" "$scratch/told.deck" && silent && [ ! -s "$scratch/stdout" ] || { echo "not silent with $option"; return 1; }
+  done
+  run 0 --json --out "$out" "$scratch/told.deck" && ! grep -q "^told: " "$scratch/stdout" || { echo "it is told with --json"; return 1; }
+}
+
+success_of_frequencies() {
+  beam_deck "CRANK 0 90" "REPORT frequencies" | sed 's/^MESH.*/MESH * accuracy=1e-8/; s/lumped/distributed/' >"$scratch/f.deck"
+  (cd "$scratch" && run 0 f.deck) || return 1
+  grep -qE '^f: 1 table in outputs/f; f1 [0-9.]+ to [0-9.]+ Hz, f3 up to [0-9.]+ Hz, estimated relative error at most [0-9.]+e-[0-9]+$' \
+    "$scratch/stdout" || { echo "it said: $(cat "$scratch/stdout")"; return 1; }
+  for number in 1 4; do
+    run 0 --threads $number --out "$out" "$scratch/f.deck" && cp "$scratch/stdout" "$scratch/told.$number" || return 1
+  done
+  cmp "$scratch/told.1" "$scratch/told.4"
+}
+
+# Installed beside flexmech-plot, it names that; called by its name, as the user would call the other.
+success_installed() {
+  mkdir -p "$scratch/bin dir"
+  cp "$program" "$scratch/bin dir/flexmech"
+  : >"$scratch/bin dir/flexmech-plot"
+  (cd "$scratch" && "$scratch/bin dir/flexmech" four.deck >stdout && PATH="$scratch/bin dir:$PATH" flexmech four.deck >>stdout)
+  printf "%s\n" "four: 1 table in outputs/four; figures: '$scratch/bin dir/flexmech-plot' outputs/four" \
+    "four: 1 table in outputs/four; figures: flexmech-plot outputs/four" >"$scratch/expected"
+  tr '\n' ' ' <"$scratch/stdout" | sed 's/ four: figures/; figures/g' >"$scratch/found"
+  tr '\n' ' ' <"$scratch/expected" | cmp - "$scratch/found"
+}
+
+nobody_listens() {
+  (cd "$scratch" && "$program" --out "$out/deaf" four.deck >&-) && [ -s "$out/deaf/four/kinematics.dat" ]
+}
+
 check "--help explains every option" help
 check "--version" version
 check "--check of a good deck writes nothing" check_only
@@ -174,3 +214,7 @@ check "--stats: work counted by hand" stats_counted
 check "--stats: poses with changed lengths" stats_near_dead_point
 check "--stats: poses of studies" stats_studies
 check "the same bytes whatever the threads" threads
+check "a line after a run" success
+check "a line after a run with frequencies" success_of_frequencies
+check "the command for figures that is installed" success_installed
+check "standard output that is closed" nobody_listens

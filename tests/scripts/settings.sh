@@ -128,7 +128,7 @@ warnings_name_their_file() {
   echo "SET spare 3" >>"$scratch/moving.part"
   run 0 --out "$out" "$scratch/pieces.deck" && says "parts/../moving.part:6:5: warning: 'spare' is set and not used" &&
     says "included from $scratch/parts/links.part:4" && says "included from $scratch/pieces.deck:1" &&
-    grep -qxF "parts/../moving.part:6: 'spare' is set and not used" "$out/pieces/run.log"
+    grep -qxF "warning: parts/../moving.part:6: 'spare' is set and not used" "$out/pieces/run.log"
 }
 
 # Relative to the current folder.

@@ -115,7 +115,7 @@ only_checked() {
 
 # Standard output is the document and nothing else, or nothing at all.
 no_json() {
-  run 0 --out "$out" "$scratch/good.deck" && [ ! -s "$scratch/stdout" ] || { echo "there is something on standard output"; return 1; }
+  run 0 --quiet --out "$out" "$scratch/good.deck" && [ ! -s "$scratch/stdout" ] || { echo "there is something on standard output"; return 1; }
 }
 
 bad_command_line() {
@@ -138,6 +138,6 @@ check "the same summary whatever the folder and the threads" same_bytes
 check "--json of refused decks" refused
 check "--json of decks that are run" run_decks
 check "--json with --check" only_checked
-check "nothing on standard output without --json" no_json
+check "nothing on standard output with --quiet" no_json
 check "--json and a bad command line" bad_command_line
 check "--json and a folder that cannot be" no_folder

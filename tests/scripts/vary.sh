@@ -132,11 +132,100 @@ END_OF_PYTHON
 check "failed rows name what varies" failed_rows
 
 refused() {
-  varied "SET c 266.7" "VARY b 280 900 1000 270" "CRANK 0 90" "REPORT kinematics" >"$scratch/refused.deck"
-  run 2 --out "$scratch/nothing" "$scratch/refused.deck" && says "error: with b=900: " &&
-    says "error: 2 of 4 variants are refused, the last one with b=1000" && absent "$scratch/nothing"
+  varied "SET c 266.7" "VARY b 280 -9 900 -10 270" "CRANK 0 90" "REPORT kinematics" >"$scratch/refused.deck"
+  run 2 --out "$scratch/nothing" "$scratch/refused.deck" && says "error: with b=-9: " &&
+    says "error: 2 of 5 variants are refused, the last one with b=-10" && absent "$scratch/nothing"
 }
 check "refused variants: nothing is written" refused
+
+# A coupler of 900 mm fits nowhere, one of 100 at 0 degrees only; the others are computed.
+varied "SET c 266.7" "VARY b 280 900 270 100" "SPEED 0 2" "CRANK 0 90" "REPORT kinematics" "REPORT frequencies" "REPORT linkage" \
+  >"$scratch/unreachable.deck"
+unreachable() {
+  run 1 --out "$out" --threads 1 --format csv "$scratch/unreachable.deck" || return 1
+  says "unreachable.deck: error: b=900: the linkage closes at no crank angle" && says "error: b=100, crank 0 deg: out of reach" &&
+    says "in 1 of 4 variants, b=900: rows will be marked as failed" || return 1
+  for table in kinematics frequencies; do
+    for speed in 0 2; do
+      for crank in 0 90; do
+        grep -q "^# failed b=900 speed=$speed crank=$crank : the linkage closes at no" "$out/unreachable/$table.dat" ||
+          { echo "$table has no failed row"; return 1; }
+      done
+    done
+    # Each of three variants has two positions and two speeds; of the last one a position is missing.
+    [ "$(grep -cv -e '^#' -e '^$' "$out/unreachable/$table.dat")" -eq $((4 + 4 + 2)) ] || { echo "rows of $table"; return 1; }
+    [ "$(grep -c '^9.*,the linkage\|^9.*,"the linkage' "$out/unreachable/$table.csv")" -eq 4 ] || { echo "csv of $table"; return 1; }
+  done
+  grep -q "^# failed b=900 : the linkage closes at no" "$out/unreachable/linkage.dat" || { echo "linkage"; return 1; }
+  python3 -B - "$out/unreachable/summary.json" <<'END_OF_PYTHON'
+import json, sys
+with open(sys.argv[1], encoding="utf-8") as file:
+    summary = json.load(file)
+assert summary["exit_status"] == 1 and summary["counts"]["variants"] == 4, summary["counts"]
+assert summary["counts"]["failed_rows"] == 2*(4 + 2) + 1 and summary["counts"]["failures"] == 2, summary["counts"]
+found = [(f["parameters"]["b"], f["stage"], f["crank"]) for f in summary["failures"]]
+assert found == [(900, "variant", None), (100, "position", 0)], found
+END_OF_PYTHON
+}
+check "variants out of reach are failed rows, the others are computed" unreachable
+
+# The same rows as a deck without the variant that fails, and the same bytes on any number of threads.
+unreachable_rows() {
+  run 1 --quiet --out "$scratch/threads" --threads 5 --format csv "$scratch/unreachable.deck" &&
+    same "$out/unreachable" "$scratch/threads/unreachable" || return 1
+  sed 's/^VARY.*/VARY b 280 270/' "$scratch/unreachable.deck" >"$scratch/reachable.deck"
+  run 0 --quiet --out "$out" "$scratch/reachable.deck" || return 1
+  for table in kinematics frequencies; do
+    for deck in reachable unreachable; do
+      grep -e '^ *2\.8' -e '^ *2\.7' "$out/$deck/$table.dat" >"$scratch/$deck.rows"
+    done
+    cmp "$scratch/reachable.rows" "$scratch/unreachable.rows" || return 1
+  done
+}
+check "whatever fails, and whatever the threads" unreachable_rows
+
+first_unreachable() {
+  sed 's/^VARY.*/VARY b 900 280/' "$scratch/unreachable.deck" >"$scratch/first.deck"
+  run 1 --out "$out" "$scratch/first.deck" && says "b=900: the linkage closes at no crank angle" && echo_again_failing first &&
+    grep -q "^first of 2 variants, b=900:$" "$out/first/run.log"
+}
+echo_again_failing() {
+  cp "$out/$1/echo.deck" "$scratch/$1.deck"
+  run 1 --out "$scratch/again" "$scratch/$1.deck" && same_tables "$out/$1" "$scratch/again/$1"
+}
+check "the first variant out of reach" first_unreachable
+
+none_reachable() {
+  sed 's/^VARY.*/VARY b 900 100/' "$scratch/unreachable.deck" >"$scratch/none.deck"
+  run 2 --out "$scratch/nothing" "$scratch/none.deck" && says "error: with b=900: the linkage closes at no crank angle" &&
+    says "2 of 2 variants are refused" && absent "$scratch/nothing"
+}
+check "no variant that reaches all: the deck is refused" none_reachable
+
+reach_is_checked() {
+  run 0 --check --out "$scratch/nothing" "$scratch/unreachable.deck" && says "rows will be marked as failed" && absent "$scratch/nothing"
+}
+check "--check warns of variants out of reach" reach_is_checked
+
+# One warning a kind, with the number of variants and the worst, everywhere.
+one_warning() {
+  varied "SET b 279.4" "SET c 266.7" "VARY L 90 to 110 step 2" "CRANK 0" "SPEED 0 20 40" "REPORT frequencies" |
+    sed 's/length=100/length=$L/' >"$scratch/warned.deck"
+  run 0 --out "$out" --threads 2 "$scratch/warned.deck" || return 1
+  text="in 11 of 11 variants, the worst with L=110: the inertia loads at speed 40 rad/s"
+  says "warned.deck: warning: $text" || return 1
+  [ "$(grep -c 'warning: ' "$scratch/stderr")" -eq 1 ] || { echo "$(grep -c 'warning: ' "$scratch/stderr") warnings"; return 1; }
+  grep -q "^warning: $text" "$out/warned/run.log" && [ "$(grep -c '^warning: ' "$out/warned/run.log")" -eq 1 ] || { echo "the log"; return 1; }
+  run 0 --json --out "$out" "$scratch/warned.deck" || return 1
+  python3 -B - "$out/warned/summary.json" "$scratch/stdout" "$text" <<'END_OF_PYTHON'
+import json, sys
+summary, document = (json.load(open(path, encoding="utf-8")) for path in sys.argv[1:3])
+for warnings in summary["warnings"], document["decks"][0]["warnings"]:
+    warning, = warnings
+    assert warning["message"].startswith(sys.argv[3]) and warning["variants"] == 11 and warning["grade"] == "doubt", warning
+END_OF_PYTHON
+}
+check "one warning a kind, with the number of variants" one_warning
 
 many() {
   varied "SET c 266.7" "VARY b 270 to 280 step 0.01" "CRANK 0 90" "REPORT frequencies" >"$scratch/many.deck"

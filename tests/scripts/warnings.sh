@@ -29,6 +29,24 @@ wave_speed() {
   beam_deck "CRANK 0" "REPORT frequencies" | sed 's/7.8e-9/7800/' | warned wave_speed "sound would run through 'steel' at"
 }
 
+# What makes the frequencies meaningless comes first, on the screen, in the log and before the line of success.
+meaningless() {
+  beam_deck "CRANK 0" "PINMASS O2 1kg" "REPORT frequencies" | sed 's/7.8e-9/7800/' >"$scratch/nonsense.deck"
+  run 0 --out "$scratch/out" "$scratch/nonsense.deck" && says "frequencies computed with it mean nothing" || return 1
+  grep ' warning: ' "$scratch/stderr" | head -n 1 | grep -q "through 'steel'" || { echo "not the first on the screen"; return 1; }
+  grep '^warning: ' "$scratch/out/nonsense/run.log" | head -n 1 | grep -q "through 'steel'" || { echo "not the first in the log"; return 1; }
+  head -n 1 "$scratch/stdout" | grep -q "^nonsense: WARNING: sound would run through 'steel'" || { echo "no WARNING"; return 1; }
+  run 0 --quiet --out "$scratch/out" "$scratch/nonsense.deck" && silent && [ ! -s "$scratch/stdout" ]
+}
+
+# Links so thin that the loads of their motion bend them by more than their length.
+meaningless_deflection() {
+  beam_deck "CRANK 0" "SPEED 400" "REPORT frequencies" | sed 's/thickness=1.6/thickness=0.1/' >"$scratch/bent.deck"
+  run 0 --out "$scratch/out" "$scratch/bent.deck" && says "no link bends so far, and frequencies under these loads mean nothing" || return 1
+  grep ' warning: ' "$scratch/stderr" | head -n 1 | grep -q "mean nothing" || { echo "not the first"; return 1; }
+  head -n 1 "$scratch/stdout" | grep -q "^bent: WARNING: the inertia loads at speed 400 rad/s"
+}
+
 deflection() {
   beam_deck "CRANK 0 to 350 step 10" "SPEED 0 40" "REPORT frequencies" |
     warned deflection "the inertia loads at speed 40 rad/s, crank 10 deg deflect link 'crank' by 6.28 % of its length"
@@ -56,6 +74,8 @@ check "a stocky link" stocky
 check "no stocky link with rotary inertia and shear" stocky_as_thick_beams
 check "a speed of sound of no solid" wave_speed
 check "a deflection above 1 %" deflection
+check "units that make the frequencies meaningless" meaningless
+check "loads that make the frequencies meaningless" meaningless_deflection
 check "static frequencies and speeds" static_speeds
 check "a mass at a ground pivot" mass_at_ground
 check "static divergence" divergence

@@ -8,6 +8,7 @@ module materials
   use text, only: to_string
   use tokens, only: token_t
   use units, only: dimension_density, dimension_none, dimension_stress, unit_system_t
+  use warnings, only: grade_doubt, grade_meaningless
   implicit none (type, external)
   private
 
@@ -26,6 +27,10 @@ module materials
   !! by a factor of 1000 (E in GPa for MPa, density in kg for tonne) turns steel's 5100 into 160.
   real(wp), parameter :: slowest_wave = 200.0_wp, fastest_wave = 30000.0_wp
 
+  !> Beyond these no solid is left, not even rubber: a unit error by a factor of a million in E or
+  !! density turns steel's 5100 m/s into 5 or 5,100,000 [m/s].
+  real(wp), parameter :: impossible_slow_wave = 10.0_wp, impossible_fast_wave = 100000.0_wp
+
 contains
 
   !> Reads `MATERIAL name E= density= [nu=]`. Errors: words or keys that do not fit the card, an
@@ -38,7 +43,6 @@ contains
     type(material_t), intent(out) :: material         !! as read
 
     logical :: fine, known_keys, is_whole, has_modulus, has_density
-    real(wp) :: wave_speed
 
     call check_form(card, diagnostics, fine, known_keys)
     is_whole = fine .and. known_keys
@@ -65,12 +69,30 @@ contains
     ! A unit behind a blank is refused, and its number has the wrong one.
     if (.not. (is_whole .and. has_modulus .and. has_density)) return
     if (material%youngs_modulus <= 0.0_wp .or. material%density <= 0.0_wp) return
-    wave_speed = sqrt(material%youngs_modulus/material%density)
-    if (wave_speed < slowest_wave .or. wave_speed > fastest_wave) then
-      call add_warning(diagnostics, material%name, "sound would run through '"// &
-        material%name%text//"' at "//to_string(wave_speed)// &
-        " m/s (lead: 1200, steel: 5100, diamond: 17000): are the units of E and density right?")
-    end if
+    call check_wave_speed(material, sqrt(material%youngs_modulus/material%density), diagnostics)
   end subroutine read_material
+
+  !> Adds a warning if sound would be too slow or too fast for a material.
+  pure subroutine check_wave_speed(material, wave_speed, diagnostics)
+    type(material_t), intent(in) :: material
+    real(wp), intent(in) :: wave_speed !! above 0 [m/s]
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=:), allocatable :: sound
+    real(wp) :: amount
+
+    if (wave_speed >= slowest_wave .and. wave_speed <= fastest_wave) return
+    amount = max(slowest_wave/wave_speed, wave_speed/fastest_wave)
+    sound = "sound would run through '"//material%name%text//"' at "//to_string(wave_speed)// &
+      " m/s (lead: 1200, steel: 5100, diamond: 17000)"
+    if (wave_speed < impossible_slow_wave .or. wave_speed > impossible_fast_wave) then
+      call add_warning(diagnostics, material%name, sound//": the unit of E or density has "// &
+        "slipped, and frequencies computed with it mean nothing", grade=grade_meaningless, &
+        amount=amount)
+    else
+      call add_warning(diagnostics, material%name, sound// &
+        ": are the units of E and density right?", grade=grade_doubt, amount=amount)
+    end if
+  end subroutine check_wave_speed
 
 end module materials

@@ -177,7 +177,7 @@ contains
           call add_warning(diagnostics, link%length_word, "link '"//link%name%text//"' is only "// &
             to_string(link%length/depth, 3)// &
             " times as long as thick; slender-beam theory wants 10 or "// &
-            "more, or EFFECTS rotary shear")
+            "more, or EFFECTS rotary shear", amount=depth/link%length)
         end associate
       end associate
     end do

@@ -2,12 +2,14 @@
 module deck_checks
   use beam_mesh, only: moving_unknowns
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
+  use errors, only: error_of_reach
   use four_bar_limits, only: can_reach, crank_reach, reach_t
   use kinds, only: wp
   use mechanisms, only: mechanism_t, new_mechanism
   use models, only: model_t, needs_frequencies, report_number, solver_band, solver_dense
   use motion_checks, only: check_motion
   use nodal_eigensolver, only: most_round_off
+  use reach_texts, only: longest_link, open_linkage_text, reachable_intervals, reachable_text
   use rest_eigenvalues, only: lowest_rest_eigenvalues
   use round_off, only: round_off_error
   use sorting, only: ascending_order
@@ -29,7 +31,8 @@ module deck_checks
 contains
 
   !> Whether the linkage closes, reaches every position, has as many unknowns as modes, and a mesh
-  !! that keeps enough digits.
+  !! that keeps enough digits. Errors of the kind error_of_reach concern single positions, or all of
+  !! them.
   subroutine check_mechanics(model, diagnostics)
     type(model_t), intent(in) :: model                !! without errors so far
     type(diagnostics_t), intent(inout) :: diagnostics !! to which errors and warnings are added
@@ -59,7 +62,7 @@ contains
     end if
     call check_reach(model, reach, diagnostics)
     call check_geometry(model, reach, diagnostics)
-    call check_motion(model, mechanism, reach, reachable(reach), diagnostics)
+    call check_motion(model, mechanism, reach, reachable_text(reach), diagnostics)
     if (.not. needs_frequencies(model) .or. .not. has_mesh(mechanism) .or. &
       .not. has_beams(mechanism)) return
     ! Where the program chooses the orders there are enough unknowns, and deformation coordinates
@@ -76,23 +79,13 @@ contains
     type(mechanism_t), intent(in) :: mechanism
     type(diagnostics_t), intent(inout) :: diagnostics
 
-    real(wp) :: ground_length
+    type(token_t) :: place
     integer :: longest
 
-    associate (ground => mechanism%linkage%ground_position, &
-      length => mechanism%linkage%bodies%length)
-      ground_length = norm2(ground(:, 4) - ground(:, 1))
-      longest = maxloc(length, dim=1)
-      if (ground_length > length(longest)) then
-        call add_error(diagnostics, model%grounds(2)%pin, &
-          "the linkage closes at no crank angle: the ground pivots are farther "// &
-          "apart than the three links together are long")
-      else
-        call add_error(diagnostics, model%links(model%loop(longest))%length_word, &
-          "the linkage closes at no crank angle: link '"//mechanism%names(longest)%text// &
-          "' is longer than the other links and the distance of the ground pivots together")
-      end if
-    end associate
+    longest = longest_link(mechanism)
+    place = model%grounds(2)%pin
+    if (longest > 0) place = model%links(model%loop(longest))%length_word
+    call add_error(diagnostics, place, open_linkage_text(mechanism), kind=error_of_reach)
   end subroutine report_open_linkage
 
   !> Positions out of reach: one message with all that is needed to correct the deck.
@@ -115,8 +108,8 @@ contains
         to_string(model%crank%value(first), 10)//" deg"
     end if
     call add_error(diagnostics, model%crank%words(model%crank%word(first)), &
-      message//"; the linkage closes "//reachable(reach)//": "// &
-      ready_card(reach, step_of(model%crank)))
+      message//"; the linkage closes "//reachable_text(reach)//": "// &
+      ready_card(reach, step_of(model%crank)), kind=error_of_reach)
   end subroutine check_reach
 
   !> Positions out of reach that REPORT geometry asks for.
@@ -134,7 +127,7 @@ contains
         if (can_reach(reach, crank%value(i))) cycle
         call add_error(diagnostics, crank%words(crank%word(i)), "the crank angle "// &
           to_string(crank%value(i), 10)//" deg is out of reach; the linkage closes "// &
-          reachable(reach))
+          reachable_text(reach), kind=error_of_reach)
       end do
     end associate
   end subroutine check_geometry
@@ -165,41 +158,6 @@ contains
       card = card//" "//interval(limits(1, i), limits(2, i), step)
     end do
   end function ready_card
-
-  !> `between -132.6 and 132.6 deg`
-  pure function reachable(reach) result(phrase)
-    type(reach_t), intent(in) :: reach
-    character(len=:), allocatable :: phrase
-
-    real(wp), allocatable :: limits(:, :)
-    integer :: i
-
-    limits = reachable_intervals(reach)
-    phrase = ""
-    do i = 1, size(limits, 2)
-      if (i > 1) phrase = phrase//" and "
-      phrase = phrase//"between "//to_string(limits(1, i), 7)//" and "//to_string(limits(2, i), 7)
-    end do
-    phrase = phrase//" deg"
-  end function reachable
-
-  !> One interval or two, from the global x axis.
-  pure function reachable_intervals(reach) result(limits)
-    type(reach_t), intent(in) :: reach
-    real(wp), allocatable :: limits(:, :) !! (2, intervals) [deg]
-
-    real(wp), parameter :: near_zero = 1.0e-9_wp
-
-    if (reach%least <= near_zero) then
-      limits = reshape([-reach%most, reach%most], [2, 1])
-    else if (reach%most >= 180.0_wp - near_zero) then
-      limits = reshape([reach%least, 360.0_wp - reach%least], [2, 1])
-    else
-      limits = reshape([reach%least, reach%most, 360.0_wp - reach%most, 360.0_wp - reach%least], &
-        [2, 2])
-    end if
-    limits = limits + reach%ground
-  end function reachable_intervals
 
   !> `a to b step s`, half a degree or more inside the limits; a twentieth in a short interval, the
   !! middle alone in a tiny one.

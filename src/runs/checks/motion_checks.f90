@@ -2,6 +2,7 @@
 module motion_checks
   use curve_dynamics, only: curve_dynamics_t, new_curve_dynamics
   use diagnostics, only: add_error, diagnostics_t
+  use errors, only: error_of_reach
   use four_bar_limits, only: can_reach, reach_t
   use kinds, only: wp
   use linkages, only: linkage_t
@@ -33,7 +34,8 @@ contains
     associate (report => model%reports(number))
       if (.not. can_reach(reach, report%start_angle)) then
         call add_error(diagnostics, report%start_angle_word, "the initial crank angle "// &
-          to_string(report%start_angle, 10)//" deg is out of reach; the linkage closes "//reachable)
+          to_string(report%start_angle, 10)//" deg is out of reach; the linkage closes "// &
+          reachable, kind=error_of_reach)
       end if
       if (has_moving_mass(mechanism%linkage, mechanism%load_elements)) return
       call add_error(diagnostics, report%keyword, &

@@ -8,11 +8,12 @@ module deck_summary
     json_value
   use models, only: model_t, needs_frequencies
   use program_version, only: program_name, version_number
-  use run_findings, only: at_position, failure_t, findings_t, in_motion
+  use run_findings, only: at_position, failure_t, findings_t, in_motion, of_variant
   use run_totals, only: run_totals_t
   use tables, only: column_t, has_unit, table_t
   use text, only: character_count, plural, string_t
   use tokens, only: token_t
+  use warnings, only: counted_text, grade_doubt, grade_meaningless, warning_t
   implicit none (type, external)
   private
 
@@ -124,7 +125,7 @@ contains
   end function error_list
 
   !> The warnings of a deck in the order of its lines, the number of those beyond the kept ones,
-  !! then the warnings of its run.
+  !! then the warnings of its run; those of meaningless results before all others.
   pure function warning_list(diagnostics, source, findings, file) result(list)
     type(diagnostics_t), intent(in) :: diagnostics !! of the deck
     type(source_t), intent(in) :: source           !! lines of the deck
@@ -132,15 +133,73 @@ contains
     character(len=*), intent(in) :: file           !! name of the deck's file
     type(json_list_t) :: list
 
-    integer :: i
+    integer, parameter :: grades(2) = [grade_meaningless, grade_doubt]
+    type(diagnostic_t), allocatable :: of_deck(:)
+    type(warning_t) :: rest
+    integer :: i, k
 
-    call add_messages(list, warnings_of(diagnostics), source, file)
-    if (untold_warnings(diagnostics) > 0) call add_plain_message(list, file, &
-      plural(untold_warnings(diagnostics), "more warning"))
-    do i = 1, findings%warning_count
-      call add_plain_message(list, file, findings%warnings(i)%text)
+    of_deck = warnings_of(diagnostics)
+    do k = 1, size(grades)
+      do i = 1, size(of_deck)
+        if (of_deck(i)%warning%grade == grades(k)) call add_warning_of_deck(list, of_deck(i), &
+          source, file)
+      end do
+      if (grades(k) == grade_doubt .and. untold_warnings(diagnostics) > 0) then
+        rest%text = plural(untold_warnings(diagnostics), "more warning")
+        rest%variant = ""
+        call add_warning_of_run(list, rest, 1, file)
+      end if
+      do i = 1, findings%warning_count
+        if (findings%warnings(i)%grade == grades(k)) call add_warning_of_run(list, &
+          findings%warnings(i), findings%variants, file)
+      end do
     end do
   end function warning_list
+
+  !> Appends a warning of a deck with its place.
+  pure subroutine add_warning_of_deck(list, diagnostic, source, file)
+    type(json_list_t), intent(inout) :: list
+    type(diagnostic_t), intent(in) :: diagnostic
+    type(source_t), intent(in) :: source
+    character(len=*), intent(in) :: file
+
+    type(json_list_t) :: object
+
+    object = placed_message(diagnostic, source, file)
+    call add_grade(object, diagnostic%warning)
+    call add_item(list, json_object(object))
+  end subroutine add_warning_of_deck
+
+  !> Appends a warning of a run.
+  pure subroutine add_warning_of_run(list, warning, variants, file)
+    type(json_list_t), intent(inout) :: list
+    type(warning_t), intent(in) :: warning
+    integer, intent(in) :: variants !! of the deck
+    character(len=*), intent(in) :: file
+
+    type(json_list_t) :: object
+
+    object = plain_message(file, counted_text(warning, variants))
+    call add_grade(object, warning)
+    call add_item(list, json_object(object))
+  end subroutine add_warning_of_run
+
+  !> Adds what a warning takes from the results, and the number of variants that have it.
+  pure subroutine add_grade(object, warning)
+    type(json_list_t), intent(inout) :: object
+    type(warning_t), intent(in) :: warning
+
+    if (warning%grade == grade_meaningless) then
+      call add_member(object, "grade", json_value("meaningless"))
+    else
+      call add_member(object, "grade", json_value("doubt"))
+    end if
+    if (len(warning%variant) > 0) then
+      call add_member(object, "variants", json_value(warning%variants))
+    else
+      call add_member(object, "variants", json_null)
+    end if
+  end subroutine add_grade
 
   !> Appends messages with their places.
   pure subroutine add_messages(list, diagnostics, source, file)
@@ -149,16 +208,24 @@ contains
     type(source_t), intent(in) :: source
     character(len=*), intent(in) :: file
 
-    type(json_list_t) :: object
     integer :: i
 
     do i = 1, size(diagnostics)
-      object = place_members(diagnostics(i)%place, source, file)
-      call add_member(object, "message", json_value(diagnostics(i)%message))
-      call add_member(object, "second_place", second_place(diagnostics(i), source, file))
-      call add_item(list, json_object(object))
+      call add_item(list, json_object(placed_message(diagnostics(i), source, file)))
     end do
   end subroutine add_messages
+
+  !> A message with its places.
+  pure function placed_message(diagnostic, source, file) result(object)
+    type(diagnostic_t), intent(in) :: diagnostic
+    type(source_t), intent(in) :: source
+    character(len=*), intent(in) :: file
+    type(json_list_t) :: object
+
+    object = place_members(diagnostic%place, source, file)
+    call add_member(object, "message", json_value(diagnostic%message))
+    call add_member(object, "second_place", second_place(diagnostic, source, file))
+  end function placed_message
 
   !> Appends a message without a place, or about a line and column; without a second place.
   pure subroutine add_plain_message(list, file, message, line, column)
@@ -168,6 +235,13 @@ contains
     integer, intent(in), optional :: line    !! number, from 1
     integer, intent(in), optional :: column  !! number, from 1; counts only with `line`
 
+    call add_item(list, json_object(plain_message(file, message, line, column)))
+  end subroutine add_plain_message
+
+  !> A message without a place, or about a line and column.
+  pure function plain_message(file, message, line, column) result(object)
+    character(len=*), intent(in) :: file, message
+    integer, intent(in), optional :: line, column
     type(json_list_t) :: object
 
     call add_member(object, "file", json_value(file))
@@ -182,8 +256,7 @@ contains
     end if
     call add_member(object, "message", json_value(message))
     call add_member(object, "second_place", json_null)
-    call add_item(list, json_object(object))
-  end subroutine add_plain_message
+  end function plain_message
 
   !> File, line, column and length of a word. A message about something that the deck lacks points
   !! at its last line, with the length 0.
@@ -228,8 +301,8 @@ contains
     value = json_object(object)
   end function second_place
 
-  !> Positions without a pose (speed null), positions × speeds without modes, and motions that
-  !! ended too soon (speed null, with their time).
+  !> Positions without a pose (speed null), positions × speeds without modes, motions that ended too
+  !! soon (speed null, with their time), and variants without any pose (speed and crank null).
   pure function failure_array(findings, parameters) result(value)
     type(findings_t), intent(in) :: findings    !! of all variants
     type(string_t), intent(in) :: parameters(:) !! names of the VARY parameters
@@ -264,11 +337,18 @@ contains
     case (at_position)
       call add_member(object, "stage", json_value("position"))
       call add_member(object, "speed", json_null)
+    case (of_variant)
+      call add_member(object, "stage", json_value("variant"))
+      call add_member(object, "speed", json_null)
     case default
       call add_member(object, "stage", json_value("frequencies"))
       call add_member(object, "speed", json_value(failure%speed))
     end select
-    call add_member(object, "crank", json_value(failure%crank))
+    if (failure%stage == of_variant) then
+      call add_member(object, "crank", json_null)
+    else
+      call add_member(object, "crank", json_value(failure%crank))
+    end if
     if (failure%stage == in_motion) then
       call add_member(object, "time", json_value(failure%time))
     else

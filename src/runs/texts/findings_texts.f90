@@ -1,8 +1,12 @@
 !> Findings of a run in words, for standard error and the log.
 module findings_texts
-  use run_findings, only: at_position, failure_t, findings_t, in_motion, place_in_words
-  use text, only: to_string
+  use deck_source, only: source_t
+  use diagnostics, only: diagnostics_t, warning_texts
+  use run_findings, only: at_position, failure_t, findings_t, in_motion, of_variant, &
+    place_in_words, warnings_of_grade
+  use text, only: string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
+  use warnings, only: grade_doubt, grade_meaningless
   implicit none (type, external)
   private
 
@@ -15,7 +19,8 @@ module findings_texts
 
 contains
 
-  !> `speed 20 rad/s, crank 45 deg: reason`, or `motion, time 2.5 s, crank 45 deg: reason`
+  !> `speed 20 rad/s, crank 45 deg: reason`, or `motion, time 2.5 s, crank 45 deg: reason`; of a
+  !! variant as a whole, the reason alone
   pure function failure_line(failure) result(line)
     type(failure_t), intent(in) :: failure
     character(len=:), allocatable :: line
@@ -25,6 +30,9 @@ contains
       line = "motion, time "//to_string(failure%time, 12)//" s, "//place_in_words(failure%crank)
     case (at_position)
       line = place_in_words(failure%crank)
+    case (of_variant)
+      line = failure%variant//": "//failure%error%text//line_feed
+      return
     case default
       line = place_in_words(failure%crank, failure%speed)
     end select
@@ -32,20 +40,27 @@ contains
     if (len(failure%variant) > 0) line = failure%variant//", "//line
   end function failure_line
 
-  !> Warnings, then failed rows, for standard error. Each line begins with the deck's path.
+  !> Warnings, those of meaningless results first, then failed rows, for standard error. Each line
+  !! begins with the deck's path.
   pure function findings_messages(findings, path) result(text)
     type(findings_t), intent(in) :: findings !! of all variants
     character(len=*), intent(in) :: path     !! of the deck
     character(len=:), allocatable :: text
 
+    type(string_t), allocatable :: severe(:), others(:)
     integer :: i
 
     text = ""
-    do i = 1, min(findings%warning_count, most_shown)
-      text = text//path//": warning: "//findings%warnings(i)%text//line_feed
+    severe = warnings_of_grade(findings, grade_meaningless)
+    others = warnings_of_grade(findings, grade_doubt)
+    do i = 1, size(severe)
+      text = text//path//": warning: "//severe(i)%text//line_feed
     end do
-    if (findings%warning_count > most_shown) then
-      text = text//path//": "//to_string(findings%warning_count - most_shown)// &
+    do i = 1, min(size(others), most_shown)
+      text = text//path//": warning: "//others(i)%text//line_feed
+    end do
+    if (size(others) > most_shown) then
+      text = text//path//": "//to_string(size(others) - most_shown)// &
         " more warnings; run.log lists them"//line_feed
     end if
     do i = 1, min(findings%failures, most_shown)
@@ -53,22 +68,34 @@ contains
     end do
     if (findings%failures > most_shown) then
       text = text//path//": error: "//to_string(findings%failures - most_shown)// &
-        " more rows failed; run.log lists them"//line_feed
+        " more failures; run.log lists them"//line_feed
     end if
   end function findings_messages
 
-  !> Warnings, then failed rows, for the log: all of them, without the path.
-  pure function findings_log(findings) result(text)
-    type(findings_t), intent(in) :: findings !! of all variants
+  !> Warnings of the deck and of the run, those of meaningless results first, then failed rows, for
+  !! the log: all of them, without the path.
+  pure function findings_log(diagnostics, source, findings) result(text)
+    type(diagnostics_t), intent(in) :: diagnostics !! of the deck
+    type(source_t), intent(in) :: source           !! that their places refer to
+    type(findings_t), intent(in) :: findings       !! of all variants
     character(len=:), allocatable :: text
 
+    integer, parameter :: grades(2) = [grade_meaningless, grade_doubt]
     type(text_buffer_t) :: buffer
-    integer :: i
+    type(string_t), allocatable :: list(:)
+    integer :: i, k
 
-    do i = 1, findings%warning_count
-      call append_text(buffer, "warning: "//findings%warnings(i)%text//line_feed)
+    do k = 1, size(grades)
+      list = warning_texts(diagnostics, source, grades(k))
+      do i = 1, size(list)
+        call append_text(buffer, "warning: "//list(i)%text//line_feed)
+      end do
+      list = warnings_of_grade(findings, grades(k))
+      do i = 1, size(list)
+        call append_text(buffer, "warning: "//list(i)%text//line_feed)
+      end do
     end do
-    if (findings%failures > 0) call append_text(buffer, "failed rows: "// &
+    if (findings%failures > 0) call append_text(buffer, "failures: "// &
       to_string(findings%failures)//line_feed)
     do i = 1, findings%failures
       call append_text(buffer, failure_line(findings%failed(i)))
