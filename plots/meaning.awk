@@ -19,14 +19,23 @@ $1 == "VARY" || $1 == "TITLE" { next }
         if (!index($i, "$")) continue
         value = $i
         sub(/^[^=]*=/, "", value)
-        used = value
-        gsub(/[{}]/, "", used)
-        if (used !~ "[$]" name "([^A-Za-z0-9_]|$)") continue
+        if (!uses_name(value)) continue
         uses++
         key = substr($i, 1, index($i, "=") - 1)
         place = $1 == "LINK" ? "link" : $1 == "SECTION" ? "section" : $1 == "MATERIAL" ? "material" : ""
-        meaning = used == "$" name && key in what && place != "" ? (what[key] == "" ? key : what[key]) " of " place " " $2 : ""
+        meaning = tolower(value) == "$" tolower(name) && key in what && place != "" ? (what[key] == "" ? key : what[key]) " of " place " " $2 : ""
     }
 }
 
 END { print uses == 1 ? meaning : "" }
+
+# Names are made of letters, digits and _ - . \047, without regard to case.
+function uses_name(text,    place, next_one) {
+    text = tolower(text)
+    while (place = index(text, "$" tolower(name))) {
+        text = substr(text, place + length(name) + 1)
+        next_one = substr(text, 1, 1)
+        if (next_one !~ /[a-z0-9_.\047-]/) return 1
+    }
+    return 0
+}

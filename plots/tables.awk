@@ -33,6 +33,7 @@
 #   want="poses"                   the positions of geometry.dat, a line each: the crank angle, then for every
 #                                  pin of a link the link's number (0 the ground), its name, x and y, for every point the
 #                                  same with the number below 0
+#   want="unit L"                  the unit of this column
 #   want="band L"                  where the other parameters and the speed are those of the first row: L, then the least and the
 #                                  greatest value over all positions of f1, of f2, …
 #   want="events 20"               what befalls them: 1 crossing, 2 veering, 3 ambiguous; crank; the lower and the higher
@@ -41,7 +42,7 @@
 # Rows are picked by their values, never by block: two failed rows in a row look like the end of a block.
 
 BEGIN {
-    OFMT = CONVFMT = "%.12g"
+    OFMT = CONVFMT = "%.11e"       # gnuplot takes the text 5e-05 for the number 5 and something behind it
     n_asked = split(want, asked, " ")
     header = 1
     if (datablock) print "$" datablock " << EOD"
@@ -50,7 +51,7 @@ BEGIN {
 # The header: title, notes, names, units. A failed row is a comment too, but no part of it.
 header && /^#/ && (NR == 1 || !/^# *failed /) {
     sub(/^# */, "")
-    if (NR == 1) title = $0
+    if (NR == 1) title = $0 == "(no title)" ? "" : $0
     if (/^(link +)?[23][: ]/) link_note = $0
     name_line = unit_line
     unit_line = $0
@@ -203,8 +204,9 @@ asked[1] == "masses" && same($at["crank"], asked[2]) && same($at["speed"], asked
 END {
     if (header) name_columns()
     if (asked[1] == "facts") print_facts()
-    if (asked[1] == "range") printf "%.12g %.12g\n", least, greatest
-    if (asked[1] == "positive" && least != "") printf "%.12g %.12g\n", least, greatest
+    if (asked[1] == "unit") print unit[at[asked[2]]]
+    if (asked[1] == "range") print pointed(sprintf("%.12g", least)), pointed(sprintf("%.12g", greatest))
+    if (asked[1] == "positive" && least != "") print pointed(sprintf("%.12g", least)), pointed(sprintf("%.12g", greatest))
     if (asked[1] == "branches") print_branches()
     if (asked[1] == "events") print_events()
     if (asked[1] == "shape") print_link()
@@ -232,7 +234,7 @@ function print_facts(    i) {
     printf "deck_title = %s; link_note = %s; columns = %s; rows = %d", \
         quoted(title), quoted(link_note), quoted(name_line), rows
     for (i = 1; i <= n_columns; i++) {
-        if (name[i] ~ /^[A-Za-z_][A-Za-z_0-9]*$/) {
+        if (name[i] ~ /^[A-Za-z_][A-Za-z_0-9]*$/ && length(name[i]) <= 40) {
             printf "; col_%s = %d; unit_%s = %s; low_%s = %.15g; high_%s = %.15g", \
                 name[i], i, name[i], quoted(unit[i]), name[i], low[i], name[i], high[i]
         }
@@ -523,7 +525,13 @@ function quoted(text) { gsub(/'/, "''", text); return "'" text "'" }
 
 function cell(column) { return column ~ /^=/ ? $at[substr(column, 2)] : short($at[column]) }
 
-function short(text) { return text ~ /^[-+.]*[0-9]/ ? sprintf("%.12g", text) : text }
+function short(text) { return text ~ /^[-+.]*[0-9]/ ? pointed(sprintf("%.12g", text)) : text }
+
+# With a point in every number that has an exponent, as above.
+function pointed(text) {
+    if (text ~ /^-?[0-9]+e/) sub(/e/, ".0e", text)
+    return text
+}
 
 function absolute(a) { return a < 0 ? -a : a }
 

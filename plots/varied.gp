@@ -12,29 +12,31 @@ do for [name in columns] { if (name eq sprintf("f%d", modes + 1)) { modes = mode
 range = answer(table, "range".names)
 lowest = word(range, 1) + 0.0
 highest = word(range, 2) + 0.0
-unit_named(name) = value("unit_".name) eq "-" ? "" : typeset(value("unit_".name))
+# A name may be one that no variable can have.
+unit_named(name) = (its_unit = answer(table, "unit ".name), its_unit eq "-" ? "" : typeset(its_unit))
 with_unit(text, name) = unit_named(name) eq "" ? text : text." ".unit_named(name)
 fixed = at_speed(word(answer(table, "distinct speed"), 1) + 0, unit_speed)
 do for [name in answer(table, "varied")] {
-    if (name ne parameter) { fixed = fixed.", ".with_unit(sprintf("%s = %.10g", name, word(answer(table, "distinct ".name), 1) + 0), name) }
+    if (name ne parameter) { fixed = fixed.", ".with_unit(sprintf("%s = %.10g", inside(name, 30), word(answer(table, "distinct ".name), 1) + 0), name) }
 }
 echo = system("dirname ".quoted(table))."/echo.deck"
 meaning = system("[ ! -f ".quoted(echo)." ] || awk -v name=".quoted(parameter)." -f ".quoted(plots."meaning.awk")." < ".quoted(echo))
 load keep("bands", table, "band ".parameter)
 values = |$bands|
 
-headline = numbered(figure, "Natural frequencies against ".(meaning eq "" ? parameter : "the ".meaning))
+headline = numbered(figure, "Natural frequencies against ".(meaning eq "" ? inside(parameter, 50) : "the ".inside(meaning, 50)))
 note = "bands: least to greatest over the computed crank angles;  ".fixed
 if (lowest < 0 && remark eq "") { remark = divergence }
 
 eval page_of_one(modes, text_width(sprintf("mode %d", modes), 20), "natural frequency", unit_f1, lowest, highest)
 set style fill transparent solid 0.25 noborder
-low = value("low_".parameter)
-high = value("high_".parameter)
+extent = answer(table, "range ".parameter)
+low = word(extent, 1) + 0.0
+high = word(extent, 2) + 0.0
 eval abscissa(low, high)
 # A single value has a band without width: its ends are drawn as points.
 if (high == low) { eval abscissa(low - (low == 0 ? 1 : 0.01*abs(low)), low + (low == 0 ? 1 : 0.01*abs(low))) }
-x_title = abscissa_title(meaning eq "" ? parameter : meaning.", ".parameter, value("unit_".parameter), low, high)
+x_title = abscissa_title(meaning eq "" ? parameter : meaning.", ".parameter, answer(table, "unit ".parameter), low, high)
 set xlabel fitted(x_title, plot_width + 100, 16) noenhanced font point_size(fit_size(x_title, plot_width + 100, 20, 16))
 
 plot for [k=1:modes] $bands using 1:(column(2*k)):(column(2*k + 1)) with filledcurves lt k notitle, \
