@@ -366,9 +366,9 @@ awk -v deck="$deck" -v new="$new" -v animated="${figures#figures}" '
 
 # The scripts are UTF-8; in the C locale gnuplot warns about every degree sign.
 # It counts the pictures of an animation on standard error.
-LC_ALL=C.UTF-8 gnuplot -e "$settings" "$new/draw0" 2> "$new/told0" &
+LC_ALL=C.UTF-8 gnuplot -e "$settings; fallback_told = 1" "$new/draw0" 2> "$new/told0" &
 first=$!
-LC_ALL=C.UTF-8 gnuplot -e "$settings; fallback_told = 1" "$new/draw1" 2> "$new/told1"
+LC_ALL=C.UTF-8 gnuplot -e "$settings" "$new/draw1" 2> "$new/told1"
 second_status=$?
 wait "$first"
 first_status=$?

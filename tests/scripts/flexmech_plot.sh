@@ -1,0 +1,233 @@
+#!/bin/sh
+# flexmech-plot and make install: options and what is wrong with them, formats and sizes, bare figures, figures on request; panels
+# and figures of nothing but zeros; other terminals; figures of the stress test and of make bench.
+. tests/scripts/functions.sh
+
+case $program in
+*/release/*) ;;
+*) skip "flexmech-plot" "it draws from tables, which are the same in all builds"; exit ;;
+esac
+
+# plot STATUS ARGUMENT...: what it says is kept as that of a run.
+plot() {
+  wanted=$1
+  shift
+  timeout 120 plots/flexmech-plot "$@" >"$scratch/stdout" 2>"$scratch/stderr" </dev/null
+  found=$?
+  [ $found -eq "$wanted" ] && return
+  echo "flexmech-plot $*: status $found, not $wanted; it said:"
+  head -n 5 "$scratch/stderr"
+  return 1
+}
+
+# shows TEXT FILE.svg, and the other way round
+shows() {
+  grep -qF -e "$1" "$2" || { echo "${2##*/} has no '$1'"; return 1; }
+}
+
+shows_not() {
+  ! grep -qF -e "$1" "$2" || { echo "${2##*/} has '$1'"; return 1; }
+}
+
+tables() {
+  motion_deck "0 to 360 step 15" >"$scratch/moves.deck"
+  beam_deck "CRANK 0 to 350 step 10" "MODES 2" "REPORT frequencies" >"$scratch/swings.deck"
+  run 0 --quiet --out "$scratch" "$scratch/moves.deck" "$scratch/swings.deck"
+}
+
+# refused TEXT ARGUMENT...
+refused() {
+  text=$1
+  shift
+  plot 2 "$@" && says "$text" && [ ! -s "$scratch/stdout" ] && absent "$scratch/moves/figures"
+}
+
+wrong_options() {
+  refused "unknown option --formt" --formt svg "$scratch/moves" &&
+    refused "--format gif: png, svg or pdf" --format gif "$scratch/moves" &&
+    refused "--format takes a value" --format &&
+    refused "--size 1200: WIDTHxHEIGHT of 150 to 10000 pixels or 40 to 2000 mm each" --size 1200 "$scratch/moves" &&
+    refused "--size 12x8:" --size 12x8 "$scratch/moves" &&
+    refused "--size 1200x800in:" --size 1200x800in "$scratch/moves" &&
+    refused "--animate takes no --format, --size or --errors" --animate --format svg "$scratch/moves" &&
+    refused "options stand before the folder: --errors" "$scratch/moves" --errors &&
+    refused "the folder with the tables of a deck is missing" --errors &&
+    refused "no folder $scratch/nowhere" "$scratch/nowhere" &&
+    refused "moves.deck is a file: name the folder" "$scratch/moves.deck"
+}
+
+help_and_version() {
+  plot 0 --help && silent || return 1
+  for option in --animate --errors --format --size --no-titles --help --version; do
+    grep -q -e "$option" "$scratch/stdout" || { echo "the help has no $option"; return 1; }
+  done
+  plot 0 --version && [ "$(cat "$scratch/stdout")" = "flexmech-plot $("$program" --version | sed 's/flexmech //')" ] || cat "$scratch/stdout"
+}
+
+several_folders() {
+  plot 0 "$scratch/moves" "$scratch/swings" && silent && [ "$(wc -l <"$scratch/stdout")" -eq 2 ] || { cat "$scratch/stdout"; return 1; }
+  plot 1 "$scratch/moves" "$scratch/nowhere" "$scratch/swings" && says "no folder" && [ "$(wc -l <"$scratch/stdout")" -eq 2 ]
+}
+
+# A figure has the size that was asked for, whatever its format; those of another format are gone.
+formats() {
+  folder=$scratch/swings/figures
+  for format in png svg pdf; do
+    for size in 900x700 160x100mm; do
+      plot 0 --format $format --size $size "$scratch/swings" && silent || return 1
+      [ "$(ls "$folder")" = "$(printf 'drawn.txt\nfrequencies.%s' $format)" ] || { ls "$folder"; return 1; }
+      python3 - "$folder/frequencies.$format" $size <<'END_OF_PYTHON' || return 1
+import re
+import struct
+import sys
+import zlib
+
+path, size = sys.argv[1:]
+with open(path, "rb") as file:
+    data = file.read()
+width, height = map(int, size.replace("mm", "").split("x"))
+mm = size.endswith("mm")
+if path.endswith("png"):
+    found = struct.unpack(">II", data[16:24])
+    wanted = [length*300/25.4 if mm else length for length in (width, height)]
+elif path.endswith("svg"):
+    found = re.search(rb'width="(\d+)(mm)?" height="(\d+)(mm)?"', data).groups()
+    assert (found[1] == b"mm") == mm, found
+    found, wanted = [int(found[0]), int(found[2])], [width, height]
+else:
+    parts = data + b"".join(zlib.decompressobj().decompress(stream) for stream in re.findall(rb"stream\r?\n(x.*?)endstream", data, re.DOTALL))
+    found = [float(number) for number in re.search(rb"/MediaBox\s*\[\s*0 0 ([\d.]+) ([\d.]+)", parts).groups()]
+    wanted = [length*72/(25.4 if mm else 96) for length in (width, height)]
+assert all(abs(a - b) <= 1 for a, b in zip(found, wanted)), f"{path} of {size}: {found}, not {wanted}"
+END_OF_PYTHON
+    done
+  done
+}
+
+bare() {
+  plot 0 --format svg "$scratch/moves" && shows "Link angles" "$scratch/moves/figures/kinematics_angles.svg" &&
+    shows "3: link coupler" "$scratch/moves/figures/kinematics_angles.svg" || return 1
+  plot 0 --format svg --no-titles "$scratch/moves" && shows_not "Link angles" "$scratch/moves/figures/kinematics_angles.svg" &&
+    shows_not "3: link coupler" "$scratch/moves/figures/kinematics_angles.svg" &&
+    shows "crank angle" "$scratch/moves/figures/kinematics_angles.svg"
+}
+
+errors_on_request() {
+  plot 0 "$scratch/swings" && absent "$scratch/swings/figures/errors.png" || return 1
+  plot 0 --errors --format svg "$scratch/swings" && shows "estimated relative error" "$scratch/swings/figures/errors.svg"
+}
+
+# At rest there are no forces to draw, without a motor no torque of it, and every axis says its unit.
+zeros() {
+  sed '/^MOTOR/d; /^GRAVITY/d; /^FORCE/d; s/^SPEED.*/SPEED 0 5/; s/end=4/end=1 speed=5/' inputs/rigid.deck >"$scratch/still.deck"
+  run 0 --quiet --out "$scratch" "$scratch/still.deck" || return 1
+  plot 0 --format svg "$scratch/still" && silent || return 1
+  folder=$scratch/still/figures
+  for name in reactions shaking_force balance harmonics point_rates; do
+    [ -s "$folder/${name}_speed_5.svg" ] && absent "$folder/${name}_speed_0.svg" || { echo "$name"; return 1; }
+  done
+  shows "reduced inertia" "$folder/lagrange_speed_0.svg" && shows_not "torque [" "$folder/lagrange_speed_0.svg" &&
+    shows "angular velocity" "$folder/motion.svg" && shows_not "motor torque" "$folder/motion.svg" &&
+    shows "shaking force x [N]" "$folder/harmonics_speed_5.svg" && shows "driving torque [N·m]" "$folder/harmonics_speed_5.svg"
+}
+
+# What a parameter is, is on the page.
+parameters() {
+  beam_deck "CRANK 0 90" "REPORT frequencies" "SPEED 2" "VARY L.1 90 100 mm" | sed 's/length=100 /length=$l.1 /' >"$scratch/varied.deck"
+  run 0 --quiet --out "$scratch" "$scratch/varied.deck" && plot 0 --format svg "$scratch/varied" && silent || return 1
+  shows "against the length of link crank" "$scratch/varied/figures/frequencies_by_L.1.svg" &&
+    shows "length of link crank, L.1 [mm]" "$scratch/varied/figures/frequencies_by_L.1.svg" &&
+    shows "ω₂ = 2 rad/s" "$scratch/varied/figures/frequencies_by_L.1.svg" || return 1
+  for card in 'length=$L2' 'length=[$L]' 'length=$L.' 'at=$L'; do
+    [ -z "$(printf 'LINK crank O2 A %s\n' "$card" | awk -v name=L -f plots/meaning.awk)" ] || { echo "$card is not \$L"; return 1; }
+  done
+  [ "$(printf 'SECTION s I=$i ! $i\n' | awk -v name=I -f plots/meaning.awk)" = "second moment of area of section s" ]
+}
+
+# A gnuplot without the terminal pngcairo draws all figures with another.
+other_terminals() {
+  mkdir -p "$scratch/bin"
+  for terminal in png svg pdfcairo; do
+    printf '#!/bin/sh\nexec %s -e "terminals = '\''%s'\''" "$@"\n' "$(command -v gnuplot)" $terminal >"$scratch/bin/gnuplot"
+    chmod +x "$scratch/bin/gnuplot"
+    case $terminal in pdfcairo) ending=pdf ;; *) ending=$terminal ;; esac
+    for folder in moves swings still varied; do
+      PATH=$scratch/bin:$PATH plot 0 --errors "$scratch/$folder" && says "drawing with $terminal" || return 1
+      [ "$(wc -l <"$scratch/stderr")" -eq 1 ] || { cat "$scratch/stderr"; return 1; }
+      for file in $(sed '/^#/d; /gif$/d' "$scratch/$folder/figures/drawn.txt"); do
+        case $file in *.$ending) ;; *) echo "$file was drawn with $terminal"; return 1 ;; esac
+      done
+    done
+  done
+  # Asked for a format, it does not take another.
+  printf '#!/bin/sh\nexec %s -e "terminals = '\''png'\''; GPVAL_TERMINALS = '\''png'\''" "$@"\n' "$(command -v gnuplot)" >"$scratch/bin/gnuplot"
+  PATH=$scratch/bin:$PATH plot 1 --format pdf "$scratch/swings" && says "pdf"
+}
+
+# The command, installed: it finds its scripts and the program, from anywhere.
+installed() {
+  make --no-print-directory -s install PREFIX="$scratch/prefix" >"$scratch/stdout" 2>&1 || { cat "$scratch/stdout"; return 1; }
+  rm -rf "$scratch/moves/figures"
+  (cd "$scratch" && PATH=/usr/bin:/bin sh prefix/bin/flexmech-plot moves) >"$scratch/stdout" 2>"$scratch/stderr" || { cat "$scratch/stderr"; return 1; }
+  silent && [ -s "$scratch/moves/figures/kinematics_angles.png" ] || return 1
+  ln -s prefix/bin/flexmech-plot "$scratch/link"
+  [ "$(sh "$scratch/link" --version)" = "flexmech-plot $("$program" --version | sed 's/flexmech //')" ] || { sh "$scratch/link" --version; return 1; }
+  cp "$scratch/prefix/bin/flexmech-plot" "$scratch/alone"
+  sh "$scratch/alone" moves 2>"$scratch/stderr"
+  [ $? -eq 1 ] && says "make install"
+}
+
+# whole FIGURE SCRIPT ARGUMENT...: drawn as an SVG without a complaint, no word cut.
+whole() {
+  figure=$scratch/$1
+  script=$2
+  table=$3
+  shift 3
+  LC_ALL=C.UTF-8 gnuplot -e "figure_format = 'svg'" -c "plots/$script" "$table" "$figure" "$@" 2>"$scratch/stderr" && silent || return 1
+  python3 -B tests/support/figure_extents.py check "$figure.svg"
+}
+
+# Sixteen variants are four panels of four marks, and numbered cases have their two errors for axes.
+stress_figures() {
+  for case in mass time length all; do
+    for way in accuracy deformation dense band; do
+      for k in 1e-9 1e0 1e9; do
+        echo "$k $case-$way 20 60 1 1e-14 2e-13 0.05 - bounded -"
+      done
+    done
+  done >"$scratch/units.dat"
+  whole units stress.gp "$scratch/units.dat" "size of the unit, relative" "Stress test: units" || return 1
+  for text in accuracy= deformation dense band mass time length all; do
+    shows ">$text<" "$scratch/units.svg" || return 1
+  done
+  shows_not "mass-" "$scratch/units.svg" || return 1
+  whole random stress.gp "$scratch/units.dat" "number of the linkage" "Stress test: random" &&
+    shows "true relative error" "$scratch/random.svg" && shows "estimated relative error" "$scratch/random.svg"
+}
+
+# Two numbers of threads are bars, many are a curve.
+bench_figures() {
+  { printf '# run times\n# solver threads per_position\n# - - s\n'
+    for solver in dsygv band accuracy; do
+      printf '%s 1 2e-5\n%s 2 1.1e-5\n' $solver $solver
+    done; } >"$scratch/threads.dat"
+  whole threads bench_cost.gp "$scratch/threads.dat" threads per_position "Time of a position against threads" threads "" &&
+    shows ">threads: 2<" "$scratch/threads.svg" || return 1
+  printf 'accuracy 4 7e-6\naccuracy 8 5e-6\n' >>"$scratch/threads.dat"
+  whole more bench_cost.gp "$scratch/threads.dat" threads per_position "Time of a position against threads" threads "" &&
+    shows_not "threads: 2" "$scratch/more.svg"
+}
+
+check "flexmech-plot: tables to draw" tables
+check "flexmech-plot: wrong options" wrong_options
+check "flexmech-plot: help and version" help_and_version
+check "flexmech-plot: several folders" several_folders
+check "flexmech-plot: formats and sizes" formats
+check "flexmech-plot: bare figures" bare
+check "flexmech-plot: errors on request" errors_on_request
+check "figures without panels of zeros, with units" zeros
+check "figures against a parameter" parameters
+check "figures with other terminals" other_terminals
+check "flexmech-plot: installed" installed
+check "figures of the stress test" stress_figures
+check "figures of make bench" bench_figures
