@@ -93,7 +93,7 @@ lines = 1
 title_of(panel) = value_title("natural frequency", unit_frequency, low_of[panel], high_of[panel])
 do for [panel=1:panels] {
     extra = roomy(low_of[panel], high_of[panel])
-    if (from_zero && low_of[panel] >= 0 && low_of[panel] < 0.5*high_of[panel]) { high_of[panel] = high_of[panel] + extra } \
+    if (from_zero && low_of[panel] >= 0 && low_of[panel] < 0.2*high_of[panel]) { high_of[panel] = high_of[panel] + extra } \
     else { low_of[panel] = low_of[panel] - extra; high_of[panel] = high_of[panel] + extra }
     tick_room = larger(tick_room, value_width(low_of[panel], high_of[panel], full_height))
     lines = larger(lines, planned_lines(title_of(panel), full_height))

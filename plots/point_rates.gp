@@ -6,7 +6,8 @@ table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argum
 
 eval answer(table, "facts")
 names = names_in(table, "point")
-headline = numbered(figure, sprintf("Speed and acceleration of points against crank angle, %s", at_speed(speed, unit_speed)))
+headline = numbered(figure, sprintf("Speed and acceleration of %s against crank angle, %s", \
+    words(names) == 1 ? "point ".short_name(names, 1) : "points", at_speed(speed, unit_speed)))
 note = ""
 x = "field('crank')"
 x_axis = "eval crank_axis(low_crank, high_crank)"

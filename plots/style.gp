@@ -124,7 +124,7 @@ ordinal(n) = n <= 10 ? word("first second third fourth fifth sixth seventh eight
 capital(text) = substr("ABCDEFGHIJKLMNOPQRSTUVWXYZ", strstrt("abcdefghijklmnopqrstuvwxyz", text[1:1]), \
     strstrt("abcdefghijklmnopqrstuvwxyz", text[1:1])).text[2:*]
 at_crank(crank) = sprintf("θ₂ = %.10g°", crank)
-at_speed(speed, unit) = sprintf("ω₂ = %.10g %s", speed, unit)
+at_speed(speed, unit) = sprintf("ω₂ = %.6g %s", speed, typeset(unit))
 numbered(figure, text) = figure eq "" ? text : "Figure ".figure.".  ".text
 divergence = "below zero: −√(−ω²)/2π of a mode that has diverged (static instability)"
 cut(text, n) = strlen(text) <= n ? text : text[1 : n - 1]."…"
@@ -188,9 +188,9 @@ heading = !titled ? "" : label_of(901, "headline", heading_room, 23, 14, "down(3
 from_zero = 1                                       # values far from zero only have an axis without it
 constant(low, high) = high - low <= 1e-9*larger(abs(low), abs(high))
 value_bottom(low, high) = constant(low, high) ? (low == 0 ? -1.0 : low > 0 ? 0.0 : 1.25*low) \
-    : low >= 0 && (low < 0.5*high && from_zero || low < 0.06*(high - low)) ? 0.0 : low - 0.06*(high - low)
+    : low >= 0 && (low < 0.2*high && from_zero || low < 0.06*(high - low)) ? 0.0 : low - 0.06*(high - low)
 value_top(low, high) = constant(low, high) ? (low == 0 ? 1.0 : low > 0 ? 1.25*low : 0.0) \
-    : high <= 0 && (high > 0.5*low && from_zero || high > -0.06*(high - low)) ? 0.0 : high + 0.06*(high - low)
+    : high <= 0 && (high > 0.2*low && from_zero || high > -0.06*(high - low)) ? 0.0 : high + 0.06*(high - low)
 power_of(bottom, top) = (largest = larger(abs(bottom), abs(top)), largest >= 0.01 && largest < 10000 ? 0 \
     : int(3*floor(log10(largest)/3 + 1e-9)))
 decimals_of(step, power) = larger(0, int(ceil(-log10(step/10.0**power) - 1e-6)))
@@ -291,6 +291,6 @@ abscissa_title(name, unit, low, high) = name.bracketed(unit_and_power(unit, powe
 # computed is the dots.
 few(n) = n <= 60
 line_width(n) = few(n) ? 1.5 : 3
-dot_size(n) = few(n) ? 0.9 : n <= 150 ? 0.4 : 0.1
+dot_size(n) = n <= 24 ? 0.1 : few(n) ? 0.7 : n <= 150 ? 0.4 : 0.1
 mark_step(n) = n > 24 ? n/12 : 1
 mark_first(curve, curves, n) = n > 24 ? ((curve - 1)*mark_step(n))/curves : 0
