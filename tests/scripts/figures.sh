@@ -63,7 +63,7 @@ END_OF_PYTHON
 
 rigid_figures() {
   run 0 --out "$scratch/out" inputs/rigid.deck || return 1
-  speeds=$(for name in balance harmonics lagrange point_rates reactions shaking_force; do
+  speeds=$(for name in balance forces harmonics lagrange point_rates reactions shaking_force; do
     echo ${name}_speed_5 ${name}_speed_10
   done)
   drawn rigid figures coupler_curve linkage kinematics_accelerations kinematics_angles kinematics_velocities motion \
@@ -71,7 +71,8 @@ rigid_figures() {
 }
 
 rigid_animations() {
-  drawn rigid animations linkage motion && gif rigid/animations/linkage.gif 72 && gif rigid/animations/motion.gif 101
+  drawn rigid animations forces_speed_5 forces_speed_10 linkage motion && gif rigid/animations/linkage.gif 72 &&
+    gif rigid/animations/motion.gif 101 && gif rigid/animations/forces_speed_10.gif 72
 }
 
 # Speeds of which one is the beginning of the other, failed rows, a single position, a name with an apostrophe.
@@ -96,9 +97,10 @@ REPORT lagrange
 END_OF_DECK
   sed 's/^CRANK.*/CRANK 90/; /REPORT points/d' "$scratch/dead.deck" >"$scratch/one.deck"
   run 1 --quiet --out "$scratch/out" "$scratch/dead.deck" "$scratch/one.deck" || return 1
-  speeds=$(for name in lagrange reactions shaking_force; do echo ${name}_speed_0 ${name}_speed_0.5; done)
+  # At speed 0 there is no velocity and no force to draw.
+  speeds="lagrange_speed_0 lagrange_speed_0.5 forces_speed_0.5 reactions_speed_0.5 shaking_force_speed_0.5"
   angles="kinematics_accelerations kinematics_angles kinematics_velocities"
-  drawn dead figures coupler_curve linkage $angles point_rates_speed_0 point_rates_speed_0.5 $speeds || return 1
+  drawn dead figures coupler_curve linkage $angles point_rates_speed_0.5 $speeds || return 1
   drawn one figures $angles $speeds
 }
 
