@@ -1,4 +1,4 @@
-# The motion of motion.dat as fast as it is, or slower if it lasts less than a second or two; the first six seconds of a long one.
+# The motion of motion.dat in real time, or slowed down if it lasts less than a second or two; of a long one, the first six seconds.
 #   gnuplot -c animate_motion.gp motion.dat OUT [points.dat [FIGURE [REMARK]]]
 
 load ARG0[1 : strlen(ARG0) - strlen("animate_motion.gp")]."style.gp"

@@ -9,7 +9,7 @@ box_height = pixel*(y1 - y0)
 step = nice(((x1 - x0) + (y1 - y0))/17)
 power_drawn = power_of(lesser(x0, y0), larger(x1, y1))
 tick_room = tick_width(y0, y1, step, power_drawn)
-drawing_left = 85 + tick_room
+drawing_left = 90 + tick_room
 frame_width = larger(larger(drawing_left + box_width + 45, larger(720, lesser(text_width(deck_title, 18) + 50, 1100))), larger(larger(text_width(headline, 23), text_width(note, 16)), text_width(remark, 16)) + 60)
 box_left = drawing_left + (frame_width - drawing_left - 45 - box_width)/2
 box_bottom = foot(lines_of_notes(note, remark))
@@ -26,7 +26,7 @@ set yrange [y0:y1]
 set size ratio -1
 eval "set xtics (".ticks_between(x0, x1, step, power_drawn)."); set ytics (".ticks_between(y0, y1, step, power_drawn).")"
 axis_unit(name, unit) = name.bracketed(unit_and_power(unit, power_drawn))
-set label 905 axis_unit("y", length_unit) at screen across(box_left - tick_room - 52), up(box_bottom + 0.5*box_height) \
+set label 905 axis_unit("y", length_unit) at screen across(box_left - tick_room - 56), up(box_bottom + 0.5*box_height) \
     center rotate by 90 noenhanced
 set xlabel axis_unit("x", length_unit) noenhanced
 unset grid
