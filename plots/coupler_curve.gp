@@ -17,12 +17,19 @@ load poses_as("there")
 eval pivots
 shown_row = $there[1]
 
-# The paths, with dots every 10 degrees, every third of them large; a large one at 0, 60, 120 … degrees has its angle beside it.
+# The paths, over a turn or over the range of the table, with small dots, large ones, and angles beside some of these.
 turning = turns_fully && high - low >= 240
-rows_of_path = turning ? 360 : 180
-every = turning ? 10 : 5*ceil(rows_of_path/60.0)
+first = turning ? 0.0 : 1.0*low
+last = turning ? 360.0 : 1.0*high
+range = last - first
+small = range > 150 ? 10.0 : range > 60 ? 5.0 : range > 24 ? 2.0 : nice(range/30)
+large = small*(small == 10 || small == 5 ? 3 : 5)
+tenth = small/10
+first_tenth = int(ceil(first/tenth - 1e-6))
+rows_of_path = int(floor(last/tenth + 1e-6)) - first_tenth
+row_of(multiple) = int(ceil(first_tenth*tenth/multiple - 1e-6)*multiple/tenth + 0.5) - first_tenth       # its first one, from 0
 set print angles
-do for [k=0:rows_of_path] { print sprintf("%.17g", turning ? k : low + (high - low)*k/rows_of_path) }
+do for [k=0:rows_of_path] { print sprintf("%.17g", (first_tenth + k)*tenth) }
 unset print
 load poses_as("paths")
 poses = "$there"
@@ -47,9 +54,7 @@ y0 = y_min - room - size
 y1 = y_max + room
 
 headline = numbered(figure, sprintf("Paths of points, with the mechanism at %s", at_crank(crank)))
-note = turning ? "small dots: every 10° of the crank, large ones every 30°; numbers: crank angle θ₂" \
-    : sprintf("small dots: every %.4g° of the crank, large ones every %.4g°; numbers: crank angle θ₂", \
-        (high - low)*every/rows_of_path, 3*(high - low)*every/rows_of_path)
+note = sprintf("small dots: every %g° of the crank, large ones every %g°; numbers: crank angle θ₂", small, large)
 load plots."legend.gp"
 path_style(p) = sprintf("lw 4 dt solid lc rgb '%s'", point_ink(p))
 mass_style = "lw 2.5 dt solid lc rgb '#333333'"
@@ -87,9 +92,8 @@ print box_at(O4)
 print box_at(at(shown_row, 2))
 print box_at(at(shown_row, 4))
 do for [p=1:points] { print box_at(at(shown_row, column_of(p))) }
-step_of_numbers = turning ? 60 : 60*every/10
 do for [p=1:points] {
-    do for [k=0:rows_of_path - 1:step_of_numbers] {
+    do for [k=row_of(2*large):turning ? rows_of_path - 1 : rows_of_path:int(2*large/tenth + 0.5)] {
         angle = word($paths[k + 1], 1) + 0
         z = at($paths[k + 1], column_of(p))
         text = sprintf("%.4g°", angle)
@@ -101,7 +105,7 @@ unset print
 load labels_as("numbers")
 
 # A path that is short on the page has large dots only.
-steps_apart(p) = sum [k=1:rows_of_path] pixel*abs(at($paths[k + 1], column_of(p)) - at($paths[k], column_of(p)))*every/rows_of_path
+steps_apart(p) = sum [k=1:rows_of_path] pixel*abs(at($paths[k + 1], column_of(p)) - at($paths[k], column_of(p)))*10/rows_of_path
 halos = ""
 paths = ""
 if (has_masses) {
@@ -115,9 +119,10 @@ do for [p=1:points] {
     columns_of_path = sprintf("%d:%d", column_of(p), column_of(p) + 1)
     halos = halos."$paths using ".columns_of_path." with lines lw 9 dt solid lc rgb 'white' notitle, "
     paths = paths."$paths using ".columns_of_path." with lines ".path_style(p)." notitle, ".\
-        (steps_apart(p) < 14 ? "" : sprintf("$paths every %d using %s with points pt 7 ps 0.8 lc rgb '%s' notitle, ", \
-            every, columns_of_path, point_ink(p))).\
-        sprintf("$paths every %d using %s with points pt 7 ps 1.5 lc rgb '%s' notitle, ", 3*every, columns_of_path, point_ink(p))
+        (steps_apart(p) < 14 ? "" : sprintf("$paths every 10::%d using %s with points pt 7 ps 0.8 lc rgb '%s' notitle, ", \
+            row_of(small), columns_of_path, point_ink(p))).\
+        sprintf("$paths every %d::%d using %s with points pt 7 ps 1.5 lc rgb '%s' notitle, ", int(large/tenth + 0.5), row_of(large), \
+            columns_of_path, point_ink(p))
 }
 # A label begins with the number of its point.
 text_behind(label) = label[strstrt(label, " ") + 1 : *]

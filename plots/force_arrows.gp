@@ -39,6 +39,6 @@ print_name(k, place) = sprintf("label %.6g %.6g 16 %.4g %.4g %d %s\n", pixel*rea
     text_width("O2", 15), text_height(15), \
     word("135 90 90 45", k) + 0, word("O₂ A B O₄", k))
 print_ground(z) = sprintf("box %.6g %.6g %.6g %.6g\n", pixel*real(z), pixel*(imag(z) - 0.7*size), pixel*1.6*size, pixel*1.3*size)
-pins_to_name(place, row) = "page -1e6 1e6 -1e6 1e6\n".print_way(O2, tail_at(place, 2)).\
+pins_to_name(place, row) = sprintf("page %.6g %.6g %.6g %.6g\n", pixel*x0, pixel*x1, pixel*line_y0[1], pixel*line_y1[1]).print_way(O2, tail_at(place, 2)).\
     print_way(tail_at(place, 2), tail_at(place, 3)).print_way(tail_at(place, 3), O4).print_ways(1, place, row).\
     print_ground(O2).print_ground(O4).print_name(1, place).print_name(2, place).print_name(3, place).print_name(4, place)

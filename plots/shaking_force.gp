@@ -104,13 +104,17 @@ unset print
 load labels_as("numbers")
 
 set style textbox opaque margins 0.3, 0.2 fillcolor rgb "white" noborder
+computed = 0
+stats $given using (computed = computed + ($4 == 1), 0) nooutput
 marked(value) = $4 == 1 && at_30($3) ? value : NaN
 is_angle(label) = label[strlen(label) : *] eq "°"
 balanced_part = !balanced ? "" : ", $balanced using 1:2 with lines ".balanced_style." notitle".\
     (balanced_max < 0.02*radius ? ", $balanced using 1:2 every ::0::0 with points pt 7 ps 1.6 lc rgb '#0060A8' notitle" : "")
 eval "plot $numbers using (is_angle(strcol(6)) ? NaN : unscaled_x($1)):(unscaled_y($2)):(strcol(6)) ".\
     "with labels boxed noenhanced font point_size(15) tc rgb '#606060' notitle, ".\
-    "$given using 1:2 with lines ".given_style." notitle, $given using (marked($1)):2 with points lt 1 pt 7 ps 1.3 notitle, ".\
+    "$given using 1:2 with lines ".given_style." notitle, ".\
+    (computed <= 60 ? "$given using ($4 == 1 ? $1 : NaN):2 with points lt 1 pt 7 ps 0.8 notitle, " : "").\
+    "$given using (marked($1)):2 with points lt 1 pt 7 ps 1.3 notitle, ".\
     "$numbers using ($5 == 1 ? unscaled_x($3) : NaN):(unscaled_y($4)):(unscaled_x($7) - unscaled_x($3)):(unscaled_y($8) - unscaled_y($4)) ".\
     "with vectors nohead lw 1 dt solid lc rgb '#808080' notitle, ".\
     "$numbers using (is_angle(strcol(6)) ? unscaled_x($1) : NaN):(unscaled_y($2)):(strcol(6)) ".\

@@ -411,44 +411,52 @@ function print_reach(    part, k, i, side, place, low, high, begun, scale) {
     print high[1], high[2]
 }
 
-# Between two rows the cubic through the four nearest; round a whole turn the first row follows the last.
+# Between two rows a cubic, of the velocities of the parabola through a row and its neighbours, but no faster than 1.5 times the
+# slower of the ways to these: then a curve does not swing out beside a corner. Round a whole turn the first row follows the
+# last.
 function print_path(    i, j, first, last, round, parts) {
     for (first = 1; first <= path_rows; first = last + 1) {
         for (last = first; last < path_rows && !path_gap[last + 1]; ) last++
         round = same(path_crank[last], path_crank[first] + 360)
+        for (i = first; i <= last; i++) set_slopes(i, first, last, round)
         if (first > 1) print ""
         for (i = first; i < last; i++) {
             parts = path_crank[i + 1] - path_crank[i]
             parts = parts > 15.000001 || last - first < 3 ? 1 : int(parts / 0.5 + 0.999)
             if (parts < 4 && parts > 1) parts = 4
-            for (j = 0; j < parts; j++) print_path_point(i, j / parts, first, last, round)
+            for (j = 0; j < parts; j++) print between(1, i, j / parts), between(2, i, j / parts), \
+                path_crank[i] + j / parts * (path_crank[i + 1] - path_crank[i]), j == 0
         }
-        print_path_point(last, 0, first, last, round)
+        print path[1, last], path[2, last], path_crank[last], 1
     }
 }
 
-function print_path_point(i, t, first, last, round,    at_crank, start, m, n, k, weight, sum_x, sum_y, place_of, turns) {
-    if (t == 0) { print path[1, i], path[2, i], path_crank[i], 1; return }
-    at_crank = path_crank[i] + t * (path_crank[i + 1] - path_crank[i])
-    start = i - 1
-    if (!round && start < first) start = first
-    if (!round && start > last - 3) start = last - 3
-    sum_x = sum_y = 0
-    for (m = 0; m < 4; m++) {
-        place_of[m] = start + m
-        turns[m] = 0
-        if (place_of[m] < first) { place_of[m] += last - first; turns[m] = -360 }
-        if (place_of[m] > last) { place_of[m] -= last - first; turns[m] = 360 }
+function set_slopes(i, first, last, round,    here, there, before, after, k, share, size, fast) {
+    slope[1, i] = slope[2, i] = 0
+    if (last == first) return
+    here = i == first && round ? last : i           # the same row, where the one before is
+    there = i == last && round ? first : i          # and where the one after is
+    before = here > first ? here - 1 : here
+    after = there < last ? there + 1 : there
+    if (before == here || after == there) {
+        for (k = 1; k <= 2; k++) slope[k, i] = path_way(k, before, after)
+        return
     }
-    for (m = 0; m < 4; m++) {
-        weight = 1
-        for (n = 0; n < 4; n++)
-            if (n != m) weight *= (at_crank - path_crank[place_of[n]] - turns[n]) \
-                / (path_crank[place_of[m]] + turns[m] - path_crank[place_of[n]] - turns[n])
-        sum_x += weight * path[1, place_of[m]]
-        sum_y += weight * path[2, place_of[m]]
-    }
-    print sum_x, sum_y, at_crank, 0
+    share = (path_crank[here] - path_crank[before]) / (path_crank[here] - path_crank[before] + path_crank[after] - path_crank[there])
+    for (k = 1; k <= 2; k++) slope[k, i] = (1 - share) * path_way(k, before, here) + share * path_way(k, there, after)
+    fast = 1.5 * smaller(speed_of(before, here), speed_of(there, after))
+    size = sqrt(slope[1, i]^2 + slope[2, i]^2)
+    if (size > fast) for (k = 1; k <= 2; k++) slope[k, i] *= fast / size
+}
+
+function speed_of(i, j) { return sqrt(path_way(1, i, j)^2 + path_way(2, i, j)^2) }
+
+function path_way(k, i, j) { return (path[k, j] - path[k, i]) / (path_crank[j] - path_crank[i]) }
+
+function between(k, i, t,    long) {
+    long = path_crank[i + 1] - path_crank[i]
+    return path[k, i] * (1 + 2 * t) * (1 - t)^2 + path[k, i + 1] * t^2 * (3 - 2 * t) \
+        + long * t * (1 - t) * (slope[k, i] * (1 - t) - slope[k, i + 1] * t)
 }
 
 # Elements bring their inner nodes twice.
