@@ -77,10 +77,13 @@ do for [p=1:points] {
 if (has_masses) {
     print "curve"
     do for [k=1:|$masses|:2] {
-        if (words($masses[k]) == 4) { print sprintf("curve %.6g %.6g", page_x(word($masses[k], 1) + 0), page_y(word($masses[k], 2) + 0)) }
+        if (words($masses[k]) == 4) {
+            print sprintf("curve %.6g %.6g", page_x(word($masses[k], 1) + 0), page_y(word($masses[k], 2) + 0))
+        }
     }
 }
-print_way(p, q) = sprintf("curve\ncurve %.6g %.6g\ncurve %.6g %.6g", page_x(real(p)), page_y(imag(p)), page_x(real(q)), page_y(imag(q)))
+print_way(p, q) = sprintf("curve\ncurve %.6g %.6g\ncurve %.6g %.6g", \
+    page_x(real(p)), page_y(imag(p)), page_x(real(q)), page_y(imag(q)))
 do for [link=2:4] { print print_way(first_pin(shown_row, link), last_pin(shown_row, link)) }
 do for [p=1:points] {
     print print_way(first_pin(shown_row, point_link[p]), at(shown_row, column_of(p)))
@@ -128,7 +131,9 @@ do for [p=1:points] {
 text_behind(label) = label[strstrt(label, " ") + 1 : *]
 ink_before(label) = int("0x".point_ink(int(label))[2:*])
 eval "plot ".mechanism_below(shown_row).halos.paths.mechanism_pins(shown_row).\
-    "$numbers using ($5 == 1 ? unscaled_x($3) : NaN):(unscaled_y($4)):(unscaled_x($7) - unscaled_x($3)):(unscaled_y($8) - unscaled_y($4)) ".\
+    "$numbers using ($5 == 1 ? unscaled_x($3) : NaN):(unscaled_y($4)):".\
+    "(unscaled_x($7) - unscaled_x($3)):(unscaled_y($8) - unscaled_y($4)) ".\
     "with vectors nohead lw 1 dt solid lc rgb '#808080' notitle, ".\
-    "$numbers using (unscaled_x($1)):(unscaled_y($2)):(text_behind(strcol(6))):(ink_before(strcol(6))) with labels tc rgb variable noenhanced font point_size(15) notitle"
+    "$numbers using (unscaled_x($1)):(unscaled_y($2)):(text_behind(strcol(6))):(ink_before(strcol(6))) ".\
+    "with labels tc rgb variable noenhanced font point_size(15) notitle"
 eval close

@@ -4,7 +4,8 @@ text_height(size) = 1.55*size                       # of a line, in pixels
 
 # A number in at most four digits, and with its unit: 12.5 kN, 300·10³ lbf.
 brief(value) = value == 0 ? "0" : abs(value) < 1e6 && abs(value) >= 1e-3 ? (digits = 3 - int(floor(log10(abs(value)) + 1e-9)), \
-    minus(digits <= 0 ? sprintf("%.0f", floor(value*10.0**digits + 0.5)/10.0**digits) : plain(sprintf(sprintf("%%.%df", digits), value)))) : sprintf("%.3g", value)
+    minus(digits <= 0 ? sprintf("%.0f", floor(value*10.0**digits + 0.5)/10.0**digits) : \
+    plain(sprintf(sprintf("%%.%df", digits), value)))) : sprintf("%.3g", value)
 plain(text) = strstrt(text, ".") == 0 ? text : text[strlen(text):*] eq "." ? text[1:strlen(text) - 1] \
     : text[strlen(text):*] eq "0" ? plain(text[1:strlen(text) - 1]) : text
 five_digits(value) = abs(value) >= 1e-4 && abs(value) < 10000 ? minus(sprintf("%#.5g", value)) : minus(sprintf("%.5g", value))
@@ -28,7 +29,8 @@ drawing_scale(x0, x1, y0, y1) = lesser(1330/(x1 - x0), 830/(y1 - y0))
 measure = "stats nodes using 2:3 name 'all' nooutput; ".\
     "x_min = all_min_x; x_max = all_max_x; y_min = all_min_y; y_max = all_max_y; ".\
     "span = larger(x_max - x_min, y_max - y_min); begun = 0; nearest = span; ".\
-    "stats nodes using (begun == 0 ? (first_x = $2, first_y = $3, first_angle = arg($4 + {0, 1}*$5)*180/pi, begun = 1) : 0, last_x = $2, last_y = $3, ".\
+    "stats nodes using (begun == 0 ? (first_x = $2, first_y = $3, ".\
+    "first_angle = arg($4 + {0, 1}*$5)*180/pi, begun = 1) : 0, last_x = $2, last_y = $3, ".\
     "nearest = $9 > 0 && $9 < nearest ? $9 : nearest, 0) nooutput"
 
 # Of those nodes: pins (where a link begins, but for the clamped root of the first, and the end of the last).

@@ -44,7 +44,8 @@ caption_lines = 1
 lead_room = 0
 head_of_columns = 0
 load plots."legend.gp"
-pixel = lesser(lesser(tile_limit, (1720.0 - lead_room)/tile_columns)/(x1 - x0), 1.25*tile_limit/larger(line_y1[1] - line_y0[1], tile_columns < tiles ? line_y1[2] - line_y0[2] : 0))
+tallest = larger(line_y1[1] - line_y0[1], tile_columns < tiles ? line_y1[2] - line_y0[2] : 0)
+pixel = lesser(lesser(tile_limit, (1720.0 - lead_room)/tile_columns)/(x1 - x0), 1.25*tile_limit/tallest)
 eval entries_of_forces
 load plots."tiles.gp"
 call plots."ground.gp" sprintf("%.12g", O2_x) sprintf("%.12g", O2_y) size 1 "pinned"

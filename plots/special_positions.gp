@@ -91,8 +91,9 @@ do for [k=1:tiles] {
     eval tile(k)
     if ((k - 1)%tile_columns == 0) { eval line_title(k, of_place(place, 1)." branch") } else { unset label 949 }
     eval caption(1, k, first_part(name))
-    eval caption(2, k, second_part(name) ne "" ? second_part(name) : sprintf("θ₂ = %.4g°,  μ = %.4g°", of_place(place, 3) + 0, of_place(place, 4) + 0))
-    eval caption(3, k, second_part(name) eq "" ? "" : sprintf("θ₂ = %.4g°,  μ = %.4g°", of_place(place, 3) + 0, of_place(place, 4) + 0))
+    angles_there = sprintf("θ₂ = %.4g°,  μ = %.4g°", of_place(place, 3) + 0, of_place(place, 4) + 0)
+    eval caption(2, k, second_part(name) eq "" ? angles_there : second_part(name))
+    eval caption(3, k, second_part(name) eq "" ? "" : angles_there)
     eval "plot ".mechanism($places[place])."NaN notitle"
 }
 unset multiplot

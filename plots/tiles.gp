@@ -16,8 +16,9 @@ tile_width = larger(pixel*(x1 - x0), tile_least)
 tile_gap = 20
 caption_height = 30*caption_lines + 18
 array line_top[tile_lines + 1]
-page_across = larger(lead_room + tile_columns*(tile_width + tile_gap) + 40, larger(larger(760, lesser(text_width(deck_title, 18), 1050)), larger(text_width(headline, 23), \
-    larger(text_width(note, 15), text_width(remark, 15))) + 60))
+words_width = larger(text_width(headline, 23), larger(text_width(note, 15), text_width(remark, 15))) + 60
+page_across = larger(larger(lead_room + tile_columns*(tile_width + tile_gap) + 40, words_width), \
+    larger(820, lesser(text_width(deck_title, 18), 1050) + 60))
 line_top[1] = 116 + legend_height(page_across - 60) + 12 + head_of_columns
 do for [line=1:tile_lines] {
     line_top[line + 1] = line_top[line] + pixel*(line_y1[line] - line_y0[line]) + caption_height

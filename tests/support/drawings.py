@@ -1,4 +1,4 @@
-"""What an SVG of gnuplot's shows: drawings.py CHECK FILE.svg [ARGUMENT...]. Says nothing if the check holds, else why it does not."""
+"""What an SVG of gnuplot's shows: drawings.py CHECK FILE.svg [ARGUMENT...]. Says nothing if the check holds, else why not."""
 
 import itertools
 import math
@@ -71,7 +71,8 @@ def apart(one, other):
 
 
 def nothing_overlaps(picture, pattern):
-    texts = list({(text[0], round(text[1]), round(text[3])): text for text in picture.texts if re.fullmatch(pattern, text[0])}.values())
+    places = {(text[0], round(text[1]), round(text[3])): text for text in picture.texts if re.fullmatch(pattern, text[0])}
+    texts = list(places.values())
     # A text in a box is there twice.
     for one, other in itertools.combinations(texts, 2):
         assert apart(one, other), f"'{one[0]}' and '{other[0]}' overlap"
@@ -88,7 +89,8 @@ def shaking_force(picture, positions):
     inside(picture)
     angles = {text[0] for text in nothing_overlaps(picture, r"[−0-9.]+°|[0-9.]+( [a-zA-Z]+)?")}
     assert {f"{30*k}°" for k in range(12)} <= angles, f"angles: {sorted(angles)}"
-    rings = {round(abs(max(x for x, _ in points) - min(x for x, _ in points))) for _, _, points in picture.paths if is_circle(points)}
+    circles = [[x for x, _ in points] for _, _, points in picture.paths if is_circle(points)]
+    rings = {round(max(circle) - min(circle)) for circle in circles}
     forces = [name for name in angles if not name.endswith("°")]
     assert len(forces) >= 2 and (not rings or len(rings) == len(forces)), f"{len(rings)} rings, forces: {forces}"
     assert sum(" " in name for name in forces) == 1, f"one ring has the unit: {forces}"
@@ -164,7 +166,8 @@ def coupler_curve(picture):
     inside(picture)
     bodies = [k for k, (kind, item) in enumerate(picture.order) if kind == "polygon" and item[0] in
               {(255, 204, 102), (102, 153, 204), (153, 204, 153)}]
-    paths = [k for k, (kind, item) in enumerate(picture.order) if kind == "path" and item[0] == (204, 51, 51) and len(item[2]) > 100]
+    paths = [k for k, (kind, item) in enumerate(picture.order)
+             if kind == "path" and item[0] == (204, 51, 51) and len(item[2]) > 100]
     assert bodies and paths, f"{len(bodies)} bodies, {len(paths)} paths"
     assert max(bodies) < min(paths), "a body hides the path"
     assert not any(colour == (176, 176, 176) for colour, _, _ in picture.paths), "other poses are drawn too"
