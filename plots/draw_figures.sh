@@ -366,6 +366,8 @@ else
     plan_rigid_dynamics
 fi
 if [ ! -s "$new/plan" ]; then
+    ! ls ./*.csv > /dev/null 2>&1 || ls ./*.dat > /dev/null 2>&1 ||
+        fail "$outdir has tables as comma-separated values only; figures are drawn from plain ones (without --format csv-only)"
     [ $figures = figures ] ||
         fail "$outdir has nothing to animate: that takes REPORT kinematics (the linkage as it moves) or shapes"
     fail "$outdir has no table that a figure can be drawn from"

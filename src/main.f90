@@ -73,6 +73,7 @@ program main
   options%quiet = command%quiet
   options%resume = command%resume
   options%csv = command%csv
+  options%csv_only = command%csv_only
   do i = 1, size(decks)
     call run_deck(decks(i), options, outcomes(i)%result, error)
     if (allocated(error)) then

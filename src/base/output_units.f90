@@ -22,10 +22,10 @@ contains
 
   !> The units of a deck that asks for no others.
   !!
-  !! Forces and moments: N and N m, or lbf and lbf in where lengths are in inches or feet, unless
-  !! the unit of force of the deck has a name (tonne mm/s² is N, slinch in/s² is lbf): then this one,
-  !! and it times the unit of length. Energies: J; where lengths are in inches or feet the unit of
-  !! moments. Angular velocities: rad/s.
+  !! Forces and moments: N and N m, or lbf and lbf in where lengths are in inches or feet. But where
+  !! the deck's own unit of force has a name (tonne mm/s² is N, slinch in/s² is lbf) it is kept, and
+  !! moments are in it times the unit of length. Energies: J; where lengths are in inches or feet,
+  !! the unit of moments. Angular velocities: rad/s.
   pure function new_output_units(system) result(outputs)
     type(unit_system_t), intent(in) :: system !! from the UNITS card
     type(output_units_t) :: outputs

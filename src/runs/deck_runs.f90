@@ -46,6 +46,7 @@ module deck_runs
     logical :: quiet = .false.              !! no progress line
     logical :: resume = .false.             !! go on where an earlier run was killed
     logical :: csv = .false.                !! also write tables as comma-separated values
+    logical :: csv_only = .false.           !! and not as plain text
   end type run_options_t
 
   !> What a run reports besides its files.
@@ -74,7 +75,7 @@ module deck_runs
 
   !> Form of the bytes in a journal: another number wherever they mean something else, since the
   !! version of the program may stay the same.
-  character(len=*), parameter :: journal_form = "journal 4"
+  character(len=*), parameter :: journal_form = "journal 5"
 
 contains
 
@@ -96,7 +97,7 @@ contains
 
     variants = variant_count(deck%cards)
     call open_outputs(joined_path(options%folder, deck%base), deck%model, parameter_columns(deck), &
-      options%csv, session%outputs, error)
+      options%csv, session%outputs, error, options%csv_only)
     if (.not. allocated(error)) then
       call open_journal(session%outputs%folder, journal_title(deck), options%resume, &
         session%journal, blocks)

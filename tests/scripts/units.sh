@@ -6,7 +6,8 @@ out=$scratch/out
 
 # loaded CARD...: a four-bar of rigid bodies under loads.
 loaded() {
-  motion_deck "0 to 360 step 30" | sed 's/^UNITS.*//; s/length=\([0-9.]*\)/length=\1mm mass=0.5kg inertia=200kg*mm2/; s/ 254 / 254mm /'
+  motion_deck "0 to 360 step 30" |
+    sed 's/^UNITS.*//; s/length=\([0-9.]*\)/length=\1mm mass=0.5kg inertia=200kg*mm2/; s/ 254 / 254mm /'
   printf '%s\n' "FORCE B 3N 1N" "REPORT reactions" "REPORT lagrange" "REPORT balance" "REPORT inertia" "INERTIA distributed" "$@"
 }
 
@@ -47,7 +48,8 @@ import csv, os, sys
 lbf = 0.45359237*9.80665
 factors = {"N": ("lbf", 1/lbf), "N.m": ("lbf.in", 1/(lbf*0.0254)), "J": ("kJ", 1e-3), "rpm": ("deg/s", 6)}
 for table in ("kinematics", "reactions", "lagrange", "balance", "inertia"):
-    one, other = (list(csv.reader(open(os.path.join(folder, table + ".csv"), encoding="utf-8", newline=""))) for folder in sys.argv[1:])
+    one, other = (list(csv.reader(open(os.path.join(folder, table + ".csv"), encoding="utf-8", newline="")))
+                  for folder in sys.argv[1:])
     assert len(one) == len(other) > 40, table
     for column, head in enumerate(one[0]):
         unit = head[head.find("[") + 1:-1] if "[" in head else "-"
