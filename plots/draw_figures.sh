@@ -192,13 +192,42 @@ plan_mechanism() {
     add mechanism mechanism.gp inertia.dat "$(telling_crank inertia.dat)" "$(greatest_speed inertia.dat)" "$mesh"
 }
 
+# named: reads lines of numbers; behind each number the same for a file name, with six digits if they tell it from all others of
+# its column.
+named() {
+    awk '
+        function short(number,    text) {
+            text = sprintf("%.6g", number)
+            return text ~ /e/ ? number : text
+        }
+        {
+            for (i = 1; i <= NF; i++) {
+                value[NR, i] = $i
+                if (!((i, $i) in met)) times[i, short($i)]++
+                met[i, $i] = 1
+            }
+        }
+        END {
+            for (n = 1; n <= NR; n++) {
+                line = ""
+                for (i = 1; i <= NF; i++) {
+                    name = short(value[n, i])
+                    line = line " " value[n, i] " " (times[i, name] > 1 ? value[n, i] : name)
+                }
+                print substr(line, 2)
+            }
+        }'
+}
+
 # plan_speeds NAME TABLE [COLUMNS [SCRIPT]]: NAME.gp, or SCRIPT, draws one speed of the table, unless all these columns are zero.
 plan_speeds() {
     speeds=$(ask 'distinct speed' "$2")
     n=$(printf '%s\n' "$speeds" | wc -l)
+    speed_names=$(printf '%s\n' "$speeds" | named)
     [ -z "${3-}" ] || speeds=$(ask "moving $3" "$2")
     for speed in $speeds; do
-        if [ "$n" -eq 1 ]; then name=$1; else name=$1_speed_$speed; fi
+        name=$1
+        [ "$n" -eq 1 ] || name=$1_speed_$(printf '%s\n' "$speed_names" | awk -v speed="$speed" '$1 == speed { print $2; exit }')
         add "$name" "${4-$1.gp}" "$2" "$speed"
     done
 }
@@ -215,8 +244,8 @@ plan_frequencies() {
 # All modes on a page for each speed, and every one alone.
 plan_modes() {
     [ -n "${animate-}" ] || [ "$(ask 'distinct mode crank' shapes.dat | wc -l)" -eq 1 ] || plan_speeds modes shapes.dat
-    ask 'distinct mode crank speed' shapes.dat | while read -r mode crank speed; do
-        add "mode_${mode}_crank_${crank}_speed_$speed" "${animate:-mode_shape.gp}" shapes.dat "$mode" "$crank" "$speed"
+    ask 'distinct mode crank speed' shapes.dat | named | while read -r mode _ crank crank_name speed speed_name; do
+        add "mode_${mode}_crank_${crank_name}_speed_$speed_name" "${animate:-mode_shape.gp}" shapes.dat "$mode" "$crank" "$speed"
     done
 }
 
@@ -337,6 +366,8 @@ else
     plan_rigid_dynamics
 fi
 if [ ! -s "$new/plan" ]; then
+    ! ls ./*.csv > /dev/null 2>&1 || ls ./*.dat > /dev/null 2>&1 ||
+        fail "$outdir has tables as comma-separated values only; figures are drawn from plain ones (without --format csv-only)"
     [ $figures = figures ] ||
         fail "$outdir has nothing to animate: that takes REPORT kinematics (the linkage as it moves) or shapes"
     fail "$outdir has no table that a figure can be drawn from"

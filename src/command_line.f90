@@ -23,6 +23,7 @@ module command_line
     logical :: quiet = .false.
     logical :: resume = .false.
     logical :: csv = .false.                   !! tables as comma-separated values too
+    logical :: csv_only = .false.              !! and not as plain text
     logical :: stats = .false.
     logical :: json = .false.
     logical :: help = .false.
@@ -213,7 +214,7 @@ contains
     type(command_t), intent(inout) :: command
     type(error_t), allocatable, intent(out) :: error
 
-    character(len=*), parameter :: formats = "plain csv", shells = "bash zsh fish"
+    character(len=*), parameter :: formats = "plain csv csv-only", shells = "bash zsh fish"
     type(error_t), allocatable :: not_a_number
 
     select case (name)
@@ -227,10 +228,11 @@ contains
           "option --threads needs a number from 1 to 1024, not '"//value//"'")
       end if
     case ("--format")
-      command%csv = value == "csv"
-      if (value /= "csv" .and. value /= "plain") then
+      command%csv_only = value == "csv-only"
+      command%csv = value == "csv" .or. command%csv_only
+      if (.not. command%csv .and. value /= "plain") then
         call set_error(error, error_of_input, "unknown format '"//value//"'"//suggestion(value, &
-          word_list(formats))//"; --format is plain or csv")
+          word_list(formats))//"; --format is plain, csv or csv-only")
       end if
     case ("--completion")
       command%shell = value

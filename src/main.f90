@@ -75,6 +75,7 @@ program main
   options%resume = command%resume
   options%csv = command%csv
   options%figures = command_for_figures(command%program, command%search_path)
+  options%csv_only = command%csv_only
   do i = 1, size(decks)
     call run_deck(decks(i), options, outcomes(i)%result, error)
     if (allocated(error)) then

@@ -68,7 +68,7 @@ contains
     type(unit_t), allocatable :: list(:)
 
     ! No array constructor: gfortran 12 would leak the memory of every name.
-    allocate (list(25))
+    allocate (list(27))
     list(1) = unit("m", dimension_length, 1.0_wp, 1.0_wp)
     list(2) = unit("mm", dimension_length, 1.0_wp, 1000.0_wp)
     list(3) = unit("cm", dimension_length, 1.0_wp, 100.0_wp)
@@ -98,6 +98,8 @@ contains
     list(23) = unit("rad", dimension_angle, 1.0_wp, 1.0_wp)
     list(24) = unit("deg", dimension_angle, pi, 180.0_wp)
     list(25) = unit("rpm", dimension_rate, pi, 30.0_wp)
+    list(26) = unit("J", dimension_moment, 1.0_wp, 1.0_wp)
+    list(27) = unit("kJ", dimension_moment, 1000.0_wp, 1.0_wp)
   end function named_units
 
   pure function unit(name, dimension, numerator, denominator)
@@ -250,19 +252,27 @@ contains
     hint = " (did you mean '"//hint//"'?)"
   end function unit_hint
 
-  !> Names of the units of a dimension; of all units if none has this dimension.
+  !> Names of the units of a dimension; of all units if none has this dimension. Of moments, which
+  !! are products as a rule, the usual ones and all units.
   pure function names_of_dimension(known, wanted) result(names)
     type(unit_t), intent(in) :: known(:)
     integer, intent(in) :: wanted(4)
     type(string_t), allocatable :: names(:)
 
+    character(len=*), parameter :: moments(*) = [character(len=6) :: "N*m", "N*mm", "kN*m", &
+      "lbf*in", "lbf*ft"]
     integer :: i, number
-    logical :: fits(size(known))
+    logical :: fits(size(known)), is_moment
 
     fits = [(all(known(i)%dimension == wanted), i=1, size(known))]
-    if (.not. any(fits)) fits = .true.
-    allocate (names(count(fits)))
+    is_moment = all(wanted == dimension_moment)
+    if (.not. any(fits) .or. is_moment) fits = .true.
     number = 0
+    if (is_moment) number = size(moments)
+    allocate (names(number + count(fits)))
+    do i = 1, number
+      names(i)%text = trim(moments(i))
+    end do
     do i = 1, size(known)
       if (.not. fits(i)) cycle
       number = number + 1
@@ -356,6 +366,8 @@ contains
           return
         end if
       end if
+      ! A moment is no energy, though its dimension is the same.
+      if (all(known(i)%dimension == dimension_moment)) cycle
       if (any(known(i)%dimension /= measure%dimension)) cycle
       if (.not. same_factor(measure, known(i))) cycle
       name = known(i)%name

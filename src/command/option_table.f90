@@ -9,7 +9,7 @@ module option_table
   type :: option_t
     character(len=12) :: name = ""    !! with its two hyphens
     character(len=5) :: value = ""    !! what its value is called; blank: it has none
-    character(len=16) :: choices = "" !! the values allowed, separated by blanks, if they are few
+    character(len=24) :: choices = "" !! the values allowed, separated by blanks, if they are few
     logical :: folder = .false.       !! its value is a folder
     character(len=80) :: help = ""    !! in one line
   end type option_t
@@ -20,8 +20,8 @@ module option_table
     option_t("--set", "N=V", &
       help="put V in place of the value that SET or VARY gives the name N; may be repeated"), &
     option_t("--threads", "N", help="compute N positions at a time (1)"), &
-    option_t("--format", "FORM", choices="plain csv", &
-      help="csv: write every table as comma-separated values too (plain)"), &
+    option_t("--format", "FORM", choices="plain csv csv-only", &
+      help="csv: write every table as comma-separated values too; csv-only: alone (plain)"), &
     option_t("--resume", &
       help="continue where an earlier run of the deck was killed or interrupted"), &
     option_t("--quiet", &

@@ -13,9 +13,10 @@ module model_reader
   use loop_finder, only: find_loop
   use materials, only: read_material
   use mesh_checks, only: check_meshes
-  use models, only: is_loaded, is_moving, model_t, needs_mesh
+  use models, only: is_loaded, is_moving, model_t, needs_mesh, report_number
   use motor_cards, only: read_motor, read_resistance
   use name_checks, only: check_names
+  use output_units, only: new_output_units, output_units_t, table_name
   use report_cards, only: read_report
   use report_kinds, only: report_kind_t
   use request_cards, only: read_crank, read_drive, read_modes, read_option, read_speed, read_title
@@ -26,7 +27,9 @@ module model_reader
   use text, only: joined, same_word, string_t, upper_case
   use tokens, only: token_t
   use unit_cards, only: read_units
-  use units, only: si_units, unit_system_t
+  use unit_checks, only: check_bare_units
+  use units, only: from_si, si_units, unit_system_t
+  use value_lists, only: value_list_t
   implicit none (type, external)
   private
 
@@ -44,6 +47,8 @@ contains
     type(report_kind_t), intent(in) :: reports(:)     !! (kinds) all that exist
     type(diagnostics_t), intent(inout) :: diagnostics !! errors and warnings are added
     type(model_t), intent(out) :: model               !! in SI, crank angles in degrees
+
+    logical :: chooses_rate !! UNITS has `speed=`
 
     model%title = ""
     model%variant = ""
@@ -63,8 +68,10 @@ contains
     model%effects = 0
     call check_keywords(cards, diagnostics)
     call refuse_second_cards(cards, diagnostics)
-    call read_system(cards, diagnostics, model%units)
+    call read_system(cards, diagnostics, model%units, model%outputs, chooses_rate)
     call read_model_cards(cards, reports, diagnostics, model)
+    if (.not. chooses_rate) call take_rate_of_deck(model)
+    call show_speeds(model)
     if (model%effects == 0) model%effects = merge(effects_axial, effects_static, &
       is_moving(model) .or. is_loaded(model))
     if (size(model%meshes) == 0 .and. needs_mesh(model)) then
@@ -79,6 +86,7 @@ contains
     call check_requests(cards, diagnostics, model)
     call check_shear(diagnostics, model)
     call check_meshes(cards, diagnostics, model)
+    call check_bare_units(cards, diagnostics, model)
   end subroutine read_model
 
   !> Reports every unknown card.
@@ -158,20 +166,67 @@ contains
 
   !> Reads the UNITS card, which may be anywhere in the deck. Without one the deck is read in SI, to
   !! find its other errors.
-  subroutine read_system(cards, diagnostics, system)
+  subroutine read_system(cards, diagnostics, system, outputs, chooses_rate)
     type(card_t), intent(in) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(unit_system_t), intent(out) :: system
+    type(output_units_t), intent(out) :: outputs
+    logical, intent(out) :: chooses_rate
 
     integer :: i
 
     system = si_units()
     do i = 1, size(cards)
       if (.not. same_word(cards(i)%keyword%text, "UNITS")) cycle
-      call read_units(cards(i), diagnostics, system)
+      call read_units(cards(i), diagnostics, system, outputs, chooses_rate)
       return
     end do
+    outputs = new_output_units(system)
+    chooses_rate = .false.
   end subroutine read_system
+
+  !> Angular velocities are given in the unit that the SPEED card names, or else the speed at which
+  !! REPORT motion starts. It does not depend on numbers, and is the same in all variants.
+  pure subroutine take_rate_of_deck(model)
+    type(model_t), intent(inout) :: model !! with its cards read
+
+    integer :: motion
+
+    motion = report_number(model, "motion")
+    if (allocated(model%speed%unit%name)) then
+      model%outputs%rate = model%speed%unit
+    else if (motion > 0) then
+      if (allocated(model%reports(motion)%speed%unit%name)) &
+        model%outputs%rate = model%reports(motion)%speed%unit
+    end if
+    model%outputs%rate%name = table_name(model%outputs%rate)
+  end subroutine take_rate_of_deck
+
+  !> The speeds in the unit of results. Where this is the unit that the deck gives them in, they are
+  !! its numbers.
+  pure subroutine show_speeds(model)
+    type(model_t), intent(inout) :: model !! with its speeds, and the unit of angular velocities
+
+    integer :: motion
+
+    model%shown_speed = shown(model%speed)
+    motion = report_number(model, "motion")
+    if (motion == 0) return
+    if (size(model%reports(motion)%speed%value) == 0) return
+    model%shown_start = sum(shown(model%reports(motion)%speed))
+
+  contains
+
+    pure function shown(list) result(values)
+      type(value_list_t), intent(in) :: list !! [rad/s]
+      real(wp) :: values(size(list%value))
+
+      values = from_si(list%value, model%outputs%rate)
+      if (.not. allocated(list%unit%name)) return
+      if (table_name(list%unit) == model%outputs%rate%name) values = list%written
+    end function shown
+
+  end subroutine show_speeds
 
   !> Reads all cards into the model.
   subroutine read_model_cards(cards, reports, diagnostics, model)

@@ -10,17 +10,20 @@ module models
   use load_cards, only: force_card_t, torque_card_t
   use materials, only: material_t
   use motor_cards, only: motor_t, resistance_t
+  use output_units, only: output_units_t
   use report_cards, only: report_t
   use sections, only: section_t
+  use text, only: to_string
   use tokens, only: token_t
-  use units, only: unit_system_t
+  use units, only: from_si, unit_system_t
   use value_lists, only: value_list_t
   implicit none (type, external)
   private
 
   public :: model_t, report_number, needs_study, needs_positions, is_moving, is_loaded, &
     needs_loads, needs_inertia, needs_frequencies, needs_beams, needs_masses, needs_mesh, &
-    report_of_masses, bears_lumped_masses, link_mass, link_line_density
+    report_of_masses, bears_lumped_masses, link_mass, link_line_density, speed_in_table, &
+    speed_in_words
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
@@ -33,6 +36,7 @@ module models
   type :: model_t
     character(len=:), allocatable :: title      !! empty without TITLE
     type(unit_system_t) :: units                !! of bare numbers; the model itself is in SI
+    type(output_units_t) :: outputs             !! of results
     type(material_t), allocatable :: materials(:)
     type(section_t), allocatable :: sections(:)
     type(ground_t), allocatable :: grounds(:)
@@ -55,6 +59,8 @@ module models
     integer :: branch = branch_open             !! assembly mode: one of the branch_… constants
     type(value_list_t) :: crank                 !! angles [deg]
     type(value_list_t) :: speed                 !! ω2 [rad/s]
+    real(wp), allocatable :: shown_speed(:)     !! (speeds) ω2 in `outputs%rate`, as the deck has it
+    real(wp) :: shown_start = 0.0_wp            !! start speed of REPORT motion, likewise
     real(wp) :: acceleration = 0.0_wp           !! α2, at every speed [rad/s²]
     integer :: inertia = inertia_none           !! one of the inertia_… constants; none: no card
     type(token_t) :: inertia_word
@@ -208,6 +214,29 @@ contains
       (is_moving(model) .or. any(abs(model%gravity) > 0.0_wp))
     needs = (needs .or. needs_masses(model)) .and. any(bears_lumped_masses(model%links))
   end function needs_inertia
+
+  !> A speed in the unit of results: that of the deck to the last digit.
+  pure function speed_in_table(model, number, speed) result(value)
+    type(model_t), intent(in) :: model !! as read
+    integer, intent(in) :: number      !! of the speed, among those of the deck or of a study
+    real(wp), intent(in) :: speed      !! ω2 [rad/s]
+    real(wp) :: value
+
+    ! A study may have other speeds than the deck: static frequencies have one, 0.
+    value = from_si(speed, model%outputs%rate)
+    if (number > size(model%speed%value)) return
+    if (abs(model%speed%value(number) - speed) <= 0.0_wp) value = model%shown_speed(number)
+  end function speed_in_table
+
+  !> `20 rad/s`, `300 rpm`
+  pure function speed_in_words(model, number, speed) result(words)
+    type(model_t), intent(in) :: model !! as read
+    integer, intent(in) :: number      !! as for `speed_in_table`
+    real(wp), intent(in) :: speed      !! ω2 [rad/s]
+    character(len=:), allocatable :: words
+
+    words = to_string(speed_in_table(model, number, speed), 12)//" "//model%outputs%rate%name
+  end function speed_in_words
 
   !> Mass of a link [kg]: `mass=` of its card, else that of material and section; 0 without either.
   pure function link_mass(model, link) result(mass)

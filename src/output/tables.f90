@@ -25,6 +25,7 @@ module tables
 
   type :: table_t
     character(len=:), allocatable :: name     !! of its files, without `.dat` and `.csv`
+    logical :: has_plain = .true.             !! at least one of the two
     logical :: has_csv = .false.
     type(column_t), allocatable :: columns(:) !! all; not allocated before the header is written
     integer(long) :: rows = 0_long            !! written so far, without failed ones
@@ -44,20 +45,22 @@ module tables
 
 contains
 
-  !> Opens `name.dat`, and `name.csv` on request, under temporary names. Errors: a file cannot be
-  !! opened.
-  subroutine open_table(folder, name, has_csv, table, error)
+  !> Opens `name.dat` and, on request, `name.csv` beside it or in its place, under temporary names.
+  !! Errors: a file cannot be opened.
+  subroutine open_table(folder, name, has_csv, table, error, csv_only)
     character(len=*), intent(in) :: folder           !! existing
     character(len=*), intent(in) :: name             !! of the files, without extension
     logical, intent(in) :: has_csv                   !! whether to write CSV as well
     type(table_t), intent(out) :: table              !! without header
     type(error_t), allocatable, intent(out) :: error !! allocated if a file cannot be opened
+    logical, intent(in), optional :: csv_only        !! with `has_csv`: no plain table
 
     table%name = name
     table%has_csv = has_csv
+    if (present(csv_only)) table%has_plain = .not. (has_csv .and. csv_only)
     allocate (table%parameters(0), table%parameter_values(0))
     table%first_cells = ""
-    call open_output(folder, name//".dat", table%plain, error)
+    if (table%has_plain) call open_output(folder, name//".dat", table%plain, error)
     if (has_csv .and. .not. allocated(error)) call open_output(folder, name//".csv", table%csv, &
       error)
   end subroutine open_table
@@ -78,9 +81,9 @@ contains
     type(table_t), intent(inout) :: table            !! open before, closed after
     type(error_t), allocatable, intent(out) :: error !! allocated if a file is incomplete
 
-    if (table%gap_due) call append_output(table%plain, line_feed)
+    if (table%gap_due) call append_plain(table, line_feed)
     table%gap_due = .false.
-    call finish_output(table%plain, error)
+    if (table%has_plain) call finish_output(table%plain, error)
     if (table%has_csv .and. .not. allocated(error)) call finish_output(table%csv, error)
   end subroutine finish_table
 
@@ -89,7 +92,7 @@ contains
     type(table_t), intent(in) :: table               !! finished
     type(error_t), allocatable, intent(out) :: error !! allocated if a file cannot be renamed
 
-    call publish_output(table%plain, error)
+    if (table%has_plain) call publish_output(table%plain, error)
     if (table%has_csv .and. .not. allocated(error)) call publish_output(table%csv, error)
   end subroutine publish_table
 
@@ -178,7 +181,7 @@ contains
     call write_gap(table, 2)
     do i = 1, size(notes)
       if (is_among(table%notes, notes(i)%text)) cycle
-      call append_output(table%plain, "# "//notes(i)%text//line_feed)
+      call append_plain(table, "# "//notes(i)%text//line_feed)
     end do
   end subroutine write_notes
 
@@ -195,9 +198,9 @@ contains
 
     table%notes = notes
     table%columns = [table%parameters, columns]
-    call append_output(table%plain, "# "//title_line(title)//line_feed)
+    call append_plain(table, "# "//title_line(title)//line_feed)
     do i = 1, size(notes)
-      call append_output(table%plain, "# "//notes(i)%text//line_feed)
+      call append_plain(table, "# "//notes(i)%text//line_feed)
     end do
     names = ""
     units = ""
@@ -210,7 +213,7 @@ contains
       end associate
     end do
     ! `#` replaces the blank at the start of every first column.
-    call append_output(table%plain, "#"//names(2:)//line_feed//"#"//units(2:)//line_feed)
+    call append_plain(table, "#"//names(2:)//line_feed//"#"//units(2:)//line_feed)
     if (table%has_csv) call append_output(table%csv, fields//"failure"//csv_line_end)
   end subroutine write_header
 
@@ -261,15 +264,23 @@ contains
     end do
   end subroutine write_rows
 
+  !> Appends text to the plain table, if there is one.
+  subroutine append_plain(table, text)
+    type(table_t), intent(inout) :: table
+    character(len=*), intent(in) :: text
+
+    if (table%has_plain) call append_output(table%plain, text)
+  end subroutine append_plain
+
   subroutine write_row(table, cells)
     type(table_t), intent(inout) :: table
     character(len=*), intent(in) :: cells
 
-    if (table%gap_due) call append_output(table%plain, line_feed)
+    if (table%gap_due) call append_plain(table, line_feed)
     table%gap_due = .false.
-    call append_output(table%plain, table%first_cells)
-    call append_output(table%plain, cells)
-    call append_output(table%plain, line_feed)
+    call append_plain(table, table%first_cells)
+    call append_plain(table, cells)
+    call append_plain(table, line_feed)
     table%rows = table%rows + 1
     if (table%has_csv) call append_output(table%csv, csv_record(table%first_cells//cells)//","// &
       csv_line_end)
@@ -282,7 +293,7 @@ contains
     integer, intent(in) :: lines
 
     table%gap_due = .false.
-    call append_output(table%plain, repeat(line_feed, lines))
+    call append_plain(table, repeat(line_feed, lines))
   end subroutine write_gap
 
   !> Writes a row that could not be computed: a comment, and an empty line before the next row,
@@ -299,11 +310,11 @@ contains
     integer :: i
 
     known = [table%parameter_values, place]
-    call append_output(table%plain, "# failed")
+    call append_plain(table, "# failed")
     do i = 1, size(known)
-      call append_output(table%plain, " "//table%columns(i)%name//"="//to_string(known(i), 12))
+      call append_plain(table, " "//table%columns(i)%name//"="//to_string(known(i), 12))
     end do
-    call append_output(table%plain, " : "//reason//line_feed)
+    call append_plain(table, " : "//reason//line_feed)
     table%gap_due = .true.
     table%failed_rows = table%failed_rows + 1
     if (.not. table%has_csv) return

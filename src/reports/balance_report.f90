@@ -38,7 +38,7 @@ contains
     type(unit_t) :: mass
     integer :: i
 
-    mass = table_unit("mass", variant%model%units)
+    mass = table_unit("mass", variant%model%outputs)
     notes = quantity_notes(variant)
     call append_string(notes, "G: mass centre of the moving masses, without counterweights")
     call append_string(notes, "total mass: "// &
@@ -73,8 +73,8 @@ contains
     real(wp) :: place(2)
     character(len=:), allocatable :: from, to
 
-    mass = table_unit("mass", variant%model%units)
-    first_moment = table_unit("first_moment", variant%model%units)
+    mass = table_unit("mass", variant%model%outputs)
+    first_moment = table_unit("first_moment", variant%model%outputs)
     associate (weight => variant%found%balance%weights(number), &
         lump => variant%found%balance%lumps(number), mechanism => variant%mechanism)
       associate (body => mechanism%linkage%bodies(weight%body), &
@@ -91,7 +91,7 @@ contains
           weight%first_moment(1))/degree)//" deg from "//from//" -> "//to)
         ! `place_on_body` is its own inverse: here it goes from the body to the card.
         place = from_si(place_on_body(variant%model, weight%body, lump%place), &
-          table_unit("length", variant%model%units)) + 0.0_wp
+          table_unit("length", variant%model%outputs)) + 0.0_wp
         call append_string(list, "card, with the link's length for a radius (the shaking force "// &
           "depends on mass x radius only, moment and torque on the radius too):")
         call append_string(list, "MASS "//name//" at="//shortest_text(place(1))//" offset="// &
@@ -139,8 +139,8 @@ contains
     type(unit_t) :: force, moment
 
     notes = quantity_notes(variant)
-    force = table_unit("force", variant%model%units)
-    moment = table_unit("moment", variant%model%units)
+    force = table_unit("force", variant%model%outputs)
+    moment = table_unit("moment", variant%model%outputs)
     associate (found => variant%found%harmonics)
       if (.not. found%has_cycle) then
         call append_string(notes, "no rows: the crank does not turn fully, or comes to a dead "// &
@@ -188,9 +188,9 @@ contains
         do q = 1, quantity_count
           ! The unit depends on the quantity of the row, not on the column.
           unit_value = from_si(1.0_wp, table_factor(trim(merge("moment", "force ", is_moment(q))), &
-            variant%model%units))
+            variant%model%outputs))
           associate (this => variant%found%harmonics%of(q, i, k))
-            call add_row(rows, cells(layout, 1, [variant%model%speed%value(k)])// &
+            call add_row(rows, cells(layout, 1, [variant%model%shown_speed(k)])// &
               name_cell(trim(linkage_names(i)), column_width(layout, 2))// &
               name_cell(trim(quantity_names(q)), column_width(layout, 3))// &
               real_cells([unit_value*[this%largest, this%rms, this%mean, this%amplitude], &

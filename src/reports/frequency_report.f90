@@ -6,7 +6,7 @@ module frequency_report
   use kinds, only: wp
   use load_notes, only: acceleration_note
   use models, only: effects_static, inertia_distributed, inertia_lumped, is_loaded, is_moving, &
-    model_t, needs_loads, report_number
+    model_t, needs_loads, report_number, speed_in_table
   use report_cards, only: report_t
   use table_columns, only: cells, column_width, table_factor, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
@@ -19,7 +19,7 @@ module frequency_report
   private
 
   public :: frequency_notes, add_frequencies, shape_notes, add_shapes, drawn_rows, effects_notes, &
-    is_drawn
+    is_drawn, shown_speed
 
 contains
 
@@ -83,7 +83,7 @@ contains
     type(rows_t), intent(inout) :: rows            !! to which it is appended
 
     associate (found => variant%found, state => variant%found%positions%state(position))
-      associate (place => [found%sweep%request%speed(speed), found%positions%crank(position)])
+      associate (place => [shown_speed(variant, speed), found%positions%crank(position)])
         if (has_result(found%positions, found%sweep, state, speed)) then
           call add_row(rows, cells(layout, 1, [place, frequency_values(found%sweep, state, speed)]))
         else
@@ -103,10 +103,19 @@ contains
 
     associate (found => variant%found)
       error = failure_at(found%positions, found%sweep, found%positions%state(position), speed)
-      call add_failed_row(rows, [found%sweep%request%speed(speed), &
-        found%positions%crank(position)], error%text)
+      call add_failed_row(rows, [shown_speed(variant, speed), found%positions%crank(position)], &
+        error%text)
     end associate
   end subroutine add_failed
+
+  !> A speed of the sweep in the unit of results.
+  pure function shown_speed(variant, speed) result(value)
+    type(variant_results_t), intent(in) :: variant !! with its sweep
+    integer, intent(in) :: speed                   !! number in the sweep's list
+    real(wp) :: value
+
+    value = speed_in_table(variant%model, speed, variant%found%sweep%request%speed(speed))
+  end function shown_speed
 
   !> Effects in the equations, normalisation of the shapes, direction of `s`.
   pure subroutine shape_notes(variant, notes)
@@ -200,10 +209,10 @@ contains
     integer :: body, i, state
 
     ! Displacements of a normalised mode have the unit mass^(-1/2).
-    scale = sqrt(to_si(1.0_wp, table_factor("mass", variant%model%units)))
-    length = table_factor("length", variant%model%units)
+    scale = sqrt(to_si(1.0_wp, table_factor("mass", variant%model%outputs)))
+    length = table_factor("length", variant%model%outputs)
     state = variant%found%positions%state(position)
-    place = [variant%found%sweep%request%speed(speed), variant%found%positions%crank(position)]
+    place = [shown_speed(variant, speed), variant%found%positions%crank(position)]
     associate (shape => variant%found%sweep%results(state)%shapes(speed)%displacement)
       do body = 1, size(variant%mechanism%names)
         if (body > 1) call add_gap(rows, 1)

@@ -92,10 +92,11 @@ contains
     integer :: i, state
 
     state = variant%found%positions%state(position)
-    place = [variant%model%speed%value(speed), variant%found%positions%crank(position)]
+    place = [variant%model%shown_speed(speed), variant%found%positions%crank(position)]
     associate (inertia => variant%found%inertia)
       call loads_at_speed(variant%mechanism%linkage, inertia, &
-        variant%found%positions%states(state), state, place(1), variant%model%acceleration, loads)
+        variant%found%positions%states(state), state, variant%model%speed%value(speed), &
+        variant%model%acceleration, loads)
       do i = 1, size(loads)
         moment = loads(i)%moment
         call add_row(rows, cells(layout, 1, place)//integer_cell(i, "mass")// &

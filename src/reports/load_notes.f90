@@ -5,8 +5,7 @@ module load_notes
   use mechanisms, only: mechanism_t
   use models, only: model_t
   use text, only: append_string, plural, string_t, to_string
-  use units, only: coherent_unit, dimension_acceleration, dimension_force, dimension_moment, &
-    from_si, unit_t
+  use units, only: coherent_unit, dimension_acceleration, from_si, unit_t
   implicit none (type, external)
   private
 
@@ -79,11 +78,11 @@ contains
     associate (linkage => mechanism%linkage)
       do i = 1, size(mechanism%pin_names)
         if (all(abs(linkage%pin_force(:, i)) <= 0.0_wp)) cycle
-        line = before//"force "//vector(linkage%pin_force(:, i), coherent_unit(model%units, &
-          dimension_force))//" at pin "//mechanism%pin_names(i)%text
+        line = before//"force "//vector(linkage%pin_force(:, i), model%outputs%force)// &
+          " at pin "//mechanism%pin_names(i)%text
         before = line//", "
       end do
-      moment = coherent_unit(model%units, dimension_moment)
+      moment = model%outputs%moment
       do i = 1, size(mechanism%names)
         if (abs(linkage%couple(i)) <= 0.0_wp) cycle
         line = before//"torque "//to_string(from_si(linkage%couple(i), moment), 12)//" "// &

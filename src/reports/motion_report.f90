@@ -1,11 +1,14 @@
 !> `motion.dat`: forward dynamics, and its lines in the log.
 module motion_report
+  use kinds, only: wp
   use linkage_notes, only: angle_note
+  use models, only: model_t, report_number
   use motion_study, only: motion_result_t, motion_tolerance
+  use number_text, only: number_width
   use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
     table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
-  use tables, only: name_cell
+  use tables, only: name_cell, real_cells
   use text, only: append_string, plural, string_t, to_string, word_list
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use units, only: from_si, unit_t
@@ -29,9 +32,9 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with its motion computed
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
-    type(unit_t) :: moment
+    type(unit_t) :: energy
 
-    moment = table_unit("moment", variant%model%units)
+    energy = table_unit("energy", variant%model%outputs)
     associate (motion => variant%found%motion)
       call append_string(notes, "crank, 2: link "//variant%mechanism%names(1)%text//"; "// &
         angle_note(variant)//"; angles go on over whole turns")
@@ -43,8 +46,8 @@ contains
         "energy_error: kinetic + potential - work, less the initial energy; "// &
         "closure: by how much the loop is open")
       if (motion%count == 0) return
-      call append_string(notes, "initial energy: "//to_string(from_si(motion%energy, moment))// &
-        " "//moment%name//"; steps of order 8, each to "//to_string(motion_tolerance)// &
+      call append_string(notes, "initial energy: "//to_string(from_si(motion%energy, energy))// &
+        " "//energy%name//"; steps of order 8, each to "//to_string(motion_tolerance)// &
         " of a radian and of the speed")
     end associate
   end subroutine motion_notes
@@ -63,20 +66,42 @@ contains
     type(table_layout_t), intent(in) :: layout     !! of this table
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
-    integer :: i
+    character(len=number_width) :: crank, speed
+    integer :: i, report
 
-    associate (motion => variant%found%motion)
+    associate (motion => variant%found%motion, model => variant%model)
+      report = report_number(model, "motion")
       do i = 1, motion%count
         associate (sample => motion%samples(i))
-          call add_row(rows, cells(layout, 1, [sample%time, sample%angle, sample%speed, &
+          crank = cells(layout, 2, [sample%angle(1)])
+          speed = cells(layout, 5, [sample%speed(1)])
+          if (i == 1) then
+            ! The numbers of the deck to the last digit.
+            crank = real_cells([model%reports(report)%start_angle])
+            speed = real_cells([model%shown_start])
+          end if
+          call add_row(rows, real_cells([time_in_table(model, i)])//crank// &
+            cells(layout, 3, sample%angle(2:))//speed//cells(layout, 6, [sample%speed(2:), &
             sample%torque, sample%kinetic, sample%potential, sample%work, sample%energy_error, &
             sample%closure])//name_cell(trim(branch_of(sample%is_open)), column_width(layout, 14)))
         end associate
       end do
       if (allocated(motion%error)) call add_failed_row(rows, [from_si(motion%last%time, &
-        table_factor("time", variant%model%units))], motion%error%text)
+        table_factor("time", variant%model%outputs))], motion%error%text)
     end associate
   end subroutine add_motion
+
+  !> Time of an instant in the unit of the table: the number that the deck has or would have.
+  pure function time_in_table(model, number) result(time)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: number !! of the instant, from 1
+    real(wp) :: time
+
+    associate (instants => model%reports(report_number(model, "motion"))%instants)
+      time = from_si(instants%value(number), table_factor("time", model%outputs))
+      if (instants%unit%name == model%units%time%name) time = instants%written(number)
+    end associate
+  end function time_in_table
 
   pure function branch_of(is_open) result(name)
     logical, intent(in) :: is_open

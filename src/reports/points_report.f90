@@ -26,7 +26,7 @@ contains
       do i = 1, size(model%points)
         associate (point => model%points(i), link => model%links(model%points(i)%link))
           call append_string(notes, "point "//point%name%text//": on link "//link%name%text// &
-            ", "//place_words(point%place, table_unit("length", model%units))//" from "// &
+            ", "//place_words(point%place, table_unit("length", model%outputs))//" from "// &
             link%pin(1)%text)
         end associate
       end do
@@ -61,7 +61,8 @@ contains
     associate (omega => variant%model%speed%value(speed), positions => variant%found%positions, &
         points => variant%mechanism%points)
       do p = 1, size(points)
-        call add_row(rows, cells(layout, 1, [omega, positions%crank(position)])// &
+        call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed), &
+          positions%crank(position)])// &
           name_cell(points(p)%name, column_width(layout, 3))//cells(layout, 4, &
           point_at_speed(variant%found%points(p, positions%state(position)), omega, &
           variant%model%acceleration)))

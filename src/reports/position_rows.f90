@@ -21,7 +21,7 @@ contains
                                                    !! unit
     type(rows_t), intent(inout) :: rows            !! to which it is appended
 
-    call add_row(rows, cells(layout, 1, [variant%model%speed%value(speed), &
+    call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed), &
       variant%found%positions%crank(position), values]))
   end subroutine add_position_row
 

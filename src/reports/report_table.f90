@@ -64,11 +64,11 @@ module report_table
   type(report_kind_t), parameter :: reports(*) = [ &
     report_kind_t(name="kinematics", help="how the links move", &
       studies="kinematics", positions=.true., reserved=.true., numbers=11, tables=[ &
-      table_kind_t("kinematics", "speed:rad/s crank,theta3,theta4:deg omega3,omega4:rad/s "// &
+      table_kind_t("kinematics", "speed:speed crank,theta3,theta4:deg omega3,omega4:rate "// &
       "alpha3,alpha4:rad/s2 Ax,Ay,Bx,By:length transmission_angle:deg"), no_table]), &
     report_kind_t(name="inertia", help="masses, their accelerations and inertia forces", &
       studies="inertia", positions=.true., masses=.true., reserved=.true., numbers=46, tables=[ &
-      table_kind_t("inertia", "speed:rad/s crank:deg mass:# link:name x,y:length "// &
+      table_kind_t("inertia", "speed:speed crank:deg mass:# link:name x,y:length "// &
       "ax,ay:acceleration Fx,Fy:force m:mass moment?:moment"), no_table]), &
     report_kind_t(name="mesh", help="the finite element model", &
       positions=.true., beams=.true., reserved=.true., tables=[ &
@@ -77,31 +77,31 @@ module report_table
     report_kind_t(name="frequencies", help="natural frequencies with their errors", &
       studies="frequencies", positions=.true., beams=.true., frequencies=.true., &
       reserved=.true., tables=[ &
-      table_kind_t("frequencies", "speed:rad/s crank:deg f*:Hz error*:-"), no_table]), &
+      table_kind_t("frequencies", "speed:speed crank:deg f*:Hz error*:-"), no_table]), &
     report_kind_t(name="shapes", help="mode shapes along the links", &
       pattern="REPORT shapes [crank=a,b,...] [speed=...] [points=]", default="points=21", &
       studies="frequencies", positions=.true., beams=.true., frequencies=.true., &
       reserved=.true., tables=[ &
-      table_kind_t("shapes", "speed:rad/s crank:deg mode:# frequency:Hz link:name "// &
+      table_kind_t("shapes", "speed:speed crank:deg mode:# frequency:Hz link:name "// &
       "s,x,y:length ux,uy:mass^-1/2 rotation:rotation"), no_table]), &
     report_kind_t(name="branches", help="frequencies followed by their shapes", &
       studies="frequencies loci", positions=.true., beams=.true., frequencies=.true., &
       reserved=.true., tables=[ &
-      table_kind_t("branches", "speed:rad/s crank:deg branch,mode:# frequency:Hz mac:- "// &
+      table_kind_t("branches", "speed:speed crank:deg branch,mode:# frequency:Hz mac:- "// &
       "event:name"), no_table]), &
     report_kind_t(name="reactions", help="forces in the pins, torque, shaking force and moment", &
       studies="reactions", positions=.true., masses=.true., numbers=48, tables=[ &
-      table_kind_t("reactions", "speed:rad/s crank:deg "// &
+      table_kind_t("reactions", "speed:speed crank:deg "// &
       "O2x,O2y,A2x,A2y,A3x,A3y,B3x,B3y,B4x,B4y,O4x,O4y:force torque:moment "// &
       "shaking_x,shaking_y:force shaking_moment:moment"), no_table]), &
     report_kind_t(name="points", help="paths, velocities and accelerations of points", &
       studies="points", positions=.true., tables=[ &
-      table_kind_t("points", "speed:rad/s crank:deg point:name x,y:length vx,vy:velocity "// &
+      table_kind_t("points", "speed:speed crank:deg point:name x,y:length vx,vy:velocity "// &
       "ax,ay:acceleration"), no_table]), &
     report_kind_t(name="lagrange", help="the torque by energies", &
       studies="lagrange", positions=.true., masses=.true., numbers=5, tables=[ &
-      table_kind_t("lagrange", "speed:rad/s crank:deg M,dM:inertia "// &
-      "V,gravity,load,torque,kinetic,potential:moment"), no_table]), &
+      table_kind_t("lagrange", "speed:speed crank:deg M,dM:inertia "// &
+      "V,gravity,load,torque:moment kinetic,potential:energy"), no_table]), &
     report_kind_t(name="linkage", help="class, limits and special positions", &
       studies="linkage", tables=[ &
       table_kind_t("linkage", "branch,event:name crank,theta3,theta4,transmission_angle:deg"), &
@@ -109,10 +109,10 @@ module report_table
     report_kind_t(name="balance", help="shaking force, counterweights, harmonics", &
       studies="reactions balance harmonics", positions=.true., masses=.true., numbers=98, &
       tables=[ &
-      table_kind_t("balance", "speed:rad/s crank:deg xG,yG:length shaking_x,shaking_y:force "// &
+      table_kind_t("balance", "speed:speed crank:deg xG,yG:length shaking_x,shaking_y:force "// &
       "shaking_moment,torque:moment balanced_x,balanced_y:force "// &
       "balanced_moment,balanced_torque:moment"), &
-      table_kind_t("harmonics", "speed:rad/s linkage,quantity:name largest,rms,mean:- h*:- "// &
+      table_kind_t("harmonics", "speed:speed linkage,quantity:name largest,rms,mean:- h*:- "// &
       "phase*:deg")]), &
     report_kind_t(name="geometry", help="where pins, links and points are, for drawings", &
       pattern="REPORT geometry crank=a,b,...", offered=.false., studies="geometry", tables=[ &
@@ -120,8 +120,8 @@ module report_table
     report_kind_t(name="motion", help="how the linkage moves by itself", &
       pattern="REPORT motion crank= [speed=0] end= step=", default="speed=0", &
       studies="motion", masses=.true., tables=[ &
-      table_kind_t("motion", "time:time crank,theta3,theta4:deg omega2,omega3,omega4:rad/s "// &
-      "torque,kinetic,potential,work,energy_error:moment closure:length branch:name"), &
+      table_kind_t("motion", "time:time crank,theta3,theta4:deg omega2,omega3,omega4:rate "// &
+      "torque:moment kinetic,potential,work,energy_error:energy closure:length branch:name"), &
       no_table])]
 
 contains
@@ -218,7 +218,7 @@ contains
       names(1) = motion_words()
       plan%items = 1
     end select
-    call new_table_layout(table, variant%model%units, count, optional, names, plan%layout)
+    call new_table_layout(table, variant%model%outputs, count, optional, names, plan%layout)
   end subroutine plan_table
 
   !> The names in a column `link`.
@@ -316,7 +316,7 @@ contains
         else if (allocated(state%error) .and. table == "mesh") then
           call add_failed_row(rows, [crank], state%error%text)
         else if (allocated(state%error)) then
-          call add_failed_row(rows, [variant%model%speed%value(speed), crank], state%error%text)
+          call add_failed_row(rows, [variant%model%shown_speed(speed), crank], state%error%text)
         else
           select case (table)
           case ("kinematics")

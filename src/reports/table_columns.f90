@@ -2,12 +2,13 @@
 module table_columns
   use kinds, only: wp
   use number_text, only: number_width
+  use output_units, only: output_units_t
   use report_kinds, only: column_kind_t, columns_of, table_kind_t
   use tables, only: append_column, column_t, integer_column, name_column, real_cells, real_column
   use text, only: string_t, to_string
-  use units, only: coherent_factor, coherent_unit, dimension_acceleration, dimension_force, &
-    dimension_inertia, dimension_length, dimension_mass, dimension_moment, dimension_none, &
-    dimension_time, dimension_velocity, from_si, unit_system_t, unit_t
+  use units, only: coherent_factor, coherent_unit, dimension_acceleration, dimension_inertia, &
+    dimension_length, dimension_mass, dimension_none, dimension_time, dimension_velocity, from_si, &
+    unit_t
   implicit none (type, external)
   private
 
@@ -29,9 +30,9 @@ module table_columns
 contains
 
   !> The columns of a table in the units of a deck.
-  pure subroutine new_table_layout(table, system, count, optional, names, layout)
+  pure subroutine new_table_layout(table, outputs, count, optional, names, layout)
     type(table_kind_t), intent(in) :: table     !! as the table of reports lists it
-    type(unit_system_t), intent(in) :: system   !! units of the deck
+    type(output_units_t), intent(in) :: outputs !! units of the deck's results
     integer, intent(in) :: count                !! columns that a numbered one stands for
     logical, intent(in) :: optional             !! whether the table has its optional columns
     type(name_list_t), intent(in) :: names(:)   !! of the columns of names
@@ -50,7 +51,7 @@ contains
     filled = 0
     do i = 1, size(kinds)
       associate (kind => kinds(i))
-        measure = table_unit(kind%unit, system)
+        measure = table_unit(kind%unit, outputs)
         do j = 1, columns_for(kind, count, optional)
           filled = filled + 1
           layout%measures(filled) = measure
@@ -94,26 +95,36 @@ contains
     end do
   end function names_for
 
-  !> Unit of a column. A quantity (`length`) has that of the deck. Numbers of other columns are not
-  !! converted: those of shapes, whose units are made of the deck's, and those with a unit for a
-  !! word (`deg`).
-  pure function table_unit(word, system) result(measure)
-    character(len=*), intent(in) :: word      !! from the table of reports
-    type(unit_system_t), intent(in) :: system !! units of the deck
+  !> Unit of a column. A quantity (`length`) has that of the deck's results. Numbers of other
+  !! columns are not converted: those of shapes, whose units are made of the deck's, those with a
+  !! unit for a word (`deg`), and speeds of the deck, which stand in the table as it gives them.
+  pure function table_unit(word, outputs) result(measure)
+    character(len=*), intent(in) :: word        !! from the table of reports
+    type(output_units_t), intent(in) :: outputs !! units of the deck's results
     type(unit_t) :: measure
 
     type(unit_t) :: mass, length
 
-    mass = coherent_unit(system, dimension_mass)
-    length = coherent_unit(system, dimension_length)
+    mass = coherent_unit(outputs%system, dimension_mass)
+    length = coherent_unit(outputs%system, dimension_length)
     select case (word)
     case ("mass^-1/2")
       measure%name = mass%name//"^-0.5"
     case ("rotation")
       measure%name = "rad."//mass%name//"^-0.5."//length%name//"^-1"
+    case ("speed")
+      measure%name = outputs%rate%name
+    case ("rate")
+      measure = outputs%rate
+    case ("force")
+      measure = outputs%force
+    case ("moment")
+      measure = outputs%moment
+    case ("energy")
+      measure = outputs%energy
     case default
       if (is_quantity(word)) then
-        measure = coherent_unit(system, dimension_of(word))
+        measure = coherent_unit(outputs%system, dimension_of(word))
       else
         measure%name = word
       end if
@@ -122,13 +133,29 @@ contains
 
   !> Unit of a quantity without its name. It makes no text, so that threads may call it at the same
   !! time.
-  pure function table_factor(quantity, system) result(measure)
-    character(len=*), intent(in) :: quantity  !! `length`, `force`, …
-    type(unit_system_t), intent(in) :: system !! units of the deck
+  pure function table_factor(quantity, outputs) result(measure)
+    character(len=*), intent(in) :: quantity    !! `length`, `force`, …
+    type(output_units_t), intent(in) :: outputs !! units of the deck's results
     type(unit_t) :: measure
 
-    measure = coherent_factor(system, dimension_of(quantity))
+    select case (quantity)
+    case ("force")
+      call take_factor(outputs%force, measure)
+    case ("moment")
+      call take_factor(outputs%moment, measure)
+    case default
+      measure = coherent_factor(outputs%system, dimension_of(quantity))
+    end select
   end function table_factor
+
+  pure subroutine take_factor(named, measure)
+    type(unit_t), intent(in) :: named
+    type(unit_t), intent(inout) :: measure !! gets all but the name
+
+    measure%dimension = named%dimension
+    measure%numerator = named%numerator
+    measure%denominator = named%denominator
+  end subroutine take_factor
 
   pure function is_quantity(word) result(is)
     character(len=*), intent(in) :: word
@@ -137,7 +164,7 @@ contains
     is = any(dimension_of(word) /= dimension_none)
   end function is_quantity
 
-  !> The dimension of a quantity; `dimension_none` for other words.
+  !> The dimension of a quantity in the deck's UNITS; `dimension_none` for other words.
   pure function dimension_of(word) result(dimension)
     character(len=*), intent(in) :: word
     integer :: dimension(4)
@@ -153,10 +180,6 @@ contains
       dimension = dimension_velocity
     case ("acceleration")
       dimension = dimension_acceleration
-    case ("force")
-      dimension = dimension_force
-    case ("moment")
-      dimension = dimension_moment
     case ("inertia")
       dimension = dimension_inertia
     case ("first_moment")

@@ -24,6 +24,7 @@ module deck_outputs
   type :: outputs_t
     character(len=:), allocatable :: folder
     logical, private :: csv = .false.                     !! tables as comma-separated values too
+    logical, private :: plain = .true.                    !! tables as plain text
     type(string_t), allocatable, private :: is_new(:)     !! folders that this run made, outermost
                                                           !! first
     type(table_kind_t), allocatable :: kinds(:)           !! (tables) names and columns, from the
@@ -43,7 +44,7 @@ contains
 
   !> Makes the folder and opens every file in it under a temporary name. Errors: the folder or a
   !! file cannot be made.
-  subroutine open_outputs(folder, model, parameters, csv, outputs, error)
+  subroutine open_outputs(folder, model, parameters, csv, outputs, error, csv_only)
     character(len=*), intent(in) :: folder           !! path of the output folder
     type(model_t), intent(in) :: model               !! of the first variant
     type(column_t), intent(in) :: parameters(:)      !! columns of the VARY parameters
@@ -51,12 +52,14 @@ contains
                                                      !! values too
     type(outputs_t), intent(out) :: outputs          !! to be discarded after an error
     type(error_t), allocatable, intent(out) :: error !! why nothing can be written
+    logical, intent(in), optional :: csv_only        !! with `csv`: no plain tables
 
     integer :: i
     logical :: made
 
     outputs%folder = folder
     outputs%csv = csv
+    if (present(csv_only)) outputs%plain = .not. (csv .and. csv_only)
     outputs%parameters = parameters
     outputs%kinds = tables_of(model)
     allocate (outputs%tables(size(outputs%kinds)))
@@ -69,7 +72,8 @@ contains
     ! Checked now: a folder with the name of a file would stop the renaming when some files are in
     ! place and others are not.
     do i = 1, size(outputs%kinds)
-      call refuse_folder(joined_path(folder, trim(outputs%kinds(i)%name)//".dat"), error)
+      if (outputs%plain) call refuse_folder(joined_path(folder, &
+        trim(outputs%kinds(i)%name)//".dat"), error)
       if (csv) call refuse_folder(joined_path(folder, trim(outputs%kinds(i)%name)//".csv"), error)
     end do
     call refuse_folder(joined_path(folder, echo_name), error)
@@ -77,7 +81,8 @@ contains
     call refuse_folder(joined_path(folder, summary_name), error)
     if (allocated(error)) return
     do i = 1, size(outputs%kinds)
-      call open_table(folder, trim(outputs%kinds(i)%name), csv, outputs%tables(i), error)
+      call open_table(folder, trim(outputs%kinds(i)%name), csv, outputs%tables(i), error, &
+        .not. outputs%plain)
       if (allocated(error)) return
     end do
     call open_output(folder, echo_name, outputs%echo, error)
@@ -210,7 +215,7 @@ contains
     call remove_old_tables(outputs)
   end subroutine publish_outputs
 
-  !> Removes tables of reports, and CSV files, that are no longer requested.
+  !> Removes tables of reports, and forms of tables, that are no longer requested.
   subroutine remove_old_tables(outputs)
     type(outputs_t), intent(in) :: outputs
 
@@ -220,8 +225,8 @@ contains
       do t = 1, size(reports(i)%tables)
         associate (name => reports(i)%tables(t)%name)
           if (name == "") cycle
-          if (all(outputs%kinds%name /= name)) call remove_output(outputs%folder, &
-            trim(name)//".dat")
+          if (all(outputs%kinds%name /= name) .or. .not. outputs%plain) &
+            call remove_output(outputs%folder, trim(name)//".dat")
           if (all(outputs%kinds%name /= name) .or. .not. outputs%csv) &
             call remove_output(outputs%folder, trim(name)//".csv")
         end associate

@@ -49,6 +49,7 @@ module deck_runs
     logical :: resume = .false.             !! go on where an earlier run was killed
     logical :: csv = .false.                !! also write tables as comma-separated values
     character(len=:), allocatable :: figures !! command that draws figures; empty: not known
+    logical :: csv_only = .false.           !! and not as plain text
   end type run_options_t
 
   !> What a run reports besides its files.
@@ -100,7 +101,7 @@ contains
 
     variants = variant_count(deck%cards)
     call open_outputs(joined_path(options%folder, deck%base), deck%model, parameter_columns(deck), &
-      options%csv, session%outputs, error)
+      options%csv, session%outputs, error, options%csv_only)
     if (.not. allocated(error)) then
       call open_journal(session%outputs%folder, journal_title(deck), options%resume, &
         session%journal, blocks)
@@ -156,7 +157,7 @@ contains
     end if
     associate (tables => session%outputs%tables)
       text = text_of_success(deck%base, session%outputs%folder, size(tables), &
-        sum(tables%failed_rows), session%totals, deck%model%modes, deck%model%units, warning, &
+        sum(tables%failed_rows), session%totals, deck%model%modes, deck%model%outputs, warning, &
         command)
     end associate
   end function success_of

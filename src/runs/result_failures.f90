@@ -3,7 +3,7 @@ module result_failures
   use errors, only: error_of_reach, error_t, set_error
   use frequency_study, only: has_result
   use kinds, only: wp
-  use models, only: needs_frequencies
+  use models, only: needs_frequencies, speed_in_words
   use run_findings, only: add_failure, at_frequencies, at_position, failure_t, findings_t, &
     in_motion, of_variant
   use variant_results, only: variant_results_t
@@ -25,7 +25,7 @@ contains
 
     if (.not. variant%found%class%reach%closes) then
       call set_error(error, error_of_reach, variant%unreachable)
-      call note_failure(variant, of_variant, error, 0.0_wp, 0.0_wp, 0.0_wp, findings)
+      call note_failure(variant, of_variant, error, 0.0_wp, 0, 0.0_wp, findings)
       return
     end if
     associate (found => variant%found, crank => variant%found%positions%crank)
@@ -33,13 +33,12 @@ contains
         associate (state => found%positions%state(i))
           if (allocated(found%positions%states(state)%error)) then
             call note_failure(variant, at_position, found%positions%states(state)%error, &
-              crank(i), 0.0_wp, 0.0_wp, findings)
+              crank(i), 0, 0.0_wp, findings)
           else if (needs_frequencies(variant%model)) then
             do k = 1, size(found%sweep%request%speed)
               if (has_result(found%positions, found%sweep, state, k)) cycle
               call note_failure(variant, at_frequencies, &
-                found%sweep%results(state)%outcome(k)%error, crank(i), &
-                found%sweep%request%speed(k), 0.0_wp, findings)
+                found%sweep%results(state)%outcome(k)%error, crank(i), k, 0.0_wp, findings)
             end do
           end if
         end associate
@@ -47,11 +46,11 @@ contains
       if (allocated(found%geometry%outcome)) then
         do i = 1, size(found%geometry%crank)
           if (allocated(found%geometry%outcome(i)%error)) call note_failure(variant, at_position, &
-            found%geometry%outcome(i)%error, found%geometry%crank(i), 0.0_wp, 0.0_wp, findings)
+            found%geometry%outcome(i)%error, found%geometry%crank(i), 0, 0.0_wp, findings)
         end do
       end if
       if (allocated(found%motion%error)) call note_failure(variant, in_motion, found%motion%error, &
-        found%motion%last%angle(1), 0.0_wp, found%motion%last%time, findings)
+        found%motion%last%angle(1), 0, found%motion%last%time, findings)
     end associate
   end subroutine find_failures
 
@@ -60,7 +59,7 @@ contains
     integer, intent(in) :: stage     !! one of those of `run_findings`
     type(error_t), intent(in) :: error
     real(wp), intent(in) :: crank    !! [deg]
-    real(wp), intent(in) :: speed    !! [rad/s]
+    integer, intent(in) :: speed     !! number in the sweep's list; 0: none
     real(wp), intent(in) :: time     !! [s]
     type(findings_t), intent(inout) :: findings
 
@@ -68,7 +67,11 @@ contains
 
     failure%stage = stage
     failure%crank = crank
-    failure%speed = speed
+    failure%speed_words = ""
+    if (speed > 0) then
+      failure%speed = variant%found%sweep%request%speed(speed)
+      failure%speed_words = speed_in_words(variant%model, speed, failure%speed)
+    end if
     failure%time = time
     failure%error = error
     failure%variant = variant%model%variant

@@ -2,7 +2,7 @@
 module result_warnings
   use kinds, only: wp
   use mechanisms, only: mechanism_t
-  use models, only: needs_frequencies
+  use models, only: model_t, needs_frequencies, speed_in_words
   use position_results, only: error_of_divergence, error_of_orders, error_of_position
   use positions, only: positions_t
   use run_findings, only: add_warning_of_run, findings_t, place_in_words
@@ -45,15 +45,15 @@ contains
     associate (model => variant%model, positions => variant%found%positions, &
         sweep => variant%found%sweep)
       do k = 1, size(sweep%request%speed)
-        warning = divergences(positions, sweep, k)
+        warning = divergences(model, positions, sweep, k)
         call add_if_any(findings, model%variant, warning)
       end do
       if (sweep%request%axial) then
-        warning = deflections(variant%mechanism, positions, sweep)
+        warning = deflections(model, variant%mechanism, positions, sweep)
         call add_if_any(findings, model%variant, warning)
       end if
       if (sweep%request%method == by_orders) then
-        warning = missed_accuracy(positions, sweep)
+        warning = missed_accuracy(model, positions, sweep)
         call add_if_any(findings, model%variant, warning)
       end if
     end associate
@@ -72,7 +72,8 @@ contains
 
   !> The crank angles at which an eigenvalue is negative at one speed. Neighbours in the deck's
   !! list are joined to ranges.
-  pure function divergences(positions, sweep, speed) result(warning)
+  pure function divergences(model, positions, sweep, speed) result(warning)
+    type(model_t), intent(in) :: model
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
     integer, intent(in) :: speed !! number
@@ -100,7 +101,7 @@ contains
     end do
     if (len(ranges) == 0) return
     warning%text = "static divergence at speed "// &
-      to_string(sweep%request%speed(speed), 10)//" rad/s, crank "//ranges// &
+      speed_in_words(model, speed, sweep%request%speed(speed))//", crank "//ranges// &
       " deg: an eigenvalue is negative, and so the frequency written"
   end function divergences
 
@@ -119,7 +120,8 @@ contains
 
   !> The largest static deflection under the loads, if it is too large for the theory of the axial
   !! frequencies.
-  pure function deflections(mechanism, positions, sweep) result(warning)
+  pure function deflections(model, mechanism, positions, sweep) result(warning)
+    type(model_t), intent(in) :: model
     type(mechanism_t), intent(in) :: mechanism
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
@@ -151,7 +153,8 @@ contains
     warning%amount = largest
     warning%text = "the "//trim(merge("loads        ", "inertia loads", &
       sweep%request%constant))//" at "// &
-      place_in_words(positions%crank(at_position), sweep%request%speed(at_speed))// &
+      place_in_words(positions%crank(at_position), speed_in_words(model, at_speed, &
+      sweep%request%speed(at_speed)))// &
       " deflect link '"//mechanism%names(at_body)%text//"' by "//to_string(100.0_wp*largest, 3)// &
       " % of its length: "
     if (largest > impossible_deflection) then
@@ -166,7 +169,8 @@ contains
 
   !> Number of rows with a frequency less accurate than requested, the worst of them, and what
   !! limits it there.
-  pure function missed_accuracy(positions, sweep) result(warning)
+  pure function missed_accuracy(model, positions, sweep) result(warning)
+    type(model_t), intent(in) :: model
     type(positions_t), intent(in) :: positions
     type(sweep_t), intent(in) :: sweep
     type(warning_t) :: warning             !! without a text if there is none
@@ -195,7 +199,8 @@ contains
     warning%amount = worst
     warning%text = "the accuracy "//to_string(sweep%request%accuracy)// &
       " is not reached in "//plural(rows, "row")//": the error is up to "//to_string(worst, 2)// &
-      ", at "//place_in_words(positions%crank(at_position), sweep%request%speed(at_speed))// &
+      ", at "//place_in_words(positions%crank(at_position), speed_in_words(model, at_speed, &
+      sweep%request%speed(at_speed)))// &
       " ("//reason_of(sweep%results(positions%state(at_position))%cause(at_speed))//")"
   end function missed_accuracy
 

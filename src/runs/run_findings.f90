@@ -24,6 +24,7 @@ module run_findings
     integer :: stage = at_position           !! one of the stages above
     real(wp) :: crank = 0.0_wp               !! of a position or motion [deg]
     real(wp) :: speed = 0.0_wp               !! of frequencies [rad/s]
+    character(len=:), allocatable :: speed_words !! the same in the unit of results: `300 rpm`
     real(wp) :: time = 0.0_wp                !! at which a motion ended [s]
     type(error_t), allocatable :: error      !! the reason
     character(len=:), allocatable :: variant !! `L=90mm`; empty for a deck without VARY
@@ -133,12 +134,12 @@ contains
 
   !> `speed 20 rad/s, crank 45 deg`, or without the speed
   pure function place_in_words(crank, speed) result(place)
-    real(wp), intent(in) :: crank           !! [deg]
-    real(wp), intent(in), optional :: speed !! [rad/s]
+    real(wp), intent(in) :: crank                   !! [deg]
+    character(len=*), intent(in), optional :: speed !! with its unit
     character(len=:), allocatable :: place
 
     place = "crank "//to_string(crank, 12)//" deg"
-    if (present(speed)) place = "speed "//to_string(speed, 12)//" rad/s, "//place
+    if (present(speed)) place = "speed "//speed//", "//place
   end function place_in_words
 
   !> Appends findings to a buffer as bytes.
@@ -155,6 +156,7 @@ contains
         call put_reals(buffer, [failure%crank, failure%speed, failure%time, failure%varied])
         call put_error(buffer, failure%error)
         call put_string(buffer, failure%variant)
+        call put_string(buffer, failure%speed_words)
       end associate
     end do
     do i = 1, findings%warning_count
@@ -231,6 +233,7 @@ contains
     call get_reals(bytes, at, failure%varied)
     call get_error(bytes, at, failure%error)
     call get_string(bytes, at, failure%variant)
+    call get_string(bytes, at, failure%speed_words)
   end subroutine get_failure
 
 end module run_findings

@@ -102,6 +102,31 @@ no_longer() {
   run 0 --out "$out" "$scratch/again.deck" && absent "$out/again/frequencies.csv" && [ -s "$out/again/frequencies.dat" ]
 }
 
+# CSV alone: the same bytes; plain tables of before go, and come back when they are asked for again.
+alone() {
+  beam_deck "CRANK 0 90" "SPEED 0 10" "REPORT mesh" "REPORT frequencies" >"$scratch/alone.deck"
+  run 0 --quiet --format csv --out "$out" "$scratch/alone.deck" && mv "$out/alone" "$scratch/both" && cp -r "$scratch/both" "$out/alone" &&
+    run 0 --quiet --format csv-only --out "$out" "$scratch/alone.deck" || return 1
+  for name in mesh frequencies; do
+    absent "$out/alone/$name.dat" "$out/alone/$name.dat.part" && cmp "$scratch/both/$name.csv" "$out/alone/$name.csv" || return 1
+    grep -q "\"file\": \"$name.csv\", \"csv\": \"$name.csv\"" "$out/alone/summary.json" || { echo "summary of $name"; return 1; }
+    grep -q "\"file\": \"$name.dat\", \"csv\": \"$name.csv\"" "$scratch/both/summary.json" || { echo "summary of both"; return 1; }
+  done
+  run 0 --quiet --out "$out" "$scratch/alone.deck" && cmp "$scratch/both/mesh.dat" "$out/alone/mesh.dat" && absent "$out/alone/mesh.csv"
+}
+
+# Variants, and a run that failed rows: as beside the plain tables.
+alone_of_variants() {
+  beam_deck "VARY r 1 2 3" "POINT p coupler along=\$r" "CRANK 0 90" "REPORT points" "REPORT frequencies" >"$scratch/variants.deck"
+  failed_deck >"$scratch/failed.deck"
+  run 1 --quiet --format csv --out "$scratch/both" "$scratch/variants.deck" "$scratch/failed.deck" || return 1
+  run 1 --quiet --format csv-only --threads 3 --out "$out" "$scratch/variants.deck" "$scratch/failed.deck" || return 1
+  for table in "$scratch/both"/variants/*.csv "$scratch/both"/failed/*.csv; do
+    cmp "$table" "$out/${table#"$scratch/both/"}" || return 1
+  done
+  absent "$out"/variants/*.dat "$out"/failed/*.dat
+}
+
 threads() {
   beam_deck "CRANK 0 to 360 step 5" "SPEED 0 10 20" "REPORT frequencies" "REPORT shapes" >"$scratch/threads.deck"
   run 0 --quiet --format csv --out "$out/one" "$scratch/threads.deck" &&
@@ -112,3 +137,5 @@ check "CSV with failed rows" failed_rows
 check "CSV of every deck in inputs/" inputs
 check "CSV that is no longer asked for goes" no_longer
 check "the same CSV whatever the threads" threads
+check "CSV alone" alone
+check "CSV alone, of variants and with failed rows" alone_of_variants

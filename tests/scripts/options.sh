@@ -42,7 +42,7 @@ value_twice() {
 
 format_unknown() {
   run 2 --out "$out" --format cvs "$deck" && says "unknown format 'cvs' (did you mean 'csv'?)" && absent "$out" &&
-    run 2 --out "$out" --format=xml "$deck" && says "unknown format 'xml'; --format is plain or csv" && absent "$out"
+    run 2 --out "$out" --format=xml "$deck" && says "unknown format 'xml'; --format is plain, csv or csv-only" && absent "$out"
 }
 
 threads_refused() {

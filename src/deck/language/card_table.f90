@@ -33,8 +33,9 @@ module card_table
   type(card_kind_t), parameter :: card_kinds(*) = [ &
     card_kind_t("TITLE", is_single=.true., pattern="TITLE text", &
       help="stands at the head of tables and figures"), &
-    card_kind_t("UNITS", is_single=.true., least=3, most=3, pattern="UNITS length mass time", &
-      help="what bare numbers mean; required"), &
+    card_kind_t("UNITS", is_single=.true., least=3, most=3, &
+      pattern="UNITS length mass time [force=] [torque=] [energy=] [speed=]", &
+      help="what bare numbers mean; required. The keys: units of results"), &
     card_kind_t("INCLUDE", least=1, most=1, pattern="INCLUDE file", &
       help="the cards of another file"), &
     card_kind_t("SET", least=2, most=2, pattern="SET name value", help="a value for $name"), &

@@ -12,9 +12,10 @@ module report_kinds
 
   !> One table of a report. Columns with the same unit are separated by commas, with the unit behind
   !! a colon, and these groups by blanks: `crank:deg x,y:length`. A unit is given as printed in the
-  !! table, or as a quantity (`length`, `force`, …) in the deck's UNITS; `#` marks whole numbers,
-  !! `name` names. A column name that ends with `*` stands for a series of numbered columns; one
-  !! that ends with `?` is omitted in some tables.
+  !! table, or as a quantity (`length`, `force`, …) in the units of the deck's results; `speed`
+  !! stands for a speed as the deck gives it, `#` for whole numbers, `name` for names. A column name
+  !! that ends with `*` stands for a series of numbered columns; one that ends with `?` is omitted
+  !! in some tables.
   type :: table_kind_t
     character(len=12) :: name = ""     !! of the table; blank: unused record
     character(len=240) :: columns = "" !! with units, as above

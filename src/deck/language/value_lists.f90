@@ -11,8 +11,8 @@ module value_lists
   use sorting, only: ascending_order
   use text, only: same_word, to_string
   use tokens, only: list_items, token_t
-  use units, only: coherent_unit, dimension_angle, dimension_none, from_si, read_unit, to_si, &
-    unit_system_t, unit_t, wrong_unit
+  use units, only: coherent_unit, dimension_angle, dimension_none, from_si, read_unit, &
+    serves_for, to_si, unit_system_t, unit_t, wrong_unit
   implicit none (type, external)
   private
 
@@ -24,9 +24,10 @@ module value_lists
     real(wp), allocatable :: value(:)      !! (values) angles in degrees, all others in SI
     integer, allocatable :: word(:)        !! (values) number of the word in `words`
     type(token_t), allocatable :: words(:) !! (words) with their places
-    type(unit_t) :: unit                   !! of all numbers as written, without a name if their
-                                           !! units differ or all of them are bare zeros
-    real(wp), allocatable :: written(:)    !! (values) in `unit`; not allocated without a unit
+    type(unit_t) :: unit                   !! the first that the list names; without a name if it
+                                           !! names none
+    real(wp), allocatable :: written(:)    !! (values) in this unit, or in that of bare numbers; as
+                                           !! they are written if they are written in it
   end type value_list_t
 
   !> A number as it is written.
@@ -34,7 +35,7 @@ module value_lists
     real(wp) :: number = 0.0_wp    !! in `unit`
     type(decimal_t) :: decimal     !! the same
     type(unit_t) :: unit
-    logical :: any_unit = .false.  !! a bare zero, which is the same in all units
+    logical :: is_zero = .false.   !! bare, and the same in all units
     real(wp) :: value = 0.0_wp     !! angle in degrees, all others in SI
   end type written_t
 
@@ -80,24 +81,19 @@ contains
     type(value_list_t), intent(out) :: list          !! in SI
 
     type(diagnostics_t) :: diagnostics
+    type(unit_t) :: bare
     type(written_t) :: first, last, step
-    logical :: fine, one_unit
+    logical :: fine
 
     list = empty_list()
-    first%any_unit = .true.
+    bare = coherent_unit(system, dimension)
+    first%is_zero = .true.
     first%decimal = decimal_of("0")
-    call read_value(end_word, dimension, coherent_unit(system, dimension), .true., diagnostics, &
-      last, fine)
-    call read_value(step_word, dimension, coherent_unit(system, dimension), .true., diagnostics, &
-      step, fine)
-    call find_points(first, last, step, dimension, list%written, list%value)
+    call read_value(end_word, dimension, bare, diagnostics, last, fine)
+    call read_value(step_word, dimension, bare, diagnostics, step, fine)
+    list%unit = step%unit
+    call find_points(first, last, step, dimension, list, list%written, list%value)
     list%word = spread(0, 1, size(list%value))
-    one_unit = .true.
-    call take_unit(step, list%unit, one_unit)
-    call take_unit(last, list%unit, one_unit)
-    if (one_unit) return
-    list%unit = unit_t()
-    deallocate (list%written)
   end subroutine list_steps
 
   !> Reads the two values of a key in SI; they may be equal.
@@ -184,7 +180,7 @@ contains
     type(unit_t) :: bare
     type(written_t) :: first, last, step
     integer :: i, count, filled
-    logical :: fine, is_bare, one_unit
+    logical :: fine
 
     list = empty_list()
     list%words = words
@@ -192,55 +188,85 @@ contains
     bare = coherent_unit(system, dimension)
     count = size(words)
     call read_common_unit(words, dimension, diagnostics, bare, count)
-    is_bare = count == size(words)
-    one_unit = .true.
+    call find_unit(words(:count), dimension, bare, count < size(words), list%unit)
     fine = .true.
     i = 1
     do while (i <= count)
-      call read_value(words(i), dimension, bare, is_bare, diagnostics, first, fine)
+      call read_value(words(i), dimension, bare, diagnostics, first, fine)
       if (.not. fine) exit
-      call take_unit(first, list%unit, one_unit)
       if (i < count) then
         if (same_word(words(i + 1)%text, "to")) then
-          call read_range_end(words(:count), i, dimension, bare, is_bare, noun, diagnostics, last, &
-            step, fine)
+          call read_range_end(words(:count), i, dimension, bare, noun, diagnostics, last, step, &
+            fine)
           if (.not. fine) exit
-          call take_unit(last, list%unit, one_unit)
-          call take_unit(step, list%unit, one_unit)
           call append_range(first, last, step, dimension, i, noun, diagnostics, list, filled, fine)
           if (.not. fine) exit
           i = i + 5
           cycle
         end if
       end if
-      call append_points([first%number], [first%value], i, list, filled)
+      call append_points([in_unit_of(list, first, first%value, dimension)], [first%value], i, &
+        list, filled)
       i = i + 1
     end do
     list%value = list%value(:filled)
     list%word = list%word(:filled)
     list%written = list%written(:filled)
-    if (.not. one_unit .or. .not. allocated(list%unit%name)) then
-      list%unit = unit_t()
-      deallocate (list%written)
-    end if
     ! Angles and speeds are zero or of the order of one; a pure number may have any magnitude.
     if (fine) call refuse_duplicates(noun, &
       merge(0.0_wp, 1.0_wp, all(dimension == dimension_none)), diagnostics, list)
   end subroutine read_values
 
-  !> Notes the unit of a number; `one_unit` becomes false if another has been noted before.
-  pure subroutine take_unit(number, unit, one_unit)
-    type(written_t), intent(in) :: number
-    type(unit_t), intent(inout) :: unit !! without a name as long as none is noted
-    logical, intent(inout) :: one_unit
+  !> The unit at the end of a list, or else the first behind a number; none if there is none, or if
+  !! it cannot be read, which is reported with its number.
+  pure subroutine find_unit(words, dimension, common, has_common, unit)
+    type(token_t), intent(in) :: words(:)
+    integer, intent(in) :: dimension(4)
+    type(unit_t), intent(in) :: common
+    logical, intent(in) :: has_common
+    type(unit_t), intent(inout) :: unit
 
-    if (number%any_unit) return
-    if (.not. allocated(unit%name)) then
-      unit = number%unit
+    type(unit_t) :: measure
+    type(error_t), allocatable :: error
+    integer :: i, length
+
+    if (has_common) unit = common
+    if (has_common) return
+    do i = 1, size(words)
+      length = number_length(words(i)%text)
+      if (length == 0 .or. length == len(words(i)%text)) cycle
+      call read_unit(words(i)%text(length + 1:), dimension, measure, error)
+      if (allocated(error)) return
+      if (serves_for(measure, dimension)) unit = measure
+      return
+    end do
+  end subroutine find_unit
+
+  !> A point of a list in the list's unit: the number itself if it is written in it.
+  pure function in_unit_of(list, number, point, dimension) result(value)
+    type(value_list_t), intent(in) :: list
+    type(written_t), intent(in) :: number
+    real(wp), intent(in) :: point !! as the list has it
+    integer, intent(in) :: dimension(4)
+    real(wp) :: value
+
+    value = number%number
+    if (number%is_zero .or. .not. allocated(list%unit%name)) return
+    if (number%unit%name == list%unit%name) return
+    if (all(dimension == dimension_angle)) then
+      value = from_si(to_si(point, degrees()), list%unit)
     else
-      one_unit = one_unit .and. unit%name == number%unit%name
+      value = from_si(point, list%unit)
     end if
-  end subroutine take_unit
+  end function in_unit_of
+
+  !> The degree, without its name.
+  pure function degrees() result(measure)
+    type(unit_t) :: measure
+
+    measure%numerator = pi
+    measure%denominator = 180.0_wp
+  end function degrees
 
   !> A last word that is no number is the unit of all bare numbers before it; `count` is then
   !! reduced by one.
@@ -270,11 +296,10 @@ contains
   end subroutine read_common_unit
 
   !> One number.
-  pure subroutine read_value(word, dimension, bare, is_bare, diagnostics, number, fine)
+  pure subroutine read_value(word, dimension, bare, diagnostics, number, fine)
     type(token_t), intent(in) :: word
     integer, intent(in) :: dimension(4)
     type(unit_t), intent(in) :: bare
-    logical, intent(in) :: is_bare !! no unit at the end of the list holds for all numbers
     type(diagnostics_t), intent(inout) :: diagnostics
     type(written_t), intent(out) :: number
     logical, intent(out) :: fine
@@ -285,7 +310,7 @@ contains
     if (.not. fine) return
     length = number_length(word%text)
     number%decimal = decimal_of(word%text(:length))
-    number%any_unit = is_bare .and. length == len(word%text) .and. abs(number%number) <= 0.0_wp
+    number%is_zero = length == len(word%text) .and. abs(number%number) <= 0.0_wp
     number%value = converted(number%number, number%unit, dimension)
   end subroutine read_value
 
@@ -297,27 +322,21 @@ contains
     integer, intent(in) :: dimension(4)
     real(wp) :: value
 
-    type(unit_t) :: degrees
-
     if (any(dimension /= dimension_angle)) then
       value = to_si(number, measure)
     else if (measure%name == "deg") then
       value = number
     else
-      degrees%numerator = pi
-      degrees%denominator = 180.0_wp
-      value = from_si(to_si(number, measure), degrees)
+      value = from_si(to_si(number, measure), degrees())
     end if
   end function converted
 
   !> Reads the words `to b step s` behind `words(i)`.
-  pure subroutine read_range_end(words, i, dimension, bare, is_bare, noun, diagnostics, last, &
-    step, fine)
+  pure subroutine read_range_end(words, i, dimension, bare, noun, diagnostics, last, step, fine)
     type(token_t), intent(in) :: words(:)
     integer, intent(in) :: i
     integer, intent(in) :: dimension(4)
     type(unit_t), intent(in) :: bare
-    logical, intent(in) :: is_bare
     character(len=*), intent(in) :: noun
     type(diagnostics_t), intent(inout) :: diagnostics
     type(written_t), intent(out) :: last, step
@@ -329,8 +348,8 @@ contains
       call add_error(diagnostics, words(i + 1), "a range of "//noun//"s reads: a to b step s")
       return
     end if
-    call read_value(words(i + 2), dimension, bare, is_bare, diagnostics, last, fine)
-    if (fine) call read_value(words(i + 4), dimension, bare, is_bare, diagnostics, step, fine)
+    call read_value(words(i + 2), dimension, bare, diagnostics, last, fine)
+    if (fine) call read_value(words(i + 4), dimension, bare, diagnostics, step, fine)
     if (fine .and. abs(step%value) <= 0.0_wp) then
       call add_error(diagnostics, words(i + 4), "the step must not be 0")
       fine = .false.
@@ -361,7 +380,7 @@ contains
       call add_error(diagnostics, list%words(word + 4), "this range has more than "// &
         to_string(most_values)//" "//noun//"s")
     else
-      call find_points(first, last, step, dimension, numbers, points)
+      call find_points(first, last, step, dimension, list, numbers, points)
       call append_points(numbers, points, word, list, filled)
       fine = .true.
     end if
@@ -369,21 +388,25 @@ contains
 
   !> The points `a + i s` up to `b`, each the decimal number that a person would write. A last point
   !! within 1e-9 of a step of `b` becomes `b`.
-  pure subroutine find_points(first, last, step, dimension, numbers, points)
+  pure subroutine find_points(first, last, step, dimension, list, numbers, points)
     type(written_t), intent(in) :: first, last, step
     integer, intent(in) :: dimension(4)
+    type(value_list_t), intent(in) :: list                      !! for its unit
     real(wp), allocatable, intent(out) :: numbers(:), points(:) !! as written, as the list has them
 
     real(wp), parameter :: hit = 1.0e-9_wp
+    type(written_t) :: number
     integer :: count, i
 
     count = floor((last%value - first%value)/step%value + hit) + 1
     allocate (numbers(count), points(count))
+    number%unit = step%unit
     do i = 1, count
-      call find_point(first, step, i - 1, dimension, numbers(i), points(i))
+      call find_point(first, step, i - 1, dimension, number, points(i))
+      numbers(i) = in_unit_of(list, number, points(i), dimension)
     end do
     if (abs(points(count) - last%value) > hit*abs(step%value)) return
-    numbers(count) = last%number
+    numbers(count) = in_unit_of(list, last, last%value, dimension)
     points(count) = last%value
   end subroutine find_points
 
@@ -393,21 +416,27 @@ contains
     type(written_t), intent(in) :: first, step
     integer, intent(in) :: count
     integer, intent(in) :: dimension(4)
-    real(wp), intent(out) :: number, point
+    type(written_t), intent(inout) :: number !! has the unit of `s`
+    real(wp), intent(out) :: point
 
     type(decimal_t) :: decimal
 
-    decimal = decimal_point(first%decimal, step%decimal, count)
-    if (.not. (first%any_unit .or. first%unit%name == step%unit%name)) then
-      number = first%number
+    if (.not. first%is_zero .and. first%unit%name /= step%unit%name) then
       point = first%value + count*step%value
+      if (all(dimension == dimension_angle)) then
+        number%number = from_si(to_si(point, degrees()), step%unit)
+      else
+        number%number = from_si(point, step%unit)
+      end if
       return
-    else if (decimal%is_exact) then
-      number = decimal_value(decimal)
-    else
-      number = first%number + count*step%number
     end if
-    point = converted(number, step%unit, dimension)
+    decimal = decimal_point(first%decimal, step%decimal, count)
+    if (decimal%is_exact) then
+      number%number = decimal_value(decimal)
+    else
+      number%number = first%number + count*step%number
+    end if
+    point = converted(number%number, step%unit, dimension)
   end subroutine find_point
 
   !> Appends values that all come from one word. The arrays grow by doubling: a deck may list a

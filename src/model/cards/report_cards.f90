@@ -10,7 +10,7 @@ module report_cards
   use text, only: joined, lower_case, to_string, word_list
   use tokens, only: token_t
   use units, only: dimension_angle, dimension_rate, dimension_time, unit_system_t
-  use value_lists, only: empty_list, list_steps, read_entry_list, value_list_t
+  use value_lists, only: empty_list, list_steps, read_entry_list, read_values, value_list_t
   implicit none (type, external)
   private
 
@@ -21,7 +21,8 @@ module report_cards
     type(token_t) :: keyword
     type(report_kind_t) :: kind  !! without a name if it is unknown
     type(value_list_t) :: crank  !! `crank=` of shapes and geometry [deg]; empty: all positions
-    type(value_list_t) :: speed  !! `speed=` of shapes [rad/s]; empty: all speeds
+    type(value_list_t) :: speed  !! `speed=` of shapes [rad/s]; empty: all speeds. Of motion: its
+                                 !! start speed, as a list of one, or none
     integer :: points = 21       !! `points=` of shapes, along each link
     ! REPORT motion: each value with its word, which has no line if the card does not give it.
     real(wp) :: start_angle = 0.0_wp !! of the crank [deg]
@@ -142,7 +143,11 @@ contains
     end if
     call read_entry_quantity(card, "speed", dimension_rate, system, .false., diagnostics, &
       report%start_speed, fine)
-    if (fine) report%start_speed_word = card%entries(entry_number(card, "speed"))%value
+    if (fine) then
+      report%start_speed_word = card%entries(entry_number(card, "speed"))%value
+      call read_values([report%start_speed_word], dimension_rate, system, "speed", diagnostics, &
+        report%speed)
+    end if
     call read_entry_quantity(card, "end", dimension_time, system, known_keys, diagnostics, &
       report%end_time, ends)
     if (ends) report%end_time_word = card%entries(entry_number(card, "end"))%value

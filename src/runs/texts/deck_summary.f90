@@ -81,7 +81,11 @@ contains
     type(json_list_t) :: object, list
     integer :: i
 
-    call add_member(object, "file", json_value(table%name//".dat"))
+    if (table%has_plain) then
+      call add_member(object, "file", json_value(table%name//".dat"))
+    else
+      call add_member(object, "file", json_value(table%name//".csv"))
+    end if
     if (table%has_csv) then
       call add_member(object, "csv", json_value(table%name//".csv"))
     else

@@ -12,9 +12,8 @@ module echo
   use shear, only: link_rotary_inertia, link_shear_stiffness, shear_coefficient
   use text, only: character_count, same_word, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
-  use units, only: coherent_unit, dimension_area, dimension_force, dimension_inertia, &
-    dimension_length, dimension_mass, dimension_rotary_inertia, dimension_second_moment, from_si, &
-    unit_t
+  use units, only: coherent_unit, dimension_area, dimension_inertia, dimension_length, &
+    dimension_mass, dimension_rotary_inertia, dimension_second_moment, from_si, unit_t
   use walled_sections, only: plane_of_flanges
   implicit none (type, external)
   private
@@ -172,7 +171,7 @@ contains
           achar(10))
       end if
       if (link_shear_stiffness(model, link) <= 0.0_wp) return
-      measure = coherent_unit(model%units, dimension_force)
+      measure = model%outputs%force
       associate (section => model%sections(this%section), &
         nu => model%materials(this%material)%poissons_ratio)
         origin = "Cowper"

@@ -34,7 +34,7 @@ contains
       line = failure%variant//": "//failure%error%text//line_feed
       return
     case default
-      line = place_in_words(failure%crank, failure%speed)
+      line = place_in_words(failure%crank, failure%speed_words)
     end select
     line = line//": "//failure%error%text//line_feed
     if (len(failure%variant) > 0) line = failure%variant//", "//line

@@ -7,8 +7,8 @@ module run_log
   use models, only: branch_crossed, inertia_distributed, inertia_lumped, link_mass, model_t, &
     needs_frequencies
   use text, only: plural, to_string
-  use units, only: coherent_unit, dimension_acceleration, dimension_damping, dimension_force, &
-    dimension_length, dimension_mass, dimension_moment, from_si, unit_t
+  use units, only: coherent_unit, dimension_acceleration, dimension_damping, dimension_length, &
+    dimension_mass, from_si, unit_t
   implicit none (type, external)
   private
 
@@ -77,8 +77,8 @@ contains
     integer :: i
 
     acceleration = coherent_unit(model%units, dimension_acceleration)
-    force = coherent_unit(model%units, dimension_force)
-    moment = coherent_unit(model%units, dimension_moment)
+    force = model%outputs%force
+    moment = model%outputs%moment
     text = ""
     if (model%gravity_word%line > 0) text = "gravity: "//pair_text(model%gravity, acceleration)// &
       line_feed
@@ -100,13 +100,14 @@ contains
     type(unit_t) :: moment, damping
     integer :: i
 
-    moment = coherent_unit(model%units, dimension_moment)
+    moment = model%outputs%moment
     damping = coherent_unit(model%units, dimension_damping)
     text = ""
     if (model%motor%keyword%line > 0) then
       if (model%motor%is_line) then
         text = "motor: torque "//to_string(from_si(model%motor%stall, moment), 12)//" "// &
-          moment%name//" at rest, none at "//to_string(model%motor%noload, 12)//" rad/s"//line_feed
+          moment%name//" at rest, none at "//to_string(from_si(model%motor%noload, &
+          model%outputs%rate), 12)//" "//model%outputs%rate%name//line_feed
       else
         text = "motor: torque "//to_string(from_si(model%motor%torque, moment), 12)//" "// &
           moment%name//line_feed

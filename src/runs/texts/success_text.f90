@@ -2,10 +2,10 @@
 module success_text
   use figures_command, only: shell_word
   use kinds, only: long
+  use output_units, only: output_units_t
   use run_totals, only: is_empty, range_t, run_totals_t
-  use table_columns, only: table_unit
   use text, only: plural, to_string
-  use units, only: from_si, unit_system_t, unit_t
+  use units, only: from_si, unit_t
   implicit none (type, external)
   private
 
@@ -30,7 +30,7 @@ contains
     integer(long), intent(in) :: failed_rows   !! of all tables
     type(run_totals_t), intent(in) :: totals   !! of all variants
     integer, intent(in) :: modes               !! number
-    type(unit_system_t), intent(in) :: units   !! of the deck
+    type(output_units_t), intent(in) :: units  !! of the deck's results
     character(len=*), intent(in) :: warning    !! why the results mean nothing; empty: they do
     character(len=*), intent(in) :: command    !! that draws figures; empty: not known
     character(len=:), allocatable :: text
@@ -48,7 +48,7 @@ contains
         to_string(totals%highest%most, digits)//" Hz"
       line = line//", estimated relative error at most "//to_string(totals%largest_error, 2)
     else if (.not. is_empty(totals%torque)) then
-      line = line//"; driving torque "//torque_text(totals%torque, units)
+      line = line//"; driving torque "//torque_text(totals%torque, units%moment)
     end if
     if (len(command) > 0) then
       figures = "figures: "//command//" "//shell_word(folder)
@@ -74,16 +74,12 @@ contains
     text = text//" "//unit
   end function range_text
 
-  pure function torque_text(torque, units) result(text)
+  pure function torque_text(torque, unit) result(text)
     type(range_t), intent(in) :: torque !! [N m]
-    type(unit_system_t), intent(in) :: units
+    type(unit_t), intent(in) :: unit    !! of moments
     character(len=:), allocatable :: text
 
-    type(unit_t) :: moment
-
-    moment = table_unit("moment", units)
-    text = range_text(range_t(from_si(torque%least, moment), from_si(torque%most, moment)), &
-      moment%name)
+    text = range_text(range_t(from_si(torque%least, unit), from_si(torque%most, unit)), unit%name)
   end function torque_text
 
 end module success_text

@@ -1,0 +1,84 @@
+!> The units in which results are given: those of the deck where they have a name, else those that
+!! people use for the quantity. What bare numbers of a deck mean is none of this.
+module output_units
+  use errors, only: error_t
+  use units, only: coherent_unit, dimension_force, dimension_moment, dimension_rate, read_unit, &
+    unit_system_t, unit_t
+  implicit none (type, external)
+  private
+
+  public :: output_units_t, new_output_units, table_name
+
+  !> Angles are in degrees, angular accelerations in rad/s², frequencies in Hz.
+  type :: output_units_t
+    type(unit_system_t) :: system !! of all quantities that are not below
+    type(unit_t) :: force
+    type(unit_t) :: moment        !! and torque
+    type(unit_t) :: energy
+    type(unit_t) :: rate          !! angular velocity
+  end type output_units_t
+
+contains
+
+  !> The units of a deck that asks for no others.
+  !!
+  !! Forces and moments: N and N m, or lbf and lbf in where lengths are in inches or feet. But where
+  !! the deck's own unit of force has a name (tonne mm/s² is N, slinch in/s² is lbf) it is kept, and
+  !! moments are in it times the unit of length. Energies: J; where lengths are in inches or feet,
+  !! the unit of moments. Angular velocities: rad/s.
+  pure function new_output_units(system) result(outputs)
+    type(unit_system_t), intent(in) :: system !! from the UNITS card
+    type(output_units_t) :: outputs
+
+    logical :: imperial
+
+    imperial = system%length%name == "in" .or. system%length%name == "ft"
+    outputs%system = system
+    outputs%force = coherent_unit(system, dimension_force)
+    outputs%moment = coherent_unit(system, dimension_moment)
+    if (scan(outputs%force%name, "./") > 0) then
+      if (imperial) then
+        outputs%force = unit_of("lbf", dimension_force)
+        outputs%moment = unit_of("lbf*in", dimension_moment)
+      else
+        outputs%force = unit_of("N", dimension_force)
+        outputs%moment = unit_of("N*m", dimension_moment)
+      end if
+    end if
+    outputs%energy = unit_of("J", dimension_moment)
+    if (imperial) outputs%energy = outputs%moment
+    outputs%rate = unit_of("rad/s", dimension_rate)
+  end function new_output_units
+
+  !> A unit known to exist, with the name that tables have.
+  pure function unit_of(text, dimension) result(measure)
+    character(len=*), intent(in) :: text
+    integer, intent(in) :: dimension(4)
+    type(unit_t) :: measure
+
+    type(error_t), allocatable :: error
+
+    call read_unit(text, dimension, measure, error)
+    measure%name = table_name(measure)
+  end function unit_of
+
+  !> `N.m` and `mm2` for `N*m` and `mm^2`, as tables write products and powers.
+  pure function table_name(measure) result(name)
+    type(unit_t), intent(in) :: measure !! as a deck writes it
+    character(len=:), allocatable :: name
+
+    integer :: i
+
+    name = ""
+    do i = 1, len(measure%name)
+      select case (measure%name(i:i))
+      case ("*")
+        name = name//"."
+      case ("^")
+      case default
+        name = name//measure%name(i:i)
+      end select
+    end do
+  end function table_name
+
+end module output_units
