@@ -147,7 +147,7 @@ contains
     end do
   end subroutine add_axial_jumps
 
-  !> Adds the geometric stiffness of the loads on masses that turn with the cross-sections of a link.
+  !> Adds the geometric stiffness of the loads on masses that turn with cross-sections of a link.
   pure subroutine add_turning_forces(linkage, mesh, pose, body, force, stiffness)
     type(linkage_t), intent(in) :: linkage          !! lengths and lumps of its bodies
     type(beam_mesh_t), intent(in) :: mesh           !! elements and unknowns

@@ -133,8 +133,8 @@ contains
   end function axial_jumps
 
   !> What the inertia loads of masses do against the rotation of the cross-sections that carry them,
-  !! divided by the length: `−(m e n·a + I e_x·slope)/L`, with the acceleration a of the mass and its
-  !! slope along the link, whose part in that direction is −ω².
+  !! divided by the length: `−(m e n·a + I e_x·slope)/L`, with the acceleration a of the mass and
+  !! its slope along the link, whose part in that direction is −ω².
   pure function turning_forces(linkage, body, pose, field) result(force)
     type(linkage_t), intent(in) :: linkage          !! masses along the links
     integer, intent(in) :: body                     !! number of the link
@@ -156,8 +156,8 @@ contains
     end associate
   end function turning_forces
 
-  !> What the lumps of a link add to the functions of its axial force: jumps and, if one turns with its
-  !! cross-section, `turning_forces`.
+  !> What the lumps of a link add to the functions of its axial force: jumps and, if one turns with
+  !! its cross-section, `turning_forces`.
   pure function lump_functions(linkage, body, pose, field) result(force)
     type(linkage_t), intent(in) :: linkage          !! masses along the links
     integer, intent(in) :: body                     !! number of the link
@@ -166,8 +166,8 @@ contains
     real(wp), allocatable :: force(:)               !! (lumps, perhaps twice) [N]
 
     force = axial_jumps(linkage, body, pose, field)
-    if (has_turning_lumps(linkage%bodies(body))) force = [force, turning_forces(linkage, body, pose, &
-      field)]
+    if (has_turning_lumps(linkage%bodies(body))) force = [force, turning_forces(linkage, body, &
+      pose, field)]
   end function lump_functions
 
   !> Mean axial force over the length of a rigid link: `Σ F·r/L`, r from its first pin.
@@ -216,7 +216,7 @@ contains
     type(linkage_t), intent(in) :: linkage       !! lengths, masses, loads
     type(pose_t), intent(in) :: pose             !! away from dead points
     type(unit_loads_t), intent(in) :: unit_loads !! of this pose
-    real(wp), allocatable :: force(:, :, :)      !! (1, ξ, ξ², of lumps; bodies; cases) zero in cases
+    real(wp), allocatable :: force(:, :, :)      !! (1, ξ, ξ², lumps; bodies; cases) zero in cases
                                                  !! that do not occur [N]
 
     type(load_t) :: loads(size(linkage%bodies))

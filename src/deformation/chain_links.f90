@@ -2,8 +2,8 @@
 !! inside it and at its end.
 module chain_links
   use beam_mesh, only: beam_t
-  use body_lumps, only: element_of_lump, has_turning_lumps, lump_inertias, lump_masses, lump_offsets, &
-    lump_places
+  use body_lumps, only: element_of_lump, has_turning_lumps, lump_inertias, lump_masses, &
+    lump_offsets, lump_places
   use deformation_shapes, only: bending_unknowns, shear_scale
   use kinds, only: wp
   use legendre, only: gauss_rule, legendre_values, once_integrated, twice_integrated

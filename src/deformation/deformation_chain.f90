@@ -62,8 +62,8 @@ contains
     chain%border = maxval(chain%number)
     chain%rigid_mass = 0.0_wp
     chain%pin_mass = linkage%pin_mass
-    allocate (chain%axial_force(3, 0), chain%links(size(beams)), chain%jump(most_lump_functions(linkage), &
-      size(beams)))
+    allocate (chain%axial_force(3, 0), chain%links(size(beams)), &
+      chain%jump(most_lump_functions(linkage), size(beams)))
     chain%jump = 0.0_wp
     number = 0
     do b = 1, size(beams)

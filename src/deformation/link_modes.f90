@@ -76,7 +76,7 @@ module link_modes
                                                       !! held link under the loads μ (1 − ξ) and μ ξ
                                                       !! across it; of a coupled link also along it,
                                                       !! and under m across it at every mass
-    !> (masses, 3) of a coupled link: `m (1 − ξ)`, m ξ and m times the curve of the clamped end there
+    !> (masses, 3) of a coupled link: `m (1 − ξ)`, m ξ, m times the curve of the clamped end there
     real(wp), allocatable :: at_mass(:, :)
     real(wp), allocatable :: bending(:, :)            !! (bending unknowns, 0:modes) the modes in
                                                       !! the unknowns of the shapes

@@ -108,7 +108,7 @@ contains
     type(next_orders_t), intent(in) :: next
     real(wp), intent(in) :: border(:, :)      !! (border, modes) part of the modes
     real(wp), intent(in) :: own(:, :)         !! (own modes, modes) part of the modes
-    real(wp), intent(in) :: moved(:, :)       !! (functions, border) what the border does to the link
+    real(wp), intent(in) :: moved(:, :)       !! (functions, border) what the border does to it
     real(wp), intent(in) :: turned(:)         !! (border) how it turns the link's chord
     real(wp), intent(in) :: force(:)          !! 1, ξ, ξ², jumps; none: static, or along [N]
     real(wp), intent(in) :: own_mass(:)       !! (own modes) [s²]

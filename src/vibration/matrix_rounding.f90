@@ -107,7 +107,8 @@ contains
       end do
       along = 0.0_wp
       do i = 1, 2
-        along = along + sqrt(link%axial_linear(i, i))*abs(dot_product(chords%along(i, :, b), border))
+        along = along + sqrt(link%axial_linear(i, i))*abs(dot_product(chords%along(i, :, b), &
+          border))
       end do
       if (link%coupled) then
         norm = norm + along
