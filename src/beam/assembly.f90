@@ -4,16 +4,17 @@ module assembly
   use band_matrix, only: add_to_band, band_matrix_t, new_band_matrix
   use beam_element, only: element_geometric_stiffness, element_mass, element_stiffness
   use beam_mesh, only: beam_mesh_t, beam_t, element_length
-  use body_lumps, only: element_of_lump, lump_masses, lump_places
+  use body_lumps, only: element_of_lump, lump_inertias, lump_masses, lump_offsets, lump_places
   use element_axes, only: turned_to_global
-  use element_places, only: element_part_stiffness, element_point_mass
+  use element_places, only: element_part_stiffness, element_point_mass, element_point_rotation
   use kinds, only: wp
   use linkages, only: linkage_t
   use poses, only: pose_t
   implicit none (type, external)
   private
 
-  public :: assemble_stiffness, assemble_mass, assemble_geometric_stiffness, add_axial_jumps
+  public :: assemble_stiffness, assemble_mass, assemble_geometric_stiffness, add_axial_jumps, &
+    add_turning_forces
 
 contains
 
@@ -67,7 +68,8 @@ contains
     end do
   end function assemble_mass
 
-  !> Adds `m NᵀN` of every mass along a link, at its place in its element.
+  !> Adds `m NᵀN` of every mass fixed to a link, at its place in its element, and the inertia of its
+  !! rotation.
   pure subroutine add_lump_masses(linkage, mesh, pose, body, mass)
     type(linkage_t), intent(in) :: linkage
     type(beam_mesh_t), intent(in) :: mesh
@@ -75,16 +77,22 @@ contains
     integer, intent(in) :: body
     type(band_matrix_t), intent(inout) :: mass
 
-    real(wp), allocatable :: lump(:), xi(:), element(:, :)
+    real(wp), allocatable :: lump(:), xi(:), offset(:), inertia(:), element(:, :)
     real(wp) :: place
     integer :: i, number
 
     lump = lump_masses(linkage%bodies(body))
     xi = lump_places(linkage%bodies(body))
+    offset = lump_offsets(linkage%bodies(body))
+    inertia = lump_inertias(linkage%bodies(body))
     do i = 1, size(lump)
       call element_of_lump(xi(i), mesh%elements(body), number, place)
-      element = turned_to_global(lump(i)*element_point_mass(mesh%reference(body), &
-        element_length(mesh, linkage, body), place), pose%direction(:, body))
+      element = lump(i)*element_point_mass(mesh%reference(body), element_length(mesh, linkage, &
+        body), place, offset(i))
+      if (inertia(i) > 0.0_wp) element = element + &
+        inertia(i)*element_point_rotation(mesh%reference(body), element_length(mesh, linkage, &
+        body), place)
+      element = turned_to_global(element, pose%direction(:, body))
       call add_to_band(mass, element, mesh%unknown(:size(element, 1), &
         mesh%first_element(body) + number - 1))
     end do
@@ -138,5 +146,30 @@ contains
       end do
     end do
   end subroutine add_axial_jumps
+
+  !> Adds the geometric stiffness of the loads on masses that turn with cross-sections of a link.
+  pure subroutine add_turning_forces(linkage, mesh, pose, body, force, stiffness)
+    type(linkage_t), intent(in) :: linkage          !! lengths and lumps of its bodies
+    type(beam_mesh_t), intent(in) :: mesh           !! elements and unknowns
+    type(pose_t), intent(in) :: pose                !! directions of the bodies
+    integer, intent(in) :: body                     !! number, from 1
+    real(wp), intent(in) :: force(:)                !! (lumps) of `turning_forces` [N]
+    type(band_matrix_t), intent(inout) :: stiffness !! to add to
+
+    real(wp), allocatable :: xi(:), element(:, :)
+    real(wp) :: place
+    integer :: i, number
+
+    xi = lump_places(linkage%bodies(body))
+    do i = 1, size(force)
+      if (abs(force(i)) <= 0.0_wp) cycle
+      call element_of_lump(xi(i), mesh%elements(body), number, place)
+      element = turned_to_global(force(i)*linkage%bodies(body)%length* &
+        element_point_rotation(mesh%reference(body), element_length(mesh, linkage, body), place), &
+        pose%direction(:, body))
+      call add_to_band(stiffness, element, mesh%unknown(:size(element, 1), &
+        mesh%first_element(body) + number - 1))
+    end do
+  end subroutine add_turning_forces
 
 end module assembly

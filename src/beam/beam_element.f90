@@ -38,8 +38,8 @@ module beam_element
     real(wp), allocatable :: rotary(:, :)       !! (unknowns, unknowns) ∫ θ² dξ
     real(wp), allocatable :: shear(:, :)        !! (unknowns, unknowns) ∫ γ² dξ; only with shear
     real(wp), allocatable :: geometric(:, :, :) !! (unknowns, unknowns, 0:2) ∫ ξⁱ (dv/dξ)² dξ
-    real(wp), allocatable :: shape(:, :, :)     !! (0:p, unknowns, 3) Legendre coefficients of u, v
-                                                !! and dv/dξ
+    real(wp), allocatable :: shape(:, :, :)     !! (0:p, unknowns, 4) Legendre coefficients of u,
+                                                !! v, dv/dξ and, for length 1, θ
   end type reference_element_t
 
 contains
@@ -109,10 +109,11 @@ contains
     element%geometric(:, :, 0) = products(slope, slope)
     element%geometric(:, :, 1) = products(slope, slope_xi)
     element%geometric(:, :, 2) = products(slope_xi, slope_xi)
-    allocate (element%shape(0:order, n, 3))
+    allocate (element%shape(0:order, n, 4))
     element%shape(:, :, 1) = along
     element%shape(:, :, 2) = across
     element%shape(:, :, 3) = slope
+    element%shape(:, :, 4) = turn
   end function new_reference_element
 
   !> Legendre coefficients of du/dξ for each unknown.

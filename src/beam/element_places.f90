@@ -6,24 +6,37 @@ module element_places
   implicit none (type, external)
   private
 
-  public :: element_point_mass, element_part_stiffness
+  public :: element_point_mass, element_point_rotation, element_part_stiffness
 
 contains
 
-  !> `NᵀN` of the displacements along and across the element at a place: the mass matrix of a unit
-  !! mass there.
-  pure function element_point_mass(reference, length, xi) result(mass)
+  !> `NᵀN` of the displacements of a unit mass at a place, beside the axis by an offset e and fixed
+  !! to the cross-section: u − e θ along the element, v across it.
+  pure function element_point_mass(reference, length, xi, offset) result(mass)
     type(reference_element_t), intent(in) :: reference !! of the element's order
     real(wp), intent(in) :: length !! of the element [m]
     real(wp), intent(in) :: xi     !! place, from 0 to 1 along the element
+    real(wp), intent(in), optional :: offset !! e, to the left of the element [m]; absent: 0
     real(wp) :: mass(size(reference%mass, 1), size(reference%mass, 2)) !! [-, m, m²]
 
-    real(wp) :: p(0:reference%order)
+    real(wp) :: p(0:reference%order), along(size(reference%mass, 1))
 
     p = legendre_values(reference%order, 2.0_wp*xi - 1.0_wp)
-    mass = with_lengths(square(matmul(p, reference%shape(:, :, 1))) + &
-      square(matmul(p, reference%shape(:, :, 2))), length)
+    along = matmul(p, reference%shape(:, :, 1))
+    if (present(offset)) along = along - offset/length*matmul(p, reference%shape(:, :, 4))
+    mass = with_lengths(square(along) + square(matmul(p, reference%shape(:, :, 2))), length)
   end function element_point_mass
+
+  !> `NᵀN` of the rotation θ of the cross-section at a place.
+  pure function element_point_rotation(reference, length, xi) result(inertia)
+    type(reference_element_t), intent(in) :: reference !! of the element's order
+    real(wp), intent(in) :: length !! of the element [m]
+    real(wp), intent(in) :: xi     !! place, from 0 to 1 along the element
+    real(wp) :: inertia(size(reference%mass, 1), size(reference%mass, 2)) !! [1/m², 1/m, -]
+
+    inertia = with_lengths(square(matmul(legendre_values(reference%order, 2.0_wp*xi - 1.0_wp), &
+      reference%shape(:, :, 4)))/length**2, length)
+  end function element_point_rotation
 
   !> Geometric stiffness `∫ v'² dx` of a unit axial force that acts from the first node up to a
   !! place.

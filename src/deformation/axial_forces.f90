@@ -1,14 +1,17 @@
 !> Axial force in every element, from the equilibrium of the part of the link beyond it.
 !!
 !! At a mass along the link the force jumps. Jumps are kept apart from the smooth rest: each is a
-!! constant force from the first pin to the mass.
+!! constant force from the first pin to the mass. When the cross-section that carries a mass at the
+!! offset e turns by θ, a force F across the link on it does the work `−½ F e θ²`, and the
+!! centrifugal forces about its own mass centre, whose moment of inertia is I, `−½ I ω² θ²`. This is
+!! kept as (F e + I ω²)/L, behind the jumps.
 !!
 !! For a rigid link only the mean matters. When the link turns by ψ, its dead loads F at places r do
 !! the work `−½ ψ² Σ F·r`, and `Σ F·r`, which for a slender link is `∫ N dx`, is L times that mean.
 module axial_forces
   use acceleration_fields, only: acceleration_field_t, point_acceleration
   use beam_mesh, only: beam_mesh_t, element_count, element_length
-  use body_lumps, only: lump_count
+  use body_lumps, only: force_functions_of, has_turning_lumps, lump_count
   use inertia_loads, only: load_t, lumped_masses, lumped_stations
   use joint_forces, only: find_joint_forces, joint_forces_t
   use kinds, only: wp
@@ -20,8 +23,8 @@ module axial_forces
   private
 
   public :: lumped_axial_forces, distributed_axial_forces, link_axial_force, axial_jumps, &
-    mean_axial_force
-  public :: distributed_unit_forces, most_jumps, total_force
+    turning_forces, lump_functions, mean_axial_force
+  public :: distributed_unit_forces, most_lump_functions, total_force
 
 contains
 
@@ -124,10 +127,48 @@ contains
       allocate (jump(lump_count(this)))
       do i = 1, size(jump)
         jump(i) = -this%lumps(i)%mass*dot_product(pose%direction(:, body), &
-          point_acceleration(field, body, this%lumps(i)%place(1)))
+          point_acceleration(field, body, this%lumps(i)%place(1), this%lumps(i)%place(2)))
       end do
     end associate
   end function axial_jumps
+
+  !> What the inertia loads of masses do against the rotation of the cross-sections that carry them,
+  !! divided by the length: `−(m e n·a + I e_x·slope)/L`, with the acceleration a of the mass and
+  !! its slope along the link, whose part in that direction is −ω².
+  pure function turning_forces(linkage, body, pose, field) result(force)
+    type(linkage_t), intent(in) :: linkage          !! masses along the links
+    integer, intent(in) :: body                     !! number of the link
+    type(pose_t), intent(in) :: pose                !! directions of the links
+    type(acceleration_field_t), intent(in) :: field !! of this load case
+    real(wp), allocatable :: force(:)               !! (lumps) positive if it turns them back [N]
+
+    integer :: i
+
+    associate (this => linkage%bodies(body), axis => pose%direction(:, body))
+      allocate (force(lump_count(this)))
+      do i = 1, size(force)
+        associate (lump => this%lumps(i))
+          force(i) = -(lump%mass*lump%place(2)*dot_product(normal_to(axis), &
+            point_acceleration(field, body, lump%place(1), lump%place(2))) + &
+            lump%inertia*dot_product(axis, field%slope(:, body)))/this%length
+        end associate
+      end do
+    end associate
+  end function turning_forces
+
+  !> What the lumps of a link add to the functions of its axial force: jumps and, if one turns with
+  !! its cross-section, `turning_forces`.
+  pure function lump_functions(linkage, body, pose, field) result(force)
+    type(linkage_t), intent(in) :: linkage          !! masses along the links
+    integer, intent(in) :: body                     !! number of the link
+    type(pose_t), intent(in) :: pose                !! directions of the links
+    type(acceleration_field_t), intent(in) :: field !! of this load case
+    real(wp), allocatable :: force(:)               !! (lumps, perhaps twice) [N]
+
+    force = axial_jumps(linkage, body, pose, field)
+    if (has_turning_lumps(linkage%bodies(body))) force = [force, turning_forces(linkage, body, &
+      pose, field)]
+  end function lump_functions
 
   !> Mean axial force over the length of a rigid link: `Σ F·r/L`, r from its first pin.
   !!
@@ -175,7 +216,7 @@ contains
     type(linkage_t), intent(in) :: linkage       !! lengths, masses, loads
     type(pose_t), intent(in) :: pose             !! away from dead points
     type(unit_loads_t), intent(in) :: unit_loads !! of this pose
-    real(wp), allocatable :: force(:, :, :)      !! (1, ξ, ξ², jumps; bodies; cases) zero in cases
+    real(wp), allocatable :: force(:, :, :)      !! (1, ξ, ξ², lumps; bodies; cases) zero in cases
                                                  !! that do not occur [N]
 
     type(load_t) :: loads(size(linkage%bodies))
@@ -184,7 +225,7 @@ contains
     real(wp) :: pin_loads(2, size(linkage%pin_mass))
     integer :: b, i
 
-    allocate (force(merge(3 + most_jumps(linkage), 0, any(unit_loads%occurs)), &
+    allocate (force(merge(3 + most_lump_functions(linkage), 0, any(unit_loads%occurs)), &
       size(linkage%bodies), case_count))
     if (.not. any(unit_loads%occurs)) return
     force = 0.0_wp
@@ -197,7 +238,7 @@ contains
           if (linkage%bodies(b)%bends) then
             force(:3, b, i) = link_axial_force(linkage, b, pose, case%field, joints)
             if (lump_count(linkage%bodies(b)) == 0) cycle
-            jump = axial_jumps(linkage, b, pose, case%field)
+            jump = lump_functions(linkage, b, pose, case%field)
             force(4:3 + size(jump), b, i) = jump
           else
             force(1, b, i) = mean_axial_force(linkage, b, 0, pose, case%field, joints)
@@ -207,8 +248,8 @@ contains
     end do
   end function distributed_unit_forces
 
-  !> Largest number of axial force jumps (masses) in any link that bends.
-  pure function most_jumps(linkage) result(most)
+  !> Largest number of force functions that the lumps of any link that bends add.
+  pure function most_lump_functions(linkage) result(most)
     type(linkage_t), intent(in) :: linkage !! masses along the links
     integer :: most
 
@@ -216,8 +257,8 @@ contains
 
     most = 0
     do b = 1, size(linkage%bodies)
-      if (linkage%bodies(b)%bends) most = max(most, lump_count(linkage%bodies(b)))
+      if (linkage%bodies(b)%bends) most = max(most, force_functions_of(linkage%bodies(b)))
     end do
-  end function most_jumps
+  end function most_lump_functions
 
 end module axial_forces

@@ -2,7 +2,8 @@
 !! inside it and at its end.
 module chain_links
   use beam_mesh, only: beam_t
-  use body_lumps, only: element_of_lump, lump_masses, lump_places
+  use body_lumps, only: element_of_lump, has_turning_lumps, lump_inertias, lump_masses, &
+    lump_offsets, lump_places
   use deformation_shapes, only: bending_unknowns, shear_scale
   use kinds, only: wp
   use legendre, only: gauss_rule, legendre_values, once_integrated, twice_integrated
@@ -13,7 +14,7 @@ module chain_links
   private
 
   public :: chain_t, new_chain, slope_at_start, add_from_start, at_end, add_back_at_end, add_back, &
-    at_place, add_lump_forces
+    at_place, add_lump_forces, add_lump_moments
 
   !> A link on a long mesh. A rigid link has no unknowns, and its arrays are empty or not allocated.
   type :: chain_t
@@ -45,6 +46,10 @@ module chain_links
     real(wp), allocatable :: force(:, :, :)     !! (coefficients − 1, coefficients − 1, 3)
                                                 !! `h ∫ ξ^(k−1) P_i P_j dξ` [m]
     real(wp), allocatable :: lump(:)            !! (lumps) masses along the link [kg]
+    real(wp), allocatable :: offset(:)          !! (lumps) beside its axis, to its left [m]
+    real(wp), allocatable :: lump_inertia(:)    !! (lumps) their own moments of inertia [kg m²]
+    logical :: lumps_turn = .false.             !! some are beside the axis or have a moment of
+                                                !! inertia
     integer, allocatable :: lump_element(:)     !! (lumps) element that each mass is in
     real(wp), allocatable :: lump_value(:, :)   !! (coefficients, lumps) P_j at the mass
     !> (coefficients − 1, coefficients − 1, lumps) `h ∫ P_i P_j dξ` from the start of its element to
@@ -74,7 +79,7 @@ contains
     link%elements = elements
     link%length = body%length
     link%bends = body%bends
-    allocate (link%lump(0))
+    allocate (link%lump(0), link%offset(0), link%lump_inertia(0))
     if (.not. body%bends) then
       allocate (link%start_slope(0))
       return
@@ -111,6 +116,9 @@ contains
     integer :: i, k
 
     link%lump = lump_masses(body)
+    link%offset = lump_offsets(body)
+    link%lump_inertia = lump_inertias(body)
+    link%lumps_turn = has_turning_lumps(body)
     xi = lump_places(body)
     allocate (link%lump_element(size(xi)), link%lump_value(coefficients, size(xi)))
     allocate (link%before(coefficients - 1, coefficients - 1, size(xi)))
@@ -263,21 +271,42 @@ contains
   end subroutine add_back
 
   !> Adds the forces `m v` of the masses in an element, as forces on the Legendre coefficients of
-  !! the displacement.
-  pure subroutine add_lump_forces(link, element, coefficient, force)
+  !! the displacement; of masses that move by less than the axis, `m (u − e θ)`.
+  pure subroutine add_lump_forces(link, element, coefficient, force, back, on_mass)
     type(chain_t), intent(in) :: link      !! with its masses
     integer, intent(in) :: element         !! its number
     real(wp), intent(in) :: coefficient(:) !! (coefficients) of the displacement
     real(wp), intent(inout) :: force(:)    !! (coefficients)
+    real(wp), intent(in), optional :: back(:)       !! (lumps) e θ; absent: 0
+    real(wp), intent(inout), optional :: on_mass(:) !! (lumps) the force of each in this element
 
+    real(wp) :: moved
     integer :: i
 
     do i = 1, size(link%lump)
       if (link%lump_element(i) /= element) cycle
-      force = force + link%lump(i)*dot_product(link%lump_value(:, i), &
-        coefficient)*link%lump_value(:, i)
+      moved = dot_product(link%lump_value(:, i), coefficient)
+      if (present(back)) moved = moved - back(i)
+      force = force + link%lump(i)*moved*link%lump_value(:, i)
+      if (present(on_mass)) on_mass(i) = link%lump(i)*moved
     end do
   end subroutine add_lump_forces
+
+  !> Adds moments at the masses in an element, as moments on the Legendre coefficients of the
+  !! rotation.
+  pure subroutine add_lump_moments(link, element, at_mass, moment)
+    type(chain_t), intent(in) :: link    !! with its masses
+    integer, intent(in) :: element       !! its number
+    real(wp), intent(in) :: at_mass(:)   !! (lumps)
+    real(wp), intent(inout) :: moment(:) !! (coefficients − 1)
+
+    integer :: i
+
+    do i = 1, size(link%lump)
+      if (link%lump_element(i) == element) moment = moment + &
+        at_mass(i)*link%lump_value(:size(moment), i)
+    end do
+  end subroutine add_lump_moments
 
   !> Value of a function at a place in an element.
   pure function at_place(table, y, place) result(value)

@@ -6,10 +6,10 @@
 !! and memory grow in proportion to the number of elements. No digits are lost, because the
 !! deformations of an element are small numbers themselves, not differences of displacements.
 module deformation_chain
-  use axial_forces, only: most_jumps
+  use axial_forces, only: most_lump_functions
   use beam_mesh, only: beam_t
-  use chain_links, only: add_back, add_back_at_end, add_from_start, add_lump_forces, at_end, &
-    at_place, chain_t, new_chain, slope_at_start
+  use chain_links, only: add_back, add_back_at_end, add_from_start, add_lump_forces, &
+    add_lump_moments, at_end, at_place, chain_t, new_chain, slope_at_start
   use kinds, only: wp
   use link_modes, only: link_modes_t
   use linkages, only: linkage_t
@@ -36,7 +36,8 @@ module deformation_chain
                                                  !! element, for a rigid link its mean force; no
                                                  !! elements: no loads [N]
     real(wp), allocatable :: jump(:, :)          !! (lumps, links) forces from the first pin to the
-                                                 !! masses along the links [N]
+                                                 !! masses along the links; with masses that turn,
+                                                 !! `turning_forces` follow [N]
   contains
     procedure :: multiply
   end type deformation_chain_t
@@ -61,8 +62,8 @@ contains
     chain%border = maxval(chain%number)
     chain%rigid_mass = 0.0_wp
     chain%pin_mass = linkage%pin_mass
-    allocate (chain%axial_force(3, 0), chain%links(size(beams)), chain%jump(most_jumps(linkage), &
-      size(beams)))
+    allocate (chain%axial_force(3, 0), chain%links(size(beams)), &
+      chain%jump(most_lump_functions(linkage), size(beams)))
     chain%jump = 0.0_wp
     number = 0
     do b = 1, size(beams)
@@ -92,6 +93,7 @@ contains
 
     real(wp) :: border(pencil%border), on_border(pencil%border), turned(pencil%border), pin(2), &
       motion(3, pencil%border)
+    real(wp), allocatable :: turned_masses(:), moments(:)
     integer :: b, first_element
 
     border = border_of(pencil, vector)
@@ -111,14 +113,17 @@ contains
         first_element = first_element + pencil%links(b)%elements
         cycle
       end if
-      call add_bending(pencil%links(b), pencil%chords%across(:, :, b), border, vector, mass_times, &
-        on_border)
+      turned_masses = turns_of_masses(pencil%links(b), pencil%chords%turn(:, b), border, vector)
+      moments = pencil%links(b)%lump_inertia*turned_masses
       call add_stretching(pencil%links(b), pencil%chords%along(:, :, b), border, vector, &
+        turned_masses, mass_times, on_border, moments)
+      call add_bending(pencil%links(b), pencil%chords%across(:, :, b), border, vector, moments, &
         mass_times, on_border)
       if (size(pencil%axial_force, 2) > 0) then
         call add_geometric(pencil%links(b), &
           pencil%axial_force(:, first_element:first_element + pencil%links(b)%elements - 1), &
-          pencil%jump(:, b), pencil%chords%turn(:, b), border, vector, stiffness_times, turned)
+          pencil%jump(:, b), pencil%chords%turn(:, b), border, vector, turned_masses, &
+          stiffness_times, turned)
       end if
       first_element = first_element + pencil%links(b)%elements
     end do
@@ -176,16 +181,44 @@ contains
     end do
   end subroutine add_from_border
 
+  !> Rotations of the cross-sections that carry masses; zero where no mass turns with them.
+  pure function turns_of_masses(link, turn, border, vector) result(rotation)
+    type(chain_t), intent(in) :: link
+    real(wp), intent(in) :: turn(:)               !! (border) rotation of its chord
+    real(wp), intent(in) :: border(:), vector(:)
+    real(wp) :: rotation(size(link%lump))
+
+    real(wp) :: slope(2), coefficient(size(link%turn, 1))
+    integer :: e, i, k
+
+    rotation = 0.0_wp
+    if (.not. link%lumps_turn) return
+    slope = [slope_at_start(link, vector), 0.0_wp]
+    do e = 1, link%elements
+      i = link%first_bending + (e - 1)*link%bendings
+      associate (y => vector(i + 1:i + link%bendings))
+        if (any(link%lump_element == e)) then
+          coefficient = matmul(link%rotate, y)
+          do k = 1, size(rotation)
+            if (link%lump_element(k) == e) rotation(k) = dot_product(turn, border) + sum(slope) + &
+              dot_product(link%lump_value(:size(coefficient), k), coefficient)
+          end do
+        end if
+        call add_exactly(slope, at_end(link%rotate, link%at_end, y))
+      end associate
+    end do
+  end function turns_of_masses
+
   !> Adds the transverse motion of a link to `M y`, on its own unknowns and on the border.
-  pure subroutine add_bending(link, across, border, vector, mass_times, on_border)
+  pure subroutine add_bending(link, across, border, vector, on_masses, mass_times, on_border)
     type(chain_t), intent(in) :: link
     real(wp), intent(in) :: across(:, :) !! (3, border) of its chord
     real(wp), intent(in) :: border(:), vector(:)
+    real(wp), intent(in) :: on_masses(:) !! (lumps) moments on the cross-sections that carry them
     real(wp), intent(inout) :: mass_times(:), on_border(:)
 
     real(wp) :: coefficient(size(link%weight), link%elements)
-    real(wp) :: rotation(size(link%rotation_weight), link%elements), &
-      moment(size(link%rotation_weight))
+    real(wp) :: rotation(size(link%rotation_weight), link%elements), moment(size(link%rotate, 1))
     real(wp) :: value(2), slope(2), ends(2), on_ends(2), h, force(size(link%weight))
     integer :: e, i
     logical :: has_rotary
@@ -229,8 +262,10 @@ contains
       call add_exactly(value, force(1))
       on_ends = on_ends + force(1)*[1.0_wp - (e - 0.5_wp)/link%elements, &
         (e - 0.5_wp)/link%elements] + 0.5_wp*force(2)/link%elements*[-1.0_wp, 1.0_wp]
-      if (.not. has_rotary) cycle
-      moment = link%rotation_weight*rotation(:, e)
+      if (.not. (has_rotary .or. link%lumps_turn)) cycle
+      moment = 0.0_wp
+      if (has_rotary) moment = link%rotation_weight*rotation(:, e)
+      if (link%lumps_turn) call add_lump_moments(link, e, on_masses, moment)
       call add_back(link%rotate, moment, mass_times(i + 1:i + link%bendings))
       call add_exactly(slope, moment(1))
       on_ends = on_ends + moment(1)/link%length*[-1.0_wp, 1.0_wp]
@@ -240,16 +275,21 @@ contains
   end subroutine add_bending
 
   !> Adds the axial motion of a link to `M y`, on its own unknowns and on the border.
-  pure subroutine add_stretching(link, along, border, vector, mass_times, on_border)
+  pure subroutine add_stretching(link, along, border, vector, turned_masses, mass_times, &
+      on_border, moments)
     type(chain_t), intent(in) :: link
     real(wp), intent(in) :: along(:, :) !! (2, border) of its chord
     real(wp), intent(in) :: border(:), vector(:)
+    real(wp), intent(in) :: turned_masses(:) !! (lumps) of `turns_of_masses`
     real(wp), intent(inout) :: mass_times(:), on_border(:)
+    real(wp), intent(inout) :: moments(:) !! (lumps) to which those of the forces along the link are
+                                          !! added
 
     real(wp) :: coefficient(size(link%weight), link%elements), value(2), force(size(link%weight)), &
-      start
+      start, on_mass(size(link%lump))
     integer :: e, i
 
+    on_mass = 0.0_wp
     start = dot_product(along(1, :), border)
     value = 0.0_wp
     do e = 1, link%elements
@@ -263,28 +303,30 @@ contains
     do e = link%elements, 1, -1
       i = link%first_strain + (e - 1)*link%strains
       force = link%weight*coefficient(:, e)
-      call add_lump_forces(link, e, coefficient(:, e), force)
+      call add_lump_forces(link, e, coefficient(:, e), force, link%offset*turned_masses, on_mass)
       call add_back(link%stretch, force, mass_times(i + 1:i + link%strains))
       call add_back_at_end(link%stretch, min(2, link%strains), sum(value), &
         mass_times(i + 1:i + link%strains))
       call add_exactly(value, force(1))
     end do
     on_border = on_border + sum(value)*along(1, :)
+    if (link%lumps_turn) moments = moments - link%offset*on_mass
   end subroutine add_stretching
 
   !> Adds a link's geometric stiffness, `K_G = ∫ N v'²`, times the vector, on its own unknowns and
   !! on the border.
-  pure subroutine add_geometric(link, axial_force, jump, turn, border, vector, stiffness_times, &
-    on_border)
+  pure subroutine add_geometric(link, axial_force, jump, turn, border, vector, turned_masses, &
+      stiffness_times, on_border)
     type(chain_t), intent(in) :: link
     real(wp), intent(in) :: axial_force(:, :) !! (3, elements) [N]
-    real(wp), intent(in) :: jump(:)           !! (at least lumps) [N]
+    real(wp), intent(in) :: jump(:)           !! (at least lumps, twice with masses that turn) [N]
     real(wp), intent(in) :: turn(:)           !! (border) rotation of its chord
     real(wp), intent(in) :: border(:), vector(:)
+    real(wp), intent(in) :: turned_masses(:)  !! (lumps) of `turns_of_masses`
     real(wp), intent(inout) :: stiffness_times(:), on_border(:)
 
     real(wp) :: moment(size(link%turn, 1), link%elements), coefficient(size(link%turn, 1)), &
-      slope(2), chord
+      on_masses(size(link%turn, 1)), slope(2), chord
     integer :: e, i, k
 
     chord = dot_product(turn, border)
@@ -312,6 +354,12 @@ contains
       call add_back_at_end(link%rotate, link%at_end, sum(slope), &
         stiffness_times(i + 1:i + link%bendings))
       call add_exactly(slope, moment(1, e))
+      if (.not. link%lumps_turn) cycle
+      on_masses = 0.0_wp
+      call add_lump_moments(link, e, link%length*jump(size(link%lump) + &
+        1:2*size(link%lump))*turned_masses, on_masses)
+      call add_back(link%rotate, on_masses, stiffness_times(i + 1:i + link%bendings))
+      call add_exactly(slope, on_masses(1))
     end do
     call add_from_start(link, sum(slope), stiffness_times)
     on_border = on_border + sum(slope)*turn

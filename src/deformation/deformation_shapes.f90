@@ -40,8 +40,10 @@ module deformation_shapes
     integer :: rotations = 0                    !! coefficients of the rotation in an element; 0
                                                 !! without rotary inertia
     integer :: lumps = 0                        !! masses along the link, see `lump_displacements`
+    integer :: turning_lumps = 0                !! those with a moment of inertia of their own
     integer :: unknowns = 0
-    !> (coefficients × elements, then rotations × elements, then lumps; unknowns) scaled [s]
+    !> (coefficients × elements, then rotations × elements, lumps, turning lumps; unknowns) scaled
+    !! [s]
     real(wp), allocatable :: displacement(:, :)
     real(wp), allocatable :: linear(:, :)       !! (rows of `displacement`, 2) the functions
                                                 !! 1 − ξ and ξ, scaled [√kg]

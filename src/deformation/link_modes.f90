@@ -7,16 +7,21 @@
 !! with the ends held, are the unknowns: mass and stiffness between them are diagonal and do not
 !! depend on the position. A position enters only through what the pins do (Craig and Bampton, AIAA
 !! J. 6 (1968) 1313, with all modes kept, so that nothing is left out).
+!!
+!! A link vibrates across and along by itself, unless a mass beside its axis couples both: then its
+!! own modes are those of both together, and stand where the transverse ones do. So are those of a
+!! link with masses that have a moment of inertia of their own.
 module link_modes
   use deformation_places, only: displacement_row, slope_row
   use deformation_shapes, only: deformation_shapes_t
   use kinds, only: wp
+  use lump_displacements, only: lump_arms_t
   use next_orders, only: new_next_orders, next_orders_t
   use sorting, only: ascending_order
   implicit none (type, external)
   private
 
-  public :: link_modes_t, held_shapes, new_link_modes, end_rotation, rigid, clamp, &
+  public :: link_modes_t, held_shapes, coupled_shapes, new_link_modes, end_rotation, rigid, clamp, &
     stations
 
   !> Numbers of the first two rows of slopes: the chord's, and the curve of the clamped end; own
@@ -27,8 +32,9 @@ module link_modes
   integer, parameter :: stations = 9
 
   type :: link_modes_t
-    integer :: modes = 0        !! transverse
-    integer :: axial_modes = 0
+    integer :: modes = 0        !! transverse, or of a coupled link all
+    integer :: axial_modes = 0  !! 0 of a coupled link
+    logical :: coupled = .false. !! masses turn with its cross-sections
     logical :: clamped = .false.
     logical :: bends = .true.                         !! else all that follows is zero or empty but
                                                       !! for the next two
@@ -45,12 +51,16 @@ module link_modes
     !> (3, modes) `∫ μ f w + ρI θ_f θ_w dx` with 1 − ξ, ξ and the curve of the clamped end
     real(wp), allocatable :: participation(:, :)
     real(wp) :: linear(3, 3) = 0.0_wp                 !! the same between these three
+    !> (2, modes) of a coupled link, with 1 − ξ and ξ along it
+    real(wp), allocatable :: along_participation(:, :)
+    real(wp) :: cross_linear(3, 2) = 0.0_wp           !! the same between the three and these two
     real(wp) :: axial_linear(2, 2) = 0.0_wp           !! `∫ μ f g dx` of 1 − ξ and ξ along the link,
                                                       !! which turn nothing
     real(wp), allocatable :: axial_square(:)          !! (axial modes) [s²]
     real(wp), allocatable :: axial_participation(:, :) !! (2, axial modes)
     real(wp), allocatable :: geometric(:, :, :)       !! (2 + modes, 2 + modes, force functions) `∫
-                                                      !! b v' v' dx`
+                                                      !! b v' v' dx`, and L θ θ at the masses of a
+                                                      !! coupled link
     !> Norms of the magnitudes of which the curve of the clamped end (0) and the own modes are made:
     !! as large as the modes, or larger where terms cancel in them (0:modes; modes) [√kg]
     real(wp), allocatable :: terms(:)                 !! from 0
@@ -62,11 +72,15 @@ module link_modes
     type(next_orders_t) :: next                       !! of the transverse displacement
     type(next_orders_t) :: axial_next
     real(wp) :: clamp_station(stations) = 0.0_wp      !! the curve of the clamped end there
-    real(wp) :: sag(stations, 2) = 0.0_wp             !! deflection there of the held link under the
-                                                      !! loads μ (1 − ξ) and μ ξ
+    real(wp), allocatable :: sag(:, :)                !! (stations, loads) deflection there of the
+                                                      !! held link under the loads μ (1 − ξ) and μ ξ
+                                                      !! across it; of a coupled link also along it,
+                                                      !! and under m across it at every mass
+    !> (masses, 3) of a coupled link: `m (1 − ξ)`, m ξ, m times the curve of the clamped end there
+    real(wp), allocatable :: at_mass(:, :)
     real(wp), allocatable :: bending(:, :)            !! (bending unknowns, 0:modes) the modes in
                                                       !! the unknowns of the shapes
-    real(wp), allocatable :: axial(:, :)              !! (axial unknowns, axial modes)
+    real(wp), allocatable :: axial(:, :)              !! (axial unknowns, axial modes or all)
     type(deformation_shapes_t) :: bending_shapes, axial_shapes
   end type link_modes_t
 
@@ -106,6 +120,24 @@ contains
     displacement = matmul(shapes%displacement(:, :kept), basis)
   end subroutine held_shapes
 
+  !> The displacements of a coupled link, across and along, from the held shapes of both: its masses
+  !! beside the axis move along it with either.
+  pure function coupled_shapes(across, along, arms) result(displacement)
+    real(wp), intent(in) :: across(:, :) !! (rows, shapes) of bending
+    real(wp), intent(in) :: along(:, :)  !! (rows, axial shapes) with the masses last
+    real(wp), intent(in) :: arms(:, :)   !! (masses, shapes) what bending does along the link
+    real(wp) :: displacement(size(across, 1) + size(along, 1), size(across, 2) + size(along, 2))
+
+    integer :: rows
+
+    displacement = 0.0_wp
+    rows = size(across, 1)
+    displacement(:rows, :size(across, 2)) = across
+    displacement(rows + 1:, size(across, 2) + 1:) = along
+    rows = size(displacement, 1) - size(arms, 1)
+    displacement(rows + 1:, :size(across, 2)) = arms
+  end function coupled_shapes
+
   !> The unknowns of the curve that turns the first end: unit length, the moment linear along the
   !! link.
   pure function clamp_curve(shapes, kept) result(curve)
@@ -118,7 +150,7 @@ contains
 
   !> Everything about a link that does not change with the position.
   pure subroutine new_link_modes(bending, axial, clamped, stiffness, lumped, jumps, own, &
-    axial_own, link)
+    axial_own, link, arms)
     type(deformation_shapes_t), intent(in) :: bending !! shapes of transverse displacement
     type(deformation_shapes_t), intent(in) :: axial   !! shapes of axial displacement
     logical, intent(in) :: clamped          !! its first end is clamped to a moving body, not hinged
@@ -131,13 +163,18 @@ contains
                                             !! shapes, in the unknowns in use, the first of all
     real(wp), intent(in) :: axial_own(:, :) !! (axial kept, axial modes)
     type(link_modes_t), intent(out) :: link !! with all its integrals
+    type(lump_arms_t), intent(in), optional :: arms !! of a coupled link, whose `own` and
+                                                    !! `axial_own` are parts of the same modes;
+                                                    !! absent or empty: of another
 
-    real(wp), allocatable :: shape(:, :), slope(:, :), functions(:, :)
+    real(wp), allocatable :: shape(:, :), slope(:, :), functions(:, :), turn(:, :)
     integer :: i, kept, moved
 
     kept = size(own, 1)
     link%modes = size(own, 2)
     link%axial_modes = size(axial_own, 2)
+    if (present(arms)) link%coupled = size(arms%turn, 1) > 0
+    if (link%coupled) link%axial_modes = 0
     link%clamped = clamped
     link%length = bending%length
     link%bending_stiffness = stiffness(2)
@@ -149,8 +186,8 @@ contains
     link%bending(:, 0) = 0.0_wp
     if (clamped) link%bending(:, 0) = clamp_curve(bending, kept)
     link%bending(:, 1:) = own
-    call turn_last_end_up(link)
     link%axial = axial_own
+    call turn_last_end_up(link)
 
     ! In scaled coefficients the integrals of products are scalar products.
     shape = matmul(bending%displacement(:, :kept), link%bending)
@@ -161,7 +198,8 @@ contains
     link%linear(1:2, 1:2) = matmul(transpose(bending%linear), bending%linear)
     moved = bending%coefficients*bending%elements
     associate (line => bending%linear(:moved, :), &
-      lumps => bending%linear(size(bending%linear, 1) - bending%lumps + 1:, :))
+      lumps => bending%linear(size(bending%linear, 1) - bending%turning_lumps - bending%lumps + &
+      1:size(bending%linear, 1) - bending%turning_lumps, :))
       link%axial_linear = matmul(transpose(line), line) + matmul(transpose(lumps), lumps)
     end associate
     link%linear(1:2, 3) = matmul(transpose(bending%linear), shape(:, 1))
@@ -171,19 +209,87 @@ contains
     allocate (slope(size(bending%place), link%modes + 2))
     slope(:, rigid) = bending%root
     slope(:, clamp:) = matmul(bending%slope(:, :kept), link%bending)
-    call integrate_slopes(bending, lumped, jumps, slope, link%geometric)
+    allocate (turn(0, link%modes + 2))
+    if (link%coupled) turn = turns_at_masses(link, arms)
+    call integrate_slopes(bending, lumped, jumps, slope, turn, link%geometric)
     allocate (link%terms(0:link%modes))
     link%terms = norms_of_terms(bending%displacement(:, :kept), link%bending)
     link%slope_norm = norm2(slope, dim=1)
     link%slope_terms = [link%slope_norm(rigid), norms_of_terms(bending%slope(:, :kept), &
       link%bending)]
+    if (link%coupled) then
+      call add_coupling(bending, axial, arms, shape, turn, link)
+    else
+      call add_axial(axial, size(axial_own, 1), link)
+    end if
     call place_stations(link)
-    call add_axial(axial, size(axial_own, 1), link)
     if (bending%by_degree .and. bending%unknowns > kept .and. .not. lumped) then
+      ! The orders beyond neither move nor turn the masses, which are at ends of pieces.
       functions = reshape([bending%linear, shape(:, 1)], [size(shape, 1), 3])
       link%next = new_next_orders(bending, shape(:, 2:), functions, slope, jumps)
     end if
   end subroutine new_link_modes
+
+  !> `√L θ` at the masses of the chord, the curve of the clamped end and the own modes.
+  pure function turns_at_masses(link, arms) result(turn)
+    type(link_modes_t), intent(in) :: link
+    type(lump_arms_t), intent(in) :: arms
+    real(wp) :: turn(size(arms%turn, 1), link%modes + 2)
+
+    turn(:, rigid) = sqrt(link%length)
+    turn(:, clamp:) = matmul(arms%turn(:, :size(link%bending, 1)), link%bending)
+  end function turns_at_masses
+
+  !> Adds what a coupled link does along its axis: by its axial unknowns, and at its masses by
+  !! bending.
+  pure subroutine add_coupling(bending, axial, arms, shape, turn, link)
+    type(deformation_shapes_t), intent(in) :: bending, axial
+    type(lump_arms_t), intent(in) :: arms
+    real(wp), intent(in) :: shape(:, :) !! (rows, 1 + modes) across, of the curve of the clamped end
+                                        !! and the own modes
+    real(wp), intent(in) :: turn(:, :)  !! (masses, 2 + modes) of `turns_at_masses`
+    type(link_modes_t), intent(inout) :: link
+
+    real(wp), allocatable :: along(:, :), functions(:, :), terms(:, :), masses(:, :)
+    integer :: i, first, kept, axial_kept
+
+    kept = size(link%bending, 1)
+    axial_kept = size(link%axial, 1)
+    allocate (along(size(axial%displacement, 1), 0:link%modes))
+    allocate (terms(size(along, 1), 0:link%modes), functions(size(along, 1), 3))
+    along(:, 0) = 0.0_wp
+    along(:, 1:) = matmul(axial%displacement(:, :axial_kept), link%axial)
+    terms(:, 0) = 0.0_wp
+    terms(:, 1:) = matmul(abs(axial%displacement(:, :axial_kept)), abs(link%axial))
+    first = size(along, 1) - size(arms%turn, 1) + 1
+    along(first:, :) = along(first:, :) + matmul(arms%displacement(:, :kept), link%bending)
+    terms(first:, :) = terms(first:, :) + matmul(abs(arms%displacement(:, :kept)), &
+      abs(link%bending))
+    functions = 0.0_wp
+    functions(first:, 1:2) = arms%linear
+    functions(:, 3) = along(:, 0)
+    do i = 1, link%modes
+      link%square(i) = link%square(i) + dot_product(along(:, i), along(:, i))
+    end do
+    link%participation = link%participation + matmul(transpose(functions), along(:, 1:))
+    link%along_participation = matmul(transpose(axial%linear), along(:, 1:))
+    link%linear = link%linear + matmul(transpose(functions), functions)
+    link%cross_linear = matmul(transpose(functions), axial%linear)
+    link%terms = sqrt(link%terms**2 + sum(terms**2, dim=1))
+    link%slope_norm = sqrt(link%slope_norm**2 + sum(turn**2, dim=1))
+    link%slope_terms = sqrt(link%slope_terms**2 + [sum(turn(:, rigid)**2), &
+      sum(matmul(abs(arms%turn(:, :kept)), abs(link%bending))**2, dim=1)])
+    first = size(bending%displacement, 1) - bending%turning_lumps - bending%lumps
+    masses = bending%linear(first + 1:first + bending%lumps, :)
+    ! The root of every mass is in its row: 1 − ξ and ξ add up to it.
+    allocate (link%at_mass(bending%lumps, 3))
+    do i = 1, bending%lumps
+      link%at_mass(i, :) = sum(masses(i, :))*[masses(i, :), shape(first + i, 1)]
+    end do
+    allocate (link%axial_square(0), link%axial_participation(2, 0), link%axial_terms(0))
+    if (axial%by_degree .and. axial%unknowns > axial_kept) link%axial_next = &
+      new_next_orders(axial, along(:, 1:), axial%linear, reshape([0.0_wp], [0, 0]), [real(wp) ::])
+  end subroutine add_coupling
 
   !> Norms of the columns of `|A| |B|`.
   pure function norms_of_terms(a, b) result(norms)
@@ -209,33 +315,40 @@ contains
   end function end_rotation
 
   !> Gives every own mode a positive slope at the last end: the same mode has the same sign in
-  !! models of any order.
+  !! models of any order. In a coupled link the strain is added to the slope.
   pure subroutine turn_last_end_up(link)
     type(link_modes_t), intent(inout) :: link
 
-    real(wp) :: row(link%bending_shapes%unknowns)
+    real(wp) :: row(link%bending_shapes%unknowns), strain(link%axial_shapes%unknowns), upward
     integer :: i
 
     row = slope_row(link%bending_shapes, 1.0_wp)
+    strain = slope_row(link%axial_shapes, 1.0_wp)
     do i = 1, link%modes
-      if (dot_product(row(:size(link%bending, 1)), link%bending(:, i)) < 0.0_wp) link%bending(:, &
-        i) = -link%bending(:, i)
+      upward = dot_product(row(:size(link%bending, 1)), link%bending(:, i))
+      if (link%coupled) upward = upward + dot_product(strain(:size(link%axial, 1)), &
+        link%axial(:, i))
+      if (upward >= 0.0_wp) cycle
+      link%bending(:, i) = -link%bending(:, i)
+      if (link%coupled) link%axial(:, i) = -link%axial(:, i)
     end do
   end subroutine turn_last_end_up
 
-  !> `∫ b f g dx` of slopes f and g, for every axial force function b.
-  pure subroutine integrate_slopes(shapes, lumped, jumps, slope, integral)
+  !> `∫ b f g dx` of slopes f and g, for every axial force function b; then the products of the
+  !! turns at masses, one after the other.
+  pure subroutine integrate_slopes(shapes, lumped, jumps, slope, turn, integral)
     type(deformation_shapes_t), intent(in) :: shapes
     logical, intent(in) :: lumped
     real(wp), intent(in) :: jumps(:)
     real(wp), intent(in) :: slope(:, :) !! (Gauss points, functions) with the root of the weight
+    real(wp), intent(in) :: turn(:, :)  !! (masses, functions)
     real(wp), allocatable, intent(out) :: integral(:, :, :)
 
     real(wp) :: force(size(shapes%place)), sum_so_far(size(slope, 2), size(slope, 2))
     integer :: i, j, smooth, first, last, order(size(jumps))
 
     smooth = merge(shapes%elements, 3, lumped)
-    allocate (integral(size(slope, 2), size(slope, 2), smooth + size(jumps)))
+    allocate (integral(size(slope, 2), size(slope, 2), smooth + size(jumps) + size(turn, 1)))
     do j = 1, smooth
       force = force_function(shapes, lumped, j)
       integral(:, :, j) = matmul(transpose(slope), spread(force, 2, size(slope, 2))*slope)
@@ -249,6 +362,11 @@ contains
       sum_so_far = sum_so_far + matmul(transpose(slope(first:last, :)), slope(first:last, :))
       integral(:, :, smooth + order(i)) = sum_so_far
       first = last + 1
+    end do
+    do i = 1, size(turn, 1)
+      do j = 1, size(turn, 2)
+        integral(:, j, smooth + size(jumps) + i) = turn(i, j)*turn(i, :)
+      end do
     end do
   end subroutine integrate_slopes
 
@@ -270,13 +388,30 @@ contains
     type(link_modes_t), intent(inout) :: link
 
     real(wp) :: row(link%bending_shapes%unknowns), at_station(0:link%modes)
-    integer :: i
+    real(wp), allocatable :: at_mass(:, :)
+    integer :: i, first
 
+    allocate (link%sag(stations, 2))
+    if (link%coupled) then
+      associate (shapes => link%bending_shapes)
+        deallocate (link%sag)
+        allocate (link%sag(stations, 4 + shapes%lumps), at_mass(shapes%lumps, link%modes))
+        first = size(shapes%displacement, 1) - shapes%turning_lumps - shapes%lumps
+        at_mass = matmul(shapes%displacement(first + 1:first + shapes%lumps, :size(link%bending, &
+          1)), link%bending(:, 1:))
+        do i = 1, shapes%lumps
+          at_mass(i, :) = sum(shapes%linear(first + i, :))*at_mass(i, :)
+        end do
+      end associate
+    end if
     do i = 1, stations
       row = displacement_row(link%bending_shapes, real(i - 1, wp)/(stations - 1))
       at_station = matmul(row(:size(link%bending, 1)), link%bending)
       link%clamp_station(i) = at_station(0)
-      link%sag(i, :) = matmul(link%participation(1:2, :), at_station(1:))
+      link%sag(i, :2) = matmul(link%participation(1:2, :), at_station(1:))
+      if (.not. link%coupled) cycle
+      link%sag(i, 3:4) = matmul(link%along_participation, at_station(1:))
+      link%sag(i, 5:) = matmul(at_mass, at_station(1:))
     end do
   end subroutine place_stations
 

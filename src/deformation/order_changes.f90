@@ -80,14 +80,21 @@ contains
           first = layout%first(b)
           call find_changes_of_link(link%next, vectors(:layout%border, :), vectors(first:first + &
             link%modes - 1, :), chords%across(:, :, b), chords%turn(:, b), force(:, b), &
-            link%square, link%geometric, border_mass, lambda, change(across + 1:along, :))
+            link%square, force(:, b), link%geometric, border_mass, lambda, change(across + &
+            1:along, :))
         end if
         across = along + link%axial_next%pieces
-        if (link%axial_next%pieces > 0) then
+        if (link%axial_next%pieces > 0 .and. link%coupled) then
+          first = layout%first(b)
+          call find_changes_of_link(link%axial_next, vectors(:layout%border, :), &
+            vectors(first:first + link%modes - 1, :), chords%along(:, :, b), chords%turn(:, b), &
+            force(:0, b), link%square, force(:, b), link%geometric, border_mass, lambda, &
+            change(along + 1:across, :))
+        else if (link%axial_next%pieces > 0) then
           axial = first_axial(layout, links, b)
           call find_changes_of_link(link%axial_next, vectors(:layout%border, :), &
             vectors(axial:axial + link%axial_modes - 1, :), chords%along(:, :, b), chords%turn(:, &
-            b), force(:0, b), link%axial_square, no_stiffness, border_mass, lambda, &
+            b), force(:0, b), link%axial_square, force(:0, b), no_stiffness, border_mass, lambda, &
             change(along + 1:across, :))
         end if
       end associate
@@ -97,14 +104,15 @@ contains
   !> The changes by the next orders of all pieces of a link in one direction: across, with the
   !! geometric stiffness of its axial forces, or along, without.
   pure subroutine find_changes_of_link(next, border, own, moved, turned, force, own_mass, &
-      own_geometric, border_mass, lambda, change)
+      own_force, own_geometric, border_mass, lambda, change)
     type(next_orders_t), intent(in) :: next
     real(wp), intent(in) :: border(:, :)      !! (border, modes) part of the modes
     real(wp), intent(in) :: own(:, :)         !! (own modes, modes) part of the modes
-    real(wp), intent(in) :: moved(:, :)       !! (functions, border) what the border does to the link
+    real(wp), intent(in) :: moved(:, :)       !! (functions, border) what the border does to it
     real(wp), intent(in) :: turned(:)         !! (border) how it turns the link's chord
     real(wp), intent(in) :: force(:)          !! 1, ξ, ξ², jumps; none: static, or along [N]
     real(wp), intent(in) :: own_mass(:)       !! (own modes) [s²]
+    real(wp), intent(in) :: own_force(:)      !! on the own modes; none: static, or along [N]
     real(wp), intent(in) :: own_geometric(:, :, :) !! (2 + own modes, 2 + own modes, force
                                                    !! functions) `∫ b v' v'`
     real(wp), intent(in) :: border_mass(:, :)
@@ -143,7 +151,8 @@ contains
         matrix = square - lambda(i)*next%mass_square(:, :, e)
         call eliminate(matrix, residual, least_pivot, change(e, i))
         if (is_silent(next, e, lambda(i), slope_reach, ends_norm)) cycle
-        if (.not. allocated(stiffness)) stiffness = own_stiffness(own_geometric, force, size(own, 1))
+        if (.not. allocated(stiffness)) stiffness = own_stiffness(own_geometric, &
+          own_force, size(own, 1))
         call add_echo(next%mass(:, low:high), slopes, own_mass, stiffness, lambda(i), residual, &
           change(e, i)%echo)
         call add_border_echo(moved, next%participation(:, low:high), border_mass, lambda(i), &

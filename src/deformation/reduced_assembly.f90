@@ -4,6 +4,7 @@
 !! transverse own modes link by link (the blocks), then the axial own modes. The elastic stiffness
 !! is the unit matrix in all of them. A rigid link has no unknowns.
 module reduced_assembly
+  use body_lumps, only: lump_offsets
   use bordered_matrix, only: bordered_matrix_t, layout_t, new_bordered_layout
   use inertia_loads, only: distributed_load, load_t
   use kinds, only: wp
@@ -70,6 +71,7 @@ contains
             across(2, i)*links(b)%participation(2, k) + across(3, i)*links(b)%participation(3, k)
         end do
       end do
+      if (links(b)%coupled) call add_coupled_mass(links(b), across, along, first, mass)
       first = first_axial(layout, links, b) - 1
       do k = 1, links(b)%axial_modes
         mass%diagonal(first + k) = links(b)%axial_square(k)
@@ -87,6 +89,26 @@ contains
       end do
     end do
   end subroutine reduced_mass
+
+  !> Adds what couples the motions of a link across and along: masses beside its axis.
+  pure subroutine add_coupled_mass(link, across, along, first, mass)
+    type(link_modes_t), intent(in) :: link
+    real(wp), intent(in) :: across(:, :), along(:, :) !! (functions, border)
+    integer, intent(in) :: first                      !! number of its first unknown, minus one
+    type(bordered_matrix_t), intent(inout) :: mass
+
+    real(wp) :: cross(size(across, 2), size(across, 2))
+    integer :: i, k
+
+    cross = matmul(transpose(across), matmul(link%cross_linear, along))
+    mass%border = mass%border + cross + transpose(cross)
+    do k = 1, link%modes
+      do i = 1, size(across, 2)
+        mass%coupling(i, first + k) = mass%coupling(i, first + k) + &
+          along(1, i)*link%along_participation(1, k) + along(2, i)*link%along_participation(2, k)
+      end do
+    end do
+  end subroutine add_coupled_mass
 
   !> `K_G = ∫ N v'² dx` of all links: full blocks between own modes, and a border for the rotation
   !! of the chords.
@@ -143,23 +165,32 @@ contains
     type(load_case_t), intent(in) :: case          !! acceleration field, forces, torques
     real(wp), intent(out) :: displacement(:, :, :) !! (along and across, stations, bodies) [m]
 
-    real(wp) :: border(layout%border), across(2, size(links)), along(2), at_ends(2, 2), ends(3), &
-      axial_ends(2), xi
-    integer :: b, i, k
+    real(wp) :: border(layout%border), load(load_count(links), size(links)), along(2), &
+      at_ends(2, 2), ends(3), axial_ends(2), xi
+    integer :: b, i, k, n
 
     border = 0.0_wp
+    load = 0.0_wp
     do b = 1, size(links)
       border = border + case%couple(b)*chords%turn(:, b)
       at_ends(:, 1) = case%field%at_first(:, b)
       at_ends(:, 2) = case%field%at_first(:, b) + links(b)%length*case%field%slope(:, b)
       do i = 1, 2
         along(i) = dot_product(pose%direction(:, b), at_ends(:, i))
-        across(i, b) = dot_product(normal_to(pose%direction(:, b)), at_ends(:, i))
+        load(i, b) = dot_product(normal_to(pose%direction(:, b)), at_ends(:, i))
       end do
       if (links(b)%bends) then
         border = border - matmul(transpose(chords%across(:, :, b)), &
-          matmul(links(b)%linear(:, 1:2), across(:, b))) - &
+          matmul(links(b)%linear(:, 1:2), load(:2, b))) - &
           matmul(transpose(chords%along(:, :, b)), matmul(links(b)%axial_linear, along))
+        if (links(b)%coupled) then
+          load(3:4, b) = along
+          n = size(links(b)%at_mass, 1)
+          load(5:4 + n, b) = lump_offsets(linkage%bodies(b))*dot_product(pose%direction(:, b), &
+            case%field%slope(:, b))
+          call add_coupled_loads(links(b), chords%across(:, :, b), chords%along(:, :, b), &
+            load(:4 + n, b), border)
+        end if
       else
         border = border + matmul(rigid_work(linkage, b, pose, case), body_displacement(chords, b))
       end if
@@ -176,10 +207,39 @@ contains
         displacement(1, i, b) = (1.0_wp - xi)*axial_ends(1) + xi*axial_ends(2)
         displacement(2, i, b) = (1.0_wp - xi)*ends(1) + xi*ends(2)
         if (links(b)%bends) displacement(2, i, b) = displacement(2, i, b) + &
-          links(b)%clamp_station(i)*ends(3) - dot_product(links(b)%sag(i, :), across(:, b))
+          links(b)%clamp_station(i)*ends(3) - dot_product(links(b)%sag(i, :), &
+          load(:size(links(b)%sag, 2), b))
       end do
     end do
   end subroutine reduced_deflection
+
+  !> Most loads of any link of which its static deflection is made.
+  pure function load_count(links) result(most)
+    type(link_modes_t), intent(in) :: links(:)
+    integer :: most
+
+    integer :: b
+
+    most = 2
+    do b = 1, size(links)
+      most = max(most, size(links(b)%sag, 2))
+    end do
+  end function load_count
+
+  !> Adds the work that the inertia loads of masses beside the axis of a link do on the border.
+  !!
+  !! The accelerations of the axis, as displacements, move such a mass but for the centripetal part
+  !! of the offset, `−ω² e` across the link.
+  pure subroutine add_coupled_loads(link, across, along, load, border)
+    type(link_modes_t), intent(in) :: link
+    real(wp), intent(in) :: across(:, :), along(:, :) !! (functions, border)
+    real(wp), intent(in) :: load(:) !! accelerations of both ends across and along, then that part
+    real(wp), intent(inout) :: border(:)
+
+    border = border - matmul(transpose(across), matmul(link%cross_linear, load(3:4))) - &
+      matmul(transpose(along), matmul(transpose(link%cross_linear(1:2, :)), load(1:2))) - &
+      matmul(transpose(across), matmul(transpose(link%at_mass), load(5:)))
+  end subroutine add_coupled_loads
 
   !> Work of the inertia loads of a rigid link on each of the three motions of `body_displacement`
   !! [N, N, N m].

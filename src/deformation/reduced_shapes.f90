@@ -53,8 +53,12 @@ contains
       row = rotation_row(link%bending_shapes, xi)
       displacement(3) = displacement(3) + dot_product(row(:size(unknown)), unknown)
       if (link%clamped .and. xi <= 0.0_wp) displacement(3) = 0.0_wp
-      first = first_axial(layout, links, body)
-      unknown = matmul(link%axial, vector(first:first + link%axial_modes - 1))
+      if (link%coupled) then
+        unknown = matmul(link%axial, own(1:))
+      else
+        first = first_axial(layout, links, body)
+        unknown = matmul(link%axial, vector(first:first + link%axial_modes - 1))
+      end if
       row = displacement_row(link%axial_shapes, xi)
       if (inside) along = along + dot_product(row(:size(unknown)), unknown)
       displacement(:2) = along*axis + across*normal_to(axis)

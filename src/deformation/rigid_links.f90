@@ -1,7 +1,7 @@
 !> Rigid links: no unknowns of their own, and a mass that moves with their pins.
 module rigid_links
   use kinds, only: wp
-  use link_modes, only: link_modes_t, rigid
+  use link_modes, only: link_modes_t, rigid, stations
   use linkages, only: body_t
   use rigid_bodies, only: rigid_body, rigid_body_t
   implicit none (type, external)
@@ -30,7 +30,8 @@ contains
       -whole%first_moment(2), whole%first_moment(1), whole%inertia], [3, 3])
     allocate (link%square(0), link%participation(3, 0), link%axial_square(0), &
       link%axial_participation(2, 0))
-    allocate (link%bending(0, 0:0), link%axial(0, 0))
+    allocate (link%bending(0, 0:0), link%axial(0, 0), link%sag(stations, 2))
+    link%sag = 0.0_wp
     allocate (link%geometric(2, 2, 1))
     link%geometric = 0.0_wp
     link%geometric(rigid, rigid, 1) = body%length

@@ -9,7 +9,8 @@ module body_lumps
   implicit none (type, external)
   private
 
-  public :: lump_count, lump_masses, lump_places, pieces_of, element_of_lump
+  public :: lump_count, lump_masses, lump_places, lump_offsets, lump_inertias, has_turning_lumps, &
+    force_functions_of, pieces_of, element_of_lump
 
   !> Masses nearer to each other or to an end than this share of the length have no element between
   !! them.
@@ -45,6 +46,45 @@ contains
     allocate (xi(0))
     if (allocated(body%lumps)) xi = [(body%lumps(i)%place(1)/body%length, i=1, size(body%lumps))]
   end function lump_places
+
+  !> Distances of the lumps of a body from its axis, to its left, in the order of its lumps [m].
+  pure function lump_offsets(body) result(offset)
+    type(body_t), intent(in) :: body !! its lumps
+    real(wp), allocatable :: offset(:)
+
+    integer :: i
+
+    allocate (offset(0))
+    if (allocated(body%lumps)) offset = [(body%lumps(i)%place(2), i=1, size(body%lumps))]
+  end function lump_offsets
+
+  !> Moments of inertia of the lumps of a body, each about its own mass centre [kg m²].
+  pure function lump_inertias(body) result(inertia)
+    type(body_t), intent(in) :: body !! its lumps
+    real(wp), allocatable :: inertia(:)
+
+    allocate (inertia(0))
+    if (allocated(body%lumps)) inertia = body%lumps%inertia
+  end function lump_inertias
+
+  !> Whether a body has lumps that feel the rotation of its cross-sections: beside its axis, where
+  !! they couple its bending with its elongation, or with a moment of inertia of their own.
+  pure function has_turning_lumps(body) result(has)
+    type(body_t), intent(in) :: body !! its lumps
+    logical :: has
+
+    has = any(abs(lump_offsets(body)) > 0.0_wp .or. lump_inertias(body) > 0.0_wp)
+  end function has_turning_lumps
+
+  !> Number of functions that the lumps of a body add to those of which its axial force is made: a
+  !! jump each and, if any turns with its cross-section, what this turns against.
+  pure function force_functions_of(body) result(number)
+    type(body_t), intent(in) :: body !! its lumps
+    integer :: number
+
+    number = lump_count(body)
+    if (has_turning_lumps(body)) number = 2*number
+  end function force_functions_of
 
   !> Ends of elements that have no mass inside, from 0 to 1 along the body: 0, the places of the
   !! masses, 1.

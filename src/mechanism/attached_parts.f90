@@ -44,6 +44,7 @@ contains
           filled = filled + 1
           body%lumps(filled)%mass = model%masses(k)%mass
           body%lumps(filled)%place = place_on_body(model, i, model%masses(k)%place)
+          body%lumps(filled)%inertia = model%masses(k)%inertia
         end do
       end associate
     end do

@@ -125,8 +125,8 @@ contains
           first = near%layout%first(b)
           own = matmul(link%bending(:, 1:), mode(first:first + link%modes - 1))
           if (link%clamped) own = own + mode(1)*link%bending(:, 0)
-          first = first_axial(near%layout, near%links, b)
-          own_strain = matmul(link%axial, mode(first:first + link%axial_modes - 1))
+          if (.not. link%coupled) first = first_axial(near%layout, near%links, b)
+          own_strain = matmul(link%axial, mode(first:first + size(link%axial, 2) - 1))
           own_strain = element_strains(link%axial_shapes, mode(chain%number(b)), own_strain)
           if (link%bending_shapes%by_degree) then
             own = legendre_coefficients(link%bending_shapes, own, &

@@ -3,16 +3,17 @@
 module deformation_model
   use beam_element, only: axial_degree
   use beam_mesh, only: beam_t
-  use body_lumps, only: lump_places, pieces_of
+  use body_lumps, only: has_turning_lumps, lump_inertias, lump_offsets, lump_places, pieces_of
   use bordered_matrix, only: layout_t
   use deformation_shapes, only: axial_shapes, bending_shapes, deformation_shapes_t
   use errors, only: error_t
   use kinds, only: wp
   use link_degrees, only: link_degrees_t, uniform_degrees
-  use link_modes, only: held_shapes, link_modes_t, new_link_modes
+  use link_modes, only: coupled_shapes, held_shapes, link_modes_t, new_link_modes
   use link_store, only: find_link, keep_link, link_key_t, link_store_t, new_link_key
   use linkages, only: body_t, linkage_t
-  use lump_displacements, only: add_lump_displacements
+  use lump_displacements, only: add_lump_displacements, add_lump_rotations, lump_arms_t, &
+    new_lump_arms
   use next_orders, only: orders_beyond
   use reduced_assembly, only: reduced_layout
   use rigid_links, only: new_rigid_link
@@ -21,6 +22,9 @@ module deformation_model
   private
 
   public :: deformation_model_t, new_deformation_model
+
+  !> Masses nearer to each other than this share of the length turn together.
+  real(wp), parameter :: least_distance = 1.0e-9_wp
 
   type :: deformation_model_t
     integer, allocatable :: elements(:)         !! (bodies) of equal length; 0: a continuous link,
@@ -101,7 +105,8 @@ contains
   !!
   !! With shear and without rotary inertia some deformations move no mass: v' = θ + γ = 0
   !! everywhere. They have no entries in M and K_G and are left out. The continuous displacements of
-  !! the given degrees that vanish at both ends remain.
+  !! the given degrees that vanish at both ends remain, and the rotations of masses beside the axis
+  !! or with a moment of inertia of their own.
   subroutine find_own_modes(linkage, beam, b, mesh_elements, degrees, lumped, link, error)
     type(linkage_t), intent(in) :: linkage
     type(beam_t), intent(in) :: beam
@@ -112,8 +117,9 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     type(deformation_shapes_t) :: bending, axial
+    type(lump_arms_t) :: arms
     real(wp), allocatable :: basis(:, :), axial_basis(:, :), displacement(:, :), own(:, :), &
-      axial_own(:, :), ends(:)
+      axial_own(:, :), along(:, :), ends(:)
     integer :: elements, beyond, highest, furthest, independent
     logical :: clamped, sheared
 
@@ -139,18 +145,67 @@ contains
       end if
       call add_lump_displacements(body, bending)
       call add_lump_displacements(body, axial)
+      call add_lump_rotations(body, bending)
+      arms = new_lump_arms(body, bending)
     end associate
     call held_shapes(bending, bending%kept, clamped, basis, displacement)
     independent = size(basis, 2)
     if (sheared .and. linkage%bodies(b)%rotary_inertia <= 0.0_wp) independent = &
-      sum(degrees%across) - 1
-    call find_right_singular_vectors(displacement, own, error, independent)
-    if (allocated(error)) return
-    call held_shapes(axial, axial%kept, .false., axial_basis, displacement)
-    call find_right_singular_vectors(displacement, axial_own, error)
-    if (allocated(error)) return
+      min(sum(degrees%across) - 1 + free_turns(linkage%bodies(b), bending, degrees%across, &
+      clamped), independent)
+    call held_shapes(axial, axial%kept, .false., axial_basis, along)
+    if (has_turning_lumps(linkage%bodies(b))) then
+      displacement = coupled_shapes(displacement, along, matmul(arms%displacement(:, &
+        :bending%kept), basis))
+      call find_right_singular_vectors(displacement, own, error, independent + axial%kept)
+      if (allocated(error)) return
+      axial_own = own(size(basis, 2) + 1:, :)
+      own = own(:size(basis, 2), :)
+    else
+      call find_right_singular_vectors(displacement, own, error, independent)
+      if (allocated(error)) return
+      call find_right_singular_vectors(along, axial_own, error)
+      if (allocated(error)) return
+    end if
     call new_link_modes(bending, axial, clamped, [beam%axial_stiffness, beam%bending_stiffness], &
-      lumped, lump_places(linkage%bodies(b)), matmul(basis, own), axial_own, link)
+      lumped, lump_places(linkage%bodies(b)), matmul(basis, own), axial_own, link, arms)
   end subroutine find_own_modes
+
+  !> Number of independent rotations of cross-sections that move or turn masses of a body while its
+  !! axis stays where it is: those of piecewise polynomials, continuous, of one degree less than the
+  !! slopes of its elements, at the places of the masses.
+  pure function free_turns(body, shapes, across, clamped) result(number)
+    type(body_t), intent(in) :: body
+    type(deformation_shapes_t), intent(in) :: shapes !! its elements
+    integer, intent(in) :: across(:)                 !! (elements) degrees of the displacement
+    logical, intent(in) :: clamped                   !! at its first end
+    integer :: number
+
+    real(wp), allocatable :: xi(:), turning(:)
+    real(wp) :: last
+    integer :: e, free, here
+
+    xi = lump_places(body)
+    turning = pack(xi, abs(lump_offsets(body)) > 0.0_wp .or. lump_inertias(body) > 0.0_wp)
+    last = -1.0_wp
+    if (clamped) last = 0.0_wp
+    number = 0
+    free = merge(0, 1, clamped)
+    do e = 1, shapes%elements
+      here = 0
+      do
+        xi = pack(turning, turning > last + least_distance .and. &
+          turning <= shapes%last(e)/shapes%elements + least_distance)
+        if (size(xi) == 0) exit
+        here = here + 1
+        last = minval(xi)
+      end do
+      ! An element shares its first rotation with the element before it.
+      free = free + across(e) - 2
+      here = min(here, free)
+      number = number + here
+      free = min(1, free - here)
+    end do
+  end function free_turns
 
 end module deformation_model

@@ -5,7 +5,7 @@
 !! results then do not depend on what was computed before.
 module link_store
   use beam_mesh, only: beam_t
-  use body_lumps, only: lump_masses, lump_places
+  use body_lumps, only: lump_inertias, lump_masses, lump_offsets, lump_places
   use kinds, only: wp
   use link_degrees, only: link_degrees_t, same_degrees
   use link_modes, only: link_modes_t
@@ -28,8 +28,8 @@ module link_store
     type(link_degrees_t) :: degrees     !! of its elements
     logical :: clamped = .false.        !! at its first end
     logical :: lumped = .false.         !! axial force constant in each element
-    real(wp), allocatable :: lumps(:)   !! (2 × masses) masses along the link, then their places ξ
-                                        !! [kg, -]
+    real(wp), allocatable :: lumps(:)   !! (4 × masses) masses along the link, their places ξ,
+                                        !! offsets and moments of inertia [kg, -, m, kg m²]
   end type link_key_t
 
   type :: link_store_t
@@ -59,7 +59,7 @@ contains
     key%degrees = degrees
     key%clamped = clamped
     key%lumped = lumped
-    key%lumps = [lump_masses(body), lump_places(body)]
+    key%lumps = [lump_masses(body), lump_places(body), lump_offsets(body), lump_inertias(body)]
   end function new_link_key
 
   !> Copies the link of a key from the store if it is there.

@@ -81,7 +81,7 @@ contains
     real(wp), intent(inout) :: mass_error, slope_error
     real(wp), intent(inout) :: slopes !! bound of `∫ v'² dx`
 
-    real(wp) :: ends(3), turn, norm, terms
+    real(wp) :: ends(3), turn, norm, terms, along
     integer :: i, first
 
     associate (link => model%links(b), border => vector(:model%layout%border))
@@ -105,6 +105,15 @@ contains
         norm = norm + sqrt(link%square(i))*abs(vector(first + i))
         terms = terms + link%terms(i)*abs(vector(first + i))
       end do
+      along = 0.0_wp
+      do i = 1, 2
+        along = along + sqrt(link%axial_linear(i, i))*abs(dot_product(chords%along(i, :, b), &
+          border))
+      end do
+      if (link%coupled) then
+        norm = norm + along
+        terms = terms + along
+      end if
       mass_error = mass_error + norm*terms
       if (force_size > 0.0_wp) then
         norm = link%slope_norm(rigid)*turn + link%slope_norm(clamp)*ends(3)
@@ -116,10 +125,8 @@ contains
         slope_error = slope_error + force_size*norm*terms
         slopes = slopes + norm**2
       end if
-      do i = 1, 2
-        ends(i) = abs(dot_product(chords%along(i, :, b), border))
-      end do
-      norm = sqrt(link%axial_linear(1, 1))*ends(1) + sqrt(link%axial_linear(2, 2))*ends(2)
+      if (link%coupled) return
+      norm = along
       terms = norm
       first = first_axial(model%layout, model%links, b) - 1
       do i = 1, link%axial_modes

@@ -1,7 +1,7 @@
 !> Axial forces in the elements of the deck's own mesh under the unit loads.
 module mesh_forces
-  use axial_forces, only: axial_jumps, distributed_axial_forces, link_axial_force, &
-    lumped_axial_forces, mean_axial_force, most_jumps
+  use axial_forces, only: distributed_axial_forces, link_axial_force, lump_functions, &
+    lumped_axial_forces, mean_axial_force, most_lump_functions
   use deformation_model, only: deformation_model_t
   use inertia_loads, only: load_t
   use joint_forces, only: find_joint_forces, joint_forces_t
@@ -25,8 +25,9 @@ contains
     type(unit_loads_t), intent(in) :: unit_loads     !! at this pose
     logical, intent(in) :: lumped                    !! masses on the nodes of the mesh; else along
                                                      !! the links
-    real(wp), allocatable, intent(out) :: force(:, :, :)      !! (force functions, then jumps;
-                                                              !! bodies; cases) [N]; without loads
+    real(wp), allocatable, intent(out) :: force(:, :, :)      !! (force functions, then those
+                                                              !! of lumps; bodies; cases) [N];
+                                                              !! without loads
                                                               !! no functions
     real(wp), allocatable, intent(out) :: in_element(:, :, :) !! (1, ξ, ξ²; elements; cases) [N];
                                                               !! without loads no elements
@@ -38,7 +39,7 @@ contains
     associate (linkage => structure%linkage, mesh => structure%mesh, occurs => unit_loads%occurs)
       functions = 0
       if (any(occurs)) functions = max(3, maxval(model%elements, mask=model%lumped)) + &
-        most_jumps(linkage)
+        most_lump_functions(linkage)
       allocate (force(functions, size(model%links), case_count))
       allocate (in_element(3, merge(sum(mesh%elements), 0, any(occurs)), case_count))
       force = 0.0_wp
@@ -59,7 +60,7 @@ contains
             else
               force(:smooth, b, i) = link_axial_force(linkage, b, state%pose, case%field, joints)
             end if
-            jump = axial_jumps(linkage, b, state%pose, case%field)
+            jump = lump_functions(linkage, b, state%pose, case%field)
             force(smooth + 1:smooth + size(jump), b, i) = jump
           end do
         end associate

@@ -126,7 +126,8 @@ contains
     end do
   end subroutine solve_long_mesh
 
-  !> Copies the jumps of the axial forces from the near model to the long mesh: they are the same.
+  !> Copies the jumps of the axial forces, and the forces across masses, from the near model to the
+  !! long mesh: they are the same.
   pure subroutine take_jumps(near, force, chain)
     type(deformation_model_t), intent(in) :: near
     real(wp), intent(in) :: force(:, :) !! (force functions, bodies) [N]
@@ -137,6 +138,7 @@ contains
     do b = 1, size(near%links)
       if (.not. near%links(b)%bends) cycle
       n = size(chain%links(b)%lump)
+      if (chain%links(b)%lumps_turn) n = 2*n
       associate (smooth => smooth_functions(near, b))
         chain%jump(:n, b) = force(smooth + 1:smooth + n, b)
       end associate

@@ -1,8 +1,8 @@
 !> Frequencies of the deck's own mesh at one position, in nodal displacements, by LAPACK or ARPACK.
 module nodal_solver
-  use assembly, only: add_axial_jumps, assemble_geometric_stiffness, assemble_mass, &
-    assemble_stiffness
-  use axial_forces, only: axial_jumps
+  use assembly, only: add_axial_jumps, add_turning_forces, assemble_geometric_stiffness, &
+    assemble_mass, assemble_stiffness
+  use axial_forces, only: axial_jumps, turning_forces
   use band_matrix, only: band_matrix_t
   use errors, only: error_t
   use joint_forces, only: joint_forces_t
@@ -60,6 +60,8 @@ contains
         do b = 1, size(structure%beams)
           call add_axial_jumps(structure%linkage, structure%mesh, state%pose, b, &
             axial_jumps(structure%linkage, b, state%pose, case%field), unit_stiffness(i))
+          call add_turning_forces(structure%linkage, structure%mesh, state%pose, b, &
+            turning_forces(structure%linkage, b, state%pose, case%field), unit_stiffness(i))
         end do
       end associate
       result%counts%geometric_matrices = result%counts%geometric_matrices + 1

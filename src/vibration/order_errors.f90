@@ -64,7 +64,7 @@ contains
     integer, intent(in) :: modes      !! number, lowest first
     real(wp) :: whole(modes)
 
-    real(wp) :: change(size(error)), least, apart
+    real(wp) :: change(size(error)), least, apart, mixed
     integer :: i, j
 
     change = abs(lambda(:size(error)))*error
@@ -72,8 +72,14 @@ contains
       least = lambda(i) - change(i)
       do j = i + 1, size(error)
         apart = 0.5_wp*((lambda(j) - change(j)) - (lambda(i) - change(i)))
-        ! The lesser eigenvalue, written so that small changes are not lost beside λ.
-        least = min(least, lambda(i) - change(i) + apart - sqrt(apart**2 + change(i)*change(j)))
+        ! The lesser eigenvalue, written so that small changes are not lost beside λ, nor λ_i beside
+        ! a λ_j of many times its size.
+        mixed = sqrt(apart**2 + change(i)*change(j))
+        if (apart > 0.0_wp) then
+          least = min(least, lambda(i) - change(i) - change(i)*change(j)/(apart + mixed))
+        else
+          least = min(least, lambda(i) - change(i) + apart - mixed)
+        end if
       end do
       whole(i) = max(error(i), (lambda(i) - least)/max(abs(lambda(i)), tiny(least)))
     end do

@@ -117,8 +117,8 @@ contains
             state%pose, vector(:, mode), b, length*(i - 1)/(request%points - 1))
         end do
         do i = 1, size(place)
-          at(:, i, b) = shape_point(structure%linkage, structure%mesh, state%pose, vector(:, mode), &
-            b, place(i)*length)
+          at(:, i, b) = shape_point(structure%linkage, structure%mesh, state%pose, vector(:, &
+            mode), b, place(i)*length)
         end do
       end do
       shapes%displacement(:, :, :, mode) = sign_of(structure%linkage, state%pose, &

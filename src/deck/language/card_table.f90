@@ -21,7 +21,7 @@ module card_table
     character(len=128) :: pattern = "" !! correct form of the card; its keys end with `=`
     character(len=96) :: keys = ""     !! separated by blanks, if the pattern does not name them all
     character(len=48) :: choices = ""  !! allowed words, separated by blanks
-    character(len=10) :: entry = ""    !! default entry, `key=value`
+    character(len=20) :: entry = ""    !! default entries, `key=value`, with blanks between them
     character(len=16) :: default = ""  !! words of the card in a deck without it
     character(len=88) :: help = ""     !! in one line
   end type card_kind_t
@@ -86,8 +86,8 @@ module card_table
       pattern="MESH link ... elements= [order=3], or MESH link ... accuracy=, with * for all "// &
       "other links", entry="order=3", default="* accuracy=1e-8", &
       help="how links are divided, or how accurate frequencies are to be"), &
-    card_kind_t("MASS", least=2, most=2, pattern="MASS link at= [offset=] mass", &
-      entry="offset=0", help="a mass fixed to a link"), &
+    card_kind_t("MASS", least=2, most=2, pattern="MASS link at= [offset= inertia=] mass", &
+      entry="offset=0 inertia=0", help="a mass fixed to a link"), &
     card_kind_t("POINT", least=2, most=2, pattern="POINT name link along= [offset=]", &
       entry="offset=0", help="a point of a link, for REPORT points"), &
     card_kind_t("GRAVITY", is_single=.true., least=2, most=2, pattern="GRAVITY gx gy", &

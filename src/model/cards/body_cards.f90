@@ -1,12 +1,13 @@
 !> MASS and POINT cards: masses and points fixed to links. Names are looked up later, by
 !! `body_checks`.
 module body_cards
-  use card_reader, only: check_form, entry_number, read_entry_quantity, read_name, read_quantity
+  use card_reader, only: check_form, entry_number, read_entry_quantity, read_name, read_quantity, &
+    refuse_negative
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
   use tokens, only: token_t
-  use units, only: dimension_length, dimension_mass, unit_system_t
+  use units, only: dimension_inertia, dimension_length, dimension_mass, unit_system_t
   implicit none (type, external)
   private
 
@@ -20,6 +21,7 @@ module body_cards
                                      !! the left of the direction to the second pin [m]
     type(token_t) :: place_word      !! value of `at=`, or the keyword without one
     real(wp) :: mass = 0.0_wp        !! [kg]
+    real(wp) :: inertia = 0.0_wp     !! moment of inertia about its own mass centre [kg m²]
   end type mass_card_t
 
   !> A point fixed to a link, whose path is requested.
@@ -32,21 +34,25 @@ module body_cards
 
 contains
 
-  !> Reads `MASS link at= [offset=] value`. Errors: words or keys that do not fit the card, no
-  !! `at=`, unreadable values, a mass of 0 or less.
+  !> Reads `MASS link at= [offset= inertia=] value`. Errors: words or keys that do not fit the card,
+  !! no `at=`, unreadable values, a mass of 0 or less, a negative moment of inertia.
   pure subroutine read_mass(card, system, diagnostics, mass)
     type(card_t), intent(in) :: card                  !! the MASS card
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(mass_card_t), intent(out) :: mass            !! as read; the link is not looked up
 
-    logical :: fine, known_keys
+    logical :: fine, known_keys, has_inertia
 
     mass%link_name = token_t("", 0, 0)
     mass%place_word = card%keyword
     call check_form(card, diagnostics, fine, known_keys)
     if (size(card%words) > 0) mass%link_name = card%words(1)
     call read_place(card, "at", known_keys, system, diagnostics, mass%place, mass%place_word)
+    call read_entry_quantity(card, "inertia", dimension_inertia, system, .false., diagnostics, &
+      mass%inertia, has_inertia)
+    if (has_inertia) call refuse_negative(card%entries(entry_number(card, "inertia"))%value, &
+      mass%inertia, "a moment of inertia", diagnostics)
     if (.not. fine) return
     call read_quantity(card%words(2), dimension_mass, system, diagnostics, mass%mass, fine)
     if (fine .and. mass%mass <= 0.0_wp) then

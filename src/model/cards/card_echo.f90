@@ -125,14 +125,22 @@ contains
     call append_default(line, effect_words(loads, .false., .false.))
   end subroutine complete_effects
 
-  !> Adds a default `key=value` if the card does not have the key.
-  pure subroutine complete(card, entry, line)
+  !> Adds every default `key=value` whose key the card does not have.
+  pure subroutine complete(card, entries, line)
     type(card_t), intent(in) :: card
-    character(len=*), intent(in) :: entry !! empty: nothing is added
+    character(len=*), intent(in) :: entries !! with a blank between two; empty: nothing is added
     type(echo_line_t), intent(inout) :: line
 
-    if (len(entry) == 0) return
-    if (entry_number(card, entry(:index(entry, "=") - 1)) == 0) call append_default(line, entry)
+    integer :: first, next
+
+    first = 1
+    do while (first <= len(entries))
+      next = first + index(entries(first:)//" ", " ")
+      associate (entry => entries(first:next - 2))
+        if (entry_number(card, entry(:index(entry, "=") - 1)) == 0) call append_default(line, entry)
+      end associate
+      first = next
+    end do
   end subroutine complete
 
   !> Appends an entry that the card leaves out, and notes that it is the default.

@@ -12,7 +12,7 @@ module vibration_checks
 contains
 
   !> Checks rigid links and masses where beams are needed. Errors: all links rigid; rigid links with
-  !! `SOLVER dense` or `band`; a mass beside or beyond the axis of a bending link.
+  !! `SOLVER dense` or `band`; a mass beyond an end of a bending link.
   pure subroutine check_vibrations(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(model_t), intent(in) :: model                !! whose masses have their links
@@ -36,8 +36,8 @@ contains
     call check_masses(diagnostics, model)
   end subroutine check_vibrations
 
-  !> Masses on beams must sit on their axes: there is no rigid arm to a mass beside or beyond a
-  !! beam.
+  !> A mass is fixed to a cross-section of the beam that carries it, so there must be one at its
+  !! place along the link.
   pure subroutine check_masses(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
@@ -48,11 +48,7 @@ contains
       if (model%masses(i)%link == 0) cycle
       associate (mass => model%masses(i), link => model%links(model%masses(i)%link))
         if (link%rigid) cycle
-        if (abs(mass%place(2)) > 0.0_wp) then
-          call add_error(diagnostics, mass%place_word, "a mass beside link '"//link%name%text// &
-            "', which bends: a beam carries "// &
-            "masses on its axis; expected 'offset=0', or a rigid link")
-        else if (mass%place(1) < 0.0_wp .or. mass%place(1) > link%length) then
+        if (mass%place(1) < 0.0_wp .or. mass%place(1) > link%length) then
           call add_error(diagnostics, mass%place_word, "a mass beyond the end of link '"// &
             link%name%text//"', which bends; "// &
             "expected 'at=' from 0 to its length, or a rigid link", link%length_word, &
