@@ -410,7 +410,7 @@ contains
     type(bordered_modes_t), intent(inout) :: found
     logical, intent(out) :: proven
 
-    real(wp) :: rest(size(found%lambda)), margin, margins(3)
+    real(wp) :: rest(size(found%lambda)), margin, margins(3), least_tried
     integer :: i, kept
 
     proven = .false.
@@ -433,10 +433,10 @@ contains
       ! A mode may be nearer than the first: then as far as is asked for, and at last the least.
       margins = [max(distance, wide_margin), min(max(distance, count_margin), wide_margin), &
         count_margin]
+      least_tried = huge(least_tried)
       do i = 1, size(margins)
-        if (i > 1) then
-          if (margins(i) >= margins(i - 1)) cycle
-        end if
+        if (margins(i) >= least_tried) cycle
+        least_tried = margins(i)
         call clear_up_to(margins(i))
         if (proven) exit
       end do
