@@ -48,7 +48,8 @@ module deck_runs
     logical :: quiet = .false.              !! no progress line
     logical :: resume = .false.             !! go on where an earlier run was killed
     logical :: csv = .false.                !! also write tables as comma-separated values
-    character(len=:), allocatable :: figures !! command that draws figures; empty: not known
+    character(len=:), allocatable :: figures !! command that draws figures; empty or not allocated:
+                                             !! not known
     logical :: csv_only = .false.           !! and not as plain text
   end type run_options_t
 
@@ -133,8 +134,8 @@ contains
     result%messages = resumption_message(deck, options%resume, blocks)// &
       findings_messages(result%findings, deck%source%path)
     result%statistics = statistics_text(deck%base, session%totals, times)
-    if (options%csv_only) then
-      ! Figures are drawn from plain tables.
+    ! Figures are drawn from plain tables.
+    if (options%csv_only .or. .not. allocated(options%figures)) then
       result%success = success_of(deck, session, "")
     else
       result%success = success_of(deck, session, options%figures)

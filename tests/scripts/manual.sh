@@ -82,7 +82,7 @@ bash_completes() {
   touch "$scratch/folder/one.deck" "$scratch/folder/a two.deck" "$scratch/folder/notes.txt"
   offers "$(options | LC_ALL=C sort | tr '\n' ' ' | sed 's/ $//')" -- || return 1
   offers "--check" --ch && offers "--help --help-cards" --he && offers "a two.deck deep one.deck" "" &&
-    offers "one.deck" --check o && offers "csv plain" --format "" && offers "csv" --format = c && offers "csv plain" --format = &&
+    offers "one.deck" --check o && offers "csv csv-only plain" --format "" && offers "csv csv-only" --format = c && offers "csv csv-only plain" --format = &&
     offers "deep" --out "" && offers "" --threads "" && offers "" --set "" && offers "bash fish zsh" --completion ""
 }
 
