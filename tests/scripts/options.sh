@@ -158,7 +158,7 @@ success() {
   motion_deck >"$scratch/told.deck"
   (cd "$scratch" && run 0 told.deck) && silent || return 1
   [ "$(cat "$scratch/stdout")" = "told: 1 table in outputs/told" ] || { echo "it said: $(cat "$scratch/stdout")"; return 1; }
-  run 0 --out "$out" "$scratch/told.deck" && grep -qxF "told: 1 table in $out/told; figures: sh plots/draw_figures.sh $out/told" \
+  run 0 --out "$out" "$scratch/told.deck" && grep -qxF "told: 1 table in $out/told; figures: plots/flexmech-plot $out/told" \
     "$scratch/stdout" || [ "$(wc -l <"$scratch/stdout")" -eq 2 ] || { echo "it said: $(cat "$scratch/stdout")"; return 1; }
   for option in --quiet --check; do
     run 0 $option --out "$out" "$scratch/told.deck" && silent && [ ! -s "$scratch/stdout" ] || { echo "not silent with $option"; return 1; }

@@ -7,12 +7,12 @@ module figures_command
   public :: command_for_figures, shell_word
 
   character(len=*), parameter :: plot_program = "flexmech-plot", plot_script = &
-    "plots/draw_figures.sh"
+    "plots/flexmech-plot"
 
 contains
 
   !> The command, without the output folder that follows it: `flexmech-plot` if it is installed
-  !! beside the program, in a checkout the script; empty if there is neither.
+  !! beside the program, `plots/flexmech-plot` in a checkout; empty if there is neither.
   function command_for_figures(program, search_path) result(command)
     character(len=*), intent(in) :: program     !! as the user called it, perhaps with its folder
     character(len=*), intent(in) :: search_path !! folders between colons, the variable PATH
@@ -37,7 +37,7 @@ contains
         first = last + 2
       end do
     end if
-    if (command == "" .and. file_exists(plot_script)) command = "sh "//plot_script
+    if (command == "" .and. file_exists(plot_script)) command = plot_script
   end function command_for_figures
 
   !> A path as a word of the shell: in quotes if it has signs that mean something there.
