@@ -61,8 +61,8 @@ do for [k=1:tiles] {
 }
 
 # As an engineer would call them.
-event_name(event) = event eq "transmission_least" ? "smallest transmission angle" \
-    : event eq "transmission_most" ? "largest transmission angle" \
+event_name(event) = event eq "transmission_smallest" ? "smallest transmission angle" \
+    : event eq "transmission_largest" ? "largest transmission angle" \
     : event eq "follower_limit_stretched" ? "follower limit, crank and coupler stretched" \
     : event eq "follower_limit_folded" ? "follower limit, crank and coupler folded" \
     : event eq "crank_limit_stretched" ? "crank limit, coupler and follower stretched" \

@@ -79,7 +79,7 @@ contains
     if (allocated(error) .or. command%help .or. command%help_cards .or. command%version .or. &
       command%manual .or. allocated(command%shell)) return
     if (size(command%decks) == 0) call set_error(error, error_of_input, &
-      "no deck given; flexmech --help tells how to run one")
+      "no deck given; flexmech --help shows how to run one")
   end subroutine read_command_line
 
   function arguments() result(words)

@@ -31,7 +31,7 @@ contains
     call append_text(page, ".B "//program_name//line_feed//"[options] DECK..."//line_feed)
     call append_section(page, "DESCRIPTION")
     call append_line(page, "Computes motion, forces, balance, natural frequencies and mode "// &
-      "shapes of flexible linkages from decks: text files with one card a line.")
+      "shapes of flexible linkages from decks: text files with one card per line.")
     call append_paragraph(page, "For every deck the tables are written to outputs/<deck base "// &
       "name>/, with run.log, echo.deck and summary.json. A deck named - is standard input.")
     call append_section(page, "OPTIONS")
@@ -40,8 +40,8 @@ contains
         option_help(options(i)))
     end do
     call append_section(page, "CARDS")
-    call append_line(page, "What stands in brackets may be left out; | separates words of "// &
-      "which one is written, = is followed by a value.")
+    call append_line(page, "Items in brackets are optional; | separates alternatives; = is "// &
+      "followed by a value.")
     call find_card_entries(patterns, helps)
     do i = 1, size(patterns)
       call append_entry(page, patterns(i)%text, helps(i)%text)

@@ -18,23 +18,23 @@ module option_table
     option_t("--check", help="read and check the decks only"), &
     option_t("--out", "DIR", folder=.true., help="write to DIR/<deck base name>/"), &
     option_t("--set", "N=V", &
-      help="put V in place of the value that SET or VARY gives the name N; may be repeated"), &
+      help="use V instead of the value that SET or VARY gives the name N; may be repeated"), &
     option_t("--threads", "N", help="compute N positions at a time (1)"), &
     option_t("--format", "FORM", choices="plain csv csv-only", &
-      help="csv: write every table as comma-separated values too; csv-only: alone (plain)"), &
+      help="csv: comma-separated tables beside the plain ones; csv-only: only those (plain)"), &
     option_t("--resume", &
       help="continue where an earlier run of the deck was killed or interrupted"), &
     option_t("--quiet", &
-      help="no warnings, progress or line after a run; errors are still reported"), &
+      help="no warnings, progress or summary line; errors are still reported"), &
     option_t("--stats", help="report what was computed and how long it took"), &
     option_t("--json", &
       help="on standard output: errors, warnings and failed rows of all decks as JSON"), &
     option_t("--version", help="the program's version"), &
     option_t("--help", help="this list of options"), &
-    option_t("--help-cards", help="every card and report of a deck in two lines"), &
-    option_t("--man", help="the manual page, in the language of man"), &
+    option_t("--help-cards", help="every card and report, two lines each"), &
+    option_t("--man", help="the manual page, in the format of man"), &
     option_t("--completion", "SHELL", choices="bash zsh fish", &
-      help="the file by which a shell completes options and decks")]
+      help="a script that completes options and decks in a shell")]
 
   !> The column in which the help of `--help` begins.
   integer, parameter :: column_of_help = 22

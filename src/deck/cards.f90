@@ -67,12 +67,13 @@ contains
       if (same_word(words(1)%text, "END")) then
         if (present(file)) then
           call add_error(diagnostics, words(1), &
-            "END stands in the deck, not in a file that it includes")
+            "END belongs in the deck, not in a file that it includes")
           cycle
         end if
         ended = .true.
         end_card = words(1)
-        if (size(words) > 1) call add_error(diagnostics, words(2), "END stands alone on its line")
+        if (size(words) > 1) call add_error(diagnostics, words(2), &
+          "END must stand alone on its line")
         cycle
       end if
       if (count == size(found)) then

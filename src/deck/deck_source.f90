@@ -339,7 +339,7 @@ contains
       line = count(source%line_start <= i)
       write (code, "(z2.2)") iachar(source%text(i:i))
       call set_error(error, error_of_files, &
-        "byte 0x"//code//" is no part of a text; is this a deck?", source%path, line, &
+        "byte 0x"//code//" does not belong in a text; is this a deck?", source%path, line, &
         character_count(source%text(source%line_start(line):i)))
       return
     end do

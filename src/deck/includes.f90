@@ -231,7 +231,7 @@ contains
     do i = 1, size(cards)
       if (same_word(cards(i)%keyword%text, "UNITS")) then
         call add_error(diagnostics, cards(i)%keyword, &
-          "UNITS stands in the deck, not in a file that it includes")
+          "UNITS belongs in the deck, not in a file that it includes")
       else
         call append_cards(kept, count, cards(i:i))
       end if

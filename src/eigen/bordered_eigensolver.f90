@@ -183,12 +183,12 @@ contains
     if (allocated(error)) return
     if (found%rest > 0.0_wp .and. found%rest < huge(found%rest)) then
       call set_error(error, error_of_numerics, &
-        "it could not be proven that no mode is missing (norm of the rest "// &
+        "it could not be proven that no mode is missing (norm of the remainder "// &
         to_string(found%rest, 3)//")")
     else if (size(found%lambda) >= wanted) then
       call set_error(error, error_of_numerics, "it could not be proven that no mode is missing")
     else
-      call set_error(error, error_of_numerics, "fewer modes were found than are wanted")
+      call set_error(error, error_of_numerics, "fewer modes were found than requested")
     end if
   end subroutine find_bordered_modes
 

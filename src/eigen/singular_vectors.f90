@@ -97,7 +97,7 @@ contains
       if (.not. turned) return
     end do
     if (size(a, 2) > 1) call set_error(error, error_of_numerics, &
-      "the own vibrations of a link were not found in "//to_string(most_sweeps)// &
+      "the vibrations of a single link were not found in "//to_string(most_sweeps)// &
       " sweeps of rotations")
   end subroutine rotate
 

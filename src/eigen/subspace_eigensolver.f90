@@ -70,7 +70,7 @@ contains
       call extend(pencil, start(:, i), basis, mass_times, stiffness_times, number, found%products)
     end do
     if (number < modes) then
-      call set_error(error, error_of_numerics, "the starts of two modes are the same")
+      call set_error(error, error_of_numerics, "two modes have the same starting vector")
       return
     end if
     do step = 1, most_steps

@@ -144,18 +144,18 @@ contains
     associate (found => variant%found%harmonics)
       if (.not. found%has_cycle) then
         call append_string(notes, "no rows: the crank does not turn fully, or comes to a dead "// &
-          "point, and there is no cycle")
+          "point: there is no cycle")
         return
       end if
       call append_string(notes, "over a whole turn of the crank: largest absolute value, root "// &
         "of the mean square, mean, and mean + sum of h_k cos(k crank + phase_k); "// &
-        "speed and acceleration are the same all round")
+        "speed and acceleration are constant over the turn")
       call append_string(notes, "forces in "//force%name//", moments and torques in "// &
-        moment%name//", phases in deg; a phase is 0 where its h is only rounding")
-      call append_string(notes, "samples: "//to_string(found%samples)//"; every second of them "// &
+        moment%name//", phases in deg; a phase is 0 where its h is only round-off")
+      call append_string(notes, "samples: "//to_string(found%samples)//"; every second one "// &
         "gives the same to "//to_string(found%change, 2)//" of the largest value")
-      if (found%change > unsettled) call append_string(notes, "harmonics have not settled: the "// &
-        "crank passes next to a dead point, or the shaking force through zero")
+      if (found%change > unsettled) call append_string(notes, "harmonics have not converged: "// &
+        "the crank passes close to a dead point, or the shaking force through zero")
     end associate
   end subroutine harmonics_notes
 

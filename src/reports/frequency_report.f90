@@ -30,7 +30,7 @@ contains
 
     notes = effects_notes(variant%model)
     call append_string(notes, &
-      "error1 and so on: how far off each frequency may be, of itself: mesh and rounding")
+      "error1, error2, ...: estimated relative errors of f1, f2, ...: of mesh and round-off")
   end subroutine frequency_notes
 
   !> Effects in the equations of the frequencies: axial forces of which loads, rotary inertia,

@@ -28,11 +28,11 @@ contains
       if (any(mechanism%load_elements > 0)) call append_string(notes, &
         "lumped inertia: masses on the mesh nodes, F = -m a")
       if (any(is_spread(mechanism))) call append_string(notes, &
-        "distributed inertia: a row a link at its mass centre, F = -m a, "// &
+        "distributed inertia: one row per link at its mass centre, F = -m a, "// &
         "moment = -I alpha about the mass centre"// &
         trim(merge(", with rotary inertia", "                     ", variant%model%rotary)))
       if (any(masses%kind == of_body)) call append_string(notes, "links with a mass of their "// &
-        "own: a row a link at its mass centre, F = -m a, moment = -I alpha about the mass centre")
+        "own: one row per link at its mass centre, F = -m a, moment = -I alpha about it")
       if (any(masses%kind == on_link)) call append_string(notes, &
         "masses fixed to links in rows of their own, "//mass_mark//"LINK")
     end associate

@@ -24,7 +24,8 @@ contains
     notes = notes_on_linkage(variant)
     call append_string(notes, angle_note(variant))
     associate (pins => variant%mechanism%pin_names)
-      call append_string(notes, "A: pin "//pins(2)%text//"; B: pin "//pins(3)%text)
+      if (pins(2)%text /= "A" .or. pins(3)%text /= "B") call append_string(notes, "A: pin "// &
+        pins(2)%text//"; B: pin "//pins(3)%text)
     end associate
     call append_string(notes, acceleration_note(variant%model))
   end subroutine kinematics_notes

@@ -22,11 +22,11 @@ contains
     call append_motion_notes(notes, variant%model, variant%mechanism)
     call append_string(notes, "torque = M alpha2 + V + gravity + load, of the drive on link 2, "// &
       "counter-clockwise positive")
-    call append_string(notes, "M: all masses at the crank; dM: dM/dtheta2; V = dM omega2^2/2; "// &
-      "gravity: dU/dtheta2 of the weights; load: what holds the loads from outside")
-    call append_string(notes, "kinetic = M omega2^2/2; potential: of the weights and of the "// &
-      "forces from outside, 0 with all masses and pins at the global origin; torques on links "// &
-      "have none here")
+    call append_string(notes, "M: inertia reduced to the crank; dM: dM/dtheta2; "// &
+      "V = dM omega2^2/2; gravity: dU/dtheta2 of the weights; load: to balance the external loads")
+    call append_string(notes, "kinetic = M omega2^2/2; potential: of weights and external "// &
+      "forces, 0 with all masses and pins at the global origin; that of torques on links is "// &
+      "left out")
     call append_load_notes(notes, variant%model, variant%mechanism)
   end subroutine lagrange_notes
 

@@ -29,7 +29,7 @@ contains
     associate (found => variant%found%linkage, names => variant%mechanism%names)
       call append_string(notes, found%grashof)
       call append_string(notes, "mobility 3(n - 1) - 2j of n = "//to_string(found%links)// &
-        " links, the ground among them, in pins: "//to_string(found%mobility))
+        " links, ground included, and j pins: "//to_string(found%mobility))
       do branch = 1, size(found%branches)
         do i = 1, size(found%branches(branch)%ranges)
           associate (range => found%branches(branch)%ranges(i))

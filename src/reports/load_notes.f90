@@ -73,8 +73,8 @@ contains
     type(unit_t) :: moment
     integer :: i
 
-    line = "loads from outside: none"
-    before = "loads from outside: "
+    line = "external loads: none"
+    before = "external loads: "
     associate (linkage => mechanism%linkage)
       do i = 1, size(mechanism%pin_names)
         if (all(abs(linkage%pin_force(:, i)) <= 0.0_wp)) cycle
@@ -104,17 +104,27 @@ contains
       to_string(from_si(components(2), measure), 12)//" "//measure%name
   end function vector
 
-  !> The links and pins that numbers and letters in column names stand for, and the crank's angular
-  !! acceleration.
+  !> The links and pins that numbers and letters in column names stand for, where these are not
+  !! their names, and the crank's angular acceleration.
   pure subroutine append_motion_notes(notes, model, mechanism)
     type(string_t), allocatable, intent(inout) :: notes(:) !! to which they are appended
     type(model_t), intent(in) :: model                     !! in SI
     type(mechanism_t), intent(in) :: mechanism             !! of the model
 
-    call append_string(notes, "2: link "//mechanism%names(1)%text//"; 3: link "// &
-      mechanism%names(2)%text//"; 4: link "//mechanism%names(3)%text//"; O2: pin "// &
-      mechanism%pin_names(1)%text//"; A: pin "//mechanism%pin_names(2)%text//"; B: pin "// &
-      mechanism%pin_names(3)%text//"; O4: pin "//mechanism%pin_names(4)%text)
+    character(len=*), parameter :: links(3) = ["2", "3", "4"], pins(4) = ["O2", "A ", "B ", "O4"]
+    character(len=:), allocatable :: words
+    integer :: i
+
+    words = ""
+    do i = 1, 3
+      if (mechanism%names(i)%text == links(i)) cycle
+      words = words//"; "//links(i)//": link "//mechanism%names(i)%text
+    end do
+    do i = 1, 4
+      if (mechanism%pin_names(i)%text == trim(pins(i))) cycle
+      words = words//"; "//trim(pins(i))//": pin "//mechanism%pin_names(i)%text
+    end do
+    if (len(words) > 0) call append_string(notes, words(3:))
     call append_string(notes, acceleration_note(model))
   end subroutine append_motion_notes
 

@@ -30,10 +30,10 @@ contains
 
     notes = effects_notes(variant%model)
     call append_string(notes, &
-      "modes followed by their shapes; mac: likeness to the row before, "// &
+      "modes followed by their shapes; mac: modal assurance criterion with the row before, "// &
       "in the mass inner product, from 0 to 1")
     call append_string(notes, "event: - or start, crossing:BRANCH, veering:BRANCH, ambiguous "// &
-      "(shapes do not tell which branch goes on: a new one begins)")
+      "(shapes do not show which branch continues: a new one begins)")
   end subroutine loci_notes
 
   !> The column `event`, with a word as long as the longest.

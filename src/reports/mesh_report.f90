@@ -19,8 +19,8 @@ contains
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     call append_string(notes, &
-      "mass_a and mass_b: what the element brings to the lumped masses of its nodes")
-    call append_string(notes, "both links at a pin have a node of their own there")
+      "mass_a and mass_b: share of the element in the lumped masses of its nodes")
+    call append_string(notes, "each link at a pin has a node of its own there")
     if (.not. all(variant%mechanism%linkage%bodies%bends)) call append_string(notes, &
       "rigid links have no elements")
   end subroutine mesh_notes

@@ -37,14 +37,14 @@ contains
     energy = table_unit("energy", variant%model%outputs)
     associate (motion => variant%found%motion)
       call append_string(notes, "crank, 2: link "//variant%mechanism%names(1)%text//"; "// &
-        angle_note(variant)//"; angles go on over whole turns")
+        angle_note(variant)//"; angles continue past whole turns")
       call append_string(notes, &
         "torque: of the motor; potential: of GRAVITY, FORCE and TORQUE, "// &
         "of crank and coupler from the crank's ground pivot, of the follower from its own, "// &
         "of torques from angle 0")
-      call append_string(notes, "work: of the motor, less what LOAD takes, since the start; "// &
+      call append_string(notes, "work: of the motor, less that taken by LOAD, since the start; "// &
         "energy_error: kinetic + potential - work, less the initial energy; "// &
-        "closure: by how much the loop is open")
+        "closure: the gap of the loop")
       if (motion%count == 0) return
       call append_string(notes, "initial energy: "//to_string(from_si(motion%energy, energy))// &
         " "//energy%name//"; steps of order 8, each to "//to_string(motion_tolerance)// &
@@ -122,7 +122,7 @@ contains
       associate (turning => motion%turnings(i))
         call append_text(buffer, "motion: at t="//to_string(turning%time, 12)// &
           " s the crank turns back at "//to_string(turning%crank, 12)// &
-          " deg; the linkage goes over from "//trim(branch_of(.not. turning%to_open))//" to "// &
+          " deg; the linkage changes from "//trim(branch_of(.not. turning%to_open))//" to "// &
           trim(branch_of(turning%to_open))//line_feed)
       end associate
     end do

@@ -25,7 +25,7 @@ contains
     call append_string(notes, "torque: of the drive on link 2, counter-clockwise positive")
     call append_string(notes, "shaking: resultant of -m a of all masses; shaking_moment: of "// &
       "these and of -I alpha of all links, about pin "//variant%mechanism%pin_names(1)%text// &
-      "; weights and loads from outside are no part of either")
+      "; weights and external loads are not included")
     call append_load_notes(notes, variant%model, variant%mechanism)
   end subroutine reactions_notes
 

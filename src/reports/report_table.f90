@@ -74,7 +74,7 @@ module report_table
       positions=.true., beams=.true., reserved=.true., tables=[ &
       table_kind_t("mesh", "crank:deg link:name element,node_a,node_b:# xa,ya,xb,yb:length "// &
       "mass_a,mass_b:mass"), no_table]), &
-    report_kind_t(name="frequencies", help="natural frequencies with their errors", &
+    report_kind_t(name="frequencies", help="natural frequencies with estimated errors", &
       studies="frequencies", positions=.true., beams=.true., frequencies=.true., &
       reserved=.true., tables=[ &
       table_kind_t("frequencies", "speed:speed crank:deg f*:Hz error*:-"), no_table]), &
@@ -98,7 +98,7 @@ module report_table
       studies="points", positions=.true., tables=[ &
       table_kind_t("points", "speed:speed crank:deg point:name x,y:length vx,vy:velocity "// &
       "ax,ay:acceleration"), no_table]), &
-    report_kind_t(name="lagrange", help="the torque by energies", &
+    report_kind_t(name="lagrange", help="the torque from energies", &
       studies="lagrange", positions=.true., masses=.true., numbers=5, tables=[ &
       table_kind_t("lagrange", "speed:speed crank:deg M,dM:inertia "// &
       "V,gravity,load,torque:moment kinetic,potential:energy"), no_table]), &
@@ -117,7 +117,7 @@ module report_table
     report_kind_t(name="geometry", help="where pins, links and points are, for drawings", &
       pattern="REPORT geometry crank=a,b,...", offered=.false., studies="geometry", tables=[ &
       table_kind_t("geometry", "crank:deg link,part,place:name x,y:length"), no_table]), &
-    report_kind_t(name="motion", help="how the linkage moves by itself", &
+    report_kind_t(name="motion", help="the motion under motor and loads", &
       pattern="REPORT motion crank= [speed=0] end= step=", default="speed=0", &
       studies="motion", masses=.true., tables=[ &
       table_kind_t("motion", "time:time crank,theta3,theta4:deg omega2,omega3,omega4:rate "// &

@@ -66,7 +66,7 @@ contains
     call make_directories(folder, made, outputs%is_new)
     if (.not. made) then
       call set_error(error, error_of_files, &
-        "this folder cannot be made; is there a file of that name?", folder)
+        "this folder cannot be created; is there a file of that name?", folder)
       return
     end if
     ! Checked now: a folder with the name of a file would stop the renaming when some files are in

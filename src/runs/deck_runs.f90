@@ -189,13 +189,13 @@ contains
     message = ""
     if (.not. resume) return
     if (blocks < 0) then
-      message = "the earlier run was of another deck, or by another program; this one has "// &
-        "begun anew"
+      message = "the earlier run was of another deck or by another program; this one started "// &
+        "afresh"
     else if (blocks == 0) then
-      message = "no earlier run has left anything to go on from; this one has begun anew"
+      message = "no earlier run left anything to resume; this one started afresh"
     else
-      message = "went on from "//plural(blocks, "block")// &
-        " of positions that an earlier run had computed"
+      message = "resumed with "//plural(blocks, "block")// &
+        " of positions from an earlier run"
     end if
     message = deck%source%path//": "//message//line_feed
   end function resumption_message
@@ -332,7 +332,7 @@ contains
     character(len=:), allocatable :: hint
 
     hint = ""
-    if (blocks > 0) hint = "; --resume goes on from what it has computed"
+    if (blocks > 0) hint = "; --resume continues from what it has computed"
   end function resume_hint
 
   !> The first variant in the log: model, notes on the linkage, motion, how its frequencies were

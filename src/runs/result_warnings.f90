@@ -102,7 +102,7 @@ contains
     if (len(ranges) == 0) return
     warning%text = "static divergence at speed "// &
       speed_in_words(model, speed, sweep%request%speed(speed))//", crank "//ranges// &
-      " deg: an eigenvalue is negative, and so the frequency written"
+      " deg: an eigenvalue is negative, and so is the frequency written"
   end function divergences
 
   !> Whether the lowest eigenvalue at a position and speed is negative.
@@ -163,7 +163,7 @@ contains
         "mean nothing"
     else
       warning%text = warning%text//"above "//to_string(100.0_wp*most_deflection)// &
-        " % the axial frequencies begin to mislead"
+        " % the axial frequencies become unreliable"
     end if
   end function deflections
 
@@ -211,13 +211,13 @@ contains
 
     select case (cause)
     case (error_of_orders)
-      text = "the highest polynomial orders do not give more: waves are too short for them"
+      text = "the highest polynomial orders cannot resolve such short waves"
     case (error_of_position)
-      text = "so near a dead point rounding leaves no more digits of the position"
+      text = "so close to a dead point round-off leaves no more digits of the position"
     case (error_of_divergence)
-      text = "near a divergence loads and stiffness cancel, and digits with them"
+      text = "near a divergence loads and stiffness nearly cancel, and digits are lost"
     case default
-      text = "rounding in double precision leaves no more digits"
+      text = "round-off in double precision leaves no more digits"
     end select
   end function reason_of
 

@@ -123,9 +123,9 @@ contains
       call set_error(error, error_of_dead_point, change_point_message)
     case (stop_no_inertia)
       call set_error(error, error_of_numerics, &
-        "nothing that has a mass moves here with the linkage: there is no inertia")
+        "nothing with a mass moves with the linkage at this position: there is no inertia")
     case (stop_too_fast)
-      call set_error(error, error_of_numerics, "the links turn too fast to be followed")
+      call set_error(error, error_of_numerics, "the links turn too fast to be integrated")
     case (stop_many_steps)
       call set_error(error, error_of_numerics, "a million steps of the integration do not "// &
         "reach the next row: 'step=' or 'end=' is too long for a motion as fast as this, or "// &

@@ -62,7 +62,7 @@ dead_point() {
   beam_deck "CRANK 30 170 180 190" "MODES 2" "REPORT frequencies" "REPORT branches" |
     sed 's/254 0/250 0/; s/length=279.4/length=250/; s/length=266.7/length=100/' >"$scratch/dead.deck"
   run 1 --quiet --out "$scratch/out" "$scratch/dead.deck" && whole dead 2 || return 1
-  [ "$(grep -c '^# failed speed=0 crank=180' "$scratch/out/dead/branches.dat")" -eq 1 ] || { echo "the failed row is not told once"; return 1; }
+  [ "$(grep -c '^# failed speed=0 crank=180' "$scratch/out/dead/branches.dat")" -eq 1 ] || { echo "the failed row is not reported once"; return 1; }
   awk '!/^#/ && NF && $2 == 190 { print $3, $7 }' "$scratch/out/dead/branches.dat" >"$scratch/beyond"
   printf '3 start\n4 start\n' | diff - "$scratch/beyond"
 }

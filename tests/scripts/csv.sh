@@ -135,7 +135,7 @@ threads() {
 
 check "CSV with failed rows" failed_rows
 check "CSV of every deck in inputs/" inputs
-check "CSV that is no longer asked for goes" no_longer
-check "the same CSV whatever the threads" threads
+check "CSV no longer requested is removed" no_longer
+check "the same CSV for any number of threads" threads
 check "CSV alone" alone
 check "CSV alone, of variants and with failed rows" alone_of_variants

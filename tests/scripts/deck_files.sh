@@ -37,7 +37,7 @@ garbage() {
 
 binary() {
   cp "$program" "$scratch/binary.deck"
-  refused "is no part of a text; is this a deck?" "$scratch/binary.deck"
+  refused "does not belong in a text; is this a deck?" "$scratch/binary.deck"
 }
 
 zeros() {
@@ -76,7 +76,7 @@ else
   check "an unreadable deck" unreadable
 fi
 check "a binary file" binary
-check "a byte of no text" zeros
+check "a byte that no text has" zeros
 check "ten megabytes of a deck" large
 check "ten megabytes of garbage" garbage
 check "standard input" standard_input

@@ -6,4 +6,4 @@ self_check() {
   python3 -B tests/documents/self_check.py >"$scratch/self_check" 2>&1 || { tail -n 1 "$scratch/self_check"; return 1; }
 }
 
-check "a stale number is found, and written anew" self_check
+check "a stale number is found and recomputed" self_check

@@ -96,7 +96,7 @@ labels_keep_clear() {
 }
 
 check "drawings are drawn" drawn
-check "the shaking force has its angles and forces, and no corners" shows shaking_force shaking_force 25
+check "the shaking force has angles, forces and smooth curves" shows shaking_force shaking_force 25
 check "arrows of forces: pins times poses" shows forces forces 8
 check "the wall turns with the crank" shows mode_shape mode_1_crank_30_speed_30 30 "A press for drawings"
 check "the wall turns with the crank, on the left" shows mode_shape mode_2_crank_240_speed_30 240 "A press for drawings"

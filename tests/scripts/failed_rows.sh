@@ -33,7 +33,7 @@ status() {
     says "change.deck: error: crank $angle deg: dead point" && grep -q "^crank $angle deg: dead point" "$out/run.log" || return 1
   done
   for table in kinematics frequencies; do
-    [ "$(grep -c '^# failed speed=1 crank=360 : dead point' "$out/$table.dat")" -eq 1 ] || { echo "$table.dat tells no failed row"; return 1; }
+    [ "$(grep -c '^# failed speed=1 crank=360 : dead point' "$out/$table.dat")" -eq 1 ] || { echo "$table.dat reports no failed row"; return 1; }
     [ "$(grep -vc -e '^#' -e '^$' "$out/$table.dat")" -eq 9 ] || { echo "$table.dat: wrong number of rows"; return 1; }
   done
 }
@@ -48,11 +48,11 @@ blocks() {
       exit failed }' "$out/$1.dat"
 }
 
-check "failed rows are told and the rest is written" status
+check "failed rows are reported and the rest is written" status
 for table in kinematics frequencies inertia; do
   check "blocks of $table.dat with failed rows" blocks $table
 done
-check "quiet still tells failed rows" eval 'run 1 --quiet --out "$scratch/out" "$deck" && says "crank 0 deg: dead point"'
+check "--quiet still reports failed rows" eval 'run 1 --quiet --out "$scratch/out" "$deck" && says "crank 0 deg: dead point"'
 
 # A follower two kilometres thick: of the mass matrix nothing but rounding is left at many a position.
 sed -e 's/circle *diameter=[0-9.]*/circle diameter=2019543.21/' -e 's/step 15/step 30/' inputs/thick.deck >"$scratch/absurd.deck"
@@ -60,7 +60,7 @@ absurd() {
   run 1 --out "$scratch/out" "$scratch/absurd.deck" && says "error: speed 0 rad/s, crank" || return 1
   ! grep -qi "nan\|inf" "$scratch/out/absurd/frequencies.dat" || { echo "not a number in the table"; return 1; }
 }
-check "masses that rounding eats up are failed rows" absurd
+check "masses lost to rounding give failed rows" absurd
 
 # A force beyond all mechanics: waves so short that their number is too large for an integer.
 cat >"$scratch/force.deck" <<'END_OF_DECK'
@@ -84,7 +84,7 @@ END_OF_DECK
 crushed() {
   run 1 --out "$scratch/out" "$scratch/force.deck" && says "error: speed 0 rad/s, crank 0 deg"
 }
-check "a force that crushes all links is a failed row" crushed
+check "a force that crushes all links gives failed rows" crushed
 
 # Bars soft in shear, pressed down at B: at 30 and 60 degrees by more than the follower's kGA.
 crushed_deck() {
@@ -118,7 +118,7 @@ above_shear_stiffness() {
   done
   [ "$(grep -vc -e '^#' -e '^$' "$scratch/out/crushed/frequencies.dat")" -eq 2 ] || { echo "wrong number of rows"; return 1; }
 }
-check "a compression above kGA is a failed row" above_shear_stiffness accuracy=1e-8 auto
+check "a compression above kGA gives a failed row" above_shear_stiffness accuracy=1e-8 auto
 check "a compression above kGA on a mesh" above_shear_stiffness elements=2 auto
 check "a compression above kGA on a long mesh" above_shear_stiffness elements=50 auto
 check "a compression above kGA by a nodal solver" above_shear_stiffness elements=2 dense

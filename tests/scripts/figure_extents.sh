@@ -85,7 +85,7 @@ seen() {
   python3 -B tests/support/figure_extents.py check "$scratch/seen.svg"
 }
 
-check "extents of figures are seen" seen
+check "extents of figures are measured" seen
 check "extents of figures in mm kg s" in_units mm_kg_s mm kg s
 check "extents of figures in m kg s" in_units m_kg_s m kg s
 check "extents of figures in in lbm s" in_units in_lbm_s in lbm s

@@ -167,7 +167,7 @@ without_program() {
   run 0 --quiet --out "$scratch/out" inputs/rigid.deck || return 1
   FLEXMECH= timeout 300 sh "$scratch/share/draw_figures.sh" "$scratch/out/rigid" >"$scratch/stdout" 2>"$scratch/stderr" ||
     { cat "$scratch/stderr"; return 1; }
-  says "linkages are drawn only with the program flexmech" && grep -q /motion.png "$scratch/stdout" || return 1
+  says "drawing a linkage needs echo.deck and the program flexmech" && grep -q /motion.png "$scratch/stdout" || return 1
   ! grep -q -e special_positions -e coupler_curve "$scratch/stdout" || { echo "it has drawn a linkage"; return 1; }
   for other in /nowhere /tmp /bin/true; do
     FLEXMECH=$other sh plots/draw_figures.sh "$scratch/out/rigid" >"$scratch/stdout" 2>"$scratch/stderr"
@@ -224,11 +224,11 @@ root=$(pwd)
 check "figures of inputs/rigid.deck" rigid_figures
 check "animations of inputs/rigid.deck" rigid_animations
 check "figures of failed rows, of one position, of names with apostrophes" odd_tables
-check "a mode swings" modes_swing
+check "a mode is animated" modes_swing
 check "nothing to animate" nothing_to_animate
 check "a linkage is placed by the program" placed
 check "a linkage at its dead point" dead_point
-check "no program, no linkage" without_program
+check "no drawing of a linkage without the program" without_program
 check "links with odd names are placed" odd_names
 check "pins that meet" meeting_pins
 check "installed scripts" installed_plots

@@ -16,13 +16,13 @@ stopped() {
   export awaited
   interrupted "$1" "$2" "$deck" --format csv || return 1
   unset awaited
-  says "beam.deck: interrupted; its earlier results are untouched; --resume goes on from what it has computed" || return 1
+  says "beam.deck: interrupted; its earlier results are untouched; --resume continues from what it has computed" || return 1
   [ -s "$2/beam/resume.part" ] || { echo "no resume.part"; return 1; }
   rm "$2/beam/resume.part"
 }
 
 check "Ctrl-C leaves the earlier results" eval 'stopped INT "$out" && same "$out" "$scratch/before"'
-check "a request to end likewise" eval 'stopped TERM "$out" && same "$out" "$scratch/before"'
+check "SIGTERM likewise" eval 'stopped TERM "$out" && same "$out" "$scratch/before"'
 check "a new folder holds nothing else" eval 'stopped INT "$scratch/new" && rmdir "$scratch/new/beam" "$scratch/new"'
 
 # Nothing is kept of a run without frequencies: motion is found in no time, and only its tables take long.
@@ -36,7 +36,7 @@ long_motion() {
   ! says "--resume" >/dev/null || { echo "it speaks of --resume"; return 1; }
   absent "$scratch/new"
 }
-check "no new folder is left where nothing was computed that takes time" long_motion
+check "no new folder is left by a short run" long_motion
 
 # Next to a dead point a turn needs so many samples that the harmonics of many speeds take minutes.
 cat >"$scratch/balance.deck" <<'END_OF_DECK'

@@ -115,7 +115,7 @@ check "a deck finds the library from elsewhere" from_elsewhere
 check "the echo of such a deck stands alone" echo_alone
 check "a strip of the library by hand" by_hand
 check "an installed program finds its library" installed
-check "a file of the user's goes before the library" own_file_first
-check "a file that the library does not have" not_there
+check "a file of the user overrides the library" own_file_first
+check "a file not in the library" not_there
 check "materials of the library" materials
 check "strips are what their names say" strips

@@ -145,4 +145,4 @@ for shell in zsh fish; do
   fi
 done
 check "completion of an unknown shell" refuses
-check "make install puts manual page and completions in their places" install_puts_them
+check "make install installs manual page and completions" install_puts_them

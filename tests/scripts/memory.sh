@@ -72,4 +72,4 @@ check "results that do not fit" results_deck
 check "a long mesh that does not fit" long_mesh_deck
 check "a long mesh that just fits" just_fits
 check "shapes that do not fit" shapes_deck
-check "memory is for every thread" threads_count
+check "memory is needed for every thread" threads_count

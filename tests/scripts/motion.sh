@@ -41,7 +41,7 @@ swing() {
   [ "$(column time "$table" | tail -n 1)" = "1.0000000000000000E+000" ] || { echo "the last row is not at the end"; return 1; }
   awk '/^ / { if ($12 < 0) $12 = -$12; if ($12 > 1e-11 || $13 > 1e-14 || $12 + 0 != $12) { print "energy or closure:", $12, $13; exit 1 }
     rows[$NF]++ } END { if (!rows["open"] || !rows["crossed"]) { print "one branch only"; exit 1 } }' "$table" || return 1
-  grep -q "^motion: at t=0.13351155153[0-9]* s the crank turns back at 101.114756547 deg; the linkage goes over from open to crossed$" \
+  grep -q "^motion: at t=0.13351155153[0-9]* s the crank turns back at 101.114756547 deg; the linkage changes from open to crossed$" \
     "$out/swing/run.log" || { echo "no turning point in the log"; grep motion "$out/swing/run.log"; return 1; }
   [ "$(grep -c 'the crank turns back' "$out/swing/run.log")" -eq 5 ] || { echo "not 5 turning points"; return 1; }
 }
@@ -80,7 +80,7 @@ line() {
   run 1 --json --out "$out" "$scratch/line.deck" || return 1
   for file in "$scratch/stdout" "$out/line/summary.json"; do
     grep -q '"stage": "motion", "speed": null, "crank": 179.9999[0-9]*, "time": 0.29178574[0-9]*, "reason": "change point' "$file" ||
-      { echo "not told as JSON"; return 1; }
+      { echo "not reported as JSON"; return 1; }
   done
 }
 check "a change point ends a motion by name" line
@@ -98,7 +98,7 @@ varied() {
   same "$out/varied" "$scratch/again/varied" || return 1
   [ "$(column start "$out/varied/motion.dat" | wc -l)" -eq 65 ] || { echo "not 13 times 5 rows"; return 1; }
 }
-check "motions of variants, whatever the threads" varied
+check "motions of variants, for any number of threads" varied
 
 swinging "REPORT motion crank=60 speed=7 end=100000 step=1" >"$scratch/long.deck"
 long() {

@@ -8,12 +8,12 @@ motion_deck >"$deck"
 file_in_the_way() {
   mkdir "$scratch/a"
   echo mine >"$scratch/a/four"
-  run 2 --out "$scratch/a" "$deck" && says "a/four: error: this folder cannot be made" && [ "$(cat "$scratch/a/four")" = mine ]
+  run 2 --out "$scratch/a" "$deck" && says "a/four: error: this folder cannot be created" && [ "$(cat "$scratch/a/four")" = mine ]
 }
 
 file_above_in_the_way() {
   echo mine >"$scratch/b"
-  run 2 --out "$scratch/b" "$deck" && says "b/four: error: this folder cannot be made" && [ "$(cat "$scratch/b")" = mine ]
+  run 2 --out "$scratch/b" "$deck" && says "b/four: error: this folder cannot be created" && [ "$(cat "$scratch/b")" = mine ]
 }
 
 folder_for_a_table() {
@@ -54,7 +54,7 @@ names_of_folders() {
   [ "$(ls -A "$scratch/h")" = inside ] && [ -z "$(ls -A "$scratch/h/inside")" ] || { echo "something was written"; return 1; }
 }
 
-check "decks whose names leave no name for a folder" names_of_folders
+check "deck names that give no folder name" names_of_folders
 check "a file where the folder should be" file_in_the_way
 check "a file where the folder above should be" file_above_in_the_way
 check "a folder where a table should be" folder_for_a_table
@@ -63,5 +63,5 @@ if [ "$(id -u)" -eq 0 ]; then
 else
   check "a folder that cannot be written to" not_writable
 fi
-check "tables of before that are no longer asked for go, other files stay" tables_of_before
-check "a refused deck leaves the tables of before" refused_deck_leaves_tables
+check "earlier tables no longer requested are removed, other files stay" tables_of_before
+check "a refused deck leaves earlier tables" refused_deck_leaves_tables

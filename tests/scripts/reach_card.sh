@@ -33,7 +33,7 @@ check "a card for a ground turned to the left" reach e "50 20" "-50 20" 90 120 6
 check "a card with the user's step" eval 'reach f "0 0" "100 0" 80 90 75 "CRANK 90 to 180 step 0.25" && echo "$card" | grep -q "step 0.25$"'
 check "a card for angles far from a turn" reach g "0 0" "100 0" 80 90 75 "CRANK 3690 to 3700 step 1 180"
 check "a card for a narrow interval" reach h "0 0" "100 0" 80 10.001 10 "CRANK 0 to 350 step 10"
-check "a card for a range down" reach i "0 0" "100 0" 80 90 75 "CRANK 180 to -180 step -20"
+check "a card for a descending range" reach i "0 0" "100 0" 80 90 75 "CRANK 180 to -180 step -20"
 
 # The ends of the card keep off the dead points, where beams have no frequencies.
 beams() {

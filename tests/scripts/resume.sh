@@ -69,7 +69,7 @@ resumed() {
   folder=$2
   shift 2
   run 0 --out "$folder" --format csv --resume "$@" "$scratch/$name.deck" || return 1
-  says "$name.deck: went on from " && says " of positions that an earlier run had computed" && complete "$folder" "$name"
+  says "$name.deck: resumed with " && says " of positions from an earlier run" && complete "$folder" "$name"
 }
 
 killed_and_resumed() {
@@ -78,8 +78,8 @@ killed_and_resumed() {
   cp -r "$scratch/killed" "$scratch/again"
   resumed "$1" "$scratch/again" "$4" "$5"
 }
-check "a killed sweep goes on" killed_and_resumed sweep --threads 1 --threads 2
-check "killed variants go on" killed_and_resumed vary --threads 2 --threads 1
+check "a killed sweep continues" killed_and_resumed sweep --threads 1 --threads 2
+check "killed variants continue" killed_and_resumed vary --threads 2 --threads 1
 
 # from_journal NAME COMMAND...: goes on with what a command makes of the journal of the killed run.
 from_journal() {
@@ -97,16 +97,16 @@ garbage() {
   head -c 5000 "$program" >>"$1"
 }
 check "a journal that was cut off" from_journal sweep torn
-check "a journal with something behind it" from_journal vary garbage
+check "a journal with bytes after its end" from_journal vary garbage
 
 blocks_told() {
-  sed -n 's/.*went on from \([0-9]*\) block.*/\1/p' "$scratch/stderr"
+  sed -n 's/.*resumed with \([0-9]*\) block.*/\1/p' "$scratch/stderr"
 }
 interrupted_and_resumed() {
-  killed INT "$scratch/interrupted" "$scratch/vary.deck" --format csv && says "; --resume goes on from what it has computed" || return 1
+  killed INT "$scratch/interrupted" "$scratch/vary.deck" --format csv && says "; --resume continues from what it has computed" || return 1
   resumed vary "$scratch/interrupted" && [ "$(blocks_told)" -gt 0 ]
 }
-check "an interrupted run goes on" interrupted_and_resumed
+check "an interrupted run continues" interrupted_and_resumed
 
 # Killed, killed again while it goes on, and done at the third time, which knows at least the blocks that the second one did.
 twice() {
@@ -117,14 +117,14 @@ twice() {
   [ "$(wc -c <"$scratch/again/sweep/resume.part")" -ge "$first" ] || { echo "the journal has become shorter"; return 1; }
   resumed sweep "$scratch/again"
 }
-check "twice disturbed" twice
+check "interrupted twice" twice
 
 changed() {
   rm -rf "$scratch/again"
   cp -r "$scratch/killed" "$scratch/again"
   beam_deck "CRANK 0" "REPORT frequencies" >"$scratch/changed/sweep.deck"
   run 0 --out "$scratch/again" --resume "$scratch/changed/sweep.deck" || return 1
-  says "sweep.deck: the earlier run was of another deck, or by another program; this one has begun anew" || return 1
+  says "sweep.deck: the earlier run was of another deck or by another program; this one started afresh" || return 1
   absent "$scratch/again/sweep/resume.part"
 }
 mkdir "$scratch/changed"
@@ -132,14 +132,14 @@ check "the journal of another deck is not used" changed
 
 no_journal() {
   run 0 --out "$scratch/fresh" --resume "$scratch/changed/sweep.deck" || return 1
-  says "sweep.deck: no earlier run has left anything to go on from; this one has begun anew" || return 1
+  says "sweep.deck: no earlier run left anything to resume; this one started afresh" || return 1
   absent "$scratch/fresh/sweep/resume.part"
 }
-check "no journal to go on from" no_journal
+check "no journal to resume from" no_journal
 
 not_asked() {
   rm -rf "$scratch/again"
   cp -r "$scratch/killed" "$scratch/again"
   run 0 --out "$scratch/again" "$scratch/changed/sweep.deck" && silent && absent "$scratch/again/sweep/resume.part"
 }
-check "without --resume the journal goes" not_asked
+check "without --resume the journal is removed" not_asked

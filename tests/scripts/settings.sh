@@ -182,10 +182,10 @@ unreadable() {
 
 check "a deck in pieces gives the tables of the whole" same_as_the_whole
 check "the echo of a deck in pieces stands alone" echo_stands_alone
-check "--set goes before SET" overridden
-check "--set goes before VARY" overridden_vary
-check "--set is for all decks" set_for_all
-check "--set of a name the deck has not" set_unknown
+check "--set overrides SET" overridden
+check "--set overrides VARY" overridden_vary
+check "--set applies to all decks" set_for_all
+check "--set of an unknown name" set_unknown
 check "--set of a wrong value" set_wrong_value
 check "--set malformed" malformed
 check "--set twice" refused "option --set gives 'l' twice: L=1 and l=2" --set L=1 --set l=2
@@ -193,8 +193,8 @@ check "--set without its value" eval 'run 2 --set && says "option --set needs a 
 check "warnings name the file that is included" warnings_name_their_file
 check "INCLUDE in standard input" standard_input
 check "50 levels of files, not 51" nesting
-check "files without end" many_files
-check "a loop by way of a link" loop_by_link
+check "includes without end" many_files
+check "a loop through a symbolic link" loop_by_link
 if [ "$(id -u)" -eq 0 ]; then
   skip "a file that cannot be read" "root reads everything"
 else

@@ -126,7 +126,7 @@ bad_command_line() {
 
 no_folder() {
   run 2 --json --out "$scratch/good.deck" "$scratch/good.deck" && tells "$scratch/stdout" \
-    'd["decks"][0]["exit_status"] == 2 and "this folder cannot be made" in d["decks"][0]["errors"][0]["message"]' &&
+    'd["decks"][0]["exit_status"] == 2 and "this folder cannot be created" in d["decks"][0]["errors"][0]["message"]' &&
     run 2 --json --out "$out" "$scratch/good.deck" "$scratch/good.deck" && tells "$scratch/stdout" \
     '[deck["exit_status"] for deck in d["decks"]] == [None, 2] and "the same folder" in d["decks"][1]["errors"][0]["message"]'
 }
@@ -134,10 +134,10 @@ no_folder() {
 check "summary.json of every deck in inputs/" inputs
 check "failures in summary.json" failures
 check "warnings in summary.json" warnings
-check "the same summary whatever the folder and the threads" same_bytes
+check "the same summary for any folder and number of threads" same_bytes
 check "--json of refused decks" refused
 check "--json of decks that are run" run_decks
 check "--json with --check" only_checked
 check "nothing on standard output with --quiet" no_json
 check "--json and a bad command line" bad_command_line
-check "--json and a folder that cannot be" no_folder
+check "--json and a folder that cannot be created" no_folder

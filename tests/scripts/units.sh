@@ -35,9 +35,9 @@ units_of_tables() {
     [ "$found" = "${expected#*:} " ] || { echo "${expected%%:*} has $found"; return 1; }
   done
   grep -q '^force at pin B: 3, 1 N$' "$out/rpm/run.log" || { echo "run.log"; return 1; }
-  grep -q '^# loads from outside: force 3 1 N at pin B$' "$out/rpm/reactions.dat" || { echo "remark"; return 1; }
+  grep -q '^# external loads: force 3 1 N at pin B$' "$out/rpm/reactions.dat" || { echo "remark"; return 1; }
 }
-check "forces, torques and energies in the units of people" units_of_tables
+check "forces, torques and energies in customary units" units_of_tables
 
 # The same deck with all units of its results chosen: the same quantities, to 12 digits.
 chosen() {

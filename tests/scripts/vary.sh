@@ -92,13 +92,13 @@ set_one() {
   run 0 --out "$scratch/set" --format csv --set b=280.5 --set c=270 "$scratch/grid.deck" && silent &&
     same_tables "$scratch/plain/280.5_270" "$scratch/set/grid"
 }
-check "--set in place of all that varies makes a plain deck" set_one
+check "--set of all varied values makes a plain deck" set_one
 set_half() {
   run 0 --out "$scratch/half" --set c=270 "$scratch/grid.deck" && silent || return 1
   grep -q '^# *b  *speed  *crank  *f1' "$scratch/half/grid/frequencies.dat" || { echo "columns"; return 1; }
   [ "$(grep -cv -e '^#' -e '^$' "$scratch/half/grid/frequencies.dat")" -eq 20 ]
 }
-check "--set in place of one leaves the other" set_half
+check "--set of one varied value leaves the other" set_half
 
 summary_counts() {
   python3 -B - "$out/grid/summary.json" <<'END_OF_PYTHON'
@@ -129,7 +129,7 @@ assert failure["parameters"] == {"c": 100}, failure
 assert failure["crank"] == 0 and summary["exit_status"] == 1, failure
 END_OF_PYTHON
 }
-check "failed rows name what varies" failed_rows
+check "failed rows name the varied values" failed_rows
 
 refused() {
   varied "SET c 266.7" "VARY b 280 -9 900 -10 270" "CRANK 0 90" "REPORT kinematics" >"$scratch/refused.deck"
@@ -182,7 +182,7 @@ unreachable_rows() {
     cmp "$scratch/reachable.rows" "$scratch/unreachable.rows" || return 1
   done
 }
-check "whatever fails, and whatever the threads" unreachable_rows
+check "whatever fails, and for any number of threads" unreachable_rows
 
 first_unreachable() {
   sed 's/^VARY.*/VARY b 900 280/' "$scratch/unreachable.deck" >"$scratch/first.deck"
@@ -200,7 +200,7 @@ none_reachable() {
   run 2 --out "$scratch/nothing" "$scratch/none.deck" && says "error: with b=900: the linkage closes at no crank angle" &&
     says "2 of 2 variants are refused" && absent "$scratch/nothing"
 }
-check "no variant that reaches all: the deck is refused" none_reachable
+check "no variant reaches all positions: the deck is refused" none_reachable
 
 reach_is_checked() {
   run 0 --check --out "$scratch/nothing" "$scratch/unreachable.deck" && says "rows will be marked as failed" && absent "$scratch/nothing"
@@ -225,7 +225,7 @@ for warnings in summary["warnings"], document["decks"][0]["warnings"]:
     assert warning["message"].startswith(sys.argv[3]) and warning["variants"] == 11 and warning["grade"] == "doubt", warning
 END_OF_PYTHON
 }
-check "one warning a kind, with the number of variants" one_warning
+check "one warning per kind, with the number of variants" one_warning
 
 many() {
   varied "SET c 266.7" "VARY b 270 to 280 step 0.01" "CRANK 0 90" "REPORT frequencies" >"$scratch/many.deck"
@@ -258,4 +258,4 @@ assert [float(row[1]) for row in plain[:11]] == [float(f"0.{i}") for i in range(
 assert [row[1:] for row in varied if float(row[0]) == 270.85] == plain, "rows differ"
 END_OF_PYTHON
 }
-check "ranges have the decimals of a person" decimals
+check "ranges have the decimals as written by hand" decimals

@@ -26,7 +26,7 @@ stocky_as_thick_beams() {
 }
 
 wave_speed() {
-  beam_deck "CRANK 0" "REPORT frequencies" | sed 's/7.8e-9/7800/' | warned wave_speed "sound would run through 'steel' at"
+  beam_deck "CRANK 0" "REPORT frequencies" | sed 's/7.8e-9/7800/' | warned wave_speed "sound would travel through 'steel' at"
 }
 
 # What makes the frequencies meaningless comes first, on the screen, in the log and before the line of success.
@@ -35,7 +35,7 @@ meaningless() {
   run 0 --out "$scratch/out" "$scratch/nonsense.deck" && says "frequencies computed with it mean nothing" || return 1
   grep ' warning: ' "$scratch/stderr" | head -n 1 | grep -q "through 'steel'" || { echo "not the first on the screen"; return 1; }
   grep '^warning: ' "$scratch/out/nonsense/run.log" | head -n 1 | grep -q "through 'steel'" || { echo "not the first in the log"; return 1; }
-  head -n 1 "$scratch/stdout" | grep -q "^nonsense: WARNING: sound would run through 'steel'" || { echo "no WARNING"; return 1; }
+  head -n 1 "$scratch/stdout" | grep -q "^nonsense: WARNING: sound would travel through 'steel'" || { echo "no WARNING"; return 1; }
   run 0 --quiet --out "$scratch/out" "$scratch/nonsense.deck" && silent && [ ! -s "$scratch/stdout" ]
 }
 
@@ -72,7 +72,7 @@ divergence() {
 
 check "a stocky link" stocky
 check "no stocky link with rotary inertia and shear" stocky_as_thick_beams
-check "a speed of sound of no solid" wave_speed
+check "a wave speed that no solid has" wave_speed
 check "a deflection above 1 %" deflection
 check "units that make the frequencies meaningless" meaningless
 check "loads that make the frequencies meaningless" meaningless_deflection

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the debug build on thousands of odd decks, and looks at how it ends and at what it leaves behind.
 
-    fuzz.py [COUNT [SEED]]     10,000 decks of seed 1 unless told otherwise
+    fuzz.py [COUNT [SEED]]     10,000 decks of seed 1 by default
 
 The same seed makes the same decks on any machine. A deck that fails is kept in build/fuzz/ with the reason beside it.
 Exit status 1 when one has failed.
@@ -84,7 +84,7 @@ def fault_of_message(words, stderr):
     lines = stderr.split("\n")
     for i, line in enumerate(lines):
         place = PLACE.match(line)
-        if not place or "is no part of a text" in line:
+        if not place or "does not belong in a text" in line:
             continue
         missing = i + 1 == len(lines) or " | " not in lines[i + 1]
         # Something missing from the deck has no word to point at.
@@ -93,7 +93,7 @@ def fault_of_message(words, stderr):
         if not missing and not re.match(r" *\| *\^+$", lines[i + 2] if i + 2 < len(lines) else ""):
             return f"no caret below: {line}"
     if not any(re.match(r"flexmech: error: .", line) or re.match(r".*: error: .", line) for line in lines):
-        return f"no error is told: {stderr[:200]}"
+        return f"no error is reported: {stderr[:200]}"
     if "DECK" in words and not re.search(r"^(?:d\.deck|part\.deck|missing\.deck|<command line>|flexmech):", stderr, re.MULTILINE):
         return "the deck is not named"
     return None
@@ -164,7 +164,7 @@ def fault_of_run(words, run, deck):
     if run.returncode == 2:
         return fault_of_message(words, stderr)
     if run.returncode == 1 and not re.search(r"^d\.deck: error: .*crank \S+ deg: .", stderr, re.MULTILINE):
-        return f"status 1, but no failure is told: {stderr[-400:]}"
+        return f"status 1, but no failure is reported: {stderr[-400:]}"
     return None
 
 

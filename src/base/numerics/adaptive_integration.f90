@@ -173,7 +173,7 @@ contains
     if (c_associated(integrator%stepper) .and. c_associated(integrator%control) .and. &
       c_associated(integrator%evolution)) return
     call close_integrator(integrator)
-    call set_error(error, error_of_numerics, "there is no memory for the integration")
+    call set_error(error, error_of_numerics, "not enough memory for the integration")
   end subroutine open_integrator
 
   !> The method of order 8, read from the library's variable.

@@ -173,7 +173,7 @@ contains
           "here"//comma_hint(word%text)//"; expected "//dimension_name(dimension))
       else if (word%text(length + 1:length + 1) == ":" .or. index(word%text, "..") > 0) then
         call set_error(error, error_of_input, "'"//word%text//"' is not a number (a range "// &
-          "reads: a to b step s); expected "//dimension_name(dimension))
+          "is written: a to b step s); expected "//dimension_name(dimension))
       else if (word%text == "1/min") then
         call set_error(error, error_of_input, "'1/min' is not a unit here (did you mean "// &
           "'rpm'?); expected "//dimension_name(dimension))

@@ -32,10 +32,10 @@ module card_table
   !> The forms of a card are neighbours, the record without a form first.
   type(card_kind_t), parameter :: card_kinds(*) = [ &
     card_kind_t("TITLE", is_single=.true., pattern="TITLE text", &
-      help="stands at the head of tables and figures"), &
+      help="the title of tables and figures"), &
     card_kind_t("UNITS", is_single=.true., least=3, most=3, &
       pattern="UNITS length mass time [force=] [torque=] [energy=] [speed=]", &
-      help="what bare numbers mean; required. The keys: units of results"), &
+      help="the units of bare numbers; required. The keys set the units of results"), &
     card_kind_t("INCLUDE", least=1, most=1, pattern="INCLUDE file", &
       help="the cards of another file"), &
     card_kind_t("SET", least=2, most=2, pattern="SET name value", help="a value for $name"), &
@@ -66,10 +66,10 @@ module card_table
     card_kind_t("SECTION", "channel", least=2, most=2, pattern= &
       "SECTION name channel depth= width= web= flange= plane=web|flanges [shear_coefficient=]", &
       choices="web flanges", help= &
-      "as the I section; plane=web takes the forces to act through its shear centre"), &
+      "like the I section; plane=web assumes forces through its shear centre"), &
     card_kind_t("SECTION", "general", least=2, most=2, &
       pattern="SECTION name general A= I= [depth=] [shear_coefficient=]", &
-      help="I about the axis normal to the plane; the depth serves a warning only"), &
+      help="I about the axis normal to the plane; the depth is used only for a warning"), &
     card_kind_t("GROUND", least=3, most=3, pattern="GROUND name x y", help="a fixed pivot"), &
     card_kind_t("LINK", least=3, most=4, &
       pattern="LINK name pin pin [rigid] length= [material= section=] [mass= inertia= "// &
@@ -99,7 +99,7 @@ module card_table
     card_kind_t("MOTOR", is_single=.true., pattern="MOTOR torque=, or MOTOR stall= noload=", &
       help="what turns the driven link in REPORT motion"), &
     card_kind_t("LOAD", least=1, most=1, pattern="LOAD link [torque=] [damping=]", &
-      help="what a link has to overcome in REPORT motion"), &
+      help="the resistance at a link in REPORT motion"), &
     card_kind_t("CRANK", is_single=.true., is_list=.true., least=1, most=many, &
       pattern="CRANK a to b step s, or a list of angles", help="the positions"), &
     card_kind_t("SPEED", is_single=.true., is_list=.true., least=1, most=many, &
@@ -107,18 +107,18 @@ module card_table
       help="of the crank; alpha is its angular acceleration at all of them"), &
     card_kind_t("INERTIA", is_single=.true., least=1, most=1, &
       pattern="INERTIA lumped|distributed", choices="lumped distributed", &
-      help="how the mass of links makes loads: on the nodes of the mesh, or along the links"), &
+      help="where inertia loads act: at the nodes of the mesh, or along the links"), &
     card_kind_t("EFFECTS", is_single=.true., least=1, most=4, &
       pattern="EFFECTS [static|axial] [rotary] [shear]", choices="static axial rotary shear", &
       default="static|axial", &
-      help="what frequencies take account of; axial if anything moves or loads the linkage"), &
+      help="what frequencies account for; axial if the linkage moves or is loaded"), &
     card_kind_t("SOLVER", is_single=.true., least=1, most=1, &
       pattern="SOLVER auto|deformation|dense|band", choices="auto deformation dense band", &
       default="auto", help="how frequencies are found; auto is deformation"), &
     card_kind_t("MODES", is_single=.true., least=1, most=1, pattern="MODES number", default="3", &
       help="how many of the lowest frequencies"), &
     card_kind_t("REPORT", least=1, most=1, pattern="REPORT name ...", &
-      help="a table that is wanted; required, one or more")]
+      help="a table to be written; at least one is required")]
 
 contains
 

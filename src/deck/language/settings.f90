@@ -159,7 +159,7 @@ contains
       end do
       if (next(at) > 0 .and. visit(at) == i) then
         call add_error(diagnostics, settings%list(at)%value, "'"//settings%list(at)%name%text// &
-          "' stands for itself: "//chain_text(settings, next, at))
+          "' is defined by itself: "//chain_text(settings, next, at))
         root = 0
       else if (next(at) > 0) then
         root = settings%list(at)%root
@@ -210,12 +210,12 @@ contains
 
     number = 0
     if (word%text == "$") then
-      call add_error(diagnostics, word, "a name belongs to this '$': that of a SET or VARY card")
+      call add_error(diagnostics, word, "the name of a SET or VARY card must follow this '$'")
       return
     else if (index(word%text, "$") /= 1 .or. .not. is_name(word%text(2:))) then
       call add_error(diagnostics, word, &
-        "'"//word%text//"' has a '$' with something joined to it; '$name' is a whole value, "// &
-        "and its sign and its unit stand in the value, as in SET name -100mm")
+        "'"//word%text//"' joins something to a '$'; '$name' is a whole value: write its sign "// &
+        "and unit in the value, as in SET name -100mm")
       return
     end if
     number = find_name(settings%names, word%text(2:))
@@ -246,7 +246,7 @@ contains
       call read_unit(name(length + 1:), dimension_none, measure, error)
       if (allocated(error)) cycle
       hint = "; '$"//name(:length)// &
-        "' is a whole value, and its unit stands in the value, as in SET "//name(:length)// &
+        "' is a whole value: write its unit in the value, as in SET "//name(:length)// &
         " 100"//name(length + 1:)
       return
     end do

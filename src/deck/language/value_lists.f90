@@ -345,7 +345,7 @@ contains
     fine = size(words) >= i + 4
     if (fine) fine = same_word(words(i + 3)%text, "step")
     if (.not. fine) then
-      call add_error(diagnostics, words(i + 1), "a range of "//noun//"s reads: a to b step s")
+      call add_error(diagnostics, words(i + 1), "a range of "//noun//"s is written: a to b step s")
       return
     end if
     call read_value(words(i + 2), dimension, bare, diagnostics, last, fine)

@@ -55,8 +55,8 @@ contains
     errors = error_count(diagnostics)
     if (is_column(variation%name%text, cards, reports)) call add_error(diagnostics, &
       variation%name, "'"//variation%name%text// &
-      "' is a column of the tables; what varies needs a name of its own, for it becomes a "// &
-      "column, too")
+      "' is already a column of the tables; choose another name, since a VARY becomes a "// &
+      "column too")
     call take_unit(words, diagnostics, variation%unit, fine)
     if (.not. fine) return
     call read_values(words, dimension_none, si_units(), "value", diagnostics, list)
@@ -128,8 +128,8 @@ contains
       fine = .false.
       if (len(mine%text) == 0) mine = words(i)
       if (len(first%text) == 0) first = words(1)
-      call add_error(diagnostics, mine, "all values of a VARY have the same unit, or none", first, &
-        "another one is here")
+      call add_error(diagnostics, mine, &
+        "all values of a VARY must have the same unit, or none", first, "another one is here")
       return
     end do
   end subroutine take_unit

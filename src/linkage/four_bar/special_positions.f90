@@ -11,17 +11,17 @@ module special_positions
 
   public :: special_position_t, find_special_positions, find_change_points, event_names
   public :: crank_limit_stretched, crank_limit_folded, follower_limit_stretched, &
-    follower_limit_folded, transmission_least, transmission_most, change_point
+    follower_limit_folded, transmission_smallest, transmission_largest, change_point
 
   !> Crank limit: coupler and follower are in line, stretched out or folded; the crank turns back,
   !! and the linkage may change to the other branch. Follower limit: the same of crank and coupler;
   !! the follower turns back. Change point: all links are in line.
   integer, parameter :: crank_limit_stretched = 1, crank_limit_folded = 2, &
-    follower_limit_stretched = 3, follower_limit_folded = 4, transmission_least = 5, &
-    transmission_most = 6, change_point = 7
+    follower_limit_stretched = 3, follower_limit_folded = 4, transmission_smallest = 5, &
+    transmission_largest = 6, change_point = 7
   character(len=*), parameter :: event_names(7) = [character(len=24) :: "crank_limit_stretched", &
     "crank_limit_folded", "follower_limit_stretched", "follower_limit_folded", &
-    "transmission_least", "transmission_most", "change_point"]
+    "transmission_smallest", "transmission_largest", "change_point"]
 
   !> A special position of one branch; angles are from the global x axis.
   type :: special_position_t
@@ -55,9 +55,9 @@ contains
     list = [at_stations(bar, limits, side, merge(crank_limit_folded, crank_limit_stretched, &
       limits%posture == posture_folded)), follower_limits(ground, length, side)]
     limits = least_stations(bar)
-    list = [list, at_stations(bar, limits, side, spread(transmission_least, 1, size(limits)))]
+    list = [list, at_stations(bar, limits, side, spread(transmission_smallest, 1, size(limits)))]
     limits = most_stations(bar)
-    list = [list, at_stations(bar, limits, side, spread(transmission_most, 1, size(limits))), &
+    list = [list, at_stations(bar, limits, side, spread(transmission_largest, 1, size(limits))), &
       find_change_points(ground, length)]
   end function find_special_positions
 

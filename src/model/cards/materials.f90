@@ -83,11 +83,11 @@ contains
 
     if (wave_speed >= slowest_wave .and. wave_speed <= fastest_wave) return
     amount = max(slowest_wave/wave_speed, wave_speed/fastest_wave)
-    sound = "sound would run through '"//material%name%text//"' at "//to_string(wave_speed)// &
+    sound = "sound would travel through '"//material%name%text//"' at "//to_string(wave_speed)// &
       " m/s (lead: 1200, steel: 5100, diamond: 17000)"
     if (wave_speed < impossible_slow_wave .or. wave_speed > impossible_fast_wave) then
-      call add_warning(diagnostics, material%name, sound//": the unit of E or density has "// &
-        "slipped, and frequencies computed with it mean nothing", grade=grade_meaningless, &
+      call add_warning(diagnostics, material%name, sound//": the unit of E or density is "// &
+        "wrong, and frequencies computed with it mean nothing", grade=grade_meaningless, &
         amount=amount)
     else
       call add_warning(diagnostics, material%name, sound// &

@@ -67,7 +67,7 @@ contains
     if (runs) call refuse_zero(card, "noload", motor%noload, diagnostics)
     if (.not. (stalls .and. runs) .or. motor%stall*motor%noload >= 0.0_wp) return
     call add_error(diagnostics, card%entries(entry_number(card, "noload"))%value, &
-      "'stall=' and 'noload=' must have the same sign: a motor runs the way that it pulls", &
+      "'stall=' and 'noload=' must have the same sign: a motor turns in the sense of its torque", &
       card%entries(entry_number(card, "stall"))%value, "'stall=' is given here")
   end subroutine read_motor
 
@@ -118,7 +118,7 @@ contains
     if (size(card%words) > 0) resistance%link_name = card%words(1)
     if (known_keys .and. .not. has_key(card, "torque") .and. .not. has_key(card, "damping")) then
       call add_error(diagnostics, card%keyword, &
-        "'torque=' or 'damping=' is missing: this load would be none")
+        "'torque=' or 'damping=' is missing: this load would be zero")
     end if
     call read_entry_quantity(card, "torque", dimension_moment, system, .false., diagnostics, &
       resistance%torque, fine)

@@ -55,7 +55,7 @@ contains
     if (word%line == 0) return
     if (find_name(links, word%text) == 0 .and. find_name(pins, word%text) > 0) then
       link = 0
-      call add_error(diagnostics, word, "'"//word%text//"' is a pin; this card wants a link")
+      call add_error(diagnostics, word, "'"//word%text//"' is a pin; this card takes a link")
     else
       call look_up(word, links, "link", diagnostics, link)
     end if
@@ -102,7 +102,7 @@ contains
         number = find_name(grounds, pin%text)
         if (number > 0) then
           call add_error(diagnostics, pin, &
-            "a load on a fixed pin: it would load nothing but the ground", &
+            "a force on a fixed pin: it would act on nothing but the ground", &
             model%grounds(number)%pin, "'"//pin%text//"' is fixed here")
         else if (find_name(pins, pin%text) > 0) then
           cycle

@@ -34,7 +34,7 @@ contains
     if (accurate == 0) return
     if (divided > 0) then
       call add_error(diagnostics, model%meshes(accurate)%accuracy_word, &
-        "'accuracy=' is for the whole mechanism, and other links have 'elements='", &
+        "'accuracy=' applies to the whole mechanism, and other links have 'elements='", &
         model%meshes(divided)%keyword, "their card is here")
     end if
     call refuse_other_accuracies(diagnostics, model, by_accuracy)
@@ -58,8 +58,8 @@ contains
       associate (mine => model%meshes(i), its => model%meshes(first))
         if (abs(mine%accuracy - its%accuracy) <= 0.0_wp) cycle
         call add_error(diagnostics, mine%accuracy_word, &
-          "'accuracy=' is for the whole mechanism: "//mine%accuracy_word%text//" here is not "// &
-          its%accuracy_word%text//" there", its%accuracy_word, "the other accuracy is here")
+          "'accuracy=' applies to the whole mechanism: "//mine%accuracy_word%text//" here is "// &
+          "not "//its%accuracy_word%text//" there", its%accuracy_word, "the other accuracy is here")
       end associate
     end do
   end subroutine refuse_other_accuracies

@@ -130,7 +130,7 @@ contains
           if (link > 0) then
             model%links(link)%mesh = i
             if (model%links(link)%rigid) call add_error(diagnostics, word, "link '"//word%text// &
-              "' is rigid: it is not divided", model%links(link)%rigid_word, &
+              "' is rigid: it has no elements", model%links(link)%rigid_word, &
               "it is rigid by this word")
           end if
           if (link == 0) for_all = i

@@ -63,7 +63,7 @@ contains
     if (mesh .and. link%mesh == 0) lacking = lacking//" mesh"
     if (len(lacking) == 0) return
     call add_error(diagnostics, link%name, "link '"//link%name%text//"' has no "// &
-      joined(word_list(lacking(2:)), ", no ")//"; the reports asked for need "// &
+      joined(word_list(lacking(2:)), " or ")//"; the reports asked for need "// &
       trim(merge("it  ", "them", index(lacking(2:), " ") == 0))//way_out)
   end subroutine check_link
 

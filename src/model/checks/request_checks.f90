@@ -176,7 +176,7 @@ contains
           if (depth <= 0.0_wp .or. link%length >= least_slenderness*depth) cycle
           call add_warning(diagnostics, link%length_word, "link '"//link%name%text//"' is only "// &
             to_string(link%length/depth, 3)// &
-            " times as long as thick; slender-beam theory wants 10 or "// &
+            " times as long as thick; slender-beam theory needs 10 or "// &
             "more, or EFFECTS rotary shear", amount=depth/link%length)
         end associate
       end associate
@@ -230,7 +230,7 @@ contains
     type(token_t), intent(in) :: keyword
 
     call add_warning(diagnostics, keyword, upper_case(keyword%text)// &
-      " serves REPORT motion only, which is not asked for")
+      " is used by REPORT motion only, which is not asked for")
   end subroutine warn_of_idle_card
 
 end module request_checks

@@ -30,7 +30,7 @@ contains
     rigid = findloc(model%links%rigid, .true., dim=1)
     if (rigid > 0 .and. (model%solver == solver_dense .or. model%solver == solver_band)) then
       call add_error(diagnostics, model%solver_word, &
-        "SOLVER "//lower_case(model%solver_word%text)//" knows no rigid links; "// &
+        "SOLVER "//lower_case(model%solver_word%text)//" does not take rigid links; "// &
         "expected SOLVER auto or deformation", model%links(rigid)%rigid_word, "this link is rigid")
     end if
     call check_masses(diagnostics, model)

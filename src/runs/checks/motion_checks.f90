@@ -39,7 +39,7 @@ contains
       end if
       if (has_moving_mass(mechanism%linkage, mechanism%load_elements)) return
       call add_error(diagnostics, report%keyword, &
-        "nothing that moves has a mass: no force would tell how it moves")
+        "nothing that moves has a mass: forces do not determine its motion")
     end associate
   end subroutine check_motion
 

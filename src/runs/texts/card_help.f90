@@ -23,8 +23,8 @@ contains
     integer :: i
 
     call append_text(buffer, &
-      "A deck has one card a line, in any order. What stands in brackets may be left out;"// &
-      line_feed//"| separates words of which one is written, = is followed by a value."// &
+      "A deck has one card per line, in any order. Items in brackets are optional;"// &
+      line_feed//"| separates alternatives; = is followed by a value."// &
       line_feed//line_feed)
     call find_card_entries(patterns, helps)
     do i = 1, size(patterns)

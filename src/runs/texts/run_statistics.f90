@@ -75,11 +75,11 @@ contains
         to_string(counts%mass_matrices)//", stiffness matrices "// &
         to_string(counts%stiffness_matrices)//", geometric stiffness matrices "// &
         to_string(counts%geometric_matrices)//line_feed
-      text = text//name//": eigenproblems begun from neighbours "// &
+      text = text//name//": eigenproblems started from neighbours "// &
         to_string(counts%extrapolated)//", from a few modes of every link "// &
         to_string(counts%reduced_solutions)//", solved in full "// &
         to_string(counts%full_solutions)//line_feed
-      text = text//name//": factorizations, one an inverse iteration or count, "// &
+      text = text//name//": factorizations, one per inverse iteration or count, "// &
         to_string(counts%factorizations)//", products with a long mesh "// &
         to_string(counts%operator_products)//line_feed
       text = text//name//": proofs that no mode is missing "//to_string(counts%proofs)// &
@@ -90,11 +90,11 @@ contains
       end if
       if (counts%geometric_matrices == 0) text = text//name// &
         ": skipped geometric stiffness: no loads of the motion"//line_feed
-      if (counts%shapes == 0) text = text//name//": skipped mode shapes: none are asked for"// &
+      if (counts%shapes == 0) text = text//name//": skipped mode shapes: none requested"// &
         line_feed
       if (totals%speeds > 1) then
         text = text//name//": skipped kinematics, mass and unit loads of "// &
-          plural(totals%speeds - 1, "more speed")//": those of the first serve"//line_feed
+          plural(totals%speeds - 1, "more speed")//": those of the first are used"//line_feed
       end if
     end associate
   end function frequency_lines
@@ -115,7 +115,7 @@ contains
     end if
     select case (sweep%request%method)
     case (by_orders)
-      text = "orders chosen by the program, one element a link"// &
+      text = "orders chosen by the program, one element per link"// &
         between_masses(sweep%models%continuum)//": "//orders_of(sweep%models%continuum)// &
         ", solved in deformation coordinates: "// &
         to_string(sweep%models%continuum%layout%unknowns)//" unknowns"
@@ -131,7 +131,7 @@ contains
         to_string(mesh%half_bandwidth)
     end select
     if (sweep%request%method /= by_orders) then
-      text = text//line_feed//"errors told by continuous links of orders "// &
+      text = text//line_feed//"errors estimated with continuous links of orders "// &
         orders_of(sweep%models%continuum)//": "// &
         to_string(sweep%models%continuum%layout%unknowns)//" unknowns"
     end if
@@ -149,15 +149,15 @@ contains
     text = ""
     if (largest < 0.0_wp) return
     if (largest > 1.0_wp) then
-      text = "some frequencies written are not known to any digit: see the error columns"//line_feed
+      text = "some frequencies are not known to any digit: see the error columns"//line_feed
       return
     end if
-    text = "every frequency written is within "//to_string(largest, 2)// &
-      " of itself, and none is missing: "
+    text = "estimated relative error of every frequency: at most "//to_string(largest, 2)// &
+      "; none is missing "
     if (any(method == [by_dense, by_band])) then
-      text = text//"by counts of the same matrices"//line_feed
+      text = text//"(counted with the same matrices)"//line_feed
     else
-      text = text//"that is proven"//line_feed
+      text = text//"(proven)"//line_feed
     end if
   end function accuracy_summary
 
