@@ -20,7 +20,7 @@ remark() { printf '%s: %s\n' "$command" "$1" >&2; }
 # On the command line: say how to call it.
 misused() {
     remark "$1"
-    [ "$command" = make ] || printf "say '%s --help' for its options\n" "$command" >&2
+    [ "$command" = make ] || printf "'%s --help' lists the options\n" "$command" >&2
     exit 2
 }
 
@@ -100,7 +100,7 @@ if [ -n "$size" ]; then
 fi
 if [ $figures = animations ]; then
     [ -z "$format$size" ] && [ $errors = no ] ||
-        misused '--animate takes no --format, --size or --errors: an animation is a GIF of a size of its own'
+        misused '--animate takes no --format, --size or --errors: an animation is a GIF of fixed size'
 fi
 if [ "$wanted" = --help ]; then
     help
@@ -261,7 +261,7 @@ plan_kinematics() {
 # The program can place the linkage anew.
 can_place() {
     [ -n "$FLEXMECH" ] && [ -f echo.deck ] && return 0
-    remark 'linkages are drawn only with the program flexmech (FLEXMECH=PATH says where it is) and echo.deck'
+    remark 'drawing a linkage needs echo.deck and the program flexmech (FLEXMECH=PATH names it)'
     return 1
 }
 
@@ -289,7 +289,7 @@ plan_rigid_dynamics() {
     if have points.dat; then
         plan_speeds point_rates points.dat 'vx vy ax ay'
         if ! several points.dat; then
-            remark 'paths of points are drawn only of several positions'
+            remark 'paths of points need several positions'
         elif can_place; then
             add coupler_curve coupler_curve.gp points.dat "$(telling_crank points.dat)" "$balance"
             [ "${format:-png}" = png ] && can_animate && add linkage animate_linkage.gp points.dat points.dat
@@ -311,7 +311,7 @@ plan_rigid_dynamics() {
 
 # Modes swing; a linkage turns, and moves as its motor makes it.
 plan_animations() {
-    can_animate || fail 'this gnuplot has not both of the terminals pngcairo and gif: nothing can be animated'
+    can_animate || fail 'this gnuplot lacks the terminal pngcairo or gif, which animations need'
     have shapes.dat && animate=animate_mode.gp plan_modes
     if have reactions.dat && [ "$(ask 'distinct crank' reactions.dat | wc -l)" -ge 12 ] && can_place; then
         plan_forces animate_forces.gp
@@ -320,7 +320,7 @@ plan_animations() {
     have points.dat && points=points.dat
     have kinematics.dat || return
     if ! several kinematics.dat; then
-        remark 'a linkage is animated if kinematics.dat has more than one position'
+        remark 'a linkage is animated only if kinematics.dat has more than one position'
         return
     fi
     can_place || return
@@ -341,7 +341,7 @@ case $format in
 esac
 case " $(terminals) " in
     *" $terminal "*) ;;
-    *) [ -z "$terminal" ] || fail "this gnuplot cannot write $format: it has no terminal $terminal" ;;
+    *) [ -z "$terminal" ] || fail "this gnuplot cannot write $format: it lacks the terminal $terminal" ;;
 esac
 
 : > "$new/plan"
@@ -369,7 +369,7 @@ if [ ! -s "$new/plan" ]; then
     ! ls ./*.csv > /dev/null 2>&1 || ls ./*.dat > /dev/null 2>&1 ||
         fail "$outdir has tables as comma-separated values only; figures are drawn from plain ones (without --format csv-only)"
     [ $figures = figures ] ||
-        fail "$outdir has nothing to animate: that takes REPORT kinematics (the linkage as it moves) or shapes"
+        fail "$outdir has nothing to animate: animations need REPORT kinematics or shapes"
     fail "$outdir has no table that a figure can be drawn from"
 fi
 

@@ -47,7 +47,7 @@ program bench
   end if
   rounds = merge(short_repetitions, repetitions, short)
   call make_directories(words(2)%text, done, made)
-  if (.not. done) call give_up(words(2)%text//": this folder cannot be made")
+  if (.not. done) call give_up(words(2)%text//": this folder cannot be created")
   call read_base("inputs/exact.deck", base, error)
   call give_up_on(error)
   call read_exact_values("tests/exact/mechanism1.dat", exact, error)

@@ -7,18 +7,18 @@ QUANTILES = (0, 1, 10, 50, 90, 99, 100)
 
 
 class Ratios:
-    """What is told of a frequency over its true error, by kind of deck and by decade of the error."""
+    """The estimated error of a frequency over the true one, by kind of deck and by decade of the error."""
 
     def __init__(self):
         self.by_kind, self.by_decade = {}, {}
 
-    def add(self, kind, told, true):
-        ratio = float(told/true)
+    def add(self, kind, estimate, true):
+        ratio = float(estimate/true)
         self.by_kind.setdefault(kind, []).append(ratio)
         self.by_decade.setdefault(math.floor(math.log10(float(true))), []).append(ratio)
 
     def lines(self):
-        yield "# told/true of the frequencies whose true error is clearly above what is told of the reference"
+        yield "# estimated/true error of the frequencies whose true error clearly exceeds the estimate of the reference"
         yield f"{'# of':<12}{'number':>8}" + "".join(f"{f'{q}%':>9}" for q in QUANTILES)
         everything = [ratio for ratios in self.by_kind.values() for ratio in ratios]
         groups = [("all", everything)] + list(self.by_kind.items())
@@ -67,10 +67,10 @@ class Times:
             self.rows.append((1000*seconds/rows, deck.name, deck.kind, accuracy, rows, deck.modes))
 
     def lines(self, most=20):
-        yield "# processor time a row [ms], by kind: median and largest"
+        yield "# processor time per row [ms], by kind: median and largest"
         for kind in dict.fromkeys(row[2] for row in self.rows):
             times = sorted(row[0] for row in self.rows if row[2] == kind)
             yield f"{kind:<12}{quantile(times, 50):>10.3g}{times[-1]:>10.3g}"
-        yield "# the slowest decks: ms a row, deck, accuracy, rows, modes"
+        yield "# the slowest decks: ms per row, deck, accuracy, rows, modes"
         for time, name, _, accuracy, rows, modes in sorted(self.rows, reverse=True)[:most]:
             yield f"{time:>10.3g}  {name:<18}{accuracy:<8}{rows:>5}{modes:>5}"

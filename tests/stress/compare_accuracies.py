@@ -24,7 +24,7 @@ from verdicts import relative_error
 
 ACCURACIES = "1e-2,1e-5,1e-8,1e-11,1e-13"
 QUADRUPLE = "1e-21"
-CLEARLY = 10  # times what is told of the reference: from there on the difference is the true error
+CLEARLY = 10  # times the estimated error of the reference: from there on the difference is the true error
 
 
 class Comparison:
@@ -102,24 +102,24 @@ def judge_run(found, deck, accuracy, text, run, is_reference):
             found.failed.add(row.failure, deck.name)
     if any(error > Decimal(accuracy) for row in run.rows for error in row.errors):
         # The words after the places are the reason.
-        told = [line.split("warning: ", 1)[1] for line in run.messages.splitlines()
-                if "warning: " in line and "accuracy" in line and "not reached" in line]
-        reason = told[0] if told else "the program does not say so"
+        reasons = [line.split("warning: ", 1)[1] for line in run.messages.splitlines()
+                   if "warning: " in line and "accuracy" in line and "not reached" in line]
+        reason = reasons[0] if reasons else "the program does not say so"
         found.missed.add(reason, deck.name, f"{accuracy}: ")
-        if not told:
-            found.defect(deck, [(accuracy, text)], f"accuracy={accuracy} is not kept, and no warning tells so")
+        if not reasons:
+            found.defect(deck, [(accuracy, text)], f"accuracy={accuracy} is not kept, and no warning says so")
 
 
 def judge_row(found, deck, texts, row, exact):
-    for mode, (value, told) in enumerate(zip(row.frequencies, row.errors)):
-        right, told_right = exact.frequencies[mode], exact.errors[mode]
+    for mode, (value, estimate) in enumerate(zip(row.frequencies, row.errors)):
+        right, right_estimate = exact.frequencies[mode], exact.errors[mode]
         true = relative_error(value, right)
         found.comparisons += 1
-        if true > told + told_right:
+        if true > estimate + right_estimate:
             found.defect(deck, texts, f"accuracy={texts[0][0]} speed={place_of(row)[0]} crank={place_of(row)[1]} mode {mode + 1}: "
-                         f"{value} against {right}, off by {true:.2e}, told {told:.2e} and {told_right:.2e}")
-        if true > CLEARLY*told_right and true > 0:
-            found.ratios.add(deck.kind, told, true)
+                         f"{value} against {right}, off by {true:.2e}, estimated {estimate:.2e} and {right_estimate:.2e}")
+        if true > CLEARLY*right_estimate and true > 0:
+            found.ratios.add(deck.kind, estimate, true)
 
 
 def wanted_decks(words):
@@ -139,7 +139,7 @@ def wanted_decks(words):
 def compare_all(words, found):
     """As many decks at once as wanted; one that is done makes room for the next, and they are judged in their order."""
     folder = os.path.join(words.out, "runs")
-    decks, running, told = wanted_decks(words), [], 0
+    decks, running, printed = wanted_decks(words), [], 0
     with ThreadPoolExecutor(words.at_once) as pool:
         while True:
             while len(running) < 4*words.at_once and (deck := next(decks, None)):
@@ -147,8 +147,8 @@ def compare_all(words, found):
             if not running:
                 return
             judge_deck(found, *running.pop(0).result())
-            if found.frequencies >= told + words.frequencies/20:
-                told = found.frequencies
+            if found.frequencies >= printed + words.frequencies/20:
+                printed = found.frequencies
                 print(f"{found.decks} decks, {found.frequencies} frequencies, {found.defects} defects", flush=True)
             if found.frequencies >= words.frequencies:
                 for job in running:

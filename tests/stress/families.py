@@ -40,7 +40,7 @@ def elements():
 
 
 def orders():
-    """One element a link, and four, of orders 3 to 16."""
+    """One element per link, and four, of orders 3 to 16."""
     for order in range(3, 17):
         for n in (1, 4):
             for solver in SOLVERS:
@@ -261,7 +261,7 @@ def promises():
 
 
 def bounds():
-    """Decks whose errors were once above what was told of them, or above accuracy=; at the accuracies of then and others."""
+    """Decks whose errors once exceeded their estimates or accuracy=; at the accuracies of then and others."""
     for path in sorted(glob.glob(os.path.join("tests", "stress", "bounds", "*.deck"))):
         name = os.path.basename(path)
         number = int(name.split("_")[0])

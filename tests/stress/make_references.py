@@ -48,14 +48,14 @@ def reference(words, name, wanted):
         return [], ""
     run = timed_run(words.quadruple, wanted.deck, SCRATCH, name, ("--quiet",), words.longest)
     if run.status is None:
-        return None, f"left out: no end after {words.longest} s"
+        return None, f"left out: not finished after {words.longest} s"
     if run.status not in (0, 1):
         return [], (run.messages.splitlines() or [f"exit status {run.status}"])[0]
     found, fault = [], ""
     for row in run.rows:
         # On a mesh of its own the table tells mostly what the mesh does.
-        told = max(row.errors, default=0) if CONTINUOUS in wanted.deck else 0
-        unfit = row.failure or (f"only exact to {told:.1e}" if told > references.MOST_ERROR else "")
+        estimate = max(row.errors, default=0) if CONTINUOUS in wanted.deck else 0
+        unfit = row.failure or (f"only exact to {estimate:.1e}" if estimate > references.MOST_ERROR else "")
         found.append([] if unfit else row.frequencies)
         fault = fault or unfit
     return found, fault

@@ -10,7 +10,7 @@ LONGEST = 1800  # seconds
 
 
 class Row:
-    """One speed and crank angle: frequencies with the errors told of them, or the reason why there are none."""
+    """One speed and crank angle: frequencies with their estimated errors, or the reason why there are none."""
 
     def __init__(self, place, frequencies=(), errors=(), failure=""):
         self.place, self.frequencies, self.errors, self.failure = place, frequencies, errors, failure
@@ -32,14 +32,14 @@ def run_deck(program, deck, folder, name):
 
 
 def timed_run(program, deck, folder, name, options=(), longest=None):
-    """The same, with the processor time of the run; one that takes longer than told has no exit status."""
+    """The same, with the processor time of the run; one that exceeds the time limit has no exit status."""
     os.makedirs(folder, exist_ok=True)
     path = os.path.join(folder, name)
     with open(path + ".deck", "w", encoding="utf-8") as file:
         file.write(deck)
-    with open(path + ".messages", "w", encoding="utf-8") as told:
+    with open(path + ".messages", "w", encoding="utf-8") as messages:
         process = subprocess.Popen([program, *options, "--out", folder, path + ".deck"], stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=told)
+                                   stdout=subprocess.DEVNULL, stderr=messages)
         stopped = threading.Event()
         alarm = threading.Timer(longest or LONGEST, lambda: (stopped.set(), process.kill()))
         alarm.start()

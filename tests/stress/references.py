@@ -5,7 +5,7 @@ import os
 from decimal import Decimal
 
 FOLDER = os.path.join("tests", "stress", "references")
-MOST_ERROR = Decimal("1e-16")  # that the quadruple build may tell of itself, beside dead points; 1e-19 and less elsewhere
+MOST_ERROR = Decimal("1e-16")  # largest estimate accepted from the quadruple build, near dead points; 1e-19 and less elsewhere
 
 
 def load():
@@ -24,7 +24,7 @@ def save(family, entries):
     """The references of a family, in the order of its cases."""
     os.makedirs(FOLDER, exist_ok=True)
     with open(os.path.join(FOLDER, family + ".dat"), "w", encoding="utf-8") as file:
-        file.write("# Frequencies [Hz] in quadruple precision, by `make references`: key of the deck, f1, f2 …; a line a row\n")
+        file.write("# Frequencies [Hz] in quadruple precision, by `make references`: key of the deck, f1, f2 …; one line per row\n")
         for key, rows in entries.items():
             for row in rows or [[]]:
                 file.write(" ".join([key] + [f"{value:.21e}" for value in row]) + "\n")

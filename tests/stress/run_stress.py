@@ -3,7 +3,7 @@
 
     run_stress.py PROGRAM [--out FOLDER] [--every N] [--no-figures] [FAMILY ...]
 
-Tables and figures come into outputs/stress/ unless told otherwise; --every N takes one case in N. The last line printed is the
+Tables and figures go to outputs/stress/ by default; --every N takes one case in N. The last line printed is the
 count; exit status 1 if any row is neither bounded by what the program tells of its error, nor refused, nor a named failed row.
 """
 
@@ -37,7 +37,7 @@ def run_family(program, cases, kept, folder):
 def write_table(path, family, results):
     with open(path, "w", encoding="utf-8") as file:
         file.write(f"# {family}: {FAMILIES[family].__doc__}\n")
-        file.write("# a row is a position and speed: its mode with the largest error; ratio: largest error/told of its modes\n")
+        file.write("# a row is a position and speed: its mode with the largest error; ratio: largest error/estimate of its modes\n")
         file.write("# " + " ".join(COLUMNS) + "\n")
         for result in results:
             file.write(result.line() + "\n")
@@ -48,15 +48,15 @@ def summary(family, results):
     count = {verdict: sum(result.verdict == verdict for result in results) for verdict in (BOUNDED, REFUSED, FAILED, DEFECT)}
     bounded = [result for result in results if result.verdict == BOUNDED]
     worst = max((result.error for result in bounded), default=0)
-    told = max((result.told for result in bounded), default=0)
+    estimate = max((result.estimate for result in bounded), default=0)
     ratio = max((result.ratio for result in bounded), default=0)
     return count, f"{family:<12}" + "".join(f"{count[verdict]:8d}" for verdict in count) + \
-        f"  {worst:9.1e} {told:9.1e} {ratio:7.2f}"
+        f"  {worst:9.1e} {estimate:9.1e} {ratio:7.2f}"
 
 
 # What a family is drawn against.
 AXES = {
-    "elements": "elements a link", "orders": "order of an element", "accuracy": "accuracy= of the deck",
+    "elements": "elements per link", "orders": "order of an element", "accuracy": "accuracy= of the deck",
     "thickness": "thickness of the links / length of the crank", "stiffness": "axial stiffness, relative",
     "lengths": "length of short links / length of the others", "pin_masses": "mass at each moving pin / mass of the coupler",
     "dead_points": "distance of the crank from a dead point [rad]", "speeds": "crank speed [rad/s]",
@@ -89,7 +89,7 @@ def main():
     kept = references.load()
     drawable, missed = [], 0
     total = dict.fromkeys((BOUNDED, REFUSED, FAILED, DEFECT), 0)
-    print(f"{'family':<12}{'bounded':>8}{'refused':>8}{'failed':>8}{'defects':>8}  {'error':>9} {'told':>9} {'ratio':>7}")
+    print(f"{'family':<12}{'bounded':>8}{'refused':>8}{'failed':>8}{'defects':>8}  {'error':>9} {'estimate':>9} {'ratio':>7}")
     for family in words.families or FAMILIES:
         cases = list(FAMILIES[family]())[::words.every]
         results = run_family(words.program, cases, kept, os.path.join(words.out, "runs"))
@@ -107,7 +107,7 @@ def main():
     if not words.no_figures:
         draw(words.out, drawable)
     if missed:
-        print(f"{missed} of the bounded rows tell that their accuracy= is not reached")
+        print(f"{missed} of the bounded rows say that their accuracy= is not reached")
     print(f"{total[BOUNDED]} bounded, {total[REFUSED]} refused, {total[FAILED]} failed rows with a reason, {total[DEFECT]} defects")
     return 1 if total[DEFECT] else 0
 
