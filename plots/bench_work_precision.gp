@@ -47,7 +47,7 @@ do for [panel=1:2] {
     family = panel == 1 ? "meshes" : "orders"
     set lmargin at screen across(panel == 1 ? 150 : 990)
     set rmargin at screen across(panel == 1 ? 930 : 1770)
-    set label 910 panel == 1 ? "order 3: 1/4/4 elements (the thesis), then 4, 8 … 64 a link" : "one element per link: order 4, 5 … 16" \
+    set label 910 panel == 1 ? "order 3: 1/4/4 elements (the thesis), then 4, 8 … 64 per link" : "one element per link: order 4, 5 … 16" \
         at graph 0.02, 0.955 noenhanced font ",19"
     if (panel == 1) { set ylabel "run time [s]" } else { unset ylabel; set ytics format "" }
     plot for [k=1:5] rows_of(word(solvers, k), family) using (field("error")):(field("median")) with linespoints \

@@ -23,13 +23,13 @@ for load in static axial; do
 done
 draw bench_cost.gp cost_elements cost_elements elements each \
     'Time of a position against the elements of a link (order 3, at 20 rad/s, 3 modes)' 'elements on every link' \
-    'without what is done once a run; a curve ends where its solver is refused or takes too long'
+    'without what is done once per run; a curve ends where its solver is refused or takes too long'
 draw bench_cost.gp cost_positions cost_positions positions per_position \
     'Time of a position against their number in a turn (3 modes at 20 rad/s, 1e-8)' 'positions in a turn' \
-    'including what is done once a run; dsygv, dsygvx and band on the elements that the program chose'
+    'including what is done once per run; dsygv, dsygvx and band on the elements that the program chose'
 draw bench_cost.gp cost_modes cost_modes modes each \
     'Time of a position against the number of modes (at 20 rad/s, 1e-8)' 'modes' \
-    'without what is done once a run; dsygv, dsygvx and band on the elements that the program chose'
+    'without what is done once per run; dsygv, dsygvx and band on the elements that the program chose'
 draw bench_cost.gp cost_threads cost_threads threads per_position \
     'Time of a position against threads (3 modes at 20 rad/s, 1e-8)' 'threads' \
-    'including what is done once a run; ARPACK serves one thread at a time'
+    'including what is done once per run; ARPACK serves one thread at a time'

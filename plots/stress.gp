@@ -21,8 +21,8 @@ case_of(name) = is_way(before(name)) ? (after(name) eq "" ? "-" : after(name)) :
 
 text_of(name) = name eq "accuracy" || name eq "auto" ? "accuracy=" : name eq "loose" ? "accuracy=1e-4" \
     : name eq "-" ? "" : name eq "rest" ? "at rest" : name eq "load" ? "at one speed" : name eq "step" ? "speed in step" \
-    : name eq "long" ? "many elements" : name eq "strip" ? "one thickness" : name eq "1" ? "1 element a link" \
-    : name eq "4" ? "4 elements a link" : name eq "I" ? "unequal stiffness" : spaced(name)
+    : name eq "long" ? "many elements" : name eq "strip" ? "one thickness" : name eq "1" ? "1 element per link" \
+    : name eq "4" ? "4 elements per link" : name eq "I" ? "unequal stiffness" : spaced(name)
 spaced(name) = strstrt(name, "modes") > 1 ? name[1 : strstrt(name, "modes") - 1]." modes" : strstrt(name, "+") == 0 ? name \
     : name[1 : strstrt(name, "+") - 1].", ".name[strstrt(name, "+") + 1 : *]
 add_once(list, name) = strstrt(" ".list." ", " ".name." ") > 0 ? list : list." ".name

@@ -25,7 +25,7 @@ module decimals
 contains
 
   !> The number in a text; not exact if it has more than 17 digits, from the first that is not 0 to
-  !! the last, or more than four characters behind the letter of its exponent.
+  !! the last, or more than four characters after the letter of its exponent.
   pure function decimal_of(string) result(number)
     character(len=*), intent(in) :: string !! a number as decks have them, with e, E, d or D before
                                            !! its exponent, and nothing else

@@ -18,7 +18,7 @@ module errors
     character(len=:), allocatable :: file
     integer :: line = 0, column = 0 !! from 1; 0: the file, or the line, as a whole
     integer :: body = 0             !! number of the link it is about, which who knows the names
-                                    !! tells in words; 0: none
+                                    !! describes; 0: none
   end type place_t
 
   type :: error_t

@@ -1,5 +1,5 @@
 !> The units in which results are given: those of the deck where they have a name, else those that
-!! people use for the quantity. What bare numbers of a deck mean is none of this.
+!! customary for the quantity. What bare numbers of a deck mean is not affected.
 module output_units
   use errors, only: error_t
   use units, only: coherent_unit, dimension_force, dimension_moment, dimension_rate, read_unit, &

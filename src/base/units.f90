@@ -116,8 +116,8 @@ contains
 
   !> Reads `mm`, `kg/m3`, `N/mm^2`, `lbf*s2/in`, …
   !!
-  !! Powers are whole numbers behind a name, with or without `^`, or ² and ³. A factor behind `*` or
-  !! `·` multiplies, a factor behind `/` divides. `°` is `deg`. Names are case-sensitive.
+  !! Powers are whole numbers after a name, with or without `^`, or ² and ³. A factor after `*` or
+  !! `·` multiplies, a factor after `/` divides. `°` is `deg`. Names are case-sensitive.
   !!
   !! Errors: a part is not a unit; the message suggests the nearest one of the wanted dimension.
   pure subroutine read_unit(text, wanted, measure, error)

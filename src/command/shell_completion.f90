@@ -1,4 +1,4 @@
-!> The files by which shells complete the options and the decks of the program, from the table of
+!> Scripts with which shells complete the options and the decks of the program, from the table of
 !! options.
 module shell_completion
   use option_table, only: option_names, option_t, options

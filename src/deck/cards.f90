@@ -13,7 +13,7 @@ module cards
 
   type :: entry_t
     type(token_t) :: key                   !! before the equals sign
-    type(token_t) :: value                 !! behind it; empty text: missing, reported as an error
+    type(token_t) :: value                 !! after it; empty text: missing, reported as an error
     type(token_t), allocatable :: items(:) !! (items) of a list that contains a `$name`, each with
                                            !! its own place; else not allocated
   end type entry_t
@@ -28,7 +28,7 @@ contains
 
   !> Reads all cards of a deck or of a file that it includes.
   !!
-  !! Errors: a card behind END, END in an included file or not alone on its line, `&` within a line
+  !! Errors: a card after END, END in an included file or not alone on its line, `&` within a line
   !! or without a next line, `=` without a key or a value, a quote that is not closed. The cards are
   !! read as far as possible.
   pure subroutine read_cards(source, cards, diagnostics, file)
@@ -58,7 +58,7 @@ contains
     do while (line <= last)
       call read_logical_line(source, last, line, words, diagnostics)
       if (size(words) == 0) cycle
-      ! Cards behind END are read nevertheless; they would otherwise be reported as missing.
+      ! Cards after END are read nevertheless; they would otherwise be reported as missing.
       if (ended .and. .not. told) then
         call add_error(diagnostics, words(1), "nothing may follow END", end_card, &
           "the deck ends here")
@@ -225,7 +225,7 @@ contains
     words = [words, more]
   end subroutine read_quoted_include
 
-  !> Separates words from entries: the word before an equals sign is a key, the word behind it its
+  !> Separates words from entries: the word before an equals sign is a key, the word after it its
   !! value.
   pure subroutine sort_words(words, card, diagnostics)
     type(token_t), intent(in) :: words(:)

@@ -35,7 +35,7 @@ contains
         cycle
       end if
       items = list_items(words(i))
-      ! A comma ends this word, or begins it behind another one.
+      ! A comma ends this word, or begins it after another one.
       last = size(items)
       if (len(items(last)%text) == 0 .and. i < size(words)) last = last - 1
       k = 1

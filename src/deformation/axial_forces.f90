@@ -4,7 +4,7 @@
 !! constant force from the first pin to the mass. When the cross-section that carries a mass at the
 !! offset e turns by θ, a force F across the link on it does the work `−½ F e θ²`, and the
 !! centrifugal forces about its own mass centre, whose moment of inertia is I, `−½ I ω² θ²`. This is
-!! kept as (F e + I ω²)/L, behind the jumps.
+!! kept as (F e + I ω²)/L, after the jumps.
 !!
 !! For a rigid link only the mean matters. When the link turns by ψ, its dead loads F at places r do
 !! the work `−½ ψ² Σ F·r`, and `Σ F·r`, which for a slender link is `∫ N dx`, is L times that mean.

@@ -13,7 +13,7 @@ module next_orders
   public :: next_orders_t, new_next_orders, orders_beyond, smooth_functions
 
   !> Number of orders beyond those in use: two pairs, either with both symmetries. The second pair
-  !! beside the first tells how fast the series falls.
+  !! relative to the first shows how fast the series falls.
   integer, parameter :: orders_beyond = 4
 
   !> Axial forces of continuous links without their jumps: 1, ξ, ξ².

@@ -43,7 +43,7 @@ module bordered_eigensolver
     real(wp) :: clear = 0.0_wp                     !! relative distance above the last wanted mode
                                                    !! up to which no mode is missing
     real(wp) :: rest = 0.0_wp                      !! norm that, below 1, proves that no mode up to
-                                                   !! the last wanted one is missing
+                                                   !! the last requested one is missing
     integer :: factorizations = 0                  !! of the bordered matrix: one per inverse
                                                    !! iteration, one per Cholesky proof
     integer :: full_solutions = 0                  !! of the dense eigenproblem of all unknowns
@@ -69,7 +69,7 @@ module bordered_eigensolver
   !! `easy_rest` without them.
   real(wp), parameter :: most_rest = 0.999_wp, easy_rest = 0.8_wp
 
-  !> Up to this number of modes wanted, sums of squares are tried first: for more they are rarely
+  !> Up to this number of modes requested, sums of squares are tried first: for more they are rarely
   !! sharp enough, and cost more than a factorization.
   integer, parameter :: most_by_norm = 8
 
@@ -77,10 +77,10 @@ module bordered_eigensolver
   !! there is no other: it bounds the error of the last mode better than the least one.
   real(wp), parameter :: wide_margin = 1.0e-3_wp
 
-  !> Modes beyond those wanted in a search without a start: at first, and at most.
+  !> Modes beyond those requested in a search without a start: at first, and at most.
   integer, parameter :: first_guards = 2, most_guards = 32
 
-  !> Searches for modes within the clearance, once those wanted are proven.
+  !> Searches for modes within the clearance, once those requested are proven.
   integer, parameter :: most_attempts = 3
 
   !> Approximate relative accuracy of the last eigenvalue of a dense start. Inverse iteration finds
@@ -110,7 +110,7 @@ contains
     integer, intent(in) :: wanted                    !! number of modes
     logical, intent(in) :: accurate_vectors          !! all digits in the vectors, too, not only in
                                                      !! the eigenvalues
-    type(start_t), intent(in) :: start               !! used if it has at least the modes wanted
+    type(start_t), intent(in) :: start               !! used if it has at least the modes requested
     type(bordered_modes_t), intent(inout) :: found   !! the modes wanted, perhaps more; what it held
                                                      !! is lost, but its room is used again
     type(error_t), allocatable, intent(out) :: error !! allocated on failure
@@ -143,7 +143,7 @@ contains
     leading = leading_unknowns(pencil, wanted)
     guards = first_guards
     attempt = 0
-    ! Nearly all unknowns cost as much as all of them.
+    ! Nearly all unknowns are as expensive as all of them.
     do while (4*size(leading) < 3*pencil%layout%unknowns)
       call solve_dense_start(pencil, leading, wanted + guards, dense_start, found%factorizations, &
         error)
@@ -238,7 +238,7 @@ contains
       call improve(pencil, accurate_vectors, relative_gap(start%lambda, i), number + 1, found, &
         converged)
       if (.not. converged) cycle
-      ! Two starts may converge to one mode. If a wanted mode is lost that way, the proof fails.
+      ! Two starts may converge to one mode. If a requested mode is lost that way, the proof fails.
       if (overlaps(found%vector(:, number + 1), found%mass_times(:, :number))) cycle
       number = number + 1
       found%origin(number) = i
@@ -396,7 +396,7 @@ contains
       tiny(lambda))
   end function cancellation
 
-  !> Proves that the modes are complete up to the last wanted one, and bounds their errors.
+  !> Proves that the modes are complete up to the last requested one, and bounds their errors.
   !!
   !! Let μ lie just above the last of k modes, Q be an orthonormal basis of their K y, and P the
   !! projection on its complement. If `‖P (μM − G) P‖ < 1`, then `K − μM` is positive on the
@@ -406,7 +406,7 @@ contains
   subroutine check(pencil, wanted, distance, found, proven)
     type(bordered_pencil_t), intent(in) :: pencil
     integer, intent(in) :: wanted
-    real(wp), intent(in) :: distance !! relative, above the last wanted mode, to be cleared
+    real(wp), intent(in) :: distance !! relative, above the last requested mode, to be cleared
     type(bordered_modes_t), intent(inout) :: found
     logical, intent(out) :: proven
 
@@ -454,7 +454,7 @@ contains
   contains
 
     !> Proves, if it can, that there are no modes but those found up to a relative distance above
-    !! the last wanted one.
+    !! the last requested one.
     subroutine clear_up_to(reach)
       real(wp), intent(in) :: reach
 

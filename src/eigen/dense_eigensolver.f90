@@ -25,7 +25,7 @@ contains
     logical, intent(in) :: want_vectors                 !! besides eigenvalues
     real(wp), intent(out) :: inverse(:)                 !! (modes) 1/λ, largest first
     real(wp), allocatable, intent(out) :: vectors(:, :) !! (unknowns, modes) with xᵀKx = 1;
-                                                        !! (unknowns, 0) unless wanted
+                                                        !! (unknowns, 0) unless requested
     type(error_t), allocatable, intent(out) :: error    !! allocated on failure
     real(wp), intent(in), optional :: tolerance         !! absolute, of 1/λ; absent: all digits. A
                                                         !! coarse one halves the time

@@ -57,7 +57,7 @@ contains
   end function extrapolated_start
 
   !> Adds the modes found at a place to a track. Modes that do not come from this track start it
-  !! anew.
+  !! again.
   pure subroutine remember(track, place, found, from_track)
     type(track_t), intent(inout) :: track       !! of a sweep
     real(wp), intent(in) :: place               !! crank angle [deg]

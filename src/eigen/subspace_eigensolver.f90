@@ -32,7 +32,7 @@ module subspace_eigensolver
 
   integer, parameter :: most_steps = 100
 
-  !> Relative gap assumed between the last wanted mode and the next one, which is not computed.
+  !> Relative gap assumed between the last requested mode and the next one, which is not computed.
   real(wp), parameter :: unknown_gap = 1.0e-3_wp
 
   !> Error of an eigenvalue from the rounding of long sums, in units of ε.
@@ -47,7 +47,7 @@ contains
   !! Errors: two start vectors coincide; no convergence; the small dense problem fails.
   subroutine find_subspace_modes(pencil, start, accurate_vectors, found, error)
     class(symmetric_pencil_t), intent(in) :: pencil  !! K and M
-    real(wp), intent(in) :: start(:, :)              !! (unknowns, modes) near the modes wanted
+    real(wp), intent(in) :: start(:, :)              !! (unknowns, modes) near the modes requested
     logical, intent(in) :: accurate_vectors          !! all digits in the vectors, too
     type(subspace_modes_t), intent(out) :: found     !! as many as in `start`
     type(error_t), allocatable, intent(out) :: error !! allocated on failure

@@ -1,4 +1,4 @@
-!> Kinematic coefficients of the links at a pose. Found once, they serve every speed and
+!> Kinematic coefficients of the links at a pose. Found once, they hold for every speed and
 !! acceleration of the crank.
 !!
 !! With `h = dθ/dθ2` and `h' = d²θ/dθ2²` every angular velocity is `h ω2` and every angular

@@ -1,4 +1,4 @@
-!> Rows of tables of positions and speeds that hold nothing but numbers.
+!> Rows of tables of positions and speeds that hold numbers only.
 module position_rows
   use kinds, only: wp
   use table_columns, only: cells, table_layout_t

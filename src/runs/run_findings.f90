@@ -173,7 +173,7 @@ contains
   !> Reads what `put_findings` wrote.
   pure subroutine get_findings(bytes, at, findings)
     character(len=*), intent(in) :: bytes     !! of `put_findings`, among others
-    integer, intent(inout) :: at              !! place of the first byte; on return, behind the last
+    integer, intent(inout) :: at              !! place of the first byte; on return, after the last
     type(findings_t), intent(out) :: findings !! of one variant
 
     type(failure_t), allocatable :: failure

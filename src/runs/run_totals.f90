@@ -162,7 +162,7 @@ contains
   !> Reads what `put_totals` wrote.
   pure subroutine get_totals(bytes, at, totals)
     character(len=*), intent(in) :: bytes     !! of `put_totals`, among others
-    integer, intent(inout) :: at              !! place of the first byte; on return, behind the last
+    integer, intent(inout) :: at              !! place of the first byte; on return, after the last
     type(run_totals_t), intent(out) :: totals !! with times of 0
 
     integer(long) :: counts(4)

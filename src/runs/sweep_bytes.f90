@@ -47,7 +47,7 @@ contains
   !> Reads what `put_result` wrote.
   pure subroutine get_result(bytes, at, result)
     character(len=*), intent(in) :: bytes          !! of `put_result`, among others
-    integer, intent(inout) :: at                   !! place of the first byte; on return, behind the
+    integer, intent(inout) :: at                   !! place of the first byte; on return, after the
                                                    !! last
     type(position_result_t), intent(out) :: result !! of a position
 
@@ -89,7 +89,7 @@ contains
   !> Reads what `put_ledger` wrote.
   pure subroutine get_ledger(bytes, at, counts)
     character(len=*), intent(in) :: bytes !! of `put_ledger`, among others
-    integer, intent(inout) :: at          !! place of the first byte; on return, behind the last
+    integer, intent(inout) :: at          !! place of the first byte; on return, after the last
     type(ledger_t), intent(out) :: counts !! of the work done
 
     integer :: numbers(size(transfer(ledger_t(), [0])))

@@ -1,4 +1,4 @@
-!> The journal of a long run: results of a run that was killed, for one that goes on with
+!> The journal of a long run: results of a run that was killed, for one that continues with
 !! `--resume`.
 !!
 !! Blocks of results are appended when they are done, each between two equal marks, by which a
@@ -55,7 +55,7 @@ module task_journal
 contains
 
   !> Opens the journal of an earlier run if there is one to go on from. Otherwise removes it; a new
-  !! one is begun when the run turns out to be long.
+  !! one is started when the run turns out to be long.
   subroutine open_journal(folder, title, resume, journal, blocks)
     character(len=*), intent(in) :: folder  !! of the outputs
     character(len=*), intent(in) :: title   !! what must be the same for results to be the same
@@ -74,7 +74,7 @@ contains
     call remove_file(journal%path)
   end subroutine open_journal
 
-  !> Finds the complete blocks of a journal. Bytes behind the last of them will be overwritten.
+  !> Finds the complete blocks of a journal. Bytes after the last of them will be overwritten.
   subroutine read_journal(journal, blocks)
     type(journal_t), intent(inout) :: journal
     integer, intent(out) :: blocks

@@ -89,7 +89,7 @@ contains
   !> Reads what `put_variant_rows` wrote.
   pure subroutine get_variant_rows(bytes, at, rows)
     character(len=*), intent(in) :: bytes     !! of `put_variant_rows`, among others
-    integer, intent(inout) :: at              !! place of the first byte; on return, behind the last
+    integer, intent(inout) :: at              !! place of the first byte; on return, after the last
     type(variant_rows_t), intent(out) :: rows !! of a variant
 
     integer :: counts(2), notes(1), i, k

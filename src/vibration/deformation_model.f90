@@ -1,5 +1,5 @@
 !> A linkage of beams, described by the links' own deformations. The model holds everything that is
-!! independent of the position and is built once a run.
+!! independent of the position and is built once per run.
 module deformation_model
   use beam_element, only: axial_degree
   use beam_mesh, only: beam_t

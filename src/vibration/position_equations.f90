@@ -1,7 +1,7 @@
 !> The equations of motion of a structure at a position, in its links' own deformations.
 !!
 !! `M ÿ + (I + K_G) y = 0` with `K_G = K_const + ω2² K_ω + α2 K_α`: the mass matrix and the three
-!! unit matrices of the geometric stiffness are found once per position and serve every speed.
+!! unit matrices of the geometric stiffness are found once per position and hold for every speed.
 !! Further terms of the equations at a position (velocity terms, damping, loads) belong here, too.
 module position_equations
   use bordered_matrix, only: add_scaled, bordered_matrix_t

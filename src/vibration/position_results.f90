@@ -35,7 +35,7 @@ module position_results
     type(mode_prints_t), allocatable :: prints(:) !! (speeds) for following modes from position to
                                                   !! position; unallocated unless requested
     integer, allocatable :: cause(:)           !! (speeds) what the largest error is made of; 0: it
-                                               !! is within the accuracy wanted, or
+                                               !! is within the requested accuracy, or
                                                !! not known, on a mesh
     real(wp) :: order_error = 0.0_wp           !! largest relative error of an eigenvalue that
                                                !! higher orders would reduce

@@ -15,7 +15,7 @@ module speed_solver
   !> Largest step from the last position over which modes are extrapolated [deg].
   real(wp), parameter :: longest_step = 10.0_wp
 
-  !> A mode just above those wanted may be off by this many times the bound of theirs; and the
+  !> A mode just above those requested may be off by this many times the bound of theirs; and the
   !! largest distance at which modes are looked for.
   real(wp), parameter :: clearances = 25.0_wp, most_clearance = 0.25_wp
 

@@ -350,8 +350,8 @@ contains
     columns(12) = real_column("dsygvx", "s")
     columns(13) = real_column("ratio", "-")
     columns(14) = real_column("difference", "-")
-    call write_header(file, "decks of tests/bench/corners: processor time a row, beside LAPACK", [notes, &
-      string_t("median and minimum: of the program, a row, with what comes once a run"), &
+    call write_header(file, "decks of tests/bench/corners: processor time per row, beside LAPACK", [notes, &
+      string_t("median and minimum: of the program, per row, with what is done once per run"), &
       string_t("dsygvx: the median of a row in nodal displacements, with matrices, without vectors and checks"), &
       string_t("elements and order: of the coupler there; nodal: unknowns there; timed: positions solved there"), &
       string_t("ratio: median/dsygvx; difference: largest of the frequencies of both, relative; dsygvx 0: it failed")], &

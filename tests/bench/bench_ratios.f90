@@ -1,4 +1,4 @@
-!> The result of the whole: how many times as long each solver takes for an error that is wanted.
+!> The result of the whole: how many times as long each solver takes for a given error.
 module bench_ratios
   use bench_cases, only: median_of, per_turn, plan_t, solver_names, table_work_precision, with_accuracy, with_dsygv, with_sweep
   use errors, only: error_t

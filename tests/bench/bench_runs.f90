@@ -22,7 +22,7 @@ module bench_runs
 
   public :: prepare_case, time_case, seconds_since
 
-  !> Solvers that know nothing of neighbours are timed at as many positions as fit into this, three at least, and not at all where one
+  !> Solvers that do not use neighbours are timed at as many positions as fit into this, three at least, and not at all where one
   !! takes longer [s].
   real(wp), parameter :: most_seconds = 0.1_wp, most_of_one = 0.3_wp
   integer, parameter :: fewest = 3

@@ -37,7 +37,7 @@ contains
     if (allocated(error)) return
     columns = columns_of(plan)
     call write_header(file, "first mechanism of Ulker (2010): run times", [notes, &
-      string_t("median and minimum: of a whole run; setup: the part of it that comes once; each: every position without it; "// &
+      string_t("median and minimum: of a whole run; setup: the part that is done once; each: every position without it; "// &
       "timed: different"), &
       string_t("positions that were solved for it, the others count alike; per_position: the run divided by its positions"), &
       string_t("error: largest of f1 to f3, relative, at the positions with exact values; "// &

@@ -1,5 +1,5 @@
 !> The usual way to the frequencies, as lean as it can be made: matrices in nodal displacements, and a library routine for the lowest
-!! eigenvalues, position by position. No vectors, no checks, no errors told; the program does all of these.
+!! eigenvalues, position by position. No vectors, no checks, no estimated errors; the program does all of these.
 module nodal_runs
   use acceleration_fields, only: acceleration_field_t, unit_fields
   use assembly, only: assemble_geometric_stiffness, assemble_mass, assemble_stiffness

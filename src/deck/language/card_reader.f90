@@ -196,7 +196,7 @@ contains
     call add_error(diagnostics, place, error%text)
   end subroutine read_measure
 
-  !> For a number with one decimal comma: the number with a point. Three digits behind a comma may
+  !> For a number with one decimal comma: the number with a point. Three digits after a comma may
   !! be thousands. Else an empty text.
   pure function comma_hint(word) result(hint)
     character(len=*), intent(in) :: word !! begins with a number

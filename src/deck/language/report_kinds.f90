@@ -10,7 +10,7 @@ module report_kinds
   public :: report_kind_t, table_kind_t, column_kind_t, report_names, kind_named, columns_of, &
     is_column_of
 
-  !> One table of a report. Columns with the same unit are separated by commas, with the unit behind
+  !> One table of a report. Columns with the same unit are separated by commas, with the unit after
   !! a colon, and these groups by blanks: `crank:deg x,y:length`. A unit is given as printed in the
   !! table, or as a quantity (`length`, `force`, …) in the units of the deck's results; `speed`
   !! stands for a speed as the deck gives it, `#` for whole numbers, `name` for names. A column name

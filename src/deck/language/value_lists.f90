@@ -217,7 +217,7 @@ contains
       merge(0.0_wp, 1.0_wp, all(dimension == dimension_none)), diagnostics, list)
   end subroutine read_values
 
-  !> The unit at the end of a list, or else the first behind a number; none if there is none, or if
+  !> The unit at the end of a list, or else the first after a number; none if there is none, or if
   !! it cannot be read, which is reported with its number.
   pure subroutine find_unit(words, dimension, common, has_common, unit)
     type(token_t), intent(in) :: words(:)
@@ -331,7 +331,7 @@ contains
     end if
   end function converted
 
-  !> Reads the words `to b step s` behind `words(i)`.
+  !> Reads the words `to b step s` after `words(i)`.
   pure subroutine read_range_end(words, i, dimension, bare, noun, diagnostics, last, step, fine)
     type(token_t), intent(in) :: words(:)
     integer, intent(in) :: i

@@ -80,7 +80,7 @@ contains
   end function at_stations
 
   !> Limits of the follower: crank limits of the linkage seen from the follower. The sign of
-  !! `sin(θ4 − θ3)` tells which branch they are on.
+  !! `sin(θ4 − θ3)` shows which branch they are on.
   pure function follower_limits(ground, length, side) result(list)
     real(wp), intent(in) :: ground(2, 2), length(3), side
     type(special_position_t), allocatable :: list(:)
@@ -107,7 +107,7 @@ contains
   end function follower_limits
 
   !> Positions with all links in line, within the digits of their lengths: `±r2 ± r3 = r1 ± r4`.
-  !! There the branches meet, and only its momentum decides on which of them the linkage goes on.
+  !! There the branches meet, and only its momentum decides on which of them the linkage continues.
   pure function find_change_points(ground, length) result(list)
     real(wp), intent(in) :: ground(2, 2) !! O2 and O4 [m]
     real(wp), intent(in) :: length(3)    !! crank, coupler, follower [m]

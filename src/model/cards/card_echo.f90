@@ -24,7 +24,7 @@ module card_echo
 contains
 
   !> The cards in the order of the deck. A `$name` stays as it is, with its SET or VARY card; a
-  !! value from the command line becomes a SET card, so that the echo needs nothing but itself.
+  !! value from the command line becomes a SET card, so that the echo is complete in itself.
   pure function echo_cards(deck, cards, loads, reports, source) result(lines)
     type(deck_cards_t), intent(in) :: deck        !! cards as written, and the values of their
                                                   !! `$name`s

@@ -66,7 +66,7 @@ contains
         card%entries(entry_number(card, "nu"))%value%text)
     end if
 
-    ! A unit behind a blank is refused, and its number has the wrong one.
+    ! A unit after a blank is refused, and its number has the wrong one.
     if (.not. (is_whole .and. has_modulus .and. has_density)) return
     if (material%youngs_modulus <= 0.0_wp .or. material%density <= 0.0_wp) return
     call check_wave_speed(material, sqrt(material%youngs_modulus/material%density), diagnostics)

@@ -24,7 +24,7 @@ module time_left
 contains
 
   !> Takes note of how far a run is. If other things are counted than before, or they are counted
-  !! anew, the pace is measured from now on.
+  !! again, the pace is measured from now on.
   pure subroutine note_progress(pace, time, done, total)
     type(pace_t), intent(inout) :: pace !! so far
     real(wp), intent(in) :: time        !! on any clock, not before earlier ones [s]
