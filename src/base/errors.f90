@@ -17,8 +17,8 @@ module errors
   type :: place_t
     character(len=:), allocatable :: file
     integer :: line = 0, column = 0 !! from 1; 0: the file, or the line, as a whole
-    integer :: body = 0             !! number of the link it is about, which who knows the names
-                                    !! describes; 0: none
+    integer :: body = 0             !! number of the link it is about, to be named where names are
+                                    !! known; 0: none
   end type place_t
 
   type :: error_t
