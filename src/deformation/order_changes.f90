@@ -78,24 +78,21 @@ contains
         along = across + link%next%pieces
         if (link%next%pieces > 0) then
           first = layout%first(b)
-          call find_changes_of_link(link%next, vectors(:layout%border, :), vectors(first:first + &
-            link%modes - 1, :), chords%across(:, :, b), chords%turn(:, b), force(:, b), &
-            link%square, force(:, b), link%geometric, border_mass, lambda, change(across + &
-            1:along, :))
+          call find_changes_of_link(link%next, vectors, first, chords%across(:, :, b), &
+            chords%turn(:, b), force(:, b), link%square, force(:, b), link%geometric, &
+            border_mass, lambda, change(across + 1:along, :))
         end if
         across = along + link%axial_next%pieces
         if (link%axial_next%pieces > 0 .and. link%coupled) then
           first = layout%first(b)
-          call find_changes_of_link(link%axial_next, vectors(:layout%border, :), &
-            vectors(first:first + link%modes - 1, :), chords%along(:, :, b), chords%turn(:, b), &
-            force(:0, b), link%square, force(:, b), link%geometric, border_mass, lambda, &
-            change(along + 1:across, :))
+          call find_changes_of_link(link%axial_next, vectors, first, chords%along(:, :, b), &
+            chords%turn(:, b), force(:0, b), link%square, force(:, b), link%geometric, &
+            border_mass, lambda, change(along + 1:across, :))
         else if (link%axial_next%pieces > 0) then
           axial = first_axial(layout, links, b)
-          call find_changes_of_link(link%axial_next, vectors(:layout%border, :), &
-            vectors(axial:axial + link%axial_modes - 1, :), chords%along(:, :, b), chords%turn(:, &
-            b), force(:0, b), link%axial_square, force(:0, b), no_stiffness, border_mass, lambda, &
-            change(along + 1:across, :))
+          call find_changes_of_link(link%axial_next, vectors, axial, chords%along(:, :, b), &
+            chords%turn(:, b), force(:0, b), link%axial_square, force(:0, b), no_stiffness, &
+            border_mass, lambda, change(along + 1:across, :))
         end if
       end associate
     end do
@@ -103,15 +100,16 @@ contains
 
   !> The changes by the next orders of all pieces of a link in one direction: across, with the
   !! geometric stiffness of its axial forces, or along, without.
-  pure subroutine find_changes_of_link(next, border, own, moved, turned, force, own_mass, &
+  pure subroutine find_changes_of_link(next, vectors, first, moved, turned, force, own_mass, &
       own_force, own_geometric, border_mass, lambda, change)
     type(next_orders_t), intent(in) :: next
-    real(wp), intent(in) :: border(:, :)      !! (border, modes) part of the modes
-    real(wp), intent(in) :: own(:, :)         !! (own modes, modes) part of the modes
-    real(wp), intent(in) :: moved(:, :)       !! (functions, border) what the border does to it
-    real(wp), intent(in) :: turned(:)         !! (border) how it turns the link's chord
+    real(wp), intent(in) :: vectors(:, :)     !! (unknowns, modes), the border's first
+    integer, intent(in) :: first              !! number of the first own mode among them
+    real(wp), intent(in), contiguous :: moved(:, :) !! (functions, border) what the border does to
+                                                    !! it
+    real(wp), intent(in), contiguous :: turned(:)   !! (border) how it turns the link's chord
     real(wp), intent(in) :: force(:)          !! 1, ξ, ξ², jumps; none: static, or along [N]
-    real(wp), intent(in) :: own_mass(:)       !! (own modes) [s²]
+    real(wp), intent(in), contiguous :: own_mass(:) !! (own modes) [s²]
     real(wp), intent(in) :: own_force(:)      !! on the own modes; none: static, or along [N]
     real(wp), intent(in) :: own_geometric(:, :, :) !! (2 + own modes, 2 + own modes, force
                                                    !! functions) `∫ b v' v'`
@@ -119,8 +117,8 @@ contains
     real(wp), intent(in) :: lambda(:)         !! (modes) [1/s²]
     type(order_change_t), intent(inout) :: change(:, :) !! (pieces, modes) at first none
 
-    real(wp) :: residual(next%number), matrix(next%number, next%number), ends(size(moved, 1)), &
-      slopes(2 + size(own, 1), merge(next%number, 0, size(force) > 0)), &
+    real(wp) :: residual(next%number), matrix(next%number, next%number), ends(3), &
+      slopes(2 + size(own_mass), merge(next%number, 0, size(force) > 0)), &
       square(next%number, next%number), turn, slope_reach, ends_norm
     real(wp), allocatable :: stiffness(:)
     integer :: e, i, k, low, high
@@ -133,26 +131,29 @@ contains
       high = e*next%number
       if (size(force) > 0) call weigh(next, e, force, low, high, slopes, square, slope_reach)
       do i = 1, size(lambda)
-        do k = 1, size(ends)
-          ends(k) = dot_product(moved(k, :), border(:, i))
-        end do
-        do k = 1, next%number
-          residual(k) = -lambda(i)*(dot_product(ends, next%participation(:, low + k - 1)) + &
-            dot_product(own(:, i), next%mass(:, low + k - 1)))
-        end do
-        if (size(force) > 0) then
-          turn = dot_product(turned, border(:, i))
-          do k = 1, next%number
-            residual(k) = residual(k) + turn*slopes(rigid, k) + ends(3)*slopes(clamp, k) + &
-              dot_product(own(:, i), slopes(clamp + 1:, k))
+        associate (border => vectors(:size(turned), i), own => vectors(first:first + &
+          size(own_mass) - 1, i))
+          do k = 1, size(moved, 1)
+            ends(k) = dot_product(moved(k, :), border)
           end do
-        end if
+          do k = 1, next%number
+            residual(k) = -lambda(i)*(dot_product(ends(:size(moved, 1)), next%participation(:, low &
+              + k - 1)) + dot_product(own, next%mass(:, low + k - 1)))
+          end do
+          if (size(force) > 0) then
+            turn = dot_product(turned, border)
+            do k = 1, next%number
+              residual(k) = residual(k) + turn*slopes(rigid, k) + ends(3)*slopes(clamp, k) + &
+                dot_product(own, slopes(clamp + 1:, k))
+            end do
+          end if
+        end associate
         if (is_nothing(residual, lambda(i))) cycle
         matrix = square - lambda(i)*next%mass_square(:, :, e)
         call eliminate(matrix, residual, least_pivot, change(e, i))
         if (is_silent(next, e, lambda(i), slope_reach, ends_norm)) cycle
         if (.not. allocated(stiffness)) stiffness = own_stiffness(own_geometric, &
-          own_force, size(own, 1))
+          own_force, size(own_mass))
         call add_echo(next%mass(:, low:high), slopes, own_mass, stiffness, lambda(i), residual, &
           change(e, i)%echo)
         call add_border_echo(moved, next%participation(:, low:high), border_mass, lambda(i), &

@@ -19,6 +19,11 @@ module matrix_rounding
   !! quadruple precision.
   real(wp), parameter :: multiple = 2.0_wp
 
+  !> So many times more in the mass of a link with masses: of what couples its own modes only the
+  !! diagonal is kept, and the rest, which is rounding, shows where one of them moves a million
+  !! times the mass of the others. Measured: 2.3 times.
+  real(wp), parameter :: multiple_of_lumps = 4.0_wp
+
 contains
 
   !> Sum of the magnitudes of all forces of which the axial force of a link is made, whatever they
@@ -114,6 +119,7 @@ contains
         norm = norm + along
         terms = terms + along
       end if
+      if (link%bending_shapes%lumps > 0) terms = multiple_of_lumps*terms
       mass_error = mass_error + norm*terms
       if (force_size > 0.0_wp) then
         norm = link%slope_norm(rigid)*turn + link%slope_norm(clamp)*ends(3)

@@ -4,7 +4,7 @@ import glob
 import os
 from decimal import Decimal
 
-from decks import FIRST, RADIAN, Case, Linkage, WrittenCase
+from decks import FIRST, RADIAN, Case, Linkage, WrittenCase, digits
 from random_linkages import random_cases
 from verdicts import BOUNDED, FAILED
 
@@ -203,6 +203,39 @@ def link_masses():
             yield Case("link_masses", ratio, label, linkage, (40,), (0, speed), mesh, solver)
 
 
+def masses_beside(ratio, number, arm, own):
+    """Cards of masses at alternate sides of every link of the first mechanism, so many lengths of the link away, together so many
+    times its mass, with so many mass × length² of moment of inertia."""
+    for link, length in zip(LINKS, FIRST.lengths):
+        mass = ratio*LINK_MASS/number
+        for i in range(number):
+            at = Decimal(length)*(2*i + 1)/(2*number)*(1 - Decimal(i % 2)/20)
+            card = f"MASS {link} {mass:e} at={round(at, 10).normalize():f} offset={digits((-1)**i*arm*length)}"
+            yield card + (f" inertia={own*mass*length**2:e}" if own else "")
+
+
+def offset_masses():
+    """Masses beside links, with moments of inertia of their own, in units of the mass of a link, and ever farther away."""
+    own = Decimal("0.01")
+    for ratio in ladder(-2, 6, 2):
+        speed = round(2/max(Decimal(1), ratio).sqrt(), 20)  # so that the loads stay what they are
+        for number, inertia, modes, effects in ((1, 0, 3, "axial"), (1, own, 10, "axial"), (3, own, 10, "axial"),
+                                                (1, own, 5, TIMOSHENKO), (3, 0, 5, "axial shear")):
+            more = tuple(masses_beside(ratio, number, Decimal("0.1"), inertia))
+            linkage = Linkage(254, FIRST.lengths, materials=["E=200000 density=7.8e-9 nu=0.3"]*3, more=more)
+            yield Case("offset_masses", ratio, f"{number}-{modes}modes-{effects.replace(' ', '-')}", linkage, (40,), (0, speed),
+                       modes=modes, effects=effects)
+        linkage = Linkage(254, FIRST.lengths, more=tuple(masses_beside(ratio, 1, Decimal("0.1"), own)))
+        for label, mesh, solver in list(ways(2, 8))[1:]:
+            yield Case("offset_masses", ratio, label, linkage, (40,), (0, speed), mesh, solver)
+    for arm in ladder(-4, 1):
+        # Their weight presses or pulls, whatever their side; on a mesh they are within elements.
+        more = ("GRAVITY 1000 -9810", *masses_beside(Decimal("0.1"), 3, arm, 0))
+        linkage = Linkage(254, FIRST.lengths, more=more)
+        for label, mesh, solver in ways(4, 6):
+            yield Case("offset_masses", arm, f"arm-{label}", linkage, (60, 240), (0, 2), mesh, solver, modes=5)
+
+
 def many_modes():
     """Ever more modes of slender links."""
     for modes in (3, 5, 10, 20, 30, 40, 60, 80, 100):
@@ -276,5 +309,5 @@ def bounds():
 
 FAMILIES = {function.__name__: function for function in (
     elements, orders, accuracy, thickness, stiffness, lengths, pin_masses, dead_points, speeds, divergence, near_equal, units,
-    link_masses, many_modes, thick_links, compression, promises, bounds)}
+    link_masses, offset_masses, many_modes, thick_links, compression, promises, bounds)}
 FAMILIES["random"] = random_cases

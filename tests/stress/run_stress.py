@@ -63,7 +63,8 @@ AXES = {
     "divergence": "relative distance of the speed from divergence",
     "near_equal": "mass of a link / mass at a pin, or difference in stiffness",
     "units": "size of the unit, relative", "random": "number of the linkage",
-    "link_masses": "masses along each link / mass of the link", "many_modes": "number of modes",
+    "link_masses": "masses along each link / mass of the link",
+    "offset_masses": "masses beside each link / mass of the link, or offset / length", "many_modes": "number of modes",
     "thick_links": "length of the links / thickness", "compression": "force / buckling load of the follower",
     "promises": "accuracy= of the deck", "bounds": "number of the deck in tests/stress/bounds/",
 }
