@@ -36,8 +36,8 @@
 #   want="unit L"                  the unit of this column
 #   want="band L"                  where the other parameters and the speed are those of the first row: L, then the least and the
 #                                  greatest value over all positions of f1, of f2, …
-#   want="events 20"               what befalls them: 1 crossing, 2 veering, 3 ambiguous; crank; the lower and the higher
-#                                  frequency (a crossing lies between two rows; one that came with the speed is not told)
+#   want="events 20"               what happens to them: 1 crossing, 2 veering, 3 ambiguous; crank; the lower and the higher
+#                                  frequency (a crossing lies between two rows; one that comes with the speed is left out)
 # With datablock=name the answer is a gnuplot datablock of that name.
 # Rows are picked by their values, never by block: two failed rows in a row look like the end of a block.
 

@@ -52,8 +52,8 @@ contains
     end do
   end function order_error
 
-  !> Errors of the lowest modes, of which each is told to be as far off as a mode above it may be
-  !! below it: with more orders modes change their places.
+  !> Errors of the lowest modes, each at least as large as the distance by which a mode above it may
+  !! fall below it: with more orders modes change their places.
   !!
   !! Where eigenvalues are so near that the next orders mix their modes, the lower one falls to the
   !! lesser eigenvalue of `[λ_i − c_i, √(c_i c_j); √(c_i c_j), λ_j − c_j]` at most, with c what
