@@ -2,10 +2,10 @@
 module command_line
   use errors, only: error_of_input, error_t, set_error
   use numbers, only: read_integer
-  use option_table, only: column_of_help, option_names, options, takes_value
+  use option_table, only: choices_of, column_of_help, option_names, options, takes_value
   use program_version, only: program_name, version_number
   use spelling, only: suggestion
-  use text, only: same_word, string_t, word_list
+  use text, only: joined, same_word, string_t, word_list
   use tokens, only: check_name
   implicit none (type, external)
   private
@@ -214,7 +214,6 @@ contains
     type(command_t), intent(inout) :: command
     type(error_t), allocatable, intent(out) :: error
 
-    character(len=*), parameter :: formats = "plain csv csv-only", shells = "bash zsh fish"
     type(error_t), allocatable :: not_a_number
 
     select case (name)
@@ -230,18 +229,29 @@ contains
     case ("--format")
       command%csv_only = value == "csv-only"
       command%csv = value == "csv" .or. command%csv_only
-      if (.not. command%csv .and. value /= "plain") then
-        call set_error(error, error_of_input, "unknown format '"//value//"'"//suggestion(value, &
-          word_list(formats))//"; --format is plain, csv or csv-only")
-      end if
+      call check_choice(name, "format", value, error)
     case ("--completion")
       command%shell = value
-      if (value /= "bash" .and. value /= "zsh" .and. value /= "fish") then
-        call set_error(error, error_of_input, "unknown shell '"//value//"'"//suggestion(value, &
-          word_list(shells))//"; --completion is bash, zsh or fish")
-      end if
+      call check_choice(name, "shell", value, error)
     end select
   end subroutine read_option_value
+
+  !> Errors: the value is none of those that the option allows.
+  subroutine check_choice(name, noun, value, error)
+    character(len=*), intent(in) :: name  !! of the option
+    character(len=*), intent(in) :: noun  !! what its values are
+    character(len=*), intent(in) :: value
+    type(error_t), allocatable, intent(out) :: error
+
+    type(string_t), allocatable :: choices(:)
+    integer :: last
+
+    choices = word_list(choices_of(name))
+    if (any([(choices(last)%text == value, last=1, size(choices))])) return
+    last = size(choices)
+    call set_error(error, error_of_input, "unknown "//noun//" '"//value//"'"//suggestion(value, &
+      choices)//"; "//name//" is "//joined(choices(:last - 1))//" or "//choices(last)%text)
+  end subroutine check_choice
 
   !> The text of `--version`.
   pure function version_text() result(text)

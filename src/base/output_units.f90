@@ -1,4 +1,4 @@
-!> The units in which results are given: those of the deck where they have a name, else those that
+!> The units in which results are given: those of the deck where they have a name, else those
 !! customary for the quantity. What bare numbers of a deck mean is not affected.
 module output_units
   use errors, only: error_t

@@ -8,7 +8,7 @@ module text
 
   public :: string_t, to_string, word_list, trimmed_list, joined, plural, lower_case, upper_case, &
     same_word
-  public :: append_string, character_count, is_continuation_byte
+  public :: append_string, has_word, character_count, is_continuation_byte, in_single_quotes
 
   !> A line, a word or a name: an element of arrays of texts of different lengths.
   type :: string_t
@@ -155,6 +155,38 @@ contains
 
     continues = iand(ichar(byte), 192) == 128
   end function is_continuation_byte
+
+  !> A text in single quotes, with those inside as shells read them: `'it'\''s'`.
+  pure function in_single_quotes(string) result(quoted)
+    character(len=*), intent(in) :: string
+    character(len=:), allocatable :: quoted
+
+    integer :: i
+
+    quoted = "'"
+    do i = 1, len(string)
+      if (string(i:i) == "'") then
+        quoted = quoted//"'\''"
+      else
+        quoted = quoted//string(i:i)
+      end if
+    end do
+    quoted = quoted//"'"
+  end function in_single_quotes
+
+  !> Whether a list has a word, in capital or small letters.
+  pure function has_word(list, word) result(has)
+    type(string_t), intent(in) :: list(:)
+    character(len=*), intent(in) :: word
+    logical :: has
+
+    integer :: i
+
+    has = .false.
+    do i = 1, size(list)
+      has = has .or. same_word(list(i)%text, word)
+    end do
+  end function has_word
 
   !> Splits `"a b c"` into a list of texts.
   pure function word_list(words) result(list)

@@ -4,7 +4,7 @@ module option_table
   implicit none (type, external)
   private
 
-  public :: option_t, options, takes_value, option_names, column_of_help
+  public :: option_t, options, takes_value, choices_of, option_names, column_of_help
 
   type :: option_t
     character(len=12) :: name = ""    !! with its two hyphens
@@ -49,6 +49,19 @@ contains
 
     takes_value = any([(options(i)%name == name .and. options(i)%value /= "", i=1, size(options))])
   end function takes_value
+
+  !> The values allowed for the option of this name, separated by blanks; empty if they are many.
+  pure function choices_of(name) result(choices)
+    character(len=*), intent(in) :: name
+    character(len=:), allocatable :: choices
+
+    integer :: i
+
+    choices = ""
+    do i = 1, size(options)
+      if (options(i)%name == name) choices = trim(options(i)%choices)
+    end do
+  end function choices_of
 
   !> The names of all options, separated by blanks.
   pure function option_names() result(names)

@@ -3,6 +3,7 @@
 module shell_completion
   use option_table, only: option_names, option_t, options
   use program_version, only: program_name
+  use text, only: in_single_quotes
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   implicit none (type, external)
   private
@@ -91,7 +92,7 @@ contains
       if (options(i)%value /= "") entry = entry//":"//trim(options(i)%value)//":"
       if (options(i)%choices /= "") entry = entry//"("//trim(options(i)%choices)//")"
       if (options(i)%folder) entry = entry//"_files -/"
-      call append_line(file, "  "//quoted(entry)//" \")
+      call append_line(file, "  "//in_single_quotes(entry)//" \")
     end do
     call append_line(file, "  '*:deck:_files -g ""*.deck""'")
   end subroutine append_zsh
@@ -124,27 +125,9 @@ contains
       if (options(i)%value /= "") call append_text(file, " -x")
       if (options(i)%choices /= "") call append_text(file, " -a '"//trim(options(i)%choices)//"'")
       if (options(i)%folder) call append_text(file, " -a '(__fish_complete_directories)'")
-      call append_text(file, " -d "//quoted(trim(options(i)%help))//line_feed)
+      call append_text(file, " -d "//in_single_quotes(trim(options(i)%help))//line_feed)
     end do
   end subroutine append_fish
-
-  !> Between single quotes, with those inside as both zsh and fish read them.
-  pure function quoted(words) result(text)
-    character(len=*), intent(in) :: words
-    character(len=:), allocatable :: text
-
-    integer :: i
-
-    text = "'"
-    do i = 1, len(words)
-      if (words(i:i) == "'") then
-        text = text//"'\''"
-      else
-        text = text//words(i:i)
-      end if
-    end do
-    text = text//"'"
-  end function quoted
 
   pure subroutine append_line(file, line)
     type(text_buffer_t), intent(inout) :: file

@@ -1,6 +1,6 @@
 !> The files that come with the program: `library/NAME` on an INCLUDE card.
 module program_library
-  use file_system, only: real_path
+  use file_system, only: file_exists, real_path
   implicit none (type, external)
   private
 
@@ -26,13 +26,11 @@ contains
                                                             !! `no such file`; empty for other names
 
     character(len=:), allocatable :: program_file, folder, found
-    logical :: exists
 
     library_name = ""
     elsewhere = ""
     if (index(name, prefix) /= 1) return
-    inquire (file=path, exist=exists)
-    if (exists) return
+    if (file_exists(path)) return
     program_file = real_path("/proc/self/exe")
     folder = program_file(:max(0, index(program_file, "/", back=.true.) - 1))
     found = real_path(folder//installed//name)

@@ -15,7 +15,7 @@ module link_modes
   use deformation_places, only: displacement_row, slope_row
   use deformation_shapes, only: deformation_shapes_t
   use kinds, only: wp
-  use lump_displacements, only: lump_arms_t
+  use lump_displacements, only: lump_arms_t, rows_before_lumps
   use next_orders, only: new_next_orders, next_orders_t
   use sorting, only: ascending_order
   implicit none (type, external)
@@ -168,7 +168,7 @@ contains
                                                     !! absent or empty: of another
 
     real(wp), allocatable :: shape(:, :), slope(:, :), functions(:, :), turn(:, :)
-    integer :: i, kept, moved
+    integer :: i, kept, moved, first
 
     kept = size(own, 1)
     link%modes = size(own, 2)
@@ -197,9 +197,9 @@ contains
     link%participation(3, :) = matmul(shape(:, 1), shape(:, 2:))
     link%linear(1:2, 1:2) = matmul(transpose(bending%linear), bending%linear)
     moved = bending%coefficients*bending%elements
+    first = rows_before_lumps(bending)
     associate (line => bending%linear(:moved, :), &
-      lumps => bending%linear(size(bending%linear, 1) - bending%turning_lumps - bending%lumps + &
-      1:size(bending%linear, 1) - bending%turning_lumps, :))
+      lumps => bending%linear(first + 1:first + bending%lumps, :))
       link%axial_linear = matmul(transpose(line), line) + matmul(transpose(lumps), lumps)
     end associate
     link%linear(1:2, 3) = matmul(transpose(bending%linear), shape(:, 1))
@@ -279,7 +279,7 @@ contains
     link%slope_norm = sqrt(link%slope_norm**2 + sum(turn**2, dim=1))
     link%slope_terms = sqrt(link%slope_terms**2 + [sum(turn(:, rigid)**2), &
       sum(matmul(abs(arms%turn(:, :kept)), abs(link%bending))**2, dim=1)])
-    first = size(bending%displacement, 1) - bending%turning_lumps - bending%lumps
+    first = rows_before_lumps(bending)
     masses = bending%linear(first + 1:first + bending%lumps, :)
     ! The root of every mass is in its row: 1 − ξ and ξ add up to it.
     allocate (link%at_mass(bending%lumps, 3))
@@ -396,7 +396,7 @@ contains
       associate (shapes => link%bending_shapes)
         deallocate (link%sag)
         allocate (link%sag(stations, 4 + shapes%lumps), at_mass(shapes%lumps, link%modes))
-        first = size(shapes%displacement, 1) - shapes%turning_lumps - shapes%lumps
+        first = rows_before_lumps(shapes)
         at_mass = matmul(shapes%displacement(first + 1:first + shapes%lumps, :size(link%bending, &
           1)), link%bending(:, 1:))
         do i = 1, shapes%lumps

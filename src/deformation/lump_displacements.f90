@@ -12,7 +12,8 @@ module lump_displacements
   implicit none (type, external)
   private
 
-  public :: lump_arms_t, add_lump_displacements, add_lump_rotations, new_lump_arms
+  public :: lump_arms_t, add_lump_displacements, add_lump_rotations, rows_before_lumps, &
+    new_lump_arms
 
   !> What bending does to the masses that turn with the cross-sections of a link.
   type :: lump_arms_t
@@ -65,6 +66,14 @@ contains
       shapes%linear(row, :) = sqrt(inertia(i))/shapes%length*[-1.0_wp, 1.0_wp]
     end do
   end subroutine add_lump_rotations
+
+  !> Number of the rows of displacements before those of the masses.
+  pure function rows_before_lumps(shapes) result(rows)
+    type(deformation_shapes_t), intent(in) :: shapes !! with its lumps
+    integer :: rows
+
+    rows = size(shapes%displacement, 1) - shapes%turning_lumps - shapes%lumps
+  end function rows_before_lumps
 
   !> The arms of all masses of a link of which one turns with its cross-section; else none.
   pure function new_lump_arms(body, shapes) result(arms)

@@ -61,17 +61,7 @@ contains
     integer, intent(in) :: plane   !! plane_of_web or plane_of_flanges
     type(walled_section_t) :: section
 
-    type(wall_t) :: walls(3)
-
-    if (plane == plane_of_web) then
-      section = section_of(upright_walls(depth, width, web, flange), depth)
-    else
-      walls(1:2) = wall_t(width, flange, width/2.0_wp)
-      walls(3) = wall_t(web, depth - 2.0_wp*flange, width/2.0_wp)
-      section = section_of(walls, width)
-    end if
-    section%flange_ratio = width/(depth - flange)
-    section%flange_share = 2.0_wp*section%flange_ratio*flange/web
+    section = flanged_section(depth, width, web, flange, plane, width/2.0_wp, width)
   end function new_i_section
 
   !> A channel.
@@ -84,28 +74,33 @@ contains
     integer, intent(in) :: plane   !! plane_of_web or plane_of_flanges
     type(walled_section_t) :: section
 
+    section = flanged_section(depth, width, web, flange, plane, web/2.0_wp, width - web/2.0_wp)
+  end function new_channel
+
+  !> Two flanges and a web between them.
+  pure function flanged_section(depth, width, web, flange, plane, web_place, middle_width) &
+    result(section)
+    real(wp), intent(in) :: depth, width, web, flange !! as for the I section [m]
+    integer, intent(in) :: plane                      !! plane_of_web or plane_of_flanges
+    real(wp), intent(in) :: web_place                 !! middle of the web, along the flanges [m]
+    real(wp), intent(in) :: middle_width              !! of a flange, on the middle lines [m]
+    type(walled_section_t) :: section
+
     type(wall_t) :: walls(3)
 
     if (plane == plane_of_web) then
-      section = section_of(upright_walls(depth, width, web, flange), depth)
+      walls(1) = wall_t(flange, width, flange/2.0_wp)
+      walls(2) = wall_t(flange, width, depth - flange/2.0_wp)
+      walls(3) = wall_t(depth - 2.0_wp*flange, web, depth/2.0_wp)
+      section = section_of(walls, depth)
     else
       walls(1:2) = wall_t(width, flange, width/2.0_wp)
-      walls(3) = wall_t(web, depth - 2.0_wp*flange, web/2.0_wp)
+      walls(3) = wall_t(web, depth - 2.0_wp*flange, web_place)
       section = section_of(walls, width)
     end if
-    section%flange_ratio = (width - web/2.0_wp)/(depth - flange)
+    section%flange_ratio = middle_width/(depth - flange)
     section%flange_share = 2.0_wp*section%flange_ratio*flange/web
-  end function new_channel
-
-  !> Two flanges normal to the plane of motion and a web in it, wherever on the flanges that stands.
-  pure function upright_walls(depth, width, web, flange) result(walls)
-    real(wp), intent(in) :: depth, width, web, flange
-    type(wall_t) :: walls(3)
-
-    walls(1) = wall_t(flange, width, flange/2.0_wp)
-    walls(2) = wall_t(flange, width, depth - flange/2.0_wp)
-    walls(3) = wall_t(depth - 2.0_wp*flange, web, depth/2.0_wp)
-  end function upright_walls
+  end function flanged_section
 
   !> Area, centroid and second moment of walls: a sum of positive terms, so that thin walls cost no
   !! digits.

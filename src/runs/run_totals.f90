@@ -35,7 +35,8 @@ module run_totals
                                            !! 0: no frequency found
     type(range_t) :: lowest                !! the first frequency of every position and speed [Hz]
     type(range_t) :: highest               !! the last one [Hz]
-    type(range_t) :: torque                !! driving torque, of REPORT reactions or balance [N m]
+    type(range_t) :: torque                !! driving torque, of REPORT reactions or balance,
+                                           !! of variants without a frequency [N m]
     real(wp) :: computing = 0.0_wp         !! studies, sum over threads [s]
     real(wp) :: writing = 0.0_wp           !! rows found and written, sum over threads [s]
   end type run_totals_t
@@ -58,9 +59,11 @@ contains
         found%sweep%counts%kinematic_solutions + merge(1, 0, found%motion%has_begun)
       if (allocated(found%geometry%crank)) totals%kinematic_solutions = &
         totals%kinematic_solutions + size(found%geometry%crank)
-      totals%torque = torque_range(variant)
       totals%has_frequencies = allocated(found%sweep%results)
-      if (.not. totals%has_frequencies) return
+      if (.not. totals%has_frequencies) then
+        totals%torque = torque_range(variant)
+        return
+      end if
       totals%speeds = size(found%sweep%request%speed)
       totals%counts = found%sweep%counts
       do i = 1, size(found%sweep%results)
@@ -74,6 +77,8 @@ contains
           end do
         end associate
       end do
+      ! The line after a run names the torque where there is no frequency.
+      if (is_empty(totals%lowest)) totals%torque = torque_range(variant)
     end associate
   end function totals_of
 

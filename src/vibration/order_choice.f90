@@ -115,8 +115,8 @@ contains
       call try_samples(linkage, model, positions, chosen(size(chosen)/2 + 1:size(chosen)/2 + 1), &
         demand, sample, counts)
       do b = 1, size(beams)
-        if (linkage%bodies(b)%bends) degrees(b) = guessed_degrees(linkage%bodies(b), beams(b), &
-          sample, b, part_bound, highest(b))
+        if (linkage%bodies(b)%bends) degrees(b) = &
+          guessed_degrees(waves_in(linkage%bodies(b), beams(b), sample, b), part_bound, highest(b))
       end do
       do while (unknowns_of(degrees, linkage%bodies%bends) < modes + spare_unknowns)
         do b = 1, size(beams)
@@ -129,8 +129,8 @@ contains
         call try_samples(linkage, model, positions, chosen, demand, sample, counts)
         raised = .false.
         do b = 1, size(beams)
-          if (linkage%bodies(b)%bends) call raise_degrees(linkage%bodies(b), beams(b), model, &
-            sample, b, part_bound, highest(b), degrees(b), raised)
+          if (linkage%bodies(b)%bends) call raise_degrees(waves_in(linkage%bodies(b), &
+            beams(b), sample, b), model, sample, b, part_bound, highest(b), degrees(b), raised)
         end do
         if (.not. raised) exit
       end do
@@ -179,19 +179,14 @@ contains
   end function unknowns_of
 
   !> Degrees from the waves that occur in each piece.
-  pure function guessed_degrees(body, beam, sample, b, bound, highest) result(degrees)
-    type(body_t), intent(in) :: body
-    type(beam_t), intent(in) :: beam
-    type(sample_t), intent(in) :: sample
-    integer, intent(in) :: b       !! number of the body
-    real(wp), intent(in) :: bound  !! on the relative error of eigenvalues
+  pure function guessed_degrees(waves, bound, highest) result(degrees)
+    type(waves_t), intent(in) :: waves !! of the link
+    real(wp), intent(in) :: bound
     type(link_degrees_t), intent(in) :: highest
     type(link_degrees_t) :: degrees
 
-    type(waves_t) :: waves
     integer :: e, layer
 
-    waves = waves_in(body, beam, sample, b)
     degrees = highest
     do e = 1, size(waves%across)
       layer = ceiling(min(sqrt(0.5_wp*waves%pulled(e)*abs(log(bound))), &
@@ -203,23 +198,20 @@ contains
 
   !> Raises the degrees of the parts whose error is above the bound; at least to those that the
   !! waves now known ask for.
-  pure subroutine raise_degrees(body, beam, model, sample, b, bound, highest, degrees, raised)
-    type(body_t), intent(in) :: body
-    type(beam_t), intent(in) :: beam
+  pure subroutine raise_degrees(waves, model, sample, b, bound, highest, degrees, raised)
+    type(waves_t), intent(in) :: waves !! of the link
     type(deformation_model_t), intent(in) :: model
     type(sample_t), intent(in) :: sample
-    integer, intent(in) :: b       !! number of the body
+    integer, intent(in) :: b !! number of the body
     real(wp), intent(in) :: bound
     type(link_degrees_t), intent(in) :: highest
     type(link_degrees_t), intent(inout) :: degrees
     logical, intent(inout) :: raised
 
     type(link_degrees_t) :: guessed
-    type(waves_t) :: waves
     integer :: e
 
-    guessed = guessed_degrees(body, beam, sample, b, bound, highest)
-    waves = waves_in(body, beam, sample, b)
+    guessed = guessed_degrees(waves, bound, highest)
     do e = 1, size(waves%across)
       call raise(degrees%across(e), guessed%across(e), highest%across(e), waves%across(e), bound, &
         sample%error(part_of(model%links, b, e, .false.)), raised)

@@ -9,7 +9,7 @@ module card_reader
   use kinds, only: wp
   use numbers, only: number_length, read_integer, read_real
   use spelling, only: suggestion
-  use text, only: joined, same_word, string_t, to_string, word_list
+  use text, only: has_word, joined, same_word, string_t, to_string, word_list
   use tokens, only: check_name, token_part, token_t
   use units, only: coherent_factor, dimension_name, dimension_none, read_unit, serves_for, &
     to_si, unit_system_t, unit_t, wrong_unit
@@ -68,7 +68,7 @@ contains
     ! No card has a dozen keys: after a hundred, enough errors have been reported.
     do i = 1, min(size(card%entries), most_keys)
       associate (key => card%entries(i)%key)
-        if (.not. any_same(allowed, key%text)) then
+        if (.not. has_word(allowed, key%text)) then
           if (present(known_keys)) known_keys = .false.
           call add_error(diagnostics, key, "unknown key '"//key%text//"'"//key_hint(key%text, &
             allowed)//"; expected: "//pattern)
@@ -95,19 +95,6 @@ contains
     call read_unit(word, dimension_none, measure, error)
     if (.not. allocated(error)) hint = " (a unit follows its number without a blank)"
   end function unit_apart
-
-  pure function any_same(list, word) result(any_is)
-    type(string_t), intent(in) :: list(:)
-    character(len=*), intent(in) :: word
-    logical :: any_is
-
-    integer :: i
-
-    any_is = .false.
-    do i = 1, size(list)
-      any_is = any_is .or. same_word(list(i)%text, word)
-    end do
-  end function any_same
 
   !> Number of the entry with the given key; 0 if the card has no such key or its value is missing.
   pure function entry_number(card, key) result(number)

@@ -1,7 +1,7 @@
 !> What unknown keys of cards may mean: other names of a quantity, abbreviations, misspellings.
 module key_hints
   use spelling, only: suggestion
-  use text, only: lower_case, same_word, string_t, word_list
+  use text, only: has_word, lower_case, same_word, string_t, word_list
   implicit none (type, external)
   private
 
@@ -63,7 +63,7 @@ contains
     integer :: i, k
 
     if (same_word(key, "radius") .or. same_word(key, "r")) then
-      if (is_one_of("diameter", allowed)) then
+      if (has_word(allowed, "diameter")) then
         hint = " (did you mean 'diameter', twice the radius?)"
         return
       end if
@@ -72,7 +72,7 @@ contains
       if (index(" "//trim(other_names(i)%names)//" ", " "//lower_case(key)//" ") == 0) cycle
       keys = word_list(trim(other_names(i)%keys))
       do k = 1, size(keys)
-        if (.not. is_one_of(keys(k)%text, allowed)) cycle
+        if (.not. has_word(allowed, keys(k)%text)) cycle
         hint = " (did you mean '"//keys(k)%text//"'?)"
         return
       end do
@@ -80,18 +80,5 @@ contains
     hint = ""
     if (size(allowed) > 0) hint = suggestion(key, allowed)
   end function key_hint
-
-  pure function is_one_of(word, list) result(is)
-    character(len=*), intent(in) :: word
-    type(string_t), intent(in) :: list(:)
-    logical :: is
-
-    integer :: i
-
-    is = .false.
-    do i = 1, size(list)
-      is = is .or. same_word(list(i)%text, word)
-    end do
-  end function is_one_of
 
 end module key_hints

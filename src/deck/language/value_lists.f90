@@ -252,13 +252,22 @@ contains
 
     value = number%number
     if (number%is_zero .or. .not. allocated(list%unit%name)) return
-    if (number%unit%name == list%unit%name) return
-    if (all(dimension == dimension_angle)) then
-      value = from_si(to_si(point, degrees()), list%unit)
-    else
-      value = from_si(point, list%unit)
-    end if
+    if (number%unit%name /= list%unit%name) value = number_in(list%unit, point, dimension)
   end function in_unit_of
+
+  !> The number of a point in a unit: the inverse of `converted`.
+  pure function number_in(measure, point, dimension) result(number)
+    type(unit_t), intent(in) :: measure
+    real(wp), intent(in) :: point !! as the list has it
+    integer, intent(in) :: dimension(4)
+    real(wp) :: number
+
+    if (all(dimension == dimension_angle)) then
+      number = from_si(to_si(point, degrees()), measure)
+    else
+      number = from_si(point, measure)
+    end if
+  end function number_in
 
   !> The degree, without its name.
   pure function degrees() result(measure)
@@ -423,11 +432,7 @@ contains
 
     if (.not. first%is_zero .and. first%unit%name /= step%unit%name) then
       point = first%value + count*step%value
-      if (all(dimension == dimension_angle)) then
-        number%number = from_si(to_si(point, degrees()), step%unit)
-      else
-        number%number = from_si(point, step%unit)
-      end if
+      number%number = number_in(step%unit, point, dimension)
       return
     end if
     decimal = decimal_point(first%decimal, step%decimal, count)

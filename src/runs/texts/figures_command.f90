@@ -1,6 +1,7 @@
 !> The command that draws the figures of a run.
 module figures_command
   use file_system, only: file_exists, joined_path
+  use text, only: in_single_quotes
   implicit none (type, external)
   private
 
@@ -47,19 +48,9 @@ contains
 
     character(len=*), parameter :: plain = "abcdefghijklmnopqrstuvwxyz"// &
       "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-+,=:@%"
-    integer :: i
 
     word = path
-    if (verify(path, plain) == 0) return
-    word = "'"
-    do i = 1, len(path)
-      if (path(i:i) == "'") then
-        word = word//"'\''"
-      else
-        word = word//path(i:i)
-      end if
-    end do
-    word = word//"'"
+    if (verify(path, plain) > 0) word = in_single_quotes(path)
   end function shell_word
 
 end module figures_command
