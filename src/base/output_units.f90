@@ -2,12 +2,13 @@
 !! customary for the quantity. What bare numbers of a deck mean is not affected.
 module output_units
   use errors, only: error_t
-  use units, only: coherent_unit, dimension_force, dimension_moment, dimension_rate, read_unit, &
-    unit_system_t, unit_t
+  use units, only: coherent_unit, dimension_force, dimension_moment, dimension_rate, &
+    dimension_stress, dimension_time, own_name, read_unit, unit_system_t, unit_t
   implicit none (type, external)
   private
 
-  public :: output_units_t, new_output_units, table_name
+  public :: output_units_t, new_output_units, table_name, stress_unit, stress_factor, power_unit, &
+    power_factor
 
   !> Angles are in degrees, angular accelerations in rad/s², frequencies in Hz.
   type :: output_units_t
@@ -49,6 +50,56 @@ contains
     if (imperial) outputs%energy = outputs%moment
     outputs%rate = unit_of("rad/s", dimension_rate)
   end function new_output_units
+
+  !> The unit of stresses: that of forces per square of that of lengths, by its own name if it has
+  !! one: `MPa`, `psi`, `lbf/ft2`.
+  pure function stress_unit(outputs) result(measure)
+    type(output_units_t), intent(in) :: outputs !! of the deck's results
+    type(unit_t) :: measure
+
+    measure = stress_factor(outputs)
+    measure%name = own_name(measure)
+    if (len(measure%name) == 0) measure%name = outputs%force%name//"/"// &
+      outputs%system%length%name//"2"
+  end function stress_unit
+
+  !> As `stress_unit`, without the name.
+  pure function stress_factor(outputs) result(measure)
+    type(output_units_t), intent(in) :: outputs !! of the deck's results
+    type(unit_t) :: measure
+
+    associate (force => outputs%force, length => outputs%system%length)
+      measure%dimension = dimension_stress
+      measure%numerator = force%numerator*length%denominator**2
+      measure%denominator = force%denominator*length%numerator**2
+    end associate
+  end function stress_factor
+
+  !> The unit of power: that of energies per second, W or kW where energies are in J or kJ.
+  pure function power_unit(outputs) result(measure)
+    type(output_units_t), intent(in) :: outputs !! of the deck's results
+    type(unit_t) :: measure
+
+    measure = power_factor(outputs)
+    select case (outputs%energy%name)
+    case ("J")
+      measure%name = "W"
+    case ("kJ")
+      measure%name = "kW"
+    case default
+      measure%name = outputs%energy%name//"/s"
+    end select
+  end function power_unit
+
+  !> As `power_unit`, without the name.
+  pure function power_factor(outputs) result(measure)
+    type(output_units_t), intent(in) :: outputs !! of the deck's results
+    type(unit_t) :: measure
+
+    measure%dimension = dimension_moment - dimension_time
+    measure%numerator = outputs%energy%numerator
+    measure%denominator = outputs%energy%denominator
+  end function power_factor
 
   !> A unit known to exist, with the name that tables have.
   pure function unit_of(text, dimension) result(measure)

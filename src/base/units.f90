@@ -12,7 +12,7 @@ module units
   private
 
   public :: unit_t, unit_system_t, dimension_name, wrong_unit, read_unit, new_unit_system, &
-    si_units, coherent_unit, coherent_factor, to_si, from_si, serves_for
+    si_units, coherent_unit, coherent_factor, own_name, to_si, from_si, serves_for
   public :: dimension_none, dimension_length, dimension_mass, dimension_time, dimension_angle, &
     dimension_rate
   public :: dimension_angular_acceleration, dimension_velocity, dimension_acceleration, &
@@ -380,6 +380,25 @@ contains
     end if
     if (len(name) == 0) name = "-"
   end function coherent_name
+
+  !> `MPa` for N/mm²: the name of the unit with the dimension and the factor of another one; empty
+  !! if there is none.
+  pure function own_name(measure) result(name)
+    type(unit_t), intent(in) :: measure !! its name is not used
+    character(len=:), allocatable :: name
+
+    type(unit_t), allocatable :: known(:)
+    integer :: i
+
+    name = ""
+    known = named_units()
+    do i = 1, size(known)
+      if (any(known(i)%dimension /= measure%dimension)) cycle
+      if (.not. same_factor(measure, known(i))) cycle
+      name = known(i)%name
+      return
+    end do
+  end function own_name
 
   pure function same_factor(a, b) result(same)
     type(unit_t), intent(in) :: a, b

@@ -10,7 +10,8 @@ module attached_parts
   implicit none (type, external)
   private
 
-  public :: body_point_t, attach_masses, apply_loads, points_of, place_on_body, body_of
+  public :: body_point_t, attach_masses, apply_loads, points_of, place_on_body, body_of, &
+    runs_against
 
   !> A point fixed to a body.
   type :: body_point_t
@@ -72,10 +73,19 @@ contains
 
     associate (link => model%links(model%loop(body)))
       turned = place
-      if (.not. same_word(link%pin(1)%text, model%loop_pins(body)%text)) &
-        turned = [link%length - place(1), -place(2)]
+      if (runs_against(model, body)) turned = [link%length - place(1), -place(2)]
     end associate
   end function place_on_body
+
+  !> Whether a body runs from the second pin of its LINK card to the first.
+  pure function runs_against(model, body) result(against)
+    type(model_t), intent(in) :: model !! without errors
+    integer, intent(in) :: body        !! number in the linkage, from 1
+    logical :: against
+
+    against = .not. same_word(model%links(model%loop(body))%pin(1)%text, &
+      model%loop_pins(body)%text)
+  end function runs_against
 
   !> Sets gravity, forces on pins and torques on links.
   pure subroutine apply_loads(model, linkage)

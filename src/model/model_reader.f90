@@ -21,6 +21,9 @@ module model_reader
   use report_kinds, only: report_kind_t
   use request_cards, only: read_crank, read_drive, read_modes, read_option, read_speed, read_title
   use request_checks, only: check_requests, check_required
+  use response_cards, only: is_response_form, read_damping, read_gauge, read_omitted_terms, &
+    response_form
+  use response_checks, only: find_dampings, find_gauges
   use sections, only: read_section
   use shear, only: check_shear
   use spelling, only: suggestion
@@ -60,6 +63,7 @@ contains
     model%solver_word = token_t("", 0, 0)
     model%gravity_word = token_t("", 0, 0)
     model%motor%keyword = token_t("", 0, 0)
+    model%without%keyword = token_t("", 0, 0)
     allocate (model%crank%value(0), model%crank%word(0), model%crank%words(0))
     model%speed%value = [0.0_wp]
     model%speed%word = [0]
@@ -82,6 +86,8 @@ contains
     call check_required(cards, reports, diagnostics, model)
     call check_names(diagnostics, model)
     call check_bodies(diagnostics, model)
+    call find_dampings(diagnostics, model)
+    call find_gauges(diagnostics, model)
     call find_loop(diagnostics, model)
     call check_requests(cards, diagnostics, model)
     call check_shear(diagnostics, model)
@@ -154,12 +160,13 @@ contains
     do i = 1, size(cards)
       kind = card_kind_number(cards(i)%keyword%text)
       if (kind == 0) cycle
+      if (is_response_form(cards(i))) kind = card_kind_number(cards(i)%keyword%text, response_form)
       if (first(kind) == 0) then
         first(kind) = i
       else if (card_kinds(kind)%is_single) then
-        call add_error(diagnostics, cards(i)%keyword, &
-          "a second "//trim(card_kinds(kind)%keyword)//" card", cards(first(kind))%keyword, &
-          "the first is here")
+        call add_error(diagnostics, cards(i)%keyword, "a second "// &
+          trim(trim(card_kinds(kind)%keyword)//" "//card_kinds(kind)%form)//" card", &
+          cards(first(kind))%keyword, "the first is here")
       end if
     end do
   end subroutine refuse_second_cards
@@ -243,7 +250,8 @@ contains
       model%meshes(number_of(cards, "MESH")), model%reports(number_of(cards, "REPORT")))
     allocate (model%masses(number_of(cards, "MASS")), model%points(number_of(cards, "POINT")), &
       model%forces(number_of(cards, "FORCE")), model%torques(number_of(cards, "TORQUE")), &
-      model%resistances(number_of(cards, "LOAD")))
+      model%resistances(number_of(cards, "LOAD")), &
+      model%dampings(number_of(cards, "DAMPING")), model%gauges(number_of(cards, "GAUGE")))
     so_far = 0
     do i = 1, size(cards)
       kind = card_kind_number(cards(i)%keyword%text)
@@ -300,6 +308,10 @@ contains
         call read_mass(card, system, diagnostics, model%masses(number))
       case ("POINT")
         call read_point(card, system, diagnostics, model%points(number))
+      case ("DAMPING")
+        call read_damping(card, system, diagnostics, model%dampings(number))
+      case ("GAUGE")
+        call read_gauge(card, system, diagnostics, model%gauges(number))
       case ("GRAVITY")
         model%gravity_word = card%keyword
         call read_gravity(card, system, diagnostics, model%gravity)
@@ -318,7 +330,11 @@ contains
       case ("INERTIA")
         call read_option(card, diagnostics, model%inertia, model%inertia_word)
       case ("EFFECTS")
-        call take_effects(card, diagnostics, model)
+        if (is_response_form(card)) then
+          call read_omitted_terms(card, diagnostics, model%without)
+        else
+          call take_effects(card, diagnostics, model)
+        end if
       case ("SOLVER")
         call read_option(card, diagnostics, model%solver, model%solver_word)
       case ("MODES")

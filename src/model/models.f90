@@ -11,7 +11,8 @@ module models
   use materials, only: material_t
   use motor_cards, only: motor_t, resistance_t
   use output_units, only: output_units_t
-  use report_cards, only: report_t
+  use report_cards, only: default_response_accuracy, report_t
+  use response_cards, only: damping_card_t, gauge_t, omitted_terms_t
   use sections, only: section_t
   use text, only: to_string
   use tokens, only: token_t
@@ -21,9 +22,9 @@ module models
   private
 
   public :: model_t, report_number, needs_study, needs_positions, is_moving, is_loaded, &
-    needs_loads, needs_inertia, needs_frequencies, needs_beams, needs_masses, needs_mesh, &
-    report_of_masses, bears_lumped_masses, link_mass, link_line_density, speed_in_table, &
-    speed_in_words
+    needs_loads, needs_inertia, needs_frequencies, needs_response, response_accuracy, needs_beams, &
+    bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
+    link_line_density, speed_in_table, speed_in_words
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
@@ -45,6 +46,8 @@ module models
     type(mesh_t), allocatable :: meshes(:)
     type(mass_card_t), allocatable :: masses(:)
     type(point_t), allocatable :: points(:)
+    type(damping_card_t), allocatable :: dampings(:)
+    type(gauge_t), allocatable :: gauges(:)
     real(wp) :: gravity(2) = 0.0_wp             !! in global axes [m/s²]
     type(token_t) :: gravity_word               !! keyword
     type(force_card_t), allocatable :: forces(:)
@@ -68,6 +71,7 @@ module models
     logical :: rotary = .false.                 !! cross-sections have rotary inertia
     logical :: shear = .false.                  !! shear: cross-sections turn relative to the slope
     type(token_t) :: shear_word                 !! `shear` on the EFFECTS card
+    type(omitted_terms_t) :: without            !! terms left out of the elastic response
     integer :: solver = solver_auto             !! one of the solver_… constants
     type(token_t) :: solver_word
     integer :: modes = 3                        !! at each position
@@ -134,7 +138,34 @@ contains
     needs = any(model%reports%kind%frequencies)
   end function needs_frequencies
 
-  !> Whether any report takes links as beams.
+  !> Whether the elastic response of the links at constant speed is requested.
+  pure function needs_response(model) result(needs)
+    type(model_t), intent(in) :: model !! as read
+    logical :: needs
+
+    needs = any(model%reports%kind%response)
+  end function needs_response
+
+  !> The accuracy of the elastic response, relative to the largest value of each quantity over the
+  !! turn: the smallest of all reports on it, for they share one solution.
+  pure function response_accuracy(model) result(accuracy)
+    type(model_t), intent(in) :: model !! as read
+    real(wp) :: accuracy
+
+    accuracy = default_response_accuracy
+    if (needs_response(model)) accuracy = minval(model%reports%accuracy, &
+      mask=model%reports%kind%response)
+  end function response_accuracy
+
+  !> Whether any report is on links that bend, by their elements or without.
+  pure function bends_links(model) result(bends)
+    type(model_t), intent(in) :: model !! as read
+    logical :: bends
+
+    bends = needs_beams(model) .or. needs_response(model)
+  end function bends_links
+
+  !> Whether any report takes links as beams divided into elements.
   pure function needs_beams(model) result(needs)
     type(model_t), intent(in) :: model !! as read
     logical :: needs

@@ -7,7 +7,7 @@
 module shear
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
-  use models, only: model_t, needs_frequencies
+  use models, only: model_t, needs_frequencies, needs_response
   use sections, only: section_t, shape_box, shape_channel, shape_circle, shape_general, shape_i, &
     shape_rectangle, shape_tube
   use walled_sections, only: box_shear_coefficient, channel_shear_coefficient, &
@@ -96,7 +96,8 @@ contains
 
     integer :: i
 
-    if (.not. model%shear .or. .not. needs_frequencies(model)) return
+    if (.not. model%shear) return
+    if (.not. needs_frequencies(model) .and. .not. needs_response(model)) return
     do i = 1, size(model%materials)
       associate (material => model%materials(i))
         if (material%has_ratio .or. .not. any(model%links%material == i .and. &

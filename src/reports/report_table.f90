@@ -52,9 +52,9 @@ module report_table
 
   !> All studies in the order in which they are made: some use the results of others. The last
   !! three are made block by block, or step by step, by `variant_runs`.
-  character(len=*), parameter :: study_names(12) = [character(len=12) :: "kinematics", "geometry", &
-    "inertia", "points", "reactions", "lagrange", "balance", "harmonics", "linkage", "motion", &
-    "frequencies", "loci"]
+  character(len=*), parameter :: study_names(13) = [character(len=12) :: "kinematics", "geometry", &
+    "inertia", "points", "reactions", "lagrange", "balance", "harmonics", "linkage", "response", &
+    "motion", "frequencies", "loci"]
 
   !> Where a report has one table only.
   type(table_kind_t), parameter :: no_table = table_kind_t()
@@ -117,6 +117,32 @@ module report_table
     report_kind_t(name="geometry", help="where pins, links and points are, for drawings", &
       pattern="REPORT geometry crank=a,b,...", offered=.false., studies="geometry", tables=[ &
       table_kind_t("geometry", "crank:deg link,part,place:name x,y:length"), no_table]), &
+    report_kind_t(name="response", help="how far pins and points are from where rigid links are", &
+      pattern="REPORT response [accuracy=]", default="accuracy=1e-6", studies="response", &
+      positions=.true., response=.true., tables=[ &
+      table_kind_t("response", "speed:speed crank:deg point:name ux,uy:length rotation:deg "// &
+      "error:-"), no_table]), &
+    report_kind_t(name="strains", help="strains, forces and stresses at gauges", &
+      pattern="REPORT strains [accuracy=]", default="accuracy=1e-6", studies="response", &
+      positions=.true., response=.true., tables=[ &
+      table_kind_t("strains", "speed:speed crank:deg gauge:name axial_strain,bending_strain:- "// &
+      "moment:moment axial_force,shear_force:force stress:stress error:-"), no_table]), &
+    report_kind_t(name="peaks", help="largest strain, stress and deflection of every link", &
+      pattern="REPORT peaks [accuracy=]", default="accuracy=1e-6", studies="response", &
+      response=.true., tables=[ &
+      table_kind_t("peaks", "speed:speed link:name strain:- strain_at:length "// &
+      "strain_crank:deg stress:stress stress_at:length stress_crank:deg "// &
+      "deflection,deflection_at:length deflection_crank:deg power:power error:-"), no_table]), &
+    report_kind_t(name="drive", help="the driving torque with its parts, and the power", &
+      pattern="REPORT drive [accuracy=]", default="accuracy=1e-6", studies="response", &
+      positions=.true., response=.true., tables=[ &
+      table_kind_t("drive", "speed:speed crank:deg rigid,linear,quadratic,total:moment "// &
+      "power:power error:-"), no_table]), &
+    report_kind_t(name="validity", help="whether the equations of the response hold", &
+      pattern="REPORT validity [accuracy=]", default="accuracy=1e-6", studies="response", &
+      response=.true., tables=[ &
+      table_kind_t("validity", "speed:speed link:name deflection,load,quadratic:- "// &
+      "out_of_plane:Hz distance,error:-"), no_table]), &
     report_kind_t(name="motion", help="the motion under motor and loads", &
       pattern="REPORT motion crank= [speed=0] end= step=", default="speed=0", &
       studies="motion", masses=.true., tables=[ &
@@ -161,6 +187,7 @@ contains
           found%harmonics)
       case ("linkage")
         call find_linkage(linkage, found%linkage)
+      ! TODO response tables: case ("response") is filled in with the study
       end select
     end associate
   end subroutine find_study
@@ -217,6 +244,8 @@ contains
     case ("motion")
       names(1) = motion_words()
       plan%items = 1
+    ! TODO response tables: filled in with the study; names in the columns point, gauge and link,
+    ! and one item a speed for peaks and validity
     end select
     call new_table_layout(table, variant%model%outputs, count, optional, names, plan%layout)
   end subroutine plan_table
@@ -265,6 +294,9 @@ contains
       call harmonics_notes(variant, notes)
     case ("motion")
       call motion_notes(variant, notes)
+    case default
+      ! TODO response tables: filled in with the study
+      allocate (notes(0))
     end select
   end subroutine table_notes
 
@@ -288,6 +320,8 @@ contains
       call add_motion(variant, plan%layout, rows)
     case ("branches")
       call add_loci(variant, plan%layout, rows)
+    case ("response", "strains", "peaks", "drive", "validity")
+      return ! TODO response tables: filled in with the study
     case ("shapes")
       if (number > 1) call add_gap(rows, 2)
       call add_shapes(variant, plan%layout, plan%drawn(1, number), plan%drawn(2, number), rows)

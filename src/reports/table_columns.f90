@@ -2,7 +2,7 @@
 module table_columns
   use kinds, only: wp
   use number_text, only: number_width
-  use output_units, only: output_units_t
+  use output_units, only: output_units_t, power_factor, power_unit, stress_factor, stress_unit
   use report_kinds, only: column_kind_t, columns_of, table_kind_t
   use tables, only: append_column, column_t, integer_column, name_column, real_cells, real_column
   use text, only: string_t, to_string
@@ -122,6 +122,10 @@ contains
       measure = outputs%moment
     case ("energy")
       measure = outputs%energy
+    case ("stress")
+      measure = stress_unit(outputs)
+    case ("power")
+      measure = power_unit(outputs)
     case default
       if (is_quantity(word)) then
         measure = coherent_unit(outputs%system, dimension_of(word))
@@ -143,6 +147,10 @@ contains
       call take_factor(outputs%force, measure)
     case ("moment")
       call take_factor(outputs%moment, measure)
+    case ("stress")
+      measure = stress_factor(outputs)
+    case ("power")
+      measure = power_factor(outputs)
     case default
       measure = coherent_factor(outputs%system, dimension_of(quantity))
     end select

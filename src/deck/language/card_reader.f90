@@ -18,7 +18,7 @@ module card_reader
 
   public :: check_form, check_words, unit_apart, has_key, entry_number, read_name, read_quantity, &
     read_measure, require_positive, refuse_negative
-  public :: read_entry_quantity, read_entry_count, read_choice
+  public :: read_entry_quantity, read_entry_count, read_entry_accuracy, read_choice
 
 contains
 
@@ -355,6 +355,40 @@ contains
       end if
     end associate
   end subroutine read_entry_count
+
+  !> Reads `accuracy=`, a relative one.
+  !!
+  !! Errors: as for `read_measure`; it is finer or coarser than allowed.
+  pure subroutine read_entry_accuracy(card, finest, coarsest, system, diagnostics, accuracy, &
+    fine)
+    type(card_t), intent(in) :: card                  !! of any kind
+    real(wp), intent(in) :: finest, coarsest          !! smallest and largest allowed value [-]
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    real(wp), intent(out) :: accuracy                 !! [-]; 0 without a right value
+    logical, intent(out) :: fine                      !! whether the key exists and its value is
+                                                      !! right
+
+    integer :: i
+
+    accuracy = 0.0_wp
+    fine = .false.
+    i = entry_number(card, "accuracy")
+    if (i == 0) return
+    associate (word => card%entries(i)%value)
+      call read_quantity(word, dimension_none, system, diagnostics, accuracy, fine)
+      if (.not. fine) return
+      fine = accuracy >= finest .and. accuracy <= coarsest
+      if (accuracy < finest) then
+        call add_error(diagnostics, word, "'accuracy=' must be at least "//to_string(finest)// &
+          ", not "//word%text//": double precision gives no more than "//to_string(finest))
+      else if (accuracy > coarsest) then
+        call add_error(diagnostics, word, "'accuracy=' must be at most "//to_string(coarsest)// &
+          ", not "//word%text)
+      end if
+      if (.not. fine) accuracy = 0.0_wp
+    end associate
+  end subroutine read_entry_accuracy
 
   !> Reads a word that must be one of a few.
   !!

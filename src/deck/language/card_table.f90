@@ -69,7 +69,7 @@ module card_table
       "like the I section; plane=web assumes forces through its shear centre"), &
     card_kind_t("SECTION", "general", least=2, most=2, &
       pattern="SECTION name general A= I= [depth=] [shear_coefficient=]", &
-      help="I about the axis normal to the plane; the depth is used only for a warning"), &
+      help="I about the axis normal to the plane; strains and a warning need the depth"), &
     card_kind_t("GROUND", least=3, most=3, pattern="GROUND name x y", help="a fixed pivot"), &
     card_kind_t("LINK", least=3, most=4, &
       pattern="LINK name pin pin [rigid] length= [material= section=] [mass= inertia= "// &
@@ -90,6 +90,11 @@ module card_table
       entry="offset=0 inertia=0", help="a mass fixed to a link"), &
     card_kind_t("POINT", least=2, most=2, pattern="POINT name link along= [offset=]", &
       entry="offset=0", help="a point of a link, for REPORT points"), &
+    card_kind_t("GAUGE", least=2, most=2, pattern="GAUGE name link at= [side=left|right]", &
+      choices="left right", entry="side=left", help="a strain gauge, for REPORT strains"), &
+    card_kind_t("DAMPING", least=1, most=many, &
+      pattern="DAMPING link ... time=, or DAMPING link ... ratio=, with * for all other links", &
+      help="the damping of links that bend, in their elastic response"), &
     card_kind_t("GRAVITY", is_single=.true., least=2, most=2, pattern="GRAVITY gx gy", &
       help="acceleration of gravity in global axes"), &
     card_kind_t("FORCE", least=3, most=3, pattern="FORCE pin fx fy", &
@@ -112,6 +117,10 @@ module card_table
       pattern="EFFECTS [static|axial] [rotary] [shear]", choices="static axial rotary shear", &
       default="static|axial", &
       help="what frequencies account for; axial if the linkage moves or is loaded"), &
+    card_kind_t("EFFECTS", "response", is_single=.true., least=1, most=1, &
+      pattern="EFFECTS response without=coriolis,centripetal,tangential,axial,quadratic", &
+      choices="coriolis centripetal tangential axial quadratic", &
+      help="terms to be left out of the elastic response, one or several of them"), &
     card_kind_t("SOLVER", is_single=.true., least=1, most=1, &
       pattern="SOLVER auto|deformation|dense|band", choices="auto deformation dense band", &
       default="auto", help="how frequencies are found; auto is deformation"), &

@@ -26,12 +26,13 @@ module report_kinds
     character(len=64) :: help = ""    !! in one line
     character(len=56) :: pattern = "" !! correct form of the card, its keys end with `=`; blank: the
                                       !! name alone
-    character(len=12) :: default = "" !! default entry of its card; blank: none
+    character(len=16) :: default = "" !! default entry of its card; blank: none
     character(len=32) :: studies = "" !! that provide its rows, separated by blanks
     logical :: positions = .false.    !! it has rows for every crank angle
     logical :: masses = .false.       !! it uses masses and their loads
     logical :: beams = .false.        !! it uses links as beams
     logical :: frequencies = .false.  !! it uses natural frequencies
+    logical :: response = .false.     !! it uses the elastic response of links at constant speed
     logical :: offered = .true.       !! listed in the error about a misspelt report
     logical :: reserved = .false.     !! its column names are refused on VARY cards even in decks
                                       !! without it

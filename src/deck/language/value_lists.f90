@@ -16,8 +16,8 @@ module value_lists
   implicit none (type, external)
   private
 
-  public :: value_list_t, empty_list, read_values, read_entry_list, read_entry_pair, list_steps, &
-    value_number
+  public :: value_list_t, empty_list, read_values, read_entry_list, read_entry_pair, find_items, &
+    list_steps, value_number
 
   !> The numbers in a list on a card, each with the word it comes from.
   type :: value_list_t
@@ -133,11 +133,11 @@ contains
 
   !> The items in the list of an existing key. Errors: an empty item.
   pure subroutine find_items(card, key, diagnostics, words, fine)
-    type(card_t), intent(in) :: card
-    character(len=*), intent(in) :: key
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(token_t), allocatable, intent(out) :: words(:)
-    logical, intent(out) :: fine
+    type(card_t), intent(in) :: card                    !! of any kind
+    character(len=*), intent(in) :: key                 !! in any case of letters
+    type(diagnostics_t), intent(inout) :: diagnostics   !! errors are added
+    type(token_t), allocatable, intent(out) :: words(:) !! (items) with their places
+    logical, intent(out) :: fine                        !! whether no item is empty
 
     type(token_t), allocatable :: more(:)
     integer :: i

@@ -11,7 +11,7 @@ module body_cards
   implicit none (type, external)
   private
 
-  public :: mass_card_t, point_t, read_mass, read_point
+  public :: mass_card_t, point_t, read_mass, read_point, read_place
 
   !> A mass fixed to a link.
   type :: mass_card_t
@@ -83,15 +83,18 @@ contains
     call read_place(card, "along", known_keys, system, diagnostics, point%place, place_word)
   end subroutine read_point
 
-  !> Reads the two keys of a place on a link; `offset=` is optional.
+  !> Reads the two keys of a place on a link; `offset=` is optional. Errors: no coordinate along the
+  !! link, unreadable values.
   pure subroutine read_place(card, key, known_keys, system, diagnostics, place, word)
-    type(card_t), intent(in) :: card
-    character(len=*), intent(in) :: key !! coordinate along the link: `at` or `along`
-    logical, intent(in) :: known_keys   !! no key is unknown: a missing one is an error
-    type(unit_system_t), intent(in) :: system
-    type(diagnostics_t), intent(inout) :: diagnostics
-    real(wp), intent(out) :: place(2)  !! [m]
-    type(token_t), intent(out) :: word !! value of `key`; the keyword without one
+    type(card_t), intent(in) :: card                  !! of any kind
+    character(len=*), intent(in) :: key               !! coordinate along the link: `at` or `along`
+    logical, intent(in) :: known_keys                 !! no key is unknown: a missing one is an
+                                                      !! error
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    real(wp), intent(out) :: place(2)                 !! from the first pin of the LINK card: along
+                                                      !! the link, and to its left [m]
+    type(token_t), intent(out) :: word                !! value of `key`; the keyword without one
 
     integer :: i
     logical :: fine

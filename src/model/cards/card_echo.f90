@@ -6,6 +6,7 @@ module card_echo
   use deck_source, only: line_origin, source_t
   use effect_cards, only: effect_words
   use report_kinds, only: kind_named, report_kind_t
+  use response_cards, only: is_response_form
   use settings, only: setting_t
   use text, only: lower_case, same_word, upper_case
   use text_buffer, only: append_text, buffer_text, text_buffer_t
@@ -40,8 +41,8 @@ contains
 
     do i = 1, size(cards)
       lines(i) = echo_card(deck%written(i), cards(i), reports, source)
-      if (same_word(cards(i)%keyword%text, "EFFECTS")) call complete_effects(cards(i), loads, &
-        lines(i))
+      if (same_word(cards(i)%keyword%text, "EFFECTS") .and. .not. is_response_form(cards(i))) &
+        call complete_effects(cards(i), loads, lines(i))
     end do
     do i = 1, size(deck%settings%list)
       associate (setting => deck%settings%list(i))

@@ -28,6 +28,7 @@ module link_cards
     integer :: material = 0           !! number in the model's list; 0: none
     integer :: section = 0            !! the same
     integer :: mesh = 0               !! the same; 0 also for a rigid link
+    integer :: damping = 0            !! number of its DAMPING card in the model's list; 0: none
     logical :: rigid = .false.        !! it does not bend
     type(token_t) :: rigid_word       !! without a line if the link bends
     logical :: has_mass = .false.     !! `mass=` replaces the mass of section and material

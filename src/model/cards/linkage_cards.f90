@@ -1,14 +1,14 @@
 !> GROUND, PINMASS and MESH cards: fixed pivots, masses at pins, division of links into elements.
 !! Names are looked up later, by `name_checks`.
 module linkage_cards
-  use card_reader, only: check_form, entry_number, has_key, read_entry_count, read_entry_quantity, &
+  use card_reader, only: check_form, entry_number, has_key, read_entry_accuracy, read_entry_count, &
     read_name, read_quantity, refuse_negative
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: fineness, wp
   use text, only: same_word, to_string
   use tokens, only: token_t
-  use units, only: dimension_length, dimension_mass, dimension_none, unit_system_t
+  use units, only: dimension_length, dimension_mass, unit_system_t
   implicit none (type, external)
   private
 
@@ -172,23 +172,12 @@ contains
         "which leaves elements and their order to the program")
       return
     end do
-    call read_entry_quantity(card, "accuracy", dimension_none, system, .false., diagnostics, &
+    call read_entry_accuracy(card, finest_accuracy, coarsest_accuracy, system, diagnostics, &
       accuracy, fine)
     if (.not. fine) return
-    associate (word => card%entries(entry_number(card, "accuracy"))%value)
-      if (accuracy < finest_accuracy) then
-        call add_error(diagnostics, word, "'accuracy=' must be at least "// &
-          to_string(finest_accuracy)//", not "//word%text// &
-          ": double precision gives no more than "//to_string(finest_accuracy))
-      else if (accuracy > coarsest_accuracy) then
-        call add_error(diagnostics, word, "'accuracy=' must be at most "// &
-          to_string(coarsest_accuracy)//", not "//word%text)
-      else
-        mesh%accuracy = accuracy
-        mesh%accuracy_word = word
-        mesh%elements = 1
-      end if
-    end associate
+    mesh%accuracy = accuracy
+    mesh%accuracy_word = card%entries(entry_number(card, "accuracy"))%value
+    mesh%elements = 1
   end subroutine read_accuracy
 
   !> The mesh of a deck without MESH card: all links, relative accuracy 1e-8.

@@ -1,11 +1,11 @@
 !> REPORT card: requests one or several tables.
 module report_cards
-  use card_reader, only: check_words, entry_number, has_key, read_choice, read_entry_count, &
-    read_entry_quantity, require_positive
+  use card_reader, only: check_words, entry_number, has_key, read_choice, read_entry_accuracy, &
+    read_entry_count, read_entry_quantity, require_positive
   use card_table, only: keys_in
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
-  use kinds, only: wp
+  use kinds, only: fineness, wp
   use report_kinds, only: kind_named, report_kind_t, report_names
   use text, only: joined, lower_case, to_string, word_list
   use tokens, only: token_t
@@ -14,7 +14,12 @@ module report_cards
   implicit none (type, external)
   private
 
-  public :: report_t, read_report
+  public :: report_t, read_report, default_response_accuracy
+
+  !> `accuracy=` of reports on the elastic response: relative to the largest value of a quantity
+  !! over the turn.
+  real(wp), parameter :: default_response_accuracy = 1.0e-6_wp, &
+    finest_response_accuracy = 1.0e-12_wp*fineness, coarsest_response_accuracy = 1.0e-2_wp
 
   !> One REPORT card.
   type :: report_t
@@ -24,6 +29,7 @@ module report_cards
     type(value_list_t) :: speed  !! `speed=` of shapes [rad/s]; empty: all speeds. Of motion: its
                                  !! start speed, as a list of one, or none
     integer :: points = 21       !! `points=` of shapes, along each link
+    real(wp) :: accuracy = default_response_accuracy !! of reports on the elastic response
     ! REPORT motion: each value with its word, which has no line if the card does not give it.
     real(wp) :: start_angle = 0.0_wp !! of the crank [deg]
     real(wp) :: start_speed = 0.0_wp !! of the crank [rad/s]
@@ -40,8 +46,9 @@ contains
 
   !> Reads `REPORT kind`; shapes with `crank=`, `speed=` and `points=`, geometry with its crank
   !! angles, motion with start, end and step. Errors: an unknown kind, words or keys that do not fit
-  !! it, a missing or unreadable value, fewer than two `points=`, a motion whose end or step is not
-  !! above 0, whose step exceeds its end, or which has more than a million steps.
+  !! it, a missing or unreadable value, fewer than two `points=`, an `accuracy=` out of range, a
+  !! motion whose end or step is not above 0, whose step exceeds its end, or which has more than a
+  !! million steps.
   pure subroutine read_report(card, reports, system, diagnostics, report)
     type(card_t), intent(in) :: card                  !! the REPORT card
     type(report_kind_t), intent(in) :: reports(:)     !! (kinds) all that exist
@@ -77,6 +84,7 @@ contains
         trim(report%kind%name)//", and a REPORT card of its own for "//card%words(2)%text
     end if
     call check_words(card, 1, 1, keys_in(pattern), pattern, diagnostics, fine, known_keys)
+    if (report%kind%response) call read_response(card, system, diagnostics, report)
     select case (report%kind%name)
     case ("shapes")
       call read_shapes(card, system, diagnostics, report)
@@ -86,6 +94,21 @@ contains
       call read_motion(card, known_keys, system, diagnostics, report)
     end select
   end subroutine read_report
+
+  !> Reads `REPORT response [accuracy=]`, and the other reports on the elastic response.
+  pure subroutine read_response(card, system, diagnostics, report)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(report_t), intent(inout) :: report
+
+    real(wp) :: accuracy
+    logical :: fine
+
+    call read_entry_accuracy(card, finest_response_accuracy, coarsest_response_accuracy, system, &
+      diagnostics, accuracy, fine)
+    if (fine) report%accuracy = accuracy
+  end subroutine read_response
 
   !> Reads `REPORT shapes [crank=a,b,...] [speed=...] [points=]`.
   pure subroutine read_shapes(card, system, diagnostics, report)

@@ -10,7 +10,7 @@ module body_checks
   implicit none (type, external)
   private
 
-  public :: check_bodies
+  public :: check_bodies, seek_link
 
 contains
 
@@ -46,11 +46,13 @@ contains
     end do
   end subroutine check_bodies
 
+  !> Looks up a link. Errors: an unknown link; a pin in its place.
   pure subroutine seek_link(word, links, pins, diagnostics, link)
-    type(token_t), intent(in) :: word !! without a line if the card lacks it
-    type(name_index_t), intent(in) :: links, pins
-    type(diagnostics_t), intent(inout) :: diagnostics
-    integer, intent(inout) :: link !! unchanged if the card lacks it, 0 if unknown
+    type(token_t), intent(in) :: word                 !! without a line if the card lacks it
+    type(name_index_t), intent(in) :: links, pins     !! of the deck
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    integer, intent(inout) :: link                    !! unchanged if the card lacks it, 0 if
+                                                      !! unknown
 
     if (word%line == 0) return
     if (find_name(links, word%text) == 0 .and. find_name(pins, word%text) > 0) then

@@ -46,6 +46,7 @@ contains
     call refuse_same(model%links%name, "link")
     call refuse_same(model%pin_masses%pin, "mass at pin")
     call refuse_same(model%points%name, "point")
+    call refuse_same(model%gauges%name, "gauge")
     call refuse_same(model%forces%pin, "force at pin")
     call refuse_same(model%torques%link_name, "torque on link")
     call refuse_same(model%resistances%link_name, "load on link")

@@ -3,8 +3,9 @@ module report_needs
   use card_table, only: pattern_of
   use diagnostics, only: add_error, diagnostics_t
   use link_cards, only: has_own_mass, link_t
-  use models, only: bears_lumped_masses, inertia_lumped, inertia_none, is_moving, model_t, &
-    needs_beams, needs_frequencies, needs_inertia, needs_masses, report_number, report_of_masses
+  use models, only: bears_lumped_masses, bends_links, inertia_lumped, inertia_none, is_moving, &
+    model_t, needs_beams, needs_frequencies, needs_inertia, needs_masses, needs_response, &
+    report_number, report_of_masses
   use text, only: joined, word_list
   implicit none (type, external)
   private
@@ -43,9 +44,9 @@ contains
     character(len=:), allocatable :: lacking, way_out
     logical :: beam, mass, mesh
 
-    beam = needs_beams(model) .and. .not. link%rigid
-    mass = needs_masses(model) .or. needs_frequencies(model)
-    mesh = beam .or. (needs_masses(model) .and. model%inertia == inertia_lumped .and. &
+    beam = bends_links(model) .and. .not. link%rigid
+    mass = needs_masses(model) .or. needs_frequencies(model) .or. needs_response(model)
+    mesh = (needs_beams(model) .and. .not. link%rigid) .or. (needs_masses(model) .and. model%inertia == inertia_lumped .and. &
       bears_lumped_masses(link))
     if (beam .and. has_own_mass(link)) then
       call add_error(diagnostics, link%body_word, "link '"//link%name%text// &

@@ -5,9 +5,11 @@ module request_checks
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use kinds, only: wp
   use models, only: effects_static, is_loaded, is_moving, model_t, needs_frequencies, &
-    needs_positions, report_number
+    needs_positions, needs_response, report_number
   use report_kinds, only: report_kind_t, report_names
   use report_needs, only: check_report_needs
+  use response_cards, only: is_response_form
+  use response_checks, only: check_response
   use spelling, only: nearest_word
   use text, only: joined, same_word, string_t, to_string, upper_case, word_list
   use tokens, only: token_t
@@ -48,6 +50,12 @@ contains
     end if
     if (needs_positions(model) .and. .not. has_card(cards, "CRANK")) then
       call missing("there is no CRANK card; expected: "//pattern_of("CRANK"))
+    end if
+    ! A speed of 0, the default, is no speed for a steady state.
+    if (needs_response(model) .and. .not. has_card(cards, "SPEED")) then
+      call add_error(diagnostics, model%reports(findloc(model%reports%kind%response, .true., &
+        dim=1))%keyword, "this report needs a turning crank, and there is no SPEED card; "// &
+        "expected: "//pattern_of("SPEED"))
     end if
     if (.not. has_card(cards, "REPORT")) then
       call missing("there is no REPORT card; expected REPORT and one of: "// &
@@ -111,6 +119,7 @@ contains
 
     call check_report_needs(diagnostics, model)
     call check_vibrations(diagnostics, model)
+    call check_response(cards, diagnostics, model)
     call refuse_too_many_modes(diagnostics, model)
     call check_shapes(diagnostics, model)
     call warn_of_stocky_links(diagnostics, model)
@@ -168,7 +177,8 @@ contains
 
     integer :: i
 
-    if (.not. needs_frequencies(model) .or. (model%rotary .and. model%shear)) return
+    if (.not. needs_frequencies(model) .and. .not. needs_response(model)) return
+    if (model%rotary .and. model%shear) return
     do i = 1, size(model%links)
       associate (link => model%links(i))
         if (link%section == 0 .or. link%length <= 0.0_wp .or. link%rigid) cycle
@@ -205,7 +215,7 @@ contains
       cards_at_fault = "SPEED, GRAVITY, FORCE and TORQUE say"
     end if
     do i = 1, size(cards)
-      if (.not. same_word(cards(i)%keyword%text, "EFFECTS")) cycle
+      if (.not. same_word(cards(i)%keyword%text, "EFFECTS") .or. is_response_form(cards(i))) cycle
       call add_warning(diagnostics, cards(i)%keyword, "static frequencies do not depend on "// &
         what//": they are computed once, whatever "//cards_at_fault)
     end do

@@ -1,8 +1,9 @@
-!> Whether frequencies can be found with the rigid links and the masses of a deck.
+!> Whether frequencies and the elastic response can be found with the rigid links and the masses of a deck.
 module vibration_checks
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
-  use models, only: model_t, needs_beams, needs_frequencies, solver_band, solver_dense
+  use models, only: bends_links, model_t, needs_frequencies, needs_response, solver_band, &
+    solver_dense
   use text, only: lower_case
   implicit none (type, external)
   private
@@ -19,15 +20,17 @@ contains
 
     integer :: report, rigid
 
-    if (.not. needs_beams(model) .or. size(model%links) == 0) return
+    if (.not. bends_links(model) .or. size(model%links) == 0) return
     if (all(model%links%rigid)) then
-      report = findloc(model%reports%kind%beams, .true., dim=1, back=.true.)
+      report = findloc(model%reports%kind%beams .or. model%reports%kind%response, .true., dim=1, &
+        back=.true.)
       call add_error(diagnostics, model%reports(report)%keyword, &
         "all links are rigid: nothing bends", model%links(1)%rigid_word, "the first rigid link")
       return
     end if
-    if (.not. needs_frequencies(model)) return
-    rigid = findloc(model%links%rigid, .true., dim=1)
+    if (.not. needs_frequencies(model) .and. .not. needs_response(model)) return
+    rigid = 0
+    if (needs_frequencies(model)) rigid = findloc(model%links%rigid, .true., dim=1)
     if (rigid > 0 .and. (model%solver == solver_dense .or. model%solver == solver_band)) then
       call add_error(diagnostics, model%solver_word, &
         "SOLVER "//lower_case(model%solver_word%text)//" does not take rigid links; "// &

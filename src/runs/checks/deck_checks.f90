@@ -1,12 +1,14 @@
 !> Checks of a model that need mechanics; their messages point at the deck.
 module deck_checks
   use beam_mesh, only: moving_unknowns
+  use crank_cycle, only: turns_freely
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use errors, only: error_of_reach
   use four_bar_limits, only: can_reach, crank_reach, reach_t
   use kinds, only: wp
   use mechanisms, only: mechanism_t, new_mechanism
-  use models, only: model_t, needs_frequencies, report_number, solver_band, solver_dense
+  use models, only: model_t, needs_frequencies, needs_response, report_number, solver_band, &
+    solver_dense
   use motion_checks, only: check_motion
   use nodal_eigensolver, only: most_round_off
   use reach_texts, only: longest_link, open_linkage_text, reachable_intervals, reachable_text
@@ -62,6 +64,7 @@ contains
     end if
     call check_reach(model, reach, diagnostics)
     call check_geometry(model, reach, diagnostics)
+    call check_turn(model, mechanism, reach, diagnostics)
     call check_motion(model, mechanism, reach, reachable_text(reach), diagnostics)
     if (.not. needs_frequencies(model) .or. .not. has_mesh(mechanism) .or. &
       .not. has_beams(mechanism)) return
@@ -131,6 +134,29 @@ contains
       end do
     end associate
   end subroutine check_geometry
+
+  !> The elastic response is a steady state: the crank has to turn fully, without a dead point.
+  subroutine check_turn(model, mechanism, reach, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(reach_t), intent(in) :: reach
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=*), parameter :: no_state = &
+      "; the response is the steady state of a crank that turns fully, and there is none"
+    type(token_t) :: place
+
+    if (.not. needs_response(model)) return
+    if (turns_freely(mechanism%linkage)) return
+    place = model%reports(findloc(model%reports%kind%response, .true., dim=1))%keyword
+    if (reach%least > 0.0_wp .or. reach%most < 180.0_wp) then
+      call add_error(diagnostics, place, "the crank turns only "//reachable_text(reach)//no_state, &
+        kind=error_of_reach)
+    else
+      call add_error(diagnostics, place, "the crank meets a dead point, where the links are in "// &
+        "line"//no_state, kind=error_of_reach)
+    end if
+  end subroutine check_turn
 
   !> The step that the user has in mind: that of the first range, or 5 degrees.
   pure function step_of(crank) result(step)

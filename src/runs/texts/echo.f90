@@ -8,9 +8,10 @@ module echo
   use link_bodies, only: link_center, link_inertia
   use link_cards, only: has_own_mass
   use models, only: link_mass, model_t
+  use response_cards, only: response_form
   use sections, only: shape_channel
   use shear, only: link_rotary_inertia, link_shear_stiffness, shear_coefficient
-  use text, only: character_count, same_word, to_string
+  use text, only: character_count, lower_case, same_word, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use units, only: coherent_unit, dimension_area, dimension_inertia, dimension_length, &
     dimension_mass, dimension_rotary_inertia, dimension_second_moment, from_si, unit_t
@@ -76,7 +77,8 @@ contains
     end select
   end subroutine append_default_card
 
-  !> Appends a card, unless the deck has one with its keyword.
+  !> Appends a card, unless the deck has one with its keyword. An EFFECTS card on the response is
+  !! not one on frequencies.
   pure subroutine append_default_text(buffer, model, keyword, value)
     type(text_buffer_t), intent(inout) :: buffer
     type(model_t), intent(in) :: model
@@ -87,6 +89,7 @@ contains
 
     do i = 1, size(model%echo)
       associate (text => model%echo(i)%text)
+        if (index(lower_case(text), "effects "//response_form//" ") == 1) cycle
         if (same_word(text(:index(text//" ", " ") - 1), keyword)) return
       end associate
     end do

@@ -1,0 +1,209 @@
+!> Checks of the elastic response: the links that DAMPING and GAUGE cards name, and what a steady
+!! state needs.
+module response_checks
+  use body_checks, only: seek_link
+  use card_reader, only: entry_number
+  use cards, only: card_t
+  use diagnostics, only: add_error, add_warning, diagnostics_t
+  use kinds, only: wp
+  use models, only: inertia_lumped, model_t, needs_response, report_number
+  use name_checks, only: link_ends
+  use name_index, only: name_index_t, new_name_index
+  use text, only: same_word
+  use tokens, only: token_t, token_texts
+  implicit none (type, external)
+  private
+
+  public :: find_dampings, find_gauges, check_response
+
+contains
+
+  !> Gives every bending link its damping: a card that names the link takes precedence over
+  !! `DAMPING *`. Errors: an unknown link, a rigid one, two dampings for a link.
+  pure subroutine find_dampings(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(model_t), intent(inout) :: model             !! damping numbers of its links are set
+
+    type(name_index_t) :: links, pins
+    type(token_t) :: place(0:size(model%links))
+    integer :: i, k, link, for_all
+
+    links = new_name_index(token_texts(model%links%name))
+    pins = new_name_index(token_texts(link_ends(model%links)))
+    for_all = 0
+    do i = 1, size(model%dampings)
+      do k = 1, size(model%dampings(i)%link_names)
+        associate (word => model%dampings(i)%link_names(k))
+          link = 0
+          if (word%text /= "*") call seek_link(word, links, pins, diagnostics, link)
+          if (word%text /= "*" .and. link == 0) cycle
+          if (place(link)%line > 0) then
+            call add_error(diagnostics, word, "a second damping for '"//word%text//"'", &
+              place(link), "the first is here")
+            cycle
+          end if
+          place(link) = word
+          if (link == 0) then
+            for_all = i
+          else if (model%links(link)%rigid) then
+            call add_error(diagnostics, word, "link '"//word%text//"' is rigid: it has no damping", &
+              model%links(link)%rigid_word, "it is rigid by this word")
+          else
+            model%links(link)%damping = i
+          end if
+        end associate
+      end do
+    end do
+    where (model%links%damping == 0 .and. .not. model%links%rigid) model%links%damping = for_all
+  end subroutine find_dampings
+
+  !> Looks up the links of GAUGE cards. Errors: an unknown link, a rigid one, a place beyond its
+  !! ends.
+  pure subroutine find_gauges(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(model_t), intent(inout) :: model             !! link numbers of its gauges are set
+
+    type(name_index_t) :: links, pins
+    integer :: i
+
+    links = new_name_index(token_texts(model%links%name))
+    pins = new_name_index(token_texts(link_ends(model%links)))
+    do i = 1, size(model%gauges)
+      associate (gauge => model%gauges(i))
+        call seek_link(gauge%link_name, links, pins, diagnostics, gauge%link)
+        if (gauge%link == 0) cycle
+        associate (link => model%links(gauge%link))
+          if (link%rigid) then
+            call add_error(diagnostics, gauge%link_name, "link '"//link%name%text// &
+              "' is rigid: there is no strain in it", link%rigid_word, "it is rigid by this word")
+          else if (link%length > 0.0_wp .and. &
+            (gauge%at < 0.0_wp .or. gauge%at > link%length)) then
+            call add_error(diagnostics, gauge%at_word, "a gauge beyond the end of link '"// &
+              link%name%text//"'; expected 'at=' from 0 to its length", link%length_word, &
+              "its length is given here")
+          end if
+        end associate
+      end associate
+    end do
+  end subroutine find_gauges
+
+  !> Checks what reports on the elastic response need. Errors: no speed, a speed of 0, an
+  !! acceleration of the crank; a section without depth where strains are asked for. Warnings: cards
+  !! that no report uses, lumped inertia and elements, which the response does not have.
+  subroutine check_response(cards, diagnostics, model)
+    type(card_t), intent(in) :: cards(:)              !! of the deck
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors and warnings are added
+    type(model_t), intent(in) :: model                !! as far as its cards could be read
+
+    call warn_of_idle_cards(diagnostics, model)
+    if (.not. needs_response(model)) return
+    call check_speeds(diagnostics, model)
+    call refuse_acceleration(cards, diagnostics, model)
+    call check_depths(diagnostics, model)
+    call warn_of_other_models(diagnostics, model)
+  end subroutine check_response
+
+  !> Cards that serve reports which are not requested.
+  pure subroutine warn_of_idle_cards(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    character(len=*), parameter :: idle = " is used by REPORT response, strains, peaks, drive "// &
+      "and validity only, none of which is asked for"
+    integer :: i
+
+    if (report_number(model, "strains") == 0) then
+      do i = 1, size(model%gauges)
+        if (model%gauges(i)%name%line == 0) cycle
+        call add_warning(diagnostics, model%gauges(i)%name, &
+          "GAUGE is used by REPORT strains only, which is not asked for")
+      end do
+    end if
+    if (needs_response(model)) return
+    do i = 1, size(model%dampings)
+      call add_warning(diagnostics, model%dampings(i)%keyword, "DAMPING"//idle)
+    end do
+    if (model%without%keyword%line > 0) call add_warning(diagnostics, model%without%keyword, &
+      "EFFECTS response"//idle)
+  end subroutine warn_of_idle_cards
+
+  !> The steady state is that of a crank that turns.
+  pure subroutine check_speeds(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    character(len=*), parameter :: why = &
+      ": the linkage stands still, and the response needs a turning crank"
+    integer :: zero
+
+    associate (speed => model%speed)
+      if (size(speed%words) == 0) return
+      zero = findloc(abs(speed%value) <= 0.0_wp, .true., dim=1)
+      if (zero == 0) return
+      if (count(speed%word == speed%word(zero)) > 1) then
+        call add_error(diagnostics, speed%words(speed%word(zero)), "speed 0 in this range"//why)
+      else
+        call add_error(diagnostics, speed%words(speed%word(zero)), "speed 0"//why)
+      end if
+    end associate
+  end subroutine check_speeds
+
+  !> No steady state with an accelerating crank.
+  pure subroutine refuse_acceleration(cards, diagnostics, model)
+    type(card_t), intent(in) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: i, entry
+
+    if (abs(model%acceleration) <= 0.0_wp) return
+    do i = 1, size(cards)
+      if (.not. same_word(cards(i)%keyword%text, "SPEED")) cycle
+      entry = entry_number(cards(i), "alpha")
+      if (entry == 0) cycle
+      call add_error(diagnostics, cards(i)%entries(entry)%value, "the response is a steady "// &
+        "state, and an accelerating crank has none; expected no 'alpha=', or alpha=0")
+    end do
+  end subroutine refuse_acceleration
+
+  !> Strains and stresses of bending are those of the faces, whose distance a general section need
+  !! not give.
+  pure subroutine check_depths(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: i, report
+
+    report = max(report_number(model, "strains"), report_number(model, "peaks"))
+    if (report == 0) return
+    do i = 1, size(model%sections)
+      associate (section => model%sections(i))
+        if (section%area <= 0.0_wp .or. section%depth > 0.0_wp) cycle
+        if (.not. any(model%links%section == i .and. .not. model%links%rigid)) cycle
+        call add_error(diagnostics, section%name, "section '"//section%name%text// &
+          "' has no depth, and strains of bending need it; expected 'depth='", &
+          model%reports(report)%keyword, "this report has strains")
+      end associate
+    end do
+  end subroutine check_depths
+
+  !> The response is that of continuous links with their mass along them, whatever frequencies and
+  !! rigid-body loads of the same deck are computed with.
+  pure subroutine warn_of_other_models(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: i
+
+    if (model%inertia == inertia_lumped) call add_warning(diagnostics, model%inertia_word, &
+      "INERTIA lumped does not apply to the response: the inertia of its links is distributed")
+    do i = 1, size(model%meshes)
+      if (model%meshes(i)%keyword%line == 0 .or. model%meshes(i)%elements == 0) cycle
+      if (model%meshes(i)%accuracy > 0.0_wp) cycle
+      call add_warning(diagnostics, model%meshes(i)%keyword, "'elements=' does not apply to the "// &
+        "response: its links are continuous, and its accuracy is that of REPORT ... accuracy=")
+      return
+    end do
+  end subroutine warn_of_other_models
+
+end module response_checks
