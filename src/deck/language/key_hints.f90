@@ -48,7 +48,11 @@ module key_hints
     other_name_t("omega omega2 rpm", "speed"), &
     other_name_t("time duration tend stop until", "end"), &
     other_name_t("dt increment", "step"), &
-    other_name_t("c viscous", "damping")]
+    other_name_t("c viscous", "damping time"), &
+    other_name_t("tau", "time"), &
+    other_name_t("zeta xi", "ratio"), &
+    other_name_t("face edge", "side"), &
+    other_name_t("no omit except", "without")]
 
 contains
 

@@ -8,6 +8,7 @@ module response_cards
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
+  use spelling, only: suggestion
   use text, only: joined, lower_case, same_word, word_list
   use tokens, only: token_t
   use units, only: dimension_none, dimension_time, unit_system_t
@@ -170,7 +171,10 @@ contains
     terms%keyword = card%keyword
     call check_form(card, diagnostics, fine, known_keys, response_form)
     kind = kind_of_card(card%keyword%text, response_form)
-    if (fine) call read_choice(card%words(1), response_form, diagnostics, choice)
+    if (fine) fine = same_word(card%words(1)%text, response_form)
+    if (.not. fine .and. size(card%words) == 1) call add_error(diagnostics, card%words(1), &
+      "unknown word '"//card%words(1)%text//"'"//suggestion(card%words(1)%text, &
+      word_list(response_form))//"; expected: "//trim(kind%pattern))
     if (known_keys .and. .not. has_key(card, "without")) call add_error(diagnostics, &
       card%keyword, "'without=' is missing; expected one or several of: "// &
       joined(word_list(trim(kind%choices)))//", with commas between them")
