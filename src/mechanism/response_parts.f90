@@ -48,8 +48,8 @@ contains
     end do
   end function dampings_of
 
-  !> The gauges in the order of the deck. In a deck without GAUGE cards there is one in the middle of
-  !! every bending link, on its left, with the name of the link.
+  !> The gauges in the order of the deck. In a deck without GAUGE cards there is one in the middle
+  !! of every bending link, on its left, with the name of the link.
   pure function gauges_of(model) result(gauges)
     type(model_t), intent(in) :: model           !! without errors
     type(body_gauge_t), allocatable :: gauges(:) !! (gauges)

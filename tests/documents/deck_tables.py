@@ -47,6 +47,8 @@ class Tables:
         if self._accepts(report, links="", without=["MESH"]) or self._accepts(report, links=BODIES, without=["MESH"]):
             lumped = self._accepts(report, without=["MESH"], INERTIA="INERTIA lumped")
             return UNUSED if lumped else "with `INERTIA lumped`"
+        if self._accepts(report, without=["MESH"], SOLVER="SOLVER dense"):  # which the default mesh does not allow
+            return UNUSED
         return "or the default" if self._accepts(report, without=["MESH"]) else NEEDED
 
     def _inertia(self, report):

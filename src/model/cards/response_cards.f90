@@ -58,8 +58,8 @@ module response_cards
 contains
 
   !> Reads `DAMPING link … time=` or `DAMPING link … ratio=`; `*` stands for every bending link
-  !! without a card of its own. Errors: words or keys that do not fit the card, both keys or neither,
-  !! an unreadable or negative value, a ratio of 1 or more.
+  !! without a card of its own. Errors: words or keys that do not fit the card, both keys or
+  !! neither, an unreadable or negative value, a ratio of 1 or more.
   pure subroutine read_damping(card, system, diagnostics, damping)
     type(card_t), intent(in) :: card                  !! the DAMPING card
     type(unit_system_t), intent(in) :: system         !! units of bare numbers

@@ -46,8 +46,8 @@ contains
 
     beam = bends_links(model) .and. .not. link%rigid
     mass = needs_masses(model) .or. needs_frequencies(model) .or. needs_response(model)
-    mesh = (needs_beams(model) .and. .not. link%rigid) .or. (needs_masses(model) .and. model%inertia == inertia_lumped .and. &
-      bears_lumped_masses(link))
+    mesh = (needs_beams(model) .and. .not. link%rigid) .or. (needs_masses(model) .and. &
+      model%inertia == inertia_lumped .and. bears_lumped_masses(link))
     if (beam .and. has_own_mass(link)) then
       call add_error(diagnostics, link%body_word, "link '"//link%name%text// &
         "' bends, and a beam has the mass of its section; "// &

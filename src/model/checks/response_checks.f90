@@ -46,8 +46,9 @@ contains
           if (link == 0) then
             for_all = i
           else if (model%links(link)%rigid) then
-            call add_error(diagnostics, word, "link '"//word%text//"' is rigid: it has no damping", &
-              model%links(link)%rigid_word, "it is rigid by this word")
+            call add_error(diagnostics, word, "link '"//word%text// &
+              "' is rigid: it has no damping", model%links(link)%rigid_word, &
+              "it is rigid by this word")
           else
             model%links(link)%damping = i
           end if
@@ -200,8 +201,8 @@ contains
     do i = 1, size(model%meshes)
       if (model%meshes(i)%keyword%line == 0 .or. model%meshes(i)%elements == 0) cycle
       if (model%meshes(i)%accuracy > 0.0_wp) cycle
-      call add_warning(diagnostics, model%meshes(i)%keyword, "'elements=' does not apply to the "// &
-        "response: its links are continuous, and its accuracy is that of REPORT ... accuracy=")
+      call add_warning(diagnostics, model%meshes(i)%keyword, "'elements=' does not apply to "// &
+        "the response: its links are continuous, and REPORT ... accuracy= is its accuracy")
       return
     end do
   end subroutine warn_of_other_models

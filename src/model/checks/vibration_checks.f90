@@ -1,4 +1,5 @@
-!> Whether frequencies and the elastic response can be found with the rigid links and the masses of a deck.
+!> Whether frequencies and the elastic response can be found with the rigid links and the masses of
+!! a deck.
 module vibration_checks
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
