@@ -64,6 +64,17 @@ mass_at_ground() {
   run 0 --out "$scratch/out" "$scratch/without.deck" && same_tables "$scratch/out/without" "$scratch/out/ground"
 }
 
+# Cards that serve the elastic response, without one of its reports; cards that it does not use.
+idle_response() {
+  beam_deck "CRANK 0" "DAMPING * time=1e-4" "GAUGE g crank at=5" "EFFECTS response without=axial" "REPORT frequencies" >"$scratch/idle.deck"
+  for text in "DAMPING is used by REPORT response" "GAUGE is used by REPORT strains only" "EFFECTS response is used by REPORT response"; do
+    warned idle_again "$text" <"$scratch/idle.deck" || return 1
+  done
+  beam_deck "CRANK 0" "SPEED 20" "REPORT peaks" >"$scratch/other.deck"
+  warned other_lumped "INERTIA lumped does not apply to the response" <"$scratch/other.deck" &&
+    warned other_mesh "'elements=' does not apply to the response" <"$scratch/other.deck"
+}
+
 divergence() {
   beam_deck "CRANK 0 to 350 step 10" "SPEED 0 200" "REPORT frequencies" |
     warned divergence "static divergence at speed 200 rad/s, crank" || return 1
@@ -79,3 +90,4 @@ check "loads that make the frequencies meaningless" meaningless_deflection
 check "static frequencies and speeds" static_speeds
 check "a mass at a ground pivot" mass_at_ground
 check "static divergence" divergence
+check "cards of the elastic response" idle_response

@@ -27,6 +27,8 @@ PIECES = [b"\0", b"\t", b"\r", b"\n", b"\r\n", b"&", b" & \n", b"!", b"#", b"=",
 # Reports that a sound deck with beams asks for, and those that need a card of their own or keys; all others fit any deck.
 BEAM_REPORTS = ["kinematics", "inertia", "mesh", "frequencies", "shapes", "branches"]
 OWN_CARD_REPORTS = ["motion"]
+# Those of a crank that turns at constant speed.
+RESPONSE_REPORTS = ["response", "strains", "peaks", "drive", "validity"]
 LENGTHS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "in": 0.0254, "ft": 0.3048}
 MASSES = {"kg": 1.0, "g": 1e-3, "tonne": 1e3, "lbm": 0.45359237, "slug": 14.593903, "slinch": 175.126835}
 TIMES = {"s": 1.0, "ms": 1e-3}
@@ -145,7 +147,8 @@ def bodies(dice, links, pins, scale, mass, speed, bare):
         end = min(2.0, dice.between(0.5, 9.0)/speed)
         cards.append(f"REPORT motion crank={dice.choice([0, 30, 45, 90, 200])} speed={speed*dice.between(-1, 1):.4g}rad/s "
                      f"end={quantity(dice, end, bare[2], TIMES)} step={number(dice, end/dice.choice([1, 7, 40])/bare[2]*0.999)}")
-    kinds = [kind for kind in language().reports if kind not in BEAM_REPORTS + OWN_CARD_REPORTS and dice.chance(0.3)]
+    kinds = [kind for kind in language().reports if kind not in BEAM_REPORTS + OWN_CARD_REPORTS + RESPONSE_REPORTS
+             and dice.chance(0.3)]
     if not any(card.startswith("POINT") for card in cards) and dice.chance(0.9):
         kinds = [kind for kind in kinds if kind != "points"]
     return cards + ["REPORT " + kind for kind in kinds], bool(rigid)
@@ -179,6 +182,23 @@ def requests(dice, by_accuracy, own_speed, rigid):
     if not any(card.startswith("REPORT") for card in cards):
         cards.append("REPORT kinematics")
     return cards
+
+
+def responses(dice, cards, names, lengths, own_speed):
+    """The elastic response, in place of speeds of 0 and accelerations; `lengths` are those of the links as the deck writes them."""
+    speed = own_speed*10**dice.between(-2.5, -0.3)
+    cards[:] = [card for card in cards if not card.startswith("SPEED")]
+    cards.append("SPEED " + dice.choice([f"{speed:.5g}rad/s", f"{-speed:.3g} rad/s", f"{speed:.4g} {1.1*speed:.4g} rad/s"]))
+    time, ratio = f"time={dice.choice([0.0, 1e-4, 1e-2])/own_speed:.3g}s", f"ratio={dice.choice(['0', '0.01', '0.3'])}"
+    cards += dice.choice([[], [f"DAMPING * {time}"], [f"DAMPING * {ratio}"], [f"DAMPING {names[1]} {ratio}", f"DAMPING * {time}"]])
+    for name in ("g-1", "g_2"):
+        if dice.chance(0.3):
+            link = dice.below(3)
+            cards.append(f"GAUGE {name} {names[link]} at={dice.choice(['0', lengths[link]])}{dice.choice(['', ' side=left', ' side=right'])}")
+    if dice.chance(0.3):
+        cards.append("EFFECTS response without=" + dice.choice(["coriolis", "centripetal,tangential", "axial,quadratic"]))
+    more = dice.choice(["", "", " accuracy=1e-4", " accuracy=1e-9"])
+    cards += [f"REPORT {kind}{more}" for kind in [kind for kind in RESPONSE_REPORTS if dice.chance(0.5)] or ["response"]]
 
 
 def sound_deck(dice):
@@ -227,6 +247,8 @@ def sound_deck(dice):
         cards.append(f"PINMASS {dice.choice(pins)} {quantity(dice, density*depth**2*scale*dice.factor(3), bare_mass, MASSES)}")
     mesh = meshes(dice, [name for name in names if "rigid" not in links[name]] or names) if dice.chance(0.95) else []
     cards += mesh + requests(dice, not mesh or "accuracy" in mesh[0], own_speed, rigid)
+    if dice.chance(0.15):
+        responses(dice, cards, names, [re.search(r"length=(\S+)", links[name])[1] for name in names], own_speed)
     if dice.chance(0.3):
         with_names(dice, cards)
     if dice.chance(0.5):
