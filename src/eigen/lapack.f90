@@ -4,7 +4,7 @@ module lapack
   implicit none (type, external)
   private
 
-  public :: dsygvx, dpbtrf, dpbtrs, dsaupd, dseupd
+  public :: dsygvx, dpbtrf, dpbtrs, dsaupd, dseupd, dgetrf, dgetrs, dgeev
 
   interface
     !> Selected eigenvalues and eigenvectors of `A x = λ B x`, both symmetric, B positive definite
@@ -39,6 +39,35 @@ module lapack
       real(wp), intent(inout) :: b(ldb, *)
       integer, intent(out) :: info
     end subroutine dpbtrs
+
+    !> Factorization of a general matrix with row interchanges (LAPACK).
+    pure subroutine dgetrf(m, n, a, lda, ipiv, info)
+      import :: wp
+      integer, intent(in) :: m, n, lda
+      real(wp), intent(inout) :: a(lda, *)
+      integer, intent(out) :: ipiv(*), info
+    end subroutine dgetrf
+
+    !> Solves for right-hand sides with the factors from `dgetrf` (LAPACK).
+    pure subroutine dgetrs(trans, n, nrhs, a, lda, ipiv, b, ldb, info)
+      import :: wp
+      character(len=1), intent(in) :: trans
+      integer, intent(in) :: n, nrhs, lda, ldb
+      real(wp), intent(in) :: a(lda, *)
+      integer, intent(in) :: ipiv(*)
+      real(wp), intent(inout) :: b(ldb, *)
+      integer, intent(out) :: info
+    end subroutine dgetrs
+
+    !> Eigenvalues, and eigenvectors if wanted, of a general matrix (LAPACK).
+    subroutine dgeev(jobvl, jobvr, n, a, lda, wr, wi, vl, ldvl, vr, ldvr, work, lwork, info)
+      import :: wp
+      character(len=1), intent(in) :: jobvl, jobvr
+      integer, intent(in) :: n, lda, ldvl, ldvr, lwork
+      real(wp), intent(inout) :: a(lda, *), work(*)
+      real(wp), intent(inout) :: wr(*), wi(*), vl(ldvl, *), vr(ldvr, *)
+      integer, intent(out) :: info
+    end subroutine dgeev
 
     !> One step of the implicitly restarted Lanczos method by reverse communication (ARPACK).
     subroutine dsaupd(ido, bmat, n, which, nev, tol, resid, ncv, v, ldv, iparam, ipntr, workd, &

@@ -1,0 +1,363 @@
+!> The equation of motion of an elastic linkage that turns at constant speed, applied to a periodic
+!! motion: Ulker 2010 (2.83) and (2.85) with every term.
+!!
+!! `ω² ∫ μ Sᵀ (S y)'' dx + ω C y' + (1 + K_G) y = f`, ' = d/dθ2. The inertia force is that of the
+!! displacement d = S y in fixed axes: `∫ μ Sᵀ (S y)'' = M y'' + 2 G y' + (G' − W) y`.
+module elastic_equations
+  use fourier_transform, only: derivatives, fourier_plan_t
+  use kinds, only: wp
+  use load_cases, only: constant_case
+  use turn_grids, only: turn_grid_t
+  implicit none (type, external)
+  private
+
+  public :: elastic_terms_t, inertia_force, slope_force, apply_equation, load_at_speed, &
+    functions_of, geometric_force, mass_force, spread_over_unknowns
+
+  !> Terms that are left out.
+  type :: elastic_terms_t
+    logical :: coriolis = .true.    !! 2 ω G ẏ
+    logical :: centripetal = .true. !! ω² (G' − W) y
+    logical :: axial = .true.       !! K_G y
+    logical :: quadratic = .true.   !! of the driving torque
+  end type elastic_terms_t
+
+contains
+
+  !> All terms.
+  pure function all_terms(terms) result(all_there)
+    type(elastic_terms_t), intent(in) :: terms
+    logical :: all_there
+
+    all_there = terms%coriolis .and. terms%centripetal
+  end function all_terms
+
+  !> Amplitudes of all functions of a body in a motion: Q = T y.
+  pure function functions_of(grid, body, y) result(q)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: y(:, :) !! (samples, unknowns)
+    real(wp) :: q(size(y, 1), grid%integrals(body)%chord + grid%integrals(body)%own)
+
+    integer :: i, j, m
+
+    associate (integrals => grid%integrals(body), link => grid%model%links(body))
+      q(:, :integrals%chord) = 0.0_wp
+      do j = 1, grid%border
+        do i = 1, integrals%chord
+          q(:, i) = q(:, i) + grid%chord(:, i, j, body)*y(:, j)
+        end do
+      end do
+      m = integrals%chord + link%modes
+      q(:, integrals%chord + 1:m) = y(:, grid%first(body):grid%first(body) + link%modes - 1)
+      q(:, m + 1:) = y(:, grid%first_along(body):grid%first_along(body) + link%axial_modes - 1)
+    end associate
+  end function functions_of
+
+  !> Adds forces on the functions of a body to those on the unknowns: Tᵀ R.
+  pure subroutine spread_over_unknowns(grid, body, forces, total)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: forces(:, :)   !! (samples, functions)
+    real(wp), intent(inout) :: total(:, :) !! (samples, unknowns)
+
+    integer :: i, j, m
+
+    associate (integrals => grid%integrals(body), link => grid%model%links(body))
+      do j = 1, grid%border
+        do i = 1, integrals%chord
+          total(:, j) = total(:, j) + grid%chord(:, i, j, body)*forces(:, i)
+        end do
+      end do
+      m = integrals%chord + link%modes
+      associate (across => total(:, grid%first(body):grid%first(body) + link%modes - 1), &
+        along => total(:, grid%first_along(body):grid%first_along(body) + link%axial_modes - 1))
+        across = across + forces(:, integrals%chord + 1:m)
+        along = along + forces(:, m + 1:)
+      end associate
+    end associate
+  end subroutine spread_over_unknowns
+
+  !> `m Q'' + J (2 h Q' + h' Q) − h² m_t Q` of a body, per ω2².
+  pure function inertia_of_body(grid, body, q, first, second) result(force)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: q(:, :), first(:, :), second(:, :) !! (samples, functions) Q, Q', Q''
+    real(wp) :: force(size(q, 1), size(q, 2))
+
+    real(wp), allocatable :: swept(:, :)
+    integer :: i
+
+    allocate (swept(size(q, 1), size(q, 2)))
+    associate (h => grid%rate(:, body), slope => grid%rate_slope(:, body))
+      do i = 1, size(q, 2)
+        swept(:, i) = second(:, i) - h**2*q(:, i)
+      end do
+      force = times_mass(grid, body, swept)
+      do i = 1, size(q, 2)
+        swept(:, i) = 2.0_wp*h*first(:, i) + slope*q(:, i)
+      end do
+      ! J is antisymmetric.
+      force = force - matmul(swept, grid%integrals(body)%swap)
+      if (size(grid%integrals(body)%rotary) > 0) then
+        swept = matmul(q, grid%integrals(body)%rotary)
+        do i = 1, size(q, 2)
+          force(:, i) = force(:, i) + h**2*swept(:, i)
+        end do
+      end if
+    end associate
+  end function inertia_of_body
+
+  !> `m Q`: own modes are coupled to the functions of the chord only.
+  pure function times_mass(grid, body, q) result(product)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: q(:, :)
+    real(wp) :: product(size(q, 1), size(q, 2))
+
+    integer :: i, j, chord
+
+    associate (mass => grid%integrals(body)%mass)
+      chord = grid%integrals(body)%chord
+      product(:, :chord) = 0.0_wp
+      do j = chord + 1, size(q, 2)
+        product(:, j) = mass(j, j)*q(:, j)
+        do i = 1, chord
+          if (abs(mass(i, j)) <= 0.0_wp) cycle
+          product(:, i) = product(:, i) + mass(i, j)*q(:, j)
+          product(:, j) = product(:, j) + mass(i, j)*q(:, i)
+        end do
+      end do
+      do j = 1, chord
+        do i = 1, chord
+          product(:, i) = product(:, i) + mass(i, j)*q(:, j)
+        end do
+      end do
+    end associate
+  end function times_mass
+
+  !> `∫ μ Sᵀ (S y)'' dx` [√J per rad²/s²], with or without its terms in G and W.
+  subroutine inertia_force(grid, plan, terms, y, force)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan     !! for its samples
+    type(elastic_terms_t), intent(in) :: terms
+    real(wp), intent(in) :: y(:, :)              !! (samples, unknowns) [√J]
+    real(wp), intent(out) :: force(:, :)         !! (samples, unknowns)
+
+    real(wp), allocatable :: q(:, :), first(:, :), second(:, :)
+    integer :: b, i, k, p
+
+    force = 0.0_wp
+    if (.not. all_terms(terms)) then
+      call chosen_inertia_force(grid, plan, terms, y, force)
+      return
+    end if
+    do b = 1, size(grid%integrals)
+      q = functions_of(grid, b, y)
+      allocate (first, mold=q)
+      allocate (second, mold=q)
+      call derivatives(plan, q, first, second)
+      call spread_over_unknowns(grid, b, inertia_of_body(grid, b, q, first, second), force)
+      deallocate (first, second)
+    end do
+    allocate (first(size(y, 1), 2), second(size(y, 1), 2))
+    do p = 1, size(grid%pin_mass)
+      if (grid%pin_mass(p) <= 0.0_wp) cycle
+      q = pin_motion(grid, p, y)
+      call derivatives(plan, q, first, second)
+      do i = 1, grid%border
+        do k = 1, 2
+          force(:, i) = force(:, i) + grid%pin_mass(p)*grid%pin(:, k, p, i)*second(:, k)
+        end do
+      end do
+    end do
+  end subroutine inertia_force
+
+  !> Displacement of a pin in fixed axes.
+  pure function pin_motion(grid, p, y) result(motion)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: p
+    real(wp), intent(in) :: y(:, :)
+    real(wp) :: motion(size(y, 1), 2)
+
+    integer :: i, k
+
+    motion = 0.0_wp
+    do i = 1, grid%border
+      do k = 1, 2
+        motion(:, k) = motion(:, k) + grid%pin(:, k, p, i)*y(:, i)
+      end do
+    end do
+  end function pin_motion
+
+  !> The inertia force made of `M y''`, `2 G y'` and the rest, of which some are left out.
+  subroutine chosen_inertia_force(grid, plan, terms, y, force)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan
+    type(elastic_terms_t), intent(in) :: terms
+    real(wp), intent(in) :: y(:, :)
+    real(wp), intent(inout) :: force(:, :)
+
+    real(wp), allocatable :: first(:, :), second(:, :), mass(:, :), gyration(:, :)
+
+    allocate (first, second, mass, gyration, mold=y)
+    call derivatives(plan, y, first, second)
+    call mass_force(grid, second, mass)
+    call slope_force(grid, plan, first, gyration)
+    if (terms%centripetal) then
+      call inertia_force(grid, plan, elastic_terms_t(), y, force)
+      if (.not. terms%coriolis) force = force - 2.0_wp*gyration
+    else
+      force = mass
+      if (terms%coriolis) force = force + 2.0_wp*gyration
+    end if
+  end subroutine chosen_inertia_force
+
+  !> `M y`.
+  pure subroutine mass_force(grid, y, force)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp), intent(in) :: y(:, :)
+    real(wp), intent(out) :: force(:, :)
+
+    real(wp) :: motion(size(y, 1), 2)
+    integer :: b, i, k, p
+
+    force = 0.0_wp
+    do b = 1, size(grid%integrals)
+      call spread_over_unknowns(grid, b, times_mass(grid, b, functions_of(grid, b, y)), force)
+    end do
+    do p = 1, size(grid%pin_mass)
+      if (grid%pin_mass(p) <= 0.0_wp) cycle
+      motion = pin_motion(grid, p, y)
+      do i = 1, grid%border
+        do k = 1, 2
+          force(:, i) = force(:, i) + grid%pin_mass(p)*grid%pin(:, k, p, i)*motion(:, k)
+        end do
+      end do
+    end do
+  end subroutine mass_force
+
+  !> `G y = ∫ μ Sᵀ S' dx y`.
+  subroutine slope_force(grid, plan, y, force)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan !! for its samples
+    real(wp), intent(in) :: y(:, :)          !! (samples, unknowns)
+    real(wp), intent(out) :: force(:, :)     !! (samples, unknowns)
+
+    real(wp), allocatable :: q(:, :), moved(:, :), slope(:, :), turned(:, :)
+    integer :: b, i, j, k, p
+
+    force = 0.0_wp
+    do b = 1, size(grid%integrals)
+      associate (chord => grid%integrals(b)%chord)
+        q = functions_of(grid, b, y)
+        allocate (moved, mold=q)
+        allocate (slope(size(y, 1), chord))
+        moved = 0.0_wp
+        do j = 1, grid%border
+          call derivatives(plan, grid%chord(:, :chord, j, b), slope)
+          do i = 1, chord
+            moved(:, i) = moved(:, i) + slope(:, i)*y(:, j)
+          end do
+        end do
+        turned = matmul(q, grid%integrals(b)%swap)
+        moved = times_mass(grid, b, moved)
+        do i = 1, size(q, 2)
+          moved(:, i) = moved(:, i) - grid%rate(:, b)*turned(:, i)
+        end do
+        call spread_over_unknowns(grid, b, moved, force)
+        deallocate (moved, slope)
+      end associate
+    end do
+    allocate (slope(size(y, 1), 2))
+    do p = 1, size(grid%pin_mass)
+      if (grid%pin_mass(p) <= 0.0_wp) cycle
+      q = 0.0_wp*slope
+      do j = 1, grid%border
+        call derivatives(plan, grid%pin(:, :, p, j), slope)
+        do k = 1, 2
+          q(:, k) = q(:, k) + slope(:, k)*y(:, j)
+        end do
+      end do
+      do i = 1, grid%border
+        do k = 1, 2
+          force(:, i) = force(:, i) + grid%pin_mass(p)*grid%pin(:, k, p, i)*q(:, k)
+        end do
+      end do
+    end do
+  end subroutine slope_force
+
+  !> `K_G y` of given axial forces, added.
+  pure subroutine geometric_force(grid, force_of, y, force)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp), intent(in) :: force_of(:, :, :) !! (samples, force functions, bodies) [N]
+    real(wp), intent(in) :: y(:, :)           !! (samples, unknowns)
+    real(wp), intent(inout) :: force(:, :)    !! (samples, unknowns)
+
+    real(wp), allocatable :: slope(:, :), bent(:, :), total(:, :)
+    integer :: b, i, j
+
+    do b = 1, size(grid%integrals)
+      associate (link => grid%model%links(b), first => grid%first(b))
+        allocate (slope(size(y, 1), size(link%geometric, 1)))
+        slope(:, :2) = 0.0_wp
+        do j = 1, grid%border
+          slope(:, 1) = slope(:, 1) + grid%turn(:, j, b)*y(:, j)
+          if (link%bends) slope(:, 2) = slope(:, 2) + grid%chord(:, 3, j, b)*y(:, j)
+        end do
+        slope(:, 3:) = y(:, first:first + link%modes - 1)
+        allocate (total(size(y, 1), size(slope, 2)))
+        total = 0.0_wp
+        do j = 1, size(link%geometric, 3)
+          bent = matmul(slope, link%geometric(:, :, j))
+          do i = 1, size(slope, 2)
+            total(:, i) = total(:, i) + force_of(:, j, b)*bent(:, i)
+          end do
+        end do
+        do j = 1, grid%border
+          force(:, j) = force(:, j) + grid%turn(:, j, b)*total(:, 1)
+          if (link%bends) force(:, j) = force(:, j) + grid%chord(:, 3, j, b)*total(:, 2)
+        end do
+        force(:, first:first + link%modes - 1) = force(:, first:first + link%modes - 1) + &
+          total(:, 3:)
+        deallocate (slope, total)
+      end associate
+    end do
+  end subroutine geometric_force
+
+  !> Left side of the equation.
+  subroutine apply_equation(grid, plan, speed, damping, terms, y, force)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan   !! for its samples
+    real(wp), intent(in) :: speed              !! ω2 [rad/s]
+    real(wp), intent(in) :: damping(:)         !! (unknowns) c [s]
+    type(elastic_terms_t), intent(in) :: terms
+    real(wp), intent(in) :: y(:, :)            !! (samples, unknowns) [√J]
+    real(wp), intent(out) :: force(:, :)       !! (samples, unknowns) [√J]
+
+    real(wp), allocatable :: first(:, :)
+    integer :: i
+
+    call inertia_force(grid, plan, terms, y, force)
+    force = speed**2*force + y
+    if (any(damping > 0.0_wp)) then
+      allocate (first, mold=y)
+      call derivatives(plan, y, first)
+      do i = 1, size(y, 2)
+        force(:, i) = force(:, i) + speed*damping(i)*first(:, i)
+      end do
+    end if
+    if (terms%axial) call geometric_force(grid, speed**2*grid%force(:, :, :, 1) + &
+      grid%force(:, :, :, constant_case), y, force)
+  end subroutine apply_equation
+
+  !> Right side of the equation [√J].
+  pure function load_at_speed(grid, speed) result(load)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp), intent(in) :: speed !! ω2 [rad/s]
+    real(wp) :: load(grid%samples, grid%unknowns)
+
+    load = speed**2*grid%load(:, :, 1) + grid%load(:, :, constant_case)
+  end function load_at_speed
+
+end module elastic_equations

@@ -1,0 +1,285 @@
+!> Quantities of a periodic elastic motion over the turn: displacements of points, strains, and the
+!! driving torque.
+module response_series
+  use elastic_equations, only: elastic_terms_t, functions_of, geometric_force
+  use fourier_transform, only: derivatives, fourier_plan_t
+  use kinds, only: wp
+  use link_rows, only: displacement_rows, strain_rows, strain_rows_t
+  use load_cases, only: case_count, constant_case
+  use response_types, only: response_request_t
+  use turn_grids, only: turn_grid_t
+  implicit none (type, external)
+  private
+
+  public :: response_series_of, series_count, first_gauge, first_torque, strains_along, &
+    displacements_along
+
+  !> Series of a point, a gauge (axial strain, curvature, shear force) and of the torque (rigid,
+  !! linear, quadratic).
+  integer, parameter :: of_point = 3, of_gauge = 3, of_torque = 3
+
+contains
+
+  !> Number of series of a request.
+  pure function series_count(request) result(number)
+    type(response_request_t), intent(in) :: request
+    integer :: number
+
+    number = first_torque(request) + of_torque - 1
+  end function series_count
+
+  !> Number of the first series of gauges; points come before.
+  pure function first_gauge(request) result(number)
+    type(response_request_t), intent(in) :: request
+    integer :: number
+
+    number = of_point*size(request%points) + 1
+  end function first_gauge
+
+  !> Number of the first series of the torque.
+  pure function first_torque(request) result(number)
+    type(response_request_t), intent(in) :: request
+    integer :: number
+
+    number = first_gauge(request) + of_gauge*size(request%gauges)
+  end function first_torque
+
+  !> All series: x, y and rotation of every point; axial strain, curvature and shear force at every
+  !! gauge; the driving torque of the rigid linkage, and its linear and quadratic parts.
+  subroutine response_series_of(grid, plan, request, speed, y, series)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan
+    type(response_request_t), intent(in) :: request
+    real(wp), intent(in) :: speed         !! ω2 [rad/s]
+    real(wp), intent(in) :: y(:, :)       !! (samples, unknowns) [√J]
+    real(wp), intent(out) :: series(:, :) !! (samples, series) [m, rad; -, 1/m, N; N m]
+
+    integer :: i, first
+
+    do i = 1, size(request%points)
+      associate (point => request%points(i), at => of_point*(i - 1))
+        series(:, at + 1:at + 3) = point_series(grid, point%body, point%place, y)
+      end associate
+    end do
+    do i = 1, size(request%gauges)
+      first = first_gauge(request) + of_gauge*(i - 1)
+      call add_gauge(grid, plan, request%gauges(i)%body, request%gauges(i)%xi, speed, y, &
+        series(:, first:first + 2))
+    end do
+    first = first_torque(request)
+    call torque_series(grid, plan, request%terms, speed, y, series(:, first:first + 2))
+  end subroutine response_series_of
+
+  !> Displacement of a point in global axes and the rotation of its cross-section.
+  pure function point_series(grid, body, place, y) result(series)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: place(2)
+    real(wp), intent(in) :: y(:, :)
+    real(wp) :: series(size(y, 1), 3)
+
+    real(wp) :: local(size(y, 1), 3)
+
+    local = matmul(functions_of(grid, body, y), transpose(displacement_rows( &
+      grid%model%links(body), place)))
+    associate (e => grid%direction(:, :, body))
+      series(:, 1) = e(:, 1)*local(:, 1) - e(:, 2)*local(:, 2)
+      series(:, 2) = e(:, 2)*local(:, 1) + e(:, 1)*local(:, 2)
+      series(:, 3) = local(:, 3)
+    end associate
+  end function point_series
+
+  !> Axial strain, curvature and shear force at a place of a link.
+  subroutine add_gauge(grid, plan, body, xi, speed, y, series)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan
+    integer, intent(in) :: body
+    real(wp), intent(in) :: xi, speed
+    real(wp), intent(in) :: y(:, :)
+    real(wp), intent(out) :: series(:, :)
+
+    type(strain_rows_t) :: rows
+    real(wp), dimension(size(y, 1), 1) :: rotation, first, second
+    real(wp) :: q(size(y, 1), grid%integrals(body)%chord + grid%integrals(body)%own)
+    integer :: chord
+
+    rows = strain_rows(grid%model%links(body), xi)
+    chord = grid%integrals(body)%chord
+    q = functions_of(grid, body, y)
+    series(:, 1) = elongation_of(grid, body, y)*rows%elongation + matmul(q(:, chord + 1:), &
+      rows%axial)
+    series(:, 2) = matmul(q(:, chord + 1:), rows%curvature(1:)) + rows%curvature(0)*q(:, 3)
+    series(:, 3) = matmul(q(:, chord + 1:), rows%shear(1:)) + rows%shear(0)*q(:, 3)
+    ! Without shear strains the rotary inertia of the cross-sections takes part in the balance of
+    ! moments.
+    if (grid%model%links(body)%bending_shapes%shear_stiffness > 0.0_wp .or. &
+      grid%rotary_inertia(body) <= 0.0_wp) return
+    rotation(:, 1) = matmul(q(:, chord + 1:), rows%rotation(1:)) + rows%rotation(0)*q(:, 3) + &
+      (q(:, 2) - q(:, 1))/grid%model%links(body)%length
+    call derivatives(plan, rotation, first, second)
+    series(:, 3) = series(:, 3) + grid%rotary_inertia(body)*speed**2*(second(:, 1) + &
+      grid%rate_slope(:, body))
+  end subroutine add_gauge
+
+  !> The elongation unknown of a link that bends.
+  pure function elongation_of(grid, body, y) result(elongation)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: y(:, :)
+    real(wp) :: elongation(size(y, 1))
+
+    elongation = y(:, grid%elongation(body))
+  end function elongation_of
+
+  !> Axial strain and curvature at many places of a link.
+  pure subroutine strains_along(grid, body, xi, y, axial, curvature)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: xi(:)              !! (places)
+    real(wp), intent(in) :: y(:, :)            !! (samples, unknowns)
+    real(wp), intent(out) :: axial(:, :)       !! (samples, places)
+    real(wp), intent(out) :: curvature(:, :)   !! (samples, places) [1/m]
+
+    type(strain_rows_t) :: rows
+    real(wp) :: q(size(y, 1), grid%integrals(body)%chord + grid%integrals(body)%own)
+    integer :: chord, i
+
+    chord = grid%integrals(body)%chord
+    q = functions_of(grid, body, y)
+    do i = 1, size(xi)
+      rows = strain_rows(grid%model%links(body), xi(i))
+      axial(:, i) = elongation_of(grid, body, y)*rows%elongation + matmul(q(:, chord + 1:), &
+        rows%axial)
+      curvature(:, i) = matmul(q(:, chord + 1:), rows%curvature(1:)) + rows%curvature(0)*q(:, 3)
+    end do
+  end subroutine strains_along
+
+  !> Displacements along and across a link at many places.
+  pure subroutine displacements_along(grid, body, xi, y, displacement)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: xi(:)                   !! (places)
+    real(wp), intent(in) :: y(:, :)                 !! (samples, unknowns)
+    real(wp), intent(out) :: displacement(:, :, :)  !! (samples, 2, places) [m]
+
+    real(wp) :: q(size(y, 1), grid%integrals(body)%chord + grid%integrals(body)%own)
+    real(wp), allocatable :: rows(:, :)
+    integer :: i
+
+    q = functions_of(grid, body, y)
+    do i = 1, size(xi)
+      rows = displacement_rows(grid%model%links(body), [xi(i)*grid%model%links(body)%length, &
+        0.0_wp])
+      displacement(:, :, i) = matmul(q, transpose(rows(:2, :)))
+    end do
+  end subroutine displacements_along
+
+  !> Driving torque of the rigid linkage, its part linear in the deformations and its quadratic
+  !! part: `−∂L/∂θ + d/dt ∂L/∂ω − d²/dt² ∂L/∂α`.
+  !!
+  !! With L linear in y, `L = (ω² f_ω + α f_α + f_c)·y`, the linear part is `ω² (2 (f_ω·y)' − f_ω'·y
+  !! − (f_α·y)'') − f_c'·y`. With `D = S y` and `K_G = ω² K_ω + α K_α + K_c` the quadratic one is
+  !! `ω² (∫ μ (S' y)·D'' dx − ½ (yᵀK_ω y)' − y'ᵀK_ω y + ½ (yᵀK_α y)'') + ½ (yᵀK_c y)' − y'ᵀK_c y`.
+  subroutine torque_series(grid, plan, terms, speed, y, series)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan
+    type(elastic_terms_t), intent(in) :: terms
+    real(wp), intent(in) :: speed
+    real(wp), intent(in) :: y(:, :)
+    real(wp), intent(out) :: series(:, :)
+
+    real(wp), dimension(size(y, 1), case_count) :: work, slope, second, energy, rate_work
+    real(wp) :: first(size(y, 1), size(y, 2)), force(size(y, 1), size(y, 2)), load_slope(size(y, &
+      1), size(y, 2))
+    integer :: c
+
+    series(:, 1) = speed**2*grid%torque(:, 1) + grid%torque(:, constant_case)
+    do c = 1, case_count
+      work(:, c) = sum(grid%load(:, :, c)*y, dim=2)
+    end do
+    call derivatives(plan, work, slope, second)
+    call derivatives(plan, grid%load(:, :, 1), load_slope)
+    series(:, 2) = speed**2*(2.0_wp*slope(:, 1) - sum(load_slope*y, dim=2) - second(:, 2))
+    call derivatives(plan, grid%load(:, :, constant_case), load_slope)
+    series(:, 2) = series(:, 2) - sum(load_slope*y, dim=2)
+    series(:, 3) = 0.0_wp
+    if (.not. terms%quadratic) return
+    call derivatives(plan, y, first)
+    call swept_work(grid, plan, y, series(:, 3))
+    series(:, 3) = speed**2*series(:, 3)
+    if (.not. terms%axial) return
+    do c = 1, case_count
+      force = 0.0_wp
+      call geometric_force(grid, grid%force(:, :, :, c), y, force)
+      energy(:, c) = sum(y*force, dim=2)
+      rate_work(:, c) = sum(first*force, dim=2)
+    end do
+    call derivatives(plan, energy, slope, second)
+    series(:, 3) = series(:, 3) + speed**2*(-0.5_wp*slope(:, 1) - rate_work(:, 1) + &
+      0.5_wp*second(:, 2)) + 0.5_wp*slope(:, constant_case) - rate_work(:, constant_case)
+  end subroutine torque_series
+
+  !> `∫ μ (S' y)·(S y)'' dx` with S' the change of the shapes at constant y.
+  subroutine swept_work(grid, plan, y, work)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan
+    real(wp), intent(in) :: y(:, :)
+    real(wp), intent(out) :: work(:)
+
+    real(wp), allocatable :: q(:, :), first(:, :), second(:, :), chord_slope(:, :), moved(:, :), &
+      turned(:, :), swept(:, :), pin(:, :), pin_first(:, :), pin_second(:, :)
+    integer :: b, i, j, k, p
+
+    work = 0.0_wp
+    do b = 1, size(grid%integrals)
+      associate (integrals => grid%integrals(b), h => grid%rate(:, b), slope => &
+        grid%rate_slope(:, b))
+        q = functions_of(grid, b, y)
+        allocate (first, second, moved, swept, mold=q)
+        allocate (chord_slope(size(q, 1), integrals%chord))
+        call derivatives(plan, q, first, second)
+        moved = 0.0_wp
+        do j = 1, grid%border
+          call derivatives(plan, grid%chord(:, :integrals%chord, j, b), chord_slope)
+          do i = 1, integrals%chord
+            moved(:, i) = moved(:, i) + chord_slope(:, i)*y(:, j)
+          end do
+        end do
+        ! moved·(m Q'' + J (2hQ' + h'Q) − h² m_t Q) + h (−Qᵀ J Q'' + Qᵀ m_t (2hQ' + h'Q))
+        turned = matmul(second, integrals%mass)
+        work = work + sum(moved*turned, dim=2)
+        turned = -matmul(second, integrals%swap)
+        work = work - h*sum(q*turned, dim=2)
+        do i = 1, size(q, 2)
+          swept(:, i) = 2.0_wp*h*first(:, i) + slope*q(:, i)
+        end do
+        turned = -matmul(swept, integrals%swap)
+        work = work + sum(moved*turned, dim=2)
+        turned = matmul(swept, integrals%mass)
+        if (size(integrals%rotary) > 0) turned = turned - matmul(swept, integrals%rotary)
+        work = work + h*sum(q*turned, dim=2)
+        turned = matmul(q, integrals%mass)
+        if (size(integrals%rotary) > 0) turned = turned - matmul(q, integrals%rotary)
+        work = work - h**2*sum(moved*turned, dim=2)
+        deallocate (first, second, moved, swept, chord_slope)
+      end associate
+    end do
+    allocate (pin(size(y, 1), 2), pin_first(size(y, 1), 2), pin_second(size(y, 1), 2), &
+      moved(size(y, 1), 2))
+    do p = 1, size(grid%pin_mass)
+      if (grid%pin_mass(p) <= 0.0_wp) cycle
+      pin = 0.0_wp
+      moved = 0.0_wp
+      do j = 1, grid%border
+        call derivatives(plan, grid%pin(:, :, p, j), pin_first)
+        do k = 1, 2
+          pin(:, k) = pin(:, k) + grid%pin(:, k, p, j)*y(:, j)
+          moved(:, k) = moved(:, k) + pin_first(:, k)*y(:, j)
+        end do
+      end do
+      call derivatives(plan, pin, pin_first, pin_second)
+      work = work + grid%pin_mass(p)*sum(moved*pin_second, dim=2)
+    end do
+  end subroutine swept_work
+
+end module response_series

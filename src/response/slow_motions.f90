@@ -1,0 +1,517 @@
+!> The slow part of the motion of an elastic linkage: a few coordinates that follow the slow
+!! vibrations over the turn, each with what the rest of the linkage does along with it.
+!!
+!! `y = X z` with X(θ) from subspace iterations on the mass matrix: the slow deformations (rotation
+!! of the clamped end, the lowest own modes of the links) and the deformations that their inertia
+!! causes. The matrices of z do not depend on the speed. At a speed the equation
+!! `(M z' + G z)' = (Gᵀ − C/ω) z' + (W − K/ω²) z + F/ω²` is solved by Gauss collocation, step after
+!! step, and closed to a periodic motion. It serves as an approximate inverse of the whole equation,
+!! and gives the multipliers of a turn.
+module slow_motions
+  use constants, only: two_pi
+  use elastic_equations, only: functions_of, geometric_force, mass_force
+  use errors, only: error_of_numerics, error_t, set_error
+  use fourier_transform, only: coefficients_of, derivatives, fourier_plan_t, resampled, shifted, &
+    values_of
+  use gauss_collocation, only: collocation_t, new_collocation
+  use kinds, only: wp
+  use lapack, only: dgeev, dgetrf, dgetrs
+  use load_cases, only: constant_case
+  use sorting, only: ascending_order
+  use turn_grids, only: turn_grid_t
+  implicit none (type, external)
+  private
+
+  public :: slow_basis_t, new_slow_basis, slow_motion_t, new_slow_motion, solve_slow, &
+    slow_multipliers, slow_count, own_squares
+
+  !> Subspace iterations: the error of the lowest frequencies falls by the square of the ratio of
+  !! frequencies each time.
+  integer, parameter :: iterations = 3
+
+  !> The slow coordinates over the turn, for any speed.
+  type :: slow_basis_t
+    integer :: number = 0
+    real(wp), allocatable :: shape(:, :, :)       !! (samples, unknowns, number) X
+    real(wp), allocatable :: inverse(:, :, :)     !! (samples, number, number) (XᵀX)⁻¹
+    real(wp), allocatable :: square(:)            !! (unknowns) 1/ω² of the other deformations by
+                                                  !! themselves; 0 of the slow ones [s²]
+    !> Coefficients over the turn: (samples, number², matrices) M, G, W, XᵀX and XᵀK_GX per ω2² and
+    !! of the constant loads
+    real(wp), allocatable :: matrix(:, :, :)
+  end type slow_basis_t
+
+  integer, parameter :: of_mass = 1, of_g = 2, of_w = 3, of_stiffness = 4, of_speed = 5, &
+    of_loads = 6
+
+  !> Steps of the collocation at one speed.
+  type :: slow_motion_t
+    integer :: number = 0, steps = 0
+    type(collocation_t) :: rule
+    real(wp) :: scale = 1.0_wp                 !! of momenta
+    real(wp), allocatable :: transfer(:, :, :) !! (2 number, 2 number, steps) of coordinates and
+                                               !! momenta over a step
+    real(wp), allocatable :: response(:, :, :) !! (2 number, number × stages, steps) to loads at the
+                                               !! stages
+    real(wp), allocatable :: monodromy(:, :)   !! (2 number, 2 number) over the turn
+    real(wp), allocatable :: factor(:, :)      !! of `1 − monodromy`
+    integer, allocatable :: pivot(:)
+  end type slow_motion_t
+
+contains
+
+  !> Number of slow coordinates: deformations whose own frequency is below a limit, at least one.
+  pure function slow_count(grid, limit) result(number)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp), intent(in) :: limit !! [rad/s]
+    integer :: number
+
+    number = max(1, count(own_squares(grid)*limit**2 > 1.0_wp))
+  end function slow_count
+
+  !> 1/ω² of every deformation by itself [s²]; those of the border from the mean of M over the turn.
+  pure function own_squares(grid) result(square)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp) :: square(grid%unknowns)
+
+    integer :: b, i, j, k
+
+    square = 0.0_wp
+    do b = 1, size(grid%integrals)
+      associate (mass => grid%integrals(b)%mass, link => grid%model%links(b))
+        do k = 1, grid%border
+          do j = 1, grid%integrals(b)%chord
+            do i = 1, grid%integrals(b)%chord
+              square(k) = square(k) + mass(i, j)*sum(grid%chord(:, i, k, b)*grid%chord(:, j, k, &
+                b))/grid%samples
+            end do
+          end do
+        end do
+        square(grid%first(b):grid%first(b) + link%modes - 1) = link%square
+        square(grid%first_along(b):grid%first_along(b) + link%axial_modes - 1) = link%axial_square
+      end associate
+    end do
+    do b = 1, size(grid%pin_mass)
+      do k = 1, grid%border
+        square(k) = square(k) + grid%pin_mass(b)*sum(grid%pin(:, :, b, k)**2)/grid%samples
+      end do
+    end do
+  end function own_squares
+
+  !> Makes the slow coordinates and their matrices over the turn, on a coarse grid: both change
+  !! slowly over the turn.
+  subroutine new_slow_basis(coarse, coarse_plan, plan, number, basis, error)
+    type(turn_grid_t), intent(in) :: coarse          !! few samples
+    type(fourier_plan_t), intent(in) :: coarse_plan  !! for these
+    type(fourier_plan_t), intent(in) :: plan         !! for the samples wanted
+    integer, intent(in) :: number                    !! of slow coordinates
+    type(slow_basis_t), intent(out) :: basis
+    type(error_t), allocatable, intent(out) :: error !! the slow coordinates are dependent
+
+    real(wp), allocatable :: shape(:, :, :), sums(:, :, :), coefficients(:, :)
+    integer, allocatable :: order(:)
+    integer :: c, i, j, k
+
+    basis%number = number
+    basis%square = own_squares(coarse)
+    order = ascending_order(-basis%square)
+    basis%square(order(:number)) = 0.0_wp
+    call find_shapes(coarse, order(:number), shape, error)
+    if (allocated(error)) return
+    call find_matrices(coarse, coarse_plan, shape, sums)
+    allocate (coefficients(coarse%samples, number**2), basis%matrix(plan%samples, number**2, 6))
+    do c = 1, 6
+      call coefficients_of(coarse_plan, sums(:, :, c), coefficients)
+      basis%matrix(:, :, c) = resampled(coefficients, plan%samples)
+    end do
+    deallocate (coefficients)
+    allocate (coefficients(coarse%samples, coarse%unknowns))
+    allocate (basis%shape(plan%samples, coarse%unknowns, number))
+    do i = 1, number
+      call coefficients_of(coarse_plan, shape(:, :, i), coefficients)
+      call values_of(plan, resampled(coefficients, plan%samples), basis%shape(:, :, i))
+    end do
+    allocate (basis%inverse(plan%samples, number, number))
+    do j = 1, number
+      do i = 1, j
+        basis%inverse(:, i, j) = sum(basis%shape(:, :, i)*basis%shape(:, :, j), dim=2)
+        basis%inverse(:, j, i) = basis%inverse(:, i, j)
+      end do
+    end do
+    do k = 1, plan%samples
+      call invert((basis%inverse(k, :, :)), basis%inverse(k, :, :))
+    end do
+  end subroutine new_slow_basis
+
+  !> X from subspace iterations on the mass matrix.
+  subroutine find_shapes(grid, slow, shape, error)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: slow(:)                     !! numbers of the slow deformations
+    real(wp), allocatable, intent(out) :: shape(:, :, :) !! (samples, unknowns, number)
+    type(error_t), allocatable, intent(out) :: error
+
+    real(wp), allocatable :: product(:, :, :)
+    integer :: i, k
+
+    allocate (shape(grid%samples, grid%unknowns, size(slow)), product(grid%samples, &
+      grid%unknowns, size(slow)))
+    shape = 0.0_wp
+    do i = 1, size(slow)
+      shape(:, slow(i), i) = 1.0_wp
+    end do
+    do k = 1, iterations
+      do i = 1, size(slow)
+        call mass_force(grid, shape(:, :, i), product(:, :, i))
+      end do
+      call normalise(product, slow, shape, error)
+      if (allocated(error)) return
+    end do
+  end subroutine find_shapes
+
+  !> M, G, W, XᵀX and XᵀK_GX of the slow coordinates.
+  subroutine find_matrices(grid, plan, shape, sums)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan
+    real(wp), intent(in) :: shape(:, :, :)
+    real(wp), allocatable, intent(out) :: sums(:, :, :) !! (samples, number², matrices)
+
+    real(wp), allocatable :: first(:, :, :), q(:, :, :), force(:, :)
+    integer :: b, c, i, j, at, n, number
+
+    n = grid%samples
+    number = size(shape, 3)
+    allocate (sums(n, number**2, 6))
+    sums = 0.0_wp
+    do b = 1, size(grid%integrals)
+      associate (integrals => grid%integrals(b))
+        allocate (q(n, integrals%chord + integrals%own, number))
+        allocate (first, mold=q)
+        do i = 1, number
+          q(:, :, i) = functions_of(grid, b, shape(:, :, i))
+          call derivatives(plan, q(:, :, i), first(:, :, i))
+        end do
+        call add_body(grid, b, q, first, sums)
+        deallocate (q, first)
+      end associate
+    end do
+    call add_pins(grid, plan, shape, sums)
+    allocate (force(n, grid%unknowns))
+    do j = 1, number
+      do c = 0, 2
+        force = 0.0_wp
+        if (c == 0) force = shape(:, :, j)
+        if (c == 1) call geometric_force(grid, grid%force(:, :, :, 1), shape(:, :, j), force)
+        if (c == 2) call geometric_force(grid, grid%force(:, :, :, constant_case), shape(:, :, j), &
+          force)
+        do i = 1, number
+          at = (j - 1)*number + i
+          sums(:, at, of_stiffness + c) = sum(shape(:, :, i)*force, dim=2)
+        end do
+      end do
+    end do
+  end subroutine find_matrices
+
+  !> Scales X so that its slow rows are the unit matrix: X then changes smoothly over the turn.
+  subroutine normalise(product, slow, shape, error)
+    real(wp), intent(in) :: product(:, :, :) !! (samples, unknowns, number)
+    integer, intent(in) :: slow(:)
+    real(wp), intent(out) :: shape(:, :, :)
+    type(error_t), allocatable, intent(out) :: error
+
+    real(wp) :: inverse(size(slow), size(slow))
+    integer :: k
+
+    do k = 1, size(product, 1)
+      call invert(product(k, slow, :), inverse)
+      shape(k, :, :) = matmul(product(k, :, :), inverse)
+    end do
+    if (any(abs(shape) > huge(1.0_wp))) call set_error(error, error_of_numerics, &
+      "the slow vibrations cannot be told from the fast ones")
+  end subroutine normalise
+
+  !> Inverse of a small matrix.
+  subroutine invert(matrix, inverse)
+    real(wp), intent(in) :: matrix(:, :)
+    real(wp), intent(inout) :: inverse(:, :)
+
+    real(wp) :: factor(size(matrix, 1), size(matrix, 1)), right(size(matrix, 1), size(matrix, 1))
+    integer :: pivot(size(matrix, 1)), i, n, info
+
+    n = size(matrix, 1)
+    factor = matrix
+    right = 0.0_wp
+    do i = 1, n
+      right(i, i) = 1.0_wp
+    end do
+    call dgetrf(n, n, factor, n, pivot, info)
+    call dgetrs("N", n, n, factor, n, pivot, right, n, info)
+    inverse = right
+  end subroutine invert
+
+  !> Adds what a body contributes to M, G and W of the slow coordinates.
+  pure subroutine add_body(grid, b, q, first, sums)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: b
+    real(wp), intent(in) :: q(:, :, :), first(:, :, :) !! (samples, functions, number) Q, Q'
+    real(wp), intent(inout) :: sums(:, :, :)
+
+    real(wp), allocatable :: moved(:, :), moved_first(:, :), turned(:, :), turned_first(:, :), &
+      free(:, :)
+    integer :: i, j, at
+
+    associate (integrals => grid%integrals(b), h => grid%rate(:, b))
+      do j = 1, size(q, 3)
+        moved = matmul(q(:, :, j), integrals%mass)
+        moved_first = matmul(first(:, :, j), integrals%mass)
+        turned = -matmul(q(:, :, j), integrals%swap)
+        turned_first = -matmul(first(:, :, j), integrals%swap)
+        free = moved
+        if (size(integrals%rotary) > 0) free = moved - matmul(q(:, :, j), integrals%rotary)
+        do i = 1, size(q, 3)
+          at = (j - 1)*size(q, 3) + i
+          sums(:, at, of_mass) = sums(:, at, of_mass) + sum(q(:, :, i)*moved, dim=2)
+          sums(:, at, of_g) = sums(:, at, of_g) + sum(q(:, :, i)*moved_first, dim=2) + &
+            h*sum(q(:, :, i)*turned, dim=2)
+          sums(:, at, of_w) = sums(:, at, of_w) + sum(first(:, :, i)*moved_first, dim=2) + &
+            h*(sum(first(:, :, i)*turned, dim=2) - sum(q(:, :, i)*turned_first, dim=2)) + &
+            h**2*sum(q(:, :, i)*free, dim=2)
+        end do
+      end do
+    end associate
+  end subroutine add_body
+
+  !> Adds what masses at pins contribute.
+  subroutine add_pins(grid, plan, shape, sums)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan
+    real(wp), intent(in) :: shape(:, :, :)
+    real(wp), intent(inout) :: sums(:, :, :)
+
+    real(wp) :: motion(size(shape, 1), 2, size(shape, 3)), first(size(shape, 1), 2, size(shape, 3))
+    integer :: at, i, j, k, p
+
+    do p = 1, size(grid%pin_mass)
+      if (grid%pin_mass(p) <= 0.0_wp) cycle
+      motion = 0.0_wp
+      do i = 1, size(shape, 3)
+        do j = 1, grid%border
+          do k = 1, 2
+            motion(:, k, i) = motion(:, k, i) + grid%pin(:, k, p, j)*shape(:, j, i)
+          end do
+        end do
+        call derivatives(plan, motion(:, :, i), first(:, :, i))
+      end do
+      do j = 1, size(shape, 3)
+        do i = 1, size(shape, 3)
+          at = (j - 1)*size(shape, 3) + i
+          sums(:, at, of_mass) = sums(:, at, of_mass) + grid%pin_mass(p)*sum(motion(:, :, &
+            i)*motion(:, :, j), dim=2)
+          sums(:, at, of_g) = sums(:, at, of_g) + grid%pin_mass(p)*sum(motion(:, :, &
+            i)*first(:, :, j), dim=2)
+          sums(:, at, of_w) = sums(:, at, of_w) + grid%pin_mass(p)*sum(first(:, :, &
+            i)*first(:, :, j), dim=2)
+        end do
+      end do
+    end do
+  end subroutine add_pins
+
+  !> Steps of the collocation at a speed, as many as samples.
+  subroutine new_slow_motion(steps, plan, basis, speed, damping, stages, motion, error)
+    integer, intent(in) :: steps             !! as many as samples
+    type(fourier_plan_t), intent(in) :: plan !! for these
+    type(slow_basis_t), intent(in) :: basis
+    real(wp), intent(in) :: speed      !! ω2 [rad/s]
+    real(wp), intent(in) :: damping(:) !! (unknowns) c [s]
+    integer, intent(in) :: stages      !! of a step
+    type(slow_motion_t), intent(out) :: motion
+    type(error_t), allocatable, intent(out) :: error !! at resonance
+
+    real(wp), allocatable :: at_stage(:, :, :, :), total(:, :, :), first(:, :)
+    integer :: i, j, k, m, n, c, info
+
+    n = steps
+    m = basis%number
+    motion%number = m
+    motion%steps = n
+    motion%rule = new_collocation(stages)
+    ! M, G, W − K/ω² − XᵀCX'/ω, XᵀCX/ω
+    allocate (total(n, m**2, 4))
+    total(:, :, 1:2) = basis%matrix(:, :, 1:2)
+    total(:, :, 3) = basis%matrix(:, :, of_w) - basis%matrix(:, :, of_speed) - (basis%matrix(:, :, &
+      of_stiffness) + basis%matrix(:, :, of_loads))/speed**2
+    total(:, :, 4) = 0.0_wp
+    if (any(damping > 0.0_wp)) call add_damping
+    allocate (at_stage(n, m**2, 4, stages))
+    do i = 1, stages
+      do c = 1, 4
+        call values_of(plan, shifted(total(:, :, c), motion%rule%node(i)*two_pi/n), &
+          at_stage(:, :, c, i))
+      end do
+    end do
+    motion%scale = sqrt(sum(abs(basis%matrix(1, 1::m + 1, of_mass)))* &
+      sum(abs(basis%matrix(1, 1::m + 1, of_stiffness))))/(m*abs(speed))
+    allocate (motion%transfer(2*m, 2*m, n), motion%response(2*m, m*stages, n))
+    do k = 1, n
+      call make_step(motion, k, at_stage(k, :, :, :))
+    end do
+    motion%monodromy = motion%transfer(:, :, 1)
+    do k = 2, n
+      motion%monodromy = matmul(motion%transfer(:, :, k), motion%monodromy)
+    end do
+    motion%factor = -motion%monodromy
+    do i = 1, 2*m
+      motion%factor(i, i) = 1.0_wp + motion%factor(i, i)
+    end do
+    allocate (motion%pivot(2*m))
+    call dgetrf(2*m, 2*m, motion%factor, 2*m, motion%pivot, info)
+    if (info /= 0) call set_error(error, error_of_numerics, "resonance")
+
+  contains
+
+    subroutine add_damping
+      real(wp) :: of_rate(n, m**2), of_shape(n, m**2)
+      real(wp) :: rates(n, size(damping))
+
+      allocate (first(n, size(damping)))
+      do j = 1, m
+        call derivatives(plan, basis%shape(:, :, j), rates)
+        do i = 1, size(damping)
+          rates(:, i) = damping(i)*rates(:, i)
+          first(:, i) = damping(i)*basis%shape(:, i, j)
+        end do
+        do i = 1, m
+          of_shape(:, (j - 1)*m + i) = sum(basis%shape(:, :, i)*rates, dim=2)/speed
+          of_rate(:, (j - 1)*m + i) = sum(basis%shape(:, :, i)*first, dim=2)/speed
+        end do
+      end do
+      call coefficients_of(plan, of_rate, total(:, :, 4))
+      call coefficients_of(plan, of_shape, of_rate)
+      total(:, :, 3) = total(:, :, 3) - of_rate
+    end subroutine add_damping
+
+  end subroutine new_slow_motion
+
+  !> One step: coordinates and momenta at its end from those at its start and the loads at its
+  !! stages. Unknowns of the stages are z'.
+  subroutine make_step(motion, step, matrices)
+    type(slow_motion_t), intent(inout) :: motion
+    integer, intent(in) :: step
+    real(wp), intent(in) :: matrices(:, :, :) !! (number², 4, stages)
+
+    real(wp), dimension(motion%number, motion%number, size(matrices, 3)) :: mass, g, v, d
+    real(wp) :: left(motion%number*size(matrices, 3), motion%number*size(matrices, 3))
+    real(wp) :: right(motion%number*size(matrices, 3), 2*motion%number + motion%number* &
+      size(matrices, 3))
+    real(wp) :: ends(2*motion%number, 2*motion%number + motion%number*size(matrices, 3))
+    real(wp) :: h, block(motion%number, motion%number)
+    integer :: pivot(motion%number*size(matrices, 3)), i, j, k, l, m, s, info
+
+    m = motion%number
+    s = size(matrices, 3)
+    h = two_pi/motion%steps
+    do i = 1, s
+      mass(:, :, i) = reshape(matrices(:, 1, i), [m, m])
+      g(:, :, i) = reshape(matrices(:, 2, i), [m, m])
+      v(:, :, i) = reshape(matrices(:, 3, i), [m, m])
+      d(:, :, i) = transpose(g(:, :, i)) - reshape(matrices(:, 4, i), [m, m])
+    end do
+    associate (a => motion%rule%matrix, w => motion%rule%weight)
+      right = 0.0_wp
+      do i = 1, s
+        do l = 1, s
+          block = h*a(i, l)*(g(:, :, i) - d(:, :, l))
+          do j = 1, s
+            block = block - h**2*a(i, j)*a(j, l)*v(:, :, j)
+          end do
+          if (i == l) block = block + mass(:, :, i)
+          left((i - 1)*m + 1:i*m, (l - 1)*m + 1:l*m) = block
+          do k = 1, m
+            right((i - 1)*m + k, 2*m + (l - 1)*m + k) = h*a(i, l)
+          end do
+        end do
+        block = -g(:, :, i)
+        do j = 1, s
+          block = block + h*a(i, j)*v(:, :, j)
+        end do
+        right((i - 1)*m + 1:i*m, :m) = block
+        do k = 1, m
+          right((i - 1)*m + k, m + k) = motion%scale
+        end do
+      end do
+      call dgetrf(m*s, m*s, left, m*s, pivot, info)
+      call dgetrs("N", m*s, size(right, 2), left, m*s, pivot, right, m*s, info)
+      ends = 0.0_wp
+      do k = 1, m
+        ends(k, k) = 1.0_wp
+        ends(m + k, m + k) = motion%scale
+      end do
+      do l = 1, s
+        ends(:m, :) = ends(:m, :) + h*w(l)*right((l - 1)*m + 1:l*m, :)
+        ! p' at stage l: D z' + V z + F, with z there from the rates at all stages
+        block = 0.0_wp
+        do j = 1, s
+          block = block + w(j)*a(j, l)*v(:, :, j)
+        end do
+        ends(m + 1:, :) = ends(m + 1:, :) + matmul(h*w(l)*d(:, :, l) + h**2*block, &
+          right((l - 1)*m + 1:l*m, :))
+        ends(m + 1:, :m) = ends(m + 1:, :m) + h*w(l)*v(:, :, l)
+        do k = 1, m
+          ends(m + k, 2*m + (l - 1)*m + k) = ends(m + k, 2*m + (l - 1)*m + k) + h*w(l)
+        end do
+      end do
+    end associate
+    ends(m + 1:, :) = ends(m + 1:, :)/motion%scale
+    motion%transfer(:, :, step) = ends(:, :2*m)
+    motion%response(:, :, step) = ends(:, 2*m + 1:)
+  end subroutine make_step
+
+  !> The periodic slow motion under a load.
+  subroutine solve_slow(plan, motion, load, z)
+    type(fourier_plan_t), intent(in) :: plan
+    type(slow_motion_t), intent(in) :: motion
+    real(wp), intent(in) :: load(:, :) !! (samples, number) F per ω2²
+    real(wp), intent(out) :: z(:, :)   !! (samples, number)
+
+    real(wp) :: coefficients(size(load, 1), size(load, 2)), moved(size(load, 1), size(load, 2))
+    real(wp) :: at_stages(size(load, 2)*size(motion%rule%node), size(load, 1))
+    real(wp) :: state(2*motion%number), push(2*motion%number, size(load, 1))
+    integer :: i, k, m, n, info
+
+    m = motion%number
+    n = motion%steps
+    call coefficients_of(plan, load, coefficients)
+    do i = 1, size(motion%rule%node)
+      call values_of(plan, shifted(coefficients, motion%rule%node(i)*two_pi/n), moved)
+      at_stages((i - 1)*m + 1:i*m, :) = transpose(moved)
+    end do
+    state = 0.0_wp
+    do k = 1, n
+      push(:, k) = matmul(motion%response(:, :, k), at_stages(:, k))
+      state = matmul(motion%transfer(:, :, k), state) + push(:, k)
+    end do
+    call dgetrs("N", 2*m, 1, motion%factor, 2*m, motion%pivot, state, 2*m, info)
+    do k = 1, n
+      z(k, :) = state(:m)
+      state = matmul(motion%transfer(:, :, k), state) + push(:, k)
+    end do
+  end subroutine solve_slow
+
+  !> Multipliers of a turn.
+  subroutine slow_multipliers(motion, multipliers, error)
+    type(slow_motion_t), intent(in) :: motion
+    complex(wp), allocatable, intent(out) :: multipliers(:) !! (2 number)
+    type(error_t), allocatable, intent(out) :: error
+
+    real(wp) :: a(2*motion%number, 2*motion%number), re(2*motion%number), im(2*motion%number)
+    real(wp) :: work(16*motion%number), none(1, 1)
+    integer :: n, info
+
+    n = 2*motion%number
+    a = motion%monodromy
+    call dgeev("N", "N", n, a, n, re, im, none, 1, none, 1, work, size(work), info)
+    if (info /= 0) call set_error(error, error_of_numerics, "the multipliers of a turn do not "// &
+      "converge")
+    multipliers = cmplx(re, im, wp)
+  end subroutine slow_multipliers
+
+end module slow_motions

@@ -1,0 +1,557 @@
+!> The steady elastic response of a linkage whose crank turns at constant speed, with estimated
+!! errors.
+!!
+!! Every speed is solved twice: with the orders and samples chosen, and, starting from that solution,
+!! with orders higher by two and half as many samples more. The first is the result, the difference
+!! its error. Where that exceeds the accuracy, orders or samples are raised, whichever is to blame.
+module steady_responses
+  use body_lumps, only: pieces_of
+  use constants, only: degree, two_pi
+  use deformation_model, only: deformation_model_t, new_deformation_model
+  use elastic_equations, only: load_at_speed
+  use errors, only: error_t
+  use fourier_transform, only: close_fourier, coefficients_of, fourier_plan_t, open_fourier, &
+    resampled, value_at, values_of
+  use kinds, only: long, wp
+  use link_degrees, only: link_degrees_t, uniform_degrees
+  use link_store, only: link_store_t
+  use order_transfer, only: transferred
+  use periodic_solver, only: solve_periodic
+  use response_peaks, only: find_peaks
+  use response_series, only: first_gauge, first_torque, response_series_of, series_count
+  use response_types
+  use slow_motions, only: new_slow_basis, new_slow_motion, slow_basis_t, slow_count, &
+    slow_motion_t, slow_multipliers, own_squares
+  use structures, only: structure_t
+  use turn_grids, only: new_turn_grid, turn_grid_t
+  implicit none (type, external)
+  private
+
+  public :: find_steady_responses
+
+  !> Orders of the second solution above those of the first.
+  integer, parameter :: orders_above = 2
+
+  !> Degrees along a link are lower than those across it by this, and at least as high as this. The
+  !! bending of the links loads them along their axes: both converge together.
+  integer, parameter :: along_below = 4, least_along = 4
+
+  !> Limits of orders and samples.
+  integer, parameter :: most_order = 36, most_samples = 3072
+
+  !> Numbers of samples: products of small factors, each about half as many more than the last but
+  !! one.
+  integer, parameter :: sample_numbers(*) = [64, 96, 128, 192, 256, 384, 512, 768, 1024, 1536, &
+    2048, 3072]
+
+  !> Samples from which the slow coordinates are found.
+  integer, parameter :: basis_samples = 96
+
+  !> Slow vibrations have at least this many samples a period.
+  real(wp), parameter :: samples_a_period = 2.5_wp
+
+  !> Stages of the collocation of slow motions.
+  integer, parameter :: stages = 3
+
+  !> Estimated errors are differences of two solutions times this.
+  real(wp), parameter :: safety = 1.5_wp
+
+  !> Remainders of the iterations beside the accuracy.
+  real(wp), parameter :: solved_to = 1.0e-3_wp, compared_to = 1.0e-2_wp, least_remainder = 2.0e-14_wp
+
+  !> The highest eighth of the harmonics of a series may have this share of the accuracy; they are
+  !! taken to fall at least this fast.
+  real(wp), parameter :: tail_share = 0.3_wp, slowest_fall = 0.02_wp
+
+  !> Errors of strains fall about so much with two orders.
+  real(wp), parameter :: gain_of_orders = 30.0_wp
+
+  !> Pairs of orders and samples in one run.
+  integer, parameter :: most_levels = 64
+
+  !> Rounding of a solution, with no resonance near.
+  real(wp), parameter :: rounding = 1.0e-13_wp
+
+  !> A grid with what its solutions need.
+  type :: level_t
+    integer :: order = 0
+    type(turn_grid_t) :: grid, coarse
+    type(slow_basis_t), allocatable :: basis(:) !! by the number of slow coordinates; empty where not
+                                                !! needed
+  end type level_t
+
+  !> Orders and samples of a speed, and its levels.
+  type :: choice_t
+    integer :: order = 0
+    integer :: at = 0             !! of `sample_numbers`
+    integer :: level(2) = 0       !! numbers of the levels of both solutions
+    integer :: slow = 0           !! slow coordinates
+    logical :: pending = .true.
+  end type choice_t
+
+  !> One solution at a speed.
+  type :: solution_t
+    real(wp), allocatable :: y(:, :)      !! (samples, unknowns)
+    real(wp), allocatable :: series(:, :) !! coefficients of the series
+    integer :: applications = 0
+    real(wp) :: remainder = 0.0_wp
+  end type solution_t
+
+contains
+
+  !> Finds the response at all speeds.
+  !!
+  !! Errors: the crank does not turn fully; own modes of a link could not be found. Those of a speed
+  !! are in its result.
+  subroutine find_steady_responses(structure, request, threads, store, response, error)
+    class(structure_t), intent(in) :: structure       !! linkage and beams
+    type(response_request_t), intent(in) :: request   !! speeds, places, accuracy
+    integer, intent(in) :: threads                    !! number of OpenMP threads
+    type(link_store_t), intent(inout) :: store        !! links decomposed earlier
+    type(response_t), intent(out) :: response
+    type(error_t), allocatable, intent(out) :: error  !! why there is no response at any speed
+
+    type(level_t) :: levels(most_levels)
+    type(choice_t) :: choice(size(request%speed))
+    integer, allocatable :: pending(:)
+    integer :: i, k, n, number
+
+    n = size(request%speed)
+    allocate (response%at_speed(n))
+    choice%order = first_order(request%accuracy)
+    call new_level(structure, choice(1)%order, sample_numbers(1), store, levels(1), error)
+    if (allocated(error)) return
+    choice%at = first_samples(request%speed*sqrt(maxval(own_squares(levels(1)%grid))), request%accuracy)
+    number = 1
+    do
+      pending = pack([(k, k=1, n)], choice%pending)
+      if (size(pending) == 0) exit
+      do i = 1, size(pending)
+        call find_levels(structure, request%speed(pending(i)), store, levels, number, &
+          choice(pending(i)), error)
+        if (allocated(error)) return
+      end do
+      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
+      do i = 1, size(pending)
+        associate (here => choice(pending(i)))
+          call solve_speed(structure, request, request%speed(pending(i)), levels(here%level(1)), &
+            levels(here%level(2)), here, response%at_speed(pending(i)))
+        end associate
+      end do
+      !$omp end parallel do
+    end do
+  end subroutine find_steady_responses
+
+  !> Finds or makes the two levels of a speed, with the slow coordinates that it needs.
+  subroutine find_levels(structure, speed, store, levels, number, choice, error)
+    class(structure_t), intent(in) :: structure
+    real(wp), intent(in) :: speed
+    type(link_store_t), intent(inout) :: store
+    type(level_t), intent(inout) :: levels(:)
+    integer, intent(inout) :: number !! of levels made so far
+    type(choice_t), intent(inout) :: choice
+    type(error_t), allocatable, intent(out) :: error
+
+    type(fourier_plan_t) :: plan, coarse_plan
+    integer :: i, order, samples
+
+    do i = 1, 2
+      order = choice%order + (i - 1)*orders_above
+      samples = sample_numbers(choice%at + i - 1)
+      associate (level => choice%level(i))
+        do level = 1, number
+          if (levels(level)%order == order .and. levels(level)%grid%samples == samples) exit
+        end do
+        if (level > number) then
+          number = level
+          call new_level(structure, order, samples, store, levels(level), error)
+          if (allocated(error)) return
+        end if
+      end associate
+    end do
+    ! Both solutions have the same slow coordinates.
+    choice%slow = slow_count(levels(choice%level(1))%coarse, &
+      abs(speed)*sample_numbers(choice%at)/samples_a_period)
+    do i = 1, 2
+      associate (level => levels(choice%level(i)))
+        if (level%basis(choice%slow)%number > 0) cycle
+        call open_fourier(level%grid%samples, plan)
+        call open_fourier(level%coarse%samples, coarse_plan)
+        call new_slow_basis(level%coarse, coarse_plan, plan, choice%slow, &
+          level%basis(choice%slow), error)
+        call close_fourier(plan)
+        call close_fourier(coarse_plan)
+        if (allocated(error)) return
+      end associate
+    end do
+  end subroutine find_levels
+
+  !> Polynomial degree to begin with.
+  pure function first_order(accuracy) result(order)
+    real(wp), intent(in) :: accuracy
+    integer :: order
+
+    order = max(8, min(6 + 2*ceiling(-0.5_wp*log10(accuracy)), 18))
+  end function first_order
+
+  !> Samples to begin with, from the number of vibrations of the slowest mode in a turn: what was
+  !! found sufficient for machines of many kinds.
+  elemental function first_samples(share, accuracy) result(at)
+    real(wp), intent(in) :: share    !! speed / frequency of that mode
+    real(wp), intent(in) :: accuracy
+    integer :: at                    !! of `sample_numbers`
+
+    real(wp) :: wanted
+
+    wanted = 120.0_wp + 13.0_wp*(1.0_wp/max(abs(share), 1.0e-3_wp))**0.8_wp
+    wanted = wanted*(0.5_wp - log10(accuracy)/12.0_wp)
+    at = min(size(sample_numbers) - 1, findloc(sample_numbers >= min(nint(wanted), &
+      sample_numbers(size(sample_numbers))), .true., dim=1))
+  end function first_samples
+
+  !> Makes the grids of a level.
+  subroutine new_level(structure, order, samples, store, level, error)
+    class(structure_t), intent(in) :: structure
+    integer, intent(in) :: order, samples
+    type(link_store_t), intent(inout) :: store
+    type(level_t), intent(out) :: level
+    type(error_t), allocatable, intent(out) :: error
+
+    type(deformation_model_t) :: model
+    type(link_degrees_t) :: degrees(size(structure%beams))
+    integer :: b, pieces, across
+
+    do b = 1, size(degrees)
+      pieces = size(pieces_of(structure%linkage%bodies(b))) - 1
+      across = max(4, order - min(pieces - 1, 3))
+      degrees(b) = uniform_degrees(pieces, across, max(least_along, across - along_below))
+    end do
+    call new_deformation_model(structure%linkage, structure%beams, spread(0, 1, size(degrees)), &
+      spread(order, 1, size(degrees)), spread(.false., 1, size(degrees)), model, error, store, &
+      degrees)
+    if (allocated(error)) return
+    call new_turn_grid(structure%linkage, model, samples, level%grid, error)
+    if (allocated(error)) return
+    call new_turn_grid(structure%linkage, model, min(samples, basis_samples), level%coarse, error)
+    level%order = order
+    allocate (level%basis(model%layout%unknowns))
+  end subroutine new_level
+
+  !> Damping of every unknown: Kelvin and Voigt's time, or `2 ζ/ω` of the own modes of the link. The
+  !! elongation and the rotation of the clamped end take that of its lowest own mode.
+  pure function damping_of(request, grid) result(c)
+    type(response_request_t), intent(in) :: request
+    type(turn_grid_t), intent(in) :: grid
+    real(wp) :: c(grid%unknowns) !! [s]
+
+    integer :: b
+
+    c = 0.0_wp
+    do b = 1, size(request%damping)
+      if (.not. grid%model%links(b)%bends) cycle
+      associate (damping => request%damping(b), link => grid%model%links(b))
+        select case (damping%kind)
+        case (damping_time)
+          where (grid%owner == b) c = damping%value
+        case (damping_ratio)
+          where (grid%owner == b) c = 2.0_wp*damping%value*sqrt(maxval(link%square))
+          c(grid%first(b):grid%first(b) + link%modes - 1) = 2.0_wp*damping%value*sqrt(link%square)
+          c(grid%first_along(b):grid%first_along(b) + link%axial_modes - 1) = &
+            2.0_wp*damping%value*sqrt(link%axial_square)
+        end select
+      end associate
+    end do
+  end function damping_of
+
+  !> Solves one speed on both levels: its result, and its next choice of orders and samples if it
+  !! is not accurate enough.
+  subroutine solve_speed(structure, request, speed, level, above, choice, found)
+    class(structure_t), intent(in) :: structure
+    type(response_request_t), intent(in) :: request
+    real(wp), intent(in) :: speed
+    type(level_t), intent(in) :: level, above
+    type(choice_t), intent(inout) :: choice
+    type(speed_response_t), intent(inout) :: found
+
+    type(fourier_plan_t) :: plan, above_plan
+    type(slow_motion_t) :: motion
+    type(solution_t) :: solution, better
+    integer(long) :: before
+
+    before = found%applications
+    call clear(found)
+    call open_fourier(level%grid%samples, plan)
+    call open_fourier(above%grid%samples, above_plan)
+    attempt: block
+      associate (basis => level%basis(choice%slow), above_basis => above%basis(choice%slow))
+        call new_slow_motion(level%grid%samples, plan, basis, speed, damping_of(request, &
+          level%grid), stages, motion, found%error)
+        if (allocated(found%error)) exit attempt
+        allocate (solution%y(level%grid%samples, level%grid%unknowns))
+        solution%y = 0.0_wp
+        call solve_level(request, speed, level%grid, plan, basis, plan, motion, &
+          max(solved_to*request%accuracy, least_remainder), solution, found%error)
+        if (allocated(found%error)) exit attempt
+        call transferred(level%grid, plan, above%grid, above_plan, solution%y, better%y)
+        call solve_level(request, speed, above%grid, above_plan, above_basis, plan, motion, &
+          max(compared_to*request%accuracy, least_remainder), better, found%error)
+        if (allocated(found%error)) exit attempt
+      end associate
+      found%order = choice%order
+      found%samples = level%grid%samples
+      found%slow = choice%slow
+      call look_at_multipliers(motion, found)
+      if (allocated(found%error)) exit attempt
+      call evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
+        found)
+    end block attempt
+    found%applications = before + solution%applications + better%applications
+    call close_fourier(above_plan)
+    call close_fourier(plan)
+    choice%pending = .false.
+    if (allocated(found%error)) then
+      ! Harmonics left out may hinder the iterations.
+      choice%pending = choice%at + 1 < size(sample_numbers)
+      choice%at = choice%at + 1
+      return
+    end if
+    if (found%largest_error > request%accuracy) call raise(request%accuracy, found%largest_error, &
+      solution%series, choice)
+  end subroutine solve_speed
+
+  !> Raises the samples if the harmonics of a series have not fallen far enough, else the orders.
+  pure subroutine raise(accuracy, error, series, choice)
+    real(wp), intent(in) :: accuracy, error
+    real(wp), intent(in) :: series(:, :) !! coefficients
+    type(choice_t), intent(inout) :: choice
+
+    real(wp) :: tail(2), last, largest, fall, wanted
+    integer :: i, n, next
+
+    n = size(series, 1)
+    next = n
+    do i = 1, size(series, 2)
+      largest = sum(abs(series(:, i)))
+      if (largest <= 0.0_wp) cycle
+      last = sum(abs(series(n - n/8:, i)))/largest
+      if (last <= tail_share*accuracy) cycle
+      ! Harmonics fall exponentially. The highest of all are raised by those above them.
+      tail = [sum(abs(series(n/2:n/2 + n/8, i))), sum(abs(series(n/2 + n/4:n/2 + 3*n/8, i)))]
+      fall = max(log(tail(1)/tail(2))/(n/4), slowest_fall)
+      wanted = n + log(last/(0.5_wp*tail_share*accuracy))/fall
+      next = max(next, nint(min(wanted, real(2*n, wp))))
+    end do
+    choice%pending = .true.
+    if (next > n) then
+      if (choice%at + 1 == size(sample_numbers)) choice%pending = .false.
+      choice%at = min(size(sample_numbers) - 1, max(choice%at + 1, &
+        findloc(sample_numbers >= next, .true., dim=1)))
+    else
+      if (choice%order + orders_above >= most_order) choice%pending = .false.
+      choice%order = min(most_order - orders_above, choice%order + orders_above*max(1, &
+        ceiling(log(error/accuracy)/log(gain_of_orders))))
+    end if
+  end subroutine raise
+
+  !> Forgets the result of a solution before.
+  subroutine clear(found)
+    type(speed_response_t), intent(out) :: found
+  end subroutine clear
+
+  !> The periodic motion on one level, and its series.
+  subroutine solve_level(request, speed, grid, plan, basis, motion_plan, motion, tolerance, &
+    solution, error)
+    type(response_request_t), intent(in) :: request
+    real(wp), intent(in) :: speed
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan        !! for its samples
+    type(slow_basis_t), intent(in) :: basis         !! of this grid
+    type(fourier_plan_t), intent(in) :: motion_plan !! for the steps of the slow motion
+    type(slow_motion_t), intent(in) :: motion
+    real(wp), intent(in) :: tolerance
+    type(solution_t), intent(inout) :: solution     !! with a start
+    type(error_t), allocatable, intent(out) :: error
+
+    real(wp), allocatable :: series(:, :)
+
+    call solve_periodic(grid, plan, basis, motion_plan, motion, speed, damping_of(request, grid), &
+      request%terms, load_at_speed(grid, speed), tolerance, solution%y, solution%applications, &
+      solution%remainder, error)
+    if (allocated(error)) return
+    allocate (series(grid%samples, series_count(request)), solution%series(grid%samples, &
+      series_count(request)))
+    call response_series_of(grid, plan, request, speed, solution%y, series)
+    call coefficients_of(plan, series, solution%series)
+  end subroutine solve_level
+
+  !> Multipliers of a turn, and how near the motion is to resonance.
+  subroutine look_at_multipliers(motion, found)
+    type(slow_motion_t), intent(in) :: motion
+    type(speed_response_t), intent(inout) :: found
+
+    integer :: nearest
+
+    call slow_multipliers(motion, found%multiplier, found%error)
+    if (allocated(found%error)) return
+    nearest = minloc(abs(1.0_wp - found%multiplier), dim=1)
+    found%distance = abs(1.0_wp - found%multiplier(nearest))
+    associate (rho => found%multiplier(nearest))
+      found%nearest = cmplx(log(abs(rho)), abs(atan2(aimag(rho), real(rho)))/two_pi, wp)
+    end associate
+    found%growth = log(maxval(abs(found%multiplier)))
+  end subroutine look_at_multipliers
+
+  !> All quantities at the crank angles of the deck, and their errors.
+  subroutine evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
+    found)
+    class(structure_t), intent(in) :: structure
+    type(response_request_t), intent(in) :: request
+    real(wp), intent(in) :: speed
+    type(level_t), intent(in) :: level, above
+    type(fourier_plan_t), intent(in) :: plan, above_plan
+    type(solution_t), intent(in) :: solution, better
+    type(speed_response_t), intent(inout) :: found
+
+    real(wp), allocatable :: values(:, :), fine(:, :), at_position(:, :), errors(:)
+    real(wp) :: extra
+    integer :: i, k, first, n
+
+    n = size(solution%series, 2)
+    allocate (values(above%grid%samples, n), fine(above%grid%samples, n), errors(n))
+    call values_of(above_plan, resampled(solution%series, above%grid%samples), values)
+    call values_of(above_plan, better%series, fine)
+    extra = solution%remainder + better%remainder + rounding/found%distance
+    allocate (at_position(n, size(request%crank)))
+    do k = 1, size(request%crank)
+      at_position(:, k) = value_at(solution%series, request%crank(k)*degree)
+    end do
+
+    allocate (found%displacement(3, size(request%points), size(request%crank)), &
+      found%displacement_error(size(request%points)))
+    do i = 1, size(request%points)
+      first = 3*(i - 1) + 1
+      found%displacement(:, i, :) = at_position(first:first + 2, :)
+      found%displacement_error(i) = extra + max(relative_error(values(:, first:first + 1), fine(:, &
+        first:first + 1)), relative_error(values(:, first + 2:first + 2), fine(:, &
+        first + 2:first + 2)))
+    end do
+    call evaluate_gauges
+    call evaluate_drive
+    call evaluate_peaks
+    found%largest_error = max(maxval([0.0_wp, found%displacement_error]), &
+      maxval([0.0_wp, found%strain_error]), found%drive_error, maxval([0.0_wp, found%peak_error]))
+
+  contains
+
+    subroutine evaluate_gauges
+      real(wp), dimension(above%grid%samples) :: strain, fine_strain
+      integer :: g
+
+      allocate (found%strain(strain_values, size(request%gauges), size(request%crank)), &
+        found%strain_error(size(request%gauges)))
+      do g = 1, size(request%gauges)
+        first = first_gauge(request) + 3*(g - 1)
+        associate (gauge => request%gauges(g), beam => structure%beams(request%gauges(g)%body), &
+          section => request%section(request%gauges(g)%body))
+          do k = 1, size(request%crank)
+            associate (axial => at_position(first, k), curvature => at_position(first + 1, k))
+              found%strain(axial_strain, g, k) = axial
+              found%strain(bending_strain, g, k) = gauge%side*section%outer*curvature
+              found%strain(moment, g, k) = gauge%side*beam%bending_stiffness*curvature
+              found%strain(axial_force, g, k) = beam%axial_stiffness*axial
+              found%strain(shear_force, g, k) = gauge%side*at_position(first + 2, k)
+              found%strain(stress, g, k) = section%modulus*(abs(axial) + &
+                section%outer*abs(curvature))
+            end associate
+          end do
+          strain = abs(values(:, first)) + section%outer*abs(values(:, first + 1))
+          fine_strain = abs(fine(:, first)) + section%outer*abs(fine(:, first + 1))
+          found%strain_error(g) = extra + max(relative_error(values(:, first:first), fine(:, &
+            first:first)), relative_error(values(:, first + 1:first + 1), fine(:, &
+            first + 1:first + 1)), relative_error(values(:, first + 2:first + 2), fine(:, &
+            first + 2:first + 2)), safety*maxval(abs(strain - &
+            fine_strain))/max(maxval(fine_strain), tiny(1.0_wp)))
+        end associate
+      end do
+    end subroutine evaluate_gauges
+
+    subroutine evaluate_drive
+      real(wp), dimension(above%grid%samples, 1) :: total, fine_total
+
+      first = first_torque(request)
+      allocate (found%drive(drive_values, size(request%crank)))
+      found%drive(:3, :) = at_position(first:first + 2, :)
+      found%drive(total_torque, :) = sum(found%drive(:3, :), dim=1)
+      found%drive(power, :) = found%drive(total_torque, :)*speed
+      found%mean_torque = sum(solution%series(1, first:first + 2))
+      total(:, 1) = sum(values(:, first:first + 2), dim=2)
+      fine_total(:, 1) = sum(fine(:, first:first + 2), dim=2)
+      found%drive_error = extra + max(relative_error(values(:, first:first), fine(:, &
+        first:first)), relative_error(values(:, first + 1:first + 1), fine(:, &
+        first + 1:first + 1)), relative_error(values(:, first + 2:first + 2), fine(:, &
+        first + 2:first + 2)), relative_error(total, fine_total))
+    end subroutine evaluate_drive
+
+    subroutine evaluate_peaks
+      type(speed_response_t) :: other
+      real(wp) :: before, after
+      integer :: b
+
+      allocate (found%peak_error(merge(size(structure%beams), 0, request%peaks .or. &
+        request%validity)))
+      found%peak_error = 0.0_wp
+      if (size(found%peak_error) == 0) return
+      call find_peaks(level%grid, plan, request, solution%y, found)
+      call find_peaks(above%grid, above_plan, request, better%y, other)
+      found%power_lost = speed**2*power_of(level%grid, plan, solution%y)
+      other%power_lost = speed**2*power_of(above%grid, above_plan, better%y)
+      do b = 1, size(structure%beams)
+        before = found%largest_strain(b)%value
+        after = other%largest_strain(b)%value
+        found%peak_error(b) = safety*abs(before - after)/max(after, tiny(1.0_wp))
+        before = found%largest_deflection(b)%value
+        after = other%largest_deflection(b)%value
+        found%peak_error(b) = max(found%peak_error(b), safety*abs(before - after)/max(after, &
+          tiny(1.0_wp)))
+        after = sum(other%power_lost)
+        found%peak_error(b) = extra + max(found%peak_error(b), safety*abs(found%power_lost(b) - &
+          other%power_lost(b))/max(after, tiny(1.0_wp)))
+      end do
+    end subroutine evaluate_peaks
+
+    !> Mean of `y'ᵀ C y'` of every link.
+    function power_of(grid, plan, y) result(power)
+      type(turn_grid_t), intent(in) :: grid
+      type(fourier_plan_t), intent(in) :: plan
+      real(wp), intent(in) :: y(:, :)
+      real(wp) :: power(size(grid%integrals))
+
+      real(wp) :: coefficients(size(y, 1), size(y, 2)), c(size(y, 2))
+      integer :: i, j
+
+      c = damping_of(request, grid)
+      call coefficients_of(plan, y, coefficients)
+      power = 0.0_wp
+      do i = 1, size(y, 2)
+        do j = 1, (size(y, 1) - 1)/2
+          power(grid%owner(i)) = power(grid%owner(i)) + 2.0_wp*c(i)*real(j, wp)**2* &
+            sum(coefficients(2*j:2*j + 1, i)**2)
+        end do
+      end do
+    end function power_of
+
+  end subroutine evaluate
+
+  !> Largest difference of two sampled quantities beside the largest value; of vectors their lengths.
+  pure function relative_error(values, fine) result(error)
+    real(wp), intent(in) :: values(:, :), fine(:, :) !! (samples, components)
+    real(wp) :: error
+
+    real(wp) :: largest
+
+    largest = sqrt(maxval(sum(fine**2, dim=2)))
+    error = 0.0_wp
+    if (largest > 0.0_wp) error = safety*sqrt(maxval(sum((values - fine)**2, dim=2)))/largest
+  end function relative_error
+
+end module steady_responses

@@ -1,0 +1,210 @@
+!> The terms of the equations of motion of an elastic linkage at evenly spaced crank angles of a
+!! turn. They do not depend on the speed: one grid serves all.
+!!
+!! Arrays run over the crank angles first, so that loops over them are long.
+module turn_grids
+  use axial_forces, only: distributed_unit_forces
+  use body_lumps, only: lump_offsets
+  use deformation_model, only: deformation_model_t
+  use errors, only: error_t
+  use inertia_loads, only: distributed_load, load_t
+  use kinds, only: wp
+  use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
+  use linkages, only: linkage_t, normal_to
+  use load_cases, only: case_count, find_unit_loads, load_case_t, unit_loads_t
+  use moving_integrals, only: chord_functions, moving_integrals_t, new_moving_integrals
+  use pin_displacements, only: body_displacement, border_numbers, chords_t, find_chords
+  use poses, only: find_pose, pose_t
+  use reactions, only: find_unit_reactions, unit_reactions_t
+  use reduced_assembly, only: first_axial
+  implicit none (type, external)
+  private
+
+  public :: turn_grid_t, new_turn_grid
+
+  type :: turn_grid_t
+    integer :: samples = 0   !! crank angles 0, 360°/n, …
+    integer :: unknowns = 0
+    integer :: border = 0    !! first unknowns: rotation of the clamped end, elongations
+    type(deformation_model_t) :: model
+    type(moving_integrals_t), allocatable :: integrals(:) !! (bodies)
+    integer, allocatable :: first(:)       !! (bodies) number of the first transverse own mode
+    integer, allocatable :: first_along(:) !! (bodies) of the first axial own mode
+    integer, allocatable :: elongation(:)  !! (bodies) number of its elongation; 0: rigid
+    integer, allocatable :: owner(:)       !! (unknowns) body to whose elastic energy it belongs
+    !> (samples, functions of the chord, border, bodies)
+    real(wp), allocatable :: chord(:, :, :, :)
+    real(wp), allocatable :: turn(:, :, :)      !! (samples, border, bodies) rotation of the chord
+    real(wp), allocatable :: pin(:, :, :, :)    !! (samples, 2, pins, border)
+    real(wp), allocatable :: place(:, :, :)     !! (samples, 2, pins) of the rigid linkage [m]
+    real(wp), allocatable :: direction(:, :, :) !! (samples, 2, bodies)
+    real(wp), allocatable :: rate(:, :)         !! (samples, bodies) h = dθ/dθ2
+    real(wp), allocatable :: rate_slope(:, :)   !! (samples, bodies) dh/dθ2
+    !> (samples, force functions, bodies, cases) axial forces of the unit loads [N]
+    real(wp), allocatable :: force(:, :, :, :)
+    real(wp), allocatable :: load(:, :, :)      !! (samples, unknowns, cases) f of the unit loads
+    real(wp), allocatable :: torque(:, :)       !! (samples, cases) of the rigid linkage [N m]
+    real(wp), allocatable :: pin_mass(:)        !! (pins) [kg]
+    real(wp), allocatable :: rotary_inertia(:)  !! (bodies) ρI [kg m]
+  end type turn_grid_t
+
+contains
+
+  !> The terms at all crank angles of a turn.
+  !!
+  !! Errors: the crank cannot reach one of them.
+  pure subroutine new_turn_grid(linkage, model, samples, grid, error)
+    type(linkage_t), intent(in) :: linkage           !! pins, bodies, loads
+    type(deformation_model_t), intent(in) :: model   !! its links' own deformations
+    integer, intent(in) :: samples                   !! crank angles
+    type(turn_grid_t), intent(out) :: grid           !! complete unless `error` is allocated
+    type(error_t), allocatable, intent(out) :: error !! why there is no grid
+
+    type(pose_t) :: pose
+    type(kinematic_coefficients_t) :: coefficients
+    type(chords_t) :: chords
+    type(unit_loads_t) :: loads
+    type(unit_reactions_t) :: unit
+    real(wp), allocatable :: force(:, :, :)
+    integer :: b, c, k, bodies, pins
+
+    bodies = size(linkage%bodies)
+    pins = size(linkage%is_ground)
+    grid%samples = samples
+    grid%model = model
+    grid%unknowns = model%layout%unknowns
+    grid%border = model%layout%border
+    grid%pin_mass = linkage%pin_mass
+    grid%rotary_inertia = linkage%bodies%rotary_inertia
+    call number_unknowns(linkage, grid)
+    allocate (grid%integrals(bodies))
+    do b = 1, bodies
+      grid%integrals(b) = new_moving_integrals(linkage%bodies(b), model%links(b))
+    end do
+    allocate (grid%chord(samples, chord_functions(1), grid%border, bodies))
+    allocate (grid%turn(samples, grid%border, bodies), grid%pin(samples, 2, pins, grid%border))
+    allocate (grid%place(samples, 2, pins), grid%direction(samples, 2, bodies))
+    allocate (grid%rate(samples, bodies), grid%rate_slope(samples, bodies))
+    allocate (grid%load(samples, grid%unknowns, case_count), grid%torque(samples, case_count))
+    grid%chord = 0.0_wp
+    grid%load = 0.0_wp
+    do k = 1, samples
+      call find_pose(linkage, (360.0_wp*(k - 1))/samples, pose, error)
+      if (allocated(error)) return
+      coefficients = find_kinematic_coefficients(linkage, pose)
+      chords = find_chords(linkage, model%links, pose)
+      grid%place(k, :, :) = pose%pin
+      grid%direction(k, :, :) = pose%direction
+      grid%rate(k, :) = coefficients%turn
+      grid%rate_slope(k, :) = coefficients%turn_slope
+      grid%turn(k, :, :) = chords%turn
+      grid%pin(k, :, :, :) = chords%pin
+      do b = 1, bodies
+        if (model%links(b)%bends) then
+          grid%chord(k, :3, :, b) = chords%across(:, :, b)
+          grid%chord(k, 4:5, :, b) = chords%along(:, :, b)
+        else
+          grid%chord(k, :3, :, b) = body_displacement(chords, b)
+        end if
+      end do
+      loads = find_unit_loads(linkage, pose, coefficients)
+      force = distributed_unit_forces(linkage, pose, loads)
+      if (.not. allocated(grid%force)) allocate (grid%force(samples, size(force, 1), bodies, &
+        case_count))
+      grid%force(k, :, :, :) = force
+      call find_unit_reactions(linkage, spread(0, 1, bodies), pose, coefficients, unit)
+      do c = 1, case_count
+        grid%load(k, :, c) = load_of(linkage, grid, k, chords, pose, loads%of_case(c))
+        grid%torque(k, c) = unit%of_case(c)%joints%torque
+      end do
+    end do
+  end subroutine new_turn_grid
+
+  !> Numbers of the own modes of every body, and to which body an unknown belongs.
+  pure subroutine number_unknowns(linkage, grid)
+    type(linkage_t), intent(in) :: linkage
+    type(turn_grid_t), intent(inout) :: grid
+
+    integer :: number(0:size(linkage%bodies)), b
+
+    number = border_numbers(linkage)
+    allocate (grid%owner(grid%unknowns), grid%first(size(linkage%bodies)), &
+      grid%first_along(size(linkage%bodies)))
+    if (number(0) > 0) grid%owner(number(0)) = 1
+    grid%elongation = number(1:)
+    associate (links => grid%model%links, layout => grid%model%layout)
+      do b = 1, size(links)
+        if (number(b) > 0) grid%owner(number(b)) = b
+        grid%first(b) = layout%first(b)
+        grid%first_along(b) = first_axial(layout, links, b)
+        grid%owner(grid%first(b):grid%first(b) + links(b)%modes - 1) = b
+        grid%owner(grid%first_along(b):grid%first_along(b) + links(b)%axial_modes - 1) = b
+      end do
+    end associate
+  end subroutine number_unknowns
+
+  !> Work of a load case on every unknown: `f = −∫ μ Sᵀ a dx` and that of forces and torques.
+  pure function load_of(linkage, grid, k, chords, pose, case) result(load)
+    type(linkage_t), intent(in) :: linkage
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: k             !! number of the crank angle
+    type(chords_t), intent(in) :: chords !! at this angle
+    type(pose_t), intent(in) :: pose
+    type(load_case_t), intent(in) :: case
+    real(wp) :: load(grid%unknowns)
+
+    real(wp), allocatable :: work(:), offset(:)
+    type(load_t) :: whole
+    integer :: b, i, p
+
+    load = 0.0_wp
+    do b = 1, size(linkage%bodies)
+      associate (integrals => grid%integrals(b), axis => pose%direction(:, b))
+        if (grid%model%links(b)%bends) then
+          work = -matmul(integrals%mass(:, [1, 2, 4, 5]), ends_of(case, b, axis, &
+            linkage%bodies(b)%length))
+          ! The accelerations of the axis, as displacements, move a mass beside it but for the
+          ! centripetal part of its offset, across the link.
+          if (size(integrals%at_mass, 2) > 0) then
+            offset = lump_offsets(linkage%bodies(b))
+            work = work - matmul(integrals%at_mass, offset)*dot_product(axis, case%field%slope(:, b))
+          end if
+        else
+          whole = distributed_load(linkage%bodies(b), b, pose, case%field)
+          work = [dot_product(axis, whole%force), dot_product(normal_to(axis), whole%force), &
+            whole%moment]
+        end if
+        do i = 1, grid%border
+          load(i) = load(i) + dot_product(grid%chord(k, :integrals%chord, i, b), &
+            work(:integrals%chord)) + case%couple(b)*chords%turn(i, b)
+        end do
+        associate (link => grid%model%links(b))
+          load(grid%first(b):grid%first(b) + link%modes - 1) = &
+            work(integrals%chord + 1:integrals%chord + link%modes)
+          load(grid%first_along(b):grid%first_along(b) + link%axial_modes - 1) = &
+            work(integrals%chord + link%modes + 1:)
+        end associate
+      end associate
+    end do
+    do p = 1, size(linkage%pin_mass)
+      load(:grid%border) = load(:grid%border) + matmul(case%pin_force(:, p) - &
+        linkage%pin_mass(p)*case%field%at_pin(:, p), chords%pin(:, p, :))
+    end do
+  end function load_of
+
+  !> Accelerations of both ends of a link across it and along it.
+  pure function ends_of(case, body, axis, length) result(ends)
+    type(load_case_t), intent(in) :: case
+    integer, intent(in) :: body
+    real(wp), intent(in) :: axis(2), length
+    real(wp) :: ends(4)
+
+    associate (at_first => case%field%at_first(:, body), slope => case%field%slope(:, body))
+      ends(1) = dot_product(normal_to(axis), at_first)
+      ends(2) = ends(1) + length*dot_product(normal_to(axis), slope)
+      ends(3) = dot_product(axis, at_first)
+      ends(4) = ends(3) + length*dot_product(axis, slope)
+    end associate
+  end function ends_of
+
+end module turn_grids
