@@ -226,7 +226,7 @@ contains
     real(wp), intent(in) :: y(:, :)
     real(wp), intent(out) :: work(:)
 
-    real(wp), allocatable :: q(:, :), first(:, :), second(:, :), chord_slope(:, :), moved(:, :), &
+    real(wp), allocatable :: q(:, :), first(:, :), second(:, :), moved(:, :), &
       turned(:, :), swept(:, :), pin(:, :), pin_first(:, :), pin_second(:, :)
     integer :: b, i, j, k, p
 
@@ -236,13 +236,11 @@ contains
         grid%rate_slope(:, b))
         q = functions_of(grid, b, y)
         allocate (first, second, moved, swept, mold=q)
-        allocate (chord_slope(size(q, 1), integrals%chord))
         call derivatives(plan, q, first, second)
         moved = 0.0_wp
         do j = 1, grid%border
-          call derivatives(plan, grid%chord(:, :integrals%chord, j, b), chord_slope)
           do i = 1, integrals%chord
-            moved(:, i) = moved(:, i) + chord_slope(:, i)*y(:, j)
+            moved(:, i) = moved(:, i) + grid%chord_slope(:, i, j, b)*y(:, j)
           end do
         end do
         ! moved·(m Q'' + J (2hQ' + h'Q) − h² m_t Q) + h (−Qᵀ J Q'' + Qᵀ m_t (2hQ' + h'Q))
@@ -261,7 +259,7 @@ contains
         turned = matmul(q, integrals%mass)
         if (size(integrals%rotary) > 0) turned = turned - matmul(q, integrals%rotary)
         work = work - h**2*sum(moved*turned, dim=2)
-        deallocate (first, second, moved, swept, chord_slope)
+        deallocate (first, second, moved, swept)
       end associate
     end do
     allocate (pin(size(y, 1), 2), pin_first(size(y, 1), 2), pin_second(size(y, 1), 2), &
@@ -271,10 +269,9 @@ contains
       pin = 0.0_wp
       moved = 0.0_wp
       do j = 1, grid%border
-        call derivatives(plan, grid%pin(:, :, p, j), pin_first)
         do k = 1, 2
           pin(:, k) = pin(:, k) + grid%pin(:, k, p, j)*y(:, j)
-          moved(:, k) = moved(:, k) + pin_first(:, k)*y(:, j)
+          moved(:, k) = moved(:, k) + grid%pin_slope(:, k, p, j)*y(:, j)
         end do
       end do
       call derivatives(plan, pin, pin_first, pin_second)

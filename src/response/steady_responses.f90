@@ -19,7 +19,9 @@ module steady_responses
   use periodic_solver, only: solve_periodic
   use response_peaks, only: find_peaks
   use response_series, only: first_gauge, first_torque, response_series_of, series_count
-  use response_types
+  use response_types, only: axial_force, axial_strain, bending_strain, damping_ratio, damping_time, &
+    drive_values, moment, power, response_request_t, response_t, shear_force, speed_response_t, &
+    strain_values, stress, total_torque
   use slow_motions, only: new_slow_basis, new_slow_motion, slow_basis_t, slow_count, &
     slow_motion_t, slow_multipliers, own_squares
   use structures, only: structure_t
@@ -86,6 +88,8 @@ module steady_responses
     integer :: at = 0             !! of `sample_numbers`
     integer :: level(2) = 0       !! numbers of the levels of both solutions
     integer :: slow = 0           !! slow coordinates
+    real(wp) :: error = huge(1.0_wp) !! largest so far
+    logical :: raised_order = .false. !! last time
     logical :: pending = .true.
   end type choice_t
 
@@ -121,7 +125,8 @@ contains
     choice%order = first_order(request%accuracy)
     call new_level(structure, choice(1)%order, sample_numbers(1), store, levels(1), error)
     if (allocated(error)) return
-    choice%at = first_samples(request%speed*sqrt(maxval(own_squares(levels(1)%grid))), request%accuracy)
+    choice%at = first_samples(request%speed*sqrt(maxval(own_squares(levels(1)%grid))), &
+      request%accuracy)
     number = 1
     do
       pending = pack([(k, k=1, n)], choice%pending)
@@ -191,7 +196,7 @@ contains
     real(wp), intent(in) :: accuracy
     integer :: order
 
-    order = max(8, min(6 + 2*ceiling(-0.5_wp*log10(accuracy)), 18))
+    order = max(8, min(8 + 2*ceiling(-0.5_wp*log10(accuracy)), 22))
   end function first_order
 
   !> Samples to begin with, from the number of vibrations of the slowest mode in a turn: what was
@@ -204,7 +209,7 @@ contains
     real(wp) :: wanted
 
     wanted = 120.0_wp + 13.0_wp*(1.0_wp/max(abs(share), 1.0e-3_wp))**0.8_wp
-    wanted = wanted*(0.5_wp - log10(accuracy)/12.0_wp)
+    wanted = wanted*(0.1_wp - 0.15_wp*log10(accuracy))
     at = min(size(sample_numbers) - 1, findloc(sample_numbers >= min(nint(wanted), &
       sample_numbers(size(sample_numbers))), .true., dim=1))
   end function first_samples
@@ -276,6 +281,7 @@ contains
     type(fourier_plan_t) :: plan, above_plan
     type(slow_motion_t) :: motion
     type(solution_t) :: solution, better
+    real(wp), allocatable :: errors(:)
     integer(long) :: before
 
     before = found%applications
@@ -303,7 +309,7 @@ contains
       call look_at_multipliers(motion, found)
       if (allocated(found%error)) exit attempt
       call evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
-        found)
+        found, errors)
     end block attempt
     found%applications = before + solution%applications + better%applications
     call close_fourier(above_plan)
@@ -316,40 +322,55 @@ contains
       return
     end if
     if (found%largest_error > request%accuracy) call raise(request%accuracy, found%largest_error, &
-      solution%series, choice)
+      errors, solution%series, choice)
   end subroutine solve_speed
 
-  !> Raises the samples if the harmonics of a series have not fallen far enough, else the orders.
-  pure subroutine raise(accuracy, error, series, choice)
-    real(wp), intent(in) :: accuracy, error
+  !> Raises the samples if the errors of the series that are not accurate enough come from harmonics
+  !! left out, else the orders.
+  pure subroutine raise(accuracy, largest_error, errors, series, choice)
+    real(wp), intent(in) :: accuracy, largest_error
+    real(wp), intent(in) :: errors(:)    !! (series)
     real(wp), intent(in) :: series(:, :) !! coefficients
     type(choice_t), intent(inout) :: choice
 
     real(wp) :: tail(2), last, largest, fall, wanted
     integer :: i, n, next
+    logical :: order
 
     n = size(series, 1)
     next = n
+    order = .not. any(errors > accuracy)
     do i = 1, size(series, 2)
+      if (errors(i) <= accuracy) cycle
       largest = sum(abs(series(:, i)))
-      if (largest <= 0.0_wp) cycle
       last = sum(abs(series(n - n/8:, i)))/largest
-      if (last <= tail_share*accuracy) cycle
+      if (last <= tail_share*errors(i)) then
+        order = .true.
+        cycle
+      end if
       ! Harmonics fall exponentially. The highest of all are raised by those above them.
       tail = [sum(abs(series(n/2:n/2 + n/8, i))), sum(abs(series(n/2 + n/4:n/2 + 3*n/8, i)))]
       fall = max(log(tail(1)/tail(2))/(n/4), slowest_fall)
-      wanted = n + log(last/(0.5_wp*tail_share*accuracy))/fall
+      wanted = n + log(errors(i)/(0.3_wp*accuracy))/fall
       next = max(next, nint(min(wanted, real(2*n, wp))))
     end do
     choice%pending = .true.
+    ! Higher orders that gain nothing show that harmonics are to blame.
+    if (choice%raised_order .and. largest_error > 0.5_wp*choice%error) then
+      order = .false.
+      next = max(next, n + 1)
+    end if
+    choice%error = largest_error
+    choice%raised_order = order
     if (next > n) then
       if (choice%at + 1 == size(sample_numbers)) choice%pending = .false.
       choice%at = min(size(sample_numbers) - 1, max(choice%at + 1, &
         findloc(sample_numbers >= next, .true., dim=1)))
-    else
+    end if
+    if (order) then
       if (choice%order + orders_above >= most_order) choice%pending = .false.
       choice%order = min(most_order - orders_above, choice%order + orders_above*max(1, &
-        ceiling(log(error/accuracy)/log(gain_of_orders))))
+        ceiling(log(largest_error/accuracy)/log(gain_of_orders))))
     end if
   end subroutine raise
 
@@ -403,7 +424,7 @@ contains
 
   !> All quantities at the crank angles of the deck, and their errors.
   subroutine evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
-    found)
+    found, errors)
     class(structure_t), intent(in) :: structure
     type(response_request_t), intent(in) :: request
     real(wp), intent(in) :: speed
@@ -411,8 +432,9 @@ contains
     type(fourier_plan_t), intent(in) :: plan, above_plan
     type(solution_t), intent(in) :: solution, better
     type(speed_response_t), intent(inout) :: found
+    real(wp), allocatable, intent(out) :: errors(:) !! (series)
 
-    real(wp), allocatable :: values(:, :), fine(:, :), at_position(:, :), errors(:)
+    real(wp), allocatable :: values(:, :), fine(:, :), at_position(:, :)
     real(wp) :: extra
     integer :: i, k, first, n
 
@@ -420,6 +442,9 @@ contains
     allocate (values(above%grid%samples, n), fine(above%grid%samples, n), errors(n))
     call values_of(above_plan, resampled(solution%series, above%grid%samples), values)
     call values_of(above_plan, better%series, fine)
+    do i = 1, n
+      errors(i) = relative_error(values(:, i:i), fine(:, i:i))
+    end do
     extra = solution%remainder + better%remainder + rounding/found%distance
     allocate (at_position(n, size(request%crank)))
     do k = 1, size(request%crank)

@@ -7,6 +7,7 @@ module turn_grids
   use body_lumps, only: lump_offsets
   use deformation_model, only: deformation_model_t
   use errors, only: error_t
+  use fourier_transform, only: close_fourier, derivatives, fourier_plan_t, open_fourier
   use inertia_loads, only: distributed_load, load_t
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
@@ -36,6 +37,8 @@ module turn_grids
     real(wp), allocatable :: chord(:, :, :, :)
     real(wp), allocatable :: turn(:, :, :)      !! (samples, border, bodies) rotation of the chord
     real(wp), allocatable :: pin(:, :, :, :)    !! (samples, 2, pins, border)
+    real(wp), allocatable :: chord_slope(:, :, :, :) !! d/dθ2 of `chord`
+    real(wp), allocatable :: pin_slope(:, :, :, :)   !! d/dθ2 of `pin`
     real(wp), allocatable :: place(:, :, :)     !! (samples, 2, pins) of the rigid linkage [m]
     real(wp), allocatable :: direction(:, :, :) !! (samples, 2, bodies)
     real(wp), allocatable :: rate(:, :)         !! (samples, bodies) h = dθ/dθ2
@@ -53,7 +56,7 @@ contains
   !> The terms at all crank angles of a turn.
   !!
   !! Errors: the crank cannot reach one of them.
-  pure subroutine new_turn_grid(linkage, model, samples, grid, error)
+  subroutine new_turn_grid(linkage, model, samples, grid, error)
     type(linkage_t), intent(in) :: linkage           !! pins, bodies, loads
     type(deformation_model_t), intent(in) :: model   !! its links' own deformations
     integer, intent(in) :: samples                   !! crank angles
@@ -118,7 +121,29 @@ contains
         grid%torque(k, c) = unit%of_case(c)%joints%torque
       end do
     end do
+    call find_slopes(grid)
   end subroutine new_turn_grid
+
+  !> Derivatives of the motion of chords and pins over the turn.
+  subroutine find_slopes(grid)
+    type(turn_grid_t), intent(inout) :: grid
+
+    type(fourier_plan_t) :: plan
+    integer :: b, i, p
+
+    allocate (grid%chord_slope, mold=grid%chord)
+    allocate (grid%pin_slope, mold=grid%pin)
+    call open_fourier(grid%samples, plan)
+    do i = 1, grid%border
+      do b = 1, size(grid%chord, 4)
+        call derivatives(plan, grid%chord(:, :, i, b), grid%chord_slope(:, :, i, b))
+      end do
+      do p = 1, size(grid%pin, 3)
+        call derivatives(plan, grid%pin(:, :, p, i), grid%pin_slope(:, :, p, i))
+      end do
+    end do
+    call close_fourier(plan)
+  end subroutine find_slopes
 
   !> Numbers of the own modes of every body, and to which body an unknown belongs.
   pure subroutine number_unknowns(linkage, grid)
