@@ -9,7 +9,7 @@ module floquet_exponents
   use elastic_equations, only: apply_equation, elastic_terms_t, mass_force, slope_force
   use errors, only: error_of_numerics, error_t, set_error
   use fourier_transform, only: derivatives, fourier_plan_t
-  use kinds, only: wp
+  use kinds, only: fineness, wp
   use minimal_residuals, only: add_combination, add_product, minimal_residual_t, start_residual
   use periodic_solver, only: add_slow, fast_solution, slow_part
   use slow_motions, only: slow_basis_t, slow_motion_t, slow_mode_t, slow_modes, solve_slow_shifted
@@ -18,13 +18,20 @@ module floquet_exponents
   implicit none (type, external)
   private
 
-  public :: floquet_mode_t, find_floquet_modes
+  public :: floquet_mode_t, find_floquet_modes, find_nearest_mode
 
   !> The shift from the first approximation at which equations are solved: near enough to converge in
   !! a few rounds, far enough to leave them regular.
   real(wp), parameter :: shift = 1.0e-3_wp
 
   integer, parameter :: most_rounds = 12, most_products = 40
+
+  !> Exponents change by no more than this in the last round; where only the nearness of resonance is
+  !! asked for, by no more than that.
+  real(wp), parameter :: fine_change = 1.0e-13_wp*fineness, rough_change = 1.0e-7_wp
+
+  !> No exponent differs more than this from its first approximation.
+  real(wp), parameter :: farthest = 0.02_wp
 
   !> Solutions gain so much in a round.
   real(wp), parameter :: gain = 1.0e-4_wp
@@ -77,10 +84,42 @@ contains
     do i = 1, n
       z = expanded(basis, slow(order(i)))
       modes(i)%exponent = slow(order(i))%exponent
-      call refine(grid, plan, basis, motion, speed, damping, terms, z, modes(i))
+      call refine(grid, plan, basis, motion, speed, damping, terms, fine_change, z, modes(i))
       modes(i)%frequency = frequency_of(grid, z)
     end do
   end subroutine find_floquet_modes
+
+  !> The mode whose multiplier is nearest to 1: how near the linkage is to resonance.
+  !!
+  !! Errors: the multipliers of the slow motion do not converge.
+  subroutine find_nearest_mode(grid, plan, basis, motion, speed, damping, terms, mode, error)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan   !! for its samples
+    type(slow_basis_t), intent(in) :: basis    !! of this grid
+    type(slow_motion_t), intent(in) :: motion  !! at this speed, with as many steps as samples
+    real(wp), intent(in) :: speed              !! ω2 [rad/s]
+    real(wp), intent(in) :: damping(:)         !! (unknowns) c [s]
+    type(elastic_terms_t), intent(in) :: terms
+    type(floquet_mode_t), intent(out) :: mode
+    type(error_t), allocatable, intent(out) :: error
+
+    type(slow_mode_t), allocatable :: slow(:)
+    real(wp), allocatable :: z(:, :)
+    integer :: nearest
+
+    call slow_modes(motion, slow, error)
+    if (allocated(error)) return
+    nearest = minloc(abs(1.0_wp - exp(two_pi*slow%exponent)), dim=1)
+    mode%exponent = slow(nearest)%exponent
+    z = expanded(basis, slow(nearest))
+    mode%frequency = frequency_of(grid, z)
+    call refine(grid, plan, basis, motion, speed, damping, terms, rough_change, z, mode)
+    ! Iterations that lead elsewhere say nothing.
+    if (abs(mode%exponent - slow(nearest)%exponent) <= farthest .and. &
+      mode%change <= farthest) return
+    mode%exponent = slow(nearest)%exponent
+    mode%change = farthest
+  end subroutine find_nearest_mode
 
   !> A slow mode in all unknowns: real parts, then imaginary parts.
   pure function expanded(basis, mode) result(z)
@@ -117,13 +156,14 @@ contains
   end function frequency_of
 
   !> Improves an exponent and its motion.
-  subroutine refine(grid, plan, basis, motion, speed, damping, terms, z, mode)
+  subroutine refine(grid, plan, basis, motion, speed, damping, terms, tolerance, z, mode)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan
     type(slow_basis_t), intent(in) :: basis
     type(slow_motion_t), intent(in) :: motion
     real(wp), intent(in) :: speed, damping(:)
     type(elastic_terms_t), intent(in) :: terms
+    real(wp), intent(in) :: tolerance  !! of the last change
     real(wp), intent(inout) :: z(:, :) !! (samples, real parts and imaginary parts)
     type(floquet_mode_t), intent(inout) :: mode
 
@@ -145,7 +185,7 @@ contains
       before = mode%exponent
       mode%exponent = before + step
       mode%change = abs(step)
-      if (mode%change <= 2.0_wp*epsilon(1.0_wp)) return
+      if (mode%change <= tolerance) return
     end do
 
   contains

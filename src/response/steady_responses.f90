@@ -9,7 +9,8 @@ module steady_responses
   use constants, only: degree, two_pi
   use deformation_model, only: deformation_model_t, new_deformation_model
   use elastic_equations, only: load_at_speed
-  use errors, only: error_t
+  use errors, only: error_of_numerics, error_t, set_error
+  use floquet_exponents, only: find_nearest_mode, floquet_mode_t
   use fourier_transform, only: close_fourier, coefficients_of, fourier_plan_t, open_fourier, &
     resampled, value_at, values_of
   use kinds, only: long, wp
@@ -25,6 +26,7 @@ module steady_responses
   use slow_motions, only: new_slow_basis, new_slow_motion, slow_basis_t, slow_count, &
     slow_motion_t, slow_multipliers, own_squares
   use structures, only: structure_t
+  use text, only: to_string
   use turn_grids, only: new_turn_grid, turn_grid_t
   implicit none (type, external)
   private
@@ -70,6 +72,13 @@ module steady_responses
 
   !> Pairs of orders and samples in one run.
   integer, parameter :: most_levels = 64
+
+  !> A relative error of a result that has no digits.
+  real(wp), parameter :: no_digits = 0.1_wp
+
+  !> Multipliers nearer to 1 than this are found from the whole equation. Exponents of the slow motion
+  !! are right to about this much.
+  real(wp), parameter :: near = 0.05_wp, of_slow_motion = 1.0e-3_wp
 
   !> Rounding of a solution, with no resonance near.
   real(wp), parameter :: rounding = 1.0e-13_wp
@@ -306,7 +315,7 @@ contains
       found%order = choice%order
       found%samples = level%grid%samples
       found%slow = choice%slow
-      call look_at_multipliers(motion, found)
+      call look_at_multipliers(request, speed, level, plan, level%basis(choice%slow), motion, found)
       if (allocated(found%error)) exit attempt
       call evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
         found, errors)
@@ -321,8 +330,17 @@ contains
       choice%at = choice%at + 1
       return
     end if
-    if (found%largest_error > request%accuracy) call raise(request%accuracy, found%largest_error, &
-      errors, solution%series, choice)
+    if (found%largest_error <= request%accuracy) return
+    if (rounding/found%distance > request%accuracy) then
+      call set_error(found%error, error_of_numerics, "resonance: an exponent of the turn, "// &
+        in_words(found%nearest)//", is too near to 0 for the accuracy asked for")
+      return
+    end if
+    call raise(request%accuracy, found%largest_error, errors, solution%series, choice)
+    if (.not. choice%pending .and. found%largest_error > no_digits) call set_error(found%error, &
+      error_of_numerics, "no accuracy is reached with "//to_string(level%grid%samples)// &
+      " samples of the turn and order "//to_string(choice%order)// &
+      "; the nearest exponent of the turn is "//in_words(found%nearest))
   end subroutine solve_speed
 
   !> Raises the samples if the errors of the series that are not accurate enough come from harmonics
@@ -374,6 +392,14 @@ contains
     end if
   end subroutine raise
 
+  !> An exponent as growth and turns.
+  pure function in_words(exponent) result(words)
+    complex(wp), intent(in) :: exponent !! ln|multiplier| and turns
+    character(len=:), allocatable :: words
+
+    words = to_string(real(exponent, wp), 4)//" and "//to_string(aimag(exponent), 6)//" turns"
+  end function in_words
+
   !> Forgets the result of a solution before.
   subroutine clear(found)
     type(speed_response_t), intent(out) :: found
@@ -406,20 +432,33 @@ contains
   end subroutine solve_level
 
   !> Multipliers of a turn, and how near the motion is to resonance.
-  subroutine look_at_multipliers(motion, found)
+  subroutine look_at_multipliers(request, speed, level, plan, basis, motion, found)
+    type(response_request_t), intent(in) :: request
+    real(wp), intent(in) :: speed
+    type(level_t), intent(in) :: level
+    type(fourier_plan_t), intent(in) :: plan
+    type(slow_basis_t), intent(in) :: basis
     type(slow_motion_t), intent(in) :: motion
     type(speed_response_t), intent(inout) :: found
 
-    integer :: nearest
+    type(floquet_mode_t) :: mode
 
     call slow_multipliers(motion, found%multiplier, found%error)
     if (allocated(found%error)) return
-    nearest = minloc(abs(1.0_wp - found%multiplier), dim=1)
-    found%distance = abs(1.0_wp - found%multiplier(nearest))
-    associate (rho => found%multiplier(nearest))
-      found%nearest = cmplx(log(abs(rho)), abs(atan2(aimag(rho), real(rho)))/two_pi, wp)
+    associate (nearest => minloc(abs(1.0_wp - found%multiplier), dim=1))
+      mode%exponent = log(found%multiplier(nearest))/two_pi
     end associate
-    found%growth = log(maxval(abs(found%multiplier)))
+    mode%change = of_slow_motion
+    found%growth = log(max(maxval(abs(found%multiplier)), tiny(1.0_wp)))
+    found%distance = abs(1.0_wp - exp(two_pi*mode%exponent))
+    if (request%validity .or. found%distance < near) then
+      call find_nearest_mode(level%grid, plan, basis, motion, speed, damping_of(request, &
+        level%grid), request%terms, mode, found%error)
+      if (allocated(found%error)) return
+    end if
+    found%nearest = cmplx(two_pi*real(mode%exponent), abs(aimag(mode%exponent)), wp)
+    found%distance = max(abs(1.0_wp - exp(two_pi*mode%exponent)), epsilon(1.0_wp))
+    found%distance_error = two_pi*mode%change/found%distance
   end subroutine look_at_multipliers
 
   !> All quantities at the crank angles of the deck, and their errors.
