@@ -70,9 +70,6 @@ module steady_responses
   !> Errors of strains fall about so much with two orders.
   real(wp), parameter :: gain_of_orders = 30.0_wp
 
-  !> Pairs of orders and samples in one run.
-  integer, parameter :: most_levels = 64
-
   !> A relative error of a result that has no digits.
   real(wp), parameter :: no_digits = 0.1_wp
 
@@ -90,6 +87,10 @@ module steady_responses
     type(slow_basis_t), allocatable :: basis(:) !! by the number of slow coordinates; empty where not
                                                 !! needed
   end type level_t
+
+  type :: level_slot_t
+    type(level_t), allocatable :: level
+  end type level_slot_t
 
   !> Orders and samples of a speed, and its levels.
   type :: choice_t
@@ -124,32 +125,34 @@ contains
     type(response_t), intent(out) :: response
     type(error_t), allocatable, intent(out) :: error  !! why there is no response at any speed
 
-    type(level_t) :: levels(most_levels)
+    type(level_slot_t), allocatable :: levels(:)
     type(choice_t) :: choice(size(request%speed))
     integer, allocatable :: pending(:)
-    integer :: i, k, n, number
+    integer :: i, k, n
 
     n = size(request%speed)
     allocate (response%at_speed(n))
     choice%order = first_order(request%accuracy)
-    call new_level(structure, choice(1)%order, sample_numbers(1), store, levels(1), error)
+    allocate (levels(1))
+    allocate (levels(1)%level)
+    call new_level(structure, choice(1)%order, sample_numbers(1), store, levels(1)%level, error)
     if (allocated(error)) return
-    choice%at = first_samples(request%speed*sqrt(maxval(own_squares(levels(1)%grid))), &
+    choice%at = first_samples(request%speed*sqrt(maxval(own_squares(levels(1)%level%grid))), &
       request%accuracy)
-    number = 1
     do
+      call drop_levels(pack(choice, choice%pending), levels)
       pending = pack([(k, k=1, n)], choice%pending)
       if (size(pending) == 0) exit
       do i = 1, size(pending)
-        call find_levels(structure, request%speed(pending(i)), store, levels, number, &
+        call find_levels(structure, request%speed(pending(i)), store, levels, &
           choice(pending(i)), error)
         if (allocated(error)) return
       end do
       !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
       do i = 1, size(pending)
         associate (here => choice(pending(i)))
-          call solve_speed(structure, request, request%speed(pending(i)), levels(here%level(1)), &
-            levels(here%level(2)), here, response%at_speed(pending(i)))
+          call solve_speed(structure, request, request%speed(pending(i)), levels(here%level(1))%level, &
+            levels(here%level(2))%level, here, response%at_speed(pending(i)))
         end associate
       end do
       !$omp end parallel do
@@ -157,12 +160,11 @@ contains
   end subroutine find_steady_responses
 
   !> Finds or makes the two levels of a speed, with the slow coordinates that it needs.
-  subroutine find_levels(structure, speed, store, levels, number, choice, error)
+  subroutine find_levels(structure, speed, store, levels, choice, error)
     class(structure_t), intent(in) :: structure
     real(wp), intent(in) :: speed
     type(link_store_t), intent(inout) :: store
-    type(level_t), intent(inout) :: levels(:)
-    integer, intent(inout) :: number !! of levels made so far
+    type(level_slot_t), allocatable, intent(inout) :: levels(:) !! made so far
     type(choice_t), intent(inout) :: choice
     type(error_t), allocatable, intent(out) :: error
 
@@ -173,21 +175,19 @@ contains
       order = choice%order + (i - 1)*orders_above
       samples = sample_numbers(choice%at + i - 1)
       associate (level => choice%level(i))
-        do level = 1, number
-          if (levels(level)%order == order .and. levels(level)%grid%samples == samples) exit
-        end do
-        if (level > number) then
-          number = level
-          call new_level(structure, order, samples, store, levels(level), error)
-          if (allocated(error)) return
-        end if
+        level = number_of_level(levels, order, samples)
+        if (level > 0) cycle
+        call add_slot(levels)
+        level = size(levels)
+        call new_level(structure, order, samples, store, levels(level)%level, error)
+        if (allocated(error)) return
       end associate
     end do
     ! Both solutions have the same slow coordinates.
-    choice%slow = slow_count(levels(choice%level(1))%coarse, &
+    choice%slow = slow_count(levels(choice%level(1))%level%coarse, &
       abs(speed)*sample_numbers(choice%at)/samples_a_period)
     do i = 1, 2
-      associate (level => levels(choice%level(i)))
+      associate (level => levels(choice%level(i))%level)
         if (level%basis(choice%slow)%number > 0) cycle
         call open_fourier(level%grid%samples, plan)
         call open_fourier(level%coarse%samples, coarse_plan)
@@ -199,6 +199,60 @@ contains
       end associate
     end do
   end subroutine find_levels
+
+  !> Number of the level of an order and a number of samples; 0: none.
+  pure function number_of_level(levels, order, samples) result(number)
+    type(level_slot_t), intent(in) :: levels(:)
+    integer, intent(in) :: order, samples
+    integer :: number
+
+    do number = size(levels), 1, -1
+      if (levels(number)%level%order == order .and. &
+        levels(number)%level%grid%samples == samples) exit
+    end do
+  end function number_of_level
+
+  !> Room for one more level; those there are not copied.
+  pure subroutine add_slot(levels)
+    type(level_slot_t), allocatable, intent(inout) :: levels(:)
+
+    type(level_slot_t), allocatable :: more(:)
+    integer :: i
+
+    allocate (more(size(levels) + 1))
+    do i = 1, size(levels)
+      call move_alloc(levels(i)%level, more(i)%level)
+    end do
+    allocate (more(size(more))%level)
+    call move_alloc(more, levels)
+  end subroutine add_slot
+
+  !> Drops the levels that no speed needs any more.
+  pure subroutine drop_levels(choices, levels)
+    type(choice_t), intent(in) :: choices(:) !! of the speeds that are still to be solved
+    type(level_slot_t), allocatable, intent(inout) :: levels(:)
+
+    type(level_slot_t), allocatable :: kept(:)
+    logical :: needed(size(levels))
+    integer :: i, k
+
+    do i = 1, size(levels)
+      associate (level => levels(i)%level)
+        needed(i) = any((choices%order == level%order .and. &
+          sample_numbers(choices%at) == level%grid%samples) .or. &
+          (choices%order + orders_above == level%order .and. &
+          sample_numbers(choices%at + 1) == level%grid%samples))
+      end associate
+    end do
+    allocate (kept(count(needed)))
+    k = 0
+    do i = 1, size(levels)
+      if (.not. needed(i)) cycle
+      k = k + 1
+      call move_alloc(levels(i)%level, kept(k)%level)
+    end do
+    call move_alloc(kept, levels)
+  end subroutine drop_levels
 
   !> Polynomial degree to begin with.
   pure function first_order(accuracy) result(order)
