@@ -12,7 +12,8 @@ module floquet_exponents
   use kinds, only: fineness, wp
   use minimal_residuals, only: add_combination, add_product, minimal_residual_t, start_residual
   use periodic_solver, only: add_slow, fast_solution, slow_part
-  use slow_motions, only: slow_basis_t, slow_motion_t, slow_mode_t, slow_modes, solve_slow_shifted
+  use slow_motions, only: slow_basis_t, slow_mode_shape, slow_mode_t, slow_modes, slow_motion_t, &
+    solve_slow_shifted
   use sorting, only: ascending_order
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
@@ -32,6 +33,10 @@ module floquet_exponents
 
   !> No exponent differs more than this from its first approximation.
   real(wp), parameter :: farthest = 0.02_wp
+
+  !> Modes with fewer samples a period are not resolved; exponents of the slow motion are right to
+  !! about this much.
+  real(wp), parameter :: resolved_samples = 6.0_wp, of_slow_motion = 1.0e-3_wp
 
   !> Solutions gain so much in a round.
   real(wp), parameter :: gain = 1.0e-4_wp
@@ -67,32 +72,28 @@ contains
 
     type(slow_mode_t), allocatable :: slow(:)
     real(wp), allocatable :: z(:, :)
-    real(wp) :: frequency(motion%number*2)
     integer :: i, n
     integer, allocatable :: order(:)
 
-    call slow_modes(motion, slow, error)
+    call slow_modes(basis, motion, slow, error)
     if (allocated(error)) return
-    frequency = 0.0_wp
-    do i = 1, size(slow)
-      z = expanded(basis, slow(i))
-      frequency(i) = frequency_of(grid, z)
-    end do
-    order = ascending_order(frequency(:size(slow)))
+    order = ascending_order(slow%frequency)
     n = min(number, size(slow))
     allocate (modes(n))
     do i = 1, n
-      z = expanded(basis, slow(order(i)))
+      z = expanded(basis, motion, slow(order(i)))
+      modes(i)%frequency = slow(order(i))%frequency
       modes(i)%exponent = slow(order(i))%exponent
       call refine(grid, plan, basis, motion, speed, damping, terms, fine_change, z, modes(i))
-      modes(i)%frequency = frequency_of(grid, z)
     end do
   end subroutine find_floquet_modes
 
-  !> The mode whose multiplier is nearest to 1: how near the linkage is to resonance.
+  !> The mode whose multiplier is nearest to 1, which says how near the linkage is to resonance, and
+  !! the largest growth of any. Only modes count whose vibrations the samples resolve.
   !!
   !! Errors: the multipliers of the slow motion do not converge.
-  subroutine find_nearest_mode(grid, plan, basis, motion, speed, damping, terms, mode, error)
+  subroutine find_nearest_mode(grid, plan, basis, motion, speed, damping, terms, near, mode, &
+    growth, error)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan   !! for its samples
     type(slow_basis_t), intent(in) :: basis    !! of this grid
@@ -100,19 +101,28 @@ contains
     real(wp), intent(in) :: speed              !! ω2 [rad/s]
     real(wp), intent(in) :: damping(:)         !! (unknowns) c [s]
     type(elastic_terms_t), intent(in) :: terms
+    real(wp), intent(in) :: near               !! nearer multipliers are found from the whole equation
     type(floquet_mode_t), intent(out) :: mode
+    real(wp), intent(out) :: growth            !! ln|multiplier| of the slow motion
     type(error_t), allocatable, intent(out) :: error
 
     type(slow_mode_t), allocatable :: slow(:)
     real(wp), allocatable :: z(:, :)
+    logical, allocatable :: resolved(:)
     integer :: nearest
 
-    call slow_modes(motion, slow, error)
+    growth = 0.0_wp
+    call slow_modes(basis, motion, slow, error)
     if (allocated(error)) return
-    nearest = minloc(abs(1.0_wp - exp(two_pi*slow%exponent)), dim=1)
+    resolved = slow%frequency <= abs(speed)*motion%steps/resolved_samples
+    if (.not. any(resolved)) resolved = slow%frequency <= minval(slow%frequency)
+    nearest = minloc(abs(1.0_wp - exp(two_pi*slow%exponent)), dim=1, mask=resolved)
+    growth = two_pi*maxval(real(slow%exponent, wp), mask=resolved)
     mode%exponent = slow(nearest)%exponent
-    z = expanded(basis, slow(nearest))
-    mode%frequency = frequency_of(grid, z)
+    mode%frequency = slow(nearest)%frequency
+    mode%change = of_slow_motion
+    if (abs(1.0_wp - exp(two_pi*mode%exponent)) >= near) return
+    z = expanded(basis, motion, slow(nearest))
     call refine(grid, plan, basis, motion, speed, damping, terms, rough_change, z, mode)
     ! Iterations that lead elsewhere say nothing.
     if (abs(mode%exponent - slow(nearest)%exponent) <= farthest .and. &
@@ -122,38 +132,22 @@ contains
   end subroutine find_nearest_mode
 
   !> A slow mode in all unknowns: real parts, then imaginary parts.
-  pure function expanded(basis, mode) result(z)
+  pure function expanded(basis, motion, mode) result(z)
     type(slow_basis_t), intent(in) :: basis
+    type(slow_motion_t), intent(in) :: motion
     type(slow_mode_t), intent(in) :: mode
     real(wp) :: z(size(basis%shape, 1), 2*size(basis%shape, 2))
 
+    complex(wp) :: shape(motion%steps, motion%number)
     integer :: n
 
     n = size(basis%shape, 2)
     z = 0.0_wp
-    call add_slow(basis, real(mode%shape, wp), z(:, :n))
-    call add_slow(basis, aimag(mode%shape), z(:, n + 1:))
+    shape = slow_mode_shape(motion, mode)
+    call add_slow(basis, real(shape, wp), z(:, :n))
+    call add_slow(basis, aimag(shape), z(:, n + 1:))
     z = z/norm2(z)
   end function expanded
-
-  !> Frequency of a shape at the first crank angle, `√(yᴴy/yᴴM y)`. Over the turn, shapes of fast
-  !! decaying modes are lost in the rounding of slower ones.
-  pure function frequency_of(grid, z) result(frequency)
-    type(turn_grid_t), intent(in) :: grid
-    real(wp), intent(in) :: z(:, :)
-    real(wp) :: frequency
-
-    real(wp), dimension(size(z, 1), size(z, 2)/2) :: product
-    integer :: i, n
-
-    n = size(z, 2)/2
-    frequency = 0.0_wp
-    do i = 0, 1
-      call mass_force(grid, z(:, i*n + 1:(i + 1)*n), product)
-      frequency = frequency + sum(z(1, i*n + 1:(i + 1)*n)*product(1, :))
-    end do
-    frequency = sqrt(sum(z(1, :)**2)/frequency)
-  end function frequency_of
 
   !> Improves an exponent and its motion.
   subroutine refine(grid, plan, basis, motion, speed, damping, terms, tolerance, z, mode)

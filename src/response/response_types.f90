@@ -86,7 +86,6 @@ module response_types
                                                     !! linkage / that at which the link buckles as
                                                     !! pinned
     real(wp), allocatable :: quadratic_change(:)    !! (bodies) of the largest strain
-    complex(wp), allocatable :: multiplier(:)       !! of a turn, of the slow vibrations
     real(wp) :: distance = 0.0_wp                   !! least |1 − multiplier|: from resonance
     real(wp) :: distance_error = 0.0_wp             !! relative
     real(wp) :: growth = 0.0_wp                     !! largest ln|multiplier|

@@ -23,7 +23,7 @@ module slow_motions
   private
 
   public :: slow_basis_t, new_slow_basis, slow_motion_t, new_slow_motion, solve_slow, &
-    slow_multipliers, slow_count, own_squares, slow_mode_t, slow_modes, solve_slow_shifted
+    slow_count, own_squares, slow_mode_t, slow_modes, slow_mode_shape, solve_slow_shifted
 
   !> Subspace iterations: the error of the lowest frequencies falls by the square of the ratio of
   !! frequencies each time.
@@ -36,6 +36,8 @@ module slow_motions
     real(wp), allocatable :: inverse(:, :, :)     !! (samples, number, number) (XᵀX)⁻¹
     real(wp), allocatable :: square(:)            !! (unknowns) 1/ω² of the other deformations by
                                                   !! themselves; 0 of the slow ones [s²]
+    real(wp), allocatable :: start_mass(:, :)     !! (number, number) M at the first crank angle
+    real(wp), allocatable :: start_stiffness(:, :) !! XᵀX there
     !> Coefficients over the turn: (samples, number², matrices) M, G, W, XᵀX and XᵀK_GX per ω2² and
     !! of the constant loads
     real(wp), allocatable :: matrix(:, :, :)
@@ -61,7 +63,9 @@ module slow_motions
   !> A free motion of the slow coordinates, `e^{σ θ} z(θ)`.
   type :: slow_mode_t
     complex(wp) :: exponent = (0.0_wp, 0.0_wp) !! σ, its imaginary part between 0 and 1/2
-    complex(wp), allocatable :: shape(:, :)    !! (samples, number) z
+    complex(wp), allocatable :: start(:)       !! (2 number) coordinates and momenta at the first
+                                               !! crank angle
+    real(wp) :: frequency = 0.0_wp             !! of the shape there, `√(zᴴXᵀX z/zᴴM z)` [rad/s]
   end type slow_mode_t
 
 contains
@@ -125,6 +129,8 @@ contains
     call find_shapes(coarse, order(:number), shape, error)
     if (allocated(error)) return
     call find_matrices(coarse, coarse_plan, shape, sums)
+    basis%start_mass = reshape(sums(1, :, of_mass), [number, number])
+    basis%start_stiffness = reshape(sums(1, :, of_stiffness), [number, number])
     allocate (coefficients(coarse%samples, number**2), basis%matrix(plan%samples, number**2, 6))
     do c = 1, 6
       call coefficients_of(coarse_plan, sums(:, :, c), coefficients)
@@ -502,36 +508,18 @@ contains
     end do
   end subroutine solve_slow
 
-  !> Multipliers of a turn.
-  subroutine slow_multipliers(motion, multipliers, error)
-    type(slow_motion_t), intent(in) :: motion
-    complex(wp), allocatable, intent(out) :: multipliers(:) !! (2 number)
-    type(error_t), allocatable, intent(out) :: error
-
-    real(wp) :: a(2*motion%number, 2*motion%number), re(2*motion%number), im(2*motion%number)
-    real(wp) :: work(16*motion%number), none(1, 1)
-    integer :: n, info
-
-    n = 2*motion%number
-    a = motion%monodromy
-    call dgeev("N", "N", n, a, n, re, im, none, 1, none, 1, work, size(work), info)
-    if (info /= 0) call set_error(error, error_of_numerics, "the multipliers of a turn do not "// &
-      "converge")
-    multipliers = cmplx(re, im, wp)
-  end subroutine slow_multipliers
-
   !> Free motions, of each pair of conjugate ones that with positive turns.
   !!
   !! Errors: the multipliers do not converge.
-  subroutine slow_modes(motion, modes, error)
-    type(slow_motion_t), intent(in) :: motion
+  subroutine slow_modes(basis, motion, modes, error)
+    type(slow_basis_t), intent(in) :: basis
+    type(slow_motion_t), intent(in) :: motion !! of these coordinates
     type(slow_mode_t), allocatable, intent(out) :: modes(:)
     type(error_t), allocatable, intent(out) :: error
 
     real(wp) :: a(2*motion%number, 2*motion%number), vectors(2*motion%number, 2*motion%number)
     real(wp) :: re(2*motion%number), im(2*motion%number), work(32*motion%number), none(1, 1)
-    complex(wp) :: state(2*motion%number)
-    integer :: i, k, m, n, number, info
+    integer :: i, m, n, number, info
 
     m = motion%number
     n = 2*m
@@ -546,17 +534,34 @@ contains
     do i = 1, n
       if (im(i) < 0.0_wp) cycle
       number = number + 1
-      modes(number)%exponent = log(cmplx(re(i), im(i), wp))/two_pi
-      state = vectors(:, i)
-      if (im(i) > 0.0_wp) state = cmplx(vectors(:, i), vectors(:, i + 1), wp)
-      allocate (modes(number)%shape(motion%steps, m))
-      do k = 1, motion%steps
-        modes(number)%shape(k, :) = exp(-modes(number)%exponent*two_pi*(k - 1)/motion%steps)* &
-          state(:m)
-        state = matmul(motion%transfer(:, :, k), state)
-      end do
+      associate (mode => modes(number))
+        mode%exponent = log(cmplx(re(i), im(i), wp))/two_pi
+        mode%start = cmplx(vectors(:, i), 0.0_wp, wp)
+        if (im(i) > 0.0_wp) mode%start = cmplx(vectors(:, i), vectors(:, i + 1), wp)
+        associate (z => mode%start(:m))
+          mode%frequency = sqrt(real(dot_product(z, matmul(basis%start_stiffness, z)))/ &
+            real(dot_product(z, matmul(basis%start_mass, z))))
+        end associate
+      end associate
     end do
   end subroutine slow_modes
+
+  !> z of a free motion over the turn. That of a mode that fades fast is lost in the rounding of
+  !! slower ones.
+  pure function slow_mode_shape(motion, mode) result(shape)
+    type(slow_motion_t), intent(in) :: motion
+    type(slow_mode_t), intent(in) :: mode
+    complex(wp) :: shape(motion%steps, motion%number)
+
+    complex(wp) :: state(2*motion%number)
+    integer :: k
+
+    state = mode%start
+    do k = 1, motion%steps
+      shape(k, :) = exp(-mode%exponent*two_pi*(k - 1)/motion%steps)*state(:motion%number)
+      state = matmul(motion%transfer(:, :, k), state)
+    end do
+  end function slow_mode_shape
 
   !> The periodic solution z of the slow equation with d/dθ2 + σ in place of d/dθ2, under a complex
   !! load.

@@ -24,7 +24,7 @@ module steady_responses
     drive_values, moment, power, response_request_t, response_t, shear_force, speed_response_t, &
     strain_values, stress, total_torque
   use slow_motions, only: new_slow_basis, new_slow_motion, slow_basis_t, slow_count, &
-    slow_motion_t, slow_multipliers, own_squares
+    slow_motion_t, own_squares
   use structures, only: structure_t
   use text, only: to_string
   use turn_grids, only: new_turn_grid, turn_grid_t
@@ -73,9 +73,9 @@ module steady_responses
   !> A relative error of a result that has no digits.
   real(wp), parameter :: no_digits = 0.1_wp
 
-  !> Multipliers nearer to 1 than this are found from the whole equation. Exponents of the slow motion
-  !! are right to about this much.
-  real(wp), parameter :: near = 0.05_wp, of_slow_motion = 1.0e-3_wp
+  !> Multipliers nearer to 1 than this are found from the whole equation; where the distance is a
+  !! result, than that.
+  real(wp), parameter :: near = 0.05_wp, far = 0.5_wp
 
   !> Rounding of a solution, with no resonance near.
   real(wp), parameter :: rounding = 1.0e-13_wp
@@ -497,19 +497,10 @@ contains
 
     type(floquet_mode_t) :: mode
 
-    call slow_multipliers(motion, found%multiplier, found%error)
+    call find_nearest_mode(level%grid, plan, basis, motion, speed, damping_of(request, &
+      level%grid), request%terms, merge(far, near, request%validity), mode, found%growth, &
+      found%error)
     if (allocated(found%error)) return
-    associate (nearest => minloc(abs(1.0_wp - found%multiplier), dim=1))
-      mode%exponent = log(found%multiplier(nearest))/two_pi
-    end associate
-    mode%change = of_slow_motion
-    found%growth = log(max(maxval(abs(found%multiplier)), tiny(1.0_wp)))
-    found%distance = abs(1.0_wp - exp(two_pi*mode%exponent))
-    if (request%validity .or. found%distance < near) then
-      call find_nearest_mode(level%grid, plan, basis, motion, speed, damping_of(request, &
-        level%grid), request%terms, mode, found%error)
-      if (allocated(found%error)) return
-    end if
     found%nearest = cmplx(two_pi*real(mode%exponent), abs(aimag(mode%exponent)), wp)
     found%distance = max(abs(1.0_wp - exp(two_pi*mode%exponent)), epsilon(1.0_wp))
     found%distance_error = two_pi*mode%change/found%distance
