@@ -38,6 +38,9 @@ module floquet_exponents
   !! about this much.
   real(wp), parameter :: resolved_samples = 6.0_wp, of_slow_motion = 1.0e-3_wp
 
+  !> Growth of the slow motion above this is looked for in the whole equation.
+  real(wp), parameter :: least_growth = 1.0e-6_wp
+
   !> Solutions gain so much in a round.
   real(wp), parameter :: gain = 1.0e-4_wp
 
@@ -103,13 +106,15 @@ contains
     type(elastic_terms_t), intent(in) :: terms
     real(wp), intent(in) :: near               !! nearer multipliers are found from the whole equation
     type(floquet_mode_t), intent(out) :: mode
-    real(wp), intent(out) :: growth            !! ln|multiplier| of the slow motion
+    real(wp), intent(out) :: growth            !! largest ln|multiplier|; 0 or less where none is
+                                               !! certain to grow
     type(error_t), allocatable, intent(out) :: error
 
     type(slow_mode_t), allocatable :: slow(:)
+    type(floquet_mode_t) :: grown
     real(wp), allocatable :: z(:, :)
     logical, allocatable :: resolved(:)
-    integer :: nearest
+    integer :: nearest, growing
 
     growth = 0.0_wp
     call slow_modes(basis, motion, slow, error)
@@ -117,18 +122,34 @@ contains
     resolved = slow%frequency <= abs(speed)*motion%steps/resolved_samples
     if (.not. any(resolved)) resolved = slow%frequency <= minval(slow%frequency)
     nearest = minloc(abs(1.0_wp - exp(two_pi*slow%exponent)), dim=1, mask=resolved)
-    growth = two_pi*maxval(real(slow%exponent, wp), mask=resolved)
-    mode%exponent = slow(nearest)%exponent
-    mode%frequency = slow(nearest)%frequency
-    mode%change = of_slow_motion
-    if (abs(1.0_wp - exp(two_pi*mode%exponent)) >= near) return
-    z = expanded(basis, motion, slow(nearest))
-    call refine(grid, plan, basis, motion, speed, damping, terms, rough_change, z, mode)
-    ! Iterations that lead elsewhere say nothing.
-    if (abs(mode%exponent - slow(nearest)%exponent) <= farthest .and. &
-      mode%change <= farthest) return
-    mode%exponent = slow(nearest)%exponent
-    mode%change = farthest
+    call take(nearest, abs(1.0_wp - exp(two_pi*slow(nearest)%exponent)) < near, mode)
+    growing = maxloc(real(slow%exponent, wp), dim=1, mask=resolved)
+    call take(growing, two_pi*real(slow(growing)%exponent) > least_growth, grown)
+    ! Growth that is found in the slow motion only may come from its steps.
+    growth = two_pi*real(grown%exponent)
+    if (grown%change > 0.1_wp*growth) growth = min(growth, 0.0_wp)
+
+  contains
+
+    !> A mode of the slow motion, or of the whole equation.
+    subroutine take(number, whole, mode)
+      integer, intent(in) :: number
+      logical, intent(in) :: whole
+      type(floquet_mode_t), intent(out) :: mode
+
+      mode%exponent = slow(number)%exponent
+      mode%frequency = slow(number)%frequency
+      mode%change = of_slow_motion
+      if (.not. whole) return
+      z = expanded(basis, motion, slow(number))
+      call refine(grid, plan, basis, motion, speed, damping, terms, rough_change, z, mode)
+      ! Iterations that lead elsewhere say nothing.
+      if (abs(mode%exponent - slow(number)%exponent) <= farthest .and. &
+        mode%change <= farthest) return
+      mode%exponent = slow(number)%exponent
+      mode%change = farthest
+    end subroutine take
+
   end subroutine find_nearest_mode
 
   !> A slow mode in all unknowns: real parts, then imaginary parts.

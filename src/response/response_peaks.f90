@@ -94,7 +94,7 @@ contains
         width = narrowing*width
       end do
       peak%xi = best(2)
-      peak%crank = modulo(best(1)/degree, 360.0_wp)
+      peak%crank = modulo(merge(-best(1), best(1), grid%backwards)/degree, 360.0_wp)
     end subroutine search
 
     !> The value at a crank angle and place, which is kept if it is the largest so far.

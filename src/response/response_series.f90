@@ -188,25 +188,39 @@ contains
     real(wp), intent(in) :: y(:, :)
     real(wp), intent(out) :: series(:, :)
 
+    series(:, 1) = speed**2*grid%torque(:, 1) + grid%torque(:, constant_case)
+    call elastic_torque(grid, plan, terms, speed, y, series(:, 2:3))
+    ! Derivatives for −θ2 give a torque that is positive clockwise.
+    if (grid%backwards) series(:, 2:3) = -series(:, 2:3)
+  end subroutine torque_series
+
+  !> The linear and the quadratic part.
+  subroutine elastic_torque(grid, plan, terms, speed, y, series)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan
+    type(elastic_terms_t), intent(in) :: terms
+    real(wp), intent(in) :: speed
+    real(wp), intent(in) :: y(:, :)
+    real(wp), intent(out) :: series(:, :)
+
     real(wp), dimension(size(y, 1), case_count) :: work, slope, second, energy, rate_work
     real(wp) :: first(size(y, 1), size(y, 2)), force(size(y, 1), size(y, 2)), load_slope(size(y, &
       1), size(y, 2))
     integer :: c
 
-    series(:, 1) = speed**2*grid%torque(:, 1) + grid%torque(:, constant_case)
     do c = 1, case_count
       work(:, c) = sum(grid%load(:, :, c)*y, dim=2)
     end do
     call derivatives(plan, work, slope, second)
     call derivatives(plan, grid%load(:, :, 1), load_slope)
-    series(:, 2) = speed**2*(2.0_wp*slope(:, 1) - sum(load_slope*y, dim=2) - second(:, 2))
+    series(:, 1) = speed**2*(2.0_wp*slope(:, 1) - sum(load_slope*y, dim=2) - second(:, 2))
     call derivatives(plan, grid%load(:, :, constant_case), load_slope)
-    series(:, 2) = series(:, 2) - sum(load_slope*y, dim=2)
-    series(:, 3) = 0.0_wp
+    series(:, 1) = series(:, 1) - sum(load_slope*y, dim=2)
+    series(:, 2) = 0.0_wp
     if (.not. terms%quadratic) return
     call derivatives(plan, y, first)
-    call swept_work(grid, plan, y, series(:, 3))
-    series(:, 3) = speed**2*series(:, 3)
+    call swept_work(grid, plan, y, series(:, 2))
+    series(:, 2) = speed**2*series(:, 2)
     if (.not. terms%axial) return
     do c = 1, case_count
       force = 0.0_wp
@@ -215,9 +229,9 @@ contains
       rate_work(:, c) = sum(first*force, dim=2)
     end do
     call derivatives(plan, energy, slope, second)
-    series(:, 3) = series(:, 3) + speed**2*(-0.5_wp*slope(:, 1) - rate_work(:, 1) + &
+    series(:, 2) = series(:, 2) + speed**2*(-0.5_wp*slope(:, 1) - rate_work(:, 1) + &
       0.5_wp*second(:, 2)) + 0.5_wp*slope(:, constant_case) - rate_work(:, constant_case)
-  end subroutine torque_series
+  end subroutine elastic_torque
 
   !> `∫ μ (S' y)·(S y)'' dx` with S' the change of the shapes at constant y.
   subroutine swept_work(grid, plan, y, work)

@@ -70,13 +70,14 @@ module slow_motions
 
 contains
 
-  !> Number of slow coordinates: deformations whose own frequency is below a limit, at least one.
+  !> Number of slow coordinates: deformations whose own frequency is below a limit, and one more; at
+  !! least three, so that the slowest of all are found well.
   pure function slow_count(grid, limit) result(number)
     type(turn_grid_t), intent(in) :: grid
     real(wp), intent(in) :: limit !! [rad/s]
     integer :: number
 
-    number = max(1, count(own_squares(grid)*limit**2 > 1.0_wp))
+    number = min(grid%unknowns, max(3, count(own_squares(grid)*limit**2 > 1.0_wp) + 1))
   end function slow_count
 
   !> 1/ω² of every deformation by itself [s²]; those of the border from the mean of M over the turn.

@@ -98,6 +98,7 @@ module steady_responses
     integer :: at = 0             !! of `sample_numbers`
     integer :: level(2) = 0       !! numbers of the levels of both solutions
     integer :: slow = 0           !! slow coordinates
+    logical :: backwards = .false. !! the crank turns clockwise
     real(wp) :: error = huge(1.0_wp) !! largest so far
     logical :: raised_order = .false. !! last time
     logical :: pending = .true.
@@ -132,10 +133,12 @@ contains
 
     n = size(request%speed)
     allocate (response%at_speed(n))
+    choice%backwards = request%speed < 0.0_wp
     choice%order = first_order(request%accuracy)
     allocate (levels(1))
     allocate (levels(1)%level)
-    call new_level(structure, choice(1)%order, sample_numbers(1), store, levels(1)%level, error)
+    call new_level(structure, choice(1)%order, sample_numbers(1), .false., store, &
+      levels(1)%level, error)
     if (allocated(error)) return
     choice%at = first_samples(request%speed*sqrt(maxval(own_squares(levels(1)%level%grid))), &
       request%accuracy)
@@ -144,14 +147,14 @@ contains
       pending = pack([(k, k=1, n)], choice%pending)
       if (size(pending) == 0) exit
       do i = 1, size(pending)
-        call find_levels(structure, request%speed(pending(i)), store, levels, &
+        call find_levels(structure, abs(request%speed(pending(i))), store, levels, &
           choice(pending(i)), error)
         if (allocated(error)) return
       end do
       !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
       do i = 1, size(pending)
         associate (here => choice(pending(i)))
-          call solve_speed(structure, request, request%speed(pending(i)), levels(here%level(1))%level, &
+          call solve_speed(structure, request, abs(request%speed(pending(i))), levels(here%level(1))%level, &
             levels(here%level(2))%level, here, response%at_speed(pending(i)))
         end associate
       end do
@@ -175,11 +178,12 @@ contains
       order = choice%order + (i - 1)*orders_above
       samples = sample_numbers(choice%at + i - 1)
       associate (level => choice%level(i))
-        level = number_of_level(levels, order, samples)
+        level = number_of_level(levels, order, samples, choice%backwards)
         if (level > 0) cycle
         call add_slot(levels)
         level = size(levels)
-        call new_level(structure, order, samples, store, levels(level)%level, error)
+        call new_level(structure, order, samples, choice%backwards, store, levels(level)%level, &
+          error)
         if (allocated(error)) return
       end associate
     end do
@@ -201,14 +205,16 @@ contains
   end subroutine find_levels
 
   !> Number of the level of an order and a number of samples; 0: none.
-  pure function number_of_level(levels, order, samples) result(number)
+  pure function number_of_level(levels, order, samples, backwards) result(number)
     type(level_slot_t), intent(in) :: levels(:)
     integer, intent(in) :: order, samples
+    logical, intent(in) :: backwards
     integer :: number
 
     do number = size(levels), 1, -1
       if (levels(number)%level%order == order .and. &
-        levels(number)%level%grid%samples == samples) exit
+        levels(number)%level%grid%samples == samples .and. &
+        (levels(number)%level%grid%backwards .eqv. backwards)) exit
     end do
   end function number_of_level
 
@@ -278,9 +284,10 @@ contains
   end function first_samples
 
   !> Makes the grids of a level.
-  subroutine new_level(structure, order, samples, store, level, error)
+  subroutine new_level(structure, order, samples, backwards, store, level, error)
     class(structure_t), intent(in) :: structure
     integer, intent(in) :: order, samples
+    logical, intent(in) :: backwards !! the crank turns clockwise
     type(link_store_t), intent(inout) :: store
     type(level_t), intent(out) :: level
     type(error_t), allocatable, intent(out) :: error
@@ -298,9 +305,10 @@ contains
       spread(order, 1, size(degrees)), spread(.false., 1, size(degrees)), model, error, store, &
       degrees)
     if (allocated(error)) return
-    call new_turn_grid(structure%linkage, model, samples, level%grid, error)
+    call new_turn_grid(structure%linkage, model, samples, level%grid, error, backwards)
     if (allocated(error)) return
-    call new_turn_grid(structure%linkage, model, min(samples, basis_samples), level%coarse, error)
+    call new_turn_grid(structure%linkage, model, min(samples, basis_samples), level%coarse, error, &
+      backwards)
     level%order = order
     allocate (level%basis(model%layout%unknowns))
   end subroutine new_level
@@ -385,6 +393,8 @@ contains
       return
     end if
     if (found%largest_error <= request%accuracy) return
+    ! Rounding leaves no more digits.
+    if (solution%remainder + better%remainder > 0.5_wp*request%accuracy) return
     if (rounding/found%distance > request%accuracy) then
       call set_error(found%error, error_of_numerics, "resonance: an exponent of the turn, "// &
         in_words(found%nearest)//", is too near to 0 for the accuracy asked for")
@@ -532,7 +542,8 @@ contains
     extra = solution%remainder + better%remainder + rounding/found%distance
     allocate (at_position(n, size(request%crank)))
     do k = 1, size(request%crank)
-      at_position(:, k) = value_at(solution%series, request%crank(k)*degree)
+      at_position(:, k) = value_at(solution%series, merge(-1.0_wp, 1.0_wp, &
+        level%grid%backwards)*request%crank(k)*degree)
     end do
 
     allocate (found%displacement(3, size(request%points), size(request%crank)), &
@@ -591,7 +602,8 @@ contains
       allocate (found%drive(drive_values, size(request%crank)))
       found%drive(:3, :) = at_position(first:first + 2, :)
       found%drive(total_torque, :) = sum(found%drive(:3, :), dim=1)
-      found%drive(power, :) = found%drive(total_torque, :)*speed
+      found%drive(power, :) = found%drive(total_torque, :)*merge(-speed, speed, &
+        level%grid%backwards)
       found%mean_torque = sum(solution%series(1, first:first + 2))
       total(:, 1) = sum(values(:, first:first + 2), dim=2)
       fine_total(:, 1) = sum(fine(:, first:first + 2), dim=2)
