@@ -63,15 +63,16 @@ contains
 
   contains
 
-    !> The largest of sampled values, then by parabolas over the turn and along the link in turns,
-    !! through points that move closer: the largest value met counts.
+    !> The largest of sampled values, then by parabolas over the turn, along the link and in the
+    !! direction in which these have led, through points that move closer: the largest value met
+    !! counts.
     subroutine search(values, xi, of_strain, peak)
       real(wp), intent(in) :: values(:, :) !! (samples, places)
       real(wp), intent(in) :: xi(:)
       logical, intent(in) :: of_strain     !! else of squared deflection
       type(peak_t), intent(out) :: peak
 
-      real(wp) :: best(2), width(2), step(2), f(3), bend, here
+      real(wp) :: best(2), before(2), middle(2), width(2), step(2), f(3), bend, here
       integer :: at(2), i, k
 
       at = maxloc(values)
@@ -79,17 +80,22 @@ contains
       width = [two_pi/size(values, 1), xi(2) - xi(1)]
       peak%value = values(at(1), at(2))
       do k = 1, rounds
-        do i = 1, 2
-          step = 0.0_wp
-          step(i) = width(i)
-          associate (middle => best + 0.0_wp)
-            f(2) = value_at_place(of_strain, middle(1), middle(2))
-            call try_place(middle - step, of_strain, best, peak%value, f(1))
-            call try_place(middle + step, of_strain, best, peak%value, f(3))
-            bend = f(1) + f(3) - 2.0_wp*f(2)
-            if (bend < 0.0_wp) call try_place(middle + 0.5_wp*(f(1) - f(3))/bend*step, of_strain, &
-              best, peak%value, here)
-          end associate
+        before = best
+        do i = 1, 3
+          ! The third direction is that in which the first two have led.
+          step = best - before
+          if (i < 3) then
+            step = 0.0_wp
+            step(i) = width(i)
+          end if
+          if (all(abs(step) <= 0.0_wp)) cycle
+          middle = best
+          f(2) = value_at_place(of_strain, middle(1), middle(2))
+          call try_place(middle - step, of_strain, best, peak%value, f(1))
+          call try_place(middle + step, of_strain, best, peak%value, f(3))
+          bend = f(1) + f(3) - 2.0_wp*f(2)
+          if (bend < 0.0_wp) call try_place(middle + 0.5_wp*(f(1) - f(3))/bend*step, of_strain, &
+            best, peak%value, here)
         end do
         width = narrowing*width
       end do
