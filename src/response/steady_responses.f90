@@ -18,7 +18,7 @@ module steady_responses
   use link_store, only: link_store_t
   use order_transfer, only: transferred
   use periodic_solver, only: solve_periodic
-  use response_peaks, only: find_peaks
+  use response_peaks, only: find_peaks, sampled_deflections
   use response_series, only: first_gauge, first_torque, response_series_of, series_count
   use response_types
   use slow_motions, only: new_slow_basis, new_slow_motion, slow_basis_t, slow_count, &
@@ -439,6 +439,7 @@ contains
     call evaluate_gauges
     call evaluate_drive
     call evaluate_peaks
+    found%deflection = sampled_deflections(level%grid, solution%y)
     if (request%validity) found%buckling = buckling_shares(structure%linkage, level%grid, speed)
     found%largest_error = max(maxval([0.0_wp, found%displacement_error]), &
       maxval([0.0_wp, found%strain_error]), found%drive_error, maxval([0.0_wp, found%peak_error]))
