@@ -13,7 +13,10 @@ module response_peaks
   implicit none (type, external)
   private
 
-  public :: find_peaks
+  public :: find_peaks, sampled_deflections
+
+  !> Places along a link for a quick look at its deflection.
+  real(wp), parameter :: quick_places(5) = [0.0_wp, 0.25_wp, 0.5_wp, 0.75_wp, 1.0_wp]
 
   !> Intervals between the places looked at, for each piece of a link.
   integer, parameter :: intervals = 32
@@ -28,6 +31,31 @@ module response_peaks
   real(wp), parameter :: narrowing = 0.4_wp
 
 contains
+
+  !> The largest deflection of every link at a few places and the samples of the turn; zeros of rigid
+  !! ones [m].
+  pure function sampled_deflections(grid, y) result(deflection)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp), intent(in) :: y(:, :) !! (samples, unknowns) [√J]
+    real(wp) :: deflection(size(grid%integrals))
+
+    real(wp), allocatable :: q(:, :)
+    integer :: b, i
+
+    deflection = 0.0_wp
+    do b = 1, size(deflection)
+      associate (link => grid%model%links(b))
+        if (.not. link%bends) cycle
+        q = functions_of(grid, b, y)
+        do i = 1, size(quick_places)
+          associate (rows => displacement_rows(link, [quick_places(i)*link%length, 0.0_wp]))
+            deflection(b) = max(deflection(b), sqrt(maxval(sum(matmul(q, transpose(rows(:2, &
+              :)))**2, dim=2))))
+          end associate
+        end do
+      end associate
+    end do
+  end function sampled_deflections
 
   !> Finds the largest values of all links; zeros of rigid ones.
   subroutine find_peaks(grid, plan, request, y, found)

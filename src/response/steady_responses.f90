@@ -15,10 +15,11 @@ module steady_responses
     resampled, value_at, values_of
   use kinds, only: long, wp
   use link_degrees, only: link_degrees_t, uniform_degrees
+  use link_loads, only: buckling_shares
   use link_store, only: link_store_t
   use order_transfer, only: transferred
   use periodic_solver, only: solve_periodic
-  use response_peaks, only: find_peaks
+  use response_peaks, only: find_peaks, sampled_deflections
   use response_series, only: first_gauge, first_torque, response_series_of, series_count
   use response_types, only: axial_force, axial_strain, bending_strain, damping_ratio, damping_time, &
     drive_values, moment, power, response_request_t, response_t, shear_force, speed_response_t, &
@@ -558,6 +559,8 @@ contains
     call evaluate_gauges
     call evaluate_drive
     call evaluate_peaks
+    found%deflection = sampled_deflections(level%grid, solution%y)
+    if (request%validity) found%buckling = buckling_shares(structure%linkage, level%grid, speed)
     found%largest_error = max(maxval([0.0_wp, found%displacement_error]), &
       maxval([0.0_wp, found%strain_error]), found%drive_error, maxval([0.0_wp, found%peak_error]))
 
@@ -576,10 +579,10 @@ contains
           do k = 1, size(request%crank)
             associate (axial => at_position(first, k), curvature => at_position(first + 1, k))
               found%strain(axial_strain, g, k) = axial
-              found%strain(bending_strain, g, k) = gauge%side*section%outer*curvature
-              found%strain(moment, g, k) = gauge%side*beam%bending_stiffness*curvature
+              found%strain(bending_strain, g, k) = gauge%side*gauge%sense*section%outer*curvature
+              found%strain(moment, g, k) = gauge%sense*beam%bending_stiffness*curvature
               found%strain(axial_force, g, k) = beam%axial_stiffness*axial
-              found%strain(shear_force, g, k) = gauge%side*at_position(first + 2, k)
+              found%strain(shear_force, g, k) = at_position(first + 2, k)
               found%strain(stress, g, k) = section%modulus*(abs(axial) + &
                 section%outer*abs(curvature))
             end associate
