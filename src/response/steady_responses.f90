@@ -41,8 +41,11 @@ module steady_responses
   !! bending of the links loads them along their axes: both converge together.
   integer, parameter :: along_below = 4, least_along = 4
 
-  !> Limits of orders and samples.
-  integer, parameter :: most_order = 36, most_samples = 3072
+  !> The remainder of the second solution in a quantity of its own, at most so many times that in all.
+  real(wp), parameter :: many = 10.0_wp
+
+  !> Limits of orders and samples, and of the times they are raised.
+  integer, parameter :: most_order = 36, most_rounds = 8
 
   !> Numbers of samples: products of small factors, each about half as many more than the last but
   !! one.
@@ -61,8 +64,10 @@ module steady_responses
   !> Estimated errors are differences of two solutions times this.
   real(wp), parameter :: safety = 1.5_wp
 
-  !> Remainders of the iterations beside the accuracy.
-  real(wp), parameter :: solved_to = 1.0e-3_wp, compared_to = 1.0e-2_wp, least_remainder = 2.0e-14_wp
+  !> Remainders of the iterations beside the accuracy: smaller in the second solution, so that the
+  !! difference shows that of the first in every quantity.
+  real(wp), parameter :: solved_to = 1.0e-2_wp, compared_to = 1.0e-4_wp, &
+    least_remainder = 1.0e-14_wp
 
   !> The highest eighth of the harmonics of a series may have this share of the accuracy; they are
   !! taken to fall at least this fast.
@@ -102,6 +107,7 @@ module steady_responses
     logical :: backwards = .false. !! the crank turns clockwise
     real(wp) :: error = huge(1.0_wp) !! largest so far
     logical :: raised_order = .false. !! last time
+    integer :: round = 0              !! times raised
     logical :: pending = .true.
   end type choice_t
 
@@ -389,13 +395,14 @@ contains
     choice%pending = .false.
     if (allocated(found%error)) then
       ! Harmonics left out may hinder the iterations.
-      choice%pending = choice%at + 1 < size(sample_numbers)
+      choice%round = choice%round + 1
+      choice%pending = choice%at + 1 < size(sample_numbers) .and. choice%round <= most_rounds
       choice%at = choice%at + 1
       return
     end if
     if (found%largest_error <= request%accuracy) return
     ! Rounding leaves no more digits.
-    if (solution%remainder + better%remainder > 0.5_wp*request%accuracy) return
+    if (max(solution%remainder, many*better%remainder) > 0.5_wp*request%accuracy) return
     if (rounding/found%distance > request%accuracy) then
       call set_error(found%error, error_of_numerics, "resonance: an exponent of the turn, "// &
         in_words(found%nearest)//", is too near to 0 for the accuracy asked for")
@@ -437,6 +444,8 @@ contains
       wanted = n + log(errors(i)/(0.3_wp*accuracy))/fall
       next = max(next, nint(min(wanted, real(2*n, wp))))
     end do
+    choice%round = choice%round + 1
+    if (choice%round > most_rounds) return
     choice%pending = .true.
     ! Higher orders that gain nothing show that harmonics are to blame.
     if (choice%raised_order .and. largest_error > 0.5_wp*choice%error) then
@@ -540,7 +549,7 @@ contains
     do i = 1, n
       errors(i) = relative_error(values(:, i:i), fine(:, i:i))
     end do
-    extra = solution%remainder + better%remainder + rounding/found%distance
+    extra = many*better%remainder + rounding/found%distance
     allocate (at_position(n, size(request%crank)))
     do k = 1, size(request%crank)
       at_position(:, k) = value_at(solution%series, merge(-1.0_wp, 1.0_wp, &
