@@ -44,6 +44,9 @@ module steady_responses
   !> The remainder of the second solution in a quantity of its own, at most so many times that in all.
   real(wp), parameter :: many = 10.0_wp
 
+  !> Remainders above this are none of rounding.
+  real(wp), parameter :: unfinished = 1.0e-9_wp
+
   !> Limits of orders and samples, and of the times they are raised.
   integer, parameter :: most_order = 36, most_rounds = 8
 
@@ -394,15 +397,15 @@ contains
     call close_fourier(plan)
     choice%pending = .false.
     if (allocated(found%error)) then
-      ! Harmonics left out may hinder the iterations.
-      choice%round = choice%round + 1
-      choice%pending = choice%at + 1 < size(sample_numbers) .and. choice%round <= most_rounds
-      choice%at = choice%at + 1
+      call raise_samples(choice)
       return
     end if
     if (found%largest_error <= request%accuracy) return
-    ! Rounding leaves no more digits.
-    if (max(solution%remainder, many*better%remainder) > 0.5_wp*request%accuracy) return
+    if (max(solution%remainder, many*better%remainder) > 0.5_wp*request%accuracy) then
+      ! Either rounding leaves no more digits, or harmonics left out hinder the iterations.
+      if (better%remainder > unfinished) call raise_samples(choice)
+      return
+    end if
     if (rounding/found%distance > request%accuracy) then
       call set_error(found%error, error_of_numerics, "resonance: an exponent of the turn, "// &
         in_words(found%nearest)//", is too near to 0 for the accuracy asked for")
@@ -414,6 +417,15 @@ contains
       " samples of the turn and order "//to_string(choice%order)// &
       "; the nearest exponent of the turn is "//in_words(found%nearest))
   end subroutine solve_speed
+
+  !> Raises the samples, up to their limit.
+  pure subroutine raise_samples(choice)
+    type(choice_t), intent(inout) :: choice
+
+    choice%round = choice%round + 1
+    choice%pending = choice%at + 1 < size(sample_numbers) .and. choice%round <= most_rounds
+    if (choice%pending) choice%at = choice%at + 1
+  end subroutine raise_samples
 
   !> Raises the samples if the errors of the series that are not accurate enough come from harmonics
   !! left out, else the orders.
