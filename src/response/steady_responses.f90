@@ -69,7 +69,7 @@ module steady_responses
 
   !> Remainders of the iterations beside the accuracy: smaller in the second solution, so that the
   !! difference shows that of the first in every quantity.
-  real(wp), parameter :: solved_to = 1.0e-2_wp, compared_to = 1.0e-4_wp, &
+  real(wp), parameter :: solved_to = 1.0e-3_wp, compared_to = 1.0e-5_wp, &
     least_remainder = 1.0e-14_wp
 
   !> The highest eighth of the harmonics of a series may have this share of the accuracy; they are
@@ -111,6 +111,7 @@ module steady_responses
     real(wp) :: error = huge(1.0_wp) !! largest so far
     logical :: raised_order = .false. !! last time
     integer :: round = 0              !! times raised
+    logical :: tightened = .false.    !! iterations go on to smaller remainders
     logical :: pending = .true.
   end type choice_t
 
@@ -363,9 +364,11 @@ contains
     type(slow_motion_t) :: motion
     type(solution_t) :: solution, better
     real(wp), allocatable :: errors(:)
+    real(wp) :: tighter
     integer(long) :: before
 
     before = found%applications
+    tighter = merge(1.0e-2_wp, 1.0_wp, choice%tightened)
     call clear(found)
     call open_fourier(level%grid%samples, plan)
     call open_fourier(above%grid%samples, above_plan)
@@ -377,11 +380,11 @@ contains
         allocate (solution%y(level%grid%samples, level%grid%unknowns))
         solution%y = 0.0_wp
         call solve_level(request, speed, level%grid, plan, basis, plan, motion, &
-          max(solved_to*request%accuracy, least_remainder), solution, found%error)
+          max(solved_to*tighter*request%accuracy, least_remainder), solution, found%error)
         if (allocated(found%error)) exit attempt
         call transferred(level%grid, plan, above%grid, above_plan, solution%y, better%y)
         call solve_level(request, speed, above%grid, above_plan, above_basis, plan, motion, &
-          max(compared_to*request%accuracy, least_remainder), better, found%error)
+          max(compared_to*tighter*request%accuracy, least_remainder), better, found%error)
         if (allocated(found%error)) exit attempt
       end associate
       found%order = choice%order
@@ -459,10 +462,14 @@ contains
     choice%round = choice%round + 1
     if (choice%round > most_rounds) return
     choice%pending = .true.
-    ! Higher orders that gain nothing show that harmonics are to blame.
+    ! Higher orders that gain nothing show that the iterations or harmonics are to blame.
     if (choice%raised_order .and. largest_error > 0.5_wp*choice%error) then
       order = .false.
-      next = max(next, n + 1)
+      if (choice%tightened) then
+        next = max(next, n + 1)
+      else
+        choice%tightened = .true.
+      end if
     end if
     choice%error = largest_error
     choice%raised_order = order
