@@ -13,6 +13,7 @@ module steady_responses
   use floquet_exponents, only: find_nearest_mode, floquet_mode_t
   use fourier_transform, only: close_fourier, coefficients_of, fourier_plan_t, open_fourier, &
     resampled, value_at, values_of
+  use interruption, only: was_interrupted
   use kinds, only: long, wp
   use link_degrees, only: link_degrees_t, uniform_degrees
   use link_loads, only: buckling_shares
@@ -167,6 +168,9 @@ contains
       end do
       !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
       do i = 1, size(pending)
+        ! An interrupted run leaves no results.
+        choice(pending(i))%pending = .not. was_interrupted()
+        if (.not. choice(pending(i))%pending) cycle
         associate (here => choice(pending(i)))
           call solve_speed(structure, request, abs(request%speed(pending(i))), levels(here%level(1))%level, &
             levels(here%level(2))%level, here, response%at_speed(pending(i)))

@@ -38,6 +38,8 @@ module run_totals
     type(range_t) :: highest               !! the last one [Hz]
     type(range_t) :: torque                !! driving torque, of REPORT reactions or balance,
                                            !! of variants without a frequency [N m]
+    integer(long) :: response_speeds = 0_long !! at which an elastic response was sought
+    integer(long) :: applications = 0_long !! of its equation
     real(wp) :: strain = -1.0_wp           !! largest of the elastic response; below 0: not sought
     real(wp) :: displacement = -1.0_wp     !! largest of REPORT response [m]; likewise
     real(wp) :: computing = 0.0_wp         !! studies, sum over threads [s]
@@ -95,6 +97,8 @@ contains
     logical :: peaks
 
     peaks = report_number(variant%model, "peaks") > 0
+    totals%response_speeds = size(variant%found%response%at_speed)
+    totals%applications = sum(variant%found%response%at_speed%applications)
     do k = 1, size(variant%found%response%at_speed)
       associate (at_speed => variant%found%response%at_speed(k))
         if (allocated(at_speed%error)) cycle
@@ -169,6 +173,8 @@ contains
     call join_ranges(totals%lowest, more%lowest)
     call join_ranges(totals%highest, more%highest)
     call join_ranges(totals%torque, more%torque)
+    totals%response_speeds = totals%response_speeds + more%response_speeds
+    totals%applications = totals%applications + more%applications
     totals%strain = max(totals%strain, more%strain)
     totals%displacement = max(totals%displacement, more%displacement)
     totals%computing = totals%computing + more%computing
@@ -182,7 +188,8 @@ contains
 
     call put_integers(buffer, [totals%variants, totals%speeds])
     call put_integers(buffer, transfer([totals%rows, totals%positions, &
-      totals%kinematic_solutions, totals%motion_steps], [0]))
+      totals%kinematic_solutions, totals%motion_steps, totals%response_speeds, &
+      totals%applications], [0]))
     call put_logicals(buffer, [totals%has_frequencies])
     call put_ledger(buffer, totals%counts)
     call put_reals(buffer, [totals%largest_error, totals%lowest%least, totals%lowest%most, &
@@ -196,8 +203,8 @@ contains
     integer, intent(inout) :: at              !! place of the first byte; on return, after the last
     type(run_totals_t), intent(out) :: totals !! with times of 0
 
-    integer(long) :: counts(4)
-    integer :: numbers(2), words(size(transfer([0_long, 0_long, 0_long, 0_long], [0])))
+    integer(long) :: counts(6)
+    integer :: numbers(2), words(size(transfer(spread(0_long, 1, 6), [0])))
     logical :: has_frequencies(1)
     real(wp) :: reals(9)
 
@@ -213,6 +220,8 @@ contains
     totals%positions = counts(2)
     totals%kinematic_solutions = counts(3)
     totals%motion_steps = counts(4)
+    totals%response_speeds = counts(5)
+    totals%applications = counts(6)
     totals%has_frequencies = has_frequencies(1)
     totals%largest_error = reals(1)
     totals%lowest = range_t(reals(2), reals(3))
