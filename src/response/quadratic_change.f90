@@ -34,8 +34,8 @@ contains
   !!
   !! Without a result: deformed so much, the linkage cannot be closed, or the iterations do not
   !! converge.
-  subroutine find_quadratic_change(linkage, grid, plan, basis, motion_plan, motion, request, speed, &
-    damping, y, change)
+  subroutine find_quadratic_change(linkage, grid, plan, basis, motion_plan, motion, request, &
+    speed, damping, y, change)
     type(linkage_t), intent(in) :: linkage          !! of the grid
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan        !! for its samples

@@ -20,6 +20,7 @@ module steady_responses
   use order_transfer, only: transferred
   use out_of_plane, only: find_out_of_plane_frequency
   use periodic_solver, only: solve_periodic
+  use quadratic_change, only: find_quadratic_change
   use response_peaks, only: find_peaks, sampled_deflections
   use response_series, only: first_gauge, first_torque, response_series_of, series_count
   use response_types, only: axial_force, axial_strain, bending_strain, damping_ratio, damping_time, &
@@ -410,6 +411,9 @@ contains
       if (allocated(found%error)) exit attempt
       call evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
         found, errors)
+      if (request%validity) call find_quadratic_change(structure%linkage, level%grid, plan, &
+        level%basis(choice%slow), plan, motion, request, speed, damping_of(request, level%grid), &
+        solution%y, found%quadratic_change)
     end block attempt
     found%applications = before + solution%applications + better%applications
     call close_fourier(above_plan)
