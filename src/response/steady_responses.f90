@@ -19,7 +19,9 @@ module steady_responses
   use link_loads, only: buckling_shares
   use link_store, only: link_store_t
   use order_transfer, only: transferred
+  use out_of_plane, only: find_out_of_plane_frequency
   use periodic_solver, only: solve_periodic
+  use quadratic_change, only: find_quadratic_change
   use response_peaks, only: find_peaks, sampled_deflections
   use response_series, only: first_gauge, first_torque, response_series_of, series_count
   use response_types, only: axial_force, axial_strain, bending_strain, damping_ratio, damping_time, &
@@ -178,7 +180,25 @@ contains
       end do
       !$omp end parallel do
     end do
+    if (request%validity) call add_out_of_plane(structure, response)
   end subroutine find_steady_responses
+
+  !> Adds the estimated frequency out of the plane, the same at all speeds: it is that at rest. A
+  !! remark does without one where there is none.
+  subroutine add_out_of_plane(structure, response)
+    class(structure_t), intent(in) :: structure
+    type(response_t), intent(inout) :: response
+
+    type(error_t), allocatable :: error
+    real(wp), allocatable :: frequency
+    integer :: k
+
+    call find_out_of_plane_frequency(structure, frequency, error)
+    if (.not. allocated(frequency)) return
+    do k = 1, size(response%at_speed)
+      response%at_speed(k)%out_of_plane = frequency
+    end do
+  end subroutine add_out_of_plane
 
   !> Finds or makes the two levels of a speed, with the slow coordinates that it needs.
   subroutine find_levels(structure, speed, store, levels, choice, error)
@@ -401,6 +421,9 @@ contains
       if (allocated(found%error)) exit attempt
       call evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
         found, errors)
+      if (request%validity) call find_quadratic_change(structure%linkage, level%grid, plan, &
+        level%basis(choice%slow), plan, motion, request, speed, damping_of(request, level%grid), &
+        solution%y, found%quadratic_change)
     end block attempt
     found%applications = before + solution%applications + better%applications
     call close_fourier(above_plan)
