@@ -282,7 +282,7 @@ class Tables:
             largest_value = max(length([row[name] for name in columns]) for row in references)
             return max(length([row[name] - other[name] for name in columns]) for row, other in zip(rows, references))/largest_value
 
-        best = self._response("1e-11")
+        best = self._response("1e-10")
         for accuracy in ("1e-2", "1e-4", "1e-6", "1e-8"):
             run, cells = self._response(accuracy), []
             for table, (key, quantities) in tables.items():
