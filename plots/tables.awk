@@ -3,6 +3,7 @@
 #                                  place, unit, least and greatest value, as gnuplot assignments
 #   want="distinct crank speed"    the distinct values of these columns, a line each, in the table's order; =crank with all digits
 #   want="moving torque O2x"       the distinct speeds at which some of these columns is not zero throughout
+#   want="displaced"               the points of response.dat that are displaced at all
 #   want="range f1 f2"             the least and the greatest value found in these columns
 #   want="positive error1 error2"  the same of values above zero; nothing if there are none
 #   want="change f1 0"             speed, crank and f1's change in percent against the rows of speed 0
@@ -92,6 +93,11 @@ asked[1] == "moving" && !($at["speed"] in moving) {
             moving[$at["speed"]] = 1
         }
     }
+}
+
+asked[1] == "displaced" && ($at["ux"] + 0 != 0 || $at["uy"] + 0 != 0) {
+    if (!($at["point"] in seen)) print $at["point"]
+    seen[$at["point"]] = 1
 }
 
 asked[1] == "range" {
