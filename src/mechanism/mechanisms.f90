@@ -1,11 +1,13 @@
 !> Model → mechanism: the linkage with its masses and loads, its beams and its mesh.
 module mechanisms
-  use attached_parts, only: apply_loads, attach_masses, body_point_t, points_of
+  use attached_parts, only: apply_loads, attach_masses, body_point_t, points_of, &
+    runs_against
   use beam_mesh, only: new_beam_mesh
   use kinds, only: wp
   use link_cards, only: has_own_mass, link_t
   use linkages, only: new_four_bar
   use models, only: branch_crossed, inertia_lumped, link_line_density, model_t
+  use response_parts, only: body_gauge_t, gauges_of, response_points_of
   use shear, only: link_rotary_inertia, link_shear_stiffness
   use structures, only: structure_t
   use text, only: same_word, string_t
@@ -20,6 +22,10 @@ module mechanisms
     real(wp) :: accuracy = 0.0_wp               !! relative, of the frequencies, where the program
                                                 !! chooses the mesh; else 0
     type(body_point_t), allocatable :: points(:) !! whose paths are requested
+    type(body_point_t), allocatable :: response_points(:) !! of REPORT response
+    type(body_gauge_t), allocatable :: gauges(:) !! of REPORT strains
+    logical, allocatable :: is_reversed(:)      !! (bodies) whose LINK card names the pins in the
+                                                !! order against the way round the loop
     type(string_t), allocatable :: names(:)     !! (bodies) of the links
     type(string_t), allocatable :: pin_names(:) !! (pins)
   end type mechanism_t
@@ -58,6 +64,9 @@ contains
     call attach_masses(model, mechanism%linkage)
     call apply_loads(model, mechanism%linkage)
     mechanism%points = points_of(model)
+    mechanism%response_points = response_points_of(model, mechanism%linkage)
+    mechanism%gauges = gauges_of(model)
+    mechanism%is_reversed = [(runs_against(model, i), i=1, size(links))]
     mechanism%names = token_texts(links%name)
     mechanism%pin_names = token_texts(model%loop_pins)
   end function new_mechanism

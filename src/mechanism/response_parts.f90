@@ -1,13 +1,14 @@
-!> Model → damping and gauges on the bodies of the linkage, for the elastic response.
+!> Model → damping, gauges and points on the bodies of the linkage, for the elastic response.
 module response_parts
-  use attached_parts, only: body_of, place_on_body, runs_against
+  use attached_parts, only: body_of, body_point_t, place_on_body, points_of, runs_against
   use kinds, only: wp
+  use linkages, only: linkage_t
   use models, only: model_t
   use response_cards, only: side_left
   implicit none (type, external)
   private
 
-  public :: body_damping_t, body_gauge_t, dampings_of, gauges_of
+  public :: body_damping_t, body_gauge_t, dampings_of, gauges_of, response_points_of
   public :: damping_none, damping_by_time, damping_by_ratio
 
   integer, parameter :: damping_none = 0, damping_by_time = 1, damping_by_ratio = 2
@@ -24,8 +25,9 @@ module response_parts
     integer :: body = 0              !! number in the linkage, from 1
     real(wp) :: place = 0.0_wp       !! from the first pin of the body, relative to its length: 0 to
                                      !! 1
-    integer :: side = 1              !! +1: on the face to the left of the direction of the body,
-                                     !! −1: to its right
+    integer :: side = 1              !! sign of its strain where the link turns left along its LINK
+                                     !! card: +1 on the right of the card's direction, −1 on the
+                                     !! left
     logical :: is_reversed = .false. !! the LINK card runs against the body: left turns along one
                                      !! are right turns along the other
   end type body_gauge_t
@@ -49,7 +51,7 @@ contains
   end function dampings_of
 
   !> The gauges in the order of the deck. In a deck without GAUGE cards there is one in the middle
-  !! of every bending link, on its left, with the name of the link.
+  !! of every bending link, on its right, with the name of the link.
   pure function gauges_of(model) result(gauges)
     type(model_t), intent(in) :: model           !! without errors
     type(body_gauge_t), allocatable :: gauges(:) !! (gauges)
@@ -60,7 +62,7 @@ contains
       allocate (gauges(size(model%gauges)))
       do i = 1, size(gauges)
         associate (card => model%gauges(i))
-          gauges(i) = gauge_on(model, card%link, card%at, card%side == side_left)
+          gauges(i) = gauge_on(model, card%link, card%at, merge(-1, 1, card%side == side_left))
           gauges(i)%name = card%name%text
         end associate
       end do
@@ -72,27 +74,59 @@ contains
       associate (link => model%links(model%loop(i)))
         if (link%rigid) cycle
         filled = filled + 1
-        gauges(filled) = gauge_on(model, model%loop(i), 0.5_wp*link%length, .true.)
+        gauges(filled) = gauge_on(model, model%loop(i), 0.5_wp*link%length, 1)
         gauges(filled)%name = link%name%text
       end associate
     end do
   end function gauges_of
 
   !> A gauge without its name, from the axes of its LINK card to those of its body.
-  pure function gauge_on(model, link, at, is_left) result(gauge)
+  pure function gauge_on(model, link, at, side) result(gauge)
     type(model_t), intent(in) :: model
-    integer, intent(in) :: link    !! number in the model's list
-    real(wp), intent(in) :: at     !! from the first pin of its card [m]
-    logical, intent(in) :: is_left !! of the direction of its card
+    integer, intent(in) :: link  !! number in the model's list
+    real(wp), intent(in) :: at   !! from the first pin of its card [m]
+    integer, intent(in) :: side  !! as in `body_gauge_t`
     type(body_gauge_t) :: gauge
 
     real(wp) :: place(2)
 
     gauge%body = body_of(model, link)
     gauge%is_reversed = runs_against(model, gauge%body)
-    place = place_on_body(model, gauge%body, [at, merge(1.0_wp, -1.0_wp, is_left)])
+    place = place_on_body(model, gauge%body, [at, 0.0_wp])
     gauge%place = place(1)/model%links(link)%length
-    gauge%side = nint(place(2))
+    gauge%side = side
   end function gauge_on
+
+  !> The points of REPORT response: for every moving pin the ends of the links that it joins, with
+  !! names as `A:crank`, in the order of the loop, then the POINTs of the deck. The links that a pin
+  !! joins have the same displacement there, and rotations of their own.
+  pure function response_points_of(model, linkage) result(points)
+    type(model_t), intent(in) :: model           !! without errors
+    type(linkage_t), intent(in) :: linkage       !! of the model
+    type(body_point_t), allocatable :: points(:) !! (points)
+
+    type(body_point_t), allocatable :: of_deck(:)
+    integer :: b, i, p, filled
+
+    of_deck = points_of(model)
+    associate (bodies => linkage%bodies, is_ground => linkage%is_ground)
+      allocate (points(count(.not. is_ground(bodies%first_pin)) + &
+        count(.not. is_ground(bodies%last_pin)) + size(of_deck)))
+      filled = 0
+      do p = 1, size(is_ground)
+        if (is_ground(p)) cycle
+        do b = 1, size(bodies)
+          if (bodies(b)%first_pin /= p .and. bodies(b)%last_pin /= p) cycle
+          filled = filled + 1
+          points(filled)%name = model%loop_pins(p)%text//":"//model%links(model%loop(b))%name%text
+          points(filled)%body = b
+          if (bodies(b)%last_pin == p) points(filled)%place = [bodies(b)%length, 0.0_wp]
+        end do
+      end do
+    end associate
+    do i = 1, size(of_deck)
+      points(filled + i) = of_deck(i)
+    end do
+  end function response_points_of
 
 end module response_parts

@@ -10,6 +10,7 @@ module report_table
   use balance_report, only: add_balance, add_harmonics, balance_notes, harmonics_notes, &
     harmonics_words
   use balance_study, only: find_balance
+  use drive_report, only: add_drive, drive_notes
   use frequency_report, only: add_frequencies, add_shapes, drawn_rows, frequency_notes, shape_notes
   use geometry_report, only: add_geometry, geometry_notes, geometry_words
   use geometry_study, only: find_geometry
@@ -27,14 +28,19 @@ module report_table
   use mesh_report, only: add_mesh, mesh_notes
   use models, only: report_number
   use motion_report, only: add_motion, motion_notes, motion_words
+  use peaks_report, only: add_peaks, peaks_notes
   use points_report, only: add_points, point_names, points_notes
   use points_study, only: find_points
   use reactions_report, only: add_reactions, reactions_notes
   use reactions_study, only: find_reactions
   use report_kinds, only: report_kind_t, table_kind_t
+  use response_notes, only: add_failed_speed, has_response
+  use response_report, only: add_response, response_notes_of, response_point_names
+  use strains_report, only: add_strains, gauge_names, strains_notes
   use table_columns, only: name_list_t, new_table_layout, table_layout_t
   use table_rows, only: add_failed_row, add_gap, rows_t
   use text, only: string_t
+  use validity_report, only: add_validity, validity_notes
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -55,6 +61,10 @@ module report_table
   character(len=*), parameter :: study_names(13) = [character(len=12) :: "kinematics", "geometry", &
     "inertia", "points", "reactions", "lagrange", "balance", "harmonics", "linkage", "response", &
     "motion", "frequencies", "loci"]
+
+  !> Tables of the elastic response with rows for every position.
+  character(len=*), parameter :: response_tables(3) = [character(len=8) :: "response", "strains", &
+    "drive"]
 
   !> Where a report has one table only.
   type(table_kind_t), parameter :: no_table = table_kind_t()
@@ -187,7 +197,6 @@ contains
           found%harmonics)
       case ("linkage")
         call find_linkage(linkage, found%linkage)
-      ! TODO response tables: case ("response") is filled in with the study
       end select
     end associate
   end subroutine find_study
@@ -244,8 +253,13 @@ contains
     case ("motion")
       names(1) = motion_words()
       plan%items = 1
-    ! TODO response tables: filled in with the study; names in the columns point, gauge and link,
-    ! and one item a speed for peaks and validity
+    case ("response")
+      names(1) = response_point_names(variant)
+    case ("strains")
+      names(1) = gauge_names(variant)
+    case ("peaks", "validity")
+      names(1) = link_names(variant)
+      plan%items = plan%speeds
     end select
     call new_table_layout(table, variant%model%outputs, count, optional, names, plan%layout)
   end subroutine plan_table
@@ -294,9 +308,16 @@ contains
       call harmonics_notes(variant, notes)
     case ("motion")
       call motion_notes(variant, notes)
-    case default
-      ! TODO response tables: filled in with the study
-      allocate (notes(0))
+    case ("response")
+      call response_notes_of(variant, notes)
+    case ("strains")
+      call strains_notes(variant, notes)
+    case ("peaks")
+      call peaks_notes(variant, notes)
+    case ("drive")
+      call drive_notes(variant, notes)
+    case ("validity")
+      call validity_notes(variant, notes)
     end select
   end subroutine table_notes
 
@@ -320,8 +341,8 @@ contains
       call add_motion(variant, plan%layout, rows)
     case ("branches")
       call add_loci(variant, plan%layout, rows)
-    case ("response", "strains", "peaks", "drive", "validity")
-      return ! TODO response tables: filled in with the study
+    case ("peaks", "validity")
+      call add_speed(plan%name, variant, plan%layout, number, rows)
     case ("shapes")
       if (number > 1) call add_gap(rows, 2)
       call add_shapes(variant, plan%layout, plan%drawn(1, number), plan%drawn(2, number), rows)
@@ -334,6 +355,46 @@ contains
     end select
   end subroutine add_item_rows
 
+  !> The rows of a speed of the elastic response, or its failure.
+  subroutine add_speed(table, variant, layout, speed, rows)
+    character(len=*), intent(in) :: table
+    type(variant_results_t), intent(in) :: variant
+    type(table_layout_t), intent(in) :: layout
+    integer, intent(in) :: speed !! number
+    type(rows_t), intent(inout) :: rows
+
+    if (.not. has_response(variant, speed)) then
+      call add_failed_speed(variant, speed, rows)
+    else if (table == "peaks") then
+      call add_peaks(variant, layout, speed, rows)
+    else
+      call add_validity(variant, layout, speed, rows)
+    end if
+  end subroutine add_speed
+
+  !> The rows of a position and speed of the elastic response. A failed speed has one row, instead
+  !! of the first position.
+  subroutine add_response_position(table, variant, layout, position, speed, rows)
+    character(len=*), intent(in) :: table
+    type(variant_results_t), intent(in) :: variant
+    type(table_layout_t), intent(in) :: layout
+    integer, intent(in) :: position, speed !! numbers
+    type(rows_t), intent(inout) :: rows
+
+    if (.not. has_response(variant, speed)) then
+      if (position == 1) call add_failed_speed(variant, speed, rows)
+      return
+    end if
+    select case (table)
+    case ("response")
+      call add_response(variant, layout, position, speed, rows)
+    case ("strains")
+      call add_strains(variant, layout, position, speed, rows)
+    case ("drive")
+      call add_drive(variant, layout, position, speed, rows)
+    end select
+  end subroutine add_response_position
+
   !> The rows of a position and speed; those of a mesh have no speed.
   subroutine add_position(table, variant, layout, position, speed, rows)
     character(len=*), intent(in) :: table
@@ -345,7 +406,9 @@ contains
     associate (positions => variant%found%positions)
       associate (state => positions%states(positions%state(position)), &
           crank => positions%crank(position))
-        if (table == "frequencies") then
+        if (any(table == response_tables)) then
+          call add_response_position(table, variant, layout, position, speed, rows)
+        else if (table == "frequencies") then
           call add_frequencies(variant, layout, position, speed, rows)
         else if (allocated(state%error) .and. table == "mesh") then
           call add_failed_row(rows, [crank], state%error%text)

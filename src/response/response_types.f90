@@ -31,8 +31,11 @@ module response_types
   !> A place on a link that bends.
   type :: gauge_t
     integer :: body = 0
-    real(wp) :: xi = 0.5_wp   !! from 0 to 1 along the body, in its direction round the loop
-    real(wp) :: side = 1.0_wp !! −1: bending strain, moment and shear force change their sign
+    real(wp) :: xi = 0.5_wp    !! from 0 to 1 along the body, in its direction round the loop
+    real(wp) :: sense = 1.0_wp !! −1: the deck's link runs the other way, so that curvature and moment
+                               !! change their sign; the shear force does not
+    real(wp) :: side = 1.0_wp  !! of the strain of bending: 1 on the face that is stretched where the
+                               !! deck's link turns left, −1 on the other
   end type gauge_t
 
   !> A point of a link whose displacement is wanted.
@@ -85,7 +88,10 @@ module response_types
     real(wp), allocatable :: buckling(:)            !! (bodies) largest compression of the rigid
                                                     !! linkage / that at which the link buckles as
                                                     !! pinned
-    real(wp), allocatable :: quadratic_change(:)    !! (bodies) of the largest strain
+    real(wp), allocatable :: quadratic_change(:)    !! (bodies) of the largest strain; unallocated:
+                                                    !! not estimated
+    real(wp), allocatable :: out_of_plane           !! first frequency of vibrations out of the plane
+                                                    !! of motion [Hz]; unallocated: not estimated
     complex(wp), allocatable :: multiplier(:)       !! of a turn, of the slow vibrations
     real(wp) :: distance = 0.0_wp                   !! least |1 − multiplier|
     real(wp) :: distance_error = 0.0_wp

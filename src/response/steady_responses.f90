@@ -14,6 +14,7 @@ module steady_responses
     resampled, value_at, values_of
   use kinds, only: long, wp
   use link_degrees, only: link_degrees_t, uniform_degrees
+  use link_loads, only: buckling_shares
   use link_store, only: link_store_t
   use order_transfer, only: transferred
   use periodic_solver, only: solve_periodic
@@ -438,6 +439,7 @@ contains
     call evaluate_gauges
     call evaluate_drive
     call evaluate_peaks
+    if (request%validity) found%buckling = buckling_shares(structure%linkage, level%grid, speed)
     found%largest_error = max(maxval([0.0_wp, found%displacement_error]), &
       maxval([0.0_wp, found%strain_error]), found%drive_error, maxval([0.0_wp, found%peak_error]))
 
@@ -456,10 +458,10 @@ contains
           do k = 1, size(request%crank)
             associate (axial => at_position(first, k), curvature => at_position(first + 1, k))
               found%strain(axial_strain, g, k) = axial
-              found%strain(bending_strain, g, k) = gauge%side*section%outer*curvature
-              found%strain(moment, g, k) = gauge%side*beam%bending_stiffness*curvature
+              found%strain(bending_strain, g, k) = gauge%side*gauge%sense*section%outer*curvature
+              found%strain(moment, g, k) = gauge%sense*beam%bending_stiffness*curvature
               found%strain(axial_force, g, k) = beam%axial_stiffness*axial
-              found%strain(shear_force, g, k) = gauge%side*at_position(first + 2, k)
+              found%strain(shear_force, g, k) = at_position(first + 2, k)
               found%strain(stress, g, k) = section%modulus*(abs(axial) + &
                 section%outer*abs(curvature))
             end associate

@@ -7,15 +7,19 @@ module study_requests
   use load_cases, only: has_constant_loads
   use mechanisms, only: mechanism_t
   use models, only: effects_static, inertia_lumped, model_t, needs_loads, needs_study, &
-    report_number, solver_band, solver_dense
+    report_number, response_accuracy, solver_band, solver_dense
   use motion_study, only: motion_request_t
   use positions, only: positions_t
+  use response_parts, only: body_damping_t, damping_by_ratio, damping_by_time, dampings_of
+  use response_types, only: damping_ratio, damping_time, gauge_t, link_damping_t, link_section_t, &
+    no_damping, response_point_t, response_request_t
+  use sections, only: outer_distance
   use vibration_models, only: any_method, by_band, by_dense, chosen_method, mode_request_t
   implicit none (type, external)
   private
 
   public :: mode_request_of, method_wanted, drawn_states, motion_request_of, &
-    motion_instants_of
+    motion_instants_of, response_request_of
 
 contains
 
@@ -101,6 +105,58 @@ contains
     number = report_number(model, "motion")
     if (number > 0) instants = size(model%reports(number)%instants%value)
   end function motion_instants_of
+
+  !> The requested elastic response: what its reports need and no more.
+  pure function response_request_of(model, mechanism) result(request)
+    type(model_t), intent(in) :: model         !! with a report on the response
+    type(mechanism_t), intent(in) :: mechanism !! of the model
+    type(response_request_t) :: request
+
+    type(body_damping_t) :: dampings(size(model%loop))
+    integer :: b, i
+
+    request%speed = model%speed%value
+    request%crank = model%crank%value
+    request%accuracy = response_accuracy(model)
+    request%terms%coriolis = .not. model%without%coriolis
+    request%terms%centripetal = .not. model%without%centripetal
+    request%terms%axial = .not. model%without%axial
+    request%terms%quadratic = .not. model%without%quadratic
+    request%peaks = report_number(model, "peaks") > 0
+    request%validity = report_number(model, "validity") > 0
+    dampings = dampings_of(model)
+    allocate (request%damping(size(dampings)), request%section(size(dampings)))
+    do b = 1, size(dampings)
+      select case (dampings(b)%kind)
+      case (damping_by_time)
+        request%damping(b) = link_damping_t(damping_time, dampings(b)%value)
+      case (damping_by_ratio)
+        request%damping(b) = link_damping_t(damping_ratio, dampings(b)%value)
+      case default
+        request%damping(b) = link_damping_t(no_damping, 0.0_wp)
+      end select
+      associate (link => model%links(model%loop(b)))
+        if (link%section > 0) request%section(b)%outer = &
+          outer_distance(model%sections(link%section))
+        if (link%material > 0) request%section(b)%modulus = &
+          model%materials(link%material)%youngs_modulus
+      end associate
+    end do
+    allocate (request%gauges(merge(size(mechanism%gauges), 0, report_number(model, "strains") > 0)))
+    do i = 1, size(request%gauges)
+      associate (gauge => mechanism%gauges(i))
+        request%gauges(i) = gauge_t(gauge%body, gauge%place, merge(-1.0_wp, 1.0_wp, &
+          gauge%is_reversed), real(gauge%side, wp))
+      end associate
+    end do
+    allocate (request%points(merge(size(mechanism%response_points), 0, report_number(model, &
+      "response") > 0)))
+    do i = 1, size(request%points)
+      associate (point => mechanism%response_points(i))
+        request%points(i) = response_point_t(point%body, point%place)
+      end associate
+    end do
+  end function response_request_of
 
   !> The motor on the driven link; without MOTOR its torque is 0.
   pure function drive_of(model) result(drive)

@@ -16,7 +16,8 @@ module variant_runs
   use progress, only: progress_t, show_progress
   use reach_texts, only: open_linkage_text, reachable_text
   use report_table, only: find_study, study_names
-  use study_requests, only: drawn_states, mode_request_of, motion_request_of
+  use response_study, only: find_response
+  use study_requests, only: drawn_states, mode_request_of, motion_request_of, response_request_of
   use sweep_bytes, only: get_result, put_result
   use sweeps, only: sweep_t
   use task_journal, only: journal_t
@@ -90,6 +91,8 @@ contains
         select case (study_names(i))
         case ("motion")
           call compute_motion(run)
+        case ("response")
+          call compute_response(run, threads, store)
         case ("frequencies")
           call compute_sweep(run, threads, journal, group, store, error)
           if (allocated(error)) return
@@ -148,6 +151,24 @@ contains
     end associate
   end subroutine compute_motion
 
+  !> The elastic response at all speeds.
+  subroutine compute_response(run, threads, store)
+    type(variant_run_t), intent(inout) :: run
+    integer, intent(in) :: threads
+    type(link_store_t), intent(inout) :: store
+
+    integer :: k
+
+    associate (mechanism => run%results%mechanism, response => run%results%found%response)
+      call find_response(mechanism%structure_t, response_request_of(run%results%model, mechanism), &
+        threads, store, response)
+      do k = 1, size(response%at_speed)
+        if (.not. allocated(response%at_speed(k)%error)) cycle
+        call name_link(mechanism%names, response%at_speed(k)%error)
+      end do
+    end associate
+  end subroutine compute_response
+
   !> Frequencies at every position that has a pose. Positions that need higher orders than the
   !! samples by which orders were chosen are solved again, with orders chosen for them.
   subroutine compute_sweep(run, threads, journal, group, store, error)
@@ -198,13 +219,18 @@ contains
       if (.not. allocated(sweep%results(i)%outcome)) cycle
       do k = 1, size(sweep%results(i)%outcome)
         if (.not. allocated(sweep%results(i)%outcome(k)%error)) cycle
-        associate (error => sweep%results(i)%outcome(k)%error)
-          if (error%place%body > 0) error%text = "link '"//names(error%place%body)%text//"': "// &
-            error%text
-        end associate
+        call name_link(names, sweep%results(i)%outcome(k)%error)
       end do
     end do
   end subroutine name_links
+
+  !> Puts the name of the link before an error that is about one.
+  pure subroutine name_link(names, error)
+    type(string_t), intent(in) :: names(:) !! (bodies) of the links
+    type(error_t), intent(inout) :: error
+
+    if (error%place%body > 0) error%text = "link '"//names(error%place%body)%text//"': "//error%text
+  end subroutine name_link
 
   !> Solves a block of the sweep.
   subroutine run_block(self, number)

@@ -12,6 +12,7 @@ module study_results
   use motion_study, only: motion_result_t
   use positions, only: positions_t
   use reactions_study, only: reactions_result_t
+  use response_types, only: response_t
   use sweeps, only: sweep_t
   implicit none (type, external)
   private
@@ -33,6 +34,7 @@ module study_results
     type(motion_result_t) :: motion
     type(sweep_t) :: sweep
     type(loci_t) :: loci
+    type(response_t) :: response
   end type study_results_t
 
 end module study_results

@@ -91,7 +91,7 @@ module card_table
     card_kind_t("POINT", least=2, most=2, pattern="POINT name link along= [offset=]", &
       entry="offset=0", help="a point of a link, for REPORT points"), &
     card_kind_t("GAUGE", least=2, most=2, pattern="GAUGE name link at= [side=left|right]", &
-      choices="left right", entry="side=left", help="a strain gauge, for REPORT strains"), &
+      choices="left right", entry="side=right", help="a strain gauge, for REPORT strains"), &
     card_kind_t("DAMPING", least=1, most=many, &
       pattern="DAMPING link ... time=, or DAMPING link ... ratio=, with * for all other links", &
       help="the damping of links that bend, in their elastic response"), &

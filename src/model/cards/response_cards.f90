@@ -42,7 +42,7 @@ module response_cards
     integer :: link = 0        !! number in the model's list; 0: unknown
     real(wp) :: at = 0.0_wp    !! from the first pin of the LINK card along the link [m]
     type(token_t) :: at_word   !! value of `at=`, or the keyword without one
-    integer :: side = side_left !! looking from the first pin of the LINK card to the second
+    integer :: side = side_right !! looking from the first pin of the LINK card to the second
   end type gauge_t
 
   !> Terms that are left out of the equations of the response.

@@ -14,7 +14,7 @@ module sections
   implicit none (type, external)
   private
 
-  public :: section_t, read_section
+  public :: outer_distance, section_t, read_section
   public :: shape_rectangle, shape_circle, shape_tube, shape_box, shape_i, shape_channel, &
     shape_general
 
@@ -37,6 +37,16 @@ module sections
     shape_i = 5, shape_channel = 6, shape_general = 7
 
 contains
+
+  !> Largest distance of a fibre from the centroid, in the plane of motion [m].
+  elemental function outer_distance(section) result(distance)
+    type(section_t), intent(in) :: section !! as read, with a depth
+    real(wp) :: distance
+
+    distance = 0.5_wp*section%depth
+    if (section%walls%depth > 0.0_wp) distance = max(section%walls%centroid, &
+      section%walls%depth - section%walls%centroid)
+  end function outer_distance
 
   !> Reads `SECTION name rectangle thickness= width= | circle diameter= | tube outer= inner= |
   !! box thickness= width= wall= | I or channel depth= width= web= flange= plane=web|flanges |

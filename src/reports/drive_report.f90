@@ -1,0 +1,63 @@
+!> `drive.dat`: the driving torque of the elastic linkage with its parts, and the power.
+module drive_report
+  use position_rows, only: add_position_row
+  use response_notes, only: append_response_notes
+  use table_columns, only: table_layout_t, table_unit
+  use table_rows, only: rows_t
+  use text, only: append_string, string_t, to_string
+  use units, only: from_si, unit_t
+  use variant_results, only: variant_results_t
+  implicit none (type, external)
+  private
+
+  public :: drive_notes, add_drive
+
+contains
+
+  !> Meaning of the columns, mean torques, and what all tables of the response say.
+  pure subroutine drive_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its response computed
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    call append_string(notes, "torque of the drive on link "//variant%mechanism%names(1)%text// &
+      ", counter-clockwise positive; rigid: of the rigid linkage; linear, quadratic: what the "// &
+      "deformations add, in terms linear and quadratic in them; total: the sum; power: total x "// &
+      "speed")
+    if (variant%model%without%quadratic) call append_string(notes, "quadratic: left out by "// &
+      "EFFECTS response: 0, and not in the total")
+    call append_means(notes, variant)
+    call append_response_notes(notes, variant)
+  end subroutine drive_notes
+
+  !> The mean torque of the only speed: over a turn it does as much work as damping takes.
+  pure subroutine append_means(notes, variant)
+    type(string_t), allocatable, intent(inout) :: notes(:)
+    type(variant_results_t), intent(in) :: variant
+
+    type(unit_t) :: moment
+
+    associate (at_speed => variant%found%response%at_speed)
+      if (size(at_speed) /= 1) return
+      if (allocated(at_speed(1)%error)) return
+      moment = table_unit("moment", variant%model%outputs)
+      call append_string(notes, "mean of total over the turn: "// &
+        to_string(from_si(at_speed(1)%mean_torque, moment), 12)//" "//moment%name// &
+        "; times the speed it is the power that damping takes")
+    end associate
+  end subroutine append_means
+
+  !> Appends the row of a position and speed.
+  subroutine add_drive(variant, layout, position, speed, rows)
+    type(variant_results_t), intent(in) :: variant !! with a response at this speed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which it is appended
+
+    associate (found => variant%found%response%at_speed(speed))
+      call add_position_row(variant, layout, position, speed, [found%drive(:, position), &
+        found%drive_error], rows)
+    end associate
+  end subroutine add_drive
+
+end module drive_report

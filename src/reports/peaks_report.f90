@@ -1,0 +1,67 @@
+!> `peaks.dat`: the largest strain, stress and deflection of every link that bends, and the power
+!! lost in it.
+module peaks_report
+  use kinds, only: wp
+  use response_notes, only: append_response_notes
+  use response_types, only: peak_t
+  use table_columns, only: cells, column_width, table_layout_t
+  use table_rows, only: add_row, rows_t
+  use tables, only: name_cell
+  use text, only: append_string, string_t
+  use variant_results, only: variant_results_t
+  implicit none (type, external)
+  private
+
+  public :: peaks_notes, add_peaks
+
+contains
+
+  !> Meaning of the columns, and what all tables of the response say.
+  pure subroutine peaks_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its response computed
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    call append_string(notes, "largest values over the turn and along the link, also between the "// &
+      "crank angles of the deck; strain: |axial| + |bending| at the fibre farthest from the "// &
+      "centroid; stress: E x strain; deflection: from where the rigid link would be")
+    call append_string(notes, "..._at: distance from the first pin of the LINK card; ..._crank: "// &
+      "crank angle; power: mean lost to damping in the link")
+    call append_response_notes(notes, variant)
+  end subroutine peaks_notes
+
+  !> Appends the rows of a speed, one per link that bends.
+  subroutine add_peaks(variant, layout, speed, rows)
+    type(variant_results_t), intent(in) :: variant !! with a response at this speed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
+
+    integer :: b
+
+    associate (found => variant%found%response%at_speed(speed), mechanism => variant%mechanism)
+      do b = 1, size(mechanism%names)
+        if (.not. mechanism%linkage%bodies(b)%bends) cycle
+        call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed)])// &
+          name_cell(mechanism%names(b)%text, column_width(layout, 2))//cells(layout, 3, &
+          [peak_values(found%largest_strain(b)), peak_values(found%largest_stress(b)), &
+          peak_values(found%largest_deflection(b)), found%power_lost(b), found%peak_error(b)]))
+      end do
+    end associate
+
+  contains
+
+    !> Value, place on the link of the deck [m], crank angle [deg].
+    pure function peak_values(peak) result(values)
+      type(peak_t), intent(in) :: peak
+      real(wp) :: values(3)
+
+      real(wp) :: xi
+
+      xi = peak%xi
+      if (variant%mechanism%is_reversed(b)) xi = 1.0_wp - xi
+      values = [peak%value, xi*variant%mechanism%linkage%bodies(b)%length, peak%crank]
+    end function peak_values
+
+  end subroutine add_peaks
+
+end module peaks_report

@@ -1,0 +1,67 @@
+!> `response.dat`: displacements of pins and points from where they are with rigid links.
+module response_report
+  use constants, only: degree
+  use response_notes, only: append_response_notes
+  use table_columns, only: cells, column_width, name_list_t, table_layout_t
+  use table_rows, only: add_row, rows_t
+  use tables, only: name_cell
+  use text, only: append_string, string_t
+  use variant_results, only: variant_results_t
+  implicit none (type, external)
+  private
+
+  public :: response_notes_of, response_point_names, add_response
+
+contains
+
+  !> Meaning of the columns, and what all tables of the response say.
+  pure subroutine response_notes_of(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its response computed
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    call append_string(notes, "ux, uy: displacement from the place that the point has with "// &
+      "rigid links at the same crank angle, in global axes; rotation: of the link there, "// &
+      "counter-clockwise")
+    call append_string(notes, "A:crank: pin A as the end of link crank, and so on: the links at "// &
+      "a pin have one displacement there, and rotations of their own")
+    call append_response_notes(notes, variant)
+  end subroutine response_notes_of
+
+  !> The names in the column `point`.
+  pure function response_point_names(variant) result(list)
+    type(variant_results_t), intent(in) :: variant !! with its mechanism
+    type(name_list_t) :: list
+
+    integer :: i
+
+    list%column = "point"
+    allocate (list%names(size(variant%mechanism%response_points)))
+    do i = 1, size(list%names)
+      list%names(i)%text = variant%mechanism%response_points(i)%name
+    end do
+  end function response_point_names
+
+  !> Appends the rows of a position and speed, one per point.
+  subroutine add_response(variant, layout, position, speed, rows)
+    type(variant_results_t), intent(in) :: variant !! with a response at this speed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
+
+    integer :: i
+
+    associate (found => variant%found%response%at_speed(speed), &
+        points => variant%mechanism%response_points)
+      do i = 1, size(points)
+        associate (u => found%displacement(:, i, position))
+          call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed), &
+            variant%found%positions%crank(position)])//name_cell(points(i)%name, &
+            column_width(layout, 3))//cells(layout, 4, [u(1), u(2), u(3)/degree, &
+            found%displacement_error(i)]))
+        end associate
+      end do
+    end associate
+  end subroutine add_response
+
+end module response_report

@@ -1,0 +1,94 @@
+!> `strains.dat`: strains, forces and stresses at the gauges.
+module strains_report
+  use body_lines, only: place_words
+  use kinds, only: wp
+  use response_notes, only: append_response_notes
+  use table_columns, only: cells, column_width, name_list_t, table_layout_t, table_unit
+  use table_rows, only: add_row, rows_t
+  use tables, only: name_cell
+  use text, only: append_string, string_t
+  use variant_results, only: variant_results_t
+  implicit none (type, external)
+  private
+
+  public :: strains_notes, gauge_names, add_strains
+
+contains
+
+  !> Meaning of the columns, place of every gauge, and what all tables of the response say.
+  pure subroutine strains_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its response computed
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    integer :: i
+
+    call append_string(notes, "axial_strain: of the axis, stretched positive; bending_strain: of "// &
+      "the face of the gauge, positive on the right face where the link turns left along its "// &
+      "LINK card")
+    call append_string(notes, "moment: positive where the link turns left; axial_force: tension "// &
+      "positive; shear_force: on the part before the gauge by the part beyond, to the left "// &
+      "positive; all looking along the LINK card, whatever the side of the gauge")
+    call append_string(notes, "stress: largest of the section, E(|axial strain| + |bending "// &
+      "strain|) at the fibre farthest from the centroid")
+    do i = 1, size(variant%mechanism%gauges)
+      call append_string(notes, gauge_words(variant, i))
+    end do
+    call append_response_notes(notes, variant)
+  end subroutine strains_notes
+
+  !> `gauge mid: on link coupler, 139.7 mm from A, right`
+  pure function gauge_words(variant, number) result(words)
+    type(variant_results_t), intent(in) :: variant
+    integer, intent(in) :: number
+    character(len=:), allocatable :: words
+
+    real(wp) :: place
+
+    associate (model => variant%model, gauge => variant%mechanism%gauges(number))
+      associate (link => model%links(model%loop(gauge%body)))
+        place = gauge%place*link%length
+        if (gauge%is_reversed) place = (1.0_wp - gauge%place)*link%length
+        if (size(model%gauges) > 0) place = model%gauges(number)%at
+        words = "gauge "//gauge%name//": on link "//link%name%text//", "// &
+          place_words([place, 0.0_wp], table_unit("length", model%outputs))//" from "// &
+          link%pin(1)%text//", "//trim(merge("right", "left ", gauge%side > 0))//" face"
+      end associate
+    end associate
+  end function gauge_words
+
+  !> The names in the column `gauge`.
+  pure function gauge_names(variant) result(list)
+    type(variant_results_t), intent(in) :: variant !! with its mechanism
+    type(name_list_t) :: list
+
+    integer :: i
+
+    list%column = "gauge"
+    allocate (list%names(size(variant%mechanism%gauges)))
+    do i = 1, size(list%names)
+      list%names(i)%text = variant%mechanism%gauges(i)%name
+    end do
+  end function gauge_names
+
+  !> Appends the rows of a position and speed, one per gauge.
+  subroutine add_strains(variant, layout, position, speed, rows)
+    type(variant_results_t), intent(in) :: variant !! with a response at this speed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
+
+    integer :: i
+
+    associate (found => variant%found%response%at_speed(speed), &
+        gauges => variant%mechanism%gauges)
+      do i = 1, size(gauges)
+        call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed), &
+          variant%found%positions%crank(position)])//name_cell(gauges(i)%name, &
+          column_width(layout, 3))//cells(layout, 4, [found%strain(:, i, position), &
+          found%strain_error(i)]))
+      end do
+    end associate
+  end subroutine add_strains
+
+end module strains_report

@@ -1,0 +1,76 @@
+!> `validity.dat`: what the linear equations of the response suppose, against what was found.
+module validity_report
+  use kinds, only: wp
+  use number_text, only: number_width
+  use response_notes, only: append_response_notes
+  use response_study, only: distance_from_circle
+  use response_types, only: speed_response_t
+  use table_columns, only: cells, column_width, table_layout_t
+  use table_rows, only: add_row, rows_t
+  use tables, only: name_cell
+  use text, only: append_string, string_t
+  use variant_results, only: variant_results_t
+  implicit none (type, external)
+  private
+
+  public :: validity_notes, add_validity
+
+contains
+
+  !> Meaning of the columns, and what all tables of the response say.
+  pure subroutine validity_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its response computed
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    call append_string(notes, "deflection: largest over the turn / length of the link; load: "// &
+      "largest compression of the rigid motion / that at which the link buckles as pinned at "// &
+      "both ends, below 0: never compressed")
+    call append_string(notes, "quadratic: estimated relative change of the largest strain by "// &
+      "terms that the linear equations leave out; out_of_plane: estimated first frequency of "// &
+      "vibrations out of the plane of motion; -: not estimated")
+    call append_string(notes, "distance: of the nearest multiplier of a turn from the circle "// &
+      "|rho| = 1, where vibrations neither grow nor fade; error: its estimated error")
+    call append_response_notes(notes, variant)
+  end subroutine validity_notes
+
+  !> Appends the rows of a speed, one per link that bends.
+  subroutine add_validity(variant, layout, speed, rows)
+    type(variant_results_t), intent(in) :: variant !! with a response at this speed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
+
+    integer :: b
+
+    associate (found => variant%found%response%at_speed(speed), mechanism => variant%mechanism)
+      do b = 1, size(mechanism%names)
+        associate (body => mechanism%linkage%bodies(b))
+          if (.not. body%bends) cycle
+          call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed)])// &
+            name_cell(mechanism%names(b)%text, column_width(layout, 2))//cells(layout, 3, &
+            [found%largest_deflection(b)%value/body%length, found%buckling(b)])// &
+            estimated_cells(layout, found, b)//cells(layout, 7, [distance_from_circle(found), &
+            found%distance_error]))
+        end associate
+      end do
+    end associate
+  end subroutine add_validity
+
+  !> The columns `quadratic` and `out_of_plane`: a bar where there is no estimate.
+  function estimated_cells(layout, found, body) result(text)
+    type(table_layout_t), intent(in) :: layout
+    type(speed_response_t), intent(in) :: found
+    integer, intent(in) :: body
+    character(len=2*number_width) :: text
+
+    character(len=number_width) :: quadratic, out_of_plane
+
+    quadratic = name_cell("-", number_width)
+    out_of_plane = quadratic
+    if (allocated(found%quadratic_change)) quadratic = cells(layout, 5, &
+      [found%quadratic_change(body)])
+    if (allocated(found%out_of_plane)) out_of_plane = cells(layout, 6, [found%out_of_plane])
+    text = quadratic//out_of_plane
+  end function estimated_cells
+
+end module validity_report
