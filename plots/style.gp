@@ -122,7 +122,7 @@ is_named(column, name) = sprintf("$%d \"\" == \"%s\"", value("col_".column), nam
 is_at(column, number) = sprintf("($%d - %s)^2 <= 1e-18*(1 + $%d^2)", value("col_".column), number, value("col_".column))
 repeated(k, text) = k < 1 ? "" : repeated(k - 1, text)." ".text
 words_in(table, want) = system(ask(table, want)." | sed 's/.*/\"&\"/'")     # every line of an answer a word, whatever is in it
-names_in(table, name) = words_in(table, "distinct ".name)
+names_in(table, name) = words_in(table, "names ".name)
 
 # ---- Words ----------------------------------------------------------------------------------------------------
 
@@ -191,7 +191,6 @@ heading = !titled ? "" : label_of(901, "headline", heading_room, 23, 14, "down(3
 # An axis has ticks of one form: all with as many decimals, and of large or small values a power of a thousand in its title,
 # as a prefix where the unit takes one. Lengths are in pixels; a value axis is for values between low and high.
 
-logarithmic = ""                                    # numbers of the panels of panels.gp with such an axis
 from_zero = 1                                       # values far from zero only have an axis without it
 constant(low, high) = high - low <= 1e-9*larger(abs(low), abs(high))
 value_bottom(low, high) = constant(low, high) ? (low == 0 ? -1.0 : low > 0 ? 0.0 : 1.25*low) \
@@ -233,7 +232,7 @@ log_tick(digit, power, few, step, plain) = sprintf("'%s' %.15g %d", log_shown(di
 log_list(k, last, few, step, plain) = k > last ? "" : (k%9 == 0 || step == 1 ? (k > 0 ? ", " : "").\
     log_tick(1 + k%9, log_first + k/9, few, step, plain) : "").log_list(k + 1, last, few, step, plain)
 log_ticks(low, high, length) = (log_first = int(floor(log10(log_bottom(low)))), \
-    log_list(0, 9*int(ceil(log10(log_top(high))) - log_first), decades(low, high) < 1.8 && length > 150, \
+    log_list(0, 9*int(ceil(log10(log_top(high))) - log_first), decades(low, high) < 2.6 && length > 150, \
         log_step(low, high, length), log_plain(low, high)))
 log_axis(low, high, length) = sprintf("set logscale y; set yrange [%.15g:%.15g]; set ytics (%s); ", log_bottom(low), log_top(high), \
     log_ticks(low, high, length))."unset xzeroaxis"
@@ -264,6 +263,12 @@ axis_title(text, base, length) = sprintf("title_font = %d; ", title_lines(text, 
 quoted_twice(text) = "\"".escaped(text)."\""
 escaped(text) = text eq "" ? "" : (text[1:1] eq "\n" ? "\\n" : text[1:1] eq "\\" || text[1:1] eq "\"" ? "\\".text[1:1] : text[1:1])\
     .escaped(text[2:*])
+
+# Of the panels of panels.gp: whether one has a logarithmic axis, what its axis takes in besides the curves, and what is done
+# before it is drawn.
+is_logarithmic(panel) = 0
+also_shown(panel) = NaN
+before_panel(panel) = ""
 
 # ---- Curves against the crank angle ---------------------------------------------------------------------------
 # The legend stands in columns of its own at the right, so it never meets a curve; what is beyond three columns is counted.
