@@ -41,7 +41,7 @@ contains
       if (allocated(at_speed(1)%error)) return
       moment = table_unit("moment", variant%model%outputs)
       call append_string(notes, "mean of total over the turn: "// &
-        to_string(from_si(at_speed(1)%mean_torque, moment), 12)//" "//moment%name// &
+        to_string(from_si(at_speed(1)%mean_torque, moment), 8)//" "//moment%name// &
         "; times the speed it is the power that damping takes")
     end associate
   end subroutine append_means

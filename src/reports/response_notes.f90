@@ -1,13 +1,18 @@
 !> Remarks and failed rows that all tables of the elastic response have.
 module response_notes
-  use models, only: inertia_lumped, response_accuracy
+  use kinds, only: long, wp
+  use models, only: inertia_lumped, response_accuracy, speed_in_words
+  use response_study, only: distance_from_circle, largest_deflection
   use table_rows, only: add_failed_row, rows_t
   use text, only: append_string, string_t, to_string
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
 
-  public :: append_response_notes, damping_note, without_note, has_response, add_failed_speed
+  public :: append_response_notes, damping_note, without_note, has_response, add_failed_speed, &
+    response_log
+
+  character(len=*), parameter :: line_feed = achar(10)
 
 contains
 
@@ -102,6 +107,67 @@ contains
     end associate
     note = "terms left out by EFFECTS response: "//note(3:)
   end function without_note
+
+  !> Log lines: damping, terms left out, how the response was found, its error, and what limits it.
+  pure function response_log(variant) result(text)
+    type(variant_results_t), intent(in) :: variant !! with its response computed
+    character(len=:), allocatable :: text
+
+    integer :: range(2, 3), k, found, body, speed
+    integer(long) :: applications
+    real(wp) :: error, share, distance, here
+
+    text = "response: "//damping_note(variant)//line_feed
+    if (variant%model%without%keyword%line > 0) text = text//"response: "//without_note(variant)// &
+      line_feed
+    range(1, :) = huge(1)
+    range(2, :) = 0
+    found = 0
+    applications = 0_long
+    error = 0.0_wp
+    distance = huge(1.0_wp)
+    speed = 0
+    associate (at_speed => variant%found%response%at_speed, model => variant%model, &
+        mechanism => variant%mechanism)
+      do k = 1, size(at_speed)
+        applications = applications + at_speed(k)%applications
+        if (allocated(at_speed(k)%error)) cycle
+        found = found + 1
+        call widen(range, [at_speed(k)%order, at_speed(k)%samples, at_speed(k)%slow])
+        error = max(error, at_speed(k)%largest_error)
+        here = distance_from_circle(at_speed(k))
+        if (here >= distance) cycle
+        distance = here
+        speed = k
+      end do
+      if (found == 0) then
+        text = text//"response: at no speed"//line_feed
+        return
+      end if
+      text = text//"response: orders "//range_words(range(:, 1))//", "// &
+        range_words(range(:, 2))//" crank angles, "//range_words(range(:, 3))// &
+        " slow coordinates; "//to_string(applications)//" applications of the equation; "// &
+        "largest estimated error "//to_string(error, 2)//line_feed
+      text = text//"response: nearest multiplier of a turn to |rho| = 1 at speed "// &
+        speed_in_words(model, speed, model%speed%value(speed))//", distance "// &
+        to_string(distance, 3)//line_feed
+      call largest_deflection(variant%found%response, mechanism%linkage%bodies%length, share, &
+        body, speed)
+      if (body == 0) return
+      text = text//"response: largest deflection "//to_string(100.0_wp*share, 3)// &
+        " % of the length, of link "//mechanism%names(body)%text//" at speed "// &
+        speed_in_words(model, speed, model%speed%value(speed))//line_feed
+    end associate
+  end function response_log
+
+  !> Takes numbers into ranges.
+  pure subroutine widen(range, values)
+    integer, intent(inout) :: range(:, :) !! (least and most, quantities)
+    integer, intent(in) :: values(:)
+
+    range(1, :) = min(range(1, :), values)
+    range(2, :) = max(range(2, :), values)
+  end subroutine widen
 
   !> Whether there is a response at a speed.
   pure function has_response(variant, speed) result(has)

@@ -13,7 +13,10 @@ module response_peaks
   implicit none (type, external)
   private
 
-  public :: find_peaks
+  public :: find_peaks, sampled_deflections
+
+  !> Places along a link for a quick look at its deflection.
+  real(wp), parameter :: quick_places(5) = [0.0_wp, 0.25_wp, 0.5_wp, 0.75_wp, 1.0_wp]
 
   !> Intervals between the places looked at, for each piece of a link.
   integer, parameter :: intervals = 32
@@ -23,6 +26,24 @@ module response_peaks
   real(wp), parameter :: narrowing = 0.4_wp
 
 contains
+
+  !> The largest deflection of every link at a few places and the samples of the turn; zeros of rigid
+  !! ones [m].
+  pure function sampled_deflections(grid, y) result(deflection)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp), intent(in) :: y(:, :) !! (samples, unknowns) [√J]
+    real(wp) :: deflection(size(grid%integrals))
+
+    real(wp) :: moved(size(y, 1), 2, size(quick_places))
+    integer :: b
+
+    deflection = 0.0_wp
+    do b = 1, size(deflection)
+      if (.not. grid%model%links(b)%bends) cycle
+      call displacements_along(grid, b, quick_places, y, moved)
+      deflection(b) = sqrt(maxval(sum(moved**2, dim=2)))
+    end do
+  end function sampled_deflections
 
   !> Finds the largest values of all links; zeros of rigid ones.
   subroutine find_peaks(grid, plan, request, y, found)

@@ -83,6 +83,8 @@ module response_types
     type(peak_t), allocatable :: largest_strain(:)     !! (bodies) [-]
     type(peak_t), allocatable :: largest_stress(:)     !! (bodies) [Pa]
     type(peak_t), allocatable :: largest_deflection(:) !! (bodies) [m]
+    real(wp), allocatable :: deflection(:)          !! (bodies) largest at a few places and the samples
+                                                    !! of the turn, whatever is asked for [m]
     real(wp), allocatable :: power_lost(:)          !! (bodies) mean over the turn [W]
     real(wp), allocatable :: peak_error(:)          !! (bodies)
     real(wp), allocatable :: buckling(:)            !! (bodies) largest compression of the rigid

@@ -12,13 +12,14 @@ module steady_responses
   use errors, only: error_t
   use fourier_transform, only: close_fourier, coefficients_of, fourier_plan_t, open_fourier, &
     resampled, value_at, values_of
+  use interruption, only: was_interrupted
   use kinds, only: long, wp
   use link_degrees, only: link_degrees_t, uniform_degrees
   use link_loads, only: buckling_shares
   use link_store, only: link_store_t
   use order_transfer, only: transferred
   use periodic_solver, only: solve_periodic
-  use response_peaks, only: find_peaks
+  use response_peaks, only: find_peaks, sampled_deflections
   use response_series, only: first_gauge, first_torque, response_series_of, series_count
   use response_types
   use slow_motions, only: new_slow_basis, new_slow_motion, slow_basis_t, slow_count, &
@@ -134,6 +135,9 @@ contains
       end do
       !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
       do i = 1, size(pending)
+        ! An interrupted run leaves no results.
+        choice(pending(i))%pending = .not. was_interrupted()
+        if (.not. choice(pending(i))%pending) cycle
         associate (here => choice(pending(i)))
           call solve_speed(structure, request, request%speed(pending(i)), levels(here%level(1)), &
             levels(here%level(2)), here, response%at_speed(pending(i)))
@@ -439,6 +443,7 @@ contains
     call evaluate_gauges
     call evaluate_drive
     call evaluate_peaks
+    found%deflection = sampled_deflections(level%grid, solution%y)
     if (request%validity) found%buckling = buckling_shares(structure%linkage, level%grid, speed)
     found%largest_error = max(maxval([0.0_wp, found%displacement_error]), &
       maxval([0.0_wp, found%strain_error]), found%drive_error, maxval([0.0_wp, found%peak_error]))

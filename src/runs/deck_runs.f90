@@ -19,6 +19,7 @@ module deck_runs
   use motion_report, only: motion_log
   use program_version, only: version_number
   use progress, only: end_progress, progress_t, show_progress, start_progress
+  use response_notes, only: response_log
   use result_failures, only: find_failures
   use result_warnings, only: find_warnings
   use run_findings, only: add_findings, findings_t, warnings_of_grade
@@ -80,7 +81,7 @@ module deck_runs
 
   !> Form of the bytes in a journal: another number wherever they mean something else, since the
   !! version of the program may stay the same.
-  character(len=*), parameter :: journal_form = "journal 6"
+  character(len=*), parameter :: journal_form = "journal 7"
 
 contains
 
@@ -335,8 +336,8 @@ contains
     if (blocks > 0) hint = "; --resume continues from what it has computed"
   end function resume_hint
 
-  !> The first variant in the log: model, notes on the linkage, motion, how its frequencies were
-  !! found.
+  !> The first variant in the log: model, notes on the linkage, motion, how its response and its
+  !! frequencies were found.
   function first_log(variant) result(text)
     type(variant_results_t), intent(in) :: variant
     character(len=:), allocatable :: text
@@ -351,6 +352,7 @@ contains
     end do
     associate (found => variant%found)
       if (allocated(found%motion%samples)) text = text//motion_log(found%motion)
+      if (allocated(found%response%at_speed)) text = text//response_log(variant)
       if (allocated(found%sweep%results)) text = text//sweep_summary(found%sweep, &
         variant%mechanism%mesh)
     end associate

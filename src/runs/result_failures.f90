@@ -5,7 +5,7 @@ module result_failures
   use kinds, only: wp
   use models, only: needs_frequencies, speed_in_words
   use run_findings, only: add_failure, at_frequencies, at_position, failure_t, findings_t, &
-    in_motion, of_variant
+    in_motion, in_response, of_variant
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -14,8 +14,8 @@ module result_failures
 
 contains
 
-  !> Appends every position, or position and speed, without a result, and a motion that ended too
-  !! soon; or the variant as a whole, if its linkage closes at no crank angle.
+  !> Appends every position, position and speed, or speed of a response, without a result, and a
+  !! motion that ended too soon; or the variant as a whole, if its linkage closes at no crank angle.
   pure subroutine find_failures(variant, findings)
     type(variant_results_t), intent(in) :: variant !! computed
     type(findings_t), intent(inout) :: findings    !! to which they are appended
@@ -49,6 +49,12 @@ contains
             found%geometry%outcome(i)%error, found%geometry%crank(i), 0, 0.0_wp, findings)
         end do
       end if
+      if (allocated(found%response%at_speed)) then
+        do k = 1, size(found%response%at_speed)
+          if (allocated(found%response%at_speed(k)%error)) call note_failure(variant, in_response, &
+            found%response%at_speed(k)%error, 0.0_wp, k, 0.0_wp, findings)
+        end do
+      end if
       if (allocated(found%motion%error)) call note_failure(variant, in_motion, found%motion%error, &
         found%motion%last%angle(1), 0, found%motion%last%time, findings)
     end associate
@@ -59,7 +65,8 @@ contains
     integer, intent(in) :: stage     !! one of those of `run_findings`
     type(error_t), intent(in) :: error
     real(wp), intent(in) :: crank    !! [deg]
-    integer, intent(in) :: speed     !! number in the sweep's list; 0: none
+    integer, intent(in) :: speed     !! number in the list of the sweep, of a response in that of
+                                     !! the deck; 0: none
     real(wp), intent(in) :: time     !! [s]
     type(findings_t), intent(inout) :: findings
 
@@ -69,7 +76,8 @@ contains
     failure%crank = crank
     failure%speed_words = ""
     if (speed > 0) then
-      failure%speed = variant%found%sweep%request%speed(speed)
+      failure%speed = variant%model%speed%value(speed)
+      if (stage == at_frequencies) failure%speed = variant%found%sweep%request%speed(speed)
       failure%speed_words = speed_in_words(variant%model, speed, failure%speed)
     end if
     failure%time = time

@@ -1,10 +1,13 @@
-!> Warnings about results of a variant: static divergence, large deflections, accuracy not reached.
+!> Warnings about results of a variant: static divergence, large deflections, accuracy not reached,
+!! unstable steady states.
 module result_warnings
   use kinds, only: wp
   use mechanisms, only: mechanism_t
-  use models, only: model_t, needs_frequencies, speed_in_words
+  use models, only: model_t, needs_frequencies, needs_response, response_accuracy, speed_in_words
   use position_results, only: error_of_divergence, error_of_orders, error_of_position
   use positions, only: positions_t
+  use response_study, only: largest_deflection
+  use response_types, only: response_t
   use run_findings, only: add_warning_of_run, findings_t, place_in_words
   use sweeps, only: has_result, sweep_t
   use text, only: plural, to_string
@@ -15,12 +18,14 @@ module result_warnings
   private
 
   public :: find_warnings
-  public :: warning_of_divergence, warning_of_deflection, warning_of_accuracy
+  public :: warning_of_divergence, warning_of_deflection, warning_of_accuracy, &
+    warning_of_response_deflection, warning_of_response_accuracy, warning_of_instability
 
   !> Kinds of warnings: an eigenvalue is negative; the loads bend a link too much; the accuracy is
-  !! not reached.
+  !! not reached; the last two in the elastic response; its steady state is unstable.
   integer, parameter :: warning_of_divergence = 1, warning_of_deflection = 2, &
-    warning_of_accuracy = 3
+    warning_of_accuracy = 3, warning_of_response_deflection = 4, &
+    warning_of_response_accuracy = 5, warning_of_instability = 6
 
   !> Largest static deflection without a warning, relative to the link's length: the axial
   !! frequencies assume that the loads bend the links little [-].
@@ -30,9 +35,13 @@ module result_warnings
   !! no link can be bent so far [-].
   real(wp), parameter :: impossible_deflection = 1.0_wp
 
+  !> Largest ln |multiplier| of a turn that may be rounding, and not growth [-].
+  real(wp), parameter :: most_growth = 1.0e-3_wp
+
 contains
 
-  !> Appends warnings about static divergence, large deflections and accuracy that is not reached.
+  !> Appends warnings about static divergence, large deflections, accuracy that is not reached, and
+  !! unstable steady states.
   pure subroutine find_warnings(variant, findings)
     type(variant_results_t), intent(in) :: variant !! computed
     type(findings_t), intent(inout) :: findings    !! to which they are appended
@@ -41,6 +50,16 @@ contains
     integer :: k
 
     ! Function results go through a variable: gfortran 12 does not free them if they are arguments.
+    if (needs_response(variant%model)) then
+      associate (model => variant%model, response => variant%found%response)
+        warning = response_deflections(model, variant%mechanism, response)
+        call add_if_any(findings, model%variant, warning)
+        warning = instabilities(model, response)
+        call add_if_any(findings, model%variant, warning)
+        warning = missed_response_accuracy(model, response)
+        call add_if_any(findings, model%variant, warning)
+      end associate
+    end if
     if (.not. needs_frequencies(variant%model)) return
     associate (model => variant%model, positions => variant%found%positions, &
         sweep => variant%found%sweep)
@@ -203,6 +222,86 @@ contains
       sweep%request%speed(at_speed)))// &
       " ("//reason_of(sweep%results(positions%state(at_position))%cause(at_speed))//")"
   end function missed_accuracy
+
+  !> The largest deflection of the elastic response, if it is too large for linear equations.
+  pure function response_deflections(model, mechanism, response) result(warning)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(response_t), intent(in) :: response
+    type(warning_t) :: warning !! without a text if there is none
+
+    real(wp) :: largest
+    integer :: body, speed
+
+    warning%kind = warning_of_response_deflection
+    call largest_deflection(response, mechanism%linkage%bodies%length, largest, body, speed)
+    if (largest <= most_deflection) return
+    warning%amount = largest
+    warning%text = "in the response at speed "//speed_in_words(model, speed, &
+      model%speed%value(speed))//" link '"//mechanism%names(body)%text//"' deflects by "// &
+      to_string(100.0_wp*largest, 3)//" % of its length: "
+    if (largest > impossible_deflection) then
+      warning%grade = grade_meaningless
+      warning%text = warning%text//"no link bends so far, and this response means nothing"
+    else
+      warning%text = warning%text//"above "//to_string(100.0_wp*most_deflection)// &
+        " % the linear equations become unreliable"
+    end if
+  end function response_deflections
+
+  !> The speed at which disturbances of the steady state grow most, and the number of such speeds.
+  pure function instabilities(model, response) result(warning)
+    type(model_t), intent(in) :: model
+    type(response_t), intent(in) :: response
+    type(warning_t) :: warning !! without a text if there is none
+
+    integer :: k, worst, speeds
+
+    warning%kind = warning_of_instability
+    worst = 0
+    speeds = 0
+    do k = 1, size(response%at_speed)
+      if (allocated(response%at_speed(k)%error)) cycle
+      if (response%at_speed(k)%growth <= most_growth) cycle
+      speeds = speeds + 1
+      if (response%at_speed(k)%growth <= warning%amount) cycle
+      worst = k
+      warning%amount = response%at_speed(k)%growth
+    end do
+    if (speeds == 0) return
+    warning%text = "the steady motion at "//speed_in_words(model, worst, &
+      model%speed%value(worst))//" is unstable: small disturbances grow by a factor of "// &
+      to_string(exp(min(warning%amount, 600.0_wp)), 4)//" a turn"
+    if (speeds == 2) warning%text = warning%text//"; so is that at another speed"
+    if (speeds > 2) warning%text = warning%text//"; so are those at "//to_string(speeds - 1)// &
+      " other speeds"
+  end function instabilities
+
+  !> The speeds at which the response is less accurate than requested, and the worst of them.
+  pure function missed_response_accuracy(model, response) result(warning)
+    type(model_t), intent(in) :: model
+    type(response_t), intent(in) :: response
+    type(warning_t) :: warning !! without a text if there is none
+
+    integer :: k, worst, speeds
+
+    warning%kind = warning_of_response_accuracy
+    worst = 0
+    speeds = 0
+    do k = 1, size(response%at_speed)
+      if (allocated(response%at_speed(k)%error)) cycle
+      if (response%at_speed(k)%largest_error <= response_accuracy(model)) cycle
+      speeds = speeds + 1
+      if (response%at_speed(k)%largest_error <= warning%amount) cycle
+      worst = k
+      warning%amount = response%at_speed(k)%largest_error
+    end do
+    if (speeds == 0) return
+    warning%text = "the accuracy "//to_string(response_accuracy(model))// &
+      " of the response is not reached at "//plural(speeds, "speed")//": the error is up to "// &
+      to_string(warning%amount, 2)//", at "//speed_in_words(model, worst, &
+      model%speed%value(worst))
+  end function missed_response_accuracy
 
   !> What limits the accuracy of a row, in words.
   pure function reason_of(cause) result(text)

@@ -12,18 +12,19 @@ module run_findings
 
   public :: findings_t, failure_t, add_failure, add_warning_of_run, add_findings, put_findings, &
     get_findings, warnings_of_grade, place_in_words
-  public :: at_position, at_frequencies, in_motion, of_variant
+  public :: at_position, at_frequencies, in_motion, of_variant, in_response
 
   !> Stages at which rows fail: no pose at a crank angle, hence no row at any speed; no frequencies
   !! at a crank angle and speed; a motion that ended too soon; a variant that has no pose at any
-  !! crank angle.
-  integer, parameter :: at_position = 1, at_frequencies = 2, in_motion = 3, of_variant = 4
+  !! crank angle; no elastic response at a speed.
+  integer, parameter :: at_position = 1, at_frequencies = 2, in_motion = 3, of_variant = 4, &
+    in_response = 5
 
   !> A position, or an instant of a motion, without a result.
   type :: failure_t
     integer :: stage = at_position           !! one of the stages above
     real(wp) :: crank = 0.0_wp               !! of a position or motion [deg]
-    real(wp) :: speed = 0.0_wp               !! of frequencies [rad/s]
+    real(wp) :: speed = 0.0_wp               !! of frequencies or a response [rad/s]
     character(len=:), allocatable :: speed_words !! the same in the unit of results: `300 rpm`
     real(wp) :: time = 0.0_wp                !! at which a motion ended [s]
     type(error_t), allocatable :: error      !! the reason

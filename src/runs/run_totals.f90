@@ -5,6 +5,7 @@ module run_totals
     put_reals
   use kinds, only: long, wp
   use ledger, only: add_ledger, ledger_t
+  use models, only: report_number
   use position_results, only: frequency_of
   use reactions_study, only: reaction_values, reactions_at_speed, torque_value
   use sweep_bytes, only: get_ledger, put_ledger
@@ -37,6 +38,10 @@ module run_totals
     type(range_t) :: highest               !! the last one [Hz]
     type(range_t) :: torque                !! driving torque, of REPORT reactions or balance,
                                            !! of variants without a frequency [N m]
+    integer(long) :: response_speeds = 0_long !! at which an elastic response was sought
+    integer(long) :: applications = 0_long !! of its equation
+    real(wp) :: strain = -1.0_wp           !! largest of the elastic response; below 0: not sought
+    real(wp) :: displacement = -1.0_wp     !! largest of REPORT response [m]; likewise
     real(wp) :: computing = 0.0_wp         !! studies, sum over threads [s]
     real(wp) :: writing = 0.0_wp           !! rows found and written, sum over threads [s]
   end type run_totals_t
@@ -59,6 +64,7 @@ contains
         found%sweep%counts%kinematic_solutions + merge(1, 0, found%motion%has_begun)
       if (allocated(found%geometry%crank)) totals%kinematic_solutions = &
         totals%kinematic_solutions + size(found%geometry%crank)
+      if (allocated(found%response%at_speed)) call take_response(variant, totals)
       totals%has_frequencies = allocated(found%sweep%results)
       if (.not. totals%has_frequencies) then
         totals%torque = torque_range(variant)
@@ -81,6 +87,27 @@ contains
       if (is_empty(totals%lowest)) totals%torque = torque_range(variant)
     end associate
   end function totals_of
+
+  !> The largest strain and displacement of a response.
+  pure subroutine take_response(variant, totals)
+    type(variant_results_t), intent(in) :: variant
+    type(run_totals_t), intent(inout) :: totals
+
+    integer :: k
+    logical :: peaks
+
+    peaks = report_number(variant%model, "peaks") > 0
+    totals%response_speeds = size(variant%found%response%at_speed)
+    totals%applications = sum(variant%found%response%at_speed%applications)
+    do k = 1, size(variant%found%response%at_speed)
+      associate (at_speed => variant%found%response%at_speed(k))
+        if (allocated(at_speed%error)) cycle
+        if (peaks) totals%strain = max(totals%strain, maxval(at_speed%largest_strain%value))
+        if (size(at_speed%displacement) > 0) totals%displacement = max(totals%displacement, &
+          maxval(norm2(at_speed%displacement(:2, :, :), dim=1)))
+      end associate
+    end do
+  end subroutine take_response
 
   !> The driving torque at all positions and speeds; empty without REPORT reactions or balance.
   pure function torque_range(variant) result(range)
@@ -146,6 +173,10 @@ contains
     call join_ranges(totals%lowest, more%lowest)
     call join_ranges(totals%highest, more%highest)
     call join_ranges(totals%torque, more%torque)
+    totals%response_speeds = totals%response_speeds + more%response_speeds
+    totals%applications = totals%applications + more%applications
+    totals%strain = max(totals%strain, more%strain)
+    totals%displacement = max(totals%displacement, more%displacement)
     totals%computing = totals%computing + more%computing
     totals%writing = totals%writing + more%writing
   end subroutine add_totals
@@ -157,11 +188,13 @@ contains
 
     call put_integers(buffer, [totals%variants, totals%speeds])
     call put_integers(buffer, transfer([totals%rows, totals%positions, &
-      totals%kinematic_solutions, totals%motion_steps], [0]))
+      totals%kinematic_solutions, totals%motion_steps, totals%response_speeds, &
+      totals%applications], [0]))
     call put_logicals(buffer, [totals%has_frequencies])
     call put_ledger(buffer, totals%counts)
     call put_reals(buffer, [totals%largest_error, totals%lowest%least, totals%lowest%most, &
-      totals%highest%least, totals%highest%most, totals%torque%least, totals%torque%most])
+      totals%highest%least, totals%highest%most, totals%torque%least, totals%torque%most, &
+      totals%strain, totals%displacement])
   end subroutine put_totals
 
   !> Reads what `put_totals` wrote.
@@ -170,10 +203,10 @@ contains
     integer, intent(inout) :: at              !! place of the first byte; on return, after the last
     type(run_totals_t), intent(out) :: totals !! with times of 0
 
-    integer(long) :: counts(4)
-    integer :: numbers(2), words(size(transfer([0_long, 0_long, 0_long, 0_long], [0])))
+    integer(long) :: counts(6)
+    integer :: numbers(2), words(size(transfer(spread(0_long, 1, 6), [0])))
     logical :: has_frequencies(1)
-    real(wp) :: reals(7)
+    real(wp) :: reals(9)
 
     call get_integers(bytes, at, numbers)
     call get_integers(bytes, at, words)
@@ -187,11 +220,15 @@ contains
     totals%positions = counts(2)
     totals%kinematic_solutions = counts(3)
     totals%motion_steps = counts(4)
+    totals%response_speeds = counts(5)
+    totals%applications = counts(6)
     totals%has_frequencies = has_frequencies(1)
     totals%largest_error = reals(1)
     totals%lowest = range_t(reals(2), reals(3))
     totals%highest = range_t(reals(4), reals(5))
     totals%torque = range_t(reals(6), reals(7))
+    totals%strain = reals(8)
+    totals%displacement = reals(9)
   end subroutine get_totals
 
 end module run_totals

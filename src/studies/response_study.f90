@@ -1,6 +1,7 @@
 !> The steady elastic response at all speeds of a deck.
 module response_study
-  use errors, only: error_t
+  use crank_cycle, only: turns_freely
+  use errors, only: error_of_reach, error_t, set_error
   use kinds, only: wp
   use link_store, only: link_store_t
   use response_types, only: response_request_t, response_t, speed_response_t
@@ -9,7 +10,7 @@ module response_study
   implicit none (type, external)
   private
 
-  public :: find_response, distance_from_circle, largest_deflection
+  public :: find_response, distance_from_circle, largest_deflection, deflection_of
 
 contains
 
@@ -24,7 +25,13 @@ contains
     type(error_t), allocatable :: error
     integer :: k
 
-    call find_steady_responses(structure, request, threads, store, response, error)
+    if (turns_freely(structure%linkage)) then
+      call find_steady_responses(structure, request, threads, store, response, error)
+    else
+      allocate (response%at_speed(size(request%speed)))
+      call set_error(error, error_of_reach, "the crank does not turn fully, or meets a dead "// &
+        "point: there is no steady state")
+    end if
     if (.not. allocated(error)) return
     do k = 1, size(request%speed)
       response%at_speed(k)%error = error
@@ -40,9 +47,9 @@ contains
     distance = minval(abs(abs(found%multiplier) - 1.0_wp))
   end function distance_from_circle
 
-  !> Largest deflection of a link relative to its length at any speed.
+  !> The largest deflection of a link relative to its length, at any speed.
   pure subroutine largest_deflection(response, length, share, body, speed)
-    type(response_t), intent(in) :: response !! with peaks
+    type(response_t), intent(in) :: response !! of all speeds
     real(wp), intent(in) :: length(:)        !! (bodies) [m]
     real(wp), intent(out) :: share           !! of the length; 0: no link bends anywhere
     integer, intent(out) :: body, speed      !! numbers; 0: none
@@ -53,16 +60,24 @@ contains
     body = 0
     speed = 0
     do k = 1, size(response%at_speed)
-      associate (found => response%at_speed(k))
-        if (allocated(found%error) .or. .not. allocated(found%largest_deflection)) cycle
-        do b = 1, size(length)
-          if (found%largest_deflection(b)%value <= share*length(b)) cycle
-          share = found%largest_deflection(b)%value/length(b)
-          body = b
-          speed = k
-        end do
-      end associate
+      if (allocated(response%at_speed(k)%error)) cycle
+      do b = 1, size(length)
+        if (deflection_of(response%at_speed(k), b) <= share*length(b)) cycle
+        share = deflection_of(response%at_speed(k), b)/length(b)
+        body = b
+        speed = k
+      end do
     end do
   end subroutine largest_deflection
+
+  !> The largest deflection of a link over the turn, as accurate as it is known [m].
+  pure function deflection_of(found, body) result(deflection)
+    type(speed_response_t), intent(in) :: found !! at a speed, without an error
+    integer, intent(in) :: body                 !! number
+    real(wp) :: deflection
+
+    deflection = found%deflection(body)
+    if (allocated(found%largest_deflection)) deflection = found%largest_deflection(body)%value
+  end function deflection_of
 
 end module response_study

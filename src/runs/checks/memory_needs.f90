@@ -8,7 +8,9 @@ module memory_needs
   use deformation_shapes, only: bending_unknowns
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
-  use models, only: effects_static, model_t, needs_frequencies, report_number
+  use models, only: effects_static, model_t, needs_frequencies, needs_response, report_number, &
+    response_accuracy
+  use response_types, only: drive_values, strain_values
   use study_requests, only: method_wanted, motion_instants_of
   use text, only: plural, to_string
   use tokens, only: token_t
@@ -27,7 +29,7 @@ module memory_needs
 
   !> The parts of a run that take memory.
   integer, parameter :: of_results = 1, of_shapes = 2, of_branches = 3, of_mesh = 4, &
-    of_matrices = 5, of_motion = 6, parts = 6
+    of_matrices = 5, of_motion = 6, of_response = 7, parts = 7
 
   !> Bytes of a number; of a pose with its kinematic coefficients; of the results at a position, and
   !! at one of its speeds, without their numbers.
@@ -81,6 +83,7 @@ contains
     needs(of_results)%bytes = size(model%crank%value)*(of_pose + &
       number*sum(model%reports%kind%numbers))
     call add_needs_of_motion(model, needs(of_motion))
+    call add_needs_of_response(model, threads, needs(of_response))
     if (any(model%links%mesh > 0) .and. all(model%links%mesh > 0 .or. model%links%rigid)) &
       call add_needs_of_mesh(model, threads, needs)
     if (.not. needs_frequencies(model)) return
@@ -105,6 +108,34 @@ contains
     need%what = "the "//plural(motion_instants_of(model), "instant")//" of the motion"
     need%bytes = numbers*number*motion_instants_of(model)
   end subroutine add_needs_of_motion
+
+  !> The terms of the equations at the crank angles of a turn, for several orders; vectors of the
+  !! iterations, for each thread; the results, kept until they are written.
+  subroutine add_needs_of_response(model, threads, need)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: threads
+    type(memory_need_t), intent(inout) :: need
+
+    !> Crank angles and unknowns of a link, more than most linkages take; arrays of that size that
+    !! are kept, and those of a thread: as found in runs. Accuracies near round-off try more of all.
+    real(wp), parameter :: samples = 1024.0_wp, unknowns = 32.0_wp, kept = 100.0_wp, own = 40.0_wp, &
+      hard = 1.0e-10_wp, more = 12.0_wp
+    real(wp) :: results
+    integer :: report
+
+    if (.not. needs_response(model)) return
+    report = findloc(model%reports%kind%response, .true., dim=1)
+    need%place = model%reports(report)%keyword
+    need%what = "the elastic response at "//plural(size(model%crank%value), "position")//" and "// &
+      plural(size(model%speed%value), "speed")
+    results = drive_values
+    if (report_number(model, "response") > 0) results = results + 3*(4 + size(model%points))
+    if (report_number(model, "strains") > 0) results = results + strain_values*max(3, &
+      size(model%gauges))
+    need%bytes = number*(size(model%crank%value)*size(model%speed%value)*results + &
+      samples*unknowns*size(model%links)*(kept + own*threads)* &
+      merge(more, 1.0_wp, response_accuracy(model) < hard))
+  end subroutine add_needs_of_response
 
   !> Displacements at the points of all links for every mode, kept until they are written.
   pure subroutine add_needs_of_shapes(model, speeds, need)

@@ -8,7 +8,8 @@ module deck_summary
     json_value
   use models, only: model_t, needs_frequencies
   use program_version, only: program_name, version_number
-  use run_findings, only: at_position, failure_t, findings_t, in_motion, of_variant
+  use run_findings, only: at_position, failure_t, findings_t, in_motion, in_response, &
+    of_variant
   use run_totals, only: run_totals_t
   use tables, only: column_t, has_unit, table_t
   use text, only: character_count, plural, string_t
@@ -341,6 +342,9 @@ contains
     case (at_position)
       call add_member(object, "stage", json_value("position"))
       call add_member(object, "speed", json_null)
+    case (in_response)
+      call add_member(object, "stage", json_value("response"))
+      call add_member(object, "speed", json_value(failure%speed))
     case (of_variant)
       call add_member(object, "stage", json_value("variant"))
       call add_member(object, "speed", json_null)
@@ -348,7 +352,7 @@ contains
       call add_member(object, "stage", json_value("frequencies"))
       call add_member(object, "speed", json_value(failure%speed))
     end select
-    if (failure%stage == of_variant) then
+    if (any(failure%stage == [of_variant, in_response])) then
       call add_member(object, "crank", json_null)
     else
       call add_member(object, "crank", json_value(failure%crank))

@@ -2,7 +2,7 @@
 module findings_texts
   use deck_source, only: source_t
   use diagnostics, only: diagnostics_t, warning_texts
-  use run_findings, only: at_position, failure_t, findings_t, in_motion, of_variant, &
+  use run_findings, only: at_position, failure_t, findings_t, in_motion, in_response, of_variant, &
     place_in_words, warnings_of_grade
   use text, only: string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
@@ -19,8 +19,8 @@ module findings_texts
 
 contains
 
-  !> `speed 20 rad/s, crank 45 deg: reason`, or `motion, time 2.5 s, crank 45 deg: reason`; of a
-  !! variant as a whole, the reason alone
+  !> `speed 20 rad/s, crank 45 deg: reason`, `response, speed 20 rad/s: reason` or `motion, time
+  !! 2.5 s, crank 45 deg: reason`; of a variant as a whole, the reason alone
   pure function failure_line(failure) result(line)
     type(failure_t), intent(in) :: failure
     character(len=:), allocatable :: line
@@ -30,6 +30,8 @@ contains
       line = "motion, time "//to_string(failure%time, 12)//" s, "//place_in_words(failure%crank)
     case (at_position)
       line = place_in_words(failure%crank)
+    case (in_response)
+      line = "response, speed "//failure%speed_words
     case (of_variant)
       line = failure%variant//": "//failure%error%text//line_feed
       return

@@ -38,9 +38,13 @@ contains
     if (totals%motion_steps > 0) then
       text = text//name//": steps of forward motion "//to_string(totals%motion_steps)//line_feed
     end if
+    if (totals%response_speeds > 0) then
+      text = text//name//": elastic response at "//to_string(totals%response_speeds)// &
+        " speeds, applications of its equation "//to_string(totals%applications)//line_feed
+    end if
     if (totals%has_frequencies) then
       text = text//frequency_lines(name, totals)
-    else
+    else if (totals%response_speeds == 0) then
       text = text//name//": skipped beams, matrices and eigenproblems: no report needs them"// &
         line_feed
     end if

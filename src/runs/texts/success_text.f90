@@ -1,11 +1,11 @@
 !> What a run has done, in a line or two, for standard output.
 module success_text
   use figures_command, only: shell_word
-  use kinds, only: long
+  use kinds, only: long, wp
   use output_units, only: output_units_t
   use run_totals, only: is_empty, range_t, run_totals_t
   use text, only: plural, to_string
-  use units, only: from_si, unit_t
+  use units, only: coherent_unit, dimension_length, from_si, unit_t
   implicit none (type, external)
   private
 
@@ -50,6 +50,7 @@ contains
     else if (.not. is_empty(totals%torque)) then
       line = line//"; driving torque "//torque_text(totals%torque, units%moment)
     end if
+    line = line//response_part(totals, coherent_unit(units%system, dimension_length))
     if (len(command) > 0) then
       figures = "figures: "//command//" "//shell_word(folder)
       if (len(line) + len(figures) + 2 <= longest_line) then
@@ -73,6 +74,19 @@ contains
     if (to_string(range%most, digits) /= text) text = text//" to "//to_string(range%most, digits)
     text = text//" "//unit
   end function range_text
+
+  !> `; largest strain 0.000721, displacement 4.99 mm`, as far as these are known.
+  pure function response_part(totals, length) result(text)
+    type(run_totals_t), intent(in) :: totals
+    type(unit_t), intent(in) :: length
+    character(len=:), allocatable :: text
+
+    text = ""
+    if (totals%strain >= 0.0_wp) text = ", strain "//to_string(totals%strain, digits)
+    if (totals%displacement >= 0.0_wp) text = text//", displacement "// &
+      to_string(from_si(totals%displacement, length), digits)//" "//length%name
+    if (len(text) > 0) text = "; largest"//text(2:)
+  end function response_part
 
   pure function torque_text(torque, unit) result(text)
     type(range_t), intent(in) :: torque !! [N m]
