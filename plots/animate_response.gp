@@ -8,7 +8,7 @@ eval smaller(0.65)
 load plots."drawing.gp"
 eval answer(table, "facts")
 call plots."linkage.gp" table
-share = 0.1
+share = 0.125
 want_positions = 90
 call plots."bodies.gp" "1"
 load plots."deformed.gp"

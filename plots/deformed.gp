@@ -15,15 +15,16 @@ positions_drawn = |$moved|
 poses = "$poses"
 eval extent
 
-# Ends of links 2 to 4 are 1 to 6; then come the points.
+# Ends of links 2 to 4 are 1 to 6; then come the points. A fixed pivot without a row is not displaced; there the crank is held, and
+# the follower is free of moment.
 end_of(link, last) = 2*link - 3 + last
-moved_by(row, k) = word(row, 3*k - 1) + I*word(row, 3*k)
+known(row, k) = word(row, 3*k - 1) ne "NaN"
+moved_by(row, k) = known(row, k) ? word(row, 3*k - 1) + I*word(row, 3*k) : 0.0
 turned_by(row, k) = word(row, 3*k + 1) + 0.0
 largest_displacement = 0.0
 do for [row_drawn=1:positions_drawn] {
     do for [k=1:6 + points] {
-        size_found = abs(moved_by($moved[row_drawn], k))
-        if (size_found == size_found) { largest_displacement = larger(largest_displacement, size_found) }
+        largest_displacement = larger(largest_displacement, abs(moved_by($moved[row_drawn], k)))
     }
 }
 round_down(x) = (power = 10.0**floor(log10(x) + 1e-9), x/power >= 5 ? 5*power : x/power >= 2 ? 2*power : power)
@@ -36,7 +37,10 @@ way(pose, link) = last_pin(pose, link) - first_pin(pose, link)
 along(pose, row, link, last) = moved_by(row, end_of(link, last))*conj(way(pose, link))/abs(way(pose, link))
 conj(z) = real(z) - I*imag(z)
 across_link(pose, row, link, last) = imag(along(pose, row, link, last))
-slope(pose, row, link, last) = abs(way(pose, link))*turned_by(row, end_of(link, last))
+slope(pose, row, link, last) = known(row, end_of(link, last)) ? abs(way(pose, link))*turned_by(row, end_of(link, last)) \
+    : link == 2 ? 0.0 : free_slope(pose, row, link, last)
+free_slope(pose, row, link, last) = 1.5*(across_link(pose, row, link, 1) - across_link(pose, row, link, 0)) \
+    - 0.5*abs(way(pose, link))*turned_by(row, end_of(link, 1 - last))
 unit_of_link(pose, link) = way(pose, link)/abs(way(pose, link))
 cubic_0(pose, row, link) = first_pin(pose, link) + magnified*moved_by(row, end_of(link, 0))
 cubic_1(pose, row, link) = way(pose, link) + magnified*unit_of_link(pose, link)*( \

@@ -7,7 +7,7 @@ table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argum
 load plots."drawing.gp"
 eval answer(table, "facts")
 call plots."linkage.gp" table
-share = 0.1
+share = 0.125
 want_positions = 8
 call plots."bodies.gp" "1"
 load plots."deformed.gp"

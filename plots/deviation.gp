@@ -93,5 +93,6 @@ do for [p=1:points] {
     parts = parts.sprintf("$paths using %d:%d with points pt 7 ps %g lc rgb '%s' notitle, ", 2*p, 2*p + 1, \
         dot_size(positions_drawn), point_ink(p))
 }
-eval "plot ".mechanism_below(shown_row).parts.mechanism_pins(shown_row)."NaN notitle"
+pale_shape(link) = shape(shown_row, link, half_width + 0.8*rim, "#8C8C8C").shape(shown_row, link, half_width, pale(link))
+eval "plot ".pale_shape(4).pale_shape(3).pale_shape(2).parts.mechanism_pins(shown_row)."NaN notitle"
 eval close

@@ -19,7 +19,7 @@ modes = 0
 load keep("critical", frequencies eq "" ? "/dev/null" : frequencies, sprintf("critical %.12g %.12g", low_speed, high_speed))
 do for [k=1:|$critical|] { modes = lesser(3, larger(modes, word($critical[k], 1) + 0)) }
 headline = numbered(figure, "Largest strain over a turn against the speed of the crank")
-note = modes == 0 ? "" : "numbers above: harmonics n, at the speeds ω₂ = 2π f / n, f being the mean frequency of a mode; resonances lie near them"
+note = modes == 0 ? "" : "numbers above: harmonics n up to 20, at the speeds ω₂ = 2π f / n, f being the mean frequency of a mode; resonances lie near them"
 
 lower = foot(lines_of_notes(note, remark))
 strip = 34

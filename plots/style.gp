@@ -228,7 +228,7 @@ log_text(digit, power, plain) = plain ? sprintf("%.12g", digit*10.0**power) \
 log_step(low, high, length) = int(ceil(decades(low, high)/larger(1, length/40.0)))       # decades from text to text
 log_shown(digit, power, few, step) = digit == 1 ? power%step == 0 : few && (digit == 2 || digit == 5)
 log_tick(digit, power, few, step, plain) = sprintf("'%s' %.15g %d", log_shown(digit, power, few, step) ? log_text(digit, power, plain) : "", \
-    digit*10.0**power, digit > 1)
+    digit*10.0**power, !log_shown(digit, power, few, step) && digit > 1)
 log_list(k, last, few, step, plain) = k > last ? "" : (k%9 == 0 || step == 1 ? (k > 0 ? ", " : "").\
     log_tick(1 + k%9, log_first + k/9, few, step, plain) : "").log_list(k + 1, last, few, step, plain)
 log_ticks(low, high, length) = (log_first = int(floor(log10(log_bottom(low)))), \

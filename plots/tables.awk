@@ -30,8 +30,8 @@
 #                                  divide a turn better): crank, then x
 #                                  and y of those on the crank at O2, on the coupler at A and B, on the follower at O4, and the
 #                                  shaking force; without a number, all positions
-#   want="critical 5 60"           from frequencies.dat over a whole turn: mode, harmonic and speed, at which this multiple of
-#                                  the crank's speed is the mode's mean frequency, for speeds in this range, the highest first
+#   want="critical 5 60"           from frequencies.dat over a whole turn: mode, harmonic up to the twentieth, and speed, at which this
+#                                  multiple of the crank's speed is the mode's mean frequency; speeds in this range, from the highest down
 #   want="positions 20 8"           crank angles of response.dat at speed 20 with all digits, eight at most (six, if these divide a turn
 #                                  better), or all (0)
 #   want="displacements 20 8 A:crank B:coupler"    there, of these points: crank, then ux, uy and the rotation in radians of each
@@ -428,7 +428,7 @@ function print_critical(    i, k, n, turns, low, high, rate) {
     if (!turns) return
     for (k = 1; k <= speeds; k++) if (last_crank[k] < 300) return
     for (i = 1; ("f" i) in at; i++) {
-        for (n = 1; n <= 200; n++) {
+        for (n = 1; n <= 20; n++) {
             for (k = 0; k <= speeds; k++) {
                 rate = critical_between(i, k, n * turns)
                 if (rate >= low && rate <= high) print i, n, rate
