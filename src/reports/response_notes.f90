@@ -2,7 +2,7 @@
 module response_notes
   use kinds, only: long, wp
   use models, only: inertia_lumped, response_accuracy, speed_in_words
-  use response_study, only: distance_from_circle, largest_deflection
+  use response_study, only: largest_deflection
   use table_rows, only: add_failed_row, rows_t
   use text, only: append_string, string_t, to_string
   use variant_results, only: variant_results_t
@@ -135,7 +135,7 @@ contains
         found = found + 1
         call widen(range, [at_speed(k)%order, at_speed(k)%samples, at_speed(k)%slow])
         error = max(error, at_speed(k)%largest_error)
-        here = distance_from_circle(at_speed(k))
+        here = at_speed(k)%distance
         if (here >= distance) cycle
         distance = here
         speed = k
@@ -148,8 +148,8 @@ contains
         range_words(range(:, 2))//" crank angles, "//range_words(range(:, 3))// &
         " slow coordinates; "//to_string(applications)//" applications of the equation; "// &
         "largest estimated error "//to_string(error, 2)//line_feed
-      text = text//"response: nearest multiplier of a turn to |rho| = 1 at speed "// &
-        speed_in_words(model, speed, model%speed%value(speed))//", distance "// &
+      text = text//"response: nearest to resonance at speed "// &
+        speed_in_words(model, speed, model%speed%value(speed))//", least |1 - rho| of a turn "// &
         to_string(distance, 3)//line_feed
       call largest_deflection(variant%found%response, mechanism%linkage%bodies%length, share, &
         body, speed)

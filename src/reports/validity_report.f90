@@ -3,7 +3,6 @@ module validity_report
   use kinds, only: wp
   use number_text, only: number_width
   use response_notes, only: append_response_notes
-  use response_study, only: distance_from_circle
   use response_types, only: speed_response_t
   use table_columns, only: cells, column_width, table_layout_t
   use table_rows, only: add_row, rows_t
@@ -28,8 +27,8 @@ contains
     call append_string(notes, "quadratic: estimated relative change of the largest strain by "// &
       "terms that the linear equations leave out; out_of_plane: estimated first frequency of "// &
       "vibrations out of the plane of motion; -: not estimated")
-    call append_string(notes, "distance: of the nearest multiplier of a turn from the circle "// &
-      "|rho| = 1, where vibrations neither grow nor fade; error: its estimated error")
+    call append_string(notes, "distance: least |1 - rho| of a multiplier rho of a turn, 0 at "// &
+      "resonance; error: its estimated relative error")
     call append_response_notes(notes, variant)
   end subroutine validity_notes
 
@@ -49,7 +48,7 @@ contains
           call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed)])// &
             name_cell(mechanism%names(b)%text, column_width(layout, 2))//cells(layout, 3, &
             [found%largest_deflection(b)%value/body%length, found%buckling(b)])// &
-            estimated_cells(layout, found, b)//cells(layout, 7, [distance_from_circle(found), &
+            estimated_cells(layout, found, b)//cells(layout, 7, [found%distance, &
             found%distance_error]))
         end associate
       end do

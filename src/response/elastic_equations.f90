@@ -203,7 +203,7 @@ contains
     allocate (first, second, mass, gyration, mold=y)
     call derivatives(plan, y, first, second)
     call mass_force(grid, second, mass)
-    call slope_force(grid, plan, first, gyration)
+    call slope_force(grid, first, gyration)
     if (terms%centripetal) then
       call inertia_force(grid, plan, elastic_terms_t(), y, force)
       if (.not. terms%coriolis) force = force - 2.0_wp*gyration
@@ -238,50 +238,44 @@ contains
   end subroutine mass_force
 
   !> `G y = ∫ μ Sᵀ S' dx y`.
-  subroutine slope_force(grid, plan, y, force)
+  pure subroutine slope_force(grid, y, force)
     type(turn_grid_t), intent(in) :: grid
-    type(fourier_plan_t), intent(in) :: plan !! for its samples
-    real(wp), intent(in) :: y(:, :)          !! (samples, unknowns)
-    real(wp), intent(out) :: force(:, :)     !! (samples, unknowns)
+    real(wp), intent(in) :: y(:, :)      !! (samples, unknowns)
+    real(wp), intent(out) :: force(:, :) !! (samples, unknowns)
 
-    real(wp), allocatable :: q(:, :), moved(:, :), slope(:, :), turned(:, :)
+    real(wp), allocatable :: q(:, :), moved(:, :), turned(:, :)
+    real(wp) :: motion(size(y, 1), 2)
     integer :: b, i, j, k, p
 
     force = 0.0_wp
     do b = 1, size(grid%integrals)
-      associate (chord => grid%integrals(b)%chord)
-        q = functions_of(grid, b, y)
-        allocate (moved, mold=q)
-        allocate (slope(size(y, 1), chord))
-        moved = 0.0_wp
-        do j = 1, grid%border
-          call derivatives(plan, grid%chord(:, :chord, j, b), slope)
-          do i = 1, chord
-            moved(:, i) = moved(:, i) + slope(:, i)*y(:, j)
-          end do
+      q = functions_of(grid, b, y)
+      allocate (moved, mold=q)
+      moved = 0.0_wp
+      do j = 1, grid%border
+        do i = 1, grid%integrals(b)%chord
+          moved(:, i) = moved(:, i) + grid%chord_slope(:, i, j, b)*y(:, j)
         end do
-        turned = matmul(q, grid%integrals(b)%swap)
-        moved = times_mass(grid, b, moved)
-        do i = 1, size(q, 2)
-          moved(:, i) = moved(:, i) - grid%rate(:, b)*turned(:, i)
-        end do
-        call spread_over_unknowns(grid, b, moved, force)
-        deallocate (moved, slope)
-      end associate
+      end do
+      turned = matmul(q, grid%integrals(b)%swap)
+      moved = times_mass(grid, b, moved)
+      do i = 1, size(q, 2)
+        moved(:, i) = moved(:, i) - grid%rate(:, b)*turned(:, i)
+      end do
+      call spread_over_unknowns(grid, b, moved, force)
+      deallocate (moved)
     end do
-    allocate (slope(size(y, 1), 2))
     do p = 1, size(grid%pin_mass)
       if (grid%pin_mass(p) <= 0.0_wp) cycle
-      q = 0.0_wp*slope
+      motion = 0.0_wp
       do j = 1, grid%border
-        call derivatives(plan, grid%pin(:, :, p, j), slope)
         do k = 1, 2
-          q(:, k) = q(:, k) + slope(:, k)*y(:, j)
+          motion(:, k) = motion(:, k) + grid%pin_slope(:, k, p, j)*y(:, j)
         end do
       end do
       do i = 1, grid%border
         do k = 1, 2
-          force(:, i) = force(:, i) + grid%pin_mass(p)*grid%pin(:, k, p, i)*q(:, k)
+          force(:, i) = force(:, i) + grid%pin_mass(p)*grid%pin(:, k, p, i)*motion(:, k)
         end do
       end do
     end do

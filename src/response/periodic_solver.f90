@@ -1,5 +1,5 @@
-!> The periodic elastic motion of a linkage at a speed, by GMRES (Saad and Schultz, SIAM J. Sci.
-!! Stat. Comput. 7 (1986) 856) on samples over the turn, with Fourier derivatives.
+!> The periodic elastic motion of a linkage at a speed, by GMRES on samples over the turn, with Fourier
+!! derivatives.
 !!
 !! The approximate inverse takes the slow motion exactly, but for its steps, and the rest by its own
 !! diagonal, harmonic by harmonic: what is left converges in a few iterations, in all unknowns and
@@ -9,14 +9,20 @@ module periodic_solver
   use errors, only: error_of_numerics, error_t, set_error
   use fourier_transform, only: coefficients_of, fourier_plan_t, resampled, values_of
   use kinds, only: wp
+  use minimal_residuals, only: add_combination, add_product, minimal_residual_t, start_residual
   use slow_motions, only: slow_basis_t, slow_motion_t, solve_slow
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
 
-  public :: solve_periodic, approximate_solution
+  public :: solve_periodic, approximate_solution, fast_solution, slow_part, add_slow
 
-  integer, parameter :: most_iterations = 80
+  integer, parameter :: most_iterations = 60
+
+  !> Begun anew from the residual of the solution, whose rounding GMRES does not see: three times at
+  !! most, and not if the iterations do not get anywhere. A solution that is not right to so much is none.
+  integer, parameter :: most_rounds = 3
+  real(wp), parameter :: no_solution = 1.0e-2_wp
 
   !> Where a harmonic is near the own frequency of a fast deformation, the diagonal is taken as far
   !! from zero as this.
@@ -26,7 +32,7 @@ contains
 
   !> Solves the equation for a load, from a start.
   !!
-  !! Errors: the iterations do not converge.
+  !! Errors: the iterations do not converge at all.
   subroutine solve_periodic(grid, plan, basis, motion_plan, motion, speed, damping, terms, load, &
     tolerance, y, iterations, remainder, error)
     type(turn_grid_t), intent(in) :: grid
@@ -38,126 +44,144 @@ contains
     real(wp), intent(in) :: damping(:)          !! (unknowns) c [s]
     type(elastic_terms_t), intent(in) :: terms
     real(wp), intent(in) :: load(:, :)          !! (samples, unknowns) [√J]
-    real(wp), intent(in) :: tolerance           !! of the last change, relative to y
+    real(wp), intent(in) :: tolerance           !! of the last change, relative to y; where rounding
+                                                !! does not allow it, `remainder` says so
     real(wp), intent(inout) :: y(:, :)          !! (samples, unknowns) start, then solution [√J]
     integer, intent(out) :: iterations          !! applications of the equation
     real(wp), intent(out) :: remainder          !! estimated error, relative to y
     type(error_t), allocatable, intent(out) :: error
 
-    real(wp), allocatable :: basis_vector(:, :, :), residual(:, :), correction(:, :), product(:, :)
-    real(wp) :: h(most_iterations + 1, most_iterations), rotation(2, most_iterations), &
-      right(most_iterations + 1), weight(most_iterations), length, limit, c
-    integer :: i, k, last
+    type(minimal_residual_t) :: problem
+    real(wp), allocatable :: residual(:, :), correction(:, :), product(:, :)
+    real(wp) :: limit, length
+    integer :: round
 
     allocate (residual, correction, product, mold=y)
-    allocate (basis_vector(size(y, 1), size(y, 2), most_iterations + 1))
-    iterations = 1
-    call apply_equation(grid, plan, speed, damping, terms, y, product)
-    residual = load - product
-    call approximate_solution(plan, basis, motion_plan, motion, speed, damping, residual, &
-      correction)
-    limit = tolerance*max(norm2(y), norm2(y + correction))
-    length = norm2(correction)
-    remainder = length/max(norm2(y + correction), tiny(1.0_wp))
-    if (length <= limit) then
-      y = y + correction
-      return
-    end if
-    h = 0.0_wp
-    right = 0.0_wp
-    right(1) = length
-    basis_vector(:, :, 1) = correction/length
-    last = most_iterations
-    do k = 1, most_iterations
-      call apply_equation(grid, plan, speed, damping, terms, basis_vector(:, :, k), product)
+    iterations = 0
+    do round = 1, most_rounds
       iterations = iterations + 1
-      call approximate_solution(plan, basis, motion_plan, motion, speed, damping, product, &
+      call apply_equation(grid, plan, speed, damping, terms, y, product)
+      residual = load - product
+      call approximate_solution(plan, basis, motion_plan, motion, speed, damping, residual, &
         correction)
-      do i = 1, k
-        h(i, k) = sum(basis_vector(:, :, i)*correction)
-        correction = correction - h(i, k)*basis_vector(:, :, i)
+      length = norm2(y + correction)
+      if (.not. length <= huge(1.0_wp)) exit
+      remainder = norm2(correction)/max(length, tiny(1.0_wp))
+      if (remainder <= tolerance .or. round == most_rounds) then
+        y = y + correction
+        exit
+      end if
+      limit = 0.5_wp*tolerance*length
+      call start_residual(correction, most_iterations, problem)
+      do while (problem%last <= most_iterations .and. problem%residual > limit)
+        call apply_equation(grid, plan, speed, damping, terms, &
+          problem%vector(:, :, problem%last), product)
+        iterations = iterations + 1
+        call approximate_solution(plan, basis, motion_plan, motion, speed, damping, product, &
+          correction)
+        call add_product(problem, correction)
       end do
-      h(k + 1, k) = norm2(correction)
-      if (h(k + 1, k) > 0.0_wp) basis_vector(:, :, k + 1) = correction/h(k + 1, k)
-      do i = 1, k - 1
-        h(i:i + 1, k) = [rotation(1, i)*h(i, k) + rotation(2, i)*h(i + 1, k), &
-          -rotation(2, i)*h(i, k) + rotation(1, i)*h(i + 1, k)]
-      end do
-      c = hypot(h(k, k), h(k + 1, k))
-      rotation(:, k) = [h(k, k), h(k + 1, k)]/c
-      h(k:k + 1, k) = [c, 0.0_wp]
-      right(k + 1) = -rotation(2, k)*right(k)
-      right(k) = rotation(1, k)*right(k)
-      if (abs(right(k + 1)) > limit .and. k < most_iterations) cycle
-      last = k
-      exit
+      call add_combination(problem, y)
+      remainder = problem%residual/max(norm2(y), tiny(1.0_wp))
+      if (problem%last > most_iterations) exit
     end do
-    do k = last, 1, -1
-      weight(k) = (right(k) - dot_product(h(k, k + 1:last), weight(k + 1:last)))/h(k, k)
-    end do
-    do k = 1, last
-      y = y + weight(k)*basis_vector(:, :, k)
-    end do
-    remainder = abs(right(last + 1))/norm2(y)
-    if (.not. abs(right(last + 1)) <= limit) call set_error(error, error_of_numerics, &
-      "the iterations for the periodic motion do not converge")
+    if (.not. length <= huge(1.0_wp) .or. remainder > no_solution) call set_error(error, &
+      error_of_numerics, "the iterations for the periodic motion do not converge")
   end subroutine solve_periodic
 
   !> What solves the equation nearly: the slow motion, and the rest by its diagonal.
   subroutine approximate_solution(plan, basis, motion_plan, motion, speed, damping, load, y)
-    type(fourier_plan_t), intent(in) :: plan, motion_plan
-    type(slow_basis_t), intent(in) :: basis
-    type(slow_motion_t), intent(in) :: motion
-    real(wp), intent(in) :: speed, damping(:)
-    real(wp), intent(in) :: load(:, :) !! (samples, unknowns)
-    real(wp), intent(out) :: y(:, :)   !! (samples, unknowns)
+    type(fourier_plan_t), intent(in) :: plan        !! for the samples
+    type(slow_basis_t), intent(in) :: basis         !! of these samples
+    type(fourier_plan_t), intent(in) :: motion_plan !! for the steps of the slow motion
+    type(slow_motion_t), intent(in) :: motion       !! at this speed
+    real(wp), intent(in) :: speed, damping(:)       !! as for `solve_periodic`
+    real(wp), intent(in) :: load(:, :)              !! (samples, unknowns)
+    real(wp), intent(out) :: y(:, :)                !! (samples, unknowns)
 
-    real(wp), allocatable :: part(:, :), z(:, :), coefficients(:, :), rest(:, :), slow_load(:, :), &
-      slow(:, :)
-    integer :: i
+    real(wp) :: part(size(load, 1), basis%number), z(size(load, 1), basis%number)
+    real(wp) :: slow_load(motion_plan%samples, basis%number), slow(motion_plan%samples, &
+      basis%number)
 
-    allocate (part(size(load, 1), basis%number), z(size(load, 1), basis%number))
-    allocate (coefficients, rest, mold=load)
-    allocate (slow_load(motion_plan%samples, basis%number), slow(motion_plan%samples, basis%number))
-    do i = 1, basis%number
-      part(:, i) = sum(basis%shape(:, :, i)*load, dim=2)
-    end do
+    call slow_part(basis, load, part)
     call resample_samples(plan, motion_plan, part/speed**2, slow_load)
     call solve_slow(motion_plan, motion, slow_load, slow)
     call resample_samples(motion_plan, plan, slow, z)
+    call fast_solution(plan, basis, speed, damping, load, part, y)
+    call add_slow(basis, z, y)
+  end subroutine approximate_solution
+
+  !> What solves the equation nearly without the slow motion: both load and solution have no slow
+  !! part, `f − X (XᵀX)⁻¹ Xᵀ f`.
+  subroutine fast_solution(plan, basis, speed, damping, load, part, y)
+    type(fourier_plan_t), intent(in) :: plan  !! for the samples
+    type(slow_basis_t), intent(in) :: basis   !! of these samples
+    real(wp), intent(in) :: speed, damping(:) !! as for `solve_periodic`
+    real(wp), intent(in) :: load(:, :)        !! (samples, unknowns)
+    real(wp), intent(in) :: part(:, :)        !! (samples, number) Xᵀ load
+    real(wp), intent(out) :: y(:, :)          !! (samples, unknowns)
+
+    real(wp), allocatable :: coefficients(:, :), rest(:, :)
+    real(wp) :: share(size(part, 1), size(part, 2)), of_rest(size(part, 1), size(part, 2))
+
+    allocate (coefficients, mold=load)
+    call share_out(basis, part, share)
     rest = load
-    call take_out(part, rest)
+    call add_slow(basis, -share, rest)
     call coefficients_of(plan, rest, coefficients)
     call divide_by_diagonal(basis%square, speed, damping, coefficients)
     call values_of(plan, coefficients, y)
-    do i = 1, basis%number
-      part(:, i) = sum(basis%shape(:, :, i)*y, dim=2)
-    end do
-    call take_out(part, y)
-    do i = 1, basis%number
-      y = y + basis%shape(:, :, i)*spread(z(:, i), 2, size(y, 2))
-    end do
+    call slow_part(basis, y, of_rest)
+    call share_out(basis, of_rest, share)
+    call add_slow(basis, -share, y)
+  end subroutine fast_solution
 
-  contains
+  !> Adds `X z`.
+  pure subroutine add_slow(basis, z, y)
+    type(slow_basis_t), intent(in) :: basis
+    real(wp), intent(in) :: z(:, :)    !! (samples, number)
+    real(wp), intent(inout) :: y(:, :) !! (samples, unknowns)
 
-    !> Takes the slow part out: `f − X (XᵀX)⁻¹ Xᵀ f`.
-    subroutine take_out(part, f)
-      real(wp), intent(in) :: part(:, :)  !! (samples, number) Xᵀ f
-      real(wp), intent(inout) :: f(:, :)
+    integer :: i, k
 
-      real(wp) :: share(size(part, 1))
-      integer :: i, j
-
+    do k = 1, size(y, 2)
       do i = 1, basis%number
-        share = 0.0_wp
-        do j = 1, basis%number
-          share = share + basis%inverse(:, i, j)*part(:, j)
-        end do
-        f = f - basis%shape(:, :, i)*spread(share, 2, size(f, 2))
+        y(:, k) = y(:, k) + basis%shape(:, k, i)*z(:, i)
       end do
-    end subroutine take_out
+    end do
+  end subroutine add_slow
 
-  end subroutine approximate_solution
+  !> `(XᵀX)⁻¹ Xᵀ f` from `Xᵀ f`.
+  pure subroutine share_out(basis, part, share)
+    type(slow_basis_t), intent(in) :: basis
+    real(wp), intent(in) :: part(:, :)   !! (samples, number)
+    real(wp), intent(out) :: share(:, :) !! (samples, number)
+
+    integer :: i, j
+
+    share = 0.0_wp
+    do j = 1, basis%number
+      do i = 1, basis%number
+        share(:, i) = share(:, i) + basis%inverse(:, i, j)*part(:, j)
+      end do
+    end do
+  end subroutine share_out
+
+  !> `Xᵀ f`.
+  pure subroutine slow_part(basis, f, part)
+    type(slow_basis_t), intent(in) :: basis
+    real(wp), intent(in) :: f(:, :)     !! (samples, unknowns)
+    real(wp), intent(out) :: part(:, :) !! (samples, number)
+
+    integer :: i, k
+
+    part = 0.0_wp
+    do i = 1, basis%number
+      do k = 1, size(f, 2)
+        part(:, i) = part(:, i) + basis%shape(:, k, i)*f(:, k)
+      end do
+    end do
+  end subroutine slow_part
 
   !> Samples of the same functions at another number of crank angles.
   subroutine resample_samples(plan, to_plan, samples, other)

@@ -4,10 +4,10 @@
 module response_peaks
   use constants, only: degree, two_pi
   use elastic_equations, only: functions_of
-  use fourier_transform, only: coefficients_of, fourier_plan_t, value_at
+  use fourier_transform, only: close_fourier, coefficients_of, fourier_plan_t, open_fourier, &
+    resampled, value_at, values_of
   use kinds, only: wp
   use link_rows, only: displacement_rows, strain_rows, strain_rows_t
-  use response_series, only: displacements_along, strains_along
   use response_types, only: peak_t, response_request_t, speed_response_t
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
@@ -20,6 +20,11 @@ module response_peaks
 
   !> Intervals between the places looked at, for each piece of a link.
   integer, parameter :: intervals = 32
+
+  !> So many times as many crank angles are looked at as there are samples, and all maxima among them
+  !! that are as high as this beside the highest.
+  integer, parameter :: denser = 4
+  real(wp), parameter :: may_hide = 0.95_wp
 
   !> Rounds of the search between samples, and how its steps shrink.
   integer, parameter :: rounds = 10
@@ -34,14 +39,21 @@ contains
     real(wp), intent(in) :: y(:, :) !! (samples, unknowns) [√J]
     real(wp) :: deflection(size(grid%integrals))
 
-    real(wp) :: moved(size(y, 1), 2, size(quick_places))
-    integer :: b
+    real(wp), allocatable :: q(:, :)
+    integer :: b, i
 
     deflection = 0.0_wp
     do b = 1, size(deflection)
-      if (.not. grid%model%links(b)%bends) cycle
-      call displacements_along(grid, b, quick_places, y, moved)
-      deflection(b) = sqrt(maxval(sum(moved**2, dim=2)))
+      associate (link => grid%model%links(b))
+        if (.not. link%bends) cycle
+        q = functions_of(grid, b, y)
+        do i = 1, size(quick_places)
+          associate (rows => displacement_rows(link, [quick_places(i)*link%length, 0.0_wp]))
+            deflection(b) = max(deflection(b), sqrt(maxval(sum(matmul(q, transpose(rows(:2, &
+              :)))**2, dim=2))))
+          end associate
+        end do
+      end associate
     end do
   end function sampled_deflections
 
@@ -53,70 +65,127 @@ contains
     real(wp), intent(in) :: y(:, :)                !! (samples, unknowns) [√J]
     type(speed_response_t), intent(inout) :: found !! its largest strains, stresses, deflections
 
-    real(wp), allocatable :: axial(:, :), curvature(:, :), moved(:, :, :), xi(:), q(:, :), &
-      coefficients(:, :), elongation(:, :)
+    type(fourier_plan_t) :: dense
+    real(wp), allocatable :: values(:, :), xi(:), coefficients(:, :), elongation(:, :), q(:, :), &
+      stretched(:, :)
     integer :: b, i, n
 
     n = size(grid%integrals)
     allocate (found%largest_strain(n), found%largest_stress(n), found%largest_deflection(n))
+    call open_fourier(denser*grid%samples, dense)
     do b = 1, n
       associate (link => grid%model%links(b))
         if (.not. link%bends) cycle
         xi = [(real(i, wp)/(intervals*link%bending_shapes%elements), i=0, &
           intervals*link%bending_shapes%elements)]
-        allocate (axial(grid%samples, size(xi)), curvature(grid%samples, size(xi)), &
-          moved(grid%samples, 2, size(xi)))
-        call strains_along(grid, b, xi, y, axial, curvature)
-        call displacements_along(grid, b, xi, y, moved)
         q = functions_of(grid, b, y)
         allocate (coefficients(grid%samples, size(q, 2)), elongation(grid%samples, 1))
         call coefficients_of(plan, q, coefficients)
         call coefficients_of(plan, y(:, grid%elongation(b):grid%elongation(b)), elongation)
-        call search(abs(axial) + request%section(b)%outer*abs(curvature), xi, .true., &
-          found%largest_strain(b))
-        call search(sum(moved**2, dim=2), xi, .false., found%largest_deflection(b))
+        deallocate (q)
+        allocate (q(dense%samples, size(coefficients, 2)), stretched(dense%samples, 1), &
+          values(dense%samples, size(xi)))
+        call values_of(dense, resampled(coefficients, dense%samples), q)
+        call values_of(dense, resampled(elongation, dense%samples), stretched)
+        do i = 1, size(xi)
+          values(:, i) = strains_at(xi(i))
+        end do
+        call search(values, xi, .true., found%largest_strain(b))
+        do i = 1, size(xi)
+          associate (rows => displacement_rows(link, [xi(i)*link%length, 0.0_wp]))
+            values(:, i) = sum(matmul(q, transpose(rows(:2, :)))**2, dim=2)
+          end associate
+        end do
+        call search(values, xi, .false., found%largest_deflection(b))
         found%largest_deflection(b)%value = sqrt(found%largest_deflection(b)%value)
         found%largest_stress(b) = found%largest_strain(b)
         found%largest_stress(b)%value = request%section(b)%modulus*found%largest_strain(b)%value
-        deallocate (axial, curvature, moved, coefficients, elongation)
+        deallocate (values, coefficients, elongation, q, stretched)
       end associate
     end do
+    call close_fourier(dense)
 
   contains
 
-    !> The largest of sampled values, then by parabolas over the turn and along the link in turns,
-    !! through points that move closer: the largest value met counts.
+    !> Strain of the outermost fibre over the turn.
+    function strains_at(place) result(strain)
+      real(wp), intent(in) :: place
+      real(wp) :: strain(size(q, 1))
+
+      type(strain_rows_t) :: rows
+      integer :: chord
+
+      rows = strain_rows(grid%model%links(b), place)
+      chord = grid%integrals(b)%chord
+      strain = abs(stretched(:, 1)*rows%elongation + matmul(q(:, chord + 1:), rows%axial)) + &
+        request%section(b)%outer*abs(matmul(q(:, chord + 1:), rows%curvature(1:)) + &
+        rows%curvature(0)*q(:, 3))
+    end function strains_at
+
+    !> The largest value: of all sampled maxima that may hide it, the largest between samples.
     subroutine search(values, xi, of_strain, peak)
       real(wp), intent(in) :: values(:, :) !! (samples, places)
       real(wp), intent(in) :: xi(:)
       logical, intent(in) :: of_strain     !! else of squared deflection
       type(peak_t), intent(out) :: peak
 
-      real(wp) :: best(2), width(2), step(2), f(3), bend, here
-      integer :: at(2), i, k
+      type(peak_t) :: other
+      real(wp) :: least
+      integer :: before, after, i, k
 
-      at = maxloc(values)
-      best = [two_pi*(at(1) - 1)/size(values, 1), xi(at(2))]
-      width = [two_pi/size(values, 1), xi(2) - xi(1)]
-      peak%value = values(at(1), at(2))
+      least = may_hide*maxval(values)
+      do i = 1, size(values, 2)
+        do k = 1, size(values, 1)
+          if (values(k, i) < least) cycle
+          before = modulo(k - 2, size(values, 1)) + 1
+          after = modulo(k, size(values, 1)) + 1
+          if (any(values([before, after], max(1, i - 1):min(size(values, 2), i + 1)) > &
+            values(k, i)) .or. any(values(k, max(1, i - 1):min(size(values, 2), i + 1)) > &
+            values(k, i))) cycle
+          call climb(values(k, i), [two_pi*(k - 1)/size(values, 1), xi(i)], [two_pi/size(values, &
+            1), xi(2) - xi(1)], of_strain, other)
+          if (other%value > peak%value) peak = other
+        end do
+      end do
+    end subroutine search
+
+    !> From a sampled maximum by parabolas over the turn, along the link and in the direction in which
+    !! these have led, through points that move closer: the largest value met counts.
+    subroutine climb(value, place, wide, of_strain, peak)
+      real(wp), intent(in) :: value, place(2) !! sampled; crank angle and place
+      real(wp), intent(in) :: wide(2)         !! between samples
+      logical, intent(in) :: of_strain
+      type(peak_t), intent(out) :: peak
+
+      real(wp) :: best(2), before(2), middle(2), width(2), step(2), f(3), bend, here
+      integer :: i, k
+
+      best = place
+      width = wide
+      peak%value = value
       do k = 1, rounds
-        do i = 1, 2
-          step = 0.0_wp
-          step(i) = width(i)
-          associate (middle => best + 0.0_wp)
-            f(2) = value_at_place(of_strain, middle(1), middle(2))
-            call try_place(middle - step, of_strain, best, peak%value, f(1))
-            call try_place(middle + step, of_strain, best, peak%value, f(3))
-            bend = f(1) + f(3) - 2.0_wp*f(2)
-            if (bend < 0.0_wp) call try_place(middle + 0.5_wp*(f(1) - f(3))/bend*step, of_strain, &
-              best, peak%value, here)
-          end associate
+        before = best
+        do i = 1, 3
+          ! The third direction is that in which the first two have led.
+          step = best - before
+          if (i < 3) then
+            step = 0.0_wp
+            step(i) = width(i)
+          end if
+          if (all(abs(step) <= 0.0_wp)) cycle
+          middle = best
+          f(2) = value_at_place(of_strain, middle(1), middle(2))
+          call try_place(middle - step, of_strain, best, peak%value, f(1))
+          call try_place(middle + step, of_strain, best, peak%value, f(3))
+          bend = f(1) + f(3) - 2.0_wp*f(2)
+          if (bend < 0.0_wp) call try_place(middle + 0.5_wp*(f(1) - f(3))/bend*step, of_strain, &
+            best, peak%value, here)
         end do
         width = narrowing*width
       end do
       peak%xi = best(2)
-      peak%crank = modulo(best(1)/degree, 360.0_wp)
-    end subroutine search
+      peak%crank = modulo(merge(-best(1), best(1), grid%backwards)/degree, 360.0_wp)
+    end subroutine climb
 
     !> The value at a crank angle and place, which is kept if it is the largest so far.
     subroutine try_place(at, of_strain, best, largest, here)
@@ -140,15 +209,15 @@ contains
       real(wp) :: value
 
       type(strain_rows_t) :: rows
-      real(wp) :: here(size(coefficients, 2)), stretched(1)
+      real(wp) :: here(size(coefficients, 2)), drawn(1)
       integer :: chord
 
       here = value_at(coefficients, theta)
       chord = grid%integrals(b)%chord
       if (of_strain) then
         rows = strain_rows(grid%model%links(b), place)
-        stretched = value_at(elongation, theta)
-        value = abs(stretched(1)*rows%elongation + dot_product(here(chord + 1:), rows%axial)) + &
+        drawn = value_at(elongation, theta)
+        value = abs(drawn(1)*rows%elongation + dot_product(here(chord + 1:), rows%axial)) + &
           request%section(b)%outer*abs(dot_product(here(chord + 1:), rows%curvature(1:)) + &
           rows%curvature(0)*here(3))
       else

@@ -11,8 +11,7 @@ module response_series
   implicit none (type, external)
   private
 
-  public :: response_series_of, series_count, first_gauge, first_torque, strains_along, &
-    displacements_along
+  public :: response_series_of, series_count, first_gauge, first_torque
 
   !> Series of a point, a gauge (axial strain, curvature, shear force) and of the torque (rigid,
   !! linear, quadratic).
@@ -131,49 +130,6 @@ contains
     elongation = y(:, grid%elongation(body))
   end function elongation_of
 
-  !> Axial strain and curvature at many places of a link.
-  pure subroutine strains_along(grid, body, xi, y, axial, curvature)
-    type(turn_grid_t), intent(in) :: grid
-    integer, intent(in) :: body
-    real(wp), intent(in) :: xi(:)              !! (places)
-    real(wp), intent(in) :: y(:, :)            !! (samples, unknowns)
-    real(wp), intent(out) :: axial(:, :)       !! (samples, places)
-    real(wp), intent(out) :: curvature(:, :)   !! (samples, places) [1/m]
-
-    type(strain_rows_t) :: rows
-    real(wp) :: q(size(y, 1), grid%integrals(body)%chord + grid%integrals(body)%own)
-    integer :: chord, i
-
-    chord = grid%integrals(body)%chord
-    q = functions_of(grid, body, y)
-    do i = 1, size(xi)
-      rows = strain_rows(grid%model%links(body), xi(i))
-      axial(:, i) = elongation_of(grid, body, y)*rows%elongation + matmul(q(:, chord + 1:), &
-        rows%axial)
-      curvature(:, i) = matmul(q(:, chord + 1:), rows%curvature(1:)) + rows%curvature(0)*q(:, 3)
-    end do
-  end subroutine strains_along
-
-  !> Displacements along and across a link at many places.
-  pure subroutine displacements_along(grid, body, xi, y, displacement)
-    type(turn_grid_t), intent(in) :: grid
-    integer, intent(in) :: body
-    real(wp), intent(in) :: xi(:)                   !! (places)
-    real(wp), intent(in) :: y(:, :)                 !! (samples, unknowns)
-    real(wp), intent(out) :: displacement(:, :, :)  !! (samples, 2, places) [m]
-
-    real(wp) :: q(size(y, 1), grid%integrals(body)%chord + grid%integrals(body)%own)
-    real(wp), allocatable :: rows(:, :)
-    integer :: i
-
-    q = functions_of(grid, body, y)
-    do i = 1, size(xi)
-      rows = displacement_rows(grid%model%links(body), [xi(i)*grid%model%links(body)%length, &
-        0.0_wp])
-      displacement(:, :, i) = matmul(q, transpose(rows(:2, :)))
-    end do
-  end subroutine displacements_along
-
   !> Driving torque of the rigid linkage, its part linear in the deformations and its quadratic
   !! part: `−∂L/∂θ + d/dt ∂L/∂ω − d²/dt² ∂L/∂α`.
   !!
@@ -188,25 +144,39 @@ contains
     real(wp), intent(in) :: y(:, :)
     real(wp), intent(out) :: series(:, :)
 
+    series(:, 1) = speed**2*grid%torque(:, 1) + grid%torque(:, constant_case)
+    call elastic_torque(grid, plan, terms, speed, y, series(:, 2:3))
+    ! Derivatives for −θ2 give a torque that is positive clockwise.
+    if (grid%backwards) series(:, 2:3) = -series(:, 2:3)
+  end subroutine torque_series
+
+  !> The linear and the quadratic part.
+  subroutine elastic_torque(grid, plan, terms, speed, y, series)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan
+    type(elastic_terms_t), intent(in) :: terms
+    real(wp), intent(in) :: speed
+    real(wp), intent(in) :: y(:, :)
+    real(wp), intent(out) :: series(:, :)
+
     real(wp), dimension(size(y, 1), case_count) :: work, slope, second, energy, rate_work
     real(wp) :: first(size(y, 1), size(y, 2)), force(size(y, 1), size(y, 2)), load_slope(size(y, &
       1), size(y, 2))
     integer :: c
 
-    series(:, 1) = speed**2*grid%torque(:, 1) + grid%torque(:, constant_case)
     do c = 1, case_count
       work(:, c) = sum(grid%load(:, :, c)*y, dim=2)
     end do
     call derivatives(plan, work, slope, second)
     call derivatives(plan, grid%load(:, :, 1), load_slope)
-    series(:, 2) = speed**2*(2.0_wp*slope(:, 1) - sum(load_slope*y, dim=2) - second(:, 2))
+    series(:, 1) = speed**2*(2.0_wp*slope(:, 1) - sum(load_slope*y, dim=2) - second(:, 2))
     call derivatives(plan, grid%load(:, :, constant_case), load_slope)
-    series(:, 2) = series(:, 2) - sum(load_slope*y, dim=2)
-    series(:, 3) = 0.0_wp
+    series(:, 1) = series(:, 1) - sum(load_slope*y, dim=2)
+    series(:, 2) = 0.0_wp
     if (.not. terms%quadratic) return
     call derivatives(plan, y, first)
-    call swept_work(grid, plan, y, series(:, 3))
-    series(:, 3) = speed**2*series(:, 3)
+    call swept_work(grid, plan, y, series(:, 2))
+    series(:, 2) = speed**2*series(:, 2)
     if (.not. terms%axial) return
     do c = 1, case_count
       force = 0.0_wp
@@ -215,9 +185,9 @@ contains
       rate_work(:, c) = sum(first*force, dim=2)
     end do
     call derivatives(plan, energy, slope, second)
-    series(:, 3) = series(:, 3) + speed**2*(-0.5_wp*slope(:, 1) - rate_work(:, 1) + &
+    series(:, 2) = series(:, 2) + speed**2*(-0.5_wp*slope(:, 1) - rate_work(:, 1) + &
       0.5_wp*second(:, 2)) + 0.5_wp*slope(:, constant_case) - rate_work(:, constant_case)
-  end subroutine torque_series
+  end subroutine elastic_torque
 
   !> `∫ μ (S' y)·(S y)'' dx` with S' the change of the shapes at constant y.
   subroutine swept_work(grid, plan, y, work)
@@ -226,7 +196,7 @@ contains
     real(wp), intent(in) :: y(:, :)
     real(wp), intent(out) :: work(:)
 
-    real(wp), allocatable :: q(:, :), first(:, :), second(:, :), chord_slope(:, :), moved(:, :), &
+    real(wp), allocatable :: q(:, :), first(:, :), second(:, :), moved(:, :), &
       turned(:, :), swept(:, :), pin(:, :), pin_first(:, :), pin_second(:, :)
     integer :: b, i, j, k, p
 
@@ -236,13 +206,11 @@ contains
         grid%rate_slope(:, b))
         q = functions_of(grid, b, y)
         allocate (first, second, moved, swept, mold=q)
-        allocate (chord_slope(size(q, 1), integrals%chord))
         call derivatives(plan, q, first, second)
         moved = 0.0_wp
         do j = 1, grid%border
-          call derivatives(plan, grid%chord(:, :integrals%chord, j, b), chord_slope)
           do i = 1, integrals%chord
-            moved(:, i) = moved(:, i) + chord_slope(:, i)*y(:, j)
+            moved(:, i) = moved(:, i) + grid%chord_slope(:, i, j, b)*y(:, j)
           end do
         end do
         ! moved·(m Q'' + J (2hQ' + h'Q) − h² m_t Q) + h (−Qᵀ J Q'' + Qᵀ m_t (2hQ' + h'Q))
@@ -261,7 +229,7 @@ contains
         turned = matmul(q, integrals%mass)
         if (size(integrals%rotary) > 0) turned = turned - matmul(q, integrals%rotary)
         work = work - h**2*sum(moved*turned, dim=2)
-        deallocate (first, second, moved, swept, chord_slope)
+        deallocate (first, second, moved, swept)
       end associate
     end do
     allocate (pin(size(y, 1), 2), pin_first(size(y, 1), 2), pin_second(size(y, 1), 2), &
@@ -271,10 +239,9 @@ contains
       pin = 0.0_wp
       moved = 0.0_wp
       do j = 1, grid%border
-        call derivatives(plan, grid%pin(:, :, p, j), pin_first)
         do k = 1, 2
           pin(:, k) = pin(:, k) + grid%pin(:, k, p, j)*y(:, j)
-          moved(:, k) = moved(:, k) + pin_first(:, k)*y(:, j)
+          moved(:, k) = moved(:, k) + grid%pin_slope(:, k, p, j)*y(:, j)
         end do
       end do
       call derivatives(plan, pin, pin_first, pin_second)

@@ -94,12 +94,11 @@ module response_types
                                                     !! not estimated
     real(wp), allocatable :: out_of_plane           !! first frequency of vibrations out of the plane
                                                     !! of motion [Hz]; unallocated: not estimated
-    complex(wp), allocatable :: multiplier(:)       !! of a turn, of the slow vibrations
-    real(wp) :: distance = 0.0_wp                   !! least |1 − multiplier|
-    real(wp) :: distance_error = 0.0_wp
+    real(wp) :: distance = 0.0_wp                   !! least |1 − multiplier|: from resonance
+    real(wp) :: distance_error = 0.0_wp             !! relative
     real(wp) :: growth = 0.0_wp                     !! largest ln|multiplier|
-    complex(wp) :: nearest = (0.0_wp, 0.0_wp)       !! exponent of the multiplier nearest to 1: turns
-                                                    !! as imaginary part
+    complex(wp) :: nearest = (0.0_wp, 0.0_wp)       !! of the multiplier nearest to 1: ln|multiplier|
+                                                    !! and, as imaginary part, turns (0 to 1/2)
     integer :: order = 0                            !! highest polynomial degree
     integer :: samples = 0                          !! over the turn
     integer :: slow = 0                             !! slow coordinates

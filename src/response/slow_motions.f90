@@ -23,7 +23,7 @@ module slow_motions
   private
 
   public :: slow_basis_t, new_slow_basis, slow_motion_t, new_slow_motion, solve_slow, &
-    slow_multipliers, slow_count, own_squares
+    slow_count, own_squares, slow_mode_t, slow_modes, slow_mode_shape, solve_slow_shifted
 
   !> Subspace iterations: the error of the lowest frequencies falls by the square of the ratio of
   !! frequencies each time.
@@ -36,6 +36,8 @@ module slow_motions
     real(wp), allocatable :: inverse(:, :, :)     !! (samples, number, number) (XᵀX)⁻¹
     real(wp), allocatable :: square(:)            !! (unknowns) 1/ω² of the other deformations by
                                                   !! themselves; 0 of the slow ones [s²]
+    real(wp), allocatable :: start_mass(:, :)     !! (number, number) M at the first crank angle
+    real(wp), allocatable :: start_stiffness(:, :) !! XᵀX there
     !> Coefficients over the turn: (samples, number², matrices) M, G, W, XᵀX and XᵀK_GX per ω2² and
     !! of the constant loads
     real(wp), allocatable :: matrix(:, :, :)
@@ -58,15 +60,24 @@ module slow_motions
     integer, allocatable :: pivot(:)
   end type slow_motion_t
 
+  !> A free motion of the slow coordinates, `e^{σ θ} z(θ)`.
+  type :: slow_mode_t
+    complex(wp) :: exponent = (0.0_wp, 0.0_wp) !! σ, its imaginary part between 0 and 1/2
+    complex(wp), allocatable :: start(:)       !! (2 number) coordinates and momenta at the first
+                                               !! crank angle
+    real(wp) :: frequency = 0.0_wp             !! of the shape there, `√(zᴴXᵀX z/zᴴM z)` [rad/s]
+  end type slow_mode_t
+
 contains
 
-  !> Number of slow coordinates: deformations whose own frequency is below a limit, at least one.
+  !> Number of slow coordinates: deformations whose own frequency is below a limit, and one more; at
+  !! least three, so that the slowest of all are found well.
   pure function slow_count(grid, limit) result(number)
     type(turn_grid_t), intent(in) :: grid
     real(wp), intent(in) :: limit !! [rad/s]
     integer :: number
 
-    number = max(1, count(own_squares(grid)*limit**2 > 1.0_wp))
+    number = min(grid%unknowns, max(3, count(own_squares(grid)*limit**2 > 1.0_wp) + 1))
   end function slow_count
 
   !> 1/ω² of every deformation by itself [s²]; those of the border from the mean of M over the turn.
@@ -119,6 +130,8 @@ contains
     call find_shapes(coarse, order(:number), shape, error)
     if (allocated(error)) return
     call find_matrices(coarse, coarse_plan, shape, sums)
+    basis%start_mass = reshape(sums(1, :, of_mass), [number, number])
+    basis%start_stiffness = reshape(sums(1, :, of_stiffness), [number, number])
     allocate (coefficients(coarse%samples, number**2), basis%matrix(plan%samples, number**2, 6))
     do c = 1, 6
       call coefficients_of(coarse_plan, sums(:, :, c), coefficients)
@@ -496,22 +509,117 @@ contains
     end do
   end subroutine solve_slow
 
-  !> Multipliers of a turn.
-  subroutine slow_multipliers(motion, multipliers, error)
-    type(slow_motion_t), intent(in) :: motion
-    complex(wp), allocatable, intent(out) :: multipliers(:) !! (2 number)
+  !> Free motions, of each pair of conjugate ones that with positive turns.
+  !!
+  !! Errors: the multipliers do not converge.
+  subroutine slow_modes(basis, motion, modes, error)
+    type(slow_basis_t), intent(in) :: basis
+    type(slow_motion_t), intent(in) :: motion !! of these coordinates
+    type(slow_mode_t), allocatable, intent(out) :: modes(:)
     type(error_t), allocatable, intent(out) :: error
 
-    real(wp) :: a(2*motion%number, 2*motion%number), re(2*motion%number), im(2*motion%number)
-    real(wp) :: work(16*motion%number), none(1, 1)
-    integer :: n, info
+    real(wp) :: a(2*motion%number, 2*motion%number), vectors(2*motion%number, 2*motion%number)
+    real(wp) :: re(2*motion%number), im(2*motion%number), work(32*motion%number), none(1, 1)
+    integer :: i, m, n, number, info
 
-    n = 2*motion%number
+    m = motion%number
+    n = 2*m
     a = motion%monodromy
-    call dgeev("N", "N", n, a, n, re, im, none, 1, none, 1, work, size(work), info)
-    if (info /= 0) call set_error(error, error_of_numerics, "the multipliers of a turn do not "// &
-      "converge")
-    multipliers = cmplx(re, im, wp)
-  end subroutine slow_multipliers
+    call dgeev("N", "V", n, a, n, re, im, none, 1, vectors, n, work, size(work), info)
+    if (info /= 0) then
+      call set_error(error, error_of_numerics, "the multipliers of a turn do not converge")
+      return
+    end if
+    allocate (modes(count(im >= 0.0_wp)))
+    number = 0
+    do i = 1, n
+      if (im(i) < 0.0_wp) cycle
+      number = number + 1
+      associate (mode => modes(number))
+        mode%exponent = log(cmplx(re(i), im(i), wp))/two_pi
+        mode%start = cmplx(vectors(:, i), 0.0_wp, wp)
+        if (im(i) > 0.0_wp) mode%start = cmplx(vectors(:, i), vectors(:, i + 1), wp)
+        associate (z => mode%start(:m))
+          mode%frequency = sqrt(real(dot_product(z, matmul(basis%start_stiffness, z)))/ &
+            real(dot_product(z, matmul(basis%start_mass, z))))
+        end associate
+      end associate
+    end do
+  end subroutine slow_modes
+
+  !> z of a free motion over the turn. That of a mode that fades fast is lost in the rounding of
+  !! slower ones.
+  pure function slow_mode_shape(motion, mode) result(shape)
+    type(slow_motion_t), intent(in) :: motion
+    type(slow_mode_t), intent(in) :: mode
+    complex(wp) :: shape(motion%steps, motion%number)
+
+    complex(wp) :: state(2*motion%number)
+    integer :: k
+
+    state = mode%start
+    do k = 1, motion%steps
+      shape(k, :) = exp(-mode%exponent*two_pi*(k - 1)/motion%steps)*state(:motion%number)
+      state = matmul(motion%transfer(:, :, k), state)
+    end do
+  end function slow_mode_shape
+
+  !> The periodic solution z of the slow equation with d/dθ2 + σ in place of d/dθ2, under a complex
+  !! load.
+  subroutine solve_slow_shifted(plan, motion, exponent, load, load_imaginary, z, z_imaginary)
+    type(fourier_plan_t), intent(in) :: plan
+    type(slow_motion_t), intent(in) :: motion
+    complex(wp), intent(in) :: exponent !! σ, not one of a free motion
+    real(wp), intent(in) :: load(:, :), load_imaginary(:, :) !! (samples, number) F per ω2²
+    real(wp), intent(out) :: z(:, :), z_imaginary(:, :)      !! (samples, number)
+
+    real(wp), dimension(size(load, 1), size(load, 2)) :: coefficients, coefficients_imaginary, &
+      moved, moved_imaginary
+    complex(wp) :: at_stages(size(load, 2)*size(motion%rule%node), size(load, 1)), turned
+    complex(wp) :: state(2*motion%number), push(2*motion%number, size(load, 1))
+    real(wp) :: left(4*motion%number, 4*motion%number), right(4*motion%number)
+    real(wp) :: theta
+    integer :: pivot(4*motion%number), i, k, m, n, info
+
+    m = motion%number
+    n = motion%steps
+    call coefficients_of(plan, load, coefficients)
+    call coefficients_of(plan, load_imaginary, coefficients_imaginary)
+    do i = 1, size(motion%rule%node)
+      theta = motion%rule%node(i)*two_pi/n
+      call values_of(plan, shifted(coefficients, theta), moved)
+      call values_of(plan, shifted(coefficients_imaginary, theta), moved_imaginary)
+      do k = 1, n
+        at_stages((i - 1)*m + 1:i*m, k) = exp(exponent*(theta + two_pi*(k - 1)/n))* &
+          cmplx(moved(k, :), moved_imaginary(k, :), wp)
+      end do
+    end do
+    state = 0.0_wp
+    do k = 1, n
+      push(:, k) = matmul(motion%response(:, :, k), at_stages(:, k))
+      state = matmul(motion%transfer(:, :, k), state) + push(:, k)
+    end do
+    ! (e^{2πσ} − monodromy) state = what the load leaves after a turn, in real numbers
+    turned = exp(two_pi*exponent)
+    left = 0.0_wp
+    left(:2*m, :2*m) = -motion%monodromy
+    left(2*m + 1:, 2*m + 1:) = -motion%monodromy
+    do i = 1, 2*m
+      left(i, i) = left(i, i) + real(turned)
+      left(2*m + i, 2*m + i) = left(2*m + i, 2*m + i) + real(turned)
+      left(i, 2*m + i) = -aimag(turned)
+      left(2*m + i, i) = aimag(turned)
+    end do
+    right = [real(state, wp), aimag(state)]
+    call dgetrf(4*m, 4*m, left, 4*m, pivot, info)
+    call dgetrs("N", 4*m, 1, left, 4*m, pivot, right, 4*m, info)
+    state = cmplx(right(:2*m), right(2*m + 1:), wp)
+    do k = 1, n
+      turned = exp(-exponent*two_pi*(k - 1)/n)
+      z(k, :) = real(turned*state(:m))
+      z_imaginary(k, :) = aimag(turned*state(:m))
+      state = matmul(motion%transfer(:, :, k), state) + push(:, k)
+    end do
+  end subroutine solve_slow_shifted
 
 end module slow_motions

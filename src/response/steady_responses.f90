@@ -9,7 +9,8 @@ module steady_responses
   use constants, only: degree, two_pi
   use deformation_model, only: deformation_model_t, new_deformation_model
   use elastic_equations, only: load_at_speed
-  use errors, only: error_t
+  use errors, only: error_of_numerics, error_t, set_error
+  use floquet_exponents, only: find_nearest_mode, floquet_mode_t
   use fourier_transform, only: close_fourier, coefficients_of, fourier_plan_t, open_fourier, &
     resampled, value_at, values_of
   use interruption, only: was_interrupted
@@ -21,10 +22,13 @@ module steady_responses
   use periodic_solver, only: solve_periodic
   use response_peaks, only: find_peaks, sampled_deflections
   use response_series, only: first_gauge, first_torque, response_series_of, series_count
-  use response_types
+  use response_types, only: axial_force, axial_strain, bending_strain, damping_ratio, damping_time, &
+    drive_values, moment, power, response_request_t, response_t, shear_force, speed_response_t, &
+    strain_values, stress, total_torque
   use slow_motions, only: new_slow_basis, new_slow_motion, slow_basis_t, slow_count, &
-    slow_motion_t, slow_multipliers, own_squares
+    slow_motion_t, own_squares
   use structures, only: structure_t
+  use text, only: to_string
   use turn_grids, only: new_turn_grid, turn_grid_t
   implicit none (type, external)
   private
@@ -38,8 +42,14 @@ module steady_responses
   !! bending of the links loads them along their axes: both converge together.
   integer, parameter :: along_below = 4, least_along = 4
 
-  !> Limits of orders and samples.
-  integer, parameter :: most_order = 36, most_samples = 3072
+  !> The remainder of the second solution in a quantity of its own, at most so many times that in all.
+  real(wp), parameter :: many = 10.0_wp
+
+  !> Remainders above this are none of rounding.
+  real(wp), parameter :: unfinished = 1.0e-9_wp
+
+  !> Limits of orders and samples, and of the times they are raised.
+  integer, parameter :: most_order = 36, most_rounds = 8
 
   !> Numbers of samples: products of small factors, each about half as many more than the last but
   !! one.
@@ -58,8 +68,10 @@ module steady_responses
   !> Estimated errors are differences of two solutions times this.
   real(wp), parameter :: safety = 1.5_wp
 
-  !> Remainders of the iterations beside the accuracy.
-  real(wp), parameter :: solved_to = 1.0e-3_wp, compared_to = 1.0e-2_wp, least_remainder = 2.0e-14_wp
+  !> Remainders of the iterations beside the accuracy: smaller in the second solution, so that the
+  !! difference shows that of the first in every quantity.
+  real(wp), parameter :: solved_to = 1.0e-2_wp, compared_to = 1.0e-4_wp, &
+    least_remainder = 1.0e-14_wp
 
   !> The highest eighth of the harmonics of a series may have this share of the accuracy; they are
   !! taken to fall at least this fast.
@@ -68,8 +80,12 @@ module steady_responses
   !> Errors of strains fall about so much with two orders.
   real(wp), parameter :: gain_of_orders = 30.0_wp
 
-  !> Pairs of orders and samples in one run.
-  integer, parameter :: most_levels = 64
+  !> A relative error of a result that has no digits.
+  real(wp), parameter :: no_digits = 0.1_wp
+
+  !> Multipliers nearer to 1 than this are found from the whole equation; where the distance is a
+  !! result, than that.
+  real(wp), parameter :: near = 0.05_wp, far = 0.5_wp
 
   !> Rounding of a solution, with no resonance near.
   real(wp), parameter :: rounding = 1.0e-13_wp
@@ -82,12 +98,20 @@ module steady_responses
                                                 !! needed
   end type level_t
 
+  type :: level_slot_t
+    type(level_t), allocatable :: level
+  end type level_slot_t
+
   !> Orders and samples of a speed, and its levels.
   type :: choice_t
     integer :: order = 0
     integer :: at = 0             !! of `sample_numbers`
     integer :: level(2) = 0       !! numbers of the levels of both solutions
     integer :: slow = 0           !! slow coordinates
+    logical :: backwards = .false. !! the crank turns clockwise
+    real(wp) :: error = huge(1.0_wp) !! largest so far
+    logical :: raised_order = .false. !! last time
+    integer :: round = 0              !! times raised
     logical :: pending = .true.
   end type choice_t
 
@@ -113,23 +137,28 @@ contains
     type(response_t), intent(out) :: response
     type(error_t), allocatable, intent(out) :: error  !! why there is no response at any speed
 
-    type(level_t) :: levels(most_levels)
+    type(level_slot_t), allocatable :: levels(:)
     type(choice_t) :: choice(size(request%speed))
     integer, allocatable :: pending(:)
-    integer :: i, k, n, number
+    integer :: i, k, n
 
     n = size(request%speed)
     allocate (response%at_speed(n))
+    choice%backwards = request%speed < 0.0_wp
     choice%order = first_order(request%accuracy)
-    call new_level(structure, choice(1)%order, sample_numbers(1), store, levels(1), error)
+    allocate (levels(1))
+    allocate (levels(1)%level)
+    call new_level(structure, choice(1)%order, sample_numbers(1), .false., store, &
+      levels(1)%level, error)
     if (allocated(error)) return
-    choice%at = first_samples(request%speed*sqrt(maxval(own_squares(levels(1)%grid))), request%accuracy)
-    number = 1
+    choice%at = first_samples(request%speed*sqrt(maxval(own_squares(levels(1)%level%grid))), &
+      request%accuracy)
     do
+      call drop_levels(pack(choice, choice%pending), levels)
       pending = pack([(k, k=1, n)], choice%pending)
       if (size(pending) == 0) exit
       do i = 1, size(pending)
-        call find_levels(structure, request%speed(pending(i)), store, levels, number, &
+        call find_levels(structure, abs(request%speed(pending(i))), store, levels, &
           choice(pending(i)), error)
         if (allocated(error)) return
       end do
@@ -139,8 +168,8 @@ contains
         choice(pending(i))%pending = .not. was_interrupted()
         if (.not. choice(pending(i))%pending) cycle
         associate (here => choice(pending(i)))
-          call solve_speed(structure, request, request%speed(pending(i)), levels(here%level(1)), &
-            levels(here%level(2)), here, response%at_speed(pending(i)))
+          call solve_speed(structure, request, abs(request%speed(pending(i))), levels(here%level(1))%level, &
+            levels(here%level(2))%level, here, response%at_speed(pending(i)))
         end associate
       end do
       !$omp end parallel do
@@ -148,12 +177,11 @@ contains
   end subroutine find_steady_responses
 
   !> Finds or makes the two levels of a speed, with the slow coordinates that it needs.
-  subroutine find_levels(structure, speed, store, levels, number, choice, error)
+  subroutine find_levels(structure, speed, store, levels, choice, error)
     class(structure_t), intent(in) :: structure
     real(wp), intent(in) :: speed
     type(link_store_t), intent(inout) :: store
-    type(level_t), intent(inout) :: levels(:)
-    integer, intent(inout) :: number !! of levels made so far
+    type(level_slot_t), allocatable, intent(inout) :: levels(:) !! made so far
     type(choice_t), intent(inout) :: choice
     type(error_t), allocatable, intent(out) :: error
 
@@ -164,21 +192,20 @@ contains
       order = choice%order + (i - 1)*orders_above
       samples = sample_numbers(choice%at + i - 1)
       associate (level => choice%level(i))
-        do level = 1, number
-          if (levels(level)%order == order .and. levels(level)%grid%samples == samples) exit
-        end do
-        if (level > number) then
-          number = level
-          call new_level(structure, order, samples, store, levels(level), error)
-          if (allocated(error)) return
-        end if
+        level = number_of_level(levels, order, samples, choice%backwards)
+        if (level > 0) cycle
+        call add_slot(levels)
+        level = size(levels)
+        call new_level(structure, order, samples, choice%backwards, store, levels(level)%level, &
+          error)
+        if (allocated(error)) return
       end associate
     end do
     ! Both solutions have the same slow coordinates.
-    choice%slow = slow_count(levels(choice%level(1))%coarse, &
+    choice%slow = slow_count(levels(choice%level(1))%level%coarse, &
       abs(speed)*sample_numbers(choice%at)/samples_a_period)
     do i = 1, 2
-      associate (level => levels(choice%level(i)))
+      associate (level => levels(choice%level(i))%level)
         if (level%basis(choice%slow)%number > 0) cycle
         call open_fourier(level%grid%samples, plan)
         call open_fourier(level%coarse%samples, coarse_plan)
@@ -191,12 +218,68 @@ contains
     end do
   end subroutine find_levels
 
+  !> Number of the level of an order and a number of samples; 0: none.
+  pure function number_of_level(levels, order, samples, backwards) result(number)
+    type(level_slot_t), intent(in) :: levels(:)
+    integer, intent(in) :: order, samples
+    logical, intent(in) :: backwards
+    integer :: number
+
+    do number = size(levels), 1, -1
+      if (levels(number)%level%order == order .and. &
+        levels(number)%level%grid%samples == samples .and. &
+        (levels(number)%level%grid%backwards .eqv. backwards)) exit
+    end do
+  end function number_of_level
+
+  !> Room for one more level; those there are not copied.
+  pure subroutine add_slot(levels)
+    type(level_slot_t), allocatable, intent(inout) :: levels(:)
+
+    type(level_slot_t), allocatable :: more(:)
+    integer :: i
+
+    allocate (more(size(levels) + 1))
+    do i = 1, size(levels)
+      call move_alloc(levels(i)%level, more(i)%level)
+    end do
+    allocate (more(size(more))%level)
+    call move_alloc(more, levels)
+  end subroutine add_slot
+
+  !> Drops the levels that no speed needs any more.
+  pure subroutine drop_levels(choices, levels)
+    type(choice_t), intent(in) :: choices(:) !! of the speeds that are still to be solved
+    type(level_slot_t), allocatable, intent(inout) :: levels(:)
+
+    type(level_slot_t), allocatable :: kept(:)
+    logical :: needed(size(levels))
+    integer :: i, k
+
+    do i = 1, size(levels)
+      associate (level => levels(i)%level)
+        needed(i) = any((choices%order == level%order .and. &
+          sample_numbers(choices%at) == level%grid%samples) .or. &
+          (choices%order + orders_above == level%order .and. &
+          sample_numbers(choices%at + 1) == level%grid%samples))
+      end associate
+    end do
+    allocate (kept(count(needed)))
+    k = 0
+    do i = 1, size(levels)
+      if (.not. needed(i)) cycle
+      k = k + 1
+      call move_alloc(levels(i)%level, kept(k)%level)
+    end do
+    call move_alloc(kept, levels)
+  end subroutine drop_levels
+
   !> Polynomial degree to begin with.
   pure function first_order(accuracy) result(order)
     real(wp), intent(in) :: accuracy
     integer :: order
 
-    order = max(8, min(6 + 2*ceiling(-0.5_wp*log10(accuracy)), 18))
+    order = max(8, min(8 + 2*ceiling(-0.5_wp*log10(accuracy)), 22))
   end function first_order
 
   !> Samples to begin with, from the number of vibrations of the slowest mode in a turn: what was
@@ -209,15 +292,16 @@ contains
     real(wp) :: wanted
 
     wanted = 120.0_wp + 13.0_wp*(1.0_wp/max(abs(share), 1.0e-3_wp))**0.8_wp
-    wanted = wanted*(0.5_wp - log10(accuracy)/12.0_wp)
+    wanted = wanted*(0.1_wp - 0.15_wp*log10(accuracy))
     at = min(size(sample_numbers) - 1, findloc(sample_numbers >= min(nint(wanted), &
       sample_numbers(size(sample_numbers))), .true., dim=1))
   end function first_samples
 
   !> Makes the grids of a level.
-  subroutine new_level(structure, order, samples, store, level, error)
+  subroutine new_level(structure, order, samples, backwards, store, level, error)
     class(structure_t), intent(in) :: structure
     integer, intent(in) :: order, samples
+    logical, intent(in) :: backwards !! the crank turns clockwise
     type(link_store_t), intent(inout) :: store
     type(level_t), intent(out) :: level
     type(error_t), allocatable, intent(out) :: error
@@ -235,9 +319,10 @@ contains
       spread(order, 1, size(degrees)), spread(.false., 1, size(degrees)), model, error, store, &
       degrees)
     if (allocated(error)) return
-    call new_turn_grid(structure%linkage, model, samples, level%grid, error)
+    call new_turn_grid(structure%linkage, model, samples, level%grid, error, backwards)
     if (allocated(error)) return
-    call new_turn_grid(structure%linkage, model, min(samples, basis_samples), level%coarse, error)
+    call new_turn_grid(structure%linkage, model, min(samples, basis_samples), level%coarse, error, &
+      backwards)
     level%order = order
     allocate (level%basis(model%layout%unknowns))
   end subroutine new_level
@@ -281,6 +366,7 @@ contains
     type(fourier_plan_t) :: plan, above_plan
     type(slow_motion_t) :: motion
     type(solution_t) :: solution, better
+    real(wp), allocatable :: errors(:)
     integer(long) :: before
 
     before = found%applications
@@ -305,58 +391,104 @@ contains
       found%order = choice%order
       found%samples = level%grid%samples
       found%slow = choice%slow
-      call look_at_multipliers(motion, found)
+      call look_at_multipliers(request, speed, level, plan, level%basis(choice%slow), motion, found)
       if (allocated(found%error)) exit attempt
       call evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
-        found)
+        found, errors)
     end block attempt
     found%applications = before + solution%applications + better%applications
     call close_fourier(above_plan)
     call close_fourier(plan)
     choice%pending = .false.
     if (allocated(found%error)) then
-      ! Harmonics left out may hinder the iterations.
-      choice%pending = choice%at + 1 < size(sample_numbers)
-      choice%at = choice%at + 1
+      call raise_samples(choice)
       return
     end if
-    if (found%largest_error > request%accuracy) call raise(request%accuracy, found%largest_error, &
-      solution%series, choice)
+    if (found%largest_error <= request%accuracy) return
+    if (max(solution%remainder, many*better%remainder) > 0.5_wp*request%accuracy) then
+      ! Either rounding leaves no more digits, or harmonics left out hinder the iterations.
+      if (better%remainder > unfinished) call raise_samples(choice)
+      return
+    end if
+    if (rounding/found%distance > request%accuracy) then
+      call set_error(found%error, error_of_numerics, "resonance: an exponent of the turn, "// &
+        in_words(found%nearest)//", is too near to 0 for the accuracy asked for")
+      return
+    end if
+    call raise(request%accuracy, found%largest_error, errors, solution%series, choice)
+    if (.not. choice%pending .and. found%largest_error > no_digits) call set_error(found%error, &
+      error_of_numerics, "no accuracy is reached with "//to_string(level%grid%samples)// &
+      " samples of the turn and order "//to_string(choice%order)// &
+      "; the nearest exponent of the turn is "//in_words(found%nearest))
   end subroutine solve_speed
 
-  !> Raises the samples if the harmonics of a series have not fallen far enough, else the orders.
-  pure subroutine raise(accuracy, error, series, choice)
-    real(wp), intent(in) :: accuracy, error
+  !> Raises the samples, up to their limit.
+  pure subroutine raise_samples(choice)
+    type(choice_t), intent(inout) :: choice
+
+    choice%round = choice%round + 1
+    choice%pending = choice%at + 1 < size(sample_numbers) .and. choice%round <= most_rounds
+    if (choice%pending) choice%at = choice%at + 1
+  end subroutine raise_samples
+
+  !> Raises the samples if the errors of the series that are not accurate enough come from harmonics
+  !! left out, else the orders.
+  pure subroutine raise(accuracy, largest_error, errors, series, choice)
+    real(wp), intent(in) :: accuracy, largest_error
+    real(wp), intent(in) :: errors(:)    !! (series)
     real(wp), intent(in) :: series(:, :) !! coefficients
     type(choice_t), intent(inout) :: choice
 
     real(wp) :: tail(2), last, largest, fall, wanted
     integer :: i, n, next
+    logical :: order
 
     n = size(series, 1)
     next = n
+    order = .not. any(errors > accuracy)
     do i = 1, size(series, 2)
+      if (errors(i) <= accuracy) cycle
       largest = sum(abs(series(:, i)))
-      if (largest <= 0.0_wp) cycle
       last = sum(abs(series(n - n/8:, i)))/largest
-      if (last <= tail_share*accuracy) cycle
+      if (last <= tail_share*errors(i)) then
+        order = .true.
+        cycle
+      end if
       ! Harmonics fall exponentially. The highest of all are raised by those above them.
       tail = [sum(abs(series(n/2:n/2 + n/8, i))), sum(abs(series(n/2 + n/4:n/2 + 3*n/8, i)))]
       fall = max(log(tail(1)/tail(2))/(n/4), slowest_fall)
-      wanted = n + log(last/(0.5_wp*tail_share*accuracy))/fall
+      wanted = n + log(errors(i)/(0.3_wp*accuracy))/fall
       next = max(next, nint(min(wanted, real(2*n, wp))))
     end do
+    choice%round = choice%round + 1
+    if (choice%round > most_rounds) return
     choice%pending = .true.
+    ! Higher orders that gain nothing show that harmonics are to blame.
+    if (choice%raised_order .and. largest_error > 0.5_wp*choice%error) then
+      order = .false.
+      next = max(next, n + 1)
+    end if
+    choice%error = largest_error
+    choice%raised_order = order
     if (next > n) then
       if (choice%at + 1 == size(sample_numbers)) choice%pending = .false.
       choice%at = min(size(sample_numbers) - 1, max(choice%at + 1, &
         findloc(sample_numbers >= next, .true., dim=1)))
-    else
+    end if
+    if (order) then
       if (choice%order + orders_above >= most_order) choice%pending = .false.
       choice%order = min(most_order - orders_above, choice%order + orders_above*max(1, &
-        ceiling(log(error/accuracy)/log(gain_of_orders))))
+        ceiling(log(largest_error/accuracy)/log(gain_of_orders))))
     end if
   end subroutine raise
+
+  !> An exponent as growth and turns.
+  pure function in_words(exponent) result(words)
+    complex(wp), intent(in) :: exponent !! ln|multiplier| and turns
+    character(len=:), allocatable :: words
+
+    words = to_string(real(exponent, wp), 4)//" and "//to_string(aimag(exponent), 6)//" turns"
+  end function in_words
 
   !> Forgets the result of a solution before.
   subroutine clear(found)
@@ -390,25 +522,29 @@ contains
   end subroutine solve_level
 
   !> Multipliers of a turn, and how near the motion is to resonance.
-  subroutine look_at_multipliers(motion, found)
+  subroutine look_at_multipliers(request, speed, level, plan, basis, motion, found)
+    type(response_request_t), intent(in) :: request
+    real(wp), intent(in) :: speed
+    type(level_t), intent(in) :: level
+    type(fourier_plan_t), intent(in) :: plan
+    type(slow_basis_t), intent(in) :: basis
     type(slow_motion_t), intent(in) :: motion
     type(speed_response_t), intent(inout) :: found
 
-    integer :: nearest
+    type(floquet_mode_t) :: mode
 
-    call slow_multipliers(motion, found%multiplier, found%error)
+    call find_nearest_mode(level%grid, plan, basis, motion, speed, damping_of(request, &
+      level%grid), request%terms, merge(far, near, request%validity), mode, found%growth, &
+      found%error)
     if (allocated(found%error)) return
-    nearest = minloc(abs(1.0_wp - found%multiplier), dim=1)
-    found%distance = abs(1.0_wp - found%multiplier(nearest))
-    associate (rho => found%multiplier(nearest))
-      found%nearest = cmplx(log(abs(rho)), abs(atan2(aimag(rho), real(rho)))/two_pi, wp)
-    end associate
-    found%growth = log(maxval(abs(found%multiplier)))
+    found%nearest = cmplx(two_pi*real(mode%exponent), abs(aimag(mode%exponent)), wp)
+    found%distance = max(abs(1.0_wp - exp(two_pi*mode%exponent)), epsilon(1.0_wp))
+    found%distance_error = two_pi*mode%change/found%distance
   end subroutine look_at_multipliers
 
   !> All quantities at the crank angles of the deck, and their errors.
   subroutine evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
-    found)
+    found, errors)
     class(structure_t), intent(in) :: structure
     type(response_request_t), intent(in) :: request
     real(wp), intent(in) :: speed
@@ -416,8 +552,9 @@ contains
     type(fourier_plan_t), intent(in) :: plan, above_plan
     type(solution_t), intent(in) :: solution, better
     type(speed_response_t), intent(inout) :: found
+    real(wp), allocatable, intent(out) :: errors(:) !! (series)
 
-    real(wp), allocatable :: values(:, :), fine(:, :), at_position(:, :), errors(:)
+    real(wp), allocatable :: values(:, :), fine(:, :), at_position(:, :)
     real(wp) :: extra
     integer :: i, k, first, n
 
@@ -425,10 +562,14 @@ contains
     allocate (values(above%grid%samples, n), fine(above%grid%samples, n), errors(n))
     call values_of(above_plan, resampled(solution%series, above%grid%samples), values)
     call values_of(above_plan, better%series, fine)
-    extra = solution%remainder + better%remainder + rounding/found%distance
+    do i = 1, n
+      errors(i) = relative_error(values(:, i:i), fine(:, i:i))
+    end do
+    extra = many*better%remainder + rounding/found%distance
     allocate (at_position(n, size(request%crank)))
     do k = 1, size(request%crank)
-      at_position(:, k) = value_at(solution%series, request%crank(k)*degree)
+      at_position(:, k) = value_at(solution%series, merge(-1.0_wp, 1.0_wp, &
+        level%grid%backwards)*request%crank(k)*degree)
     end do
 
     allocate (found%displacement(3, size(request%points), size(request%crank)), &
@@ -489,7 +630,8 @@ contains
       allocate (found%drive(drive_values, size(request%crank)))
       found%drive(:3, :) = at_position(first:first + 2, :)
       found%drive(total_torque, :) = sum(found%drive(:3, :), dim=1)
-      found%drive(power, :) = found%drive(total_torque, :)*speed
+      found%drive(power, :) = found%drive(total_torque, :)*merge(-speed, speed, &
+        level%grid%backwards)
       found%mean_torque = sum(solution%series(1, first:first + 2))
       total(:, 1) = sum(values(:, first:first + 2), dim=2)
       fine_total(:, 1) = sum(fine(:, first:first + 2), dim=2)

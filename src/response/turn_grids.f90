@@ -7,6 +7,7 @@ module turn_grids
   use body_lumps, only: lump_offsets
   use deformation_model, only: deformation_model_t
   use errors, only: error_t
+  use fourier_transform, only: close_fourier, derivatives, fourier_plan_t, open_fourier
   use inertia_loads, only: distributed_load, load_t
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
@@ -22,8 +23,13 @@ module turn_grids
 
   public :: turn_grid_t, new_turn_grid
 
+  !> Number of the load case of α2.
+  integer, parameter :: of_acceleration = 2
+
   type :: turn_grid_t
     integer :: samples = 0   !! crank angles 0, 360°/n, …
+    logical :: backwards = .false. !! crank angles 0, −360°/n, …: θ2 runs with time. All derivatives,
+                                   !! rates and loads per α2 are those for −θ2
     integer :: unknowns = 0
     integer :: border = 0    !! first unknowns: rotation of the clamped end, elongations
     type(deformation_model_t) :: model
@@ -36,6 +42,8 @@ module turn_grids
     real(wp), allocatable :: chord(:, :, :, :)
     real(wp), allocatable :: turn(:, :, :)      !! (samples, border, bodies) rotation of the chord
     real(wp), allocatable :: pin(:, :, :, :)    !! (samples, 2, pins, border)
+    real(wp), allocatable :: chord_slope(:, :, :, :) !! d/dθ2 of `chord`
+    real(wp), allocatable :: pin_slope(:, :, :, :)   !! d/dθ2 of `pin`
     real(wp), allocatable :: place(:, :, :)     !! (samples, 2, pins) of the rigid linkage [m]
     real(wp), allocatable :: direction(:, :, :) !! (samples, 2, bodies)
     real(wp), allocatable :: rate(:, :)         !! (samples, bodies) h = dθ/dθ2
@@ -53,12 +61,13 @@ contains
   !> The terms at all crank angles of a turn.
   !!
   !! Errors: the crank cannot reach one of them.
-  pure subroutine new_turn_grid(linkage, model, samples, grid, error)
+  subroutine new_turn_grid(linkage, model, samples, grid, error, backwards)
     type(linkage_t), intent(in) :: linkage           !! pins, bodies, loads
     type(deformation_model_t), intent(in) :: model   !! its links' own deformations
     integer, intent(in) :: samples                   !! crank angles
     type(turn_grid_t), intent(out) :: grid           !! complete unless `error` is allocated
     type(error_t), allocatable, intent(out) :: error !! why there is no grid
+    logical, intent(in), optional :: backwards       !! the crank turns clockwise; absent: not
 
     type(pose_t) :: pose
     type(kinematic_coefficients_t) :: coefficients
@@ -66,8 +75,11 @@ contains
     type(unit_loads_t) :: loads
     type(unit_reactions_t) :: unit
     real(wp), allocatable :: force(:, :, :)
+    real(wp) :: sense
     integer :: b, c, k, bodies, pins
 
+    if (present(backwards)) grid%backwards = backwards
+    sense = merge(-1.0_wp, 1.0_wp, grid%backwards)
     bodies = size(linkage%bodies)
     pins = size(linkage%is_ground)
     grid%samples = samples
@@ -89,13 +101,13 @@ contains
     grid%chord = 0.0_wp
     grid%load = 0.0_wp
     do k = 1, samples
-      call find_pose(linkage, (360.0_wp*(k - 1))/samples, pose, error)
+      call find_pose(linkage, sense*(360.0_wp*(k - 1))/samples, pose, error)
       if (allocated(error)) return
       coefficients = find_kinematic_coefficients(linkage, pose)
       chords = find_chords(linkage, model%links, pose)
       grid%place(k, :, :) = pose%pin
       grid%direction(k, :, :) = pose%direction
-      grid%rate(k, :) = coefficients%turn
+      grid%rate(k, :) = sense*coefficients%turn
       grid%rate_slope(k, :) = coefficients%turn_slope
       grid%turn(k, :, :) = chords%turn
       grid%pin(k, :, :, :) = chords%pin
@@ -118,7 +130,31 @@ contains
         grid%torque(k, c) = unit%of_case(c)%joints%torque
       end do
     end do
+    grid%force(:, :, :, of_acceleration) = sense*grid%force(:, :, :, of_acceleration)
+    grid%load(:, :, of_acceleration) = sense*grid%load(:, :, of_acceleration)
+    call find_slopes(grid)
   end subroutine new_turn_grid
+
+  !> Derivatives of the motion of chords and pins over the turn.
+  subroutine find_slopes(grid)
+    type(turn_grid_t), intent(inout) :: grid
+
+    type(fourier_plan_t) :: plan
+    integer :: b, i, p
+
+    allocate (grid%chord_slope, mold=grid%chord)
+    allocate (grid%pin_slope, mold=grid%pin)
+    call open_fourier(grid%samples, plan)
+    do i = 1, grid%border
+      do b = 1, size(grid%chord, 4)
+        call derivatives(plan, grid%chord(:, :, i, b), grid%chord_slope(:, :, i, b))
+      end do
+      do p = 1, size(grid%pin, 3)
+        call derivatives(plan, grid%pin(:, :, p, i), grid%pin_slope(:, :, p, i))
+      end do
+    end do
+    call close_fourier(plan)
+  end subroutine find_slopes
 
   !> Numbers of the own modes of every body, and to which body an unknown belongs.
   pure subroutine number_unknowns(linkage, grid)

@@ -10,7 +10,7 @@ module response_study
   implicit none (type, external)
   private
 
-  public :: find_response, distance_from_circle, largest_deflection, deflection_of
+  public :: find_response, largest_deflection, deflection_of
 
 contains
 
@@ -37,15 +37,6 @@ contains
       response%at_speed(k)%error = error
     end do
   end subroutine find_response
-
-  !> Least distance of a multiplier of a turn from the circle |ρ| = 1, where vibrations neither grow
-  !! nor fade.
-  pure function distance_from_circle(found) result(distance)
-    type(speed_response_t), intent(in) :: found !! at a speed, without an error
-    real(wp) :: distance
-
-    distance = minval(abs(abs(found%multiplier) - 1.0_wp))
-  end function distance_from_circle
 
   !> The largest deflection of a link relative to its length, at any speed.
   pure subroutine largest_deflection(response, length, share, body, speed)
