@@ -298,9 +298,9 @@ contains
         call uniform(draw, -0.3_wp, 0.3_wp, value)
         request%points = [request%points, response_point_t(b, [share, value]*linkage%bodies(b)%length)]
         if (.not. linkage%bodies(b)%bends) cycle
-        request%gauges = [request%gauges, gauge_t(b, 0.5_wp, 1.0_wp)]
+        request%gauges = [request%gauges, gauge_t(b, 0.5_wp)]
         call uniform(draw, 0.0_wp, 1.0_wp, share)
-        request%gauges = [request%gauges, gauge_t(b, share, -1.0_wp)]
+        request%gauges = [request%gauges, gauge_t(b, share, -1.0_wp, -1.0_wp)]
       end do
       ! The follower's last pin is fixed: its first is the moving one.
       request%points(5)%place = 0.0_wp

@@ -22,7 +22,7 @@ program stress_responses
   implicit none (type, external)
 
   !> Accuracy of what counts as true, beside that of the case, and at best; what is tried after a failure.
-  real(wp), parameter :: finer = 1.0e-4_wp, finest(2) = [1.0e-10_wp, 1.0e-9_wp]
+  real(wp), parameter :: finer = 1.0e-4_wp, finest(2) = [3.0e-10_wp, 1.0e-8_wp]
   !> How the true one is turned [deg], and where its links are divided.
   real(wp), parameter :: turned_by = 50.0_wp, divided_at = 0.47_wp
   real(wp), parameter :: least_judged = 1.0e-9_wp, most_above = 100.0_wp
