@@ -17,10 +17,10 @@ module periodic_solver
 
   public :: solve_periodic, approximate_solution, fast_solution, slow_part, add_slow
 
-  integer, parameter :: most_iterations = 80
+  integer, parameter :: most_iterations = 60
 
   !> Begun anew from the residual of the solution, whose rounding GMRES does not see: three times at
-  !! most. A solution that is not right to so much is none.
+  !! most, and not if the iterations do not get anywhere. A solution that is not right to so much is none.
   integer, parameter :: most_rounds = 3
   real(wp), parameter :: no_solution = 1.0e-2_wp
 
@@ -82,6 +82,8 @@ contains
         call add_product(problem, correction)
       end do
       call add_combination(problem, y)
+      remainder = problem%residual/max(norm2(y), tiny(1.0_wp))
+      if (problem%last > most_iterations) exit
     end do
     if (.not. length <= huge(1.0_wp) .or. remainder > no_solution) call set_error(error, &
       error_of_numerics, "the iterations for the periodic motion do not converge")

@@ -41,8 +41,14 @@ module steady_responses
   !! bending of the links loads them along their axes: both converge together.
   integer, parameter :: along_below = 4, least_along = 4
 
-  !> Limits of orders and samples.
-  integer, parameter :: most_order = 36, most_samples = 3072
+  !> The remainder of the second solution in a quantity of its own, at most so many times that in all.
+  real(wp), parameter :: many = 10.0_wp
+
+  !> Remainders above this are none of rounding.
+  real(wp), parameter :: unfinished = 1.0e-9_wp
+
+  !> Limits of orders and samples, and of the times they are raised.
+  integer, parameter :: most_order = 36, most_rounds = 8
 
   !> Numbers of samples: products of small factors, each about half as many more than the last but
   !! one.
@@ -61,8 +67,10 @@ module steady_responses
   !> Estimated errors are differences of two solutions times this.
   real(wp), parameter :: safety = 1.5_wp
 
-  !> Remainders of the iterations beside the accuracy.
-  real(wp), parameter :: solved_to = 1.0e-3_wp, compared_to = 1.0e-2_wp, least_remainder = 2.0e-14_wp
+  !> Remainders of the iterations beside the accuracy: smaller in the second solution, so that the
+  !! difference shows that of the first in every quantity.
+  real(wp), parameter :: solved_to = 1.0e-3_wp, compared_to = 1.0e-5_wp, &
+    least_remainder = 1.0e-14_wp
 
   !> The highest eighth of the harmonics of a series may have this share of the accuracy; they are
   !! taken to fall at least this fast.
@@ -102,6 +110,8 @@ module steady_responses
     logical :: backwards = .false. !! the crank turns clockwise
     real(wp) :: error = huge(1.0_wp) !! largest so far
     logical :: raised_order = .false. !! last time
+    integer :: round = 0              !! times raised
+    logical :: tightened = .false.    !! iterations go on to smaller remainders
     logical :: pending = .true.
   end type choice_t
 
@@ -354,9 +364,11 @@ contains
     type(slow_motion_t) :: motion
     type(solution_t) :: solution, better
     real(wp), allocatable :: errors(:)
+    real(wp) :: tighter
     integer(long) :: before
 
     before = found%applications
+    tighter = merge(1.0e-2_wp, 1.0_wp, choice%tightened)
     call clear(found)
     call open_fourier(level%grid%samples, plan)
     call open_fourier(above%grid%samples, above_plan)
@@ -368,11 +380,11 @@ contains
         allocate (solution%y(level%grid%samples, level%grid%unknowns))
         solution%y = 0.0_wp
         call solve_level(request, speed, level%grid, plan, basis, plan, motion, &
-          max(solved_to*request%accuracy, least_remainder), solution, found%error)
+          max(solved_to*tighter*request%accuracy, least_remainder), solution, found%error)
         if (allocated(found%error)) exit attempt
         call transferred(level%grid, plan, above%grid, above_plan, solution%y, better%y)
         call solve_level(request, speed, above%grid, above_plan, above_basis, plan, motion, &
-          max(compared_to*request%accuracy, least_remainder), better, found%error)
+          max(compared_to*tighter*request%accuracy, least_remainder), better, found%error)
         if (allocated(found%error)) exit attempt
       end associate
       found%order = choice%order
@@ -388,14 +400,15 @@ contains
     call close_fourier(plan)
     choice%pending = .false.
     if (allocated(found%error)) then
-      ! Harmonics left out may hinder the iterations.
-      choice%pending = choice%at + 1 < size(sample_numbers)
-      choice%at = choice%at + 1
+      call raise_samples(choice)
       return
     end if
     if (found%largest_error <= request%accuracy) return
-    ! Rounding leaves no more digits.
-    if (solution%remainder + better%remainder > 0.5_wp*request%accuracy) return
+    if (max(solution%remainder, many*better%remainder) > 0.5_wp*request%accuracy) then
+      ! Either rounding leaves no more digits, or harmonics left out hinder the iterations.
+      if (better%remainder > unfinished) call raise_samples(choice)
+      return
+    end if
     if (rounding/found%distance > request%accuracy) then
       call set_error(found%error, error_of_numerics, "resonance: an exponent of the turn, "// &
         in_words(found%nearest)//", is too near to 0 for the accuracy asked for")
@@ -407,6 +420,15 @@ contains
       " samples of the turn and order "//to_string(choice%order)// &
       "; the nearest exponent of the turn is "//in_words(found%nearest))
   end subroutine solve_speed
+
+  !> Raises the samples, up to their limit.
+  pure subroutine raise_samples(choice)
+    type(choice_t), intent(inout) :: choice
+
+    choice%round = choice%round + 1
+    choice%pending = choice%at + 1 < size(sample_numbers) .and. choice%round <= most_rounds
+    if (choice%pending) choice%at = choice%at + 1
+  end subroutine raise_samples
 
   !> Raises the samples if the errors of the series that are not accurate enough come from harmonics
   !! left out, else the orders.
@@ -437,11 +459,17 @@ contains
       wanted = n + log(errors(i)/(0.3_wp*accuracy))/fall
       next = max(next, nint(min(wanted, real(2*n, wp))))
     end do
+    choice%round = choice%round + 1
+    if (choice%round > most_rounds) return
     choice%pending = .true.
-    ! Higher orders that gain nothing show that harmonics are to blame.
+    ! Higher orders that gain nothing show that the iterations or harmonics are to blame.
     if (choice%raised_order .and. largest_error > 0.5_wp*choice%error) then
       order = .false.
-      next = max(next, n + 1)
+      if (choice%tightened) then
+        next = max(next, n + 1)
+      else
+        choice%tightened = .true.
+      end if
     end if
     choice%error = largest_error
     choice%raised_order = order
@@ -540,7 +568,7 @@ contains
     do i = 1, n
       errors(i) = relative_error(values(:, i:i), fine(:, i:i))
     end do
-    extra = solution%remainder + better%remainder + rounding/found%distance
+    extra = many*better%remainder + rounding/found%distance
     allocate (at_position(n, size(request%crank)))
     do k = 1, size(request%crank)
       at_position(:, k) = value_at(solution%series, merge(-1.0_wp, 1.0_wp, &
