@@ -162,10 +162,10 @@ mkdir "$new" || fail "cannot write into $outdir"
 # ask WANT TABLE: see tables.awk
 ask() { awk -v want="$1" -f "$PLOTS/tables.awk" < "$2"; }
 
-# A table is there and has rows.
+# have TABLE [COLUMN]: it is there and has rows.
 have() {
     [ -f "$1" ] || return 1
-    [ -n "$(ask 'distinct crank' "$1")" ] && return 0
+    [ -n "$(ask "distinct ${2-crank}" "$1")" ] && return 0
     remark "$outdir/$1 has no row that could be computed"
     return 1
 }
@@ -265,8 +265,8 @@ can_place() {
     return 1
 }
 
-# several TABLE: it has more positions than one.
-several() { [ "$(ask 'distinct crank' "$1" | wc -l)" -gt 1 ]; }
+# several TABLE [COLUMN]: it has more positions, or values of this column, than one.
+several() { [ "$(ask "distinct ${2-crank}" "$1" | wc -l)" -gt 1 ]; }
 
 # What this gnuplot can write.
 terminals() { LC_ALL=C.UTF-8 gnuplot -e 'set print "-"; print GPVAL_TERMINALS'; }
@@ -309,12 +309,41 @@ plan_rigid_dynamics() {
     have motion.dat && add motion motion.gp motion.dat
 }
 
+# The elastic response. Its strains at a gauge are drawn of all speeds too, if these are few; what is drawn against the speed needs
+# several.
+plan_response() {
+    if have response.dat; then
+        plan_speeds displacements response.dat 'ux uy'
+        plan_speeds pin_displacements response.dat 'ux uy'
+        if several response.dat && can_place; then
+            [ -z "$(ask points response.dat)" ] || plan_speeds deviation response.dat 'ux uy'
+            plan_speeds deformed_linkage response.dat 'ux uy'
+        fi
+    fi
+    if have strains.dat; then
+        plan_speeds strains strains.dat 'axial_strain bending_strain stress'
+        if [ "$n" -gt 1 ] && [ "$n" -le 8 ]; then
+            for gauge in $(ask 'names gauge' strains.dat); do
+                add "strains_${gauge}_by_speed" gauge_by_speed.gp strains.dat "$gauge"
+            done
+        fi
+    fi
+    have drive.dat && plan_speeds drive drive.dat 'rigid linear quadratic'
+    frequencies=
+    [ -f frequencies.dat ] && frequencies=frequencies.dat
+    have peaks.dat speed && several peaks.dat speed && add largest_strain largest_strain.gp peaks.dat "$frequencies"
+    have validity.dat speed && several validity.dat speed && add validity validity.gp validity.dat
+}
+
 # Modes swing; a linkage turns, and moves as its motor makes it.
 plan_animations() {
     can_animate || fail 'this gnuplot lacks the terminal pngcairo or gif, which animations need'
     have shapes.dat && animate=animate_mode.gp plan_modes
     if have reactions.dat && [ "$(ask 'distinct crank' reactions.dat | wc -l)" -ge 12 ] && can_place; then
         plan_forces animate_forces.gp
+    fi
+    if have response.dat && [ "$(ask 'distinct crank' response.dat | wc -l)" -ge 12 ] && can_place; then
+        plan_speeds deformed_linkage response.dat 'ux uy' animate_response.gp
     fi
     points=
     have points.dat && points=points.dat
@@ -364,6 +393,7 @@ else
     have shapes.dat && plan_modes
     have kinematics.dat && plan_kinematics
     plan_rigid_dynamics
+    plan_response
 fi
 if [ ! -s "$new/plan" ]; then
     ! ls ./*.csv > /dev/null 2>&1 || ls ./*.dat > /dev/null 2>&1 ||

@@ -1,9 +1,10 @@
 #!/bin/sh
 # Where the linkage of echo.deck is at some crank angles, as the program places it: gnuplot assignments and a datablock.
-#   geometry.sh BLOCK ANGLES [points.dat]
+#   geometry.sh BLOCK ANGLES [points.dat or response.dat]
 # ANGLES is a file, a position a line: the crank angle in degrees, then the branch, open or crossed, if it is not the deck's.
-# Sets the pivots O2 and O4 and turns_fully; for the points of points.dat, in its order, point_link[k]: 2 the crank's link, 3
-# the coupler, 4 the follower. A row of $BLOCK is a line of ANGLES: 1 the angle, 2 3 pin A, 4 5 pin B, then x and y of every
+# Sets the pivots O2 and O4, turns_fully, and link_ends, as response.dat names them: O2:crank A:crank A:coupler B:coupler
+# O4:follower B:follower; for the points of the table, in its order, point_link[k]: 2 the crank's link, 3 the coupler, 4 the
+# follower. A row of $BLOCK is a line of ANGLES: 1 the angle, 2 3 pin A, 4 5 pin B, then x and y of every
 # point, or of the middle of the coupler where there is no points.dat. FLEXMECH is the program, PLOTS the folder of tables.awk.
 
 set -u
@@ -38,6 +39,7 @@ for branch in - open crossed; do
     place "$(cut -d' ' -f2 "$work/kept" | uniq | paste -s -d, -)" || exit 1
     sed "s/^/$branch /" "$work/kept" >> "$work/places"
     awk -v want=poses -f "$PLOTS/tables.awk" < "$work/drawn/geometry.dat" | sed "s/^/$branch /" >> "$work/poses"
+    awk -v want='names link' -f "$PLOTS/tables.awk" < "$work/drawn/geometry.dat" > "$work/links"
     turns=0
     grep -q '^# limit positions of the crank: none$' "$work/drawn/geometry.dat" && turns=1
     # Where two pins meet the linkage has no place of its own: it is drawn as it tends to be.
@@ -47,13 +49,14 @@ for branch in - open crossed; do
     awk -v want=poses -f "$PLOTS/tables.awk" < "$work/drawn/geometry.dat" | sed 's/^[^ ]* //' | paste -d' ' "$work/failed" - |
         awk -v branch=$branch 'NF > 1 { $1 = sprintf("%.17g", $1); print branch, $0 }' >> "$work/poses"
 done
-[ -z "$points" ] || awk -v want='distinct point' -f "$PLOTS/tables.awk" < "$points" > "$work/points"
+[ -z "$points" ] || awk -v want=points -f "$PLOTS/tables.awk" < "$points" > "$work/points"
 [ -n "$points" ] || : > "$work/points"
 
 # A line of poses is branch, angle, then for every pin and point the number of its link (0 the ground, below 0 for points), its
 # name and its place.
 echo "turns_fully = $turns"
 awk -v block="$block" '
+    FILENAME ~ /links$/ { if ($1 != "(ground)") link_name[++links] = $1; next }
     FILENAME ~ /points$/ { wanted[++n_points] = $1; next }
     FILENAME ~ /places$/ { place[$1, $2] = $3; next }
     FILENAME ~ /poses$/ {
@@ -67,6 +70,8 @@ awk -v block="$block" '
         }
         if (!poses++) {
             printf "O2 = {%.12g, %.12g}; O4 = {%.12g, %.12g}\n", x[ground[1]], y[ground[1]], x[ground[2]], y[ground[2]]
+            printf "link_ends = \"%s:%s %s:%s %s:%s %s:%s %s:%s %s:%s\"\n", ground[1], link_name[1], pin[1], link_name[1], \
+                pin[1], link_name[2], pin[2], link_name[2], ground[2], link_name[3], pin[2], link_name[3]
             for (k = 1; k <= n_points; k++) printf "point_link[%d] = %d\n", k, link_of[wanted[k]] + 1
         }
         for (k = 1; k <= 2; k++) row = row sprintf(" %.7g %.7g", x[pin[k]], y[pin[k]])
@@ -77,4 +82,4 @@ awk -v block="$block" '
     }
     !begun++ { print "$" block " << EOD" }
     { key = $2 SUBSEP place[$2, $1]; printf "%.10g%s\n", $1, key in pose ? pose[key] : " NaN NaN NaN NaN NaN NaN" }
-    END { print "EOD" }' "$work/points" "$work/places" "$work/poses" "$work/asked"
+    END { print "EOD" }' "$work/links" "$work/points" "$work/places" "$work/poses" "$work/asked"

@@ -1,5 +1,5 @@
-# The linkage at any position, and the points of points.dat on its links, as the program places them. After style.gp:
-#   call "linkage.gp" [points.dat]
+# The linkage at any position, and the points of points.dat or response.dat on its links, as the program places them. After style.gp:
+#   call "linkage.gp" [points.dat or response.dat]
 # Then blocks of poses are asked for: angles are printed to the file `angles`, a position a line (see geometry.sh), and
 #   load poses_as("block")
 # sets the block, the pivots O2 and O4, whether the crank turns fully, and the links of the points.
@@ -12,7 +12,7 @@ poses_as(block) = sprintf("< rm -rf %s; sh %s %s %s %s", quoted(angles.".d"), qu
 # Once a block is there: the pivots in parts.
 pivots = "O2_x = real(O2); O2_y = imag(O2); O4_x = real(O4); O4_y = imag(O4)"
 
-point_names = table_of_poses eq "" ? "" : names_in(table_of_poses, "point")
+point_names = table_of_poses eq "" ? "" : words_in(table_of_poses, "points")
 points = words(point_names)
 array point_link[points + 1]
 column_of(p) = 4 + 2*p                              # in a row of poses, of the x of a point; its y is in the next

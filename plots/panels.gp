@@ -2,7 +2,8 @@
 # The script sets headline, note and remark; x, the abscissa, and x_axis, its settings, as text; picked, what is true on the rows
 # to be drawn; panels, their number, and of each panel axis_of[k] and unit_of[k], its title and unit, curves_of[k], expressions
 # without blanks in the columns of a row, and titles_of[k], their titles, each one word or in quotes; source_of(k), the table of
-# curve k of every panel. Panels of nothing but zeros are left out, unless all are.
+# curve k of every panel. Panels of nothing but zeros are left out, unless all are; those with a logarithmic axis, on which zero and
+# what is below have no place (is_logarithmic of style.gp), are left out if nothing is above zero.
 
 full_height = 330
 panel_gap = 35
@@ -17,18 +18,25 @@ do for [panel=1:panels] {
     high = -1e300
     do for [k=1:words(curves_of[panel])] {
         expression = sprintf("(%s ? %s : NaN)", picked, word(curves_of[panel], k))
+        if (is_logarithmic(panel)) { expression = sprintf("(one = %s, one > 0 ? one : NaN)", expression) }
+        found = 0
         eval "stats source_of(k) using (value = ".expression.", low = value < low ? value : low, ".\
-            "high = value > high ? value : high, value) name 'curve' nooutput"
-        if (curve_records > drawn_rows) { drawn_rows = curve_records }
+            "high = value > high ? value : high, found = found + (value == value), 0) nooutput"
+        if (found > drawn_rows) { drawn_rows = found }
     }
     if (low > high) { low = 0; high = 0 }
+    if (low != 0 || high != 0) {
+        if (also_shown(panel) > high) { high = also_shown(panel) }
+        if (also_shown(panel) < low) { low = also_shown(panel) }
+    }
     low_of[panel] = low
     high_of[panel] = high
     if (low != 0 || high != 0) { kept = kept." ".panel; longest = larger(longest, widest(titles_of[panel], 20)) }
 }
 if (kept eq "") { do for [panel=1:panels] { kept = kept." ".panel; longest = larger(longest, widest(titles_of[panel], 20)) } }
 n_kept = words(kept)
-title_of(panel) = value_title(axis_of[panel], unit_of[panel], low_of[panel], high_of[panel])
+title_of(panel) = is_logarithmic(panel) ? axis_of[panel].bracketed(typeset(unit_of[panel])) \
+    : value_title(axis_of[panel], unit_of[panel], low_of[panel], high_of[panel])
 
 # A page of one or two panels has higher ones.
 full_height = n_kept == 1 ? 700 : n_kept == 2 ? 400 : full_height
@@ -36,7 +44,8 @@ tick_room = 0
 lines = 1
 do for [k=1:n_kept] {
     panel = int(word(kept, k))
-    tick_room = larger(tick_room, value_width(low_of[panel], high_of[panel], full_height))
+    tick_room = larger(tick_room, is_logarithmic(panel) && low_of[panel] > 0 ? log_width(low_of[panel], high_of[panel]) \
+        : value_width(low_of[panel], high_of[panel], full_height))
     lines = larger(lines, planned_lines(title_of(panel), full_height))
 }
 eval legend_page(125 + lower + n_kept*(full_height + panel_gap) - panel_gap, 1, longest, tick_room, lines)
@@ -65,7 +74,11 @@ do for [place=1:n_kept] {
     eval x_axis
     if (bare) { set format x ""; set xlabel "" } else { set format x "%h" }
     bare = 0
-    eval value_axis(low_of[panel], high_of[panel], panel_height)
+    if (is_logarithmic(panel) && low_of[panel] > 0) { eval log_axis(low_of[panel], high_of[panel], panel_height) } else {
+        unset logscale y
+        eval value_axis(low_of[panel], high_of[panel], panel_height)
+    }
+    eval before_panel(panel)
     eval axis_title(title_of(panel), base, panel_height)
     eval "plot ".parts."NaN notitle".keys
 }

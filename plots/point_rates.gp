@@ -14,8 +14,7 @@ x_axis = "eval crank_axis(low_crank, high_crank)"
 picked = "same(field('speed'),speed)"
 
 # Every point is a table of its own, with an empty line where rows have failed.
-source_of(k) = "< awk ".quoted(sprintf("NF == 0 { print } !/^#/ && $%d == \"%s\"", col_point, word(names, k)))." ".quoted(table)
-repeated(k, text) = k < 1 ? "" : repeated(k - 1, text)." ".text
+source_of(k) = rows_if(table, is_named("point", word(names, k)))
 panels = 2
 array axis_of[2] = ["speed", "acceleration"]
 array unit_of[2] = [unit_vx, unit_ax]

@@ -116,7 +116,13 @@ field(name) = column(value("col_".name))            # this row's value in a colu
 unit(name) = " [".typeset(value("unit_".name))."]"
 typeset(text) = text eq "" ? "" : symbol_of(text[1:1]).typeset(text[2:*])      # kg.mm2/s2 becomes kg·mm²/s²
 symbol_of(letter) = letter eq "." || letter eq "*" ? "·" : letter eq "2" ? "²" : letter eq "3" ? "³" : letter eq "4" ? "⁴" : letter
-names_in(table, name) = system(ask(table, "distinct ".name)." | sed 's/.*/\"&\"/'")     # each a word, whatever is in it
+# Some rows of a table as a file to plot, with an empty line where rows have failed: rows_if(table, is_named("point", "p")).
+rows_if(table, condition) = "< awk ".quoted("NF == 0 || /^# *failed / { print \"\" } !/^#/ && ".condition)." ".quoted(table)
+is_named(column, name) = sprintf("$%d \"\" == \"%s\"", value("col_".column), name)
+is_at(column, number) = sprintf("($%d - %s)^2 <= 1e-18*(1 + $%d^2)", value("col_".column), number, value("col_".column))
+repeated(k, text) = k < 1 ? "" : repeated(k - 1, text)." ".text
+words_in(table, want) = system(ask(table, want)." | sed 's/.*/\"&\"/'")     # every line of an answer a word, whatever is in it
+names_in(table, name) = words_in(table, "names ".name)
 
 # ---- Words ----------------------------------------------------------------------------------------------------
 
@@ -212,6 +218,28 @@ value_axis(low, high, length) = sprintf("set yrange [%.15g:%.15g]; set ytics (%s
     ticks_between(value_bottom(low, high), value_top(low, high), value_step(low, high, length), value_power(low, high))).\
     (low < 0 && high > 0 ? zero_line : "unset xzeroaxis")
 
+# A logarithmic axis, for values above zero: ticks at powers of ten and between them, with 2 and 5 where decades are few.
+log_bottom(low) = low/1.3
+log_top(high) = high*1.3
+decades(low, high) = log10(log_top(high)/log_bottom(low))
+log_plain(low, high) = log_bottom(low) >= 1e-4 && log_top(high) <= 1e5
+log_text(digit, power, plain) = plain ? sprintf("%.12g", digit*10.0**power) \
+    : (digit > 1 ? sprintf("%d·", digit) : "")."10".raised(minus(sprintf("%d", power)))
+log_step(low, high, length) = int(ceil(decades(low, high)/larger(1, length/40.0)))       # decades from text to text
+log_shown(digit, power, few, step) = digit == 1 ? power%step == 0 : few && (digit == 2 || digit == 5)
+log_tick(digit, power, few, step, plain) = sprintf("'%s' %.15g %d", log_shown(digit, power, few, step) ? log_text(digit, power, plain) : "", \
+    digit*10.0**power, !log_shown(digit, power, few, step) && digit > 1)
+log_list(k, last, few, step, plain) = k > last ? "" : (k%9 == 0 || step == 1 ? (k > 0 ? ", " : "").\
+    log_tick(1 + k%9, log_first + k/9, few, step, plain) : "").log_list(k + 1, last, few, step, plain)
+log_ticks(low, high, length) = (log_first = int(floor(log10(log_bottom(low)))), \
+    log_list(0, 9*int(ceil(log10(log_top(high))) - log_first), decades(low, high) < 2.6 && length > 150, \
+        log_step(low, high, length), log_plain(low, high)))
+log_axis(low, high, length) = sprintf("set logscale y; set yrange [%.15g:%.15g]; set ytics (%s); ", log_bottom(low), log_top(high), \
+    log_ticks(low, high, length))."unset xzeroaxis"
+log_width(low, high) = larger(text_width("0.01", 20), larger( \
+    text_width(log_text(1, int(ceil(log10(log_bottom(low)))), log_plain(low, high)), 20), \
+    text_width(log_text(5, int(floor(log10(log_top(high)))), log_plain(low, high)), 20)))
+
 # [kN], [µm/s], [10³ kg·mm²/s²]
 takes_prefix(unit, power) = strstrt(" N N.m J W Pa Hz V A ", " ".unit." ") > 0 && abs(power) <= 12 || unit eq "s" && power < 0 && power >= -12
 prefix(power) = power == 0 ? "" : word("p n µ m - k M G T", 5 + power/3)
@@ -235,6 +263,12 @@ axis_title(text, base, length) = sprintf("title_font = %d; ", title_lines(text, 
 quoted_twice(text) = "\"".escaped(text)."\""
 escaped(text) = text eq "" ? "" : (text[1:1] eq "\n" ? "\\n" : text[1:1] eq "\\" || text[1:1] eq "\"" ? "\\".text[1:1] : text[1:1])\
     .escaped(text[2:*])
+
+# Of the panels of panels.gp: whether one has a logarithmic axis, what its axis takes in besides the curves, and what is done
+# before it is drawn.
+is_logarithmic(panel) = 0
+also_shown(panel) = NaN
+before_panel(panel) = ""
 
 # ---- Curves against the crank angle ---------------------------------------------------------------------------
 # The legend stands in columns of its own at the right, so it never meets a curve; what is beyond three columns is counted.

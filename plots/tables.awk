@@ -3,6 +3,9 @@
 #                                  place, unit, least and greatest value, as gnuplot assignments
 #   want="distinct crank speed"    the distinct values of these columns, a line each, in the table's order; =crank with all digits
 #   want="moving torque O2x"       the distinct speeds at which some of these columns is not zero throughout
+#   want="names link"              the names in this column, a line each, as they are written
+#   want="points"                  the names in the column point without those of pins, A:crank
+#   want="displaced"               the points of response.dat that are displaced at all
 #   want="range f1 f2"             the least and the greatest value found in these columns
 #   want="positive error1 error2"  the same of values above zero; nothing if there are none
 #   want="change f1 0"             speed, crank and f1's change in percent against the rows of speed 0
@@ -27,6 +30,11 @@
 #                                  divide a turn better): crank, then x
 #                                  and y of those on the crank at O2, on the coupler at A and B, on the follower at O4, and the
 #                                  shaking force; without a number, all positions
+#   want="critical 5 60"           from frequencies.dat over a whole turn: mode, harmonic up to the twentieth, and speed, at which this
+#                                  multiple of the crank's speed is the mode's mean frequency; speeds in this range, from the highest down
+#   want="positions 20 8"           crank angles of response.dat at speed 20 with all digits, eight at most (six, if these divide a turn
+#                                  better), or all (0)
+#   want="displacements 20 8 A:crank B:coupler"    there, of these points: crank, then ux, uy and the rotation in radians of each
 #   want="branches 20"             the branches of branches.dat at speed 20, an index a branch, an empty line where rows
 #                                  have failed: crank, frequency, branch, 1 on its first row, 1 where a mark is drawn
 #   want="varied"                  the columns of varied parameters: those before the table's own
@@ -92,6 +100,17 @@ asked[1] == "moving" && !($at["speed"] in moving) {
             moving[$at["speed"]] = 1
         }
     }
+}
+
+asked[1] == "names" || asked[1] == "points" && $at["point"] !~ /:/ {
+    name_found = $at[asked[1] == "names" ? asked[2] : "point"]
+    if (!(name_found in seen)) print name_found
+    seen[name_found] = 1
+}
+
+asked[1] == "displaced" && ($at["ux"] + 0 != 0 || $at["uy"] + 0 != 0) {
+    if (!($at["point"] in seen)) print $at["point"]
+    seen[$at["point"]] = 1
 }
 
 asked[1] == "range" {
@@ -168,6 +187,28 @@ asked[1] == "forces" && same($at["speed"], asked[2]) {
     for (i = 3; i <= 12; i++) value[forces] = value[forces] " " $at[word_of("speed crank O2x O2y A3x A3y B3x B3y O4x O4y shaking_x shaking_y", i)]
 }
 
+(asked[1] == "displacements" || asked[1] == "positions") && same($at["speed"], asked[2]) {
+    if (!positions || $at["crank"] != crank[positions]) crank[++positions] = $at["crank"]
+    for (i = 1; i <= 3; i++) value[positions, $at["point"], i] = $at[word_of("ux uy rotation", i)] * \
+        (i == 3 && unit[at["rotation"]] == "deg" ? 3.14159265358979 / 180 : 1)
+}
+
+# A crank angle that closes the turn is the first one again.
+asked[1] == "critical" {
+    if (rows == 1 || !same($at["speed"], speed[speeds])) {
+        speed[++speeds] = $at["speed"] + 0
+        first_crank = $at["crank"] + 0
+    }
+    last_crank[speeds] = $at["crank"] - first_crank
+    if (!same(last_crank[speeds], 360)) {
+        counted[speeds]++
+        for (i = 1; ("f" i) in at; i++) {
+            total[speeds, i] += $at["f" i]
+            if ($at["f" i] + 0 <= 0) diverged[speeds, i] = 1
+        }
+    }
+}
+
 asked[1] == "path" && same($at["speed"], asked[2]) {
     path_gap[++path_rows] = gap[rows]
     path_crank[path_rows] = $at["crank"] + 0
@@ -217,6 +258,8 @@ END {
     if (asked[1] == "forces") print_forces()
     if (asked[1] == "arrows") print_arrows()
     if (asked[1] == "change") print_change()
+    if (asked[1] == "critical") print_critical()
+    if (asked[1] == "displacements" || asked[1] == "positions") print_displacements()
     if (asked[1] == "varied") for (i = 1; i <= n_columns && name[i] !~ /^(speed|crank|time|branch)$/; i++) print name[i]
     if (asked[1] == "poses" && pose) print pose
     if (asked[1] == "band") print_bands()
@@ -360,18 +403,72 @@ function print_arrows(    i, j, k, low, high, span, longest, size, along, across
     }
 }
 
+function print_displacements(    n, k, i, j, m, line) {
+    n = chosen(positions, asked[3])
+    for (m = 1; m <= n; m++) {
+        k = choice[m]
+        line = asked[1] == "positions" ? sprintf("%.17g", crank[k]) : crank[k] + 0
+        for (i = 4; i <= n_asked; i++)
+            for (j = 1; j <= 3; j++) line = line " " ((k, asked[i], j) in value ? value[k, asked[i], j] : "NaN")
+        print line
+    }
+}
+
+# Turns in a second of a crank of speed 1 in the unit of the table; 0 if that is none of these.
+function turns_of(unit) {
+    return unit == "rad/s" ? 1 / 6.28318530717959 : unit == "rpm" ? 1 / 60 : unit == "deg/s" ? 1 / 360 : \
+        unit == "rad/ms" ? 1000 / 6.28318530717959 : unit == "deg/ms" ? 1000 / 360 : 0
+}
+
+# The mean frequency between two speeds is on a straight line, and beyond the last one as it is there.
+function print_critical(    i, k, n, turns, low, high, rate) {
+    turns = turns_of(unit[at["speed"]])
+    low = asked[2] < asked[3] ? asked[2] + 0 : asked[3] + 0
+    high = asked[2] < asked[3] ? asked[3] + 0 : asked[2] + 0
+    if (!turns) return
+    for (k = 1; k <= speeds; k++) if (last_crank[k] < 300) return
+    for (i = 1; ("f" i) in at; i++) {
+        for (n = 1; n <= 20; n++) {
+            for (k = 0; k <= speeds; k++) {
+                rate = critical_between(i, k, n * turns)
+                if (rate >= low && rate <= high) print i, n, rate
+            }
+        }
+    }
+}
+
+# Between speeds k and k + 1 of the table; before the first and beyond the last one too.
+function critical_between(i, k, turns,    below, above, from, to) {
+    if (k > 0 && diverged[k, i] || k < speeds && diverged[k + 1, i]) return -1
+    if (k == 0 || k == speeds) {
+        from = k == 0 ? 1 : k
+        below = total[from, i] / counted[from] / turns
+        return k == 0 && below < speed[1] || k == speeds && below >= speed[speeds] ? below : -1
+    }
+    below = total[k, i] / counted[k] - turns * speed[k]
+    above = total[k + 1, i] / counted[k + 1] - turns * speed[k + 1]
+    if (below < 0 || above >= 0) return -1
+    return speed[k] + below / (below - above) * (speed[k + 1] - speed[k])
+}
+
 function word_of(list, i,    part) { split(list, part, " "); return part[i] }
 
+function print_forces(    n, i) {
+    n = chosen(forces, asked[3])
+    for (i = 1; i <= n; i++) print value[choice[i]]
+}
+
 # The last row of a whole turn is the first again; a turn is divided by 8 or by 6, so that the angles are even.
-function print_forces(    n, i, turn) {
-    n = asked[3] == "" || asked[3] + 0 > forces ? forces : asked[3] + 0
-    if (forces > 1 && same(crank[forces], crank[1] + 360) && (n < forces || asked[3] != "")) {
-        forces--
-        if (n > forces) n = forces
+function chosen(found, wanted,    n, i, turn) {
+    n = wanted + 0 == 0 || wanted + 0 > found ? found : wanted + 0
+    if (found > 1 && same(crank[found], crank[1] + 360) && (n < found || wanted != "")) {
+        found--
+        if (n > found) n = found
     }
-    turn = forces > 1 && same(crank[forces] - crank[1] + crank[2] - crank[1], 360)
-    if (turn && n == 8 && forces % 8 && forces % 6 == 0) n = 6
-    for (i = 0; i < n; i++) print value[n == forces ? i + 1 : int(1.5 + i * (turn ? forces / n : (forces - 1) / (n - 1)))]
+    turn = found > 1 && same(crank[found] - crank[1] + crank[2] - crank[1], 360)
+    if (turn && n == 8 && found % 8 && found % 6 == 0) n = 6
+    for (i = 0; i < n; i++) choice[i + 1] = n == found ? i + 1 : int(1.5 + i * (turn ? found / n : (found - 1) / (n - 1)))
+    return n
 }
 
 function scale_of(shape) { return most_moved[shape] > 0 ? asked[3] * longest / most_moved[shape] : 0 }

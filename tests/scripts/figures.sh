@@ -75,6 +75,93 @@ rigid_animations() {
     gif rigid/animations/motion.gif 101 && gif rigid/animations/forces_speed_10.gif 72
 }
 
+# One speed is drawn against the crank angle; several, against the speed too, and gauges with a curve for every speed.
+response_figures() {
+  sed '/^END/d; s/^SPEED.*/SPEED 10 20 rad\/s/; s/^CRANK.*/CRANK 0 to 360 step 15/' inputs/response.deck >"$scratch/several.deck"
+  printf '%s\n' 'MODES 2' 'INERTIA distributed' 'REPORT frequencies' END >>"$scratch/several.deck"
+  run 0 --quiet --out "$scratch/out" inputs/response.deck "$scratch/several.deck" || return 1
+  drawn response figures deformed_linkage deviation displacements drive pin_displacements strains || return 1
+  speeds=$(for name in deformed_linkage deviation displacements drive frequencies pin_displacements strains; do
+    echo ${name}_speed_10 ${name}_speed_20
+  done)
+  drawn several figures $speeds frequency_1_by_speed frequency_2_by_speed largest_strain validity strains_mid_coupler_by_speed \
+    strains_mid_follower_by_speed
+}
+
+response_animation() {
+  drawn response animations deformed_linkage && gif response/animations/deformed_linkage.gif 72
+}
+
+# Drawn links begin and end at their pins, displaced as in the table times the factor that the figure states, and turned likewise.
+bent_links() {
+  cat >"$scratch/bent.gp" <<'END_OF_SCRIPT'
+figure_format = 'svg'
+call ARG1.'/deformed_linkage.gp' 'response.dat' ARG2 '20'
+step = 1e-5
+do for [k=1:positions_drawn] {
+    do for [link=2:4] {
+        do for [last=0:1] {
+            moved = bent($poses[k], $moved[k], link, last) - (last ? last_pin($poses[k], link) : first_pin($poses[k], link))
+            way_on = (bent($poses[k], $moved[k], link, last + step) - bent($poses[k], $moved[k], link, last - step))/(2*step)
+            turned = 180/pi*imag(way_on/(last_pin($poses[k], link) - first_pin($poses[k], link)))
+            print sprintf('%.10g %s %.10g %.10g %.10g %.10g', word($moved[k], 1) + 0, word(link_ends, 2*link - 3 + last), magnified, \
+                real(moved), imag(moved), turned)
+        }
+    }
+}
+END_OF_SCRIPT
+  (cd "$scratch/out/response" && FLEXMECH=$program PLOTS=$root/plots LC_ALL=C.UTF-8 gnuplot -c "$scratch/bent.gp" "$root/plots" \
+    "$scratch/bent") >"$scratch/stdout" 2>&1
+  grep -q 'displacements drawn 10 times as large' "$scratch/bent.svg" || { echo "it does not state 10 times"; return 1; }
+  python3 - "$scratch/stdout" "$scratch/out/response/response.dat" <<'END_OF_PYTHON'
+import sys
+
+with open(sys.argv[2], encoding="utf-8") as file:
+    rows = [line.split() for line in file if line.strip() and not line.startswith("#")]
+table = {(float(row[1]), row[2]): [float(word) for word in row[3:6]] for row in rows}
+with open(sys.argv[1], encoding="utf-8") as file:
+    lines = [line.split() for line in file]
+assert len(lines) == 8*6, f"{len(lines)} ends of links: {lines[:1]}"
+for crank, end, factor, *drawn in lines:
+    assert float(factor) == 10, factor
+    # A pivot may have no row; it is not displaced, and the crank is held there.
+    wanted = table.get((float(crank), end), [0, 0, 0])
+    wanted = [10*value for value in wanted]
+    for value, found in zip(wanted, map(float, drawn)):
+        assert end.startswith("O4") or abs(value - found) < 2e-4, (crank, end, value, found)
+END_OF_PYTHON
+}
+
+# Harmonics of the speed meet a mode where they should, in any unit of speed; a table of less than a turn has no mean.
+critical_speeds() {
+  for unit in rad/s:6.283185307 rpm:60 deg/s:360; do
+    {
+      printf '# title\n# speed crank f1 f2\n# %s deg Hz Hz\n' "${unit%:*}"
+      for speed in 10 1000; do
+        for crank in 0 90 180 270 360; do
+          echo $speed $crank "$((10 + crank % 360 / 90)) $((30 + 2 * (speed / 1000)))"
+        done
+      done
+    } >"$scratch/critical.dat"
+    awk -v want='critical 10 1000' -f plots/tables.awk <"$scratch/critical.dat" >"$scratch/found"
+    python3 - "$scratch/found" "${unit#*:}" <<'END_OF_PYTHON' || return 1
+import sys
+
+turns = float(sys.argv[2])
+with open(sys.argv[1], encoding="utf-8") as file:
+    found = [tuple(map(float, line.split())) for line in file]
+# f1 is 11.5 Hz on average; f2 30 to 32 Hz, linear in the speed: n w/turns = 30 + 2 (w - 10)/990.
+wanted = [(1, n, 11.5*turns/n) for n in range(1, 21)]
+wanted += [(2, n, (30 - 20/990)/(n/turns - 2/990)) for n in range(1, 21)]
+wanted = [row for row in wanted if 10 <= row[2] <= 1000]
+assert len(found) == len(wanted), (len(found), len(wanted))
+assert all(a[:2] == b[:2] and abs(a[2] - b[2]) < 1e-6*b[2] for a, b in zip(found, wanted)), (found, wanted)
+END_OF_PYTHON
+  done
+  sed '/ 360 /d; / 270 /d' "$scratch/critical.dat" >"$scratch/part.dat"
+  [ -z "$(awk -v want='critical 10 1000' -f plots/tables.awk <"$scratch/part.dat")" ] || { echo "a part of a turn has a mean"; return 1; }
+}
+
 # Speeds of which one is the beginning of the other, failed rows, a single position, a name with an apostrophe.
 odd_tables() {
   cat >"$scratch/dead.deck" <<'END_OF_DECK'
@@ -134,8 +221,9 @@ with open(sys.argv[1], encoding="utf-8") as file:
     lines = file.read().splitlines()
 assert lines[0] == "turns_fully = 1", lines[0]
 assert lines[1] == "O2 = {0.1, 0.05}; O4 = {0.5, 0.2}", lines[1]
-assert lines[2] == "$placed << EOD" and lines[-1] == "EOD", (lines[2], lines[-1])
-rows = [[float(word) for word in line.split()] for line in lines[3:-1]]
+assert lines[2] == 'link_ends = "O2:crank A:crank A:coupler B:coupler O4:rocker B:rocker"', lines[2]
+assert lines[3] == "$placed << EOD" and lines[-1] == "EOD", (lines[3], lines[-1])
+rows = [[float(word) for word in line.split()] for line in lines[4:-1]]
 assert [row[0] for row in rows] == [0, 350, 10, 10, 10, 10], rows
 ground, other = (0.1, 0.05), (0.5, 0.2)
 for _, ax, ay, bx, by, *middle in rows:
@@ -185,9 +273,16 @@ odd_names() {
     printf '%s\n' 10 200 >"$scratch/angles.$deck"
     rm -rf "$scratch/angles.$deck.d"
     (cd "$scratch/out/$deck" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/geometry.sh" placed "$scratch/angles.$deck" points.dat) \
-      >"$scratch/placed.$deck" || return 1
+      >"$scratch/told" || return 1
+    sed -n 's/^link_ends = //p' "$scratch/told" >>"$scratch/link_ends"
+    grep -v ^link_ends "$scratch/told" >"$scratch/placed.$deck"
     cmp "$scratch/placed.plain" "$scratch/placed.$deck" || return 1
   done
+  diff - "$scratch/link_ends" <<'END_OF_ENDS'
+"O2:crank A:crank A:coupler B:coupler O4:follower B:follower"
+"O2:1 A:1 A:1e0 B:1e0 O4:1.0 B:1.0"
+"O2:- A:- A:coupler B:coupler O4:follower B:follower"
+END_OF_ENDS
 }
 
 # Where A stands on O4 the linkage has no place of its own; it is drawn as it tends to be there.
@@ -223,6 +318,10 @@ root=$(pwd)
 
 check "figures of inputs/rigid.deck" rigid_figures
 check "animations of inputs/rigid.deck" rigid_animations
+check "figures of the elastic response" response_figures
+check "the elastic response is animated" response_animation
+check "links bend as in the table" bent_links
+check "critical speeds of modes" critical_speeds
 check "figures of failed rows, of one position, of names with apostrophes" odd_tables
 check "a mode is animated" modes_swing
 check "nothing to animate" nothing_to_animate

@@ -1,0 +1,53 @@
+# The linkage as it bends in the elastic response at one speed: several positions of a turn, displacements made larger.
+#   gnuplot -c deformed_linkage.gp response.dat OUT SPEED [FIGURE [REMARK]]
+
+load ARG0[1 : strlen(ARG0) - strlen("deformed_linkage.gp")]."style.gp"
+table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
+
+load plots."drawing.gp"
+eval answer(table, "facts")
+call plots."linkage.gp" table
+share = 0.125
+want_positions = 8
+call plots."bodies.gp" "1"
+load plots."deformed.gp"
+eval include_moved(1, positions_drawn)
+room = 0.05*span
+size = 0.06*span
+x0 = x_min - room - 0.5*size
+x1 = x_max + room
+
+tiles = positions_drawn
+tile_columns = tiles <= 3 ? tiles : int((tiles + 1)/2)
+array line_y0[2]
+array line_y1[2]
+do for [line=1:(tiles - 1)/tile_columns + 1] {
+    y_min = lesser(O2_y, O4_y)
+    y_max = larger(O2_y, O4_y)
+    eval include_moved(tile_columns*(line - 1) + 1, lesser(tiles, tile_columns*line))
+    line_y0[line] = lesser(y_min, lesser(O2_y, O4_y) - 1.2*size) - room
+    line_y1[line] = y_max + room
+}
+headline = numbered(figure, sprintf("Elastic linkage over a turn, %s", at_speed(speed, unit_speed)))
+note = magnified_text."; links drawn as cubics between the displacements and rotations of their ends"
+tile_limit = 400.0
+tile_least = 200
+caption_lines = 1
+lead_room = 0
+head_of_columns = 0
+load plots."legend.gp"
+eval entry_line("rigid links", rigid_look)
+eval entry_line("elastic links", bent_look)
+do for [p=1:points] { eval entry_point(short_name(point_names, p), sprintf("pt 7 ps 2 lc rgb '%s'", point_ink(p))) }
+load plots."tiles.gp"
+call plots."ground.gp" sprintf("%.12g", O2_x) sprintf("%.12g", O2_y) size 1 "pinned"
+call plots."ground.gp" sprintf("%.12g", O4_x) sprintf("%.12g", O4_y) size 11 "pinned"
+set multiplot
+do for [k=1:tiles] {
+    if (k > 1) { eval clear_page }
+    eval tile(k)
+    eval caption(1, k, sprintf("θ₂ = %.5g°", word($moved[k], 1) + 0))
+    eval "plot ".deformed_linkage($poses[k], $moved[k])."NaN notitle"
+}
+unset multiplot
+eval close
