@@ -20,6 +20,11 @@ module beam_mesh
     real(wp) :: axial_stiffness = 0.0_wp   !! EA [N]
     real(wp) :: bending_stiffness = 0.0_wp !! EI [N m²]
     real(wp) :: shear_stiffness = 0.0_wp   !! kGA [N]; 0: rigid in shear
+    real(wp) :: out_of_plane_stiffness = 0.0_wp !! EI of bending out of the plane [N m²]; 0: not
+                                                !! known
+    real(wp) :: torsional_stiffness = 0.0_wp    !! GJ [N m²]; 0: not known
+    real(wp) :: polar_inertia = 0.0_wp          !! moment of inertia about the axis of the link per
+                                                !! length [kg m]
   end type beam_t
 
   !> Division of all bodies into elements, and the numbers of their unknowns.

@@ -12,6 +12,7 @@ module mechanisms
   use structures, only: structure_t
   use text, only: same_word, string_t
   use tokens, only: token_texts
+  use torsion, only: out_of_plane_second_moment, torsion_constant
   implicit none (type, external)
   private
 
@@ -101,6 +102,11 @@ contains
         beam%axial_stiffness = material%youngs_modulus*section%area
         beam%bending_stiffness = material%youngs_modulus*section%second_moment
         beam%shear_stiffness = link_shear_stiffness(model, model%loop(i))
+        beam%out_of_plane_stiffness = material%youngs_modulus*out_of_plane_second_moment(section)
+        if (material%has_ratio) beam%torsional_stiffness = material%youngs_modulus/(2.0_wp*(1.0_wp + &
+          material%poissons_ratio))*torsion_constant(section)
+        if (.not. has_own_mass(links(i))) beam%polar_inertia = &
+          material%density*(section%second_moment + out_of_plane_second_moment(section))
       end associate
     end do
   end subroutine add_beams

@@ -57,6 +57,33 @@ contains
     end do
   end function sampled_deflections
 
+  !> Places where to look for a maximum: evenly in every piece of a link, and on both sides of the
+  !! ends of pieces, where strains have kinks or jumps.
+  pure function places_along(ends) result(xi)
+    real(wp), intent(in) :: ends(0:) !! of the pieces, from 0 to 1
+    real(wp) :: xi(size(ends) + (intervals)*(size(ends) - 1))
+
+    integer :: e, first, i
+
+    first = 0
+    do e = 1, size(ends) - 1
+      xi(first + 1:first + intervals + 1) = [(ends(e - 1) + (ends(e) - ends(e - 1))*i/intervals, &
+        i=0, intervals)]
+      first = first + intervals + 1
+      if (e < size(ends) - 1) xi(first) = nearest(xi(first), -1.0_wp)
+    end do
+    xi(size(xi)) = 1.0_wp
+  end function places_along
+
+  !> Distance from a place to the next that is not the other side of an end of a piece.
+  pure function step_there(xi, number) result(step)
+    real(wp), intent(in) :: xi(:)
+    integer, intent(in) :: number
+    real(wp) :: step
+
+    step = max(xi(min(size(xi), number + 1)) - xi(number), xi(number) - xi(max(1, number - 1)))
+  end function step_there
+
   !> Finds the largest values of all links; zeros of rigid ones.
   subroutine find_peaks(grid, plan, request, y, found)
     type(turn_grid_t), intent(in) :: grid
@@ -76,8 +103,7 @@ contains
     do b = 1, n
       associate (link => grid%model%links(b))
         if (.not. link%bends) cycle
-        xi = [(real(i, wp)/(intervals*link%bending_shapes%elements), i=0, &
-          intervals*link%bending_shapes%elements)]
+        xi = places_along(link%bending_shapes%last/link%bending_shapes%elements)
         q = functions_of(grid, b, y)
         allocate (coefficients(grid%samples, size(q, 2)), elongation(grid%samples, 1))
         call coefficients_of(plan, q, coefficients)
@@ -143,7 +169,7 @@ contains
             values(k, i)) .or. any(values(k, max(1, i - 1):min(size(values, 2), i + 1)) > &
             values(k, i))) cycle
           call climb(values(k, i), [two_pi*(k - 1)/size(values, 1), xi(i)], [two_pi/size(values, &
-            1), xi(2) - xi(1)], of_strain, other)
+            1), step_there(xi, i)], of_strain, other)
           if (other%value > peak%value) peak = other
         end do
       end do

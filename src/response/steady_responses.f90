@@ -19,7 +19,9 @@ module steady_responses
   use link_loads, only: buckling_shares
   use link_store, only: link_store_t
   use order_transfer, only: transferred
+  use out_of_plane, only: find_out_of_plane_frequency
   use periodic_solver, only: solve_periodic
+  use quadratic_change, only: find_quadratic_change
   use response_peaks, only: find_peaks, sampled_deflections
   use response_series, only: first_gauge, first_torque, response_series_of, series_count
   use response_types, only: axial_force, axial_strain, bending_strain, damping_ratio, damping_time, &
@@ -70,7 +72,7 @@ module steady_responses
 
   !> Remainders of the iterations beside the accuracy: smaller in the second solution, so that the
   !! difference shows that of the first in every quantity.
-  real(wp), parameter :: solved_to = 1.0e-2_wp, compared_to = 1.0e-4_wp, &
+  real(wp), parameter :: solved_to = 1.0e-3_wp, compared_to = 1.0e-5_wp, &
     least_remainder = 1.0e-14_wp
 
   !> The highest eighth of the harmonics of a series may have this share of the accuracy; they are
@@ -86,6 +88,9 @@ module steady_responses
   !> Multipliers nearer to 1 than this are found from the whole equation; where the distance is a
   !! result, than that.
   real(wp), parameter :: near = 0.05_wp, far = 0.5_wp
+
+  !> A quantity smaller than this beside what goes with it is taken for zero by its nature.
+  real(wp), parameter :: by_nature = 1.0e-3_wp
 
   !> Rounding of a solution, with no resonance near.
   real(wp), parameter :: rounding = 1.0e-13_wp
@@ -112,6 +117,7 @@ module steady_responses
     real(wp) :: error = huge(1.0_wp) !! largest so far
     logical :: raised_order = .false. !! last time
     integer :: round = 0              !! times raised
+    logical :: tightened = .false.    !! iterations go on to smaller remainders
     logical :: pending = .true.
   end type choice_t
 
@@ -174,7 +180,25 @@ contains
       end do
       !$omp end parallel do
     end do
+    if (request%validity) call add_out_of_plane(structure, response)
   end subroutine find_steady_responses
+
+  !> Adds the estimated frequency out of the plane, the same at all speeds: it is that at rest. A
+  !! remark does without one where there is none.
+  subroutine add_out_of_plane(structure, response)
+    class(structure_t), intent(in) :: structure
+    type(response_t), intent(inout) :: response
+
+    type(error_t), allocatable :: error
+    real(wp), allocatable :: frequency
+    integer :: k
+
+    call find_out_of_plane_frequency(structure, frequency, error)
+    if (.not. allocated(frequency)) return
+    do k = 1, size(response%at_speed)
+      response%at_speed(k)%out_of_plane = frequency
+    end do
+  end subroutine add_out_of_plane
 
   !> Finds or makes the two levels of a speed, with the slow coordinates that it needs.
   subroutine find_levels(structure, speed, store, levels, choice, error)
@@ -367,9 +391,11 @@ contains
     type(slow_motion_t) :: motion
     type(solution_t) :: solution, better
     real(wp), allocatable :: errors(:)
+    real(wp) :: tighter
     integer(long) :: before
 
     before = found%applications
+    tighter = merge(1.0e-2_wp, 1.0_wp, choice%tightened)
     call clear(found)
     call open_fourier(level%grid%samples, plan)
     call open_fourier(above%grid%samples, above_plan)
@@ -381,11 +407,11 @@ contains
         allocate (solution%y(level%grid%samples, level%grid%unknowns))
         solution%y = 0.0_wp
         call solve_level(request, speed, level%grid, plan, basis, plan, motion, &
-          max(solved_to*request%accuracy, least_remainder), solution, found%error)
+          max(solved_to*tighter*request%accuracy, least_remainder), solution, found%error)
         if (allocated(found%error)) exit attempt
         call transferred(level%grid, plan, above%grid, above_plan, solution%y, better%y)
         call solve_level(request, speed, above%grid, above_plan, above_basis, plan, motion, &
-          max(compared_to*request%accuracy, least_remainder), better, found%error)
+          max(compared_to*tighter*request%accuracy, least_remainder), better, found%error)
         if (allocated(found%error)) exit attempt
       end associate
       found%order = choice%order
@@ -395,6 +421,9 @@ contains
       if (allocated(found%error)) exit attempt
       call evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
         found, errors)
+      if (request%validity) call find_quadratic_change(structure%linkage, level%grid, plan, &
+        level%basis(choice%slow), plan, motion, request, speed, damping_of(request, level%grid), &
+        solution%y, found%quadratic_change)
     end block attempt
     found%applications = before + solution%applications + better%applications
     call close_fourier(above_plan)
@@ -463,10 +492,14 @@ contains
     choice%round = choice%round + 1
     if (choice%round > most_rounds) return
     choice%pending = .true.
-    ! Higher orders that gain nothing show that harmonics are to blame.
+    ! Higher orders that gain nothing show that the iterations or harmonics are to blame.
     if (choice%raised_order .and. largest_error > 0.5_wp*choice%error) then
       order = .false.
-      next = max(next, n + 1)
+      if (choice%tightened) then
+        next = max(next, n + 1)
+      else
+        choice%tightened = .true.
+      end if
     end if
     choice%error = largest_error
     choice%raised_order = order
@@ -554,7 +587,7 @@ contains
     type(speed_response_t), intent(inout) :: found
     real(wp), allocatable, intent(out) :: errors(:) !! (series)
 
-    real(wp), allocatable :: values(:, :), fine(:, :), at_position(:, :)
+    real(wp), allocatable :: values(:, :), fine(:, :), at_position(:, :), scale(:)
     real(wp) :: extra
     integer :: i, k, first, n
 
@@ -562,8 +595,9 @@ contains
     allocate (values(above%grid%samples, n), fine(above%grid%samples, n), errors(n))
     call values_of(above_plan, resampled(solution%series, above%grid%samples), values)
     call values_of(above_plan, better%series, fine)
+    call find_scales
     do i = 1, n
-      errors(i) = relative_error(values(:, i:i), fine(:, i:i))
+      errors(i) = safety*maxval(abs(values(:, i) - fine(:, i)))/scale(i)
     end do
     extra = many*better%remainder + rounding/found%distance
     allocate (at_position(n, size(request%crank)))
@@ -577,9 +611,7 @@ contains
     do i = 1, size(request%points)
       first = 3*(i - 1) + 1
       found%displacement(:, i, :) = at_position(first:first + 2, :)
-      found%displacement_error(i) = extra + max(relative_error(values(:, first:first + 1), fine(:, &
-        first:first + 1)), relative_error(values(:, first + 2:first + 2), fine(:, &
-        first + 2:first + 2)))
+      found%displacement_error(i) = extra + max(norm2(errors(first:first + 1)), errors(first + 2))
     end do
     call evaluate_gauges
     call evaluate_drive
@@ -590,6 +622,38 @@ contains
       maxval([0.0_wp, found%strain_error]), found%drive_error, maxval([0.0_wp, found%peak_error]))
 
   contains
+
+    !> The largest value of every series over the turn, to which its errors are relative; of a
+    !! displacement that of both components. A quantity that is zero by its nature is measured
+    !! against what goes with it.
+    subroutine find_scales
+      real(wp) :: largest(n)
+
+      allocate (scale(n))
+      largest = maxval(abs(fine), dim=1)
+      do i = 1, size(request%points)
+        first = 3*(i - 1) + 1
+        scale(first:first + 1) = sqrt(maxval(fine(:, first)**2 + fine(:, first + 1)**2))
+        scale(first + 2) = max(largest(first + 2), by_nature*scale(first)/ &
+          structure%linkage%bodies(request%points(i)%body)%length)
+      end do
+      do i = 1, size(request%gauges)
+        first = first_gauge(request) + 3*(i - 1)
+        associate (body => request%gauges(i)%body)
+          associate (outer => request%section(body)%outer, beam => structure%beams(body))
+            associate (strain => largest(first) + outer*largest(first + 1))
+              scale(first) = max(largest(first), by_nature*strain)
+              scale(first + 1) = max(largest(first + 1), by_nature*strain/max(outer, tiny(1.0_wp)))
+              scale(first + 2) = max(largest(first + 2), &
+                by_nature**2*beam%axial_stiffness*strain)
+            end associate
+          end associate
+        end associate
+      end do
+      first = first_torque(request)
+      scale(first:) = max(largest(first:), by_nature*maxval(abs(sum(fine(:, first:), dim=2))))
+      scale = max(scale, tiny(1.0_wp))
+    end subroutine find_scales
 
     subroutine evaluate_gauges
       real(wp), dimension(above%grid%samples) :: strain, fine_strain
@@ -614,17 +678,14 @@ contains
           end do
           strain = abs(values(:, first)) + section%outer*abs(values(:, first + 1))
           fine_strain = abs(fine(:, first)) + section%outer*abs(fine(:, first + 1))
-          found%strain_error(g) = extra + max(relative_error(values(:, first:first), fine(:, &
-            first:first)), relative_error(values(:, first + 1:first + 1), fine(:, &
-            first + 1:first + 1)), relative_error(values(:, first + 2:first + 2), fine(:, &
-            first + 2:first + 2)), safety*maxval(abs(strain - &
-            fine_strain))/max(maxval(fine_strain), tiny(1.0_wp)))
+          found%strain_error(g) = extra + max(maxval(errors(first:first + 2)), &
+            safety*maxval(abs(strain - fine_strain))/max(maxval(fine_strain), tiny(1.0_wp)))
         end associate
       end do
     end subroutine evaluate_gauges
 
     subroutine evaluate_drive
-      real(wp), dimension(above%grid%samples, 1) :: total, fine_total
+      real(wp), dimension(above%grid%samples) :: total, fine_total
 
       first = first_torque(request)
       allocate (found%drive(drive_values, size(request%crank)))
@@ -633,12 +694,10 @@ contains
       found%drive(power, :) = found%drive(total_torque, :)*merge(-speed, speed, &
         level%grid%backwards)
       found%mean_torque = sum(solution%series(1, first:first + 2))
-      total(:, 1) = sum(values(:, first:first + 2), dim=2)
-      fine_total(:, 1) = sum(fine(:, first:first + 2), dim=2)
-      found%drive_error = extra + max(relative_error(values(:, first:first), fine(:, &
-        first:first)), relative_error(values(:, first + 1:first + 1), fine(:, &
-        first + 1:first + 1)), relative_error(values(:, first + 2:first + 2), fine(:, &
-        first + 2:first + 2)), relative_error(total, fine_total))
+      total = sum(values(:, first:first + 2), dim=2)
+      fine_total = sum(fine(:, first:first + 2), dim=2)
+      found%drive_error = extra + max(maxval(errors(first:first + 2)), &
+        safety*maxval(abs(total - fine_total))/max(maxval(abs(fine_total)), tiny(1.0_wp)))
     end subroutine evaluate_drive
 
     subroutine evaluate_peaks
@@ -657,7 +716,8 @@ contains
       do b = 1, size(structure%beams)
         before = found%largest_strain(b)%value
         after = other%largest_strain(b)%value
-        found%peak_error(b) = safety*abs(before - after)/max(after, tiny(1.0_wp))
+        found%peak_error(b) = safety*abs(before - after)/max(after, &
+          by_nature**2*maxval(other%largest_strain%value), tiny(1.0_wp))
         before = found%largest_deflection(b)%value
         after = other%largest_deflection(b)%value
         found%peak_error(b) = max(found%peak_error(b), safety*abs(before - after)/max(after, &
@@ -690,17 +750,5 @@ contains
     end function power_of
 
   end subroutine evaluate
-
-  !> Largest difference of two sampled quantities beside the largest value; of vectors their lengths.
-  pure function relative_error(values, fine) result(error)
-    real(wp), intent(in) :: values(:, :), fine(:, :) !! (samples, components)
-    real(wp) :: error
-
-    real(wp) :: largest
-
-    largest = sqrt(maxval(sum(fine**2, dim=2)))
-    error = 0.0_wp
-    if (largest > 0.0_wp) error = safety*sqrt(maxval(sum((values - fine)**2, dim=2)))/largest
-  end function relative_error
 
 end module steady_responses

@@ -6,6 +6,7 @@ module result_warnings
   use models, only: model_t, needs_frequencies, needs_response, response_accuracy, speed_in_words
   use position_results, only: error_of_divergence, error_of_orders, error_of_position
   use positions, only: positions_t
+  use response_parts, only: body_damping_t, damping_none, dampings_of
   use response_study, only: largest_deflection
   use response_types, only: response_t
   use run_findings, only: add_warning_of_run, findings_t, place_in_words
@@ -19,13 +20,14 @@ module result_warnings
 
   public :: find_warnings
   public :: warning_of_divergence, warning_of_deflection, warning_of_accuracy, &
-    warning_of_response_deflection, warning_of_response_accuracy, warning_of_instability
+    warning_of_response_deflection, warning_of_response_accuracy, warning_of_instability, &
+    warning_of_no_damping
 
   !> Kinds of warnings: an eigenvalue is negative; the loads bend a link too much; the accuracy is
-  !! not reached; the last two in the elastic response; its steady state is unstable.
+  !! not reached; the last two in the elastic response; its steady state is unstable; nothing damps it.
   integer, parameter :: warning_of_divergence = 1, warning_of_deflection = 2, &
     warning_of_accuracy = 3, warning_of_response_deflection = 4, &
-    warning_of_response_accuracy = 5, warning_of_instability = 6
+    warning_of_response_accuracy = 5, warning_of_instability = 6, warning_of_no_damping = 7
 
   !> Largest static deflection without a warning, relative to the link's length: the axial
   !! frequencies assume that the loads bend the links little [-].
@@ -53,6 +55,8 @@ contains
     if (needs_response(variant%model)) then
       associate (model => variant%model, response => variant%found%response)
         warning = response_deflections(model, variant%mechanism, response)
+        call add_if_any(findings, model%variant, warning)
+        warning = no_damping_at_all(model)
         call add_if_any(findings, model%variant, warning)
         warning = instabilities(model, response)
         call add_if_any(findings, model%variant, warning)
@@ -248,6 +252,19 @@ contains
         " % the linear equations become unreliable"
     end if
   end function response_deflections
+
+  !> Near resonances only damping limits the response.
+  pure function no_damping_at_all(model) result(warning)
+    type(model_t), intent(in) :: model
+    type(warning_t) :: warning !! without a text if a link is damped, or none bends
+
+    type(body_damping_t) :: dampings(size(model%loop))
+
+    warning%kind = warning_of_no_damping
+    dampings = dampings_of(model)
+    if (any(dampings%kind /= damping_none) .or. all(model%links(model%loop)%rigid)) return
+    warning%text = "no link has DAMPING: near resonances this response is that of no real machine"
+  end function no_damping_at_all
 
   !> The speed at which disturbances of the steady state grow most, and the number of such speeds.
   pure function instabilities(model, response) result(warning)

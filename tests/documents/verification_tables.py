@@ -62,6 +62,54 @@ def bending_of_deep_beam(n):
     return math.sqrt((b - math.sqrt(b**2 - 4*a*modulus*second_moment*wave**4))/(2*a))/TURN
 
 
+def solved(matrix, right):
+    """The solution of linear equations, by elimination with pivots."""
+    rows = [row + [value] for row, value in zip(matrix, right)]
+    for k in range(len(rows)):
+        pivot = max(range(k, len(rows)), key=lambda i, k=k: abs(rows[i][k]))
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        for i in range(k + 1, len(rows)):
+            factor = rows[i][k]/rows[k][k]
+            rows[i] = [a - factor*b for a, b in zip(rows[i], rows[k])]
+    solution = [0.0]*len(rows)
+    for k in reversed(range(len(rows))):
+        solution[k] = (rows[k][-1] - sum(rows[k][i]*solution[i] for i in range(k + 1, len(rows))))/rows[k][k]
+    return solution
+
+
+def tip_stiffness(force):
+    """Of a clamped massless strip, EI = L = 1, across its tip under a constant axial force."""
+    z = math.sqrt(abs(force))
+    return force/(1 - math.tanh(z)/z if force > 0 else 1 - math.tan(z)/z)
+
+
+def mass_on_strip(speed, gravity, stiffness, samples=64):
+    """Crank angle [deg] → displacements along and across a turning massless strip at its tip, with a mass there, and the
+    curvature at its root: EI = L = m = 1, EA = stiffness. Hill's equations for both, at evenly spaced angles of a turn."""
+    angles = [TURN*k/samples for k in range(samples)]
+
+    def derivative(i, j):
+        return 0 if i == j else 0.5*(-1)**(i - j)/math.tan(0.5*(angles[i] - angles[j]))
+
+    def second(i, j):
+        return -(samples**2 + 2)/12 if i == j else -0.5*(-1)**(i - j)/math.sin(0.5*(angles[i] - angles[j]))**2
+
+    force = [speed**2 - gravity*math.sin(angle) for angle in angles]
+    across = [tip_stiffness(value) for value in force]
+    matrix, right = [], []
+    for i, angle in enumerate(angles):
+        matrix.append([speed**2*(second(i, j) - (i == j)) + stiffness*(i == j) for j in range(samples)] +
+                      [-2*speed**2*derivative(i, j) for j in range(samples)])
+        right.append(force[i])
+    for i, angle in enumerate(angles):
+        matrix.append([2*speed**2*derivative(i, j) for j in range(samples)] +
+                      [speed**2*(second(i, j) - (i == j)) + across[i]*(i == j) for j in range(samples)])
+        right.append(-gravity*math.cos(angle))
+    found = solved(matrix, right)
+    return {round(math.degrees(angle)): (found[i], found[samples + i], (across[i] - force[i])*found[samples + i])
+            for i, angle in enumerate(angles) if i % (samples//4) == 0}
+
+
 class Tables:
     """Every method without an underscore is the maker of the table of its name."""
 
@@ -182,3 +230,89 @@ class Tables:
             steps = int(re.search(r"steps of forward motion (\d+)", run.errors)[1])
             yield [Word(name), Number(steps, ",.0f", 1.01), rough_error(largest(rows, "energy_error")/start),
                    Number(largest(rows, "closure")/crank, ".1e", FACTOR)]
+
+    def exact_response(self):
+        closed = mass_on_strip(1, 2, 1e4)
+        with open(os.path.join("tests", "documents", "mass_on_strip.deck"), encoding="utf-8") as file:
+            run = self._run(file.read())
+        here = {}
+        for row in run.rows("response"):
+            if row["point"] == "A:strip":
+                angle = math.radians(row["crank"])
+                here[round(row["crank"])] = (math.cos(angle)*row["ux"]/1000 + math.sin(angle)*row["uy"]/1000,
+                                             math.cos(angle)*row["uy"]/1000 - math.sin(angle)*row["ux"]/1000, row["error"])
+        bent = {round(row["crank"]): (row["bending_strain"], row["error"]) for row in run.rows("strains")}
+        u, v = ([(closed[angle][i], here[angle][i], here[angle][2]) for angle in closed] for i in (0, 1))
+        scale = max(math.hypot(*values[:2]) for values in closed.values())
+        yield self._exact("u at 90°", scale, u, 1)
+        yield self._exact("u at 270°", scale, u, 3)
+        yield self._exact("v at 0°", scale, v)
+        kappa = [(closed[angle][2], *bent[angle]) for angle in closed]
+        yield self._exact("κ at the root, 0°", max(abs(values[2]) for values in closed.values()), kappa)
+
+    @staticmethod
+    def _exact(what, scale, values, shown=0):
+        """A row of the table: one of the values, and the largest error of all of them."""
+        return [Word(what), Number(values[shown][0], ".12f"), Number(values[shown][1], ".12f"),
+                error(max(abs(here - closed) for closed, here, _ in values)/abs(scale)), error(values[0][2])]
+
+    def _response(self, accuracy, *changes):
+        return self._run(deck("response", (r"^(REPORT +\w+).*", rf"\1 accuracy={accuracy}"), *changes))
+
+    def first_mechanism_response(self):
+        run = self._response("1e-10")
+        strain = {(row["gauge"], row["crank"]): row for row in run.rows("strains")}
+        place = {(row["point"], row["crank"]): row for row in run.rows("response")}
+        for what, value, estimate in (
+                ("bending strain, mid-coupler, 60°", strain["mid_coupler", 60]["bending_strain"], strain["mid_coupler", 60]["error"]),
+                ("bending strain, mid-follower, 60°", strain["mid_follower", 60]["bending_strain"], strain["mid_follower", 60]["error"]),
+                ("B, x, 0° [m]", place["B:coupler", 0]["ux"]/1000, place["B:coupler", 0]["error"]),
+                ("B, y, 0° [m]", place["B:coupler", 0]["uy"]/1000, place["B:coupler", 0]["error"])):
+            yield [Word(what), Number(value, ".10e"), None, error(estimate)]
+
+    def response_accuracies(self):
+        """Largest error and estimate of each table: of every quantity by its largest value over the turn."""
+        tables = {"strains": ("gauge", [("axial_strain",), ("bending_strain",), ("shear_force",)]),
+                  "response": ("point", [("ux", "uy"), ("rotation",)]),
+                  "drive": ("speed", [("rigid",), ("linear",), ("quadratic",), ("total",)])}
+
+        def error_of(rows, references, columns):
+            def length(values):
+                return math.hypot(*values)
+            largest_value = max(length([row[name] for name in columns]) for row in references)
+            return max(length([row[name] - other[name] for name in columns]) for row, other in zip(rows, references))/largest_value
+
+        best = self._response("1e-10")
+        for accuracy in ("1e-2", "1e-4", "1e-6", "1e-8"):
+            run, cells = self._response(accuracy), []
+            for table, (key, quantities) in tables.items():
+                rows, references = run.rows(table), best.rows(table)
+                errors = [error_of([row for row in rows if row[key] == one], [row for row in references if row[key] == one], columns)
+                          for one in {row[key] for row in rows} for columns in quantities]
+                cells += [error(max(errors)), error(largest(rows, "error"))]
+            order, samples = re.search(r"polynomials of order (\d+).*?(\d+) crank angles", run.files["drive.dat"]).groups()
+            yield [Word(accuracy), Word(order), Word(samples)] + cells
+
+    def torque_balance(self):
+        run = self._response("1e-10", (r"^UNITS.*", "UNITS mm tonne s torque=N*m"), (r"^CRANK.*", "CRANK 0 to 359 step 1"),
+                             (r"^SPEED.*", "SPEED 10 20 30 40 rad/s"))
+        drive, peaks = run.rows("drive"), run.rows("peaks")
+        for speed in (10, 20, 30, 40):
+            rows = [row for row in drive if row["speed"] == speed]
+            linear, quadratic = (sum(row[part] for row in rows)/len(rows) for part in ("linear", "quadratic"))
+            lost = sum(row["power"] for row in peaks if row["speed"] == speed)
+            yield [Word(speed), Number(linear, ".6e"), Number(quadratic, ".6e"), Number(lost/speed, ".6e"),
+                   rough_error(abs((linear + quadratic)*speed/lost - 1))]
+
+    def omitted_terms(self):
+        """Largest change of the strain in mid-link over the turn, by the largest value."""
+        def strains(*changes):
+            rows = self._response("1e-6", (r"^SPEED.*", "SPEED 20 50 rad/s"), *changes).rows("strains")
+            return {(row["speed"], row["gauge"], row["crank"]): row["bending_strain"] for row in rows}
+        whole = strains()
+        for term in ("coriolis", "centripetal", "axial"):
+            less = strains((r"^DRIVE.*", f"\\g<0>\nEFFECTS response without={term}"))
+            yield [Word(f"`{term}`")] + [
+                Number(max(abs(less[key] - whole[key]) for key in whole if key[:2] == place)/
+                       max(abs(value) for key, value in whole.items() if key[:2] == place), ".1e")
+                for place in ((20, "mid_coupler"), (20, "mid_follower"), (50, "mid_coupler"), (50, "mid_follower"))]

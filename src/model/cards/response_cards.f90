@@ -25,20 +25,20 @@ module response_cards
   !> First word of the EFFECTS card on the elastic response.
   character(len=*), parameter :: response_form = "response"
 
-  !> The damping of bending links: one of the two is given, unless the card is wrong.
+  !> The damping of bending links: either a time or a ratio, unless the card is wrong.
   type :: damping_card_t
     type(token_t) :: keyword
-    type(token_t), allocatable :: link_names(:) !! `*` for all others
+    type(token_t), allocatable :: link_names(:) !! `*`: bending links without a card of their own
     logical :: has_time = .false.  !! `time=` is given
     logical :: has_ratio = .false. !! `ratio=` is given
-    real(wp) :: time = 0.0_wp      !! Kelvin-Voigt: stress E(ε + time dε/dt) [s]
-    real(wp) :: ratio = 0.0_wp     !! of the link's own modes, below 1 [-]
+    real(wp) :: time = 0.0_wp      !! c of Kelvin and Voigt: stress E(ε + c dε/dt) [s]
+    real(wp) :: ratio = 0.0_wp     !! damping ratio of the link's own modes, below 1 [-]
   end type damping_card_t
 
   !> A strain gauge on a face of a link.
   type :: gauge_t
     type(token_t) :: name      !! without a line if the card lacks it
-    type(token_t) :: link_name !! the same
+    type(token_t) :: link_name !! likewise
     integer :: link = 0        !! number in the model's list; 0: unknown
     real(wp) :: at = 0.0_wp    !! from the first pin of the LINK card along the link [m]
     type(token_t) :: at_word   !! value of `at=`, or the keyword without one
@@ -51,8 +51,8 @@ module response_cards
     logical :: coriolis = .false.
     logical :: centripetal = .false.
     logical :: tangential = .false.
-    logical :: axial = .false.     !! geometric stiffness of the axial forces
-    logical :: quadratic = .false.
+    logical :: axial = .false.     !! the geometric stiffness
+    logical :: quadratic = .false. !! of the driving torque
   end type omitted_terms_t
 
 contains
@@ -93,7 +93,7 @@ contains
     end associate
   end subroutine read_damping
 
-  !> Points at the later of the two keys.
+  !> Reports that both keys are given, at the later one.
   pure subroutine refuse_both(card, diagnostics)
     type(card_t), intent(in) :: card
     type(diagnostics_t), intent(inout) :: diagnostics
@@ -145,7 +145,7 @@ contains
     if (choice > 0) gauge%side = choice
   end subroutine read_gauge
 
-  !> Whether an EFFECTS card is on the elastic response, not on frequencies.
+  !> Whether an EFFECTS card is about the elastic response, not about frequencies.
   pure function is_response_form(card) result(is)
     type(card_t), intent(in) :: card !! of any kind
     logical :: is

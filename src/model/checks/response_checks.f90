@@ -90,7 +90,7 @@ contains
 
   !> Checks what reports on the elastic response need. Errors: no speed, a speed of 0, an
   !! acceleration of the crank; a section without depth where strains are asked for. Warnings: cards
-  !! that no report uses, no damping, lumped inertia and elements, which the response does not have.
+  !! that no report uses, lumped inertia and elements, which the response does not have.
   subroutine check_response(cards, diagnostics, model)
     type(card_t), intent(in) :: cards(:)              !! of the deck
     type(diagnostics_t), intent(inout) :: diagnostics !! errors and warnings are added
@@ -101,7 +101,6 @@ contains
     call check_speeds(diagnostics, model)
     call refuse_acceleration(cards, diagnostics, model)
     call check_depths(diagnostics, model)
-    call warn_of_no_damping(diagnostics, model)
     call warn_of_other_models(diagnostics, model)
   end subroutine check_response
 
@@ -188,25 +187,6 @@ contains
       end associate
     end do
   end subroutine check_depths
-
-  !> Near resonances only damping limits the response.
-  pure subroutine warn_of_no_damping(diagnostics, model)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(in) :: model
-
-    integer :: i, k
-
-    do i = 1, size(model%links)
-      k = model%links(i)%damping
-      if (k == 0) cycle
-      if (model%dampings(k)%time > 0.0_wp .or. model%dampings(k)%ratio > 0.0_wp) return
-    end do
-    if (all(model%links%rigid)) return
-    associate (report => model%reports(findloc(model%reports%kind%response, .true., dim=1)))
-      call add_warning(diagnostics, report%keyword, "no link has DAMPING: near resonances this "// &
-        "response is that of no real machine")
-    end associate
-  end subroutine warn_of_no_damping
 
   !> The response is that of continuous links with their mass along them, whatever frequencies and
   !! rigid-body loads of the same deck are computed with.

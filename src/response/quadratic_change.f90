@@ -1,0 +1,112 @@
+!> How much the terms that the linear equations leave out would change the response.
+!!
+!! The forces of the linkage at the deformations found, with exact kinematics, do not balance there:
+!! the rest is quadratic in the loads, to first order. One more solution of the linear equations with
+!! it as load is the first step of Newton's method towards the balance; its strains against those
+!! found are the change.
+module quadratic_change
+  use elastic_equations, only: apply_equation, elastic_terms_t, load_at_speed
+  use errors, only: error_t
+  use exact_forces, only: find_exact_forces
+  use fourier_transform, only: fourier_plan_t
+  use kinds, only: wp
+  use linkages, only: linkage_t
+  use periodic_solver, only: solve_periodic
+  use response_series, only: strains_along
+  use response_types, only: response_request_t
+  use slow_motions, only: slow_basis_t, slow_motion_t
+  use turn_grids, only: turn_grid_t
+  implicit none (type, external)
+  private
+
+  public :: find_quadratic_change, find_unbalanced_forces
+
+  !> Intervals between the places looked at, for each piece of a link.
+  integer, parameter :: intervals = 16
+
+  !> Remainder of the iterations: it is an estimate.
+  real(wp), parameter :: tolerance = 1.0e-3_wp
+
+contains
+
+  !> The largest change of the strain of every link over the turn and along it, over its largest
+  !! strain; of the outermost fibre, signs and places apart.
+  !!
+  !! Without a result: deformed so much, the linkage cannot be closed, or the iterations do not
+  !! converge.
+  subroutine find_quadratic_change(linkage, grid, plan, basis, motion_plan, motion, request, &
+    speed, damping, y, change)
+    type(linkage_t), intent(in) :: linkage          !! of the grid
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan        !! for its samples
+    type(slow_basis_t), intent(in) :: basis         !! of this grid
+    type(fourier_plan_t), intent(in) :: motion_plan !! for the steps of the slow motion
+    type(slow_motion_t), intent(in) :: motion       !! at this speed
+    type(response_request_t), intent(in) :: request !! terms, sections
+    real(wp), intent(in) :: speed                   !! ω2 [rad/s]
+    real(wp), intent(in) :: damping(:)              !! (unknowns) c [s]
+    real(wp), intent(in) :: y(:, :)                 !! (samples, unknowns) the response [√J]
+    real(wp), allocatable, intent(out) :: change(:) !! (bodies) zero for rigid links; unallocated:
+                                                    !! none is found
+
+    type(error_t), allocatable :: error
+    real(wp), allocatable :: load(:, :), step(:, :)
+    real(wp) :: remainder
+    integer :: b, applications
+
+    allocate (load, step, mold=y)
+    call find_unbalanced_forces(linkage, grid, plan, speed, y, load, error)
+    if (allocated(error)) return
+    step = 0.0_wp
+    call solve_periodic(grid, plan, basis, motion_plan, motion, speed, damping, request%terms, &
+      load, tolerance, step, applications, remainder, error)
+    if (allocated(error)) return
+    allocate (change(size(linkage%bodies)))
+    change = 0.0_wp
+    do b = 1, size(change)
+      if (linkage%bodies(b)%bends) change(b) = largest_strain(grid, b, request%section(b)%outer, &
+        step)/max(largest_strain(grid, b, request%section(b)%outer, y), tiny(1.0_wp))
+    end do
+  end subroutine find_quadratic_change
+
+  !> The forces that the linear equations leave out: exact forces less the linear ones, all terms of
+  !! theirs counted.
+  !!
+  !! Errors: the deformed links do not reach each other.
+  subroutine find_unbalanced_forces(linkage, grid, plan, speed, y, force, error)
+    type(linkage_t), intent(in) :: linkage           !! of the grid
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan         !! for its samples
+    real(wp), intent(in) :: speed                    !! ω2 [rad/s]
+    real(wp), intent(in) :: y(:, :)                  !! (samples, unknowns) [√J]
+    real(wp), intent(out) :: force(:, :)             !! (samples, unknowns) [√J]
+    type(error_t), allocatable, intent(out) :: error !! why there are none
+
+    real(wp) :: linear(size(y, 1), size(y, 2)), no_damping(size(y, 2))
+
+    no_damping = 0.0_wp
+    call find_exact_forces(linkage, grid, plan, speed, y, force, error)
+    if (allocated(error)) return
+    call apply_equation(grid, plan, speed, no_damping, elastic_terms_t(), y, linear)
+    force = force - load_at_speed(grid, speed) + linear - y
+  end subroutine find_unbalanced_forces
+
+  !> The largest strain of a link in the outermost fibre, over the turn and along it.
+  pure function largest_strain(grid, b, outer, y) result(largest)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: b
+    real(wp), intent(in) :: outer   !! its distance from the axis [m]
+    real(wp), intent(in) :: y(:, :)
+    real(wp) :: largest
+
+    real(wp), allocatable :: xi(:), axial(:, :), curvature(:, :)
+    integer :: i, n
+
+    n = intervals*grid%model%links(b)%bending_shapes%elements
+    xi = [(real(i, wp)/n, i=0, n)]
+    allocate (axial(grid%samples, size(xi)), curvature(grid%samples, size(xi)))
+    call strains_along(grid, b, xi, y, axial, curvature)
+    largest = maxval(abs(axial) + outer*abs(curvature))
+  end function largest_strain
+
+end module quadratic_change
