@@ -11,7 +11,7 @@ module response_series
   implicit none (type, external)
   private
 
-  public :: response_series_of, series_count, first_gauge, first_torque
+  public :: response_series_of, series_count, first_gauge, first_torque, strains_along
 
   !> Series of a point, a gauge (axial strain, curvature, shear force) and of the torque (rigid,
   !! linear, quadratic).
@@ -129,6 +129,29 @@ contains
 
     elongation = y(:, grid%elongation(body))
   end function elongation_of
+
+  !> Axial strain and curvature at many places of a link.
+  pure subroutine strains_along(grid, body, xi, y, axial, curvature)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: xi(:)              !! (places)
+    real(wp), intent(in) :: y(:, :)            !! (samples, unknowns)
+    real(wp), intent(out) :: axial(:, :)       !! (samples, places)
+    real(wp), intent(out) :: curvature(:, :)   !! (samples, places) [1/m]
+
+    type(strain_rows_t) :: rows
+    real(wp) :: q(size(y, 1), grid%integrals(body)%chord + grid%integrals(body)%own)
+    integer :: chord, i
+
+    chord = grid%integrals(body)%chord
+    q = functions_of(grid, body, y)
+    do i = 1, size(xi)
+      rows = strain_rows(grid%model%links(body), xi(i))
+      axial(:, i) = elongation_of(grid, body, y)*rows%elongation + matmul(q(:, chord + 1:), &
+        rows%axial)
+      curvature(:, i) = matmul(q(:, chord + 1:), rows%curvature(1:)) + rows%curvature(0)*q(:, 3)
+    end do
+  end subroutine strains_along
 
   !> Driving torque of the rigid linkage, its part linear in the deformations and its quadratic
   !! part: `−∂L/∂θ + d/dt ∂L/∂ω − d²/dt² ∂L/∂α`.
