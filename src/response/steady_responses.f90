@@ -25,8 +25,9 @@ module steady_responses
   use response_peaks, only: find_peaks, sampled_deflections
   use response_series, only: first_gauge, first_torque, response_series_of, series_count
   use response_types, only: axial_force, axial_strain, bending_strain, damping_ratio, damping_time, &
-    drive_values, moment, power, response_request_t, response_t, shear_force, speed_response_t, &
+    drive_values, moment, no_damping, power, response_request_t, response_t, shear_force, speed_response_t, &
     strain_values, stress, total_torque
+  use sorting, only: ascending_order
   use slow_motions, only: new_slow_basis, new_slow_motion, slow_basis_t, slow_count, &
     slow_motion_t, own_squares
   use structures, only: structure_t
@@ -57,6 +58,10 @@ module steady_responses
   !! one.
   integer, parameter :: sample_numbers(*) = [64, 96, 128, 192, 256, 384, 512, 768, 1024, 1536, &
     2048, 3072]
+
+  !> Samples of the second solution in a period of the slowest modes, at their mean frequency, up to a
+  !! limit: their harmonics may rise again beyond those that have fallen.
+  real(wp), parameter :: samples_of_free = 4.0_wp, most_of_free = 1024.0_wp
 
   !> Samples from which the slow coordinates are found.
   integer, parameter :: basis_samples = 96
@@ -111,6 +116,7 @@ module steady_responses
   type :: choice_t
     integer :: order = 0
     integer :: at = 0             !! of `sample_numbers`
+    integer :: least_above = 0    !! samples of the second solution, at least
     integer :: level(2) = 0       !! numbers of the levels of both solutions
     integer :: slow = 0           !! slow coordinates
     logical :: backwards = .false. !! the crank turns clockwise
@@ -145,8 +151,9 @@ contains
 
     type(level_slot_t), allocatable :: levels(:)
     type(choice_t) :: choice(size(request%speed))
+    real(wp), allocatable :: squares(:)
     integer, allocatable :: pending(:)
-    integer :: i, k, n
+    integer :: free, i, k, n
 
     n = size(request%speed)
     allocate (response%at_speed(n))
@@ -157,8 +164,13 @@ contains
     call new_level(structure, choice(1)%order, sample_numbers(1), .false., store, &
       levels(1)%level, error)
     if (allocated(error)) return
-    choice%at = first_samples(request%speed*sqrt(maxval(own_squares(levels(1)%level%grid))), &
-      request%accuracy)
+    squares = own_squares(levels(1)%level%grid)
+    squares = squares(ascending_order(-squares))
+    choice%at = first_samples(request%speed*sqrt(squares(1)), request%accuracy)
+    ! Without damping, passages through resonance leave free vibrations of several modes behind.
+    free = min(merge(1, 3, any(request%damping%kind /= no_damping)), size(squares))
+    choice%least_above = nint(min(samples_of_free/max(abs(request%speed)*sqrt(squares(free)), &
+      tiny(1.0_wp)), most_of_free))
     do
       call drop_levels(pack(choice, choice%pending), levels)
       pending = pack([(k, k=1, n)], choice%pending)
@@ -214,7 +226,7 @@ contains
 
     do i = 1, 2
       order = choice%order + (i - 1)*orders_above
-      samples = sample_numbers(choice%at + i - 1)
+      samples = sample_numbers(merge(choice%at, number_above(choice), i == 1))
       associate (level => choice%level(i))
         level = number_of_level(levels, order, samples, choice%backwards)
         if (level > 0) cycle
@@ -241,6 +253,16 @@ contains
       end associate
     end do
   end subroutine find_levels
+
+  !> Number in `sample_numbers` of the samples of the second solution: the next, and enough to see
+  !! free vibrations that the first cannot.
+  elemental function number_above(choice) result(number)
+    type(choice_t), intent(in) :: choice
+    integer :: number
+
+    number = max(choice%at + 1, min(size(sample_numbers), findloc(sample_numbers >= &
+      choice%least_above, .true., dim=1)))
+  end function number_above
 
   !> Number of the level of an order and a number of samples; 0: none.
   pure function number_of_level(levels, order, samples, backwards) result(number)
@@ -285,7 +307,7 @@ contains
         needed(i) = any((choices%order == level%order .and. &
           sample_numbers(choices%at) == level%grid%samples) .or. &
           (choices%order + orders_above == level%order .and. &
-          sample_numbers(choices%at + 1) == level%grid%samples))
+          sample_numbers(number_above(choices)) == level%grid%samples))
       end associate
     end do
     allocate (kept(count(needed)))
@@ -651,7 +673,9 @@ contains
         end associate
       end do
       first = first_torque(request)
-      scale(first:) = max(largest(first:), by_nature*maxval(abs(sum(fine(:, first:), dim=2))))
+      ! The work of the loads on the deformations measures torques that vanish altogether.
+      scale(first:) = max(largest(first:), by_nature*maxval(abs(sum(fine(:, first:), dim=2))), &
+        by_nature*maxval(abs(sum(load_at_speed(above%grid, speed)*better%y, dim=2))))
       scale = max(scale, tiny(1.0_wp))
     end subroutine find_scales
 
@@ -697,7 +721,7 @@ contains
       total = sum(values(:, first:first + 2), dim=2)
       fine_total = sum(fine(:, first:first + 2), dim=2)
       found%drive_error = extra + max(maxval(errors(first:first + 2)), &
-        safety*maxval(abs(total - fine_total))/max(maxval(abs(fine_total)), tiny(1.0_wp)))
+        safety*maxval(abs(total - fine_total))/max(maxval(abs(fine_total)), scale(first)))
     end subroutine evaluate_drive
 
     subroutine evaluate_peaks
