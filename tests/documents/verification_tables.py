@@ -264,8 +264,8 @@ class Tables:
         strain = {(row["gauge"], row["crank"]): row for row in run.rows("strains")}
         place = {(row["point"], row["crank"]): row for row in run.rows("response")}
         for what, value, estimate in (
-                ("bending strain, mid-coupler, 60°", strain["mid_coupler", 60]["bending_strain"], strain["mid_coupler", 60]["error"]),
-                ("bending strain, mid-follower, 60°", strain["mid_follower", 60]["bending_strain"], strain["mid_follower", 60]["error"]),
+                *((f"bending strain, {gauge.replace('_', '-')}, 60°",
+                   strain[gauge, 60]["bending_strain"], strain[gauge, 60]["error"]) for gauge in ("mid_coupler", "mid_follower")),
                 ("B, x, 0° [m]", place["B:coupler", 0]["ux"]/1000, place["B:coupler", 0]["error"]),
                 ("B, y, 0° [m]", place["B:coupler", 0]["uy"]/1000, place["B:coupler", 0]["error"])):
             yield [Word(what), Number(value, ".10e"), None, error(estimate)]
@@ -287,7 +287,7 @@ class Tables:
             run, cells = self._response(accuracy), []
             for table, (key, quantities) in tables.items():
                 rows, references = run.rows(table), best.rows(table)
-                errors = [error_of([row for row in rows if row[key] == one], [row for row in references if row[key] == one], columns)
+                errors = [error_of(*([row for row in some if row[key] == one] for some in (rows, references)), columns)
                           for one in {row[key] for row in rows} for columns in quantities]
                 cells += [error(max(errors)), error(largest(rows, "error"))]
             order, samples = re.search(r"polynomials of order (\d+).*?(\d+) crank angles", run.files["drive.dat"]).groups()
@@ -305,11 +305,11 @@ class Tables:
                    rough_error(abs((linear + quadratic)*speed/lost - 1))]
 
     def validity_by_speed(self):
-        rows = self._response("1e-6", (r"^SPEED.*", "SPEED 5 10 20 40 rad/s")).rows("validity")
-        for speed in (5, 10, 20, 40):
+        rows = self._response("1e-6", (r"^SPEED.*", "SPEED 5 10 20 30 rad/s")).rows("validity")
+        for speed in (5, 10, 20, 30):
             here = [row for row in rows if row["speed"] == speed]
-            yield [Word(speed)] + [Number(max(row[name] for row in here), ".1e") for name in ("deflection", "load", "quadratic")] + \
-                [fixed(here[0]["out_of_plane"], 1)]
+            yield [Word(speed), *(Number(largest(here, name), ".1e") for name in ("deflection", "load", "quadratic")),
+                   fixed(here[0]["out_of_plane"], 1)]
 
     def omitted_terms(self):
         """Largest change of the strain in mid-link over the turn, by the largest value."""
