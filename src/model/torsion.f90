@@ -20,14 +20,15 @@ contains
 
     real(wp), parameter :: sum_of_powers = 31.0_wp/32.0_wp*1.0369277551433699263_wp
     integer, parameter :: last = 21
-    real(wp) :: a, b, total
+    real(wp) :: a, b, total, fall
     integer :: n
 
     a = max(side, other_side)
     b = min(side, other_side)
     total = sum_of_powers
     do n = 1, last, 2
-      total = total - 2.0_wp/((1.0_wp + exp(n*pi*a/b))*real(n, wp)**5)
+      fall = exp(-n*pi*a/b)
+      total = total - 2.0_wp*fall/((1.0_wp + fall)*real(n, wp)**5)
     end do
     constant = a*b**3*(1.0_wp/3.0_wp - 64.0_wp*b/(pi**5*a)*total)
   end function rectangle_torsion_constant

@@ -21,11 +21,11 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with its response computed
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
-    call append_string(notes, "largest values over the turn and along the link, also between the "// &
-      "crank angles of the deck; strain: |axial| + |bending| at the fibre farthest from the "// &
-      "centroid; stress: E x strain; deflection: from where the rigid link would be")
-    call append_string(notes, "..._at: distance from the first pin of the LINK card; ..._crank: "// &
-      "crank angle; power: mean lost to damping in the link")
+    call append_string(notes, "largest values over the turn and along the link, also between "// &
+      "the crank angles of the deck; strain: |axial| + |bending| at the fibre farthest from "// &
+      "the centroid; stress: E x strain; deflection: from where the rigid link would be")
+    call append_string(notes, "..._at: distance from the first pin of the LINK card; "// &
+      "..._crank: crank angle; power: mean lost to damping in the link")
     call append_response_notes(notes, variant)
   end subroutine peaks_notes
 

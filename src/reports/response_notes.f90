@@ -28,8 +28,8 @@ contains
       if (model%without%keyword%line > 0) call append_string(notes, without_note(variant))
       if (model%inertia == inertia_lumped) call append_string(notes, "the mass of the links is "// &
         "distributed along them: INERTIA lumped does not apply to the response")
-      call append_string(notes, "error: estimated, relative to the largest value of the quantity "// &
-        "over the turn; accuracy asked for: "//to_string(response_accuracy(model)))
+      call append_string(notes, "error: estimated, relative to the largest value of the "// &
+        "quantity over the turn; accuracy asked for: "//to_string(response_accuracy(model)))
     end associate
     call append_method(notes, variant)
   end subroutine append_response_notes

@@ -22,8 +22,8 @@ contains
     call append_string(notes, "ux, uy: displacement from the place that the point has with "// &
       "rigid links at the same crank angle, in global axes; rotation: of the link there, "// &
       "counter-clockwise")
-    call append_string(notes, "A:crank: pin A as the end of link crank, and so on: the links at "// &
-      "a pin have one displacement there, and rotations of their own")
+    call append_string(notes, "A:crank: pin A as the end of link crank, and so on: the links "// &
+      "at a pin have one displacement there, and rotations of their own")
     call append_response_notes(notes, variant)
   end subroutine response_notes_of
 

@@ -24,7 +24,8 @@ module result_warnings
     warning_of_no_damping
 
   !> Kinds of warnings: an eigenvalue is negative; the loads bend a link too much; the accuracy is
-  !! not reached; the last two in the elastic response; its steady state is unstable; nothing damps it.
+  !! not reached; the last two in the elastic response; its steady state is unstable; nothing
+  !! damps it.
   integer, parameter :: warning_of_divergence = 1, warning_of_deflection = 2, &
     warning_of_accuracy = 3, warning_of_response_deflection = 4, &
     warning_of_response_accuracy = 5, warning_of_instability = 6, warning_of_no_damping = 7

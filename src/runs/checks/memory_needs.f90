@@ -118,8 +118,8 @@ contains
 
     !> Crank angles and unknowns of a link, more than most linkages take; arrays of that size that
     !! are kept, and those of a thread: as found in runs. Accuracies near round-off try more of all.
-    real(wp), parameter :: samples = 1024.0_wp, unknowns = 32.0_wp, kept = 100.0_wp, own = 40.0_wp, &
-      hard = 1.0e-10_wp, more = 12.0_wp
+    real(wp), parameter :: samples = 1024.0_wp, unknowns = 32.0_wp, kept = 100.0_wp, &
+      own = 40.0_wp, hard = 1.0e-10_wp, more = 12.0_wp
     real(wp) :: results
     integer :: report
 
