@@ -20,6 +20,8 @@ contains
 
     real(wp), parameter :: sum_of_powers = 31.0_wp/32.0_wp*1.0369277551433699263_wp
     integer, parameter :: last = 21
+    !> Beyond this exponent nothing is left of a term, and `exp` might overflow.
+    real(wp), parameter :: no_more = 100.0_wp
     real(wp) :: a, b, total
     integer :: n
 
@@ -27,6 +29,7 @@ contains
     b = min(side, other_side)
     total = sum_of_powers
     do n = 1, last, 2
+      if (n*pi*a/b > no_more) exit
       total = total - 2.0_wp/((1.0_wp + exp(n*pi*a/b))*real(n, wp)**5)
     end do
     constant = a*b**3*(1.0_wp/3.0_wp - 64.0_wp*b/(pi**5*a)*total)
