@@ -153,7 +153,7 @@ help:
 	@echo "make check              all tests, in the release and in the debug build"
 	@echo "make check PFUNIT_DIR=D the same, with the unit tests run by the pFUnit 4 installed in the folder D"
 	@echo "make documents          recompute the numbers of README.md and docs/ that take a few seconds"
-	@echo "make bench              time every solver, tables and figures in outputs/bench/ (four minutes)"
+	@echo "make bench              time every solver, tables and figures in outputs/bench/ (six minutes)"
 	@echo "make bench-pictures     copy these figures to docs/pictures/"
 	@echo "make fuzz               10,000 random decks under the debug build; FUZZ=500 SEED=7 for fewer or other ones"
 	@echo "make memory             every deck of inputs/ under the sanitizers of addresses, leaks and undefined behaviour"

@@ -45,6 +45,7 @@ program bench
   words = arguments()
   if (.not. any(size(words) == [3, 4, 7])) call give_up("usage: bench PROGRAM FOLDER LIBRARIES [short|corners|response]")
   if (size(words) == 7) then
+    if (words(4)%text /= "memory") call give_up(words(4)%text//": not memory")
     read (words(5)%text, *) accuracy
     read (words(6)%text, *) speeds
     read (words(7)%text, *) threads
