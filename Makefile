@@ -153,7 +153,7 @@ help:
 	@echo "make check              all tests, in the release and in the debug build"
 	@echo "make check PFUNIT_DIR=D the same, with the unit tests run by the pFUnit 4 installed in the folder D"
 	@echo "make documents          recompute the numbers of README.md and docs/ that take a few seconds"
-	@echo "make bench              time every solver, tables and figures in outputs/bench/ (four minutes)"
+	@echo "make bench              time every solver, tables and figures in outputs/bench/ (six minutes)"
 	@echo "make bench-pictures     copy these figures to docs/pictures/"
 	@echo "make fuzz               10,000 random decks under the debug build; FUZZ=500 SEED=7 for fewer or other ones"
 	@echo "make memory             every deck of inputs/ under the sanitizers of addresses, leaks and undefined behaviour"
@@ -251,7 +251,7 @@ $(build)/flexmech: $(modules) $(build)/main.o
 
 # ------------------------------------------------------------- the program that times solvers; sources in the order of use
 bench_sources = $(patsubst %,tests/bench/%.f90,bench_cases exact_values nodal_runs bench_models bench_runs bench_corners bench_plans \
-                                               machine bench_tables bench_ratios bench)
+                                               machine bench_tables bench_ratios response_runs whole_turn bench_response bench)
 
 $(build)/bench/bench: $(bench_sources) $(modules)
 	@echo "link $@"

@@ -12,7 +12,7 @@ module elastic_equations
   private
 
   public :: elastic_terms_t, inertia_force, slope_force, apply_equation, load_at_speed, &
-    functions_of, geometric_force, mass_force, spread_over_unknowns
+    functions_of, geometric_force, slopes_of, mass_force, times_mass, spread_over_unknowns
 
   !> Terms that are left out.
   type :: elastic_terms_t
@@ -136,27 +136,31 @@ contains
     end associate
   end function times_mass
 
-  !> `∫ μ Sᵀ (S y)'' dx` [√J per rad²/s²], with or without its terms in G and W.
-  subroutine inertia_force(grid, plan, terms, y, force)
+  !> `∫ μ Sᵀ (S y)'' dx` [√J per rad²/s²], with or without its terms in G and W; on request also y'.
+  subroutine inertia_force(grid, plan, terms, y, force, rates)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan     !! for its samples
     type(elastic_terms_t), intent(in) :: terms
     real(wp), intent(in) :: y(:, :)              !! (samples, unknowns) [√J]
     real(wp), intent(out) :: force(:, :)         !! (samples, unknowns)
+    real(wp), intent(out), optional :: rates(:, :) !! (samples, unknowns)
 
     real(wp), allocatable :: q(:, :), first(:, :), second(:, :)
     integer :: b, i, k, p
 
     force = 0.0_wp
     if (.not. all_terms(terms)) then
+      if (present(rates)) call derivatives(plan, y, rates)
       call chosen_inertia_force(grid, plan, terms, y, force)
       return
     end if
+    if (present(rates)) call derivatives(plan, y(:, :grid%border), rates(:, :grid%border))
     do b = 1, size(grid%integrals)
       q = functions_of(grid, b, y)
       allocate (first, mold=q)
       allocate (second, mold=q)
       call derivatives(plan, q, first, second)
+      if (present(rates)) call take_rates(grid, b, first, rates)
       call spread_over_unknowns(grid, b, inertia_of_body(grid, b, q, first, second), force)
       deallocate (first, second)
     end do
@@ -172,6 +176,23 @@ contains
       end do
     end do
   end subroutine inertia_force
+
+  !> Rates of the own modes of a body, which are functions of it.
+  pure subroutine take_rates(grid, body, first, rates)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: first(:, :)    !! (samples, functions) Q'
+    real(wp), intent(inout) :: rates(:, :) !! (samples, unknowns)
+
+    integer :: m
+
+    associate (chord => grid%integrals(body)%chord, link => grid%model%links(body), &
+      across => grid%first(body), along => grid%first_along(body))
+      m = chord + link%modes
+      rates(:, across:across + link%modes - 1) = first(:, chord + 1:m)
+      rates(:, along:along + link%axial_modes - 1) = first(:, m + 1:)
+    end associate
+  end subroutine take_rates
 
   !> Displacement of a pin in fixed axes.
   pure function pin_motion(grid, p, y) result(motion)
@@ -281,6 +302,26 @@ contains
     end do
   end subroutine slope_force
 
+  !> Slopes of a body that axial forces act on: rotation of its chord, that of its clamped end, its
+  !! own modes.
+  pure function slopes_of(grid, body, y) result(slope)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: y(:, :) !! (samples, unknowns)
+    real(wp) :: slope(size(y, 1), size(grid%model%links(body)%geometric, 1))
+
+    integer :: j
+
+    associate (link => grid%model%links(body), first => grid%first(body))
+      slope(:, :2) = 0.0_wp
+      do j = 1, grid%border
+        slope(:, 1) = slope(:, 1) + grid%turn(:, j, body)*y(:, j)
+        if (link%bends) slope(:, 2) = slope(:, 2) + grid%chord(:, 3, j, body)*y(:, j)
+      end do
+      slope(:, 3:) = y(:, first:first + link%modes - 1)
+    end associate
+  end function slopes_of
+
   !> `K_G y` of given axial forces, added.
   pure subroutine geometric_force(grid, force_of, y, force)
     type(turn_grid_t), intent(in) :: grid
@@ -293,13 +334,7 @@ contains
 
     do b = 1, size(grid%integrals)
       associate (link => grid%model%links(b), first => grid%first(b))
-        allocate (slope(size(y, 1), size(link%geometric, 1)))
-        slope(:, :2) = 0.0_wp
-        do j = 1, grid%border
-          slope(:, 1) = slope(:, 1) + grid%turn(:, j, b)*y(:, j)
-          if (link%bends) slope(:, 2) = slope(:, 2) + grid%chord(:, 3, j, b)*y(:, j)
-        end do
-        slope(:, 3:) = y(:, first:first + link%modes - 1)
+        slope = slopes_of(grid, b, y)
         allocate (total(size(y, 1), size(slope, 2)))
         total = 0.0_wp
         do j = 1, size(link%geometric, 3)
@@ -332,11 +367,14 @@ contains
     real(wp), allocatable :: first(:, :)
     integer :: i
 
-    call inertia_force(grid, plan, terms, y, force)
-    force = speed**2*force + y
     if (any(damping > 0.0_wp)) then
       allocate (first, mold=y)
-      call derivatives(plan, y, first)
+      call inertia_force(grid, plan, terms, y, force, first)
+    else
+      call inertia_force(grid, plan, terms, y, force)
+    end if
+    force = speed**2*force + y
+    if (allocated(first)) then
       do i = 1, size(y, 2)
         force(:, i) = force(:, i) + speed*damping(i)*first(:, i)
       end do

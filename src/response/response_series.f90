@@ -1,12 +1,13 @@
 !> Quantities of a periodic elastic motion over the turn: displacements of points, strains, and the
 !! driving torque.
 module response_series
-  use elastic_equations, only: elastic_terms_t, functions_of, geometric_force
+  use elastic_equations, only: elastic_terms_t, functions_of, geometric_force, times_mass
   use fourier_transform, only: derivatives, fourier_plan_t
   use kinds, only: wp
   use link_rows, only: displacement_rows, strain_rows, strain_rows_t
   use load_cases, only: case_count, constant_case
   use response_types, only: response_request_t
+  use row_products, only: products_of_rows
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
@@ -188,13 +189,13 @@ contains
     integer :: c
 
     do c = 1, case_count
-      work(:, c) = sum(grid%load(:, :, c)*y, dim=2)
+      work(:, c) = products_of_rows(grid%load(:, :, c), y)
     end do
     call derivatives(plan, work, slope, second)
     call derivatives(plan, grid%load(:, :, 1), load_slope)
-    series(:, 1) = speed**2*(2.0_wp*slope(:, 1) - sum(load_slope*y, dim=2) - second(:, 2))
+    series(:, 1) = speed**2*(2.0_wp*slope(:, 1) - products_of_rows(load_slope, y) - second(:, 2))
     call derivatives(plan, grid%load(:, :, constant_case), load_slope)
-    series(:, 1) = series(:, 1) - sum(load_slope*y, dim=2)
+    series(:, 1) = series(:, 1) - products_of_rows(load_slope, y)
     series(:, 2) = 0.0_wp
     if (.not. terms%quadratic) return
     call derivatives(plan, y, first)
@@ -204,8 +205,8 @@ contains
     do c = 1, case_count
       force = 0.0_wp
       call geometric_force(grid, grid%force(:, :, :, c), y, force)
-      energy(:, c) = sum(y*force, dim=2)
-      rate_work(:, c) = sum(first*force, dim=2)
+      energy(:, c) = products_of_rows(y, force)
+      rate_work(:, c) = products_of_rows(first, force)
     end do
     call derivatives(plan, energy, slope, second)
     series(:, 2) = series(:, 2) + speed**2*(-0.5_wp*slope(:, 1) - rate_work(:, 1) + &
@@ -237,21 +238,21 @@ contains
           end do
         end do
         ! moved·(m Q'' + J (2hQ' + h'Q) − h² m_t Q) + h (−Qᵀ J Q'' + Qᵀ m_t (2hQ' + h'Q))
-        turned = matmul(second, integrals%mass)
-        work = work + sum(moved*turned, dim=2)
+        turned = times_mass(grid, b, second)
+        work = work + products_of_rows(moved, turned)
         turned = -matmul(second, integrals%swap)
-        work = work - h*sum(q*turned, dim=2)
+        work = work - h*products_of_rows(q, turned)
         do i = 1, size(q, 2)
           swept(:, i) = 2.0_wp*h*first(:, i) + slope*q(:, i)
         end do
         turned = -matmul(swept, integrals%swap)
-        work = work + sum(moved*turned, dim=2)
-        turned = matmul(swept, integrals%mass)
+        work = work + products_of_rows(moved, turned)
+        turned = times_mass(grid, b, swept)
         if (size(integrals%rotary) > 0) turned = turned - matmul(swept, integrals%rotary)
-        work = work + h*sum(q*turned, dim=2)
-        turned = matmul(q, integrals%mass)
+        work = work + h*products_of_rows(q, turned)
+        turned = times_mass(grid, b, q)
         if (size(integrals%rotary) > 0) turned = turned - matmul(q, integrals%rotary)
-        work = work - h**2*sum(moved*turned, dim=2)
+        work = work - h**2*products_of_rows(moved, turned)
         deallocate (first, second, moved, swept)
       end associate
     end do
@@ -268,7 +269,7 @@ contains
         end do
       end do
       call derivatives(plan, pin, pin_first, pin_second)
-      work = work + grid%pin_mass(p)*sum(moved*pin_second, dim=2)
+      work = work + grid%pin_mass(p)*products_of_rows(moved, pin_second)
     end do
   end subroutine swept_work
 

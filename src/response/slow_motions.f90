@@ -9,7 +9,7 @@
 !! and gives the multipliers of a turn.
 module slow_motions
   use constants, only: two_pi
-  use elastic_equations, only: functions_of, geometric_force, mass_force
+  use elastic_equations, only: functions_of, mass_force, slopes_of, times_mass
   use errors, only: error_of_numerics, error_t, set_error
   use fourier_transform, only: coefficients_of, derivatives, fourier_plan_t, resampled, shifted, &
     values_of
@@ -17,6 +17,7 @@ module slow_motions
   use kinds, only: wp
   use lapack, only: dgeev, dgetrf, dgetrs
   use load_cases, only: constant_case
+  use row_products, only: products_of_rows
   use sorting, only: ascending_order
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
@@ -147,7 +148,8 @@ contains
     allocate (basis%inverse(plan%samples, number, number))
     do j = 1, number
       do i = 1, j
-        basis%inverse(:, i, j) = sum(basis%shape(:, :, i)*basis%shape(:, :, j), dim=2)
+        basis%inverse(:, i, j) = products_of_rows(basis%shape(:, :, i), &
+          basis%shape(:, :, j))
         basis%inverse(:, j, i) = basis%inverse(:, i, j)
       end do
     end do
@@ -188,8 +190,8 @@ contains
     real(wp), intent(in) :: shape(:, :, :)
     real(wp), allocatable, intent(out) :: sums(:, :, :) !! (samples, number², matrices)
 
-    real(wp), allocatable :: first(:, :, :), q(:, :, :), force(:, :)
-    integer :: b, c, i, j, at, n, number
+    real(wp), allocatable :: first(:, :, :), q(:, :, :)
+    integer :: b, i, j, n, number
 
     n = grid%samples
     number = size(shape, 3)
@@ -208,21 +210,43 @@ contains
       end associate
     end do
     call add_pins(grid, plan, shape, sums)
-    allocate (force(n, grid%unknowns))
     do j = 1, number
-      do c = 0, 2
-        force = 0.0_wp
-        if (c == 0) force = shape(:, :, j)
-        if (c == 1) call geometric_force(grid, grid%force(:, :, :, 1), shape(:, :, j), force)
-        if (c == 2) call geometric_force(grid, grid%force(:, :, :, constant_case), shape(:, :, j), &
-          force)
-        do i = 1, number
-          at = (j - 1)*number + i
-          sums(:, at, of_stiffness + c) = sum(shape(:, :, i)*force, dim=2)
+      do i = 1, number
+        sums(:, (j - 1)*number + i, of_stiffness) = products_of_rows(shape(:, :, i), &
+          shape(:, :, j))
+      end do
+    end do
+    do b = 1, size(grid%integrals)
+      call add_axial(grid, b, shape, sums)
+    end do
+  end subroutine find_matrices
+
+  !> Adds what the axial forces of a body contribute to XᵀK_GX.
+  pure subroutine add_axial(grid, b, shape, sums)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: b
+    real(wp), intent(in) :: shape(:, :, :)
+    real(wp), intent(inout) :: sums(:, :, :)
+
+    real(wp) :: slope(size(shape, 1), size(grid%model%links(b)%geometric, 1), size(shape, 3))
+    real(wp) :: bent(size(slope, 1), size(slope, 2)), work(size(slope, 1))
+    integer :: at, i, j, k
+
+    do i = 1, size(shape, 3)
+      slope(:, :, i) = slopes_of(grid, b, shape(:, :, i))
+    end do
+    do k = 1, size(grid%model%links(b)%geometric, 3)
+      do j = 1, size(shape, 3)
+        bent = matmul(slope(:, :, j), grid%model%links(b)%geometric(:, :, k))
+        do i = 1, size(shape, 3)
+          at = (j - 1)*size(shape, 3) + i
+          work = products_of_rows(slope(:, :, i), bent)
+          sums(:, at, of_speed) = sums(:, at, of_speed) + grid%force(:, k, b, 1)*work
+          sums(:, at, of_loads) = sums(:, at, of_loads) + grid%force(:, k, b, constant_case)*work
         end do
       end do
     end do
-  end subroutine find_matrices
+  end subroutine add_axial
 
   !> Scales X so that its slow rows are the unit matrix: X then changes smoothly over the turn.
   subroutine normalise(product, slow, shape, error)
@@ -274,20 +298,22 @@ contains
 
     associate (integrals => grid%integrals(b), h => grid%rate(:, b))
       do j = 1, size(q, 3)
-        moved = matmul(q(:, :, j), integrals%mass)
-        moved_first = matmul(first(:, :, j), integrals%mass)
+        moved = times_mass(grid, b, q(:, :, j))
+        moved_first = times_mass(grid, b, first(:, :, j))
         turned = -matmul(q(:, :, j), integrals%swap)
         turned_first = -matmul(first(:, :, j), integrals%swap)
         free = moved
         if (size(integrals%rotary) > 0) free = moved - matmul(q(:, :, j), integrals%rotary)
         do i = 1, size(q, 3)
           at = (j - 1)*size(q, 3) + i
-          sums(:, at, of_mass) = sums(:, at, of_mass) + sum(q(:, :, i)*moved, dim=2)
-          sums(:, at, of_g) = sums(:, at, of_g) + sum(q(:, :, i)*moved_first, dim=2) + &
-            h*sum(q(:, :, i)*turned, dim=2)
-          sums(:, at, of_w) = sums(:, at, of_w) + sum(first(:, :, i)*moved_first, dim=2) + &
-            h*(sum(first(:, :, i)*turned, dim=2) - sum(q(:, :, i)*turned_first, dim=2)) + &
-            h**2*sum(q(:, :, i)*free, dim=2)
+          associate (q_i => q(:, :, i), first_i => first(:, :, i))
+            sums(:, at, of_mass) = sums(:, at, of_mass) + products_of_rows(q_i, moved)
+            sums(:, at, of_g) = sums(:, at, of_g) + products_of_rows(q_i, moved_first) + &
+              h*products_of_rows(q_i, turned)
+            sums(:, at, of_w) = sums(:, at, of_w) + products_of_rows(first_i, moved_first) + &
+              h*(products_of_rows(first_i, turned) - products_of_rows(q_i, turned_first)) + &
+              h**2*products_of_rows(q_i, free)
+          end associate
         end do
       end do
     end associate
@@ -317,12 +343,12 @@ contains
       do j = 1, size(shape, 3)
         do i = 1, size(shape, 3)
           at = (j - 1)*size(shape, 3) + i
-          sums(:, at, of_mass) = sums(:, at, of_mass) + grid%pin_mass(p)*sum(motion(:, :, &
-            i)*motion(:, :, j), dim=2)
-          sums(:, at, of_g) = sums(:, at, of_g) + grid%pin_mass(p)*sum(motion(:, :, &
-            i)*first(:, :, j), dim=2)
-          sums(:, at, of_w) = sums(:, at, of_w) + grid%pin_mass(p)*sum(first(:, :, &
-            i)*first(:, :, j), dim=2)
+          sums(:, at, of_mass) = sums(:, at, of_mass) + grid%pin_mass(p)* &
+            products_of_rows(motion(:, :, i), motion(:, :, j))
+          sums(:, at, of_g) = sums(:, at, of_g) + grid%pin_mass(p)* &
+            products_of_rows(motion(:, :, i), first(:, :, j))
+          sums(:, at, of_w) = sums(:, at, of_w) + grid%pin_mass(p)* &
+            products_of_rows(first(:, :, i), first(:, :, j))
         end do
       end do
     end do
@@ -393,8 +419,8 @@ contains
           first(:, i) = damping(i)*basis%shape(:, i, j)
         end do
         do i = 1, m
-          of_shape(:, (j - 1)*m + i) = sum(basis%shape(:, :, i)*rates, dim=2)/speed
-          of_rate(:, (j - 1)*m + i) = sum(basis%shape(:, :, i)*first, dim=2)/speed
+          of_shape(:, (j - 1)*m + i) = products_of_rows(basis%shape(:, :, i), rates)/speed
+          of_rate(:, (j - 1)*m + i) = products_of_rows(basis%shape(:, :, i), first)/speed
         end do
       end do
       call coefficients_of(plan, of_rate, total(:, :, 4))

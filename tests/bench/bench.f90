@@ -1,8 +1,9 @@
 !> Times the program's solvers and the usual ones, in turn, and writes tables.
 !!
-!!     bench PROGRAM FOLDER LIBRARIES [short|corners]
+!!     bench PROGRAM FOLDER LIBRARIES [short|corners|response]
 !!
-!! `short`: a few cases once. `corners`: only the decks of tests/bench/corners, those that are slow once or three times.
+!! `short`: a few cases once. `corners`: only the decks of tests/bench/corners, those that are slow once or three times. `response`:
+!! only the elastic response. `memory ACCURACY SPEEDS THREADS`: prints the memory that one elastic response takes.
 !! PROGRAM is also timed as a whole; tables go to FOLDER; LIBRARIES names the BLAS that was linked. Run in the root of the repository.
 program bench
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
@@ -11,6 +12,7 @@ program bench
   use bench_models, only: base_t, read_base
   use bench_plans, only: plan_cases
   use bench_ratios, only: write_ratios
+  use bench_response, only: plan_responses, prepare_response, print_memory, response_bench_t, time_response, write_responses
   use bench_runs, only: prepare_case, seconds_since, time_case
   use bench_tables, only: write_plan, write_times
   use errors, only: error_t, rendered
@@ -27,23 +29,40 @@ program bench
   character(len=*), parameter :: long_job_list = " tests/bench/positions.deck tests/bench/variants.deck"
   type(plan_t) :: plan
   type(corner_t), allocatable :: corners(:)
+  type(response_bench_t) :: responses
   type(base_t) :: base
   type(exact_values_t) :: exact
   type(error_t), allocatable :: error
   type(string_t), allocatable :: words(:), notes(:), jobs(:), made(:)
   real(wp), allocatable :: times(:, :)
   integer(long) :: start
+  character(len=4096) :: executable
   integer :: i, k, order(3), rounds
-  logical :: short, only_corners, done
+  real(wp) :: accuracy
+  integer :: speeds, threads
+  logical :: short, only_corners, only_response, done
 
   words = arguments()
-  if (size(words) < 3 .or. size(words) > 4) call give_up("usage: bench PROGRAM FOLDER LIBRARIES [short|corners]")
+  if (.not. any(size(words) == [3, 4, 7])) call give_up("usage: bench PROGRAM FOLDER LIBRARIES [short|corners|response]")
+  if (size(words) == 7) then
+    if (words(4)%text /= "memory") call give_up(words(4)%text//": not memory")
+    read (words(5)%text, *) accuracy
+    read (words(6)%text, *) speeds
+    read (words(7)%text, *) threads
+    call read_base("inputs/exact.deck", base, error)
+    call give_up_on(error)
+    call print_memory(base, accuracy, speeds, threads, error)
+    call give_up_on(error)
+    stop, quiet=.true.
+  end if
   short = .false.
   only_corners = .false.
+  only_response = .false.
   if (size(words) == 4) then
     short = words(4)%text == "short"
     only_corners = words(4)%text == "corners"
-    if (.not. (short .or. only_corners)) call give_up(words(4)%text//": neither short nor corners")
+    only_response = words(4)%text == "response"
+    if (.not. (short .or. only_corners .or. only_response)) call give_up(words(4)%text//": not short, corners or response")
   end if
   rounds = merge(short_repetitions, repetitions, short)
   call make_directories(words(2)%text, done, made)
@@ -54,7 +73,7 @@ program bench
   call give_up_on(error)
 
   call system_clock(start)
-  if (.not. only_corners) plan = plan_cases(omp_get_num_procs(), short)
+  if (.not. (only_corners .or. only_response)) plan = plan_cases(omp_get_num_procs(), short)
   order = 3
   do i = 1, plan%count
     associate (this => plan%cases(i))
@@ -64,7 +83,8 @@ program bench
       if (this%solver == with_accuracy) order = this%order
     end associate
   end do
-  call read_corners(short, corners, error)
+  allocate (corners(0))
+  if (.not. only_response) call read_corners(short, corners, error)
   call give_up_on(error)
   do i = 1, size(corners)
     call prepare_corner(corners(i), error)
@@ -72,13 +92,20 @@ program bench
     write (output_unit, "(a)") "bench: "//corners(i)%name//" solved once, "//to_string(seconds_since(start), 3)//" s"
     flush (output_unit)
   end do
+  allocate (responses%cases(0))
+  if (.not. only_corners) then
+    responses = plan_responses(short)
+    call get_command_argument(0, executable)
+    call prepare_response(base, trim(executable), words(2)%text, responses, error)
+    call give_up_on(error)
+  end if
   write (output_unit, "(a)") "bench: "//to_string(plan%count)//" cases and "//to_string(size(corners))// &
     " decks solved once, "//to_string(seconds_since(start), 3)//" s"
 
   ! In turn: a slow minute of the machine then comes to all.
   jobs = word_list(job_list//long_job_list)
   if (short) jobs = word_list(job_list)
-  if (only_corners) jobs = jobs(:0)
+  if (only_corners .or. only_response) jobs = jobs(:0)
   allocate (times(size(jobs), rounds))
   do k = 1, rounds
     do i = 1, plan%count
@@ -91,6 +118,10 @@ program bench
       call time_corner(corners(i), error)
       call give_up_on(error)
     end do
+    do i = 1, size(responses%cases)
+      call time_response(base, words(2)%text, i, responses, error)
+      call give_up_on(error)
+    end do
     do i = 1, size(jobs)
       times(i, k) = time_of_process(words(1)%text, words(2)%text, jobs(i)%text)
     end do
@@ -99,6 +130,9 @@ program bench
   end do
 
   notes = machine_notes(words(3)%text)
+  if (.not. only_corners) call write_responses(words(2)%text, notes, base, responses, error)
+  call give_up_on(error)
+  if (only_response) stop, quiet=.true.
   call write_corners(words(2)%text, notes, corners, error)
   call give_up_on(error)
   if (only_corners) stop, quiet=.true.

@@ -14,7 +14,7 @@ short_run() {
 
 # Rows of as many columns as there are names, without NaN, infinity or stars, none failed but those of a mesh that is refused.
 complete() {
-  for table in work_precision cost_elements cost_positions cost_modes cost_threads processes ratios; do
+  for table in work_precision cost_elements cost_positions cost_modes cost_threads processes ratios response response_parts; do
     [ -s "$out/$table.dat" ] || { echo "no $table.dat"; return 1; }
     awk -v table="$table" '
       /^# failed .*solver=(dsygv|dsygvx|band) mesh=128.* too fine/ { next }
@@ -63,13 +63,22 @@ errors_asked_for() {
   return 0
 }
 
+# Estimated errors of the elastic response are above the true ones and below those asked for; collocation of all unknowns agrees.
+errors_of_responses() {
+  table=$out/response.dat
+  [ "$(awk '$1 == "accuracy"' "$table" | wc -l)" -eq 5 ] || { echo "not five runs"; return 1; }
+  awk '$1 == "accuracy" && !($14 <= $2 && $15 <= $14 + 3e-11) { print }' "$table" | grep . && return 1
+  between 0 1e-6 "$(awk '$1 == "collocation" { print $15 }' "$table")" collocation
+}
+
 wrong_use() {
   "$bench" >"$scratch/stdout" 2>"$scratch/stderr" </dev/null
-  [ $? -eq 2 ] && says "usage: bench PROGRAM FOLDER LIBRARIES [short|corners]"
+  [ $? -eq 2 ] && says "usage: bench PROGRAM FOLDER LIBRARIES [short|corners|response]"
 }
 
 check "make bench: a short run" short_run
 check "make bench: all tables are complete" complete
 check "make bench: errors of meshes and orders" errors_of_meshes
 check "make bench: accuracy= is kept" errors_asked_for
+check "make bench: errors of elastic responses" errors_of_responses
 check "make bench: wrong use" wrong_use
