@@ -89,7 +89,8 @@ do for [p=1:points] {
 do for [p=1:points] {
     parts = parts.sprintf("$sticks using %d:%d:%d:%d with vectors nohead lw 1.5 dt solid lc rgb '%s' notitle, ", \
         4*p - 3, 4*p - 2, 4*p - 1, 4*p, point_ink(p))
-    parts = parts.sprintf("$paths using %d:%d with lines lw 3 dt solid lc rgb '%s' notitle, ", 2*p, 2*p + 1, point_ink(p))
+    parts = parts.sprintf("$paths using %d:%d with lines lw %g dt solid lc rgb '%s' notitle, ", 2*p, 2*p + 1, \
+        line_width(positions_drawn), point_ink(p))
     parts = parts.sprintf("$paths using %d:%d with points pt 7 ps %g lc rgb '%s' notitle, ", 2*p, 2*p + 1, \
         dot_size(positions_drawn), point_ink(p))
 }

@@ -7,7 +7,6 @@ table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argum
 
 eval answer(table, "facts")
 headline = numbered(figure, sprintf("Displacements of the elastic linkage against crank angle, %s", at_speed(speed, unit_speed)))
-note = "elastic less rigid linkage, in global axes"
 
 # A pin has a row for each of its links, A:crank and A:coupler, of one displacement; links turn as much as their points do, pins
 # have two rotations. Points stand first.
@@ -29,6 +28,7 @@ source_of(k) = rows_if(table, is_named("point", word(curves, k)))
 picked = "same(field('speed'),speed)"
 x = "field('crank')"
 x_axis = "eval crank_axis(low_crank, high_crank)"
+note = "elastic less rigid linkage, in global axes".(words(points) > 0 ? "; rotation: of the link at its point" : "")
 panels = words(points) > 0 ? 3 : 2
 array axis_of[3] = ["displacement x", "displacement y", "rotation"]
 array unit_of[3] = [unit_ux, unit_uy, unit_rotation]

@@ -10,7 +10,7 @@ n = words(links)
 shown_links = short_names(links, 1)
 headline = numbered(figure, "Limits of the elastic response against the speed of the crank")
 note = "deflection: largest over a turn, linear equations become unreliable beyond 1 %;  buckling: of the link as pinned at both ends"
-if (remark eq "") { remark = "distance: of the nearest multiplier of a turn from the unit circle, where vibrations neither grow nor fade" }
+if (remark eq "") { remark = "distance from resonance: least |1 − ρ| of the multipliers ρ of a turn" }
 source_of(k) = rows_if(table, is_named("link", word(links, k)))
 picked = "1"
 x = "field('speed')"
@@ -20,7 +20,7 @@ is_logarithmic(panel) = panel < 4
 also_shown(panel) = panel == 1 ? 1.0 : NaN
 before_panel(panel) = panel != 1 ? "unset arrow 999" \
     : "set arrow 999 from graph 0, first 1 to graph 1, first 1 nohead front lw 2.5 lc rgb '#A01850' dt solid"
-array axis_of[4] = ["deflection / length", "load / buckling load", "quadratic terms", "distance"]
+array axis_of[4] = ["deflection / length", "load / buckling load", "quadratic terms", "distance |1 − ρ|"]
 array unit_of[4] = ["%", "%", "%", ""]
 array curves_of[4] = [repeated(n, "100*field('deflection')"), repeated(n, "100*field('load')"), \
     repeated(n, "(strcol(col_quadratic)eq'-'?0:100*abs(field('quadratic')))"), "field('distance')"]

@@ -23,10 +23,11 @@ module moving_integrals
   type :: moving_integrals_t
     integer :: chord = 0                  !! functions of the chord
     integer :: own = 0                    !! own modes, transverse, then axial
-    real(wp), allocatable :: mass(:, :)   !! m: `∫ μ (u u + v v) + ρI θ θ dx`, with all masses on the
-                                          !! link
+    real(wp), allocatable :: mass(:, :)   !! m: `∫ μ (u u + v v) + ρI θ θ dx`, with all masses on
+                                          !! the link
     real(wp), allocatable :: swap(:, :)   !! J: `∫ μ (v_a u_b − u_a v_b) dx`, antisymmetric
-    real(wp), allocatable :: rotary(:, :) !! `∫ ρI θ θ dx`, which is in m and not in m_t; empty: none
+    real(wp), allocatable :: rotary(:, :) !! `∫ ρI θ θ dx`, which is in m and not in m_t; empty:
+                                          !! none
     real(wp), allocatable :: at_mass(:, :) !! (functions, masses) of a coupled link: m v at each
   end type moving_integrals_t
 

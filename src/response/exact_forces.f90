@@ -17,7 +17,7 @@ module exact_forces
   use joint_forces, only: find_joint_forces, joint_forces_t
   use kinds, only: wp
   use linkages, only: cross, linkage_t, normal_to
-  use poses, only: place_links, pose_t
+  use poses, only: find_pose, pose_t
   use rigid_bodies, only: central_inertia, mass_centre, rigid_body, rigid_body_t
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
@@ -43,7 +43,7 @@ contains
 
   !> Forces on all unknowns in a periodic motion.
   !!
-  !! Errors: the deformed links do not reach each other.
+  !! Errors: the deformed links do not reach each other, or stand at a dead point.
   subroutine find_exact_forces(linkage, grid, plan, speed, y, force, error)
     type(linkage_t), intent(in) :: linkage           !! of the grid
     type(turn_grid_t), intent(in) :: grid
@@ -136,7 +136,7 @@ contains
         deformed%bodies(b)%length = motion(b)%chord(k)
       end do
       crank = (360.0_wp*(k - 1))/grid%samples + chord_angle(k, 1)/degree
-      call place_links(deformed, crank, pose(k), error)
+      call find_pose(deformed, crank, pose(k), error)
       if (allocated(error)) return
       do b = 1, size(motion)
         axis = grid%direction(k, :, b)

@@ -1,5 +1,5 @@
-!> A periodic motion in the unknowns of one model, expressed in those of a model of higher orders and
-!! with more samples over the turn.
+!> A periodic motion in the unknowns of one model, expressed in those of a model of higher orders
+!! and with more samples over the turn.
 module order_transfer
   use deformation_shapes, only: deformation_shapes_t
   use fourier_transform, only: coefficients_of, fourier_plan_t, resampled, values_of

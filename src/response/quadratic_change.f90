@@ -56,7 +56,7 @@ contains
 
     allocate (load, step, mold=y)
     call find_unbalanced_forces(linkage, grid, plan, speed, y, load, error)
-    if (allocated(error)) return
+    if (allocated(error) .or. .not. all(abs(load) < huge(1.0_wp))) return
     step = 0.0_wp
     call solve_periodic(grid, plan, basis, motion_plan, motion, speed, damping, request%terms, &
       load, tolerance, step, applications, remainder, error)

@@ -32,10 +32,10 @@ module response_types
   type :: gauge_t
     integer :: body = 0
     real(wp) :: xi = 0.5_wp    !! from 0 to 1 along the body, in its direction round the loop
-    real(wp) :: sense = 1.0_wp !! −1: the deck's link runs the other way, so that curvature and moment
-                               !! change their sign; the shear force does not
-    real(wp) :: side = 1.0_wp  !! of the strain of bending: 1 on the face that is stretched where the
-                               !! deck's link turns left, −1 on the other
+    real(wp) :: sense = 1.0_wp !! −1: the deck's link runs the other way, so that curvature and
+                               !! moment change their sign; the shear force does not
+    real(wp) :: side = 1.0_wp  !! of the strain of bending: 1 on the face that is stretched where
+                               !! the deck's link turns left, −1 on the other
   end type gauge_t
 
   !> A point of a link whose displacement is wanted.
@@ -83,8 +83,9 @@ module response_types
     type(peak_t), allocatable :: largest_strain(:)     !! (bodies) [-]
     type(peak_t), allocatable :: largest_stress(:)     !! (bodies) [Pa]
     type(peak_t), allocatable :: largest_deflection(:) !! (bodies) [m]
-    real(wp), allocatable :: deflection(:)          !! (bodies) largest at a few places and the samples
-                                                    !! of the turn, whatever is asked for [m]
+    real(wp), allocatable :: deflection(:)          !! (bodies) largest at a few places and the
+                                                    !! samples of the turn, whatever is asked for
+                                                    !! [m]
     real(wp), allocatable :: power_lost(:)          !! (bodies) mean over the turn [W]
     real(wp), allocatable :: peak_error(:)          !! (bodies)
     real(wp), allocatable :: buckling(:)            !! (bodies) largest compression of the rigid
@@ -92,13 +93,15 @@ module response_types
                                                     !! pinned
     real(wp), allocatable :: quadratic_change(:)    !! (bodies) of the largest strain; unallocated:
                                                     !! not estimated
-    real(wp), allocatable :: out_of_plane           !! first frequency of vibrations out of the plane
-                                                    !! of motion [Hz]; unallocated: not estimated
+    real(wp), allocatable :: out_of_plane           !! first frequency of vibrations out of the
+                                                    !! plane of motion [Hz]; unallocated: not
+                                                    !! estimated
     real(wp) :: distance = 0.0_wp                   !! least |1 − multiplier|: from resonance
     real(wp) :: distance_error = 0.0_wp             !! relative
     real(wp) :: growth = 0.0_wp                     !! largest ln|multiplier|
-    complex(wp) :: nearest = (0.0_wp, 0.0_wp)       !! of the multiplier nearest to 1: ln|multiplier|
-                                                    !! and, as imaginary part, turns (0 to 1/2)
+    complex(wp) :: nearest = (0.0_wp, 0.0_wp)       !! of the multiplier nearest to 1:
+                                                    !! ln|multiplier| and, as imaginary part, turns
+                                                    !! (0 to 1/2)
     integer :: order = 0                            !! highest polynomial degree
     integer :: samples = 0                          !! over the turn
     integer :: slow = 0                             !! slow coordinates

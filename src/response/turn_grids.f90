@@ -28,8 +28,8 @@ module turn_grids
 
   type :: turn_grid_t
     integer :: samples = 0   !! crank angles 0, 360°/n, …
-    logical :: backwards = .false. !! crank angles 0, −360°/n, …: θ2 runs with time. All derivatives,
-                                   !! rates and loads per α2 are those for −θ2
+    logical :: backwards = .false. !! crank angles 0, −360°/n, …: θ2 runs with time. All
+                                   !! derivatives, rates and loads per α2 are those for −θ2
     integer :: unknowns = 0
     integer :: border = 0    !! first unknowns: rotation of the clamped end, elongations
     type(deformation_model_t) :: model
@@ -203,7 +203,8 @@ contains
           ! centripetal part of its offset, across the link.
           if (size(integrals%at_mass, 2) > 0) then
             offset = lump_offsets(linkage%bodies(b))
-            work = work - matmul(integrals%at_mass, offset)*dot_product(axis, case%field%slope(:, b))
+            work = work - matmul(integrals%at_mass, offset)*dot_product(axis, case%field%slope(:, &
+              b))
           end if
         else
           whole = distributed_load(linkage%bodies(b), b, pose, case%field)

@@ -304,6 +304,13 @@ class Tables:
             yield [Word(speed), Number(linear, ".6e"), Number(quadratic, ".6e"), Number(lost/speed, ".6e"),
                    rough_error(abs((linear + quadratic)*speed/lost - 1))]
 
+    def validity_by_speed(self):
+        rows = self._response("1e-6", (r"^SPEED.*", "SPEED 5 10 20 40 rad/s")).rows("validity")
+        for speed in (5, 10, 20, 40):
+            here = [row for row in rows if row["speed"] == speed]
+            yield [Word(speed)] + [Number(max(row[name] for row in here), ".1e") for name in ("deflection", "load", "quadratic")] + \
+                [fixed(here[0]["out_of_plane"], 1)]
+
     def omitted_terms(self):
         """Largest change of the strain in mid-link over the turn, by the largest value."""
         def strains(*changes):

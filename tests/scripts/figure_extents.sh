@@ -34,6 +34,14 @@ varied_deck() {
   echo "REPORT frequencies"
 } 
 
+# response_deck UNITS...: all reports of the elastic response.
+response_deck() {
+  sed "s/^TITLE .*/TITLE $title/; s/^UNITS .*/UNITS $*/; s/E=200000 density=7.8e-9/E=200GPa density=7800kg\/m3/; s/ 254 0/ 254mm 0/
+      s/\(length\|thickness\|width\|at\|along\|offset\)=\([0-9.]*\)/&mm/g; s/^CRANK .*/CRANK 0 to 360 step 15/; s/^SPEED.*/SPEED 95 190 rpm/
+      s/mid_coupler/${long}_g/; s/^POINT    P /POINT ${long}_p /; s/ accuracy=1e-8//; /^END/d" inputs/response.deck
+  printf '%s\n' 'MODES 2' 'INERTIA distributed' 'REPORT frequencies'
+}
+
 # whole FOLDER OPTION...: its figures are drawn, and nothing is cut.
 whole() {
   folder=$1
@@ -49,16 +57,18 @@ in_units() {
   mkdir -p "$scratch/$name"
   rigid_deck "$@" >"$scratch/$name/rigid.deck"
   beams_deck "$@" >"$scratch/$name/beams.deck"
+  response_deck "$@" >"$scratch/$name/response.deck"
   varied_deck "$@" | sed "s/length=266.7mm/length=\$b/" >"$scratch/$name/varied.deck"
-  run 0 --quiet --out "$scratch/$name" "$scratch/$name/rigid.deck" "$scratch/$name/beams.deck" "$scratch/$name/varied.deck" || return 1
-  for deck in rigid beams varied; do
+  run 0 --quiet --out "$scratch/$name" "$scratch/$name/rigid.deck" "$scratch/$name/beams.deck" "$scratch/$name/varied.deck" \
+    "$scratch/$name/response.deck" || return 1
+  for deck in rigid beams varied response; do
     whole "$scratch/$name/$deck" --errors || return 1
   done
 }
 
 # Placed by the program, a linkage has its own size: drawings of it are left out.
 multiplied() {
-  for deck in rigid beams varied; do
+  for deck in rigid beams varied response; do
     rm -rf "$scratch/times"
     python3 -B tests/support/figure_extents.py scale "$1" "$scratch/mm_kg_s/$deck" "$scratch/times" || return 1
     rm -f "$scratch/times/points.dat" "$scratch/times/linkage.dat"
@@ -67,7 +77,7 @@ multiplied() {
 }
 
 sized() {
-  for deck in rigid beams varied; do
+  for deck in rigid beams varied response; do
     whole "$scratch/mm_kg_s/$deck" --size "$@" || return 1
   done
 }

@@ -10,7 +10,7 @@ module response_cases
   use kinds, only: long, wp
   use legendre, only: gauss_rule
   use link_degrees, only: link_degrees_t, uniform_degrees
-  use link_rows, only: displacement_rows
+  use link_rows, only: displacement_rows, strain_rows, strain_rows_t
   use linkages, only: body_t, lump_t, new_four_bar
   use periodic_solver, only: solve_periodic
   use response_types, only: gauge_t, link_damping_t, link_section_t, response_point_t, response_request_t
@@ -22,7 +22,7 @@ module response_cases
 
   public :: random_t, next_random, between, random_structure, first_mechanism, rotating_cantilever, tip_mass
   public :: grid_of, smooth_motion, steady_motion, request_for
-  public :: mass_point_t, mass_points, point_place, point_motion, matrix_of_form
+  public :: mass_point_t, mass_points, point_place, point_motion, matrix_of_form, strains_along, displacements_along
 
   !> Thickness and width of the strips of the first mechanism [m].
   real(wp), parameter, public :: thick = 1.6e-3_wp, wide = 25.4e-3_wp
@@ -325,6 +325,42 @@ contains
       d(:, 3) = local(:, 3)
     end associate
   end function point_motion
+
+  !> Axial strain and curvature at places of a link, over the turn.
+  subroutine strains_along(grid, body, xi, y, axial, curvature)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: xi(:), y(:, :)
+    real(wp), intent(out) :: axial(:, :), curvature(:, :) !! (samples, places) [-, 1/m]
+
+    type(strain_rows_t) :: rows
+    real(wp), allocatable :: q(:, :)
+    integer :: chord, i, j
+
+    chord = grid%integrals(body)%chord
+    q = functions_of(grid, body, y)
+    do i = 1, size(xi)
+      rows = strain_rows(grid%model%links(body), xi(i))
+      axial(:, i) = y(:, grid%elongation(body))*rows%elongation + matmul(q(:, chord + 1:), rows%axial)
+      curvature(:, i) = matmul(q(:, [3, (chord + j, j=1, size(q, 2) - chord)]), rows%curvature)
+    end do
+  end subroutine strains_along
+
+  !> Displacements along and across a link at places, over the turn.
+  subroutine displacements_along(grid, body, xi, y, displacement)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: xi(:), y(:, :)
+    real(wp), intent(out) :: displacement(:, :, :) !! (samples, 2, places) [m]
+
+    real(wp), allocatable :: rows(:, :)
+    integer :: i
+
+    do i = 1, size(xi)
+      rows = displacement_rows(grid%model%links(body), [xi(i)*grid%model%links(body)%length, 0.0_wp])
+      displacement(:, :, i) = matmul(functions_of(grid, body, y), transpose(rows(:2, :)))
+    end do
+  end subroutine displacements_along
 
   !> `∫ μ S_aᵀ S_b` over the turn, as sums over points, of the shapes themselves or their derivatives by the crank angle.
   subroutine matrix_of_form(structure, grid, slope, matrix)

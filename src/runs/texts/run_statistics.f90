@@ -39,8 +39,8 @@ contains
       text = text//name//": steps of forward motion "//to_string(totals%motion_steps)//line_feed
     end if
     if (totals%response_speeds > 0) then
-      text = text//name//": elastic response at "//to_string(totals%response_speeds)// &
-        " speeds, applications of its equation "//to_string(totals%applications)//line_feed
+      text = text//name//": elastic response at "//plural(int(totals%response_speeds), "speed")// &
+        ", applications of its equation "//to_string(totals%applications)//line_feed
     end if
     if (totals%has_frequencies) then
       text = text//frequency_lines(name, totals)
