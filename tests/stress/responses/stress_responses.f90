@@ -16,8 +16,8 @@ program stress_responses
   use link_store, only: link_store_t
   use linkages, only: lump_t
   use random_mechanisms, only: family_names, new_random_case, of_resonance, random_case_t
-  use response_types, only: axial_strain, bending_strain, power, response_request_t, response_t, rigid_torque, speed_response_t, stress, &
-    total_torque
+  use response_types, only: axial_strain, bending_strain, power, response_request_t, response_t, rigid_torque, speed_response_t, &
+    stress, total_torque
   use sorting, only: ascending_order
   use steady_responses, only: find_steady_responses
   implicit none (type, external)
@@ -160,7 +160,8 @@ contains
     end if
     call turn_back(true%at_speed(1)%displacement)
     result%finest_error = true%at_speed(1)%largest_error
-    call judge(case%request, case%structure%beams, case%structure%linkage%bodies%length, result%found, true%at_speed(1), result%pairs)
+    call judge(case%request, case%structure%beams, case%structure%linkage%bodies%length, result%found, &
+      true%at_speed(1), result%pairs)
     result%verdict = maxval(result%pairs%verdict)
     associate (here => result%found)
       if (case%request%terms%coriolis .and. case%request%terms%centripetal .and. case%request%terms%quadratic .and. &
