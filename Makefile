@@ -21,7 +21,7 @@ unit_tests = $(if $(PFUNIT_DIR),pfunit,funit)/unit_tests
 
 ifndef kind
 # ---------------------------------------------------------------------------------------------- what a person types
-.PHONY: all debug quad thesis run figures animate check documents bench bench-pictures stress accuracies references fuzz memory golden \
+.PHONY: all debug quad thesis run figures animate check documents bench bench-pictures stress stress-responses accuracies references fuzz memory golden \
         install setup clean help
 
 all: setup
@@ -106,6 +106,14 @@ stress: all
 	@python3 -B tests/stress/run_stress.py $(program)
 	@python3 -B tests/documents/documents.py $(program) --stress
 
+# Random mechanisms with elastic response: CASES from FIRST on; the same number is the same mechanism.
+CASES ?= 2100
+FIRST ?= 1
+stress-responses: all
+	$(stage) kind=release build/release/stress/responses
+	@mkdir -p outputs/stress
+	build/release/stress/responses $(CASES) $(shell nproc) outputs/stress/responses.dat $(FIRST)
+
 # The same SEED makes the same decks.
 FREQUENCIES ?= 100000
 accuracies: all
@@ -158,6 +166,7 @@ help:
 	@echo "make fuzz               10,000 random decks under the debug build; FUZZ=500 SEED=7 for fewer or other ones"
 	@echo "make memory             every deck of inputs/ under the sanitizers of addresses, leaks and undefined behaviour"
 	@echo "make stress             estimated errors against true ones in extreme cases, with figures, in outputs/stress/"
+	@echo "make stress-responses   the same of the elastic response of random mechanisms; CASES=210 FIRST=1 for fewer or others"
 	@echo "make accuracies         random decks at several accuracies, each against the finest; FREQUENCIES=5000 SEED=7"
 	@echo "make references         regenerate the quadruple-precision values of make stress (hours)"
 	@echo "make quad               build build/quad/flexmech, the program in quadruple precision (slow)"
@@ -254,6 +263,14 @@ bench_sources = $(patsubst %,tests/bench/%.f90,bench_cases exact_values nodal_ru
                                                machine bench_tables bench_ratios response_runs whole_turn bench_response bench)
 
 $(build)/bench/bench: $(bench_sources) $(modules)
+	@echo "link $@"
+	mkdir -p $(@D)
+	$(compile) -ffree-line-length-132 $(warnings_$(kind)) -J$(@D) -I$(build) $^ $(libraries) -o $@
+
+# --------------------------------------------------------------------- the program that tests estimated errors of responses
+stress_sources = $(patsubst %,tests/stress/responses/%.f90,random_numbers random_mechanisms stress_responses)
+
+$(build)/stress/responses: $(stress_sources) $(modules)
 	@echo "link $@"
 	mkdir -p $(@D)
 	$(compile) -ffree-line-length-132 $(warnings_$(kind)) -J$(@D) -I$(build) $^ $(libraries) -o $@

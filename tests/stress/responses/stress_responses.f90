@@ -9,14 +9,15 @@
 !! is too small.
 program stress_responses
   use, intrinsic :: iso_c_binding, only: c_int, c_long
+  use beam_mesh, only: beam_t
   use constants, only: degree
   use errors, only: error_t
   use kinds, only: wp
   use link_store, only: link_store_t
   use linkages, only: lump_t
   use random_mechanisms, only: family_names, new_random_case, of_resonance, random_case_t
-  use response_types, only: axial_strain, power, response_request_t, response_t, rigid_torque, speed_response_t, stress, &
-    total_torque
+  use response_types, only: axial_strain, bending_strain, power, response_request_t, response_t, rigid_torque, speed_response_t, &
+    stress, total_torque
   use sorting, only: ascending_order
   use steady_responses, only: find_steady_responses
   implicit none (type, external)
@@ -26,6 +27,8 @@ program stress_responses
   !> How the true one is turned [deg], and where its links are divided.
   real(wp), parameter :: turned_by = 50.0_wp, divided_at = 0.47_wp
   real(wp), parameter :: least_judged = 1.0e-9_wp, most_above = 100.0_wp
+  !> Quantities that are zero by nature are measured against what goes with them, as the program does.
+  real(wp), parameter :: by_nature = 1.0e-3_wp
   !> A case that takes longer is listed [s].
   real(wp), parameter :: slow = 2.0_wp
 
@@ -157,7 +160,8 @@ contains
     end if
     call turn_back(true%at_speed(1)%displacement)
     result%finest_error = true%at_speed(1)%largest_error
-    call judge(case%request, result%found, true%at_speed(1), result%pairs)
+    call judge(case%request, case%structure%beams, case%structure%linkage%bodies%length, result%found, &
+      true%at_speed(1), result%pairs)
     result%verdict = maxval(result%pairs%verdict)
     associate (here => result%found)
       if (case%request%terms%coriolis .and. case%request%terms%centripetal .and. case%request%terms%quadratic .and. &
@@ -280,37 +284,47 @@ contains
   end subroutine move_to_resonance
 
   !> All estimated errors of a case with the true ones.
-  subroutine judge(request, found, true, pairs)
+  subroutine judge(request, beams, lengths, found, true, pairs)
     type(response_request_t), intent(in) :: request
+    type(beam_t), intent(in) :: beams(:)
+    real(wp), intent(in) :: lengths(:)
     type(speed_response_t), intent(in) :: found, true
     type(pair_t), allocatable, intent(out) :: pairs(:)
 
-    real(wp) :: errors(6), powers
+    real(wp) :: errors(6), least(6), powers, strain
     integer :: i, k
 
     allocate (pairs(0))
     do i = 1, size(request%points)
       errors(1) = difference(found%displacement(:2, i, :), true%displacement(:2, i, :))
-      errors(2) = difference(found%displacement(3:3, i, :), true%displacement(3:3, i, :))
+      errors(2) = difference(found%displacement(3:3, i, :), true%displacement(3:3, i, :), by_nature* &
+        maxval(norm2(true%displacement(:2, i, :), dim=1))/lengths(request%points(i)%body))
       call add_pair(pairs, [character(len=12) :: "displacement", "rotation"], i, found%displacement_error(i), errors(:2), &
         true%displacement_error(i))
     end do
     do i = 1, size(request%gauges)
+      ! Largest strain at the gauge, and what goes with it.
+      strain = maxval(abs(true%strain(axial_strain, i, :))) + maxval(abs(true%strain(bending_strain, i, :)))
+      associate (beam => beams(request%gauges(i)%body), section => request%section(request%gauges(i)%body))
+        least = by_nature*strain*[1.0_wp, 1.0_wp, beam%bending_stiffness/section%outer, beam%axial_stiffness, &
+          by_nature*beam%axial_stiffness, 0.0_wp]
+      end associate
       do k = axial_strain, stress
-        errors(k) = difference(found%strain(k:k, i, :), true%strain(k:k, i, :))
+        errors(k) = difference(found%strain(k:k, i, :), true%strain(k:k, i, :), least(k))
       end do
       call add_pair(pairs, [character(len=12) :: "axial_strain", "bending", "moment", "axial_force", "shear_force", "stress"], i, &
         found%strain_error(i), errors, true%strain_error(i))
     end do
     do k = rigid_torque, total_torque
-      errors(k) = difference(found%drive(k:k, :), true%drive(k:k, :))
+      errors(k) = difference(found%drive(k:k, :), true%drive(k:k, :), by_nature*maxval(abs(true%drive(total_torque, :))))
     end do
     call add_pair(pairs, [character(len=12) :: "rigid", "linear", "quadratic", "total"], 0, found%drive_error, errors(:4), &
       true%drive_error)
     powers = sum(true%power_lost)
     do i = 1, size(found%peak_error)
       if (.not. true%largest_strain(i)%value > 0.0_wp) cycle
-      errors(1) = abs(found%largest_strain(i)%value/true%largest_strain(i)%value - 1.0_wp)
+      errors(1) = abs(found%largest_strain(i)%value - true%largest_strain(i)%value)/ &
+        max(true%largest_strain(i)%value, by_nature**2*maxval(true%largest_strain%value))
       errors(2) = abs(found%largest_deflection(i)%value/true%largest_deflection(i)%value - 1.0_wp)
       errors(3) = 0.0_wp
       if (powers > 0.0_wp) errors(3) = abs(found%power_lost(i) - true%power_lost(i))/powers
@@ -342,14 +356,16 @@ contains
     pairs = [pairs, pair]
   end subroutine add_pair
 
-  !> Largest difference over the turn beside the largest value; of vectors their lengths.
-  pure function difference(found, true) result(error)
+  !> Largest difference over the turn beside the largest value, or what is given; of vectors their lengths.
+  pure function difference(found, true, least) result(error)
     real(wp), intent(in) :: found(:, :), true(:, :) !! (components, positions)
+    real(wp), intent(in), optional :: least
     real(wp) :: error
 
     real(wp) :: largest
 
     largest = sqrt(maxval(sum(true**2, dim=1)))
+    if (present(least)) largest = max(largest, least)
     error = 0.0_wp
     if (largest > 0.0_wp) error = sqrt(maxval(sum((found - true)**2, dim=1)))/largest
   end function difference
