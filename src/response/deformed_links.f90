@@ -23,8 +23,8 @@ module deformed_links
     integer :: elements = 0
     type(collocation_t) :: rule                    !! of an element
     real(wp), allocatable :: length(:)             !! (elements) [m]
-    real(wp), allocatable :: place(:)              !! (points) from the first end, element by element
-                                                   !! [m]
+    real(wp), allocatable :: place(:)              !! (points) from the first end, element by
+                                                   !! element [m]
     real(wp), allocatable :: node_place(:)         !! (0:elements) [m]
     real(wp) :: elongation = 0.0_wp                !! axial strain of the elongation unknown
     real(wp), allocatable :: axial(:, :)           !! (points, 0:own) axial strain

@@ -2,11 +2,11 @@
 !! frequencies and the response in the plane are computed as if there were none.
 !!
 !! The linkage is a grillage at rest. Its links bend out of the plane as slender beams and twist
-!! (St. Venant); axial forces, shear and the rotary inertia of bending are left out. A revolute joint
-!! whose axis is normal to the plane transmits the displacement w and both tilts; the rotation about
-!! the pin is one in the plane. Pins on the ground are held by their bearings, the crank by its shaft.
-!! Rigid links move as rigid bodies. Masses beside the axis of a link turn with it; a moment of
-!! inertia is taken as that of a body that extends along the link.
+!! (St. Venant); axial forces, shear and the rotary inertia of bending are left out. A revolute
+!! joint whose axis is normal to the plane transmits the displacement w and both tilts; the rotation
+!! about the pin is one in the plane. Pins on the ground are held by their bearings, the crank by
+!! its shaft. Rigid links move as rigid bodies. Masses beside the axis of a link turn with it; a
+!! moment of inertia is taken as that of a body that extends along the link.
 module out_of_plane
   use band_matrix, only: full_band
   use beam_element, only: element_stiffness, new_reference_element, reference_element_t, &
@@ -36,8 +36,8 @@ module out_of_plane
   !> Numbers of the unknowns.
   type :: numbering_t
     integer :: unknowns = 0
-    integer, allocatable :: anchor(:) !! (pins) pin whose unknowns move it: another one if both are on
-                                      !! a rigid link
+    integer, allocatable :: anchor(:) !! (pins) pin whose unknowns move it: another one if both
+                                      !! are on a rigid link
     integer, allocatable :: pin(:)    !! (pins) number before its w and its tilts about the global
                                       !! axes; negative: held
     integer, allocatable :: inner(:)  !! (bodies) number before those of its inner nodes, then those
@@ -223,7 +223,8 @@ contains
           rows(of_node + i, first + bubbles*(e - 1) + i) = 1.0_wp
         end do
         rows(n - 2:, :) = node_rows(structure, pose, numbering, b, e, pieces)
-        part = element_stiffness(reference, beam%torsional_stiffness, beam%out_of_plane_stiffness, h)
+        part = element_stiffness(reference, beam%torsional_stiffness, &
+          beam%out_of_plane_stiffness, h)
         stiffness = stiffness + matmul(transpose(rows), matmul(part, rows))
         ! Twists and displacements are not coupled.
         part = h*with_lengths(reference%mass, h)*spread(density, 2, n)

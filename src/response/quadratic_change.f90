@@ -1,9 +1,9 @@
 !> How much the terms that the linear equations leave out would change the response.
 !!
 !! The forces of the linkage at the deformations found, with exact kinematics, do not balance there:
-!! the rest is quadratic in the loads, to first order. One more solution of the linear equations with
-!! it as load is the first step of Newton's method towards the balance; its strains against those
-!! found are the change.
+!! the rest is quadratic in the loads, to first order. One more solution of the linear equations
+!! with it as load is the first step of Newton's method towards the balance; its strains against
+!! those found are the change.
 module quadratic_change
   use elastic_equations, only: apply_equation, elastic_terms_t, load_at_speed
   use errors, only: error_t
