@@ -103,8 +103,8 @@ contains
         beam%bending_stiffness = material%youngs_modulus*section%second_moment
         beam%shear_stiffness = link_shear_stiffness(model, model%loop(i))
         beam%out_of_plane_stiffness = material%youngs_modulus*out_of_plane_second_moment(section)
-        if (material%has_ratio) beam%torsional_stiffness = material%youngs_modulus/(2.0_wp*(1.0_wp + &
-          material%poissons_ratio))*torsion_constant(section)
+        if (material%has_ratio) beam%torsional_stiffness = material%youngs_modulus/ &
+          (2.0_wp*(1.0_wp + material%poissons_ratio))*torsion_constant(section)
         if (.not. has_own_mass(links(i))) beam%polar_inertia = &
           material%density*(section%second_moment + out_of_plane_second_moment(section))
       end associate

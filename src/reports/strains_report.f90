@@ -23,11 +23,11 @@ contains
     integer :: i
 
     call append_string(notes, "axial_strain: of the axis, stretched positive; bending_strain: "// &
-      "of the face of the gauge, positive on the right face where the link turns left along its "// &
-      "LINK card")
+      "of the face of the gauge, positive on the right face where the link turns left along "// &
+      "its LINK card")
     call append_string(notes, "moment: positive where the link turns left; axial_force: "// &
-      "tension positive; shear_force: on the part before the gauge by the part beyond, to the left "// &
-      "positive; all looking along the LINK card, whatever the side of the gauge")
+      "tension positive; shear_force: on the part before the gauge by the part beyond, to the "// &
+      "left positive; all looking along the LINK card, whatever the side of the gauge")
     call append_string(notes, "stress: largest of the section, E(|axial strain| + |bending "// &
       "strain|) at the fibre farthest from the centroid")
     do i = 1, size(variant%mechanism%gauges)

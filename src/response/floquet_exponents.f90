@@ -1,9 +1,9 @@
-!> Floquet exponents of an elastic linkage: `y = e^{σ θ} z(θ)` with z periodic solves the equation of
-!! motion without load.
+!> Floquet exponents of an elastic linkage: `y = e^{σ θ} z(θ)` with z periodic solves the equation
+!! of motion without load.
 !!
-!! The slow motion gives the first approximation. Residual inverse iteration (Neumaier, SIAM J. Numer.
-!! Anal. 22 (1985) 914) on the whole equation makes it as accurate as grid and orders allow: with D in
-!! place of d/dθ2, the equation at σ is that with D + σ, `L(σ) = L0 + σ L1 + σ² L2`.
+!! The slow motion gives the first approximation. Residual inverse iteration (Neumaier, SIAM J.
+!! Numer. Anal. 22 (1985) 914) on the whole equation makes it as accurate as grid and orders allow:
+!! with D in place of d/dθ2, the equation at σ is that with D + σ, `L(σ) = L0 + σ L1 + σ² L2`.
 module floquet_exponents
   use constants, only: two_pi
   use elastic_equations, only: apply_equation, elastic_terms_t, mass_force, slope_force
@@ -21,14 +21,14 @@ module floquet_exponents
 
   public :: floquet_mode_t, find_floquet_modes, find_nearest_mode
 
-  !> The shift from the first approximation at which equations are solved: near enough to converge in
-  !! a few rounds, far enough to leave them regular.
+  !> The shift from the first approximation at which equations are solved: near enough to converge
+  !! in a few rounds, far enough to leave them regular.
   real(wp), parameter :: shift = 1.0e-3_wp
 
   integer, parameter :: most_rounds = 12, most_products = 40
 
-  !> Exponents change by no more than this in the last round; where only the nearness of resonance is
-  !! asked for, by no more than that.
+  !> Exponents change by no more than this in the last round; where only the nearness of resonance
+  !! is asked for, by no more than that.
   real(wp), parameter :: fine_change = 1.0e-13_wp*fineness, rough_change = 1.0e-7_wp
 
   !> No exponent differs more than this from its first approximation.
@@ -104,7 +104,8 @@ contains
     real(wp), intent(in) :: speed              !! ω2 [rad/s]
     real(wp), intent(in) :: damping(:)         !! (unknowns) c [s]
     type(elastic_terms_t), intent(in) :: terms
-    real(wp), intent(in) :: near               !! nearer multipliers are found from the whole equation
+    real(wp), intent(in) :: near               !! nearer multipliers are found from the whole
+                                               !! equation
     type(floquet_mode_t), intent(out) :: mode
     real(wp), intent(out) :: growth            !! largest ln|multiplier|; 0 or less where none is
                                                !! certain to grow

@@ -1,5 +1,5 @@
-!> The periodic elastic motion of a linkage at a speed, by GMRES on samples over the turn, with Fourier
-!! derivatives.
+!> The periodic elastic motion of a linkage at a speed, by GMRES on samples over the turn, with
+!! Fourier derivatives.
 !!
 !! The approximate inverse takes the slow motion exactly, but for its steps, and the rest by its own
 !! diagonal, harmonic by harmonic: what is left converges in a few iterations, in all unknowns and
@@ -20,7 +20,8 @@ module periodic_solver
   integer, parameter :: most_iterations = 60
 
   !> Begun anew from the residual of the solution, whose rounding GMRES does not see: three times at
-  !! most, and not if the iterations do not get anywhere. A solution that is not right to so much is none.
+  !! most, and not if the iterations do not get anywhere. A solution that is not right to so much is
+  !! none.
   integer, parameter :: most_rounds = 3
   real(wp), parameter :: no_solution = 1.0e-2_wp
 

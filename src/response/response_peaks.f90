@@ -21,8 +21,8 @@ module response_peaks
   !> Intervals between the places looked at, for each piece of a link.
   integer, parameter :: intervals = 32
 
-  !> So many times as many crank angles are looked at as there are samples, and all maxima among them
-  !! that are as high as this beside the highest.
+  !> So many times as many crank angles are looked at as there are samples, and all maxima among
+  !! them that are as high as this beside the highest.
   integer, parameter :: denser = 4
   real(wp), parameter :: may_hide = 0.95_wp
 
@@ -32,8 +32,8 @@ module response_peaks
 
 contains
 
-  !> The largest deflection of every link at a few places and the samples of the turn; zeros of rigid
-  !! ones [m].
+  !> The largest deflection of every link at a few places and the samples of the turn; zeros of
+  !! rigid ones [m].
   pure function sampled_deflections(grid, y) result(deflection)
     type(turn_grid_t), intent(in) :: grid
     real(wp), intent(in) :: y(:, :) !! (samples, unknowns) [√J]
@@ -175,8 +175,8 @@ contains
       end do
     end subroutine search
 
-    !> From a sampled maximum by parabolas over the turn, along the link and in the direction in which
-    !! these have led, through points that move closer: the largest value met counts.
+    !> From a sampled maximum by parabolas over the turn, along the link and in the direction in
+    !! which these have led, through points that move closer: the largest value met counts.
     subroutine climb(value, place, wide, of_strain, peak)
       real(wp), intent(in) :: value, place(2) !! sampled; crank angle and place
       real(wp), intent(in) :: wide(2)         !! between samples

@@ -1,9 +1,10 @@
 !> The steady elastic response of a linkage whose crank turns at constant speed, with estimated
 !! errors.
 !!
-!! Every speed is solved twice: with the orders and samples chosen, and, starting from that solution,
-!! with orders higher by two and half as many samples more. The first is the result, the difference
-!! its error. Where that exceeds the accuracy, orders or samples are raised, whichever is to blame.
+!! Every speed is solved twice: with the orders and samples chosen, and, starting from that
+!! solution, with orders higher by two and half as many samples more. The first is the result, the
+!! difference its error. Where that exceeds the accuracy, orders or samples are raised, whichever is
+!! to blame.
 module steady_responses
   use body_lumps, only: pieces_of
   use constants, only: degree, two_pi
@@ -24,9 +25,9 @@ module steady_responses
   use quadratic_change, only: find_quadratic_change
   use response_peaks, only: find_peaks, sampled_deflections
   use response_series, only: first_gauge, first_torque, response_series_of, series_count
-  use response_types, only: axial_force, axial_strain, bending_strain, damping_ratio, damping_time, &
-    drive_values, moment, no_damping, power, response_request_t, response_t, shear_force, speed_response_t, &
-    strain_values, stress, total_torque
+  use response_types, only: axial_force, axial_strain, bending_strain, damping_ratio, &
+    damping_time, drive_values, moment, no_damping, power, response_request_t, response_t, &
+    shear_force, speed_response_t, strain_values, stress, total_torque
   use sorting, only: ascending_order
   use slow_motions, only: new_slow_basis, new_slow_motion, slow_basis_t, slow_count, &
     slow_motion_t, own_squares
@@ -45,7 +46,8 @@ module steady_responses
   !! bending of the links loads them along their axes: both converge together.
   integer, parameter :: along_below = 4, least_along = 4
 
-  !> The remainder of the second solution in a quantity of its own, at most so many times that in all.
+  !> The remainder of the second solution in a quantity of its own, at most so many times that in
+  !! all.
   real(wp), parameter :: many = 10.0_wp
 
   !> Remainders above this are none of rounding.
@@ -59,8 +61,8 @@ module steady_responses
   integer, parameter :: sample_numbers(*) = [64, 96, 128, 192, 256, 384, 512, 768, 1024, 1536, &
     2048, 3072]
 
-  !> Samples of the second solution in a period of the slowest modes, at their mean frequency, up to a
-  !! limit: their harmonics may rise again beyond those that have fallen.
+  !> Samples of the second solution in a period of the slowest modes, at their mean frequency, up to
+  !! a limit: their harmonics may rise again beyond those that have fallen.
   real(wp), parameter :: samples_of_free = 4.0_wp, most_of_free = 1024.0_wp
 
   !> Samples from which the slow coordinates are found.
@@ -104,8 +106,8 @@ module steady_responses
   type :: level_t
     integer :: order = 0
     type(turn_grid_t) :: grid, coarse
-    type(slow_basis_t), allocatable :: basis(:) !! by the number of slow coordinates; empty where not
-                                                !! needed
+    type(slow_basis_t), allocatable :: basis(:) !! by the number of slow coordinates; empty where
+                                                !! not needed
   end type level_t
 
   type :: level_slot_t
@@ -186,8 +188,9 @@ contains
         choice(pending(i))%pending = .not. was_interrupted()
         if (.not. choice(pending(i))%pending) cycle
         associate (here => choice(pending(i)))
-          call solve_speed(structure, request, abs(request%speed(pending(i))), levels(here%level(1))%level, &
-            levels(here%level(2))%level, here, response%at_speed(pending(i)))
+          call solve_speed(structure, request, abs(request%speed(pending(i))), &
+            levels(here%level(1))%level, levels(here%level(2))%level, here, &
+            response%at_speed(pending(i)))
         end associate
       end do
       !$omp end parallel do

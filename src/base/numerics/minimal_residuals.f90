@@ -1,5 +1,5 @@
-!> GMRES: the combination of products of a linear operator that leaves the smallest residual (Saad and
-!! Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856). The caller applies the operator.
+!> GMRES: the combination of products of a linear operator that leaves the smallest residual (Saad
+!! and Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856). The caller applies the operator.
 module minimal_residuals
   use kinds, only: wp
   implicit none (type, external)

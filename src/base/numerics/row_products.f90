@@ -1,5 +1,5 @@
-!> Products of rows of two matrices, column after column: arrays over the crank angle run along their
-!! columns.
+!> Products of rows of two matrices, column after column: arrays over the crank angle run along
+!! their columns.
 module row_products
   use kinds, only: wp
   implicit none (type, external)
