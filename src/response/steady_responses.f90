@@ -413,7 +413,7 @@ contains
     type(speed_response_t), intent(inout) :: found
 
     type(fourier_plan_t) :: plan, above_plan
-    type(slow_motion_t) :: motion
+    type(slow_motion_t) :: motion, above_motion
     type(solution_t) :: solution, better
     real(wp), allocatable :: errors(:)
     real(wp) :: tighter
@@ -435,8 +435,12 @@ contains
           max(solved_to*tighter*request%accuracy, least_remainder), solution, found%error)
         if (allocated(found%error)) exit attempt
         call transferred(level%grid, plan, above%grid, above_plan, solution%y, better%y)
-        call solve_level(request, speed, above%grid, above_plan, above_basis, plan, motion, &
-          max(compared_to*tighter*request%accuracy, least_remainder), better, found%error)
+        ! Its own slow motion: that of the first has no harmonics beyond its samples.
+        call new_slow_motion(above%grid%samples, above_plan, above_basis, speed, &
+          damping_of(request, above%grid), stages, above_motion, found%error)
+        if (allocated(found%error)) exit attempt
+        call solve_level(request, speed, above%grid, above_plan, above_basis, above_plan, &
+          above_motion, max(compared_to*tighter*request%accuracy, least_remainder), better, found%error)
         if (allocated(found%error)) exit attempt
       end associate
       found%order = choice%order
