@@ -440,7 +440,8 @@ contains
           damping_of(request, above%grid), stages, above_motion, found%error)
         if (allocated(found%error)) exit attempt
         call solve_level(request, speed, above%grid, above_plan, above_basis, above_plan, &
-          above_motion, max(compared_to*tighter*request%accuracy, least_remainder), better, found%error)
+          above_motion, max(compared_to*tighter*request%accuracy, least_remainder), better, &
+          found%error)
         if (allocated(found%error)) exit attempt
       end associate
       found%order = choice%order
