@@ -631,9 +631,10 @@ contains
     end do
     extra = many*better%remainder + rounding/found%distance
     allocate (at_position(n, size(request%crank)))
+    ! Whole turns make no difference, to the last digit.
     do k = 1, size(request%crank)
       at_position(:, k) = value_at(solution%series, merge(-1.0_wp, 1.0_wp, &
-        level%grid%backwards)*request%crank(k)*degree)
+        level%grid%backwards)*modulo(request%crank(k), 360.0_wp)*degree)
     end do
 
     allocate (found%displacement(3, size(request%points), size(request%crank)), &
