@@ -65,6 +65,10 @@ module steady_responses
   !! a limit: their harmonics may rise again beyond those that have fallen.
   real(wp), parameter :: samples_of_free = 4.0_wp, most_of_free = 1024.0_wp
 
+  !> Accuracy that the samples to begin with are at least chosen for: with fewer the iterations
+  !! converge slowly or not at all, which takes longer.
+  real(wp), parameter :: coarsest = 1.0e-6_wp
+
   !> Samples from which the slow coordinates are found.
   integer, parameter :: basis_samples = 96
 
@@ -168,7 +172,7 @@ contains
     if (allocated(error)) return
     squares = own_squares(levels(1)%level%grid)
     squares = squares(ascending_order(-squares))
-    choice%at = first_samples(request%speed*sqrt(squares(1)), request%accuracy)
+    choice%at = first_samples(request%speed*sqrt(squares(1)), min(request%accuracy, coarsest))
     ! Without damping, passages through resonance leave free vibrations of several modes behind.
     free = min(merge(1, 3, any(request%damping%kind /= no_damping)), size(squares))
     choice%least_above = nint(min(samples_of_free/max(abs(request%speed)*sqrt(squares(free)), &

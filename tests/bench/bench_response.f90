@@ -38,7 +38,7 @@ module bench_response
   real(wp), parameter :: exact_accuracy = 1.0e-11_wp, common_accuracy = 1.0e-6_wp
 
   !> Repetitions of a part that is timed alone.
-  integer, parameter :: part_rounds = 20
+  integer, parameter :: part_rounds = 7
 
   !> Samples of the slow coordinates, as the program has them, and what it asks of the iterations.
   integer, parameter :: basis_samples = 96
