@@ -163,7 +163,8 @@ def fault_of_run(words, run, deck):
         return f"a runtime error: {stderr[-400:]}"
     if run.returncode == 2:
         return fault_of_message(words, stderr)
-    if run.returncode == 1 and not re.search(r"^d\.deck: error: .*crank \S+ deg: .", stderr, re.MULTILINE):
+    # A response of a whole turn fails at a speed, without a crank angle.
+    if run.returncode == 1 and not re.search(r"^d\.deck: error: .*(crank \S+ deg|at \S+ (rad/s|rpm)): .", stderr, re.MULTILINE):
         return f"status 1, but no failure is reported: {stderr[-400:]}"
     return None
 
