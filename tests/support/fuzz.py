@@ -49,6 +49,7 @@ NOT_A_NUMBER = re.compile(r"\b(?:NaN|[-+]?Inf(?:inity)?)\b|\*{4,}|is not a numbe
 REAL = re.compile(r"-?\d\.\d+E[-+]\d{3}$")
 PLACE = re.compile(r"(?P<deck>.*?):(?P<line>\d+):(?P<column>\d+): (?:error|warning|note): .")
 WORDS = {"link", "event", "point", "gauge", "linkage", "quantity"}  # columns of words; and `branch`, but for branches.dat
+GAPS = {"quadratic", "out_of_plane"}  # of validity.dat: - where nothing is estimated
 OTHERS = {"echo.deck", "run.log", "summary.json"}
 # What a deck may include.
 PART = b"MATERIAL brass E=100e9Pa density=8500kg/m3 nu=0.35\nSET half 0.5\n"
@@ -117,6 +118,8 @@ def fault_of_table(name, text):
         for column, cell in zip(names, cells):
             if column in WORDS or (column == "branch" and cell in ("open", "crossed")):
                 continue
+            if column in GAPS and cell == "-":
+                continue
             if not REAL.match(cell) and not re.match(r"\d+$", cell):
                 return f"{name}: {column} is {cell}"
     return None
@@ -164,7 +167,7 @@ def fault_of_run(words, run, deck):
     if run.returncode == 2:
         return fault_of_message(words, stderr)
     # A response of a whole turn fails at a speed, without a crank angle.
-    if run.returncode == 1 and not re.search(r"^d\.deck: error: .*(crank \S+ deg|at \S+ (rad/s|rpm)): .", stderr, re.MULTILINE):
+    if run.returncode == 1 and not re.search(r"^d\.deck: error: .*(crank \S+ deg|response, speed \S+ (rad/s|rpm)): .", stderr, re.MULTILINE):
         return f"status 1, but no failure is reported: {stderr[-400:]}"
     return None
 
