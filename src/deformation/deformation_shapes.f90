@@ -1,8 +1,8 @@
 !> Deformation coordinates of a link: Legendre coefficients of its curvature, shear strain and axial
 !! strain, element by element.
 !!
-!! Scaled as here, the elastic energy is `½ yᵀy`: the stiffness matrix is the unit matrix, exact and
-!! the same at every position. In an element of length h the curvature is
+!! Scaled as here, the elastic energy, Ulker 2010 (2.68), is `½ yᵀy`: the stiffness matrix is the
+!! unit matrix, exact and the same at every position. In an element of length h the curvature is
 !! `θ' = Σ y_j √((2j+1)/(EI h)) P_j`; the shear strain `v' − θ` has kGA in place of EI, the axial
 !! strain EA. θ is the rotation of cross-sections; without shear it is v'. Displacements are
 !! measured from the chord: they vanish at both ends of the link. Elements are of equal length

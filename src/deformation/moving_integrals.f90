@@ -5,9 +5,10 @@
 !! those of its chord (1 − ξ and ξ across, the curve of a clamped end; 1 − ξ and ξ along; of a rigid
 !! link its motion along and across at the first pin and its rotation), then its own modes. With
 !! `e' = h n`, `n' = −h e` the acceleration per ω2² of a link whose functions have the amplitudes Q
-!! is `m Q'' + J (2 h Q' + h' Q) − h² m_t Q` as forces on the functions.
+!! is `m Q'' + J (2 h Q' + h' Q) − h² m_t Q` as forces on the functions: the displacement is that of
+!! Ulker 2010 (2.65), its rate that of (2.66), and the integrals are those of the kinetic energy,
+!! (2.67) and (2.76).
 module moving_integrals
-  use body_lumps, only: has_turning_lumps
   use kinds, only: wp
   use link_modes, only: link_modes_t
   use linkages, only: body_t

@@ -16,7 +16,7 @@ module response_parts
   !> The damping of a body.
   type :: body_damping_t
     integer :: kind = damping_none !! one of the damping_… constants
-    real(wp) :: value = 0.0_wp     !! Kelvin-Voigt time [s], or ratio of its own modes [-]
+    real(wp) :: value = 0.0_wp     !! Kelvin–Voigt time [s], or ratio of its own modes [-]
   end type body_damping_t
 
   !> A gauge on a body.

@@ -29,20 +29,24 @@ contains
     call append_response_notes(notes, variant)
   end subroutine drive_notes
 
-  !> The mean torque of the only speed: over a turn it does as much work as damping takes.
+  !> The mean torque of the only speed. Over a turn it does as much work as damping takes, unless a
+  !! TORQUE does work, too, or terms of the equations are left out.
   pure subroutine append_means(notes, variant)
     type(string_t), allocatable, intent(inout) :: notes(:)
     type(variant_results_t), intent(in) :: variant
 
     type(unit_t) :: moment
+    character(len=:), allocatable :: words
 
-    associate (at_speed => variant%found%response%at_speed)
+    associate (at_speed => variant%found%response%at_speed, model => variant%model)
       if (size(at_speed) /= 1) return
       if (allocated(at_speed(1)%error)) return
-      moment = table_unit("moment", variant%model%outputs)
-      call append_string(notes, "mean of total over the turn: "// &
-        to_string(from_si(at_speed(1)%mean_torque, moment), 8)//" "//moment%name// &
-        "; times the speed it is the power that damping takes")
+      moment = table_unit("moment", model%outputs)
+      words = "mean of total over the turn: "//to_string(from_si(at_speed(1)%mean_torque, &
+        moment), 8)//" "//moment%name
+      if (size(model%torques) == 0 .and. model%without%keyword%line == 0) words = words// &
+        "; times the speed it is the power that damping takes"
+      call append_string(notes, words)
     end associate
   end subroutine append_means
 

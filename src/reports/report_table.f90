@@ -57,7 +57,7 @@ module report_table
   end type table_plan_t
 
   !> All studies in the order in which they are made: some use the results of others. The last
-  !! three are made block by block, or step by step, by `variant_runs`.
+  !! four are made by `variant_runs`, some of them block by block or step by step.
   character(len=*), parameter :: study_names(13) = [character(len=12) :: "kinematics", "geometry", &
     "inertia", "points", "reactions", "lagrange", "balance", "harmonics", "linkage", "response", &
     "motion", "frequencies", "loci"]

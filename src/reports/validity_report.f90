@@ -4,6 +4,7 @@ module validity_report
   use number_text, only: number_width
   use response_notes, only: append_response_notes
   use response_types, only: speed_response_t
+  use sections, only: outer_distance
   use table_columns, only: cells, column_width, table_layout_t
   use table_rows, only: add_row, rows_t
   use tables, only: name_cell
@@ -48,25 +49,37 @@ contains
           call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed)])// &
             name_cell(mechanism%names(b)%text, column_width(layout, 2))//cells(layout, 3, &
             [found%largest_deflection(b)%value/body%length, found%buckling(b)])// &
-            estimated_cells(layout, found, b)//cells(layout, 7, [found%distance, &
-            found%distance_error]))
+            estimated_cells(layout, found, b, has_depth(variant, b))// &
+            cells(layout, 7, [found%distance, found%distance_error]))
         end associate
       end do
     end associate
   end subroutine add_validity
 
-  !> The columns `quadratic` and `out_of_plane`: a bar where there is no estimate.
-  function estimated_cells(layout, found, body) result(text)
+  !> Whether strains of bending are known: a general section may come without its depth.
+  pure function has_depth(variant, body) result(has)
+    type(variant_results_t), intent(in) :: variant
+    integer, intent(in) :: body !! that bends
+    logical :: has
+
+    associate (model => variant%model)
+      has = outer_distance(model%sections(model%links(model%loop(body))%section)) > 0.0_wp
+    end associate
+  end function has_depth
+
+  !> The columns `quadratic` and `out_of_plane`: a dash where there is no estimate.
+  function estimated_cells(layout, found, body, strains) result(text)
     type(table_layout_t), intent(in) :: layout
     type(speed_response_t), intent(in) :: found
     integer, intent(in) :: body
+    logical, intent(in) :: strains !! its largest strain is known
     character(len=2*number_width) :: text
 
     character(len=number_width) :: quadratic, out_of_plane
 
     quadratic = name_cell("-", number_width)
     out_of_plane = quadratic
-    if (allocated(found%quadratic_change)) quadratic = cells(layout, 5, &
+    if (strains .and. allocated(found%quadratic_change)) quadratic = cells(layout, 5, &
       [found%quadratic_change(body)])
     if (allocated(found%out_of_plane)) out_of_plane = cells(layout, 6, [found%out_of_plane])
     text = quadratic//out_of_plane

@@ -1,5 +1,6 @@
 !> The equation of motion of an elastic linkage that turns at constant speed, applied to a periodic
-!! motion: Ulker 2010 (2.83) and (2.85) with every term.
+!! motion: Ulker 2010 (2.77), (2.82), (2.83) and (2.85) with every term, from Lagrange's equation
+!! (2.73).
 !!
 !! `ω² ∫ μ Sᵀ (S y)'' dx + ω C y' + (1 + K_G) y = f`, ' = d/dθ2. The inertia force is that of the
 !! displacement d = S y in fixed axes: `∫ μ Sᵀ (S y)'' = M y'' + 2 G y' + (G' − W) y`.
@@ -14,7 +15,7 @@ module elastic_equations
   public :: elastic_terms_t, inertia_force, slope_force, apply_equation, load_at_speed, &
     functions_of, geometric_force, slopes_of, mass_force, times_mass, spread_over_unknowns
 
-  !> Terms that are left out.
+  !> Terms of the equation and of the torque; false: omitted.
   type :: elastic_terms_t
     logical :: coriolis = .true.    !! 2 ω G ẏ
     logical :: centripetal = .true. !! ω² (G' − W) y
@@ -24,7 +25,7 @@ module elastic_equations
 
 contains
 
-  !> All terms.
+  !> Whether the inertia force has all of its terms.
   pure function all_terms(terms) result(all_there)
     type(elastic_terms_t), intent(in) :: terms
     logical :: all_there
@@ -78,7 +79,8 @@ contains
     end associate
   end subroutine spread_over_unknowns
 
-  !> `m Q'' + J (2 h Q' + h' Q) − h² m_t Q` of a body, per ω2².
+  !> `m Q'' + J (2 h Q' + h' Q) − h² m_t Q` of a body, per ω2². J h is m_vel of Ulker 2010 (2.80),
+  !! J h' − h² m_t is m_acc of (2.81).
   pure function inertia_of_body(grid, body, q, first, second) result(force)
     type(turn_grid_t), intent(in) :: grid
     integer, intent(in) :: body
@@ -211,7 +213,7 @@ contains
     end do
   end function pin_motion
 
-  !> The inertia force made of `M y''`, `2 G y'` and the rest, of which some are left out.
+  !> The inertia force from `M y''`, `2 G y'` and `(G' − W) y`, some of which are omitted.
   subroutine chosen_inertia_force(grid, plan, terms, y, force)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan
@@ -258,7 +260,7 @@ contains
     end do
   end subroutine mass_force
 
-  !> `G y = ∫ μ Sᵀ S' dx y`.
+  !> `G y = ∫ μ Sᵀ S' dx y`; ω2 G is M_ω of Ulker 2010 (2.86), ω2² (G' − W) is M_α of (2.87).
   pure subroutine slope_force(grid, y, force)
     type(turn_grid_t), intent(in) :: grid
     real(wp), intent(in) :: y(:, :)      !! (samples, unknowns)
@@ -322,7 +324,7 @@ contains
     end associate
   end function slopes_of
 
-  !> `K_G y` of given axial forces, added.
+  !> Adds `K_G y` of given axial forces: Ulker 2010 (2.69), (2.84).
   pure subroutine geometric_force(grid, force_of, y, force)
     type(turn_grid_t), intent(in) :: grid
     real(wp), intent(in) :: force_of(:, :, :) !! (samples, force functions, bodies) [N]
@@ -354,7 +356,7 @@ contains
     end do
   end subroutine geometric_force
 
-  !> Left side of the equation.
+  !> The left side of the equation: that of Ulker 2010 (2.85) in deformation coordinates.
   subroutine apply_equation(grid, plan, speed, damping, terms, y, force)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan   !! for its samples
@@ -383,7 +385,7 @@ contains
       grid%force(:, :, :, constant_case), y, force)
   end subroutine apply_equation
 
-  !> Right side of the equation [√J].
+  !> The right side of the equation [√J].
   pure function load_at_speed(grid, speed) result(load)
     type(turn_grid_t), intent(in) :: grid
     real(wp), intent(in) :: speed !! ω2 [rad/s]

@@ -7,7 +7,7 @@
 module floquet_exponents
   use constants, only: two_pi
   use elastic_equations, only: apply_equation, elastic_terms_t, mass_force, slope_force
-  use errors, only: error_of_numerics, error_t, set_error
+  use errors, only: error_t
   use fourier_transform, only: derivatives, fourier_plan_t
   use kinds, only: fineness, wp
   use minimal_residuals, only: add_combination, add_product, minimal_residual_t, start_residual
@@ -46,11 +46,10 @@ module floquet_exponents
 
   !> A mode of free motion.
   type :: floquet_mode_t
-    complex(wp) :: exponent = (0.0_wp, 0.0_wp)  !! σ, per radian of the crank; its imaginary part,
-                                                !! turns per turn, between 0 and 1/2
+    complex(wp) :: exponent = (0.0_wp, 0.0_wp)  !! σ, per radian of the crank; its imaginary part is
+                                                !! vibrations per turn, between 0 and 1/2
     real(wp) :: change = 0.0_wp                 !! of the exponent in the last round
     real(wp) :: frequency = 0.0_wp              !! of its shape at the first crank angle [rad/s]
-    integer :: rounds = 0, products = 0
   end type floquet_mode_t
 
 contains
@@ -190,7 +189,6 @@ contains
 
     fixed = mode%exponent + shift
     do round = 1, most_rounds
-      mode%rounds = round
       call apply_parts(grid, plan, speed, damping, terms, z, parts)
       if (round <= 2) along = solved(slope_of(parts, mode%exponent))
       residual = solved(combined(parts, mode%exponent))
@@ -223,14 +221,13 @@ contains
       do while (problem%last <= most_products .and. problem%residual > limit)
         call apply_parts(grid, plan, speed, damping, terms, problem%vector(:, :, problem%last), &
           products)
-        mode%products = mode%products + 1
         call approximate(combined(products, fixed), product)
         call add_product(problem, product)
       end do
       call add_combination(problem, y)
     end function solved
 
-    !> What solves the equation at the fixed shift nearly.
+    !> An approximate solution of the equation at the fixed shift.
     subroutine approximate(load, y)
       real(wp), intent(in) :: load(:, :)
       real(wp), intent(out) :: y(:, :)

@@ -15,7 +15,7 @@ module link_rows
     real(wp) :: elongation = 0.0_wp          !! axial strain per unit of the elongation unknown
     real(wp), allocatable :: axial(:)       !! (own) axial strain
     real(wp), allocatable :: curvature(:)   !! (0:own) curve of the clamped end, own modes [1/m]
-    real(wp), allocatable :: shear(:)       !! (0:own) EI dκ/dx, or with shear strains kGA γ [N]
+    real(wp), allocatable :: shear(:)       !! (0:own) −EI dκ/dx, or with shear strains kGA γ [N]
     real(wp), allocatable :: rotation(:)    !! (0:own) of the cross-section against the chord [rad]
   end type strain_rows_t
 

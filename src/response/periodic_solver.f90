@@ -90,7 +90,7 @@ contains
       error_of_numerics, "the iterations for the periodic motion do not converge")
   end subroutine solve_periodic
 
-  !> What solves the equation nearly: the slow motion, and the rest by its diagonal.
+  !> An approximate solution: the slow motion, and the rest by its diagonal.
   subroutine approximate_solution(plan, basis, motion_plan, motion, speed, damping, load, y)
     type(fourier_plan_t), intent(in) :: plan        !! for the samples
     type(slow_basis_t), intent(in) :: basis         !! of these samples
@@ -112,8 +112,8 @@ contains
     call add_slow(basis, z, y)
   end subroutine approximate_solution
 
-  !> What solves the equation nearly without the slow motion: both load and solution have no slow
-  !! part, `f − X (XᵀX)⁻¹ Xᵀ f`.
+  !> An approximate solution apart from the slow motion: the slow parts of load and solution are
+  !! removed, `f − X (XᵀX)⁻¹ Xᵀ f`.
   subroutine fast_solution(plan, basis, speed, damping, load, part, y)
     type(fourier_plan_t), intent(in) :: plan  !! for the samples
     type(slow_basis_t), intent(in) :: basis   !! of these samples

@@ -69,8 +69,8 @@ contains
     end do
   end subroutine find_quadratic_change
 
-  !> The forces that the linear equations leave out: exact forces less the linear ones, all terms of
-  !! theirs counted.
+  !> The forces that the linear equations leave out: the exact forces less those of the linear
+  !! equations with all their terms.
   !!
   !! Errors: the deformed links do not reach each other.
   subroutine find_unbalanced_forces(linkage, grid, plan, speed, y, force, error)

@@ -61,7 +61,7 @@ contains
   !! ends of pieces, where strains have kinks or jumps.
   pure function places_along(ends) result(xi)
     real(wp), intent(in) :: ends(0:) !! of the pieces, from 0 to 1
-    real(wp) :: xi(size(ends) + (intervals)*(size(ends) - 1))
+    real(wp) :: xi(size(ends) + intervals*(size(ends) - 1))
 
     integer :: e, first, i
 

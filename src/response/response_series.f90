@@ -155,7 +155,7 @@ contains
   end subroutine strains_along
 
   !> Driving torque of the rigid linkage, its part linear in the deformations and its quadratic
-  !! part: `−∂L/∂θ + d/dt ∂L/∂ω − d²/dt² ∂L/∂α`.
+  !! part: `−∂L/∂θ + d/dt ∂L/∂ω − d²/dt² ∂L/∂α`, with the Lagrangian L of Ulker 2010 (2.70).
   !!
   !! With L linear in y, `L = (ω² f_ω + α f_α + f_c)·y`, the linear part is `ω² (2 (f_ω·y)' − f_ω'·y
   !! − (f_α·y)'') − f_c'·y`. With `D = S y` and `K_G = ω² K_ω + α K_α + K_c` the quadratic one is
@@ -166,7 +166,7 @@ contains
     type(elastic_terms_t), intent(in) :: terms
     real(wp), intent(in) :: speed
     real(wp), intent(in) :: y(:, :)
-    real(wp), intent(out) :: series(:, :)
+    real(wp), intent(out) :: series(:, :) !! (samples, 3) [N m]
 
     series(:, 1) = speed**2*grid%torque(:, 1) + grid%torque(:, constant_case)
     call elastic_torque(grid, plan, terms, speed, y, series(:, 2:3))

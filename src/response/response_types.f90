@@ -25,7 +25,7 @@ module response_types
 
   type :: link_damping_t
     integer :: kind = no_damping
-    real(wp) :: value = 0.0_wp !! Kelvin and Voigt's time [s], or damping ratio [-]
+    real(wp) :: value = 0.0_wp !! Kelvin–Voigt time [s], or damping ratio [-]
   end type link_damping_t
 
   !> A place on a link that bends.
@@ -91,12 +91,12 @@ module response_types
     real(wp), allocatable :: buckling(:)            !! (bodies) largest compression of the rigid
                                                     !! linkage / that at which the link buckles as
                                                     !! pinned
-    real(wp), allocatable :: quadratic_change(:)    !! (bodies) of the largest strain; unallocated:
-                                                    !! not estimated
+    real(wp), allocatable :: quadratic_change(:)    !! (bodies) of the largest strain, relative;
+                                                    !! unallocated: not estimated
     real(wp), allocatable :: out_of_plane           !! first frequency of vibrations out of the
                                                     !! plane of motion [Hz]; unallocated: not
                                                     !! estimated
-    real(wp) :: distance = 0.0_wp                   !! least |1 − multiplier|: from resonance
+    real(wp) :: distance = 0.0_wp                   !! least |1 − multiplier|; 0: resonance
     real(wp) :: distance_error = 0.0_wp             !! relative
     real(wp) :: growth = 0.0_wp                     !! largest ln|multiplier|
     complex(wp) :: nearest = (0.0_wp, 0.0_wp)       !! of the multiplier nearest to 1:
@@ -105,7 +105,7 @@ module response_types
     integer :: order = 0                            !! highest polynomial degree
     integer :: samples = 0                          !! over the turn
     integer :: slow = 0                             !! slow coordinates
-    integer(long) :: applications = 0_long          !! of the equation
+    integer(long) :: applications = 0_long          !! of the equation of motion
     real(wp) :: largest_error = 0.0_wp              !! of all quantities
   end type speed_response_t
 

@@ -112,13 +112,15 @@ contains
 
   !> Makes the slow coordinates and their matrices over the turn, on a coarse grid: both change
   !! slowly over the turn.
+  !!
+  !! Errors: the slow deformations do not determine the slow coordinates at some crank angle.
   subroutine new_slow_basis(coarse, coarse_plan, plan, number, basis, error)
     type(turn_grid_t), intent(in) :: coarse          !! few samples
     type(fourier_plan_t), intent(in) :: coarse_plan  !! for these
     type(fourier_plan_t), intent(in) :: plan         !! for the samples wanted
     integer, intent(in) :: number                    !! of slow coordinates
     type(slow_basis_t), intent(out) :: basis
-    type(error_t), allocatable, intent(out) :: error !! the slow coordinates are dependent
+    type(error_t), allocatable, intent(out) :: error !! why there are none
 
     real(wp), allocatable :: shape(:, :, :), sums(:, :, :), coefficients(:, :)
     integer, allocatable :: order(:)
@@ -355,6 +357,8 @@ contains
   end subroutine add_pins
 
   !> Steps of the collocation at a speed, as many as samples.
+  !!
+  !! Errors: resonance, a multiplier of the slow motion is 1.
   subroutine new_slow_motion(steps, plan, basis, speed, damping, stages, motion, error)
     integer, intent(in) :: steps             !! as many as samples
     type(fourier_plan_t), intent(in) :: plan !! for these
@@ -363,7 +367,7 @@ contains
     real(wp), intent(in) :: damping(:) !! (unknowns) c [s]
     integer, intent(in) :: stages      !! of a step
     type(slow_motion_t), intent(out) :: motion
-    type(error_t), allocatable, intent(out) :: error !! at resonance
+    type(error_t), allocatable, intent(out) :: error !! why it cannot be closed
 
     real(wp), allocatable :: at_stage(:, :, :, :), total(:, :, :), first(:, :)
     integer :: i, j, k, m, n, c, info
@@ -403,7 +407,8 @@ contains
     end do
     allocate (motion%pivot(2*m))
     call dgetrf(2*m, 2*m, motion%factor, 2*m, motion%pivot, info)
-    if (info /= 0) call set_error(error, error_of_numerics, "resonance")
+    if (info /= 0) call set_error(error, error_of_numerics, &
+      "resonance: the slow motion has a multiplier of 1")
 
   contains
 

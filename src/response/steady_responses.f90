@@ -26,8 +26,8 @@ module steady_responses
   use response_peaks, only: find_peaks, sampled_deflections
   use response_series, only: first_gauge, first_torque, response_series_of, series_count
   use response_types, only: axial_force, axial_strain, bending_strain, damping_ratio, &
-    damping_time, drive_values, moment, no_damping, power, response_request_t, response_t, &
-    shear_force, speed_response_t, strain_values, stress, total_torque
+    damping_time, drive_values, moment, no_damping, power, quadratic_torque, response_request_t, &
+    response_t, rigid_torque, shear_force, speed_response_t, strain_values, stress, total_torque
   use sorting, only: ascending_order
   use slow_motions, only: new_slow_basis, new_slow_motion, slow_basis_t, slow_count, &
     slow_motion_t, own_squares
@@ -380,7 +380,7 @@ contains
     allocate (level%basis(model%layout%unknowns))
   end subroutine new_level
 
-  !> Damping of every unknown: Kelvin and Voigt's time, or `2 ζ/ω` of the own modes of the link. The
+  !> Damping of every unknown: the Kelvin–Voigt time, or `2 ζ/ω` of the own modes of the link. The
   !! elongation and the rotation of the clamped end take that of its lowest own mode.
   pure function damping_of(request, grid) result(c)
     type(response_request_t), intent(in) :: request
@@ -726,8 +726,8 @@ contains
 
       first = first_torque(request)
       allocate (found%drive(drive_values, size(request%crank)))
-      found%drive(:3, :) = at_position(first:first + 2, :)
-      found%drive(total_torque, :) = sum(found%drive(:3, :), dim=1)
+      found%drive(rigid_torque:quadratic_torque, :) = at_position(first:first + 2, :)
+      found%drive(total_torque, :) = sum(found%drive(rigid_torque:quadratic_torque, :), dim=1)
       found%drive(power, :) = found%drive(total_torque, :)*merge(-speed, speed, &
         level%grid%backwards)
       found%mean_torque = sum(solution%series(1, first:first + 2))

@@ -28,8 +28,8 @@ module turn_grids
 
   type :: turn_grid_t
     integer :: samples = 0   !! crank angles 0, 360°/n, …
-    logical :: backwards = .false. !! crank angles 0, −360°/n, …: θ2 runs with time. All
-                                   !! derivatives, rates and loads per α2 are those for −θ2
+    logical :: backwards = .false. !! the crank turns clockwise: crank angles 0, −360°/n, …, and
+                                   !! derivatives, rates and loads per α2 are with respect to −θ2
     integer :: unknowns = 0
     integer :: border = 0    !! first unknowns: rotation of the clamped end, elongations
     type(deformation_model_t) :: model
@@ -58,7 +58,8 @@ module turn_grids
 
 contains
 
-  !> The terms at all crank angles of a turn.
+  !> The terms at all crank angles of a turn. The displacements are those of Ulker 2010 (2.74), of
+  !! points of the rigid linkage.
   !!
   !! Errors: the crank cannot reach one of them.
   subroutine new_turn_grid(linkage, model, samples, grid, error, backwards)
@@ -179,7 +180,8 @@ contains
     end associate
   end subroutine number_unknowns
 
-  !> Work of a load case on every unknown: `f = −∫ μ Sᵀ a dx` and that of forces and torques.
+  !> Work of a load case per unit of every unknown: `f = −∫ μ Sᵀ a dx`, the term −M Ü0 of Ulker 2010
+  !! (2.77), (2.82) and (2.83), and the work of forces and torques.
   pure function load_of(linkage, grid, k, chords, pose, case) result(load)
     type(linkage_t), intent(in) :: linkage
     type(turn_grid_t), intent(in) :: grid

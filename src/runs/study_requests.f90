@@ -11,8 +11,8 @@ module study_requests
   use motion_study, only: motion_request_t
   use positions, only: positions_t
   use response_parts, only: body_damping_t, damping_by_ratio, damping_by_time, dampings_of
-  use response_types, only: damping_ratio, damping_time, gauge_t, link_damping_t, link_section_t, &
-    no_damping, response_point_t, response_request_t
+  use response_types, only: damping_ratio, damping_time, gauge_t, link_damping_t, no_damping, &
+    response_point_t, response_request_t
   use sections, only: outer_distance
   use vibration_models, only: any_method, by_band, by_dense, chosen_method, mode_request_t
   implicit none (type, external)

@@ -2,7 +2,8 @@
 !!
 !! `M ÿ + (I + K_G) y = 0` with `K_G = K_const + ω2² K_ω + α2 K_α`: the mass matrix and the three
 !! unit matrices of the geometric stiffness are found once per position and hold for every speed.
-!! Further terms of the equations at a position (velocity terms, damping, loads) belong here, too.
+!! The equations over a turn, with velocity terms, damping and loads, are those of `turn_grids` and
+!! `elastic_equations`.
 module position_equations
   use bordered_matrix, only: add_scaled, bordered_matrix_t
   use bordered_pencil, only: bordered_pencil_t, new_bordered_pencil

@@ -206,7 +206,7 @@ contains
     if (samples == n) other(n, :) = coefficients(n, :)
   end function resampled
 
-  !> Values at any place.
+  !> Values at any angle.
   pure function value_at(coefficients, theta) result(value)
     real(wp), intent(in) :: coefficients(:, :) !! (samples, functions)
     real(wp), intent(in) :: theta              !! [rad]

@@ -10,8 +10,8 @@ module gauss_collocation
   type :: collocation_t
     real(wp), allocatable :: node(:)      !! (stages) from 0 to 1
     real(wp), allocatable :: weight(:)    !! (stages) of the whole step
-    real(wp), allocatable :: matrix(:, :) !! (stages, stages) `∫` from 0 to a node of the polynomial
-                                          !! that is 1 at the second node, 0 at the others
+    real(wp), allocatable :: matrix(:, :) !! (stages, stages) a_ij: `∫` from 0 to node i of the
+                                          !! polynomial that is 1 at node j, 0 at the others
   end type collocation_t
 
 contains

@@ -37,7 +37,7 @@ contains
   !> Takes in the product of the operator with the last vector.
   pure subroutine add_product(problem, product)
     type(minimal_residual_t), intent(inout) :: problem
-    real(wp), intent(inout) :: product(:, :) !! lost on return
+    real(wp), intent(inout) :: product(:, :) !! overwritten
 
     real(wp) :: length
     integer :: i, k

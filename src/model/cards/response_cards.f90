@@ -31,7 +31,7 @@ module response_cards
     type(token_t), allocatable :: link_names(:) !! `*`: bending links without a card of their own
     logical :: has_time = .false.  !! `time=` is given
     logical :: has_ratio = .false. !! `ratio=` is given
-    real(wp) :: time = 0.0_wp      !! c of Kelvin and Voigt: stress E(ε + c dε/dt) [s]
+    real(wp) :: time = 0.0_wp      !! Kelvin–Voigt time c: stress E(ε + c dε/dt) [s]
     real(wp) :: ratio = 0.0_wp     !! damping ratio of the link's own modes, below 1 [-]
   end type damping_card_t
 
