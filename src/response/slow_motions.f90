@@ -15,7 +15,7 @@ module slow_motions
     values_of
   use gauss_collocation, only: collocation_t, new_collocation
   use kinds, only: wp
-  use lapack, only: dgeev, dgetrf, dgetrs
+  use lapack, only: dgeev, dgetf2, dgetrf, dgetrs
   use load_cases, only: constant_case
   use row_products, only: products_of_rows
   use sorting, only: ascending_order
@@ -365,7 +365,7 @@ contains
     type(slow_motion_t), intent(out) :: motion
     type(error_t), allocatable, intent(out) :: error !! at resonance
 
-    real(wp), allocatable :: at_stage(:, :, :, :), total(:, :, :), first(:, :)
+    real(wp), allocatable :: at_stage(:, :, :, :), total(:, :, :), values(:, :), first(:, :)
     integer :: i, j, k, m, n, c, info
 
     n = steps
@@ -380,18 +380,18 @@ contains
       of_stiffness) + basis%matrix(:, :, of_loads))/speed**2
     total(:, :, 4) = 0.0_wp
     if (any(damping > 0.0_wp)) call add_damping
-    allocate (at_stage(n, m**2, 4, stages))
+    allocate (at_stage(m**2, 4, stages, n), values(n, m**2))
     do i = 1, stages
       do c = 1, 4
-        call values_of(plan, shifted(total(:, :, c), motion%rule%node(i)*two_pi/n), &
-          at_stage(:, :, c, i))
+        call values_of(plan, shifted(total(:, :, c), motion%rule%node(i)*two_pi/n), values)
+        at_stage(:, c, i, :) = transpose(values)
       end do
     end do
     motion%scale = sqrt(sum(abs(basis%matrix(1, 1::m + 1, of_mass)))* &
       sum(abs(basis%matrix(1, 1::m + 1, of_stiffness))))/(m*abs(speed))
     allocate (motion%transfer(2*m, 2*m, n), motion%response(2*m, m*stages, n))
     do k = 1, n
-      call make_step(motion, k, at_stage(k, :, :, :))
+      call make_step(motion, k, at_stage(:, :, :, k))
     end do
     motion%monodromy = motion%transfer(:, :, 1)
     do k = 2, n
@@ -431,77 +431,82 @@ contains
   end subroutine new_slow_motion
 
   !> One step: coordinates and momenta at its end from those at its start and the loads at its
-  !! stages. Unknowns of the stages are z'.
+  !! stages. Unknowns of the stages are z': `A z' = B`, and what is wanted is `E z'`. There are
+  !! fewer rows in E than columns in B: `E A⁻¹` comes first.
   subroutine make_step(motion, step, matrices)
     type(slow_motion_t), intent(inout) :: motion
     integer, intent(in) :: step
-    real(wp), intent(in) :: matrices(:, :, :) !! (number², 4, stages)
+    !> (number, number, M, G, V, XᵀCX/ω; stages)
+    real(wp), intent(in) :: matrices(motion%number, motion%number, 4, size(motion%rule%node))
 
-    real(wp), dimension(motion%number, motion%number, size(matrices, 3)) :: mass, g, v, d
-    real(wp) :: left(motion%number*size(matrices, 3), motion%number*size(matrices, 3))
-    real(wp) :: right(motion%number*size(matrices, 3), 2*motion%number + motion%number* &
-      size(matrices, 3))
-    real(wp) :: ends(2*motion%number, 2*motion%number + motion%number*size(matrices, 3))
-    real(wp) :: h, block(motion%number, motion%number)
-    integer :: pivot(motion%number*size(matrices, 3)), i, j, k, l, m, s, info
+    integer, parameter :: of_v = 3, of_rate = 4
+    real(wp) :: left(motion%number*size(matrices, 4), motion%number*size(matrices, 4))
+    real(wp) :: ends(motion%number*size(matrices, 4), 2*motion%number)
+    real(wp) :: rows(2*motion%number, motion%number*size(matrices, 4))
+    real(wp), dimension(motion%number, motion%number) :: block, sum_of_v, d
+    real(wp) :: h
+    integer :: pivot(motion%number*size(matrices, 4)), at, i, j, k, l, m, s, info
 
     m = motion%number
-    s = size(matrices, 3)
+    s = size(matrices, 4)
     h = two_pi/motion%steps
-    do i = 1, s
-      mass(:, :, i) = reshape(matrices(:, 1, i), [m, m])
-      g(:, :, i) = reshape(matrices(:, 2, i), [m, m])
-      v(:, :, i) = reshape(matrices(:, 3, i), [m, m])
-      d(:, :, i) = transpose(g(:, :, i)) - reshape(matrices(:, 4, i), [m, m])
-    end do
-    associate (a => motion%rule%matrix, w => motion%rule%weight)
-      right = 0.0_wp
-      do i = 1, s
-        do l = 1, s
-          block = h*a(i, l)*(g(:, :, i) - d(:, :, l))
-          do j = 1, s
-            block = block - h**2*a(i, j)*a(j, l)*v(:, :, j)
-          end do
-          if (i == l) block = block + mass(:, :, i)
-          left((i - 1)*m + 1:i*m, (l - 1)*m + 1:l*m) = block
-          do k = 1, m
-            right((i - 1)*m + k, 2*m + (l - 1)*m + k) = h*a(i, l)
-          end do
-        end do
-        block = -g(:, :, i)
-        do j = 1, s
-          block = block + h*a(i, j)*v(:, :, j)
-        end do
-        right((i - 1)*m + 1:i*m, :m) = block
-        do k = 1, m
-          right((i - 1)*m + k, m + k) = motion%scale
-        end do
-      end do
-      call dgetrf(m*s, m*s, left, m*s, pivot, info)
-      call dgetrs("N", m*s, size(right, 2), left, m*s, pivot, right, m*s, info)
-      ends = 0.0_wp
-      do k = 1, m
-        ends(k, k) = 1.0_wp
-        ends(m + k, m + k) = motion%scale
-      end do
+    associate (a => motion%rule%matrix, w => motion%rule%weight, scale => motion%scale, &
+      transfer => motion%transfer(:, :, step), response => motion%response(:, :, step))
+      ! The transpose of A, and that of E: z and p/scale at the end from z' of the stages.
       do l = 1, s
-        ends(:m, :) = ends(:m, :) + h*w(l)*right((l - 1)*m + 1:l*m, :)
-        ! p' at stage l: D z' + V z + F, with z there from the rates at all stages
-        block = 0.0_wp
+        d = transpose(matrices(:, :, of_g, l)) - matrices(:, :, of_rate, l)
+        do i = 1, s
+          sum_of_v = 0.0_wp
+          do j = 1, s
+            sum_of_v = sum_of_v + a(i, j)*a(j, l)*matrices(:, :, of_v, j)
+          end do
+          block = h*a(i, l)*(matrices(:, :, of_g, i) - d) - h**2*sum_of_v
+          if (i == l) block = block + matrices(:, :, of_mass, i)
+          left((l - 1)*m + 1:l*m, (i - 1)*m + 1:i*m) = transpose(block)
+        end do
+        sum_of_v = 0.0_wp
         do j = 1, s
-          block = block + w(j)*a(j, l)*v(:, :, j)
+          sum_of_v = sum_of_v + w(j)*a(j, l)*matrices(:, :, of_v, j)
         end do
-        ends(m + 1:, :) = ends(m + 1:, :) + matmul(h*w(l)*d(:, :, l) + h**2*block, &
-          right((l - 1)*m + 1:l*m, :))
-        ends(m + 1:, :m) = ends(m + 1:, :m) + h*w(l)*v(:, :, l)
+        block = (h*w(l)*d + h**2*sum_of_v)/scale
+        ends((l - 1)*m + 1:l*m, :m) = 0.0_wp
         do k = 1, m
-          ends(m + k, 2*m + (l - 1)*m + k) = ends(m + k, 2*m + (l - 1)*m + k) + h*w(l)
+          ends((l - 1)*m + k, k) = h*w(l)
         end do
+        ends((l - 1)*m + 1:l*m, m + 1:) = transpose(block)
+      end do
+      call dgetf2(m*s, m*s, left, m*s, pivot, info)
+      call dgetrs("N", m*s, 2*m, left, m*s, pivot, ends, m*s, info)
+      rows = transpose(ends)
+      ! B of the state at the start: −G + h Σ a V for z, 1 for p; of the loads: h a.
+      transfer = 0.0_wp
+      response = 0.0_wp
+      do i = 1, s
+        block = -matrices(:, :, of_g, i)
+        do j = 1, s
+          block = block + h*a(i, j)*matrices(:, :, of_v, j)
+        end do
+        at = (i - 1)*m
+        do j = 1, m
+          do k = 1, m
+            transfer(:, j) = transfer(:, j) + block(k, j)*rows(:, at + k)
+          end do
+          transfer(:, m + j) = transfer(:, m + j) + scale*rows(:, at + j)
+        end do
+        do l = 1, s
+          response(:, (l - 1)*m + 1:l*m) = response(:, (l - 1)*m + 1:l*m) + &
+            h*a(i, l)*rows(:, at + 1:at + m)
+        end do
+        ! What changes z and p without z'.
+        transfer(m + 1:, :m) = transfer(m + 1:, :m) + h*w(i)/scale*matrices(:, :, of_v, i)
+        do k = 1, m
+          response(m + k, at + k) = response(m + k, at + k) + h*w(i)/scale
+        end do
+      end do
+      do k = 1, 2*m
+        transfer(k, k) = transfer(k, k) + 1.0_wp
       end do
     end associate
-    ends(m + 1:, :) = ends(m + 1:, :)/motion%scale
-    motion%transfer(:, :, step) = ends(:, :2*m)
-    motion%response(:, :, step) = ends(:, 2*m + 1:)
   end subroutine make_step
 
   !> The periodic slow motion under a load.
