@@ -606,10 +606,11 @@ contains
 
     real(wp), dimension(size(load, 1), size(load, 2)) :: coefficients, coefficients_imaginary, &
       moved, moved_imaginary
-    complex(wp) :: at_stages(size(load, 2)*size(motion%rule%node), size(load, 1)), turned
-    complex(wp) :: state(2*motion%number), push(2*motion%number, size(load, 1))
-    real(wp) :: left(4*motion%number, 4*motion%number), right(4*motion%number)
-    real(wp) :: theta
+    real(wp) :: at_stages(size(load, 2)*size(motion%rule%node), 2, size(load, 1))
+    real(wp), dimension(2*motion%number, 2) :: state, turned_back
+    real(wp) :: push(2*motion%number, 2, size(load, 1))
+    complex(wp) :: turned
+    real(wp) :: left(4*motion%number, 4*motion%number), theta
     integer :: pivot(4*motion%number), i, k, m, n, info
 
     m = motion%number
@@ -621,14 +622,17 @@ contains
       call values_of(plan, shifted(coefficients, theta), moved)
       call values_of(plan, shifted(coefficients_imaginary, theta), moved_imaginary)
       do k = 1, n
-        at_stages((i - 1)*m + 1:i*m, k) = exp(exponent*(theta + two_pi*(k - 1)/n))* &
-          cmplx(moved(k, :), moved_imaginary(k, :), wp)
+        turned = exp(exponent*(theta + two_pi*(k - 1)/n))
+        at_stages((i - 1)*m + 1:i*m, :, k) = parts_of_product(turned, moved(k, :), &
+          moved_imaginary(k, :))
       end do
     end do
     state = 0.0_wp
     do k = 1, n
-      push(:, k) = matmul(motion%response(:, :, k), at_stages(:, k))
-      state = matmul(motion%transfer(:, :, k), state) + push(:, k)
+      do i = 1, 2
+        push(:, i, k) = matmul(motion%response(:, :, k), at_stages(:, i, k))
+        state(:, i) = matmul(motion%transfer(:, :, k), state(:, i)) + push(:, i, k)
+      end do
     end do
     ! (e^{2πσ} − monodromy) state = what the load leaves after a turn, in real numbers
     turned = exp(two_pi*exponent)
@@ -641,16 +645,26 @@ contains
       left(i, 2*m + i) = -aimag(turned)
       left(2*m + i, i) = aimag(turned)
     end do
-    right = [real(state, wp), aimag(state)]
     call dgetrf(4*m, 4*m, left, 4*m, pivot, info)
-    call dgetrs("N", 4*m, 1, left, 4*m, pivot, right, 4*m, info)
-    state = cmplx(right(:2*m), right(2*m + 1:), wp)
+    call dgetrs("N", 4*m, 1, left, 4*m, pivot, state, 4*m, info)
     do k = 1, n
-      turned = exp(-exponent*two_pi*(k - 1)/n)
-      z(k, :) = real(turned*state(:m))
-      z_imaginary(k, :) = aimag(turned*state(:m))
-      state = matmul(motion%transfer(:, :, k), state) + push(:, k)
+      turned_back = parts_of_product(exp(-exponent*two_pi*(k - 1)/n), state(:, 1), state(:, 2))
+      z(k, :) = turned_back(:m, 1)
+      z_imaginary(k, :) = turned_back(:m, 2)
+      do i = 1, 2
+        state(:, i) = matmul(motion%transfer(:, :, k), state(:, i)) + push(:, i, k)
+      end do
     end do
   end subroutine solve_slow_shifted
+
+  !> Real and imaginary parts of a number times a complex vector.
+  pure function parts_of_product(number, re, im) result(parts)
+    complex(wp), intent(in) :: number
+    real(wp), intent(in) :: re(:), im(:)
+    real(wp) :: parts(size(re), 2)
+
+    parts(:, 1) = real(number)*re - aimag(number)*im
+    parts(:, 2) = aimag(number)*re + real(number)*im
+  end function parts_of_product
 
 end module slow_motions
