@@ -40,12 +40,12 @@ module slow_motions
     real(wp), allocatable :: start_mass(:, :)     !! (number, number) M at the first crank angle
     real(wp), allocatable :: start_stiffness(:, :) !! XᵀX there
     !> Coefficients over the turn: (samples, number², matrices) M, G, W, XᵀX and XᵀK_GX per ω2² and
-    !! of the constant loads
+    !! of the constant loads; with damping also XᵀCX and XᵀCX'
     real(wp), allocatable :: matrix(:, :, :)
   end type slow_basis_t
 
   integer, parameter :: of_mass = 1, of_g = 2, of_w = 3, of_stiffness = 4, of_speed = 5, &
-    of_loads = 6
+    of_loads = 6, of_rate = 7, of_drift = 8
 
   !> Steps of the collocation at one speed.
   type :: slow_motion_t
@@ -112,11 +112,12 @@ contains
 
   !> Makes the slow coordinates and their matrices over the turn, on a coarse grid: both change
   !! slowly over the turn.
-  subroutine new_slow_basis(coarse, coarse_plan, plan, number, basis, error)
+  subroutine new_slow_basis(coarse, coarse_plan, plan, number, damping, basis, error)
     type(turn_grid_t), intent(in) :: coarse          !! few samples
     type(fourier_plan_t), intent(in) :: coarse_plan  !! for these
     type(fourier_plan_t), intent(in) :: plan         !! for the samples wanted
     integer, intent(in) :: number                    !! of slow coordinates
+    real(wp), intent(in) :: damping(:)               !! (unknowns) c [s]
     type(slow_basis_t), intent(out) :: basis
     type(error_t), allocatable, intent(out) :: error !! the slow coordinates are dependent
 
@@ -133,8 +134,9 @@ contains
     call find_matrices(coarse, coarse_plan, shape, sums)
     basis%start_mass = reshape(sums(1, :, of_mass), [number, number])
     basis%start_stiffness = reshape(sums(1, :, of_stiffness), [number, number])
-    allocate (coefficients(coarse%samples, number**2), basis%matrix(plan%samples, number**2, 6))
-    do c = 1, 6
+    allocate (coefficients(coarse%samples, number**2), basis%matrix(plan%samples, number**2, &
+      merge(of_drift, of_loads, any(damping > 0.0_wp))))
+    do c = 1, of_loads
       call coefficients_of(coarse_plan, sums(:, :, c), coefficients)
       basis%matrix(:, :, c) = resampled(coefficients, plan%samples)
     end do
@@ -156,7 +158,34 @@ contains
     do k = 1, plan%samples
       call invert((basis%inverse(k, :, :)), basis%inverse(k, :, :))
     end do
+    if (any(damping > 0.0_wp)) call add_damping(plan, damping, basis)
   end subroutine new_slow_basis
+
+  !> Adds XᵀCX and XᵀCX'.
+  subroutine add_damping(plan, damping, basis)
+    type(fourier_plan_t), intent(in) :: plan
+    real(wp), intent(in) :: damping(:)
+    type(slow_basis_t), intent(inout) :: basis
+
+    real(wp), dimension(plan%samples, basis%number**2) :: of_shape, of_slope
+    real(wp), dimension(plan%samples, size(damping)) :: damped, slope
+    integer :: at, i, j
+
+    do j = 1, basis%number
+      call derivatives(plan, basis%shape(:, :, j), slope)
+      do i = 1, size(damping)
+        damped(:, i) = damping(i)*basis%shape(:, i, j)
+        slope(:, i) = damping(i)*slope(:, i)
+      end do
+      do i = 1, basis%number
+        at = (j - 1)*basis%number + i
+        of_shape(:, at) = products_of_rows(basis%shape(:, :, i), damped)
+        of_slope(:, at) = products_of_rows(basis%shape(:, :, i), slope)
+      end do
+    end do
+    call coefficients_of(plan, of_shape, basis%matrix(:, :, of_rate))
+    call coefficients_of(plan, of_slope, basis%matrix(:, :, of_drift))
+  end subroutine add_damping
 
   !> X from subspace iterations on the mass matrix.
   subroutine find_shapes(grid, slow, shape, error)
@@ -355,18 +384,17 @@ contains
   end subroutine add_pins
 
   !> Steps of the collocation at a speed, as many as samples.
-  subroutine new_slow_motion(steps, plan, basis, speed, damping, stages, motion, error)
+  subroutine new_slow_motion(steps, plan, basis, speed, stages, motion, error)
     integer, intent(in) :: steps             !! as many as samples
     type(fourier_plan_t), intent(in) :: plan !! for these
     type(slow_basis_t), intent(in) :: basis
-    real(wp), intent(in) :: speed      !! ω2 [rad/s]
-    real(wp), intent(in) :: damping(:) !! (unknowns) c [s]
-    integer, intent(in) :: stages      !! of a step
+    real(wp), intent(in) :: speed !! ω2 [rad/s]
+    integer, intent(in) :: stages !! of a step
     type(slow_motion_t), intent(out) :: motion
     type(error_t), allocatable, intent(out) :: error !! at resonance
 
-    real(wp), allocatable :: at_stage(:, :, :, :), total(:, :, :), values(:, :), first(:, :)
-    integer :: i, j, k, m, n, c, info
+    real(wp), allocatable :: at_stage(:, :, :, :), total(:, :, :), values(:, :)
+    integer :: i, k, m, n, c, info
 
     n = steps
     m = basis%number
@@ -379,7 +407,10 @@ contains
     total(:, :, 3) = basis%matrix(:, :, of_w) - basis%matrix(:, :, of_speed) - (basis%matrix(:, :, &
       of_stiffness) + basis%matrix(:, :, of_loads))/speed**2
     total(:, :, 4) = 0.0_wp
-    if (any(damping > 0.0_wp)) call add_damping
+    if (size(basis%matrix, 3) == of_drift) then
+      total(:, :, 3) = total(:, :, 3) - basis%matrix(:, :, of_drift)/speed
+      total(:, :, 4) = basis%matrix(:, :, of_rate)/speed
+    end if
     allocate (at_stage(m**2, 4, stages, n), values(n, m**2))
     do i = 1, stages
       do c = 1, 4
@@ -404,30 +435,6 @@ contains
     allocate (motion%pivot(2*m))
     call dgetrf(2*m, 2*m, motion%factor, 2*m, motion%pivot, info)
     if (info /= 0) call set_error(error, error_of_numerics, "resonance")
-
-  contains
-
-    subroutine add_damping
-      real(wp) :: of_rate(n, m**2), of_shape(n, m**2)
-      real(wp) :: rates(n, size(damping))
-
-      allocate (first(n, size(damping)))
-      do j = 1, m
-        call derivatives(plan, basis%shape(:, :, j), rates)
-        do i = 1, size(damping)
-          rates(:, i) = damping(i)*rates(:, i)
-          first(:, i) = damping(i)*basis%shape(:, i, j)
-        end do
-        do i = 1, m
-          of_shape(:, (j - 1)*m + i) = products_of_rows(basis%shape(:, :, i), rates)/speed
-          of_rate(:, (j - 1)*m + i) = products_of_rows(basis%shape(:, :, i), first)/speed
-        end do
-      end do
-      call coefficients_of(plan, of_rate, total(:, :, 4))
-      call coefficients_of(plan, of_shape, of_rate)
-      total(:, :, 3) = total(:, :, 3) - of_rate
-    end subroutine add_damping
-
   end subroutine new_slow_motion
 
   !> One step: coordinates and momenta at its end from those at its start and the loads at its
@@ -439,7 +446,7 @@ contains
     !> (number, number, M, G, V, XᵀCX/ω; stages)
     real(wp), intent(in) :: matrices(motion%number, motion%number, 4, size(motion%rule%node))
 
-    integer, parameter :: of_v = 3, of_rate = 4
+    integer, parameter :: of_v = 3, of_damping = 4
     real(wp) :: left(motion%number*size(matrices, 4), motion%number*size(matrices, 4))
     real(wp) :: ends(motion%number*size(matrices, 4), 2*motion%number)
     real(wp) :: rows(2*motion%number, motion%number*size(matrices, 4))
@@ -454,7 +461,7 @@ contains
       transfer => motion%transfer(:, :, step), response => motion%response(:, :, step))
       ! The transpose of A, and that of E: z and p/scale at the end from z' of the stages.
       do l = 1, s
-        d = transpose(matrices(:, :, of_g, l)) - matrices(:, :, of_rate, l)
+        d = transpose(matrices(:, :, of_g, l)) - matrices(:, :, of_damping, l)
         do i = 1, s
           sum_of_v = 0.0_wp
           do j = 1, s
