@@ -11,7 +11,7 @@ module floquet_exponents
   use fourier_transform, only: derivatives, fourier_plan_t
   use kinds, only: fineness, wp
   use minimal_residuals, only: add_combination, add_product, minimal_residual_t, start_residual
-  use periodic_solver, only: add_slow, fast_solution, slow_part
+  use periodic_solver, only: add_slow, complete_solution, slow_part
   use slow_motions, only: slow_basis_t, slow_mode_shape, slow_mode_t, slow_modes, slow_motion_t, &
     solve_slow_shifted
   use sorting, only: ascending_order
@@ -240,10 +240,9 @@ contains
       call slow_part(basis, load(:, n + 1:), part_imaginary)
       call solve_slow_shifted(plan, motion, fixed, part/speed**2, part_imaginary/speed**2, slow, &
         slow_imaginary)
-      call fast_solution(plan, basis, speed, damping, load(:, :n), part, y(:, :n))
-      call fast_solution(plan, basis, speed, damping, load(:, n + 1:), part_imaginary, y(:, n + 1:))
-      call add_slow(basis, slow, y(:, :n))
-      call add_slow(basis, slow_imaginary, y(:, n + 1:))
+      call complete_solution(plan, basis, speed, damping, load(:, :n), part, slow, y(:, :n))
+      call complete_solution(plan, basis, speed, damping, load(:, n + 1:), part_imaginary, &
+        slow_imaginary, y(:, n + 1:))
     end subroutine approximate
 
   end subroutine refine

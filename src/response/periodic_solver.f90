@@ -10,12 +10,13 @@ module periodic_solver
   use fourier_transform, only: coefficients_of, fourier_plan_t, resampled, values_of
   use kinds, only: wp
   use minimal_residuals, only: add_combination, add_product, minimal_residual_t, start_residual
+  use row_products, only: products_of_rows
   use slow_motions, only: slow_basis_t, slow_motion_t, solve_slow
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
 
-  public :: solve_periodic, approximate_solution, fast_solution, slow_part, add_slow
+  public :: solve_periodic, approximate_solution, complete_solution, slow_part, add_slow
 
   integer, parameter :: most_iterations = 60
 
@@ -108,18 +109,18 @@ contains
     call resample_samples(plan, motion_plan, part/speed**2, slow_load)
     call solve_slow(motion_plan, motion, slow_load, slow)
     call resample_samples(motion_plan, plan, slow, z)
-    call fast_solution(plan, basis, speed, damping, load, part, y)
-    call add_slow(basis, z, y)
+    call complete_solution(plan, basis, speed, damping, load, part, z, y)
   end subroutine approximate_solution
 
-  !> An approximate solution apart from the slow motion: the slow parts of load and solution are
-  !! removed, `f − X (XᵀX)⁻¹ Xᵀ f`.
-  subroutine fast_solution(plan, basis, speed, damping, load, part, y)
+  !> An approximate solution from the slow motion: in the rest both load and solution have no slow
+  !! part, `f − X (XᵀX)⁻¹ Xᵀ f`.
+  subroutine complete_solution(plan, basis, speed, damping, load, part, z, y)
     type(fourier_plan_t), intent(in) :: plan  !! for the samples
     type(slow_basis_t), intent(in) :: basis   !! of these samples
     real(wp), intent(in) :: speed, damping(:) !! as for `solve_periodic`
     real(wp), intent(in) :: load(:, :)        !! (samples, unknowns)
     real(wp), intent(in) :: part(:, :)        !! (samples, number) Xᵀ load
+    real(wp), intent(in) :: z(:, :)           !! (samples, number) slow motion
     real(wp), intent(out) :: y(:, :)          !! (samples, unknowns)
 
     real(wp), allocatable :: coefficients(:, :), rest(:, :)
@@ -134,8 +135,8 @@ contains
     call values_of(plan, coefficients, y)
     call slow_part(basis, y, of_rest)
     call share_out(basis, of_rest, share)
-    call add_slow(basis, -share, y)
-  end subroutine fast_solution
+    call add_slow(basis, z - share, y)
+  end subroutine complete_solution
 
   !> Adds `X z`.
   pure subroutine add_slow(basis, z, y)
@@ -143,12 +144,10 @@ contains
     real(wp), intent(in) :: z(:, :)    !! (samples, number)
     real(wp), intent(inout) :: y(:, :) !! (samples, unknowns)
 
-    integer :: i, k
+    integer :: k
 
     do k = 1, size(y, 2)
-      do i = 1, basis%number
-        y(:, k) = y(:, k) + basis%shape(:, k, i)*z(:, i)
-      end do
+      y(:, k) = y(:, k) + products_of_rows(basis%shape(:, k, :), z)
     end do
   end subroutine add_slow
 
@@ -158,13 +157,10 @@ contains
     real(wp), intent(in) :: part(:, :)   !! (samples, number)
     real(wp), intent(out) :: share(:, :) !! (samples, number)
 
-    integer :: i, j
+    integer :: i
 
-    share = 0.0_wp
-    do j = 1, basis%number
-      do i = 1, basis%number
-        share(:, i) = share(:, i) + basis%inverse(:, i, j)*part(:, j)
-      end do
+    do i = 1, basis%number
+      share(:, i) = products_of_rows(basis%inverse(:, i, :), part)
     end do
   end subroutine share_out
 
@@ -174,13 +170,10 @@ contains
     real(wp), intent(in) :: f(:, :)     !! (samples, unknowns)
     real(wp), intent(out) :: part(:, :) !! (samples, number)
 
-    integer :: i, k
+    integer :: i
 
-    part = 0.0_wp
     do i = 1, basis%number
-      do k = 1, size(f, 2)
-        part(:, i) = part(:, i) + basis%shape(:, k, i)*f(:, k)
-      end do
+      part(:, i) = products_of_rows(basis%shape(:, :, i), f)
     end do
   end subroutine slow_part
 

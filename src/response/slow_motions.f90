@@ -15,7 +15,7 @@ module slow_motions
     values_of
   use gauss_collocation, only: collocation_t, new_collocation
   use kinds, only: wp
-  use lapack, only: dgeev, dgetrf, dgetrs
+  use lapack, only: dgeev, dgetf2, dgetrf, dgetrs
   use load_cases, only: constant_case
   use row_products, only: products_of_rows
   use sorting, only: ascending_order
@@ -30,6 +30,9 @@ module slow_motions
   !! frequencies each time.
   integer, parameter :: iterations = 3
 
+  !> Growth of a disturbance in a turn beyond which nothing is computed: before numbers overflow.
+  real(wp), parameter :: most_growth = 1.0e100_wp
+
   !> The slow coordinates over the turn, for any speed.
   type :: slow_basis_t
     integer :: number = 0
@@ -40,12 +43,12 @@ module slow_motions
     real(wp), allocatable :: start_mass(:, :)     !! (number, number) M at the first crank angle
     real(wp), allocatable :: start_stiffness(:, :) !! XᵀX there
     !> Coefficients over the turn: (samples, number², matrices) M, G, W, XᵀX and XᵀK_GX per ω2² and
-    !! of the constant loads
+    !! of the constant loads; with damping also XᵀCX and XᵀCX'
     real(wp), allocatable :: matrix(:, :, :)
   end type slow_basis_t
 
   integer, parameter :: of_mass = 1, of_g = 2, of_w = 3, of_stiffness = 4, of_speed = 5, &
-    of_loads = 6
+    of_loads = 6, of_rate = 7, of_drift = 8
 
   !> Steps of the collocation at one speed.
   type :: slow_motion_t
@@ -114,11 +117,12 @@ contains
   !! slowly over the turn.
   !!
   !! Errors: the slow deformations do not determine the slow coordinates at some crank angle.
-  subroutine new_slow_basis(coarse, coarse_plan, plan, number, basis, error)
+  subroutine new_slow_basis(coarse, coarse_plan, plan, number, damping, basis, error)
     type(turn_grid_t), intent(in) :: coarse          !! few samples
     type(fourier_plan_t), intent(in) :: coarse_plan  !! for these
     type(fourier_plan_t), intent(in) :: plan         !! for the samples wanted
     integer, intent(in) :: number                    !! of slow coordinates
+    real(wp), intent(in) :: damping(:)               !! (unknowns) c [s]
     type(slow_basis_t), intent(out) :: basis
     type(error_t), allocatable, intent(out) :: error !! why there are none
 
@@ -135,8 +139,9 @@ contains
     call find_matrices(coarse, coarse_plan, shape, sums)
     basis%start_mass = reshape(sums(1, :, of_mass), [number, number])
     basis%start_stiffness = reshape(sums(1, :, of_stiffness), [number, number])
-    allocate (coefficients(coarse%samples, number**2), basis%matrix(plan%samples, number**2, 6))
-    do c = 1, 6
+    allocate (coefficients(coarse%samples, number**2), basis%matrix(plan%samples, number**2, &
+      merge(of_drift, of_loads, any(damping > 0.0_wp))))
+    do c = 1, of_loads
       call coefficients_of(coarse_plan, sums(:, :, c), coefficients)
       basis%matrix(:, :, c) = resampled(coefficients, plan%samples)
     end do
@@ -158,7 +163,34 @@ contains
     do k = 1, plan%samples
       call invert((basis%inverse(k, :, :)), basis%inverse(k, :, :))
     end do
+    if (any(damping > 0.0_wp)) call add_damping(plan, damping, basis)
   end subroutine new_slow_basis
+
+  !> Adds XᵀCX and XᵀCX'.
+  subroutine add_damping(plan, damping, basis)
+    type(fourier_plan_t), intent(in) :: plan
+    real(wp), intent(in) :: damping(:)
+    type(slow_basis_t), intent(inout) :: basis
+
+    real(wp), dimension(plan%samples, basis%number**2) :: of_shape, of_slope
+    real(wp), dimension(plan%samples, size(damping)) :: damped, slope
+    integer :: at, i, j
+
+    do j = 1, basis%number
+      call derivatives(plan, basis%shape(:, :, j), slope)
+      do i = 1, size(damping)
+        damped(:, i) = damping(i)*basis%shape(:, i, j)
+        slope(:, i) = damping(i)*slope(:, i)
+      end do
+      do i = 1, basis%number
+        at = (j - 1)*basis%number + i
+        of_shape(:, at) = products_of_rows(basis%shape(:, :, i), damped)
+        of_slope(:, at) = products_of_rows(basis%shape(:, :, i), slope)
+      end do
+    end do
+    call coefficients_of(plan, of_shape, basis%matrix(:, :, of_rate))
+    call coefficients_of(plan, of_slope, basis%matrix(:, :, of_drift))
+  end subroutine add_damping
 
   !> X from subspace iterations on the mass matrix.
   subroutine find_shapes(grid, slow, shape, error)
@@ -358,19 +390,18 @@ contains
 
   !> Steps of the collocation at a speed, as many as samples.
   !!
-  !! Errors: resonance, a multiplier of the slow motion is 1.
-  subroutine new_slow_motion(steps, plan, basis, speed, damping, stages, motion, error)
+  !! Errors: a multiplier of the slow motion is 1 (resonance), or its growth in a turn overflows.
+  subroutine new_slow_motion(steps, plan, basis, speed, stages, motion, error)
     integer, intent(in) :: steps             !! as many as samples
     type(fourier_plan_t), intent(in) :: plan !! for these
     type(slow_basis_t), intent(in) :: basis
-    real(wp), intent(in) :: speed      !! ω2 [rad/s]
-    real(wp), intent(in) :: damping(:) !! (unknowns) c [s]
-    integer, intent(in) :: stages      !! of a step
+    real(wp), intent(in) :: speed !! ω2 [rad/s]
+    integer, intent(in) :: stages !! of a step
     type(slow_motion_t), intent(out) :: motion
     type(error_t), allocatable, intent(out) :: error !! why it cannot be closed
 
-    real(wp), allocatable :: at_stage(:, :, :, :), total(:, :, :), first(:, :)
-    integer :: i, j, k, m, n, c, info
+    real(wp), allocatable :: at_stage(:, :, :, :), total(:, :, :), values(:, :)
+    integer :: i, k, m, n, c, info
 
     n = steps
     m = basis%number
@@ -383,23 +414,31 @@ contains
     total(:, :, 3) = basis%matrix(:, :, of_w) - basis%matrix(:, :, of_speed) - (basis%matrix(:, :, &
       of_stiffness) + basis%matrix(:, :, of_loads))/speed**2
     total(:, :, 4) = 0.0_wp
-    if (any(damping > 0.0_wp)) call add_damping
-    allocate (at_stage(n, m**2, 4, stages))
+    if (size(basis%matrix, 3) == of_drift) then
+      total(:, :, 3) = total(:, :, 3) - basis%matrix(:, :, of_drift)/speed
+      total(:, :, 4) = basis%matrix(:, :, of_rate)/speed
+    end if
+    allocate (at_stage(m**2, 4, stages, n), values(n, m**2))
     do i = 1, stages
       do c = 1, 4
-        call values_of(plan, shifted(total(:, :, c), motion%rule%node(i)*two_pi/n), &
-          at_stage(:, :, c, i))
+        call values_of(plan, shifted(total(:, :, c), motion%rule%node(i)*two_pi/n), values)
+        at_stage(:, c, i, :) = transpose(values)
       end do
     end do
     motion%scale = sqrt(sum(abs(basis%matrix(1, 1::m + 1, of_mass)))* &
       sum(abs(basis%matrix(1, 1::m + 1, of_stiffness))))/(m*abs(speed))
     allocate (motion%transfer(2*m, 2*m, n), motion%response(2*m, m*stages, n))
     do k = 1, n
-      call make_step(motion, k, at_stage(k, :, :, :))
+      call make_step(motion, k, at_stage(:, :, :, k))
     end do
     motion%monodromy = motion%transfer(:, :, 1)
     do k = 2, n
       motion%monodromy = matmul(motion%transfer(:, :, k), motion%monodromy)
+      if (maxval(abs(motion%monodromy)) > most_growth) then
+        call set_error(error, error_of_numerics, "the motion is unstable: disturbances grow by a "// &
+          "factor of more than 1e100 in a turn")
+        return
+      end if
     end do
     motion%factor = -motion%monodromy
     do i = 1, 2*m
@@ -409,104 +448,85 @@ contains
     call dgetrf(2*m, 2*m, motion%factor, 2*m, motion%pivot, info)
     if (info /= 0) call set_error(error, error_of_numerics, &
       "resonance: the slow motion has a multiplier of 1")
-
-  contains
-
-    subroutine add_damping
-      real(wp) :: of_rate(n, m**2), of_shape(n, m**2)
-      real(wp) :: rates(n, size(damping))
-
-      allocate (first(n, size(damping)))
-      do j = 1, m
-        call derivatives(plan, basis%shape(:, :, j), rates)
-        do i = 1, size(damping)
-          rates(:, i) = damping(i)*rates(:, i)
-          first(:, i) = damping(i)*basis%shape(:, i, j)
-        end do
-        do i = 1, m
-          of_shape(:, (j - 1)*m + i) = products_of_rows(basis%shape(:, :, i), rates)/speed
-          of_rate(:, (j - 1)*m + i) = products_of_rows(basis%shape(:, :, i), first)/speed
-        end do
-      end do
-      call coefficients_of(plan, of_rate, total(:, :, 4))
-      call coefficients_of(plan, of_shape, of_rate)
-      total(:, :, 3) = total(:, :, 3) - of_rate
-    end subroutine add_damping
-
   end subroutine new_slow_motion
 
   !> One step: coordinates and momenta at its end from those at its start and the loads at its
-  !! stages. Unknowns of the stages are z'.
+  !! stages. Unknowns of the stages are z': `A z' = B`, and what is wanted is `E z'`. There are
+  !! fewer rows in E than columns in B: `E A⁻¹` comes first.
   subroutine make_step(motion, step, matrices)
     type(slow_motion_t), intent(inout) :: motion
     integer, intent(in) :: step
-    real(wp), intent(in) :: matrices(:, :, :) !! (number², 4, stages)
+    !> (number, number, M, G, V, XᵀCX/ω; stages)
+    real(wp), intent(in) :: matrices(motion%number, motion%number, 4, size(motion%rule%node))
 
-    real(wp), dimension(motion%number, motion%number, size(matrices, 3)) :: mass, g, v, d
-    real(wp) :: left(motion%number*size(matrices, 3), motion%number*size(matrices, 3))
-    real(wp) :: right(motion%number*size(matrices, 3), 2*motion%number + motion%number* &
-      size(matrices, 3))
-    real(wp) :: ends(2*motion%number, 2*motion%number + motion%number*size(matrices, 3))
-    real(wp) :: h, block(motion%number, motion%number)
-    integer :: pivot(motion%number*size(matrices, 3)), i, j, k, l, m, s, info
+    integer, parameter :: of_v = 3, of_damping = 4
+    real(wp) :: left(motion%number*size(matrices, 4), motion%number*size(matrices, 4))
+    real(wp) :: ends(motion%number*size(matrices, 4), 2*motion%number)
+    real(wp) :: rows(2*motion%number, motion%number*size(matrices, 4))
+    real(wp), dimension(motion%number, motion%number) :: block, sum_of_v, d
+    real(wp) :: h
+    integer :: pivot(motion%number*size(matrices, 4)), at, i, j, k, l, m, s, info
 
     m = motion%number
-    s = size(matrices, 3)
+    s = size(matrices, 4)
     h = two_pi/motion%steps
-    do i = 1, s
-      mass(:, :, i) = reshape(matrices(:, 1, i), [m, m])
-      g(:, :, i) = reshape(matrices(:, 2, i), [m, m])
-      v(:, :, i) = reshape(matrices(:, 3, i), [m, m])
-      d(:, :, i) = transpose(g(:, :, i)) - reshape(matrices(:, 4, i), [m, m])
-    end do
-    associate (a => motion%rule%matrix, w => motion%rule%weight)
-      right = 0.0_wp
-      do i = 1, s
-        do l = 1, s
-          block = h*a(i, l)*(g(:, :, i) - d(:, :, l))
-          do j = 1, s
-            block = block - h**2*a(i, j)*a(j, l)*v(:, :, j)
-          end do
-          if (i == l) block = block + mass(:, :, i)
-          left((i - 1)*m + 1:i*m, (l - 1)*m + 1:l*m) = block
-          do k = 1, m
-            right((i - 1)*m + k, 2*m + (l - 1)*m + k) = h*a(i, l)
-          end do
-        end do
-        block = -g(:, :, i)
-        do j = 1, s
-          block = block + h*a(i, j)*v(:, :, j)
-        end do
-        right((i - 1)*m + 1:i*m, :m) = block
-        do k = 1, m
-          right((i - 1)*m + k, m + k) = motion%scale
-        end do
-      end do
-      call dgetrf(m*s, m*s, left, m*s, pivot, info)
-      call dgetrs("N", m*s, size(right, 2), left, m*s, pivot, right, m*s, info)
-      ends = 0.0_wp
-      do k = 1, m
-        ends(k, k) = 1.0_wp
-        ends(m + k, m + k) = motion%scale
-      end do
+    associate (a => motion%rule%matrix, w => motion%rule%weight, scale => motion%scale, &
+      transfer => motion%transfer(:, :, step), response => motion%response(:, :, step))
+      ! The transpose of A, and that of E: z and p/scale at the end from z' of the stages.
       do l = 1, s
-        ends(:m, :) = ends(:m, :) + h*w(l)*right((l - 1)*m + 1:l*m, :)
-        ! p' at stage l: D z' + V z + F, with z there from the rates at all stages
-        block = 0.0_wp
+        d = transpose(matrices(:, :, of_g, l)) - matrices(:, :, of_damping, l)
+        do i = 1, s
+          sum_of_v = 0.0_wp
+          do j = 1, s
+            sum_of_v = sum_of_v + a(i, j)*a(j, l)*matrices(:, :, of_v, j)
+          end do
+          block = h*a(i, l)*(matrices(:, :, of_g, i) - d) - h**2*sum_of_v
+          if (i == l) block = block + matrices(:, :, of_mass, i)
+          left((l - 1)*m + 1:l*m, (i - 1)*m + 1:i*m) = transpose(block)
+        end do
+        sum_of_v = 0.0_wp
         do j = 1, s
-          block = block + w(j)*a(j, l)*v(:, :, j)
+          sum_of_v = sum_of_v + w(j)*a(j, l)*matrices(:, :, of_v, j)
         end do
-        ends(m + 1:, :) = ends(m + 1:, :) + matmul(h*w(l)*d(:, :, l) + h**2*block, &
-          right((l - 1)*m + 1:l*m, :))
-        ends(m + 1:, :m) = ends(m + 1:, :m) + h*w(l)*v(:, :, l)
+        block = (h*w(l)*d + h**2*sum_of_v)/scale
+        ends((l - 1)*m + 1:l*m, :m) = 0.0_wp
         do k = 1, m
-          ends(m + k, 2*m + (l - 1)*m + k) = ends(m + k, 2*m + (l - 1)*m + k) + h*w(l)
+          ends((l - 1)*m + k, k) = h*w(l)
         end do
+        ends((l - 1)*m + 1:l*m, m + 1:) = transpose(block)
+      end do
+      call dgetf2(m*s, m*s, left, m*s, pivot, info)
+      call dgetrs("N", m*s, 2*m, left, m*s, pivot, ends, m*s, info)
+      rows = transpose(ends)
+      ! B of the state at the start: −G + h Σ a V for z, 1 for p; of the loads: h a.
+      transfer = 0.0_wp
+      response = 0.0_wp
+      do i = 1, s
+        block = -matrices(:, :, of_g, i)
+        do j = 1, s
+          block = block + h*a(i, j)*matrices(:, :, of_v, j)
+        end do
+        at = (i - 1)*m
+        do j = 1, m
+          do k = 1, m
+            transfer(:, j) = transfer(:, j) + block(k, j)*rows(:, at + k)
+          end do
+          transfer(:, m + j) = transfer(:, m + j) + scale*rows(:, at + j)
+        end do
+        do l = 1, s
+          response(:, (l - 1)*m + 1:l*m) = response(:, (l - 1)*m + 1:l*m) + &
+            h*a(i, l)*rows(:, at + 1:at + m)
+        end do
+        ! What changes z and p without z'.
+        transfer(m + 1:, :m) = transfer(m + 1:, :m) + h*w(i)/scale*matrices(:, :, of_v, i)
+        do k = 1, m
+          response(m + k, at + k) = response(m + k, at + k) + h*w(i)/scale
+        end do
+      end do
+      do k = 1, 2*m
+        transfer(k, k) = transfer(k, k) + 1.0_wp
       end do
     end associate
-    ends(m + 1:, :) = ends(m + 1:, :)/motion%scale
-    motion%transfer(:, :, step) = ends(:, :2*m)
-    motion%response(:, :, step) = ends(:, 2*m + 1:)
   end subroutine make_step
 
   !> The periodic slow motion under a load.
@@ -606,10 +626,11 @@ contains
 
     real(wp), dimension(size(load, 1), size(load, 2)) :: coefficients, coefficients_imaginary, &
       moved, moved_imaginary
-    complex(wp) :: at_stages(size(load, 2)*size(motion%rule%node), size(load, 1)), turned
-    complex(wp) :: state(2*motion%number), push(2*motion%number, size(load, 1))
-    real(wp) :: left(4*motion%number, 4*motion%number), right(4*motion%number)
-    real(wp) :: theta
+    real(wp) :: at_stages(size(load, 2)*size(motion%rule%node), 2, size(load, 1))
+    real(wp), dimension(2*motion%number, 2) :: state, turned_back
+    real(wp) :: push(2*motion%number, 2, size(load, 1))
+    complex(wp) :: turned
+    real(wp) :: left(4*motion%number, 4*motion%number), theta
     integer :: pivot(4*motion%number), i, k, m, n, info
 
     m = motion%number
@@ -621,14 +642,17 @@ contains
       call values_of(plan, shifted(coefficients, theta), moved)
       call values_of(plan, shifted(coefficients_imaginary, theta), moved_imaginary)
       do k = 1, n
-        at_stages((i - 1)*m + 1:i*m, k) = exp(exponent*(theta + two_pi*(k - 1)/n))* &
-          cmplx(moved(k, :), moved_imaginary(k, :), wp)
+        turned = exp(exponent*(theta + two_pi*(k - 1)/n))
+        at_stages((i - 1)*m + 1:i*m, :, k) = parts_of_product(turned, moved(k, :), &
+          moved_imaginary(k, :))
       end do
     end do
     state = 0.0_wp
     do k = 1, n
-      push(:, k) = matmul(motion%response(:, :, k), at_stages(:, k))
-      state = matmul(motion%transfer(:, :, k), state) + push(:, k)
+      do i = 1, 2
+        push(:, i, k) = matmul(motion%response(:, :, k), at_stages(:, i, k))
+        state(:, i) = matmul(motion%transfer(:, :, k), state(:, i)) + push(:, i, k)
+      end do
     end do
     ! (e^{2πσ} − monodromy) state = what the load leaves after a turn, in real numbers
     turned = exp(two_pi*exponent)
@@ -641,16 +665,26 @@ contains
       left(i, 2*m + i) = -aimag(turned)
       left(2*m + i, i) = aimag(turned)
     end do
-    right = [real(state, wp), aimag(state)]
     call dgetrf(4*m, 4*m, left, 4*m, pivot, info)
-    call dgetrs("N", 4*m, 1, left, 4*m, pivot, right, 4*m, info)
-    state = cmplx(right(:2*m), right(2*m + 1:), wp)
+    call dgetrs("N", 4*m, 1, left, 4*m, pivot, state, 4*m, info)
     do k = 1, n
-      turned = exp(-exponent*two_pi*(k - 1)/n)
-      z(k, :) = real(turned*state(:m))
-      z_imaginary(k, :) = aimag(turned*state(:m))
-      state = matmul(motion%transfer(:, :, k), state) + push(:, k)
+      turned_back = parts_of_product(exp(-exponent*two_pi*(k - 1)/n), state(:, 1), state(:, 2))
+      z(k, :) = turned_back(:m, 1)
+      z_imaginary(k, :) = turned_back(:m, 2)
+      do i = 1, 2
+        state(:, i) = matmul(motion%transfer(:, :, k), state(:, i)) + push(:, i, k)
+      end do
     end do
   end subroutine solve_slow_shifted
+
+  !> Real and imaginary parts of a number times a complex vector.
+  pure function parts_of_product(number, re, im) result(parts)
+    complex(wp), intent(in) :: number
+    real(wp), intent(in) :: re(:), im(:)
+    real(wp) :: parts(size(re), 2)
+
+    parts(:, 1) = real(number)*re - aimag(number)*im
+    parts(:, 2) = aimag(number)*re + real(number)*im
+  end function parts_of_product
 
 end module slow_motions

@@ -182,7 +182,7 @@ contains
       pending = pack([(k, k=1, n)], choice%pending)
       if (size(pending) == 0) exit
       do i = 1, size(pending)
-        call find_levels(structure, abs(request%speed(pending(i))), store, levels, &
+        call find_levels(structure, request, abs(request%speed(pending(i))), store, levels, &
           choice(pending(i)), error)
         if (allocated(error)) return
       end do
@@ -220,8 +220,9 @@ contains
   end subroutine add_out_of_plane
 
   !> Finds or makes the two levels of a speed, with the slow coordinates that it needs.
-  subroutine find_levels(structure, speed, store, levels, choice, error)
+  subroutine find_levels(structure, request, speed, store, levels, choice, error)
     class(structure_t), intent(in) :: structure
+    type(response_request_t), intent(in) :: request
     real(wp), intent(in) :: speed
     type(link_store_t), intent(inout) :: store
     type(level_slot_t), allocatable, intent(inout) :: levels(:) !! made so far
@@ -252,8 +253,8 @@ contains
         if (level%basis(choice%slow)%number > 0) cycle
         call open_fourier(level%grid%samples, plan)
         call open_fourier(level%coarse%samples, coarse_plan)
-        call new_slow_basis(level%coarse, coarse_plan, plan, choice%slow, &
-          level%basis(choice%slow), error)
+        call new_slow_basis(level%coarse, coarse_plan, plan, choice%slow, damping_of(request, &
+          level%grid), level%basis(choice%slow), error)
         call close_fourier(plan)
         call close_fourier(coarse_plan)
         if (allocated(error)) return
@@ -430,8 +431,7 @@ contains
     call open_fourier(above%grid%samples, above_plan)
     attempt: block
       associate (basis => level%basis(choice%slow), above_basis => above%basis(choice%slow))
-        call new_slow_motion(level%grid%samples, plan, basis, speed, damping_of(request, &
-          level%grid), stages, motion, found%error)
+        call new_slow_motion(level%grid%samples, plan, basis, speed, stages, motion, found%error)
         if (allocated(found%error)) exit attempt
         allocate (solution%y(level%grid%samples, level%grid%unknowns))
         solution%y = 0.0_wp
@@ -440,8 +440,8 @@ contains
         if (allocated(found%error)) exit attempt
         call transferred(level%grid, plan, above%grid, above_plan, solution%y, better%y)
         ! Its own slow motion: that of the first has no harmonics beyond its samples.
-        call new_slow_motion(above%grid%samples, above_plan, above_basis, speed, &
-          damping_of(request, above%grid), stages, above_motion, found%error)
+        call new_slow_motion(above%grid%samples, above_plan, above_basis, speed, stages, &
+          above_motion, found%error)
         if (allocated(found%error)) exit attempt
         call solve_level(request, speed, above%grid, above_plan, above_basis, above_plan, &
           above_motion, max(compared_to*tighter*request%accuracy, least_remainder), better, &

@@ -299,7 +299,7 @@ contains
     if (allocated(error)) return
     call open_fourier(basis_samples, coarse_plan)
     call open_fourier(matrix_samples, plan)
-    call new_slow_basis(coarse, coarse_plan, plan, max(1, this%slow), basis, error)
+    call new_slow_basis(coarse, coarse_plan, plan, max(1, this%slow), [real(wp) ::], basis, error)
     call close_fourier(plan)
     call close_fourier(coarse_plan)
     if (.not. allocated(error)) call write_matrices(folder//"/matrices.bin", matrices, error)
@@ -510,16 +510,16 @@ contains
         call new_grid(mechanism, order, min(samples, basis_samples), coarse, error)
         if (allocated(error)) return
         call add_time(1)
+        damping = spread(request%damping(1)%value, 1, grid%unknowns)
         call open_fourier(coarse%samples, coarse_plan)
         call open_fourier(samples, plan)
         call start_watch(watch)
-        call new_slow_basis(coarse, coarse_plan, plan, this%slow, basis, error)
+        call new_slow_basis(coarse, coarse_plan, plan, this%slow, damping, basis, error)
         if (allocated(error)) return
         call add_time(2)
-        damping = spread(request%damping(1)%value, 1, grid%unknowns)
         if (above == 0) then
           call start_watch(watch)
-          call new_slow_motion(samples, plan, basis, request%speed(1), damping, 3, motion, error)
+          call new_slow_motion(samples, plan, basis, request%speed(1), 3, motion, error)
           if (allocated(error)) return
           call add_time(3)
         else

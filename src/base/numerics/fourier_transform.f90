@@ -175,18 +175,22 @@ contains
     real(wp), intent(in) :: shift              !! [rad]
     real(wp) :: moved(size(coefficients, 1), size(coefficients, 2))
 
-    real(wp) :: c, s
-    integer :: j, n
+    real(wp) :: c(size(coefficients, 1)/2), s(size(coefficients, 1)/2)
+    integer :: i, j, n
 
     n = size(coefficients, 1)
-    moved(1, :) = coefficients(1, :)
-    do j = 1, (n - 1)/2
-      c = cos(j*shift)
-      s = sin(j*shift)
-      moved(2*j, :) = c*coefficients(2*j, :) - s*coefficients(2*j + 1, :)
-      moved(2*j + 1, :) = s*coefficients(2*j, :) + c*coefficients(2*j + 1, :)
+    do j = 1, n/2
+      c(j) = cos(j*shift)
+      s(j) = sin(j*shift)
     end do
-    moved(n, :) = cos((n/2)*shift)*coefficients(n, :)
+    do i = 1, size(coefficients, 2)
+      moved(1, i) = coefficients(1, i)
+      do j = 1, (n - 1)/2
+        moved(2*j, i) = c(j)*coefficients(2*j, i) - s(j)*coefficients(2*j + 1, i)
+        moved(2*j + 1, i) = s(j)*coefficients(2*j, i) + c(j)*coefficients(2*j + 1, i)
+      end do
+      moved(n, i) = c(n/2)*coefficients(n, i)
+    end do
   end function shifted
 
   !> Coefficients for another number of samples: harmonics are left out or added as zeros.

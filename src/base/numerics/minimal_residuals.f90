@@ -2,6 +2,7 @@
 !! and Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856). The caller applies the operator.
 module minimal_residuals
   use kinds, only: wp
+  use row_products, only: sum_of_products
   implicit none (type, external)
   private
 
@@ -45,10 +46,10 @@ contains
     k = problem%last
     associate (h => problem%h(:, k), rotation => problem%rotation)
       do i = 1, k
-        h(i) = sum(problem%vector(:, :, i)*product)
+        h(i) = sum_of_products(problem%vector(:, :, i), product)
         product = product - h(i)*problem%vector(:, :, i)
       end do
-      h(k + 1) = norm2(product)
+      h(k + 1) = sqrt(sum_of_products(product, product))
       if (h(k + 1) > 0.0_wp) product = product/h(k + 1)
       problem%vector(:, :, k + 1) = product
       do i = 1, k - 1
