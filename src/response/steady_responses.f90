@@ -459,9 +459,9 @@ contains
         if (allocated(found%error)) exit attempt
         if (.not. maxval(abs(motion%monodromy)) <= most_growth) then
           ! Fewer slow coordinates may grow where more do not.
-          if (choice%more_slow) call set_error(found%error, error_of_numerics, "the linkage is unstable: its free "// &
-            "vibrations grow by a factor above 10^"//to_string(nint(log10(most_growth)))// &
-            " in a turn")
+          if (choice%more_slow) call set_error(found%error, error_of_numerics, &
+            "the linkage is unstable: its free vibrations grow by a factor above 10^"// &
+            to_string(nint(log10(most_growth)))//" in a turn")
           exit attempt
         end if
         allocate (solution%y(level%grid%samples, level%grid%unknowns))
