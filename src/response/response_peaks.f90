@@ -26,6 +26,10 @@ module response_peaks
   integer, parameter :: denser = 4
   real(wp), parameter :: may_hide = 0.95_wp
 
+  !> Places on either side of an end of a piece are this far from it, so that rounding does not move
+  !! them to the other.
+  real(wp), parameter :: aside = 8.0_wp*epsilon(1.0_wp)
+
   !> Rounds of the search between samples, and how its steps shrink.
   integer, parameter :: rounds = 10
   real(wp), parameter :: narrowing = 0.4_wp
@@ -61,7 +65,7 @@ contains
   !! ends of pieces, where strains have kinks or jumps.
   pure function places_along(ends) result(xi)
     real(wp), intent(in) :: ends(0:) !! of the pieces, from 0 to 1
-    real(wp) :: xi(size(ends) + intervals*(size(ends) - 1))
+    real(wp) :: xi((intervals + 1)*(size(ends) - 1))
 
     integer :: e, first, i
 
@@ -69,20 +73,21 @@ contains
     do e = 1, size(ends) - 1
       xi(first + 1:first + intervals + 1) = [(ends(e - 1) + (ends(e) - ends(e - 1))*i/intervals, &
         i=0, intervals)]
+      if (e > 1) xi(first + 1) = xi(first + 1) + aside
       first = first + intervals + 1
-      if (e < size(ends) - 1) xi(first) = nearest(xi(first), -1.0_wp)
+      if (e < size(ends) - 1) xi(first) = xi(first) - aside
     end do
     xi(size(xi)) = 1.0_wp
   end function places_along
 
-  !> Distance from a place to the next that is not the other side of an end of a piece.
-  pure function step_there(xi, number) result(step)
-    real(wp), intent(in) :: xi(:)
+  !> Numbers, among those of `places_along`, of both ends of the piece of a place.
+  pure function piece_of(number) result(ends)
     integer, intent(in) :: number
-    real(wp) :: step
+    integer :: ends(2)
 
-    step = max(xi(min(size(xi), number + 1)) - xi(number), xi(number) - xi(max(1, number - 1)))
-  end function step_there
+    ends(1) = ((number - 1)/(intervals + 1))*(intervals + 1) + 1
+    ends(2) = ends(1) + intervals
+  end function piece_of
 
   !> Finds the largest values of all links; zeros of rigid ones.
   subroutine find_peaks(grid, plan, request, y, found)
@@ -148,7 +153,8 @@ contains
         rows%curvature(0)*q(:, 3))
     end function strains_at
 
-    !> The largest value: of all sampled maxima that may hide it, the largest between samples.
+    !> The largest value: of all sampled maxima in a piece that may hide it, the largest between
+    !! samples.
     subroutine search(values, xi, of_strain, peak)
       real(wp), intent(in) :: values(:, :) !! (samples, places)
       real(wp), intent(in) :: xi(:)
@@ -157,19 +163,21 @@ contains
 
       type(peak_t) :: other
       real(wp) :: least
-      integer :: before, after, i, k
+      integer :: ends(2), low, high, before, after, i, k
 
       least = may_hide*maxval(values)
       do i = 1, size(values, 2)
+        ends = piece_of(i)
+        low = max(ends(1), i - 1)
+        high = min(ends(2), i + 1)
         do k = 1, size(values, 1)
           if (values(k, i) < least) cycle
           before = modulo(k - 2, size(values, 1)) + 1
           after = modulo(k, size(values, 1)) + 1
-          if (any(values([before, after], max(1, i - 1):min(size(values, 2), i + 1)) > &
-            values(k, i)) .or. any(values(k, max(1, i - 1):min(size(values, 2), i + 1)) > &
-            values(k, i))) cycle
+          if (any(values([before, after], low:high) > values(k, i)) .or. &
+            any(values(k, low:high) > values(k, i))) cycle
           call climb(values(k, i), [two_pi*(k - 1)/size(values, 1), xi(i)], [two_pi/size(values, &
-            1), step_there(xi, i)], of_strain, other)
+            1), (xi(ends(2)) - xi(ends(1)))/intervals], xi(ends), of_strain, other)
           if (other%value > peak%value) peak = other
         end do
       end do
@@ -177,9 +185,10 @@ contains
 
     !> From a sampled maximum by parabolas over the turn, along the link and in the direction in
     !! which these have led, through points that move closer: the largest value met counts.
-    subroutine climb(value, place, wide, of_strain, peak)
+    subroutine climb(value, place, wide, ends, of_strain, peak)
       real(wp), intent(in) :: value, place(2) !! sampled; crank angle and place
       real(wp), intent(in) :: wide(2)         !! between samples
+      real(wp), intent(in) :: ends(2)         !! of the piece of the link
       logical, intent(in) :: of_strain
       type(peak_t), intent(out) :: peak
 
@@ -201,11 +210,11 @@ contains
           if (all(abs(step) <= 0.0_wp)) cycle
           middle = best
           f(2) = value_at_place(of_strain, middle(1), middle(2))
-          call try_place(middle - step, of_strain, best, peak%value, f(1))
-          call try_place(middle + step, of_strain, best, peak%value, f(3))
+          call try_place(middle - step, ends, of_strain, best, peak%value, f(1))
+          call try_place(middle + step, ends, of_strain, best, peak%value, f(3))
           bend = f(1) + f(3) - 2.0_wp*f(2)
-          if (bend < 0.0_wp) call try_place(middle + 0.5_wp*(f(1) - f(3))/bend*step, of_strain, &
-            best, peak%value, here)
+          if (bend < 0.0_wp) call try_place(middle + 0.5_wp*(f(1) - f(3))/bend*step, ends, &
+            of_strain, best, peak%value, here)
         end do
         width = narrowing*width
       end do
@@ -213,15 +222,18 @@ contains
       peak%crank = modulo(merge(-best(1), best(1), grid%backwards)/degree, 360.0_wp)
     end subroutine climb
 
-    !> The value at a crank angle and place, which is kept if it is the largest so far.
-    subroutine try_place(at, of_strain, best, largest, here)
-      real(wp), intent(in) :: at(2) !! crank angle, place
+    !> The value at a crank angle and place of a piece, which is kept if it is the largest so far;
+    !! that at the end of the piece for a place beyond.
+    subroutine try_place(wanted, ends, of_strain, best, largest, here)
+      real(wp), intent(in) :: wanted(2) !! crank angle, place
+      real(wp), intent(in) :: ends(2)   !! of the piece
       logical, intent(in) :: of_strain
       real(wp), intent(inout) :: best(2), largest
       real(wp), intent(out) :: here
 
-      here = 0.0_wp
-      if (at(2) < 0.0_wp .or. at(2) > 1.0_wp) return
+      real(wp) :: at(2)
+
+      at = [wanted(1), min(max(wanted(2), ends(1)), ends(2))]
       here = value_at_place(of_strain, at(1), at(2))
       if (here <= largest) return
       largest = here

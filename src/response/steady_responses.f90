@@ -72,19 +72,39 @@ module steady_responses
   !> Samples from which the slow coordinates are found.
   integer, parameter :: basis_samples = 96
 
-  !> Slow vibrations have at least this many samples a period.
-  real(wp), parameter :: samples_a_period = 2.5_wp
+  !> Slow vibrations have at least this many samples a period; where the iterations do not get on,
+  !! so many of the samples of the second solution, up to twice those of the first: all vibrations
+  !! that its harmonics meet are then slow ones.
+  real(wp), parameter :: samples_a_period = 2.5_wp, least_a_period = 2.0_wp
 
   !> Stages of the collocation of slow motions.
   integer, parameter :: stages = 3
 
-  !> Estimated errors are differences of two solutions times this.
-  real(wp), parameter :: safety = 1.5_wp
+  !> Estimated errors are differences of two solutions times this: enough where the error of the
+  !! second is up to two thirds of that of the first. Errors of strains fall slowly with the orders
+  !! where a link's damping is by ratio.
+  real(wp), parameter :: safety = 3.0_wp
 
   !> Remainders of the iterations beside the accuracy: smaller in the second solution, so that the
   !! difference shows that of the first in every quantity.
   real(wp), parameter :: solved_to = 1.0e-3_wp, compared_to = 1.0e-5_wp, &
     least_remainder = 1.0e-14_wp
+
+  !> Iterations that stop above their tolerance and this have not got on: rounding is far below. A
+  !! remainder says little of quantities that high harmonics or a link that bends little make up.
+  real(wp), parameter :: stuck = 1.0e-11_wp
+
+  !> Errors are to fall by this each time that orders or samples are raised. The second time that
+  !! they do not, where they may be those of rounding, the best result so far is the last word.
+  real(wp), parameter :: least_gain = 0.5_wp, may_be_rounding = 1.0e-6_wp
+  integer, parameter :: most_idle = 2
+
+  !> It is, too, when so much work is done at a speed, some twenty seconds: samples × unknowns ×
+  !! applications of the equation, and samples × slow coordinates³.
+  integer(long), parameter :: most_work = 40000000_long
+
+  !> Free motions that grow by more than this in a turn leave no digits of a periodic one.
+  real(wp), parameter :: most_growth = 1.0e12_wp
 
   !> The highest eighth of the harmonics of a series may have this share of the accuracy; they are
   !! taken to fall at least this fast.
@@ -126,7 +146,11 @@ module steady_responses
     integer :: level(2) = 0       !! numbers of the levels of both solutions
     integer :: slow = 0           !! slow coordinates
     logical :: backwards = .false. !! the crank turns clockwise
-    real(wp) :: error = huge(1.0_wp) !! largest so far
+    logical :: more_slow = .false. !! slow coordinates as `least_a_period` has them
+    real(wp) :: error = huge(1.0_wp) !! smallest so far
+    type(speed_response_t), allocatable :: best !! with that error
+    integer :: idle = 0           !! times that raising has gained little, one after another
+    integer(long) :: work = 0_long !! so far, in the units of `most_work`
     logical :: raised_order = .false. !! last time
     integer :: round = 0              !! times raised
     logical :: tightened = .false.    !! iterations go on to smaller remainders
@@ -178,7 +202,7 @@ contains
     choice%least_above = nint(min(samples_of_free/max(abs(request%speed)*sqrt(squares(free)), &
       tiny(1.0_wp)), most_of_free))
     do
-      call drop_levels(pack(choice, choice%pending), levels)
+      call drop_levels(choice, levels)
       pending = pack([(k, k=1, n)], choice%pending)
       if (size(pending) == 0) exit
       do i = 1, size(pending)
@@ -246,8 +270,9 @@ contains
       end associate
     end do
     ! Both solutions have the same slow coordinates.
-    choice%slow = slow_count(levels(choice%level(1))%level%coarse, &
-      abs(speed)*sample_numbers(choice%at)/samples_a_period)
+    choice%slow = slow_count(levels(choice%level(1))%level%coarse, abs(speed)* &
+      merge(min(samples, 2*sample_numbers(choice%at))/least_a_period, sample_numbers(choice%at)/ &
+      samples_a_period, choice%more_slow))
     do i = 1, 2
       associate (level => levels(choice%level(i))%level)
         if (level%basis(choice%slow)%number > 0) cycle
@@ -303,7 +328,7 @@ contains
 
   !> Drops the levels that no speed needs any more.
   pure subroutine drop_levels(choices, levels)
-    type(choice_t), intent(in) :: choices(:) !! of the speeds that are still to be solved
+    type(choice_t), intent(in) :: choices(:) !! of all speeds
     type(level_slot_t), allocatable, intent(inout) :: levels(:)
 
     type(level_slot_t), allocatable :: kept(:)
@@ -312,10 +337,10 @@ contains
 
     do i = 1, size(levels)
       associate (level => levels(i)%level)
-        needed(i) = any((choices%order == level%order .and. &
+        needed(i) = any(choices%pending .and. ((choices%order == level%order .and. &
           sample_numbers(choices%at) == level%grid%samples) .or. &
           (choices%order + orders_above == level%order .and. &
-          sample_numbers(number_above(choices)) == level%grid%samples))
+          sample_numbers(number_above(choices)) == level%grid%samples)))
       end associate
     end do
     allocate (kept(count(needed)))
@@ -421,32 +446,39 @@ contains
     type(slow_motion_t) :: motion, above_motion
     type(solution_t) :: solution, better
     real(wp), allocatable :: errors(:)
-    real(wp) :: tighter
     integer(long) :: before
 
     before = found%applications
-    tighter = merge(1.0e-2_wp, 1.0_wp, choice%tightened)
     call clear(found)
     call open_fourier(level%grid%samples, plan)
     call open_fourier(above%grid%samples, above_plan)
+    choice%pending = .false.
     attempt: block
       associate (basis => level%basis(choice%slow), above_basis => above%basis(choice%slow))
         call new_slow_motion(level%grid%samples, plan, basis, speed, stages, motion, found%error)
         if (allocated(found%error)) exit attempt
+        if (.not. maxval(abs(motion%monodromy)) <= most_growth) then
+          ! Fewer slow coordinates may grow where more do not.
+          if (choice%more_slow) call set_error(found%error, error_of_numerics, &
+            "the linkage is unstable: its free vibrations grow by a factor above 10^"// &
+            to_string(nint(log10(most_growth)))//" in a turn")
+          exit attempt
+        end if
         allocate (solution%y(level%grid%samples, level%grid%unknowns))
         solution%y = 0.0_wp
         call solve_level(request, speed, level%grid, plan, basis, plan, motion, &
-          max(solved_to*tighter*request%accuracy, least_remainder), solution, found%error)
+          tolerance_of(solved_to), solution, found%error)
         if (allocated(found%error)) exit attempt
+        if (is_stuck(solution, solved_to)) exit attempt
         call transferred(level%grid, plan, above%grid, above_plan, solution%y, better%y)
         ! Its own slow motion: that of the first has no harmonics beyond its samples.
         call new_slow_motion(above%grid%samples, above_plan, above_basis, speed, stages, &
           above_motion, found%error)
         if (allocated(found%error)) exit attempt
         call solve_level(request, speed, above%grid, above_plan, above_basis, above_plan, &
-          above_motion, max(compared_to*tighter*request%accuracy, least_remainder), better, &
-          found%error)
+          above_motion, tolerance_of(compared_to), better, found%error)
         if (allocated(found%error)) exit attempt
+        if (is_stuck(better, compared_to)) exit attempt
       end associate
       found%order = choice%order
       found%samples = level%grid%samples
@@ -460,30 +492,95 @@ contains
         solution%y, found%quadratic_change)
     end block attempt
     found%applications = before + solution%applications + better%applications
+    choice%work = choice%work + work_of(level%grid, solution) + work_of(above%grid, better)
     call close_fourier(above_plan)
     call close_fourier(plan)
-    choice%pending = .false.
     if (allocated(found%error)) then
-      call raise_samples(choice)
-      return
+      if (maxval(abs(motion%monodromy)) <= most_growth) call raise_samples(choice)
+    else if (.not. allocated(errors)) then
+      ! Once more, with more slow coordinates.
+      choice%more_slow = .true.
+      choice%pending = .true.
+    else if (found%largest_error > request%accuracy) then
+      call improve
     end if
-    if (found%largest_error <= request%accuracy) return
-    if (max(solution%remainder, many*better%remainder) > 0.5_wp*request%accuracy) then
-      ! Either rounding leaves no more digits, or harmonics left out hinder the iterations.
-      if (better%remainder > unfinished) call raise_samples(choice)
-      return
-    end if
-    if (rounding/found%distance > request%accuracy) then
-      call set_error(found%error, error_of_numerics, "resonance: an exponent of the turn, "// &
-        in_words(found%nearest)//", is too near to 0 for the accuracy asked for")
-      return
-    end if
-    call raise(request%accuracy, found%largest_error, errors, solution%series, choice)
-    if (.not. choice%pending .and. found%largest_error > no_digits) call set_error(found%error, &
-      error_of_numerics, "no accuracy is reached with "//to_string(level%grid%samples)// &
-      " samples of the turn and order "//to_string(choice%order)// &
-      "; the nearest exponent of the turn is "//in_words(found%nearest))
+    if (choice%work > most_work) choice%pending = .false.
+    if (.not. choice%pending) call settle(choice, found)
+
+  contains
+
+    !> Work of a solution.
+    pure function work_of(grid, done) result(work)
+      type(turn_grid_t), intent(in) :: grid
+      type(solution_t), intent(in) :: done
+      integer(long) :: work
+
+      work = int(grid%samples, long)*(int(done%applications, long)*grid%unknowns + &
+        int(choice%slow, long)**3)
+    end function work_of
+
+    !> What remains of the iterations is to be below this.
+    pure function tolerance_of(share) result(tolerance)
+      real(wp), intent(in) :: share !! of the accuracy
+      real(wp) :: tolerance
+
+      tolerance = max(share*merge(1.0e-2_wp, 1.0_wp, choice%tightened)*request%accuracy, &
+        least_remainder)
+    end function tolerance_of
+
+    !> Whether the iterations have not got on, and more slow coordinates may help.
+    pure function is_stuck(found_there, share) result(yes)
+      type(solution_t), intent(in) :: found_there
+      real(wp), intent(in) :: share
+      logical :: yes
+
+      yes = .not. choice%more_slow .and. found_there%remainder > max(tolerance_of(share), stuck)
+    end function is_stuck
+
+    !> The next choice after a result that is not accurate enough.
+    subroutine improve
+      logical :: gained
+
+      gained = found%largest_error <= least_gain*choice%error
+      choice%idle = merge(0, choice%idle + 1, gained .or. found%largest_error > may_be_rounding)
+      if (found%largest_error < choice%error) then
+        choice%error = found%largest_error
+        choice%best = found
+      end if
+      if (choice%idle >= most_idle) return
+      if (max(solution%remainder, many*better%remainder) > 0.5_wp*request%accuracy) then
+        ! Either rounding leaves no more digits, or harmonics left out hinder the iterations.
+        if (better%remainder > unfinished) call raise_samples(choice)
+      else if (rounding/found%distance > request%accuracy) then
+        deallocate (choice%best)
+        call set_error(found%error, error_of_numerics, "resonance: an exponent of the turn, "// &
+          in_words(found%nearest)//", is too near to 0 for the accuracy asked for")
+      else
+        call raise(request%accuracy, found%largest_error, gained, errors, solution%series, choice)
+      end if
+    end subroutine improve
+
   end subroutine solve_speed
+
+  !> The last word on a speed: the best result, unless it has no digits at all.
+  subroutine settle(choice, found)
+    type(choice_t), intent(inout) :: choice
+    type(speed_response_t), intent(inout) :: found
+
+    integer(long) :: applications
+
+    applications = found%applications
+    if (allocated(choice%best)) then
+      if (allocated(found%error) .or. found%largest_error > choice%best%largest_error) found = &
+        choice%best
+      found%applications = applications
+      deallocate (choice%best)
+    end if
+    if (allocated(found%error) .or. found%largest_error <= no_digits) return
+    call set_error(found%error, error_of_numerics, "no accuracy is reached with "// &
+      to_string(found%samples)//" samples of the turn and order "//to_string(found%order)// &
+      "; the nearest exponent of the turn is "//in_words(found%nearest))
+  end subroutine settle
 
   !> Raises the samples, up to their limit.
   pure subroutine raise_samples(choice)
@@ -496,8 +593,9 @@ contains
 
   !> Raises the samples if the errors of the series that are not accurate enough come from harmonics
   !! left out, else the orders.
-  pure subroutine raise(accuracy, largest_error, errors, series, choice)
+  pure subroutine raise(accuracy, largest_error, gained, errors, series, choice)
     real(wp), intent(in) :: accuracy, largest_error
+    logical, intent(in) :: gained        !! much by what was raised before
     real(wp), intent(in) :: errors(:)    !! (series)
     real(wp), intent(in) :: series(:, :) !! coefficients
     type(choice_t), intent(inout) :: choice
@@ -527,15 +625,11 @@ contains
     if (choice%round > most_rounds) return
     choice%pending = .true.
     ! Higher orders that gain nothing show that the iterations or harmonics are to blame.
-    if (choice%raised_order .and. largest_error > 0.5_wp*choice%error) then
+    if (choice%raised_order .and. .not. gained) then
       order = .false.
-      if (choice%tightened) then
-        next = max(next, n + 1)
-      else
-        choice%tightened = .true.
-      end if
+      choice%tightened = .true.
+      next = max(next, n + 1)
     end if
-    choice%error = largest_error
     choice%raised_order = order
     if (next > n) then
       if (choice%at + 1 == size(sample_numbers)) choice%pending = .false.

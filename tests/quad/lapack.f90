@@ -1,14 +1,15 @@
 !> The routines of LAPACK that the program calls, in the kind of the quadruple-precision build: in place of src/eigen/lapack.f90.
-!! ARPACK has no counterpart: SOLVER band does not converge in this build.
+!! ARPACK has no counterpart: SOLVER band does not converge in this build. Nor have multipliers: no elastic response, whose Fourier
+!! transforms are in double precision anyway.
 module lapack
   use kinds, only: wp
   use symmetric_eigensolver, only: solve_generalized
   implicit none (type, external)
   private
 
-  public :: dsygvx, dpbtrf, dpbtrs, dsaupd, dseupd
+  public :: dsygvx, dpbtrf, dpbtrs, dgetf2, dgetrf, dgetrs, dgeev, dsaupd, dseupd
 
-  integer, parameter :: not_available = -1 !! a value of ARPACK's info that says that it has failed
+  integer, parameter :: not_available = -1 !! a value of info that says that a routine has failed
 
 contains
 
@@ -92,6 +93,86 @@ contains
       end do
     end do
   end subroutine dpbtrs
+
+  !> `P A = L U`, the rows exchanged for the largest pivots.
+  pure subroutine dgetf2(m, n, a, lda, ipiv, info)
+    integer, intent(in) :: m, n, lda
+    real(wp), intent(inout) :: a(lda, *)
+    integer, intent(out) :: ipiv(*), info
+
+    integer :: j, k
+
+    info = 0
+    do k = 1, min(m, n)
+      ipiv(k) = k - 1 + maxloc(abs(a(k:m, k)), dim=1)
+      if (.not. abs(a(ipiv(k), k)) > 0.0_wp) then
+        if (info == 0) info = k
+        cycle
+      end if
+      a([k, ipiv(k)], :n) = a([ipiv(k), k], :n)
+      a(k + 1:m, k) = a(k + 1:m, k)/a(k, k)
+      do j = k + 1, n
+        a(k + 1:m, j) = a(k + 1:m, j) - a(k, j)*a(k + 1:m, k)
+      end do
+    end do
+  end subroutine dgetf2
+
+  !> The same.
+  pure subroutine dgetrf(m, n, a, lda, ipiv, info)
+    integer, intent(in) :: m, n, lda
+    real(wp), intent(inout) :: a(lda, *)
+    integer, intent(out) :: ipiv(*), info
+
+    call dgetf2(m, n, a, lda, ipiv, info)
+  end subroutine dgetrf
+
+  !> Solves `A X = B` or `Aᵀ X = B` with these factors.
+  pure subroutine dgetrs(trans, n, nrhs, a, lda, ipiv, b, ldb, info)
+    character(len=1), intent(in) :: trans
+    integer, intent(in) :: n, nrhs, lda, ldb, ipiv(*)
+    real(wp), intent(in) :: a(lda, *)
+    real(wp), intent(inout) :: b(ldb, *)
+    integer, intent(out) :: info
+
+    integer :: i, k
+
+    info = 0
+    if (trans == "N") then
+      do k = 1, n
+        if (ipiv(k) /= k) b([k, ipiv(k)], :nrhs) = b([ipiv(k), k], :nrhs)
+      end do
+      do i = 1, nrhs
+        do k = 1, n
+          b(k + 1:n, i) = b(k + 1:n, i) - b(k, i)*a(k + 1:n, k)
+        end do
+        do k = n, 1, -1
+          b(k, i) = b(k, i)/a(k, k)
+          b(:k - 1, i) = b(:k - 1, i) - b(k, i)*a(:k - 1, k)
+        end do
+      end do
+    else
+      do i = 1, nrhs
+        do k = 1, n
+          b(k, i) = (b(k, i) - dot_product(a(:k - 1, k), b(:k - 1, i)))/a(k, k)
+        end do
+        do k = n, 1, -1
+          b(k, i) = b(k, i) - dot_product(a(k + 1:n, k), b(k + 1:n, i))
+        end do
+      end do
+      do k = n, 1, -1
+        if (ipiv(k) /= k) b([k, ipiv(k)], :nrhs) = b([ipiv(k), k], :nrhs)
+      end do
+    end if
+  end subroutine dgetrs
+
+  subroutine dgeev(jobvl, jobvr, n, a, lda, wr, wi, vl, ldvl, vr, ldvr, work, lwork, info)
+    character(len=1), intent(in) :: jobvl, jobvr
+    integer, intent(in) :: n, lda, ldvl, ldvr, lwork
+    real(wp), intent(inout) :: a(lda, *), wr(*), wi(*), vl(ldvl, *), vr(ldvr, *), work(*)
+    integer, intent(out) :: info
+
+    info = not_available
+  end subroutine dgeev
 
   subroutine dsaupd(ido, bmat, n, which, nev, tol, resid, ncv, v, ldv, iparam, ipntr, workd, workl, lworkl, info)
     integer, intent(inout) :: ido, info
