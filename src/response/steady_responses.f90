@@ -103,8 +103,10 @@ module steady_responses
   !! applications of the equation, and samples × slow coordinates³.
   integer(long), parameter :: most_work = 40000000_long
 
-  !> Free motions that grow by more than this in a turn leave no digits of a periodic one.
+  !> Free motions that grow by more than this in a turn leave no digits of a periodic one; with so
+  !! many times raised samples they are believed.
   real(wp), parameter :: most_growth = 1.0e12_wp
+  integer, parameter :: enough_rounds = 3
 
   !> The highest eighth of the harmonics of a series may have this share of the accuracy; they are
   !! taken to fall at least this fast.
@@ -496,7 +498,9 @@ contains
     call close_fourier(above_plan)
     call close_fourier(plan)
     if (allocated(found%error)) then
-      if (maxval(abs(motion%monodromy)) <= most_growth) call raise_samples(choice)
+      ! More slow coordinates than these may not grow so.
+      if (maxval(abs(motion%monodromy)) <= most_growth .or. choice%round < enough_rounds) &
+        call raise_samples(choice)
     else if (.not. allocated(errors)) then
       ! Once more, with more slow coordinates.
       choice%more_slow = .true.
@@ -552,7 +556,7 @@ contains
         ! Either rounding leaves no more digits, or harmonics left out hinder the iterations.
         if (better%remainder > unfinished) call raise_samples(choice)
       else if (rounding/found%distance > request%accuracy) then
-        deallocate (choice%best)
+        if (allocated(choice%best)) deallocate (choice%best)
         call set_error(found%error, error_of_numerics, "resonance: an exponent of the turn, "// &
           in_words(found%nearest)//", is too near to 0 for the accuracy asked for")
       else
@@ -727,7 +731,8 @@ contains
     do i = 1, n
       errors(i) = safety*maxval(abs(values(:, i) - fine(:, i)))/scale(i)
     end do
-    extra = many*better%remainder + rounding/found%distance
+    ! How far the iterations came below their tolerance is chance.
+    extra = many*max(better%remainder, compared_to*request%accuracy) + rounding/found%distance
     allocate (at_position(n, size(request%crank)))
     ! Whole turns make no difference, to the last digit.
     do k = 1, size(request%crank)
