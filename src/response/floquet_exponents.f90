@@ -25,6 +25,8 @@ module floquet_exponents
   !! in a few rounds, far enough to leave them regular.
   real(wp), parameter :: shift = 1.0e-3_wp
 
+  !> They are given up where the exponent moves away by so much.
+  real(wp), parameter :: lost = 100.0_wp
   integer, parameter :: most_rounds = 12, most_products = 40
 
   !> Exponents change by no more than this in the last round; where only the nearness of resonance
@@ -200,6 +202,7 @@ contains
       mode%exponent = before + step
       mode%change = abs(step)
       if (mode%change <= tolerance) return
+      if (.not. mode%change < lost*(1.0_wp + abs(fixed))) return
     end do
 
   contains

@@ -435,8 +435,8 @@ contains
     do k = 2, n
       motion%monodromy = matmul(motion%transfer(:, :, k), motion%monodromy)
       if (maxval(abs(motion%monodromy)) > most_growth) then
-        call set_error(error, error_of_numerics, "the motion is unstable: disturbances grow by a "// &
-          "factor of more than 1e100 in a turn")
+        call set_error(error, error_of_numerics, "the motion is unstable: disturbances grow "// &
+          "by a factor of more than 1e100 in a turn")
         return
       end if
     end do

@@ -89,7 +89,7 @@ response_figures() {
 }
 
 response_animation() {
-  drawn response animations deformed_linkage && gif response/animations/deformed_linkage.gif 72
+  drawn response animations deformed_linkage && gif response/animations/deformed_linkage.gif 90
 }
 
 # Drawn links begin and end at their pins, displaced as in the table times the factor that the figure states, and turned likewise.

@@ -27,7 +27,8 @@ contains
     end do
   end function products_of_rows
 
-  !> `Σ a(i, j) b(i, j)` over all: a sum for every row first, since one sum for all waits for itself.
+  !> `Σ a(i, j) b(i, j)` over all: a sum for every row first, since one sum for all waits for
+  !! itself.
   pure function sum_of_products(a, b) result(total)
     real(wp), intent(in) :: a(:, :), b(:, :) !! of one shape
     real(wp) :: total
