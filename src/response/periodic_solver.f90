@@ -7,7 +7,7 @@
 module periodic_solver
   use elastic_equations, only: apply_equation, elastic_terms_t
   use errors, only: error_of_numerics, error_t, set_error
-  use fourier_transform, only: coefficients_of, fourier_plan_t, resampled, values_of
+  use fourier_transform, only: coefficients_of, fourier_plan_t, values_of
   use kinds, only: wp
   use minimal_residuals, only: add_combination, add_product, minimal_residual_t, start_residual
   use row_products, only: products_of_rows
@@ -35,12 +35,11 @@ contains
   !> Solves the equation for a load, from a start.
   !!
   !! Errors: the iterations do not converge at all.
-  subroutine solve_periodic(grid, plan, basis, motion_plan, motion, speed, damping, terms, load, &
+  subroutine solve_periodic(grid, plan, basis, motion, speed, damping, terms, load, &
     tolerance, y, iterations, remainder, error)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan    !! for its samples
     type(slow_basis_t), intent(in) :: basis     !! of this grid
-    type(fourier_plan_t), intent(in) :: motion_plan !! for the steps of the slow motion
     type(slow_motion_t), intent(in) :: motion   !! at this speed, of as many coordinates
     real(wp), intent(in) :: speed               !! ω2 [rad/s]
     real(wp), intent(in) :: damping(:)          !! (unknowns) c [s]
@@ -64,7 +63,7 @@ contains
       iterations = iterations + 1
       call apply_equation(grid, plan, speed, damping, terms, y, product)
       residual = load - product
-      call approximate_solution(plan, basis, motion_plan, motion, speed, damping, residual, &
+      call approximate_solution(plan, basis, motion, speed, damping, residual, &
         correction)
       length = norm2(y + correction)
       if (.not. length <= huge(1.0_wp)) exit
@@ -79,7 +78,7 @@ contains
         call apply_equation(grid, plan, speed, damping, terms, &
           problem%vector(:, :, problem%last), product)
         iterations = iterations + 1
-        call approximate_solution(plan, basis, motion_plan, motion, speed, damping, product, &
+        call approximate_solution(plan, basis, motion, speed, damping, product, &
           correction)
         call add_product(problem, correction)
       end do
@@ -92,23 +91,18 @@ contains
   end subroutine solve_periodic
 
   !> An approximate solution: the slow motion, and the rest by its diagonal.
-  subroutine approximate_solution(plan, basis, motion_plan, motion, speed, damping, load, y)
+  subroutine approximate_solution(plan, basis, motion, speed, damping, load, y)
     type(fourier_plan_t), intent(in) :: plan        !! for the samples
     type(slow_basis_t), intent(in) :: basis         !! of these samples
-    type(fourier_plan_t), intent(in) :: motion_plan !! for the steps of the slow motion
     type(slow_motion_t), intent(in) :: motion       !! at this speed
     real(wp), intent(in) :: speed, damping(:)       !! as for `solve_periodic`
     real(wp), intent(in) :: load(:, :)              !! (samples, unknowns)
     real(wp), intent(out) :: y(:, :)                !! (samples, unknowns)
 
     real(wp) :: part(size(load, 1), basis%number), z(size(load, 1), basis%number)
-    real(wp) :: slow_load(motion_plan%samples, basis%number), slow(motion_plan%samples, &
-      basis%number)
 
     call slow_part(basis, load, part)
-    call resample_samples(plan, motion_plan, part/speed**2, slow_load)
-    call solve_slow(motion_plan, motion, slow_load, slow)
-    call resample_samples(motion_plan, plan, slow, z)
+    call solve_slow(plan, motion, part/speed**2, z)
     call complete_solution(plan, basis, speed, damping, load, part, z, y)
   end subroutine approximate_solution
 
@@ -176,23 +170,6 @@ contains
       part(:, i) = products_of_rows(basis%shape(:, :, i), f)
     end do
   end subroutine slow_part
-
-  !> Samples of the same functions at another number of crank angles.
-  subroutine resample_samples(plan, to_plan, samples, other)
-    type(fourier_plan_t), intent(in) :: plan, to_plan
-    real(wp), intent(in) :: samples(:, :)
-    real(wp), intent(out) :: other(:, :)
-
-    real(wp) :: coefficients(size(samples, 1), size(samples, 2))
-
-    other = 0.0_wp
-    if (plan%samples == to_plan%samples) then
-      other = samples
-    else
-      call coefficients_of(plan, samples, coefficients)
-      call values_of(to_plan, resampled(coefficients, to_plan%samples), other)
-    end if
-  end subroutine resample_samples
 
   !> Divides every harmonic of every unknown by `1 − ω² j² s + i ω j c`.
   pure subroutine divide_by_diagonal(square, speed, damping, coefficients)

@@ -34,13 +34,12 @@ contains
   !!
   !! Without a result: deformed so much, the linkage cannot be closed, or the iterations do not
   !! converge.
-  subroutine find_quadratic_change(linkage, grid, plan, basis, motion_plan, motion, request, &
+  subroutine find_quadratic_change(linkage, grid, plan, basis, motion, request, &
     speed, damping, y, change)
     type(linkage_t), intent(in) :: linkage          !! of the grid
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan        !! for its samples
     type(slow_basis_t), intent(in) :: basis         !! of this grid
-    type(fourier_plan_t), intent(in) :: motion_plan !! for the steps of the slow motion
     type(slow_motion_t), intent(in) :: motion       !! at this speed
     type(response_request_t), intent(in) :: request !! terms, sections
     real(wp), intent(in) :: speed                   !! ω2 [rad/s]
@@ -58,7 +57,7 @@ contains
     call find_unbalanced_forces(linkage, grid, plan, speed, y, load, error)
     if (allocated(error) .or. .not. all(abs(load) < huge(1.0_wp))) return
     step = 0.0_wp
-    call solve_periodic(grid, plan, basis, motion_plan, motion, speed, damping, request%terms, &
+    call solve_periodic(grid, plan, basis, motion, speed, damping, request%terms, &
       load, tolerance, step, applications, remainder, error)
     if (allocated(error)) return
     allocate (change(size(linkage%bodies)))

@@ -391,9 +391,8 @@ contains
   !> Steps of the collocation at a speed, as many as samples.
   !!
   !! Errors: a multiplier of the slow motion is 1 (resonance), or its growth in a turn overflows.
-  subroutine new_slow_motion(steps, plan, basis, speed, stages, motion, error)
-    integer, intent(in) :: steps             !! as many as samples
-    type(fourier_plan_t), intent(in) :: plan !! for these
+  subroutine new_slow_motion(plan, basis, speed, stages, motion, error)
+    type(fourier_plan_t), intent(in) :: plan !! for its samples
     type(slow_basis_t), intent(in) :: basis
     real(wp), intent(in) :: speed !! ω2 [rad/s]
     integer, intent(in) :: stages !! of a step
@@ -403,7 +402,7 @@ contains
     real(wp), allocatable :: at_stage(:, :, :, :), total(:, :, :), values(:, :)
     integer :: i, k, m, n, c, info
 
-    n = steps
+    n = plan%samples
     m = basis%number
     motion%number = m
     motion%steps = n

@@ -149,8 +149,7 @@ module steady_responses
     integer :: slow = 0           !! slow coordinates
     logical :: backwards = .false. !! the crank turns clockwise
     logical :: more_slow = .false. !! slow coordinates as `least_a_period` has them
-    real(wp) :: error = huge(1.0_wp) !! smallest so far
-    type(speed_response_t), allocatable :: best !! with that error
+    type(speed_response_t), allocatable :: best !! result with the smallest error so far
     integer :: idle = 0           !! times that raising has gained little, one after another
     integer(long) :: work = 0_long !! so far, in the units of `most_work`
     logical :: raised_order = .false. !! last time
@@ -457,7 +456,7 @@ contains
     choice%pending = .false.
     attempt: block
       associate (basis => level%basis(choice%slow), above_basis => above%basis(choice%slow))
-        call new_slow_motion(level%grid%samples, plan, basis, speed, stages, motion, found%error)
+        call new_slow_motion(plan, basis, speed, stages, motion, found%error)
         if (allocated(found%error)) exit attempt
         if (.not. maxval(abs(motion%monodromy)) <= most_growth) then
           ! Fewer slow coordinates may grow where more do not.
@@ -468,17 +467,17 @@ contains
         end if
         allocate (solution%y(level%grid%samples, level%grid%unknowns))
         solution%y = 0.0_wp
-        call solve_level(request, speed, level%grid, plan, basis, plan, motion, &
+        call solve_level(request, speed, level%grid, plan, basis, motion, &
           tolerance_of(solved_to), solution, found%error)
         if (allocated(found%error)) exit attempt
         if (is_stuck(solution, solved_to)) exit attempt
         call transferred(level%grid, plan, above%grid, above_plan, solution%y, better%y)
         ! Its own slow motion: that of the first has no harmonics beyond its samples.
-        call new_slow_motion(above%grid%samples, above_plan, above_basis, speed, stages, &
+        call new_slow_motion(above_plan, above_basis, speed, stages, &
           above_motion, found%error)
         if (allocated(found%error)) exit attempt
-        call solve_level(request, speed, above%grid, above_plan, above_basis, above_plan, &
-          above_motion, tolerance_of(compared_to), better, found%error)
+        call solve_level(request, speed, above%grid, above_plan, above_basis, above_motion, &
+          tolerance_of(compared_to), better, found%error)
         if (allocated(found%error)) exit attempt
         if (is_stuck(better, compared_to)) exit attempt
       end associate
@@ -490,7 +489,7 @@ contains
       call evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
         found, errors)
       if (request%validity) call find_quadratic_change(structure%linkage, level%grid, plan, &
-        level%basis(choice%slow), plan, motion, request, speed, damping_of(request, level%grid), &
+        level%basis(choice%slow), motion, request, speed, damping_of(request, level%grid), &
         solution%y, found%quadratic_change)
     end block attempt
     found%applications = before + solution%applications + better%applications
@@ -543,14 +542,14 @@ contains
 
     !> The next choice after a result that is not accurate enough.
     subroutine improve
+      real(wp) :: smallest
       logical :: gained
 
-      gained = found%largest_error <= least_gain*choice%error
+      smallest = huge(1.0_wp)
+      if (allocated(choice%best)) smallest = choice%best%largest_error
+      gained = found%largest_error <= least_gain*smallest
       choice%idle = merge(0, choice%idle + 1, gained .or. found%largest_error > may_be_rounding)
-      if (found%largest_error < choice%error) then
-        choice%error = found%largest_error
-        choice%best = found
-      end if
+      if (found%largest_error < smallest) choice%best = found
       if (choice%idle >= most_idle) return
       if (max(solution%remainder, many*better%remainder) > 0.5_wp*request%accuracy) then
         ! Either rounding leaves no more digits, or harmonics left out hinder the iterations.
@@ -661,14 +660,13 @@ contains
   end subroutine clear
 
   !> The periodic motion on one level, and its series.
-  subroutine solve_level(request, speed, grid, plan, basis, motion_plan, motion, tolerance, &
+  subroutine solve_level(request, speed, grid, plan, basis, motion, tolerance, &
     solution, error)
     type(response_request_t), intent(in) :: request
     real(wp), intent(in) :: speed
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan        !! for its samples
     type(slow_basis_t), intent(in) :: basis         !! of this grid
-    type(fourier_plan_t), intent(in) :: motion_plan !! for the steps of the slow motion
     type(slow_motion_t), intent(in) :: motion
     real(wp), intent(in) :: tolerance
     type(solution_t), intent(inout) :: solution     !! with a start
@@ -676,7 +674,7 @@ contains
 
     real(wp), allocatable :: series(:, :)
 
-    call solve_periodic(grid, plan, basis, motion_plan, motion, speed, damping_of(request, grid), &
+    call solve_periodic(grid, plan, basis, motion, speed, damping_of(request, grid), &
       request%terms, load_at_speed(grid, speed), tolerance, solution%y, solution%applications, &
       solution%remainder, error)
     if (allocated(error)) return

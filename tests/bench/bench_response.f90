@@ -519,7 +519,7 @@ contains
         call add_time(2)
         if (above == 0) then
           call start_watch(watch)
-          call new_slow_motion(samples, plan, basis, request%speed(1), 3, motion, error)
+          call new_slow_motion(plan, basis, request%speed(1), 3, motion, error)
           if (allocated(error)) return
           call add_time(3)
         else
@@ -532,7 +532,7 @@ contains
         call add_time(4)
         if (above == 0) then
           call start_watch(watch)
-          call approximate_solution(plan, basis, plan, motion, request%speed(1), damping, force, y)
+          call approximate_solution(plan, basis, motion, request%speed(1), damping, force, y)
           call add_time(5)
         else
           least(5) = 0.0_wp

@@ -233,8 +233,8 @@ contains
     remainder = 0.0_wp
     call open_fourier(grid%samples, plan)
     call new_slow_basis(grid, plan, plan, slow, damping, basis, error)
-    if (.not. allocated(error)) call new_slow_motion(grid%samples, plan, basis, speed, 3, motion, error)
-    if (.not. allocated(error)) call solve_periodic(grid, plan, basis, plan, motion, speed, damping, terms, &
+    if (.not. allocated(error)) call new_slow_motion(plan, basis, speed, 3, motion, error)
+    if (.not. allocated(error)) call solve_periodic(grid, plan, basis, motion, speed, damping, terms, &
       load_at_speed(grid, speed), 1.0e-13_wp, y, iterations, remainder, error)
     call close_fourier(plan)
   end subroutine steady_motion
