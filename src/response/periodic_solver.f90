@@ -36,7 +36,7 @@ contains
   !!
   !! Errors: the iterations do not converge at all.
   subroutine solve_periodic(grid, plan, basis, motion, speed, damping, terms, load, &
-    tolerance, y, iterations, remainder, error)
+    tolerance, y, iterations, remainder, error, last_change)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan    !! for its samples
     type(slow_basis_t), intent(in) :: basis     !! of this grid
@@ -51,14 +51,20 @@ contains
     integer, intent(out) :: iterations          !! applications of the equation
     real(wp), intent(out) :: remainder          !! estimated error, relative to y
     type(error_t), allocatable, intent(out) :: error
+    real(wp), allocatable, intent(out), optional :: last_change(:, :) !! (samples, unknowns) last
+                                                !! correction, from the residual of y: y lacks some
+                                                !! times this at most
 
     type(minimal_residual_t) :: problem
     real(wp), allocatable :: residual(:, :), correction(:, :), product(:, :)
     real(wp) :: limit, length
     integer :: round
+    logical :: exhausted
 
     allocate (residual, correction, product, mold=y)
     iterations = 0
+    remainder = huge(1.0_wp)
+    exhausted = .false.
     do round = 1, most_rounds
       iterations = iterations + 1
       call apply_equation(grid, plan, speed, damping, terms, y, product)
@@ -66,12 +72,12 @@ contains
       call approximate_solution(plan, basis, motion, speed, damping, residual, &
         correction)
       length = norm2(y + correction)
-      if (.not. length <= huge(1.0_wp)) exit
-      remainder = norm2(correction)/max(length, tiny(1.0_wp))
-      if (remainder <= tolerance .or. round == most_rounds) then
-        y = y + correction
+      if (.not. length <= huge(1.0_wp)) then
+        remainder = huge(1.0_wp)
         exit
       end if
+      remainder = norm2(correction)/max(length, tiny(1.0_wp))
+      if (remainder <= tolerance .or. round == most_rounds .or. exhausted) exit
       limit = 0.5_wp*tolerance*length
       call start_residual(correction, most_iterations, problem)
       do while (problem%last <= most_iterations .and. problem%residual > limit)
@@ -83,11 +89,15 @@ contains
         call add_product(problem, correction)
       end do
       call add_combination(problem, y)
-      remainder = problem%residual/max(norm2(y), tiny(1.0_wp))
-      if (problem%last > most_iterations) exit
+      exhausted = problem%last > most_iterations
     end do
-    if (.not. length <= huge(1.0_wp) .or. remainder > no_solution) call set_error(error, &
-      error_of_numerics, "the iterations for the periodic motion do not converge")
+    if (remainder > no_solution) then
+      call set_error(error, error_of_numerics, &
+        "the iterations for the periodic motion do not converge")
+      return
+    end if
+    y = y + correction
+    if (present(last_change)) call move_alloc(correction, last_change)
   end subroutine solve_periodic
 
   !> An approximate solution: the slow motion, and the rest by its diagonal.

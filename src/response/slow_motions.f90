@@ -19,6 +19,7 @@ module slow_motions
   use load_cases, only: constant_case
   use row_products, only: products_of_rows
   use sorting, only: ascending_order
+  use text, only: to_string
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
@@ -30,8 +31,9 @@ module slow_motions
   !! frequencies each time.
   integer, parameter :: iterations = 3
 
-  !> Growth of a disturbance in a turn beyond which nothing is computed: before numbers overflow.
-  real(wp), parameter :: most_growth = 1.0e100_wp
+  !> Free motions that grow by more than this in a turn leave no digits of a periodic one; within
+  !! the turn they may grow until numbers nearly overflow.
+  real(wp), parameter :: most_growth = 1.0e12_wp, near_overflow = 1.0e100_wp
 
   !> The slow coordinates over the turn, for any speed.
   type :: slow_basis_t
@@ -60,6 +62,7 @@ module slow_motions
     real(wp), allocatable :: response(:, :, :) !! (2 number, number × stages, steps) to loads at the
                                                !! stages
     real(wp), allocatable :: monodromy(:, :)   !! (2 number, 2 number) over the turn
+    logical :: grows = .false.                 !! too much in a turn
     real(wp), allocatable :: factor(:, :)      !! of `1 − monodromy`
     integer, allocatable :: pivot(:)
   end type slow_motion_t
@@ -390,7 +393,8 @@ contains
 
   !> Steps of the collocation at a speed, as many as samples.
   !!
-  !! Errors: a multiplier of the slow motion is 1 (resonance), or its growth in a turn overflows.
+  !! Errors: a multiplier of the slow motion is 1 (resonance); it grows too much in a turn, and the
+  !! monodromy matrix is not finished.
   subroutine new_slow_motion(plan, basis, speed, stages, motion, error)
     type(fourier_plan_t), intent(in) :: plan !! for its samples
     type(slow_basis_t), intent(in) :: basis
@@ -433,11 +437,12 @@ contains
     motion%monodromy = motion%transfer(:, :, 1)
     do k = 2, n
       motion%monodromy = matmul(motion%transfer(:, :, k), motion%monodromy)
-      if (maxval(abs(motion%monodromy)) > most_growth) then
-        call set_error(error, error_of_numerics, "the motion is unstable: disturbances grow "// &
-          "by a factor of more than 1e100 in a turn")
-        return
-      end if
+      motion%grows = .not. maxval(abs(motion%monodromy)) <= merge(most_growth, near_overflow, &
+        k == n)
+      if (.not. motion%grows) cycle
+      call set_error(error, error_of_numerics, "the linkage is unstable: its free vibrations "// &
+        "grow by a factor above 10^"//to_string(nint(log10(most_growth)))//" in a turn")
+      return
     end do
     motion%factor = -motion%monodromy
     do i = 1, 2*m

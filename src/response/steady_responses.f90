@@ -46,8 +46,8 @@ module steady_responses
   !! bending of the links loads them along their axes: both converge together.
   integer, parameter :: along_below = 4, least_along = 4
 
-  !> The remainder of the second solution in a quantity of its own, at most so many times that in
-  !! all.
+  !> The second solution lacks at most so many times its last change; and in a quantity of its own
+  !! so many times what it lacks in all.
   real(wp), parameter :: many = 10.0_wp
 
   !> Remainders above this are none of rounding.
@@ -90,6 +90,9 @@ module steady_responses
   real(wp), parameter :: solved_to = 1.0e-3_wp, compared_to = 1.0e-5_wp, &
     least_remainder = 1.0e-14_wp
 
+  !> They are as for this accuracy where that asked for is coarser.
+  real(wp), parameter :: coarsest_iterations = 1.0e-4_wp
+
   !> Iterations that stop above their tolerance and this have not got on: rounding is far below. A
   !! remainder says little of quantities that high harmonics or a link that bends little make up.
   real(wp), parameter :: stuck = 1.0e-11_wp
@@ -103,9 +106,7 @@ module steady_responses
   !! applications of the equation, and samples × slow coordinates³.
   integer(long), parameter :: most_work = 40000000_long
 
-  !> Free motions that grow by more than this in a turn leave no digits of a periodic one; with so
-  !! many times raised samples they are believed.
-  real(wp), parameter :: most_growth = 1.0e12_wp
+  !> Slow motions that grow too much are believed with so many times raised samples.
   integer, parameter :: enough_rounds = 3
 
   !> The highest eighth of the harmonics of a series may have this share of the accuracy; they are
@@ -161,6 +162,7 @@ module steady_responses
   !> One solution at a speed.
   type :: solution_t
     real(wp), allocatable :: y(:, :)      !! (samples, unknowns)
+    real(wp), allocatable :: last_change(:, :) !! of y, by the iterations
     real(wp), allocatable :: series(:, :) !! coefficients of the series
     integer :: applications = 0
     real(wp) :: remainder = 0.0_wp
@@ -457,14 +459,12 @@ contains
     attempt: block
       associate (basis => level%basis(choice%slow), above_basis => above%basis(choice%slow))
         call new_slow_motion(plan, basis, speed, stages, motion, found%error)
-        if (allocated(found%error)) exit attempt
-        if (.not. maxval(abs(motion%monodromy)) <= most_growth) then
+        if (motion%grows .and. .not. choice%more_slow) then
           ! Fewer slow coordinates may grow where more do not.
-          if (choice%more_slow) call set_error(found%error, error_of_numerics, &
-            "the linkage is unstable: its free vibrations grow by a factor above 10^"// &
-            to_string(nint(log10(most_growth)))//" in a turn")
+          deallocate (found%error)
           exit attempt
         end if
+        if (allocated(found%error)) exit attempt
         allocate (solution%y(level%grid%samples, level%grid%unknowns))
         solution%y = 0.0_wp
         call solve_level(request, speed, level%grid, plan, basis, motion, &
@@ -497,9 +497,7 @@ contains
     call close_fourier(above_plan)
     call close_fourier(plan)
     if (allocated(found%error)) then
-      ! More slow coordinates than these may not grow so.
-      if (maxval(abs(motion%monodromy)) <= most_growth .or. choice%round < enough_rounds) &
-        call raise_samples(choice)
+      if (.not. motion%grows .or. choice%round < enough_rounds) call raise_samples(choice)
     else if (.not. allocated(errors)) then
       ! Once more, with more slow coordinates.
       choice%more_slow = .true.
@@ -527,8 +525,8 @@ contains
       real(wp), intent(in) :: share !! of the accuracy
       real(wp) :: tolerance
 
-      tolerance = max(share*merge(1.0e-2_wp, 1.0_wp, choice%tightened)*request%accuracy, &
-        least_remainder)
+      tolerance = max(share*merge(1.0e-2_wp, 1.0_wp, choice%tightened)* &
+        min(request%accuracy, coarsest_iterations), least_remainder)
     end function tolerance_of
 
     !> Whether the iterations have not got on, and more slow coordinates may help.
@@ -675,8 +673,8 @@ contains
     real(wp), allocatable :: series(:, :)
 
     call solve_periodic(grid, plan, basis, motion, speed, damping_of(request, grid), &
-      request%terms, load_at_speed(grid, speed), tolerance, solution%y, solution%applications, &
-      solution%remainder, error)
+      request%terms, load_at_speed(grid, speed), tolerance, solution%y, &
+      solution%applications, solution%remainder, error, solution%last_change)
     if (allocated(error)) return
     allocate (series(grid%samples, series_count(request)), solution%series(grid%samples, &
       series_count(request)))
@@ -717,20 +715,27 @@ contains
     type(speed_response_t), intent(inout) :: found
     real(wp), allocatable, intent(out) :: errors(:) !! (series)
 
-    real(wp), allocatable :: values(:, :), fine(:, :), at_position(:, :), scale(:)
+    real(wp), allocatable :: values(:, :), fine(:, :), before(:, :), at_position(:, :), scale(:)
     real(wp) :: extra
     integer :: i, k, first, n
 
     n = size(solution%series, 2)
-    allocate (values(above%grid%samples, n), fine(above%grid%samples, n), errors(n))
+    allocate (values(above%grid%samples, n), fine(above%grid%samples, n), &
+      before(above%grid%samples, n), errors(n))
     call values_of(above_plan, resampled(solution%series, above%grid%samples), values)
     call values_of(above_plan, better%series, fine)
+    ! What the iterations leave in both, one starts from the other, is in no difference: slow
+    ! motions near resonance may lack many times the last change.
+    call response_series_of(above%grid, above_plan, request, speed, better%y - &
+      better%last_change, before)
     call find_scales
     do i = 1, n
-      errors(i) = safety*maxval(abs(values(:, i) - fine(:, i)))/scale(i)
+      errors(i) = (safety*maxval(abs(values(:, i) - fine(:, i))) + many*maxval(abs(before(:, i) - &
+        fine(:, i))))/scale(i)
     end do
     ! How far the iterations came below their tolerance is chance.
-    extra = many*max(better%remainder, compared_to*request%accuracy) + rounding/found%distance
+    extra = many*max(better%remainder, compared_to*min(request%accuracy, coarsest_iterations)) + &
+      rounding/found%distance
     allocate (at_position(n, size(request%crank)))
     ! Whole turns make no difference, to the last digit.
     do k = 1, size(request%crank)
