@@ -450,6 +450,7 @@ contains
     type(solution_t) :: solution, better
     real(wp), allocatable :: errors(:)
     integer(long) :: before
+    logical :: more_slow
 
     before = found%applications
     call clear(found)
@@ -459,18 +460,16 @@ contains
     attempt: block
       associate (basis => level%basis(choice%slow), above_basis => above%basis(choice%slow))
         call new_slow_motion(plan, basis, speed, stages, motion, found%error)
-        if (motion%grows .and. .not. choice%more_slow) then
-          ! Fewer slow coordinates may grow where more do not.
-          deallocate (found%error)
-          exit attempt
-        end if
+        ! Fewer slow coordinates may grow where more do not.
+        more_slow = motion%grows .and. .not. choice%more_slow
         if (allocated(found%error)) exit attempt
         allocate (solution%y(level%grid%samples, level%grid%unknowns))
         solution%y = 0.0_wp
         call solve_level(request, speed, level%grid, plan, basis, motion, &
           tolerance_of(solved_to), solution, found%error)
         if (allocated(found%error)) exit attempt
-        if (is_stuck(solution, solved_to)) exit attempt
+        more_slow = is_stuck(solution, solved_to)
+        if (more_slow) exit attempt
         call transferred(level%grid, plan, above%grid, above_plan, solution%y, better%y)
         ! Its own slow motion: that of the first has no harmonics beyond its samples.
         call new_slow_motion(above_plan, above_basis, speed, stages, &
@@ -479,7 +478,8 @@ contains
         call solve_level(request, speed, above%grid, above_plan, above_basis, above_motion, &
           tolerance_of(compared_to), better, found%error)
         if (allocated(found%error)) exit attempt
-        if (is_stuck(better, compared_to)) exit attempt
+        more_slow = is_stuck(better, compared_to)
+        if (more_slow) exit attempt
       end associate
       found%order = choice%order
       found%samples = level%grid%samples
@@ -496,12 +496,14 @@ contains
     choice%work = choice%work + work_of(level%grid, solution) + work_of(above%grid, better)
     call close_fourier(above_plan)
     call close_fourier(plan)
-    if (allocated(found%error)) then
-      if (.not. motion%grows .or. choice%round < enough_rounds) call raise_samples(choice)
-    else if (.not. allocated(errors)) then
-      ! Once more, with more slow coordinates.
+    if (more_slow) then
       choice%more_slow = .true.
       choice%pending = .true.
+      ! The last word if there is no time for it.
+      if (.not. allocated(found%error)) call set_error(found%error, error_of_numerics, &
+        "the iterations for the periodic motion do not get on")
+    else if (allocated(found%error)) then
+      if (.not. motion%grows .or. choice%round < enough_rounds) call raise_samples(choice)
     else if (found%largest_error > request%accuracy) then
       call improve
     end if

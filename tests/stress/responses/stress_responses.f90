@@ -82,6 +82,7 @@ program stress_responses
     call run_case(first + i - 1, results(i))
     !$omp critical
     call write_case(unit, results(i))
+    flush (unit)
     !$omp end critical
   end do
   !$omp end parallel do
