@@ -8,6 +8,7 @@ module periodic_solver
   use elastic_equations, only: apply_equation, elastic_terms_t
   use errors, only: error_of_numerics, error_t, set_error
   use fourier_transform, only: coefficients_of, fourier_plan_t, values_of
+  use interruption, only: was_interrupted
   use kinds, only: wp
   use minimal_residuals, only: add_combination, add_product, minimal_residual_t, start_residual
   use row_products, only: products_of_rows
@@ -87,6 +88,7 @@ contains
         call approximate_solution(plan, basis, motion, speed, damping, product, &
           correction)
         call add_product(problem, correction)
+        if (was_interrupted()) exit
       end do
       call add_combination(problem, y)
       exhausted = problem%last > most_iterations

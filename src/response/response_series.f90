@@ -12,7 +12,8 @@ module response_series
   implicit none (type, external)
   private
 
-  public :: response_series_of, series_count, first_gauge, first_torque, strains_along
+  public :: response_series_of, series_count, first_of_point, first_of_gauge, first_of_torque, &
+    strains_along
 
   !> Series of a point, a gauge (axial strain, curvature, shear force) and of the torque (rigid,
   !! linear, quadratic).
@@ -25,24 +26,33 @@ contains
     type(response_request_t), intent(in) :: request
     integer :: number
 
-    number = first_torque(request) + of_torque - 1
+    number = first_of_torque(request) + of_torque - 1
   end function series_count
 
-  !> Number of the first series of gauges; points come before.
-  pure function first_gauge(request) result(number)
-    type(response_request_t), intent(in) :: request
+  !> Number of the first series of a point.
+  elemental function first_of_point(point) result(number)
+    integer, intent(in) :: point !! its number
     integer :: number
 
-    number = of_point*size(request%points) + 1
-  end function first_gauge
+    number = of_point*(point - 1) + 1
+  end function first_of_point
+
+  !> Number of the first series of a gauge; points come before.
+  pure function first_of_gauge(request, gauge) result(number)
+    type(response_request_t), intent(in) :: request
+    integer, intent(in) :: gauge !! its number
+    integer :: number
+
+    number = first_of_point(size(request%points) + 1) + of_gauge*(gauge - 1)
+  end function first_of_gauge
 
   !> Number of the first series of the torque.
-  pure function first_torque(request) result(number)
+  pure function first_of_torque(request) result(number)
     type(response_request_t), intent(in) :: request
     integer :: number
 
-    number = first_gauge(request) + of_gauge*size(request%gauges)
-  end function first_torque
+    number = first_of_gauge(request, size(request%gauges) + 1)
+  end function first_of_torque
 
   !> All series: x, y and rotation of every point; axial strain, curvature and shear force at every
   !! gauge; the driving torque of the rigid linkage, and its linear and quadratic parts.
@@ -57,16 +67,17 @@ contains
     integer :: i, first
 
     do i = 1, size(request%points)
-      associate (point => request%points(i), at => of_point*(i - 1))
-        series(:, at + 1:at + 3) = point_series(grid, point%body, point%place, y)
+      first = first_of_point(i)
+      associate (point => request%points(i))
+        series(:, first:first + 2) = point_series(grid, point%body, point%place, y)
       end associate
     end do
     do i = 1, size(request%gauges)
-      first = first_gauge(request) + of_gauge*(i - 1)
+      first = first_of_gauge(request, i)
       call add_gauge(grid, plan, request%gauges(i)%body, request%gauges(i)%xi, speed, y, &
         series(:, first:first + 2))
     end do
-    first = first_torque(request)
+    first = first_of_torque(request)
     call torque_series(grid, plan, request%terms, speed, y, series(:, first:first + 2))
   end subroutine response_series_of
 

@@ -24,7 +24,8 @@ module steady_responses
   use periodic_solver, only: solve_periodic
   use quadratic_change, only: find_quadratic_change
   use response_peaks, only: find_peaks, sampled_deflections
-  use response_series, only: first_gauge, first_torque, response_series_of, series_count
+  use response_series, only: first_of_gauge, first_of_point, first_of_torque, response_series_of, &
+    series_count
   use response_types, only: axial_force, axial_strain, bending_strain, damping_ratio, &
     damping_time, drive_values, moment, no_damping, power, quadratic_torque, response_request_t, &
     response_t, rigid_torque, shear_force, speed_response_t, strain_values, stress, total_torque
@@ -748,7 +749,7 @@ contains
     allocate (found%displacement(3, size(request%points), size(request%crank)), &
       found%displacement_error(size(request%points)))
     do i = 1, size(request%points)
-      first = 3*(i - 1) + 1
+      first = first_of_point(i)
       found%displacement(:, i, :) = at_position(first:first + 2, :)
       found%displacement_error(i) = extra + max(norm2(errors(first:first + 1)), errors(first + 2))
     end do
@@ -771,13 +772,13 @@ contains
       allocate (scale(n))
       largest = maxval(abs(fine), dim=1)
       do i = 1, size(request%points)
-        first = 3*(i - 1) + 1
+        first = first_of_point(i)
         scale(first:first + 1) = sqrt(maxval(fine(:, first)**2 + fine(:, first + 1)**2))
         scale(first + 2) = max(largest(first + 2), by_nature*scale(first)/ &
           structure%linkage%bodies(request%points(i)%body)%length)
       end do
       do i = 1, size(request%gauges)
-        first = first_gauge(request) + 3*(i - 1)
+        first = first_of_gauge(request, i)
         associate (body => request%gauges(i)%body)
           associate (outer => request%section(body)%outer, beam => structure%beams(body))
             associate (strain => largest(first) + outer*largest(first + 1))
@@ -789,7 +790,7 @@ contains
           end associate
         end associate
       end do
-      first = first_torque(request)
+      first = first_of_torque(request)
       ! The work of the loads on the deformations measures torques that vanish altogether.
       scale(first:) = max(largest(first:), by_nature*maxval(abs(sum(fine(:, first:), dim=2))), &
         by_nature*maxval(abs(sum(load_at_speed(above%grid, speed)*better%y, dim=2))))
@@ -803,7 +804,7 @@ contains
       allocate (found%strain(strain_values, size(request%gauges), size(request%crank)), &
         found%strain_error(size(request%gauges)))
       do g = 1, size(request%gauges)
-        first = first_gauge(request) + 3*(g - 1)
+        first = first_of_gauge(request, g)
         associate (gauge => request%gauges(g), beam => structure%beams(request%gauges(g)%body), &
           section => request%section(request%gauges(g)%body))
           do k = 1, size(request%crank)
@@ -828,7 +829,7 @@ contains
     subroutine evaluate_drive
       real(wp), dimension(above%grid%samples) :: total, fine_total
 
-      first = first_torque(request)
+      first = first_of_torque(request)
       allocate (found%drive(drive_values, size(request%crank)))
       found%drive(rigid_torque:quadratic_torque, :) = at_position(first:first + 2, :)
       found%drive(total_torque, :) = sum(found%drive(rigid_torque:quadratic_torque, :), dim=1)

@@ -10,7 +10,7 @@ module bench_response
   use periodic_solver, only: approximate_solution
   use response_runs, only: largest_difference, memory_of_process, new_grid, read_watch, request_of, run_response, start_watch, &
     watch_t
-  use response_series, only: first_gauge, first_torque, response_series_of, series_count
+  use response_series, only: first_of_gauge, first_of_torque, response_series_of, series_count
   use response_types, only: axial_strain, bending_strain, response_request_t, response_t, shear_force, speed_response_t, &
     total_torque
   use slow_motions, only: new_slow_basis, new_slow_motion, slow_basis_t, slow_motion_t
@@ -352,14 +352,14 @@ contains
         found%displacement(:, i, k) = values(3*i - 2:3*i)
       end do
       do g = 1, size(request%gauges)
-        first = first_gauge(request) + 3*(g - 1)
+        first = first_of_gauge(request, g)
         associate (body => request%gauges(g)%body)
           found%strain(axial_strain, g, k) = values(first)
           found%strain(bending_strain, g, k) = request%gauges(g)%side*request%section(body)%outer*values(first + 1)
           found%strain(shear_force, g, k) = request%gauges(g)%side*values(first + 2)
         end associate
       end do
-      first = first_torque(request)
+      first = first_of_torque(request)
       found%drive(:3, k) = values(first:first + 2)
       found%drive(total_torque, k) = sum(values(first:first + 2))
     end do
