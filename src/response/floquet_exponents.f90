@@ -43,6 +43,11 @@ module floquet_exponents
   !> Growth of the slow motion above this is looked for in the whole equation.
   real(wp), parameter :: least_growth = 1.0e-6_wp
 
+  !> Rounds that change the exponent by more than this share of the change before lead nowhere; the
+  !! first say nothing yet.
+  real(wp), parameter :: least_fall = 0.5_wp
+  integer, parameter :: first_rounds = 3
+
   !> Solutions gain so much in a round.
   real(wp), parameter :: gain = 1.0e-4_wp
 
@@ -51,6 +56,7 @@ module floquet_exponents
     complex(wp) :: exponent = (0.0_wp, 0.0_wp)  !! σ, per radian of the crank; its imaginary part is
                                                 !! vibrations per turn, between 0 and 1/2
     real(wp) :: change = 0.0_wp                 !! of the exponent in the last round
+    integer :: applications = 0                 !! of the equation, to complex motions
     real(wp) :: frequency = 0.0_wp              !! of its shape at the first crank angle [rad/s]
   end type floquet_mode_t
 
@@ -107,7 +113,7 @@ contains
     type(elastic_terms_t), intent(in) :: terms
     real(wp), intent(in) :: near               !! nearer multipliers are found from the whole
                                                !! equation
-    type(floquet_mode_t), intent(out) :: mode
+    type(floquet_mode_t), intent(out) :: mode  !! with all applications
     real(wp), intent(out) :: growth            !! largest ln|multiplier|; 0 or less where none is
                                                !! certain to grow
     type(error_t), allocatable, intent(out) :: error
@@ -130,6 +136,7 @@ contains
     ! Growth that is found in the slow motion only may come from its steps.
     growth = two_pi*real(grown%exponent)
     if (grown%change > 0.1_wp*growth) growth = min(growth, 0.0_wp)
+    mode%applications = mode%applications + grown%applications
 
   contains
 
@@ -187,11 +194,14 @@ contains
     real(wp) :: parts(size(z, 1), size(z, 2), 0:2)
     real(wp), dimension(size(z, 1), size(z, 2)) :: residual, along
     complex(wp) :: fixed, before, step
+    real(wp) :: last_change
     integer :: round
 
     fixed = mode%exponent + shift
+    last_change = huge(1.0_wp)
     do round = 1, most_rounds
       call apply_parts(grid, plan, speed, damping, terms, z, parts)
+      mode%applications = mode%applications + 1
       if (round <= 2) along = solved(slope_of(parts, mode%exponent))
       residual = solved(combined(parts, mode%exponent))
       ! z changes perpendicular to itself.
@@ -203,6 +213,8 @@ contains
       mode%change = abs(step)
       if (mode%change <= tolerance) return
       if (.not. mode%change < lost*(1.0_wp + abs(fixed))) return
+      if (round > first_rounds .and. mode%change > least_fall*last_change) return
+      last_change = mode%change
     end do
 
   contains
@@ -224,6 +236,7 @@ contains
       do while (problem%last <= most_products .and. problem%residual > limit)
         call apply_parts(grid, plan, speed, damping, terms, problem%vector(:, :, problem%last), &
           products)
+        mode%applications = mode%applications + 1
         call approximate(combined(products, fixed), product)
         call add_product(problem, product)
       end do

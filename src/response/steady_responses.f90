@@ -451,9 +451,11 @@ contains
     type(solution_t) :: solution, better
     real(wp), allocatable :: errors(:)
     integer(long) :: before
+    integer :: looking
     logical :: more_slow
 
     before = found%applications
+    looking = 0
     call clear(found)
     call open_fourier(level%grid%samples, plan)
     call open_fourier(above%grid%samples, above_plan)
@@ -485,7 +487,8 @@ contains
       found%order = choice%order
       found%samples = level%grid%samples
       found%slow = choice%slow
-      call look_at_multipliers(request, speed, level, plan, level%basis(choice%slow), motion, found)
+      call look_at_multipliers(request, speed, level, plan, level%basis(choice%slow), motion, &
+        found, looking)
       if (allocated(found%error)) exit attempt
       call evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
         found, errors)
@@ -494,7 +497,8 @@ contains
         solution%y, found%quadratic_change)
     end block attempt
     found%applications = before + solution%applications + better%applications
-    choice%work = choice%work + work_of(level%grid, solution) + work_of(above%grid, better)
+    choice%work = choice%work + work_of(level%grid, solution%applications + 2*looking) + &
+      work_of(above%grid, better%applications)
     call close_fourier(above_plan)
     call close_fourier(plan)
     if (more_slow) then
@@ -513,13 +517,13 @@ contains
 
   contains
 
-    !> Work of a solution.
-    pure function work_of(grid, done) result(work)
+    !> Work on a grid: a slow motion and applications of the equation.
+    pure function work_of(grid, applications) result(work)
       type(turn_grid_t), intent(in) :: grid
-      type(solution_t), intent(in) :: done
+      integer, intent(in) :: applications
       integer(long) :: work
 
-      work = int(grid%samples, long)*(int(done%applications, long)*grid%unknowns + &
+      work = int(grid%samples, long)*(int(applications, long)*grid%unknowns + &
         int(choice%slow, long)**3)
     end function work_of
 
@@ -686,7 +690,7 @@ contains
   end subroutine solve_level
 
   !> Multipliers of a turn, and how near the motion is to resonance.
-  subroutine look_at_multipliers(request, speed, level, plan, basis, motion, found)
+  subroutine look_at_multipliers(request, speed, level, plan, basis, motion, found, applications)
     type(response_request_t), intent(in) :: request
     real(wp), intent(in) :: speed
     type(level_t), intent(in) :: level
@@ -694,13 +698,16 @@ contains
     type(slow_basis_t), intent(in) :: basis
     type(slow_motion_t), intent(in) :: motion
     type(speed_response_t), intent(inout) :: found
+    integer, intent(out) :: applications !! of the equation, to complex motions
 
     type(floquet_mode_t) :: mode
 
+    applications = 0
     call find_nearest_mode(level%grid, plan, basis, motion, speed, damping_of(request, &
       level%grid), request%terms, merge(far, near, request%validity), mode, found%growth, &
       found%error)
     if (allocated(found%error)) return
+    applications = mode%applications
     found%nearest = cmplx(two_pi*real(mode%exponent), abs(aimag(mode%exponent)), wp)
     found%distance = max(abs(1.0_wp - exp(two_pi*mode%exponent)), epsilon(1.0_wp))
     found%distance_error = two_pi*mode%change/found%distance
