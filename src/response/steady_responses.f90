@@ -57,10 +57,9 @@ module steady_responses
   !> Limits of orders and samples, and of the times they are raised.
   integer, parameter :: most_order = 36, most_rounds = 8
 
-  !> Numbers of samples: products of small factors, each about half as many more than the last but
-  !! one.
-  integer, parameter :: sample_numbers(*) = [64, 96, 128, 192, 256, 384, 512, 768, 1024, 1536, &
-    2048, 3072]
+  !> Numbers of samples, products of small factors. The second solution has half as many more: with
+  !! a third more, errors were seen that both have in common.
+  integer, parameter :: sample_numbers(*) = [64, 96, 128, 192, 256, 384, 512, 768, 1024, 1536, 2048]
 
   !> Samples of the second solution in a period of the slowest modes, at their mean frequency, up to
   !! a limit: their harmonics may rise again beyond those that have fallen.
@@ -82,9 +81,9 @@ module steady_responses
   integer, parameter :: stages = 3
 
   !> Estimated errors are differences of two solutions times this: enough where the error of the
-  !! second is up to two thirds of that of the first. Errors of strains fall slowly with the orders
+  !! second is up to four fifths of that of the first. Errors of strains fall slowly with the orders
   !! where a link's damping is by ratio.
-  real(wp), parameter :: safety = 3.0_wp
+  real(wp), parameter :: safety = 5.0_wp
 
   !> Remainders of the iterations beside the accuracy: smaller in the second solution, so that the
   !! difference shows that of the first in every quantity.
@@ -128,7 +127,7 @@ module steady_responses
   real(wp), parameter :: by_nature = 1.0e-3_wp
 
   !> Rounding of a solution, with no resonance near.
-  real(wp), parameter :: rounding = 1.0e-13_wp
+  real(wp), parameter :: rounding = 3.0e-13_wp
 
   !> A grid with what its solutions need.
   type :: level_t
@@ -262,7 +261,7 @@ contains
 
     do i = 1, 2
       order = choice%order + (i - 1)*orders_above
-      samples = sample_numbers(merge(choice%at, number_above(choice), i == 1))
+      samples = merge(sample_numbers(choice%at), samples_above(choice), i == 1)
       associate (level => choice%level(i))
         level = number_of_level(levels, order, samples, choice%backwards)
         if (level > 0) cycle
@@ -291,15 +290,15 @@ contains
     end do
   end subroutine find_levels
 
-  !> Number in `sample_numbers` of the samples of the second solution: the next, and enough to see
-  !! free vibrations that the first cannot.
-  elemental function number_above(choice) result(number)
+  !> Samples of the second solution: half as many more, and enough to see free vibrations that the
+  !! first cannot.
+  elemental function samples_above(choice) result(samples)
     type(choice_t), intent(in) :: choice
-    integer :: number
+    integer :: samples
 
-    number = max(choice%at + 1, min(size(sample_numbers), findloc(sample_numbers >= &
-      choice%least_above, .true., dim=1)))
-  end function number_above
+    samples = max(3*sample_numbers(choice%at)/2, &
+      sample_numbers(findloc(sample_numbers >= choice%least_above, .true., dim=1)))
+  end function samples_above
 
   !> Number of the level of an order and a number of samples; 0: none.
   pure function number_of_level(levels, order, samples, backwards) result(number)
@@ -344,7 +343,7 @@ contains
         needed(i) = any(choices%pending .and. ((choices%order == level%order .and. &
           sample_numbers(choices%at) == level%grid%samples) .or. &
           (choices%order + orders_above == level%order .and. &
-          sample_numbers(number_above(choices)) == level%grid%samples)))
+          samples_above(choices) == level%grid%samples)))
       end associate
     end do
     allocate (kept(count(needed)))
@@ -376,8 +375,8 @@ contains
 
     wanted = 120.0_wp + 13.0_wp*(1.0_wp/max(abs(share), 1.0e-3_wp))**0.8_wp
     wanted = wanted*(0.1_wp - 0.15_wp*log10(accuracy))
-    at = min(size(sample_numbers) - 1, findloc(sample_numbers >= min(nint(wanted), &
-      sample_numbers(size(sample_numbers))), .true., dim=1))
+    at = findloc(sample_numbers >= min(nint(wanted), sample_numbers(size(sample_numbers))), &
+      .true., dim=1)
   end function first_samples
 
   !> Makes the grids of a level.
@@ -595,7 +594,7 @@ contains
     type(choice_t), intent(inout) :: choice
 
     choice%round = choice%round + 1
-    choice%pending = choice%at + 1 < size(sample_numbers) .and. choice%round <= most_rounds
+    choice%pending = choice%at < size(sample_numbers) .and. choice%round <= most_rounds
     if (choice%pending) choice%at = choice%at + 1
   end subroutine raise_samples
 
@@ -640,8 +639,9 @@ contains
     end if
     choice%raised_order = order
     if (next > n) then
-      if (choice%at + 1 == size(sample_numbers)) choice%pending = .false.
-      choice%at = min(size(sample_numbers) - 1, max(choice%at + 1, &
+      if (choice%at == size(sample_numbers)) choice%pending = .false.
+      next = min(next, sample_numbers(size(sample_numbers)))
+      choice%at = min(size(sample_numbers), max(choice%at + 1, &
         findloc(sample_numbers >= next, .true., dim=1)))
     end if
     if (order) then
@@ -764,7 +764,8 @@ contains
     call evaluate_drive
     call evaluate_peaks
     found%deflection = sampled_deflections(level%grid, solution%y)
-    if (request%validity) found%buckling = buckling_shares(structure%linkage, level%grid, speed)
+    if (request%validity) found%buckling = buckling_shares(structure%linkage, level%grid, &
+      plan, speed)
     found%largest_error = max(maxval([0.0_wp, found%displacement_error]), &
       maxval([0.0_wp, found%strain_error]), found%drive_error, maxval([0.0_wp, found%peak_error]))
 
