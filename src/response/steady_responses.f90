@@ -94,6 +94,9 @@ module steady_responses
   !> They are as for this accuracy where that asked for is coarser.
   real(wp), parameter :: coarsest_iterations = 1.0e-4_wp
 
+  !> No error is stated smaller than a hundredth of the accuracy, or of this if that is coarser.
+  real(wp), parameter :: coarsest_remainder = 1.0e-6_wp
+
   !> Iterations that stop above their tolerance and this have not got on: rounding is far below. A
   !! remainder says little of quantities that high harmonics or a link that bends little make up.
   real(wp), parameter :: stuck = 1.0e-11_wp
@@ -113,6 +116,9 @@ module steady_responses
   !> The highest eighth of the harmonics of a series may have this share of the accuracy; they are
   !! taken to fall at least this fast.
   real(wp), parameter :: tail_share = 0.3_wp, slowest_fall = 0.02_wp
+
+  !> Larger errors are none of the orders.
+  real(wp), parameter :: of_orders = 1.0e-2_wp
 
   !> Errors of strains fall about so much with two orders.
   real(wp), parameter :: gain_of_orders = 30.0_wp
@@ -558,7 +564,8 @@ contains
       if (choice%idle >= most_idle) return
       if (max(solution%remainder, many*better%remainder) > 0.5_wp*request%accuracy) then
         ! Either rounding leaves no more digits, or harmonics left out hinder the iterations.
-        if (better%remainder > unfinished) call raise_samples(choice)
+        if (better%remainder > unfinished .or. found%largest_error > of_orders) &
+          call raise_samples(choice)
       else if (rounding/found%distance > request%accuracy) then
         if (allocated(choice%best)) deallocate (choice%best)
         call set_error(found%error, error_of_numerics, "resonance: an exponent of the turn, "// &
@@ -619,16 +626,16 @@ contains
       if (errors(i) <= accuracy) cycle
       largest = sum(abs(series(:, i)))
       last = sum(abs(series(n - n/8:, i)))/largest
-      if (last <= tail_share*errors(i)) then
-        order = .true.
-        cycle
-      end if
+      if (last <= tail_share*errors(i) .and. errors(i) <= of_orders) order = .true.
+      if (last <= tail_share*min(errors(i), accuracy)) cycle
+      if (last <= tail_share*errors(i) .and. errors(i) <= of_orders) cycle
       ! Harmonics fall exponentially. The highest of all are raised by those above them.
       tail = [sum(abs(series(n/2:n/2 + n/8, i))), sum(abs(series(n/2 + n/4:n/2 + 3*n/8, i)))]
       fall = max(log(tail(1)/tail(2))/(n/4), slowest_fall)
       wanted = n + log(errors(i)/(0.3_wp*accuracy))/fall
       next = max(next, nint(min(wanted, real(2*n, wp))))
     end do
+    order = order .or. next == n
     choice%round = choice%round + 1
     if (choice%round > most_rounds) return
     choice%pending = .true.
@@ -745,7 +752,7 @@ contains
         fine(:, i))))/scale(i)
     end do
     ! How far the iterations came below their tolerance is chance.
-    extra = many*max(better%remainder, compared_to*min(request%accuracy, coarsest_iterations)) + &
+    extra = many*max(better%remainder, solved_to*min(request%accuracy, coarsest_remainder)) + &
       rounding/found%distance
     allocate (at_position(n, size(request%crank)))
     ! Whole turns make no difference, to the last digit.
