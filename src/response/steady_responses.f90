@@ -94,8 +94,9 @@ module steady_responses
   !> They are as for this accuracy where that asked for is coarser.
   real(wp), parameter :: coarsest_iterations = 1.0e-4_wp
 
-  !> No error is stated smaller than a hundredth of the accuracy, or of this if that is coarser.
-  real(wp), parameter :: coarsest_remainder = 1.0e-6_wp
+  !> No error is stated smaller than this share of the accuracy, or of that if the accuracy is
+  !! coarser: at a place along a link both solutions may happen to be equally wrong.
+  real(wp), parameter :: least_share = 0.1_wp, coarsest_share = 1.0e-7_wp
 
   !> Iterations that stop above their tolerance and this have not got on: rounding is far below. A
   !! remainder says little of quantities that high harmonics or a link that bends little make up.
@@ -123,8 +124,8 @@ module steady_responses
   !> Errors of strains fall about so much with two orders.
   real(wp), parameter :: gain_of_orders = 30.0_wp
 
-  !> A relative error of a result that has no digits.
-  real(wp), parameter :: no_digits = 0.1_wp
+  !> Larger errors, above the coarsest accuracy that may be asked for, are no estimates any more.
+  real(wp), parameter :: no_digits = 1.0e-2_wp
 
   !> Multipliers nearer to 1 than this are found from the whole equation; where the distance is a
   !! result, than that.
@@ -752,7 +753,7 @@ contains
         fine(:, i))))/scale(i)
     end do
     ! How far the iterations came below their tolerance is chance.
-    extra = many*max(better%remainder, solved_to*min(request%accuracy, coarsest_remainder)) + &
+    extra = max(many*better%remainder, least_share*min(request%accuracy, coarsest_share)) + &
       rounding/found%distance
     allocate (at_position(n, size(request%crank)))
     ! Whole turns make no difference, to the last digit.
