@@ -13,7 +13,7 @@ module response_series
   private
 
   public :: response_series_of, series_count, first_of_point, first_of_gauge, first_of_torque, &
-    strains_along
+    point_series, strains_along
 
   !> Series of a point, a gauge (axial strain, curvature, shear force) and of the torque (rigid,
   !! linear, quadratic).
