@@ -77,9 +77,9 @@ def count(value):
     return Number(value, ",.0f")
 
 
-def error(value):
-    """An error, in two digits."""
-    return Number(value, ".1e", FACTOR if abs(value) < SMALL else None)
+def error(value, small=SMALL):
+    """An error, in two digits; below `small` it comes out of rounding."""
+    return Number(value, ".1e", FACTOR if abs(value) < small else None)
 
 
 def rough_error(value):
