@@ -2,7 +2,7 @@
 !! and with more samples over the turn.
 module order_transfer
   use deformation_shapes, only: deformation_shapes_t
-  use fourier_transform, only: coefficients_of, fourier_plan_t, resampled, values_of
+  use fourier_transform, only: fourier_plan_t, resample
   use kinds, only: wp
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
@@ -21,11 +21,10 @@ contains
     real(wp), intent(in) :: y(:, :)                 !! (samples, unknowns) [√J]
     real(wp), allocatable, intent(out) :: other(:, :) !! (samples, unknowns) on the other grid
 
-    real(wp) :: coefficients(from%samples, from%unknowns), moved(to%samples, from%unknowns)
+    real(wp) :: moved(to%samples, from%unknowns)
     integer :: b
 
-    call coefficients_of(from_plan, y, coefficients)
-    call values_of(to_plan, resampled(coefficients, to%samples), moved)
+    call resample(from_plan, y, to_plan, moved)
     allocate (other(to%samples, to%unknowns))
     other = 0.0_wp
     other(:, :to%border) = moved(:, :from%border)

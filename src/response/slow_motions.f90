@@ -11,8 +11,8 @@ module slow_motions
   use constants, only: two_pi
   use elastic_equations, only: functions_of, mass_force, slopes_of, times_mass
   use errors, only: error_of_numerics, error_t, set_error
-  use fourier_transform, only: coefficients_of, derivatives, fourier_plan_t, resampled, shifted, &
-    values_of
+  use fourier_transform, only: coefficients_of, derivatives, fourier_plan_t, resample, resampled, &
+    shifted, values_of
   use gauss_collocation, only: collocation_t, new_collocation
   use kinds, only: wp
   use lapack, only: dgeev, dgetf2, dgetrf, dgetrs
@@ -148,12 +148,9 @@ contains
       call coefficients_of(coarse_plan, sums(:, :, c), coefficients)
       basis%matrix(:, :, c) = resampled(coefficients, plan%samples)
     end do
-    deallocate (coefficients)
-    allocate (coefficients(coarse%samples, coarse%unknowns))
     allocate (basis%shape(plan%samples, coarse%unknowns, number))
     do i = 1, number
-      call coefficients_of(coarse_plan, shape(:, :, i), coefficients)
-      call values_of(plan, resampled(coefficients, plan%samples), basis%shape(:, :, i))
+      call resample(coarse_plan, shape(:, :, i), plan, basis%shape(:, :, i))
     end do
     allocate (basis%inverse(plan%samples, number, number))
     do j = 1, number

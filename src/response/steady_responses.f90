@@ -13,7 +13,7 @@ module steady_responses
   use errors, only: error_of_numerics, error_t, set_error
   use floquet_exponents, only: find_nearest_mode, floquet_mode_t
   use fourier_transform, only: close_fourier, coefficients_of, fourier_plan_t, open_fourier, &
-    resampled, value_at, values_of
+    resample, resampled, value_at, values_of
   use interruption, only: was_interrupted
   use kinds, only: long, wp
   use link_degrees, only: link_degrees_t, uniform_degrees
@@ -27,8 +27,9 @@ module steady_responses
   use response_series, only: first_of_gauge, first_of_point, first_of_torque, point_series, &
     response_series_of, series_count, strains_along
   use response_types, only: axial_force, axial_strain, bending_strain, damping_ratio, &
-    damping_time, drive_values, moment, no_damping, power, quadratic_torque, response_request_t, &
-    response_t, rigid_torque, shear_force, speed_response_t, strain_values, stress, total_torque
+    damping_time, drive_values, moment, no_damping, peak_t, power, quadratic_torque, &
+    response_request_t, response_t, rigid_torque, shear_force, speed_response_t, strain_values, &
+    stress, total_torque
   use sorting, only: ascending_order
   use slow_motions, only: new_slow_basis, new_slow_motion, slow_basis_t, slow_count, &
     slow_motion_t, own_squares
@@ -861,7 +862,6 @@ contains
 
     subroutine evaluate_peaks
       type(speed_response_t) :: other
-      real(wp) :: before, after
       integer :: b
 
       allocate (found%peak_error(merge(size(structure%beams), 0, request%peaks .or. &
@@ -873,66 +873,54 @@ contains
       found%power_lost = speed**2*power_of(level%grid, plan, solution%y)
       other%power_lost = speed**2*power_of(above%grid, above_plan, better%y)
       do b = 1, size(structure%beams)
-        before = found%largest_strain(b)%value
-        after = other%largest_strain(b)%value
-        found%peak_error(b) = safety*max(abs(before - after), strain_change(b, &
-          found%largest_strain(b)%xi), strain_change(b, other%largest_strain(b)%xi))/max(after, &
-          by_nature**2*maxval(other%largest_strain%value), tiny(1.0_wp))
-        before = found%largest_deflection(b)%value
-        after = other%largest_deflection(b)%value
-        found%peak_error(b) = max(found%peak_error(b), safety*max(abs(before - after), &
-          deflection_change(b, found%largest_deflection(b)%xi), deflection_change(b, &
-          other%largest_deflection(b)%xi))/max(after, tiny(1.0_wp)))
-        after = sum(other%power_lost)
-        found%peak_error(b) = extra + max(found%peak_error(b), safety*abs(found%power_lost(b) - &
-          other%power_lost(b))/max(after, tiny(1.0_wp)))
+        found%peak_error(b) = safety*abs(found%power_lost(b) - other%power_lost(b))/ &
+          max(sum(other%power_lost), tiny(1.0_wp))
+        if (structure%linkage%bodies(b)%bends) found%peak_error(b) = max(found%peak_error(b), &
+          safety*strain_change(b, [found%largest_strain(b), other%largest_strain(b)])/ &
+          max(other%largest_strain(b)%value, by_nature**2*maxval(other%largest_strain%value), &
+          tiny(1.0_wp)), &
+          safety*deflection_change(b, [found%largest_deflection(b), other%largest_deflection(b)])/ &
+          max(other%largest_deflection(b)%value, tiny(1.0_wp)))
+        found%peak_error(b) = extra + found%peak_error(b)
       end do
     end subroutine evaluate_peaks
 
-    !> The largest difference of both solutions over the turn, in the strain at a place: two peaks
-    !! may agree by chance.
-    function strain_change(body, xi) result(change)
-      integer, intent(in) :: body
-      real(wp), intent(in) :: xi
+    !> The difference of the largest strains of both solutions, or the largest difference over the
+    !! turn of the strains at their places: two peaks may agree by chance.
+    function strain_change(body, peaks) result(change)
+      integer, intent(in) :: body           !! that bends
+      type(peak_t), intent(in) :: peaks(2)  !! of both solutions
       real(wp) :: change
 
-      real(wp) :: here(level%grid%samples, 2), there(above%grid%samples, 2)
+      real(wp) :: here(level%grid%samples, 4), moved(above%grid%samples, 4), &
+        there(above%grid%samples, 4)
 
-      change = 0.0_wp
-      if (.not. structure%linkage%bodies(body)%bends) return
-      call strains_along(level%grid, body, [xi], solution%y, here(:, 1:1), here(:, 2:2))
-      call strains_along(above%grid, body, [xi], better%y, there(:, 1:1), there(:, 2:2))
-      there = abs(there) - abs(on_grid_above(here))
-      change = maxval(abs(there(:, 1) + request%section(body)%outer*there(:, 2)))
+      call strains_along(level%grid, body, peaks%xi, solution%y, here(:, :2), here(:, 3:))
+      call strains_along(above%grid, body, peaks%xi, better%y, there(:, :2), there(:, 3:))
+      call resample(plan, here, above_plan, moved)
+      there = abs(there) - abs(moved)
+      change = max(abs(peaks(1)%value - peaks(2)%value), &
+        maxval(abs(there(:, :2) + request%section(body)%outer*there(:, 3:))))
     end function strain_change
 
     !> The same in the deflection.
-    function deflection_change(body, xi) result(change)
-      integer, intent(in) :: body
-      real(wp), intent(in) :: xi
+    function deflection_change(body, peaks) result(change)
+      integer, intent(in) :: body           !! that bends
+      type(peak_t), intent(in) :: peaks(2)  !! of both solutions
       real(wp) :: change
 
-      real(wp) :: here(level%grid%samples, 3), there(above%grid%samples, 3), place(2)
+      real(wp) :: here(level%grid%samples, 3), moved(above%grid%samples, 3), place(2)
+      integer :: i
 
-      change = 0.0_wp
-      if (.not. structure%linkage%bodies(body)%bends) return
-      place = [xi*structure%linkage%bodies(body)%length, 0.0_wp]
-      here = point_series(level%grid, body, place, solution%y)
-      there = point_series(above%grid, body, place, better%y)
-      there = there - on_grid_above(here)
-      change = sqrt(maxval(there(:, 1)**2 + there(:, 2)**2))
+      change = abs(peaks(1)%value - peaks(2)%value)
+      do i = 1, size(peaks)
+        place = [peaks(i)%xi*structure%linkage%bodies(body)%length, 0.0_wp]
+        here = point_series(level%grid, body, place, solution%y)
+        call resample(plan, here, above_plan, moved)
+        moved = moved - point_series(above%grid, body, place, better%y)
+        change = max(change, sqrt(maxval(moved(:, 1)**2 + moved(:, 2)**2)))
+      end do
     end function deflection_change
-
-    !> Series of the first solution at the samples of the second.
-    function on_grid_above(series) result(moved)
-      real(wp), intent(in) :: series(:, :)
-      real(wp) :: moved(above%grid%samples, size(series, 2))
-
-      real(wp) :: coefficients(size(series, 1), size(series, 2))
-
-      call coefficients_of(plan, series, coefficients)
-      call values_of(above_plan, resampled(coefficients, above%grid%samples), moved)
-    end function on_grid_above
 
     !> Mean of `y'ᵀ C y'` of every link.
     function power_of(grid, plan, y) result(power)

@@ -10,7 +10,8 @@ module fourier_transform
   private
 
   public :: fourier_plan_t, open_fourier, close_fourier
-  public :: coefficients_of, values_of, derivative_of, shifted, resampled, value_at, derivatives
+  public :: coefficients_of, values_of, derivative_of, shifted, resampled, resample, value_at, &
+    derivatives
 
   !> Tables for one number of samples. To be closed after use, and never copied; one thread at a
   !! time.
@@ -209,6 +210,20 @@ contains
     if (samples > n) other(n, :) = 0.5_wp*coefficients(n, :)
     if (samples == n) other(n, :) = coefficients(n, :)
   end function resampled
+
+  !> Samples of functions in another number.
+  subroutine resample(plan, samples, other_plan, other)
+    type(fourier_plan_t), intent(in) :: plan       !! of this number of samples
+    real(wp), intent(in) :: samples(:, :)          !! (samples, functions)
+    type(fourier_plan_t), intent(in) :: other_plan !! of the other number
+    real(wp), intent(out) :: other(:, :)           !! (other samples, functions)
+
+    real(wp), allocatable :: coefficients(:, :)
+
+    allocate (coefficients, mold=samples)
+    call coefficients_of(plan, samples, coefficients)
+    call values_of(other_plan, resampled(coefficients, other_plan%samples), other)
+  end subroutine resample
 
   !> Values at any angle.
   pure function value_at(coefficients, theta) result(value)
