@@ -1,8 +1,8 @@
 """Numbers as documents print them, and whether a printed one is the one computed.
 
 A value is compared in the form in which it is printed: what is written has to be the value rounded to the digits written. Errors
-below SMALL come out of rounding, so their digits depend on compiler and processor: there the written one has to be within a
-factor of FACTOR, or both have to be below NOTHING.
+below SMALL come out of rounding, so their digits depend on compiler and machine: there the written one has to be within a
+factor of FACTOR, or both at most NOTHING.
 """
 
 import math
@@ -40,7 +40,7 @@ class Number(Cell):
             # Half a unit of the last digit, and a little for values that lie just between two.
             mantissa, _, exponent = str(self).replace(",", "").partition("e")
             return abs(number - self.value) <= 0.501*10.0**(int(exponent or 0) - len(mantissa.partition(".")[2]))
-        if number <= 0 or self.value <= 0 or max(number, self.value) < NOTHING:
+        if number <= 0 or self.value <= 0 or max(number, self.value) <= NOTHING:
             return abs(number - self.value) < NOTHING
         return abs(math.log(number/self.value)) <= math.log(self.rough)
 

@@ -36,6 +36,7 @@ def numbers():
     assert error(2e-13).agrees("5.9e-13") and not error(2e-13).agrees("6.1e-13") and not error(2e-13).agrees("6.0e-14")
     assert error(6.7e-16).agrees("2.9e-15") and error(0).agrees("6.7e-16") and not error(6.7e-16).agrees("4.0e-15")
     assert error(2e-11, 1e-10).agrees("5.9e-11") and not error(2e-11).agrees("2.1e-11")
+    assert rough_error(9e-16).agrees("3e-15") and not rough_error(9e-16).agrees("4e-15")
     assert rough_error(9e-12).agrees("1e-11") and not rough_error(9e-12).agrees("1e-10")
     assert Leading(error(9.9e-2)).agrees("9.9e-2 (one element)") and not Leading(error(9.9e-2)).agrees("9.8e-2 (one element)")
     assert Leading(error(9.9e-2)).instead_of("1.0e-1 (one element)") == "9.9e-2 (one element)"
