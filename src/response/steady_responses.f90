@@ -6,9 +6,7 @@
 !! difference its error. Where that exceeds the accuracy, orders or samples are raised, whichever is
 !! to blame.
 module steady_responses
-  use body_lumps, only: pieces_of
   use constants, only: degree, two_pi
-  use deformation_model, only: deformation_model_t, new_deformation_model
   use elastic_equations, only: load_at_speed
   use errors, only: error_of_numerics, error_t, set_error
   use floquet_exponents, only: find_nearest_mode, floquet_mode_t
@@ -16,26 +14,25 @@ module steady_responses
     resample, resampled, value_at, values_of
   use interruption, only: was_interrupted
   use kinds, only: long, wp
-  use link_degrees, only: link_degrees_t, uniform_degrees
   use link_loads, only: buckling_shares
   use link_store, only: link_store_t
   use order_transfer, only: transferred
   use out_of_plane, only: find_out_of_plane_frequency
   use periodic_solver, only: solve_periodic
   use quadratic_change, only: find_quadratic_change
+  use response_levels, only: damping_of, level_slot_t, level_t, need_basis, need_level, &
+    sample_numbers
   use response_peaks, only: find_peaks, sampled_deflections
   use response_series, only: first_of_gauge, first_of_point, first_of_torque, point_series, &
     response_series_of, series_count, strains_along
-  use response_types, only: axial_force, axial_strain, bending_strain, damping_ratio, &
-    damping_time, drive_values, moment, no_damping, peak_t, power, quadratic_torque, &
-    response_request_t, response_t, rigid_torque, shear_force, speed_response_t, strain_values, &
-    stress, total_torque
+  use response_types, only: axial_force, axial_strain, bending_strain, drive_values, moment, &
+    no_damping, peak_t, power, quadratic_torque, response_request_t, response_t, rigid_torque, &
+    shear_force, speed_response_t, strain_values, stress, total_torque
   use sorting, only: ascending_order
-  use slow_motions, only: new_slow_basis, new_slow_motion, slow_basis_t, slow_count, &
-    slow_motion_t, own_squares
+  use slow_motions, only: new_slow_motion, own_squares, slow_basis_t, slow_count, slow_motion_t
   use structures, only: structure_t
   use text, only: to_string
-  use turn_grids, only: new_turn_grid, turn_grid_t
+  use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
 
@@ -43,10 +40,6 @@ module steady_responses
 
   !> Orders of the second solution above those of the first.
   integer, parameter :: orders_above = 2
-
-  !> Degrees along a link are lower than those across it by this, and at least as high as this. The
-  !! bending of the links loads them along their axes: both converge together.
-  integer, parameter :: along_below = 4, least_along = 4
 
   !> The second solution lacks at most so many times its last change; and in a quantity of its own
   !! so many times what it lacks in all.
@@ -58,10 +51,6 @@ module steady_responses
   !> Limits of orders and samples, and of the times they are raised.
   integer, parameter :: most_order = 36, most_rounds = 8
 
-  !> Numbers of samples, products of small factors. The second solution has half as many more: with
-  !! a third more, errors were seen that both have in common.
-  integer, parameter :: sample_numbers(*) = [64, 96, 128, 192, 256, 384, 512, 768, 1024, 1536, 2048]
-
   !> Samples of the second solution in a period of the slowest modes, at their mean frequency, up to
   !! a limit: their harmonics may rise again beyond those that have fallen.
   real(wp), parameter :: samples_of_free = 4.0_wp, most_of_free = 1024.0_wp
@@ -69,9 +58,6 @@ module steady_responses
   !> Accuracy that the samples to begin with are at least chosen for: with fewer the iterations
   !! converge slowly or not at all, which takes longer.
   real(wp), parameter :: coarsest = 1.0e-6_wp
-
-  !> Samples from which the slow coordinates are found.
-  integer, parameter :: basis_samples = 96
 
   !> Slow vibrations have at least this many samples a period; where the iterations do not get on,
   !! so many of the samples of the second solution, up to twice those of the first: all vibrations
@@ -138,18 +124,6 @@ module steady_responses
   !> Rounding of a solution, with no resonance near.
   real(wp), parameter :: rounding = 3.0e-13_wp
 
-  !> A grid with what its solutions need.
-  type :: level_t
-    integer :: order = 0
-    type(turn_grid_t) :: grid, coarse
-    type(slow_basis_t), allocatable :: basis(:) !! by the number of slow coordinates; empty where
-                                                !! not needed
-  end type level_t
-
-  type :: level_slot_t
-    type(level_t), allocatable :: level
-  end type level_slot_t
-
   !> Orders and samples of a speed, and its levels.
   type :: choice_t
     integer :: order = 0
@@ -195,18 +169,17 @@ contains
     type(choice_t) :: choice(size(request%speed))
     real(wp), allocatable :: squares(:)
     integer, allocatable :: pending(:)
-    integer :: free, i, k, n
+    integer :: first, free, i, k, n
 
     n = size(request%speed)
     allocate (response%at_speed(n))
     choice%backwards = request%speed < 0.0_wp
     choice%order = first_order(request%accuracy)
-    allocate (levels(1))
-    allocate (levels(1)%level)
-    call new_level(structure, choice(1)%order, sample_numbers(1), .false., store, &
-      levels(1)%level, error)
+    allocate (levels(0))
+    call need_level(structure, choice(1)%order, sample_numbers(1), .false., store, levels, first, &
+      error)
     if (allocated(error)) return
-    squares = own_squares(levels(1)%level%grid)
+    squares = own_squares(levels(first)%level%grid)
     squares = squares(ascending_order(-squares))
     choice%at = first_samples(request%speed*sqrt(squares(1)), min(request%accuracy, coarsest))
     ! Without damping, passages through resonance leave free vibrations of several modes behind.
@@ -265,42 +238,27 @@ contains
     type(choice_t), intent(inout) :: choice
     type(error_t), allocatable, intent(out) :: error
 
-    type(fourier_plan_t) :: plan, coarse_plan
     integer :: i, order, samples
 
     do i = 1, 2
       order = choice%order + (i - 1)*orders_above
       samples = merge(sample_numbers(choice%at), samples_above(choice), i == 1)
-      associate (level => choice%level(i))
-        level = number_of_level(levels, order, samples, choice%backwards)
-        if (level > 0) cycle
-        call add_slot(levels)
-        level = size(levels)
-        call new_level(structure, order, samples, choice%backwards, store, levels(level)%level, &
-          error)
-        if (allocated(error)) return
-      end associate
+      call need_level(structure, order, samples, choice%backwards, store, levels, &
+        choice%level(i), error)
+      if (allocated(error)) return
     end do
     ! Both solutions have the same slow coordinates.
     choice%slow = slow_count(levels(choice%level(1))%level%coarse, abs(speed)* &
       merge(min(samples, 2*sample_numbers(choice%at))/least_a_period, sample_numbers(choice%at)/ &
       samples_a_period, choice%more_slow))
     do i = 1, 2
-      associate (level => levels(choice%level(i))%level)
-        if (level%basis(choice%slow)%number > 0) cycle
-        call open_fourier(level%grid%samples, plan)
-        call open_fourier(level%coarse%samples, coarse_plan)
-        call new_slow_basis(level%coarse, coarse_plan, plan, choice%slow, damping_of(request, &
-          level%grid), level%basis(choice%slow), error)
-        call close_fourier(plan)
-        call close_fourier(coarse_plan)
-        if (allocated(error)) return
-      end associate
+      call need_basis(choice%slow, request%damping, levels(choice%level(i))%level, error)
+      if (allocated(error)) return
     end do
   end subroutine find_levels
 
-  !> Samples of the second solution: half as many more, and enough to see free vibrations that the
-  !! first cannot.
+  !> Samples of the second solution: half as many more (with a third more, errors were seen that
+  !! both have in common), and enough to see free vibrations that the first cannot.
   elemental function samples_above(choice) result(samples)
     type(choice_t), intent(in) :: choice
     integer :: samples
@@ -308,35 +266,6 @@ contains
     samples = max(3*sample_numbers(choice%at)/2, &
       sample_numbers(findloc(sample_numbers >= choice%least_above, .true., dim=1)))
   end function samples_above
-
-  !> Number of the level of an order and a number of samples; 0: none.
-  pure function number_of_level(levels, order, samples, backwards) result(number)
-    type(level_slot_t), intent(in) :: levels(:)
-    integer, intent(in) :: order, samples
-    logical, intent(in) :: backwards
-    integer :: number
-
-    do number = size(levels), 1, -1
-      if (levels(number)%level%order == order .and. &
-        levels(number)%level%grid%samples == samples .and. &
-        (levels(number)%level%grid%backwards .eqv. backwards)) exit
-    end do
-  end function number_of_level
-
-  !> Room for one more level; those there are not copied.
-  pure subroutine add_slot(levels)
-    type(level_slot_t), allocatable, intent(inout) :: levels(:)
-
-    type(level_slot_t), allocatable :: more(:)
-    integer :: i
-
-    allocate (more(size(levels) + 1))
-    do i = 1, size(levels)
-      call move_alloc(levels(i)%level, more(i)%level)
-    end do
-    allocate (more(size(more))%level)
-    call move_alloc(more, levels)
-  end subroutine add_slot
 
   !> Drops the levels that no speed needs any more.
   pure subroutine drop_levels(choices, levels)
@@ -387,62 +316,6 @@ contains
     at = findloc(sample_numbers >= min(nint(wanted), sample_numbers(size(sample_numbers))), &
       .true., dim=1)
   end function first_samples
-
-  !> Makes the grids of a level.
-  subroutine new_level(structure, order, samples, backwards, store, level, error)
-    class(structure_t), intent(in) :: structure
-    integer, intent(in) :: order, samples
-    logical, intent(in) :: backwards !! the crank turns clockwise
-    type(link_store_t), intent(inout) :: store
-    type(level_t), intent(out) :: level
-    type(error_t), allocatable, intent(out) :: error
-
-    type(deformation_model_t) :: model
-    type(link_degrees_t) :: degrees(size(structure%beams))
-    integer :: b, pieces, across
-
-    do b = 1, size(degrees)
-      pieces = size(pieces_of(structure%linkage%bodies(b))) - 1
-      across = max(4, order - min(pieces - 1, 3))
-      degrees(b) = uniform_degrees(pieces, across, max(least_along, across - along_below))
-    end do
-    call new_deformation_model(structure%linkage, structure%beams, spread(0, 1, size(degrees)), &
-      spread(order, 1, size(degrees)), spread(.false., 1, size(degrees)), model, error, store, &
-      degrees)
-    if (allocated(error)) return
-    call new_turn_grid(structure%linkage, model, samples, level%grid, error, backwards)
-    if (allocated(error)) return
-    call new_turn_grid(structure%linkage, model, min(samples, basis_samples), level%coarse, error, &
-      backwards)
-    level%order = order
-    allocate (level%basis(model%layout%unknowns))
-  end subroutine new_level
-
-  !> Damping of every unknown: the Kelvin–Voigt time, or `2 ζ/ω` of the own modes of the link. The
-  !! elongation and the rotation of the clamped end take that of its lowest own mode.
-  pure function damping_of(request, grid) result(c)
-    type(response_request_t), intent(in) :: request
-    type(turn_grid_t), intent(in) :: grid
-    real(wp) :: c(grid%unknowns) !! [s]
-
-    integer :: b
-
-    c = 0.0_wp
-    do b = 1, size(request%damping)
-      if (.not. grid%model%links(b)%bends) cycle
-      associate (damping => request%damping(b), link => grid%model%links(b))
-        select case (damping%kind)
-        case (damping_time)
-          where (grid%owner == b) c = damping%value
-        case (damping_ratio)
-          where (grid%owner == b) c = 2.0_wp*damping%value*sqrt(maxval(link%square))
-          c(grid%first(b):grid%first(b) + link%modes - 1) = 2.0_wp*damping%value*sqrt(link%square)
-          c(grid%first_along(b):grid%first_along(b) + link%axial_modes - 1) = &
-            2.0_wp*damping%value*sqrt(link%axial_square)
-        end select
-      end associate
-    end do
-  end function damping_of
 
   !> Solves one speed on both levels: its result, and its next choice of orders and samples if it
   !! is not accurate enough.
@@ -501,7 +374,7 @@ contains
       call evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
         found, errors)
       if (request%validity) call find_quadratic_change(structure%linkage, level%grid, plan, &
-        level%basis(choice%slow), motion, request, speed, damping_of(request, level%grid), &
+        level%basis(choice%slow), motion, request, speed, damping_of(request%damping, level%grid), &
         solution%y, found%quadratic_change)
     end block attempt
     found%applications = before + solution%applications + better%applications
@@ -689,7 +562,7 @@ contains
 
     real(wp), allocatable :: series(:, :)
 
-    call solve_periodic(grid, plan, basis, motion, speed, damping_of(request, grid), &
+    call solve_periodic(grid, plan, basis, motion, speed, damping_of(request%damping, grid), &
       request%terms, load_at_speed(grid, speed), tolerance, solution%y, &
       solution%applications, solution%remainder, error, solution%last_change)
     if (allocated(error)) return
@@ -713,7 +586,7 @@ contains
     type(floquet_mode_t) :: mode
 
     applications = 0
-    call find_nearest_mode(level%grid, plan, basis, motion, speed, damping_of(request, &
+    call find_nearest_mode(level%grid, plan, basis, motion, speed, damping_of(request%damping, &
       level%grid), request%terms, merge(far, near, request%validity), mode, found%growth, &
       found%error)
     if (allocated(found%error)) return
@@ -932,7 +805,7 @@ contains
       real(wp) :: coefficients(size(y, 1), size(y, 2)), c(size(y, 2))
       integer :: i, j
 
-      c = damping_of(request, grid)
+      c = damping_of(request%damping, grid)
       call coefficients_of(plan, y, coefficients)
       power = 0.0_wp
       do i = 1, size(y, 2)

@@ -1,0 +1,169 @@
+!> Grids of a turn with what periodic solutions on them need, made when a speed needs them: speeds,
+!! reports of the response and of stability share them.
+module response_levels
+  use body_lumps, only: pieces_of
+  use deformation_model, only: deformation_model_t, new_deformation_model
+  use errors, only: error_t
+  use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
+  use kinds, only: wp
+  use link_degrees, only: link_degrees_t, uniform_degrees
+  use link_store, only: link_store_t
+  use response_types, only: damping_ratio, damping_time, link_damping_t
+  use slow_motions, only: new_slow_basis, slow_basis_t
+  use structures, only: structure_t
+  use turn_grids, only: new_turn_grid, turn_grid_t
+  implicit none (type, external)
+  private
+
+  public :: level_t, level_slot_t, need_level, need_basis, damping_of, sample_numbers
+
+  !> Degrees along a link are lower than those across it by this, and at least as high as this. The
+  !! bending of the links loads them along their axes: both converge together.
+  integer, parameter :: along_below = 4, least_along = 4
+
+  !> Numbers of samples, products of small factors.
+  integer, parameter :: sample_numbers(*) = [64, 96, 128, 192, 256, 384, 512, 768, 1024, 1536, 2048]
+
+  !> Samples from which the slow coordinates are found.
+  integer, parameter :: basis_samples = 96
+
+  !> A grid with what its solutions need.
+  type :: level_t
+    integer :: order = 0
+    type(turn_grid_t) :: grid, coarse
+    type(slow_basis_t), allocatable :: basis(:) !! by the number of slow coordinates; empty where
+                                                !! not needed
+  end type level_t
+
+  type :: level_slot_t
+    type(level_t), allocatable :: level
+  end type level_slot_t
+
+contains
+
+  !> Finds or makes a level.
+  !!
+  !! Errors: the crank does not turn fully; own modes of a link could not be found.
+  subroutine need_level(structure, order, samples, backwards, store, levels, number, error)
+    class(structure_t), intent(in) :: structure      !! linkage and beams
+    integer, intent(in) :: order                     !! highest polynomial degree
+    integer, intent(in) :: samples                   !! one of `sample_numbers`
+    logical, intent(in) :: backwards                 !! the crank turns clockwise
+    type(link_store_t), intent(inout) :: store       !! links decomposed earlier
+    type(level_slot_t), allocatable, intent(inout) :: levels(:) !! made so far
+    integer, intent(out) :: number                   !! of the level
+    type(error_t), allocatable, intent(out) :: error !! why there is none
+
+    number = number_of_level(levels, order, samples, backwards)
+    if (number > 0) return
+    call add_slot(levels)
+    number = size(levels)
+    call new_level(structure, order, samples, backwards, store, levels(number)%level, error)
+  end subroutine need_level
+
+  !> Number of the level of an order and a number of samples; 0: none.
+  pure function number_of_level(levels, order, samples, backwards) result(number)
+    type(level_slot_t), intent(in) :: levels(:)
+    integer, intent(in) :: order, samples
+    logical, intent(in) :: backwards
+    integer :: number
+
+    do number = size(levels), 1, -1
+      if (levels(number)%level%order == order .and. &
+        levels(number)%level%grid%samples == samples .and. &
+        (levels(number)%level%grid%backwards .eqv. backwards)) exit
+    end do
+  end function number_of_level
+
+  !> Room for one more level; those there are not copied.
+  pure subroutine add_slot(levels)
+    type(level_slot_t), allocatable, intent(inout) :: levels(:)
+
+    type(level_slot_t), allocatable :: more(:)
+    integer :: i
+
+    allocate (more(size(levels) + 1))
+    do i = 1, size(levels)
+      call move_alloc(levels(i)%level, more(i)%level)
+    end do
+    allocate (more(size(more))%level)
+    call move_alloc(more, levels)
+  end subroutine add_slot
+
+  !> Makes the grids of a level.
+  subroutine new_level(structure, order, samples, backwards, store, level, error)
+    class(structure_t), intent(in) :: structure
+    integer, intent(in) :: order, samples
+    logical, intent(in) :: backwards !! the crank turns clockwise
+    type(link_store_t), intent(inout) :: store
+    type(level_t), intent(out) :: level
+    type(error_t), allocatable, intent(out) :: error
+
+    type(deformation_model_t) :: model
+    type(link_degrees_t) :: degrees(size(structure%beams))
+    integer :: b, pieces, across
+
+    do b = 1, size(degrees)
+      pieces = size(pieces_of(structure%linkage%bodies(b))) - 1
+      across = max(4, order - min(pieces - 1, 3))
+      degrees(b) = uniform_degrees(pieces, across, max(least_along, across - along_below))
+    end do
+    call new_deformation_model(structure%linkage, structure%beams, spread(0, 1, size(degrees)), &
+      spread(order, 1, size(degrees)), spread(.false., 1, size(degrees)), model, error, store, &
+      degrees)
+    if (allocated(error)) return
+    call new_turn_grid(structure%linkage, model, samples, level%grid, error, backwards)
+    if (allocated(error)) return
+    call new_turn_grid(structure%linkage, model, min(samples, basis_samples), level%coarse, error, &
+      backwards)
+    level%order = order
+    allocate (level%basis(model%layout%unknowns))
+  end subroutine new_level
+
+  !> Makes the slow coordinates of a level, unless they are there.
+  !!
+  !! Errors: as `new_slow_basis`.
+  subroutine need_basis(number, dampings, level, error)
+    integer, intent(in) :: number                    !! of slow coordinates
+    type(link_damping_t), intent(in) :: dampings(:)  !! (bodies), the same for all of a level
+    type(level_t), intent(inout) :: level
+    type(error_t), allocatable, intent(out) :: error !! why there are none
+
+    type(fourier_plan_t) :: plan, coarse_plan
+
+    if (level%basis(number)%number > 0) return
+    call open_fourier(level%grid%samples, plan)
+    call open_fourier(level%coarse%samples, coarse_plan)
+    call new_slow_basis(level%coarse, coarse_plan, plan, number, damping_of(dampings, &
+      level%grid), level%basis(number), error)
+    call close_fourier(plan)
+    call close_fourier(coarse_plan)
+  end subroutine need_basis
+
+  !> Damping of every unknown: the Kelvin–Voigt time, or `2 ζ/ω` of the own modes of the link. The
+  !! elongation and the rotation of the clamped end take that of its lowest own mode.
+  pure function damping_of(dampings, grid) result(c)
+    type(link_damping_t), intent(in) :: dampings(:) !! (bodies)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp) :: c(grid%unknowns) !! [s]
+
+    integer :: b
+
+    c = 0.0_wp
+    do b = 1, size(dampings)
+      if (.not. grid%model%links(b)%bends) cycle
+      associate (damping => dampings(b), link => grid%model%links(b))
+        select case (damping%kind)
+        case (damping_time)
+          where (grid%owner == b) c = damping%value
+        case (damping_ratio)
+          where (grid%owner == b) c = 2.0_wp*damping%value*sqrt(maxval(link%square))
+          c(grid%first(b):grid%first(b) + link%modes - 1) = 2.0_wp*damping%value*sqrt(link%square)
+          c(grid%first_along(b):grid%first_along(b) + link%axial_modes - 1) = &
+            2.0_wp*damping%value*sqrt(link%axial_square)
+        end select
+      end associate
+    end do
+  end function damping_of
+
+end module response_levels
