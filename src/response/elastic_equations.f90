@@ -12,8 +12,9 @@ module elastic_equations
   implicit none (type, external)
   private
 
-  public :: elastic_terms_t, inertia_force, slope_force, apply_equation, load_at_speed, &
-    functions_of, geometric_force, slopes_of, mass_force, times_mass, spread_over_unknowns
+  public :: elastic_terms_t, inertia_force, inertia_parts, slope_force, apply_equation, &
+    equation_parts, load_at_speed, functions_of, geometric_force, slopes_of, mass_force, &
+    times_mass, spread_over_unknowns
 
   !> Terms of the equation and of the torque; false: omitted.
   type :: elastic_terms_t
@@ -178,6 +179,63 @@ contains
       end do
     end do
   end subroutine inertia_force
+
+  !> The inertia force of `e^{σ θ} y` over `e^{σ θ}`, in powers of σ: `I0 + σ I1 + σ² I2`, where
+  !! `I1 = 2 (M y' + G y)` and `I2 = M y`.
+  subroutine inertia_parts(grid, plan, terms, y, parts)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan   !! for its samples
+    type(elastic_terms_t), intent(in) :: terms
+    real(wp), intent(in) :: y(:, :)            !! (samples, unknowns) [√J]
+    real(wp), intent(out) :: parts(:, :, 0:)   !! (samples, unknowns, power) [√J per rad²/s²]
+
+    real(wp), allocatable :: q(:, :), first(:, :), second(:, :)
+    real(wp) :: push(size(y, 1))
+    integer :: b, i, k, p
+
+    parts = 0.0_wp
+    if (.not. all_terms(terms)) then
+      call chosen_inertia_force(grid, plan, terms, y, parts(:, :, 0))
+      allocate (first, second, mold=y)
+      call derivatives(plan, y, first)
+      call mass_force(grid, first, second)
+      call slope_force(grid, y, first)
+      parts(:, :, 1) = 2.0_wp*second
+      if (terms%coriolis) parts(:, :, 1) = parts(:, :, 1) + 2.0_wp*first
+      call mass_force(grid, y, parts(:, :, 2))
+      return
+    end if
+    do b = 1, size(grid%integrals)
+      q = functions_of(grid, b, y)
+      allocate (first, mold=q)
+      allocate (second, mold=q)
+      call derivatives(plan, q, first, second)
+      call spread_over_unknowns(grid, b, inertia_of_body(grid, b, q, first, second), &
+        parts(:, :, 0))
+      call spread_over_unknowns(grid, b, times_mass(grid, b, q), parts(:, :, 2))
+      second = times_mass(grid, b, first)
+      do i = 1, size(q, 2)
+        first(:, i) = grid%rate(:, b)*q(:, i)
+      end do
+      call spread_over_unknowns(grid, b, 2.0_wp*(second - matmul(first, grid%integrals(b)%swap)), &
+        parts(:, :, 1))
+      deallocate (first, second)
+    end do
+    allocate (first(size(y, 1), 2), second(size(y, 1), 2))
+    do p = 1, size(grid%pin_mass)
+      if (grid%pin_mass(p) <= 0.0_wp) cycle
+      q = pin_motion(grid, p, y)
+      call derivatives(plan, q, first, second)
+      do i = 1, grid%border
+        do k = 1, 2
+          push = grid%pin_mass(p)*grid%pin(:, k, p, i)
+          parts(:, i, 0) = parts(:, i, 0) + push*second(:, k)
+          parts(:, i, 1) = parts(:, i, 1) + 2.0_wp*push*first(:, k)
+          parts(:, i, 2) = parts(:, i, 2) + push*q(:, k)
+        end do
+      end do
+    end do
+  end subroutine inertia_parts
 
   !> Rates of the own modes of a body, which are functions of it.
   pure subroutine take_rates(grid, body, first, rates)
@@ -384,6 +442,35 @@ contains
     if (terms%axial) call geometric_force(grid, speed**2*grid%force(:, :, :, 1) + &
       grid%force(:, :, :, constant_case), y, force)
   end subroutine apply_equation
+
+  !> The left side of the equation for `e^{σ θ} y` over `e^{σ θ}`, in powers of σ:
+  !! `L0 y + σ L1 y + σ² L2 y`; L0 y is that of `apply_equation`.
+  subroutine equation_parts(grid, plan, speed, damping, terms, y, parts)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan   !! for its samples
+    real(wp), intent(in) :: speed              !! ω2 [rad/s]
+    real(wp), intent(in) :: damping(:)         !! (unknowns) c [s]
+    type(elastic_terms_t), intent(in) :: terms
+    real(wp), intent(in) :: y(:, :)            !! (samples, unknowns) [√J]
+    real(wp), intent(out) :: parts(:, :, 0:)   !! (samples, unknowns, power) [√J]
+
+    real(wp), allocatable :: first(:, :)
+    integer :: i
+
+    call inertia_parts(grid, plan, terms, y, parts)
+    parts = speed**2*parts
+    parts(:, :, 0) = parts(:, :, 0) + y
+    if (any(damping > 0.0_wp)) then
+      allocate (first, mold=y)
+      call derivatives(plan, y, first)
+      do i = 1, size(y, 2)
+        parts(:, i, 0) = parts(:, i, 0) + speed*damping(i)*first(:, i)
+        parts(:, i, 1) = parts(:, i, 1) + speed*damping(i)*y(:, i)
+      end do
+    end if
+    if (terms%axial) call geometric_force(grid, speed**2*grid%force(:, :, :, 1) + &
+      grid%force(:, :, :, constant_case), y, parts(:, :, 0))
+  end subroutine equation_parts
 
   !> The right side of the equation [√J].
   pure function load_at_speed(grid, speed) result(load)

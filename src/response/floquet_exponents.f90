@@ -1,20 +1,21 @@
 !> Floquet exponents of an elastic linkage: `y = e^{σ θ} z(θ)` with z periodic solves the equation
-!! of motion without load.
+!! of motion without load, `L(σ) z = (L0 + σ L1 + σ² L2) z = 0`.
 !!
-!! The slow motion gives the first approximation. Residual inverse iteration (Neumaier, SIAM J.
-!! Numer. Anal. 22 (1985) 914) on the whole equation makes it as accurate as grid and orders allow:
-!! with D in place of d/dθ2, the equation at σ is that with D + σ, `L(σ) = L0 + σ L1 + σ² L2`.
+!! The slow motion gives first approximations. The whole equation is then projected on a growing
+!! space (Davidson; Sleijpen et al., BIT 36 (1996) 595): of the modes of the slow motion that are
+!! near, and of corrections from the residual by the approximate inverse. Without damping
+!! `L(−σ̄)ᴴ = L(σ)`: values of stable modes then are as good as the square of their vectors, and so
+!! are those of unstable ones if the space has the partner at −σ̄, too.
 module floquet_exponents
   use constants, only: two_pi
-  use elastic_equations, only: apply_equation, elastic_terms_t, mass_force, slope_force
+  use elastic_equations, only: elastic_terms_t, equation_parts
   use errors, only: error_t
-  use fourier_transform, only: derivatives, fourier_plan_t
-  use kinds, only: fineness, wp
-  use minimal_residuals, only: add_combination, add_product, minimal_residual_t, start_residual
+  use fourier_transform, only: fourier_plan_t
+  use kinds, only: wp
   use periodic_solver, only: add_slow, complete_solution, slow_part
+  use quadratic_pencil, only: find_pencil_modes
   use slow_motions, only: slow_basis_t, slow_mode_shape, slow_mode_t, slow_modes, slow_motion_t, &
     solve_slow_shifted
-  use sorting, only: ascending_order
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
@@ -23,18 +24,24 @@ module floquet_exponents
 
   !> The shift from the first approximation at which equations are solved: near enough to converge
   !! in a few rounds, far enough to leave them regular.
-  real(wp), parameter :: shift = 1.0e-3_wp
+  real(wp), parameter :: shift = 1.0e-2_wp
 
-  !> They are given up where the exponent moves away by so much.
-  real(wp), parameter :: lost = 100.0_wp
-  integer, parameter :: most_rounds = 12, most_products = 40
+  !> Modes of the slow motion whose exponents are no farther from each other than this are found
+  !! together.
+  real(wp), parameter :: together = 0.03_wp
 
-  !> Exponents change by no more than this in the last round; where only the nearness of resonance
-  !! is asked for, by no more than that.
-  real(wp), parameter :: fine_change = 1.0e-13_wp*fineness, rough_change = 1.0e-7_wp
+  !> Most vectors of the space.
+  integer, parameter :: most_vectors = 30
+
+  !> Where only the nearness of resonance is asked for, the exponent changes by no more than this in
+  !! the last round.
+  real(wp), parameter :: rough_change = 1.0e-9_wp
 
   !> No exponent differs more than this from its first approximation.
   real(wp), parameter :: farthest = 0.02_wp
+
+  !> A vector of which less is left in a space is in it.
+  real(wp), parameter :: within = 1.0e-10_wp
 
   !> Modes with fewer samples a period are not resolved; exponents of the slow motion are right to
   !! about this much.
@@ -43,13 +50,8 @@ module floquet_exponents
   !> Growth of the slow motion above this is looked for in the whole equation.
   real(wp), parameter :: least_growth = 1.0e-6_wp
 
-  !> Rounds that change the exponent by more than this share of the change before lead nowhere; the
-  !! first say nothing yet.
-  real(wp), parameter :: least_fall = 0.5_wp
-  integer, parameter :: first_rounds = 3
-
-  !> Solutions gain so much in a round.
-  real(wp), parameter :: gain = 1.0e-4_wp
+  !> Real parts above this are off the circle.
+  real(wp), parameter :: off_circle = 1.0e-12_wp
 
   !> A mode of free motion.
   type :: floquet_mode_t
@@ -57,17 +59,25 @@ module floquet_exponents
                                                 !! vibrations per turn, between 0 and 1/2
     real(wp) :: change = 0.0_wp                 !! of the exponent in the last round
     integer :: applications = 0                 !! of the equation, to complex motions
-    real(wp) :: frequency = 0.0_wp              !! of its shape at the first crank angle [rad/s]
+    real(wp) :: frequency = 0.0_wp              !! of its shape over the turn,
+                                                !! `√(∮ zᴴz / ∮ zᴴM z)` [rad/s]
+    real(wp) :: action = 0.0_wp                 !! `Im ∮ zᴴ(L1 + 2σ L2) z`, about 1 or −1 by the
+                                                !! Krein signature, 0 at collisions
   end type floquet_mode_t
+
+  !> Vectors, orthonormal, with the equation applied to them, and its projection.
+  type :: space_t
+    integer :: number = 0
+    real(wp), allocatable :: vector(:, :, :)   !! (samples, real parts and imaginary parts, vectors)
+    real(wp), allocatable :: parts(:, :, :, :) !! (…, 0:2, vectors)
+    complex(wp), allocatable :: projection(:, :, :) !! (vectors, vectors, 0:2)
+  end type space_t
 
 contains
 
-  !> The modes of lowest frequency.
-  !!
-  !! Errors: the multipliers of the slow motion do not converge. A mode whose iterations do not
-  !! converge keeps its last change.
-  subroutine find_floquet_modes(grid, plan, basis, motion, speed, damping, terms, number, modes, &
-    error)
+  !> Modes of the whole equation that belong to modes of the slow motion.
+  subroutine find_floquet_modes(grid, plan, basis, motion, speed, damping, terms, tolerance, &
+    slow, wanted, modes)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan   !! for its samples
     type(slow_basis_t), intent(in) :: basis    !! of this grid
@@ -75,26 +85,17 @@ contains
     real(wp), intent(in) :: speed              !! ω2 [rad/s]
     real(wp), intent(in) :: damping(:)         !! (unknowns) c [s]
     type(elastic_terms_t), intent(in) :: terms
-    integer, intent(in) :: number              !! of modes wanted
-    type(floquet_mode_t), allocatable, intent(out) :: modes(:) !! at most as many as slow
-                                                               !! coordinates
-    type(error_t), allocatable, intent(out) :: error
+    real(wp), intent(in) :: tolerance          !! of the last change of an exponent; where it is not
+                                               !! reached, `change` says so
+    type(slow_mode_t), intent(in) :: slow(:)   !! all modes of the slow motion
+    integer, intent(in) :: wanted(:)           !! numbers of those that are wanted
+    type(floquet_mode_t), intent(out) :: modes(:) !! (as many)
 
-    type(slow_mode_t), allocatable :: slow(:)
-    real(wp), allocatable :: z(:, :)
-    integer :: i, n
-    integer, allocatable :: order(:)
+    integer :: i
 
-    call slow_modes(basis, motion, slow, error)
-    if (allocated(error)) return
-    order = ascending_order(slow%frequency)
-    n = min(number, size(slow))
-    allocate (modes(n))
-    do i = 1, n
-      z = expanded(basis, motion, slow(order(i)))
-      modes(i)%frequency = slow(order(i))%frequency
-      modes(i)%exponent = slow(order(i))%exponent
-      call refine(grid, plan, basis, motion, speed, damping, terms, fine_change, z, modes(i))
+    do i = 1, size(wanted)
+      call refine(grid, plan, basis, motion, speed, damping, terms, tolerance, slow, wanted(i), &
+        modes(i))
     end do
   end subroutine find_floquet_modes
 
@@ -120,7 +121,6 @@ contains
 
     type(slow_mode_t), allocatable :: slow(:)
     type(floquet_mode_t) :: grown
-    real(wp), allocatable :: z(:, :)
     logical, allocatable :: resolved(:)
     integer :: nearest, growing
 
@@ -150,8 +150,8 @@ contains
       mode%frequency = slow(number)%frequency
       mode%change = of_slow_motion
       if (.not. whole) return
-      z = expanded(basis, motion, slow(number))
-      call refine(grid, plan, basis, motion, speed, damping, terms, rough_change, z, mode)
+      call refine(grid, plan, basis, motion, speed, damping, terms, rough_change, slow, number, &
+        mode)
       ! Iterations that lead elsewhere say nothing.
       if (abs(mode%exponent - slow(number)%exponent) <= farthest .and. &
         mode%change <= farthest) return
@@ -161,148 +161,194 @@ contains
 
   end subroutine find_nearest_mode
 
-  !> A slow mode in all unknowns: real parts, then imaginary parts.
-  pure function expanded(basis, motion, mode) result(z)
+  !> A slow mode in all unknowns: real parts, then imaginary parts; or its conjugate.
+  pure function expanded(basis, motion, mode, conjugate, waves) result(z)
     type(slow_basis_t), intent(in) :: basis
     type(slow_motion_t), intent(in) :: motion
     type(slow_mode_t), intent(in) :: mode
+    logical, intent(in) :: conjugate
+    integer, intent(in) :: waves !! per turn that the exponent has more
     real(wp) :: z(size(basis%shape, 1), 2*size(basis%shape, 2))
 
     complex(wp) :: shape(motion%steps, motion%number)
-    integer :: n
+    integer :: k, n
 
     n = size(basis%shape, 2)
     z = 0.0_wp
     shape = slow_mode_shape(motion, mode)
+    if (conjugate) shape = conjg(shape)
+    if (waves /= 0) then
+      do k = 1, motion%steps
+        shape(k, :) = exp(cmplx(0.0_wp, -waves*two_pi*(k - 1)/motion%steps, wp))*shape(k, :)
+      end do
+    end if
     call add_slow(basis, real(shape, wp), z(:, :n))
     call add_slow(basis, aimag(shape), z(:, n + 1:))
     z = z/norm2(z)
   end function expanded
 
-  !> Improves an exponent and its motion.
-  subroutine refine(grid, plan, basis, motion, speed, damping, terms, tolerance, z, mode)
+  !> A mode of the whole equation.
+  subroutine refine(grid, plan, basis, motion, speed, damping, terms, tolerance, slow, wanted, &
+    mode)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan
     type(slow_basis_t), intent(in) :: basis
     type(slow_motion_t), intent(in) :: motion
     real(wp), intent(in) :: speed, damping(:)
     type(elastic_terms_t), intent(in) :: terms
-    real(wp), intent(in) :: tolerance  !! of the last change
-    real(wp), intent(inout) :: z(:, :) !! (samples, real parts and imaginary parts)
-    type(floquet_mode_t), intent(inout) :: mode
+    real(wp), intent(in) :: tolerance          !! of the last change
+    type(slow_mode_t), intent(in) :: slow(:)
+    integer, intent(in) :: wanted              !! its number
+    type(floquet_mode_t), intent(out) :: mode
 
-    real(wp) :: parts(size(z, 1), size(z, 2), 0:2)
-    real(wp), dimension(size(z, 1), size(z, 2)) :: residual, along
-    complex(wp) :: fixed, before, step
-    real(wp) :: last_change
-    integer :: round
+    type(space_t) :: space
+    complex(wp), allocatable :: values(:), vectors(:, :)
+    complex(wp) :: fixed, before
+    real(wp) :: correction(grid%samples, 2*grid%unknowns)
+    integer :: number, partner, round
+    logical :: grew
 
+    mode%exponent = slow(wanted)%exponent
+    mode%change = huge(1.0_wp)
     fixed = mode%exponent + shift
-    last_change = huge(1.0_wp)
-    do round = 1, most_rounds
-      call apply_parts(grid, plan, speed, damping, terms, z, parts)
-      mode%applications = mode%applications + 1
-      if (round <= 2) along = solved(slope_of(parts, mode%exponent))
-      residual = solved(combined(parts, mode%exponent))
-      ! z changes perpendicular to itself.
-      step = -product_of(z, residual)/product_of(z, along)
-      z = z - residual - times(step, along)
-      z = z/norm2(z)
+    call start
+    do round = 1, most_vectors
+      call find_pencil_modes(space%projection(:space%number, :space%number, :), fixed, values, &
+        vectors)
+      if (size(values) == 0) return
       before = mode%exponent
-      mode%exponent = before + step
-      mode%change = abs(step)
-      if (mode%change <= tolerance) return
-      if (.not. mode%change < lost*(1.0_wp + abs(fixed))) return
-      if (round > first_rounds .and. mode%change > least_fall*last_change) return
-      last_change = mode%change
+      number = minloc(abs(values - before), dim=1)
+      mode%exponent = values(number)
+      if (round > 1) mode%change = abs(mode%exponent - before)
+      if (mode%change <= tolerance .or. space%number >= most_vectors - 1) exit
+      ! The partner first: it moves the value of the mode, too.
+      grew = .false.
+      if (.not. any(damping > 0.0_wp) .and. abs(real(mode%exponent)) > off_circle) then
+        partner = minloc(abs(values + conjg(mode%exponent)), dim=1)
+        if (partner /= number) then
+          call correct(values(partner), vectors(:, partner))
+          call add_vector(correction, grew)
+        end if
+      end if
+      call correct(mode%exponent, vectors(:, number))
+      call add_vector(correction, grew)
+      if (.not. grew) exit
     end do
+    call describe(vectors(:, number))
 
   contains
 
-    !> The solution of the equation at the fixed shift.
-    function solved(load) result(y)
-      real(wp), intent(in) :: load(:, :)
-      real(wp) :: y(size(load, 1), size(load, 2))
+    !> The space of the slow modes that are near, each on the sheet that is nearest.
+    subroutine start
+      complex(wp) :: there
+      integer :: i, waves, kind
+      logical :: added
 
-      type(minimal_residual_t) :: problem
-      real(wp), dimension(size(z, 1), size(z, 2)) :: product
-      real(wp) :: products(size(z, 1), size(z, 2), 0:2), limit
-
-      y = 0.0_wp
-      call approximate(load, product)
-      if (norm2(product) <= 0.0_wp) return
-      limit = gain*norm2(product)
-      call start_residual(product, most_products, problem)
-      do while (problem%last <= most_products .and. problem%residual > limit)
-        call apply_parts(grid, plan, speed, damping, terms, problem%vector(:, :, problem%last), &
-          products)
-        mode%applications = mode%applications + 1
-        call approximate(combined(products, fixed), product)
-        call add_product(problem, product)
+      allocate (space%vector(grid%samples, 2*grid%unknowns, most_vectors), &
+        space%parts(grid%samples, 2*grid%unknowns, 0:2, most_vectors), &
+        space%projection(most_vectors, most_vectors, 0:2))
+      added = .false.
+      call add_vector(expanded(basis, motion, slow(wanted), .false., 0), added)
+      do i = 1, size(slow)
+        do kind = 1, 2
+          if (kind == 2 .and. .not. slow(i)%is_complex) cycle
+          there = merge(conjg(slow(i)%exponent), slow(i)%exponent, kind == 2)
+          waves = nint(aimag(mode%exponent - there))
+          if (i == wanted .and. kind == 1) cycle
+          if (abs(there + cmplx(0.0_wp, waves, wp) - mode%exponent) > together) cycle
+          if (space%number > most_vectors/2) return
+          call add_vector(expanded(basis, motion, slow(i), kind == 2, waves), added)
+        end do
       end do
-      call add_combination(problem, y)
-    end function solved
+    end subroutine start
 
-    !> An approximate solution of the equation at the fixed shift.
-    subroutine approximate(load, y)
-      real(wp), intent(in) :: load(:, :)
-      real(wp), intent(out) :: y(:, :)
+    !> Adds a vector to the space, unless it is in it.
+    subroutine add_vector(new, added)
+      real(wp), intent(in) :: new(:, :)
+      logical, intent(inout) :: added
 
-      real(wp), dimension(size(z, 1), basis%number) :: part, part_imaginary, slow, slow_imaginary
-      integer :: n
+      real(wp) :: v(size(new, 1), size(new, 2)), length
+      integer :: i, k, n, p, time
 
-      n = size(z, 2)/2
-      call slow_part(basis, load(:, :n), part)
-      call slow_part(basis, load(:, n + 1:), part_imaginary)
-      call solve_slow_shifted(plan, motion, fixed, part/speed**2, part_imaginary/speed**2, slow, &
-        slow_imaginary)
-      call complete_solution(plan, basis, speed, damping, load(:, :n), part, slow, y(:, :n))
-      call complete_solution(plan, basis, speed, damping, load(:, n + 1:), part_imaginary, &
-        slow_imaginary, y(:, n + 1:))
-    end subroutine approximate
+      if (space%number == most_vectors) return
+      v = new
+      length = norm2(v)
+      if (.not. (length > 0.0_wp .and. length <= huge(1.0_wp))) return
+      v = v/length
+      do time = 1, 2
+        do i = 1, space%number
+          v = v - times(product_of(space%vector(:, :, i), v), space%vector(:, :, i))
+        end do
+        length = norm2(v)
+        if (length < within) return
+        v = v/length
+      end do
+      k = space%number + 1
+      n = size(v, 2)/2
+      space%vector(:, :, k) = v
+      call equation_parts(grid, plan, speed, damping, terms, v(:, :n), space%parts(:, :n, :, k))
+      call equation_parts(grid, plan, speed, damping, terms, v(:, n + 1:), &
+        space%parts(:, n + 1:, :, k))
+      mode%applications = mode%applications + 1
+      do p = 0, 2
+        do i = 1, k
+          space%projection(i, k, p) = product_of(space%vector(:, :, i), space%parts(:, :, p, k))
+          space%projection(k, i, p) = product_of(v, space%parts(:, :, p, i))
+        end do
+      end do
+      space%number = k
+      added = .true.
+    end subroutine add_vector
+
+    !> The correction of a vector of the space, from what it leaves in the equation.
+    subroutine correct(exponent, weights)
+      complex(wp), intent(in) :: exponent
+      complex(wp), intent(in) :: weights(:) !! of the vectors
+
+      real(wp), dimension(grid%samples, basis%number) :: part, part_imaginary, z, z_imaginary
+      real(wp) :: residual(grid%samples, 2*grid%unknowns)
+      integer :: i, n, p
+
+      residual = 0.0_wp
+      do i = 1, size(weights)
+        do p = 0, 2
+          residual = residual + times(weights(i)*exponent**p, space%parts(:, :, p, i))
+        end do
+      end do
+      n = grid%unknowns
+      call slow_part(basis, residual(:, :n), part)
+      call slow_part(basis, residual(:, n + 1:), part_imaginary)
+      call solve_slow_shifted(plan, motion, fixed, part/speed**2, part_imaginary/speed**2, z, &
+        z_imaginary)
+      call complete_solution(plan, basis, speed, damping, residual(:, :n), part, z, &
+        correction(:, :n))
+      call complete_solution(plan, basis, speed, damping, residual(:, n + 1:), part_imaginary, &
+        z_imaginary, correction(:, n + 1:))
+    end subroutine correct
+
+    !> Frequency and action of the mode.
+    subroutine describe(weights)
+      complex(wp), intent(in) :: weights(:)
+
+      real(wp), dimension(grid%samples, 2*grid%unknowns) :: z, first, second
+      complex(wp) :: kinetic
+      integer :: i
+
+      z = 0.0_wp
+      first = 0.0_wp
+      second = 0.0_wp
+      do i = 1, size(weights)
+        z = z + times(weights(i), space%vector(:, :, i))
+        first = first + times(weights(i), space%parts(:, :, 1, i))
+        second = second + times(weights(i), space%parts(:, :, 2, i))
+      end do
+      kinetic = product_of(z, second)
+      mode%frequency = abs(speed)*norm2(z)/sqrt(max(real(kinetic), tiny(1.0_wp)))
+      mode%action = aimag(product_of(z, first) + 2.0_wp*mode%exponent*kinetic)/ &
+        (2.0_wp*norm2(z)*sqrt(max(real(kinetic), tiny(1.0_wp))))
+    end subroutine describe
 
   end subroutine refine
-
-  !> L0, L1 and L2 applied to a complex motion.
-  subroutine apply_parts(grid, plan, speed, damping, terms, z, parts)
-    type(turn_grid_t), intent(in) :: grid
-    type(fourier_plan_t), intent(in) :: plan
-    real(wp), intent(in) :: speed, damping(:)
-    type(elastic_terms_t), intent(in) :: terms
-    real(wp), intent(in) :: z(:, :)
-    real(wp), intent(out) :: parts(:, :, 0:)
-
-    real(wp), dimension(size(z, 1), size(z, 2)/2) :: rate, product
-    integer :: i, j, n
-
-    n = size(z, 2)/2
-    do i = 0, 1
-      associate (y => z(:, i*n + 1:(i + 1)*n), first => parts(:, i*n + 1:(i + 1)*n, 1))
-        call apply_equation(grid, plan, speed, damping, terms, y, parts(:, i*n + 1:(i + 1)*n, 0))
-        call derivatives(plan, y, rate)
-        call mass_force(grid, rate, product)
-        first = 2.0_wp*speed**2*product
-        if (terms%coriolis) then
-          call slope_force(grid, y, product)
-          first = first + 2.0_wp*speed**2*product
-        end if
-        do j = 1, n
-          first(:, j) = first(:, j) + speed*damping(j)*y(:, j)
-        end do
-        call mass_force(grid, y, product)
-        parts(:, i*n + 1:(i + 1)*n, 2) = speed**2*product
-      end associate
-    end do
-  end subroutine apply_parts
-
-  !> `L0 z + σ L1 z + σ² L2 z`.
-  pure function combined(parts, exponent) result(total)
-    real(wp), intent(in) :: parts(:, :, 0:) !! (samples, real and imaginary parts, power)
-    complex(wp), intent(in) :: exponent
-    real(wp) :: total(size(parts, 1), size(parts, 2))
-
-    total = parts(:, :, 0) + times(exponent, parts(:, :, 1) + times(exponent, parts(:, :, 2)))
-  end function combined
 
   !> `zᴴ f`.
   pure function product_of(z, f) result(product)
@@ -314,15 +360,6 @@ contains
     n = size(z, 2)/2
     product = cmplx(sum(z*f), sum(z(:, :n)*f(:, n + 1:)) - sum(z(:, n + 1:)*f(:, :n)), wp)
   end function product_of
-
-  !> `L1 z + 2 σ L2 z`.
-  pure function slope_of(parts, exponent) result(total)
-    real(wp), intent(in) :: parts(:, :, 0:)
-    complex(wp), intent(in) :: exponent
-    real(wp) :: total(size(parts, 1), size(parts, 2))
-
-    total = parts(:, :, 1) + times(2.0_wp*exponent, parts(:, :, 2))
-  end function slope_of
 
   !> `c f`.
   pure function times(c, f) result(product)

@@ -11,8 +11,9 @@ module slow_motions
   use constants, only: two_pi
   use elastic_equations, only: functions_of, mass_force, slopes_of, times_mass
   use errors, only: error_of_numerics, error_t, set_error
-  use fourier_transform, only: coefficients_of, derivatives, fourier_plan_t, resample, resampled, &
-    shifted, values_of
+  use fast_followers, only: add_followers, follower_products, frozen_stiffness
+  use fourier_transform, only: close_fourier, coefficients_of, derivatives, fourier_plan_t, &
+    open_fourier, resample, resampled, shifted, values_of
   use gauss_collocation, only: collocation_t, new_collocation
   use kinds, only: wp
   use lapack, only: dgeev, dgetf2, dgetrf, dgetrs
@@ -25,7 +26,8 @@ module slow_motions
   private
 
   public :: slow_basis_t, new_slow_basis, slow_motion_t, new_slow_motion, solve_slow, &
-    slow_count, own_squares, slow_mode_t, slow_modes, slow_mode_shape, solve_slow_shifted
+    slow_count, own_squares, slow_mode_t, slow_modes, slow_mode_shape, solve_slow_shifted, &
+    frozen_matrices
 
   !> Subspace iterations: the error of the lowest frequencies falls by the square of the ratio of
   !! frequencies each time.
@@ -42,15 +44,16 @@ module slow_motions
     real(wp), allocatable :: inverse(:, :, :)     !! (samples, number, number) (XᵀX)⁻¹
     real(wp), allocatable :: square(:)            !! (unknowns) 1/ω² of the other deformations by
                                                   !! themselves; 0 of the slow ones [s²]
-    real(wp), allocatable :: start_mass(:, :)     !! (number, number) M at the first crank angle
-    real(wp), allocatable :: start_stiffness(:, :) !! XᵀX there
-    !> Coefficients over the turn: (samples, number², matrices) M, G, W, XᵀX and XᵀK_GX per ω2² and
-    !! of the constant loads; with damping also XᵀCX and XᵀCX'
-    real(wp), allocatable :: matrix(:, :, :)
+    !> Matrices at the samples of a coarse grid: (samples, number², matrices) M, G, W, XᵀX, XᵀK_GX
+    !! per ω2² and of the constant loads, G', XᵀCX and XᵀCX'
+    real(wp), allocatable :: sums(:, :, :)
+    !> (5 number, 5 number, samples of the coarse grid) of the fast deformations that follow; not
+    !! there where they are left out
+    real(wp), allocatable :: products(:, :, :)
   end type slow_basis_t
 
   integer, parameter :: of_mass = 1, of_g = 2, of_w = 3, of_stiffness = 4, of_speed = 5, &
-    of_loads = 6, of_rate = 7, of_drift = 8
+    of_loads = 6, of_slope = 7, of_rate = 8, of_drift = 9, matrices = 9
 
   !> Steps of the collocation at one speed.
   type :: slow_motion_t
@@ -72,6 +75,7 @@ module slow_motions
     complex(wp) :: exponent = (0.0_wp, 0.0_wp) !! σ, its imaginary part between 0 and 1/2
     complex(wp), allocatable :: start(:)       !! (2 number) coordinates and momenta at the first
                                                !! crank angle
+    logical :: is_complex = .false.            !! its conjugate is another
     real(wp) :: frequency = 0.0_wp             !! of the shape there, `√(zᴴXᵀX z/zᴴM z)` [rad/s]
   end type slow_mode_t
 
@@ -120,7 +124,7 @@ contains
   !! slowly over the turn.
   !!
   !! Errors: the slow deformations do not determine the slow coordinates at some crank angle.
-  subroutine new_slow_basis(coarse, coarse_plan, plan, number, damping, basis, error)
+  subroutine new_slow_basis(coarse, coarse_plan, plan, number, damping, basis, error, followers)
     type(turn_grid_t), intent(in) :: coarse          !! few samples
     type(fourier_plan_t), intent(in) :: coarse_plan  !! for these
     type(fourier_plan_t), intent(in) :: plan         !! for the samples wanted
@@ -128,10 +132,12 @@ contains
     real(wp), intent(in) :: damping(:)               !! (unknowns) c [s]
     type(slow_basis_t), intent(out) :: basis
     type(error_t), allocatable, intent(out) :: error !! why there are none
+    logical, intent(in), optional :: followers       !! the fast deformations follow the slow
+                                                     !! motion; absent: they are left out
 
-    real(wp), allocatable :: shape(:, :, :), sums(:, :, :), coefficients(:, :)
+    real(wp), allocatable :: shape(:, :, :)
     integer, allocatable :: order(:)
-    integer :: c, i, j, k
+    integer :: i, j, k
 
     basis%number = number
     basis%square = own_squares(coarse)
@@ -139,15 +145,13 @@ contains
     basis%square(order(:number)) = 0.0_wp
     call find_shapes(coarse, order(:number), shape, error)
     if (allocated(error)) return
-    call find_matrices(coarse, coarse_plan, shape, sums)
-    basis%start_mass = reshape(sums(1, :, of_mass), [number, number])
-    basis%start_stiffness = reshape(sums(1, :, of_stiffness), [number, number])
-    allocate (coefficients(coarse%samples, number**2), basis%matrix(plan%samples, number**2, &
-      merge(of_drift, of_loads, any(damping > 0.0_wp))))
-    do c = 1, of_loads
-      call coefficients_of(coarse_plan, sums(:, :, c), coefficients)
-      basis%matrix(:, :, c) = resampled(coefficients, plan%samples)
-    end do
+    call find_matrices(coarse, coarse_plan, shape, basis%sums)
+    call derivatives(coarse_plan, basis%sums(:, :, of_g), basis%sums(:, :, of_slope))
+    if (any(damping > 0.0_wp)) call add_damping(coarse_plan, damping, shape, basis%sums)
+    if (present(followers)) then
+      if (followers .and. number < coarse%unknowns) call follower_products(coarse, coarse_plan, &
+        shape, basis%products)
+    end if
     allocate (basis%shape(plan%samples, coarse%unknowns, number))
     do i = 1, number
       call resample(coarse_plan, shape(:, :, i), plan, basis%shape(:, :, i))
@@ -163,33 +167,31 @@ contains
     do k = 1, plan%samples
       call invert((basis%inverse(k, :, :)), basis%inverse(k, :, :))
     end do
-    if (any(damping > 0.0_wp)) call add_damping(plan, damping, basis)
   end subroutine new_slow_basis
 
   !> Adds XᵀCX and XᵀCX'.
-  subroutine add_damping(plan, damping, basis)
+  subroutine add_damping(plan, damping, shape, sums)
     type(fourier_plan_t), intent(in) :: plan
     real(wp), intent(in) :: damping(:)
-    type(slow_basis_t), intent(inout) :: basis
+    real(wp), intent(in) :: shape(:, :, :)
+    real(wp), intent(inout) :: sums(:, :, :)
 
-    real(wp), dimension(plan%samples, basis%number**2) :: of_shape, of_slope
-    real(wp), dimension(plan%samples, size(damping)) :: damped, slope
-    integer :: at, i, j
+    real(wp), dimension(size(shape, 1), size(shape, 2)) :: damped, slope
+    integer :: at, i, j, number
 
-    do j = 1, basis%number
-      call derivatives(plan, basis%shape(:, :, j), slope)
+    number = size(shape, 3)
+    do j = 1, number
+      call derivatives(plan, shape(:, :, j), slope)
       do i = 1, size(damping)
-        damped(:, i) = damping(i)*basis%shape(:, i, j)
+        damped(:, i) = damping(i)*shape(:, i, j)
         slope(:, i) = damping(i)*slope(:, i)
       end do
-      do i = 1, basis%number
-        at = (j - 1)*basis%number + i
-        of_shape(:, at) = products_of_rows(basis%shape(:, :, i), damped)
-        of_slope(:, at) = products_of_rows(basis%shape(:, :, i), slope)
+      do i = 1, number
+        at = (j - 1)*number + i
+        sums(:, at, of_rate) = products_of_rows(shape(:, :, i), damped)
+        sums(:, at, of_drift) = products_of_rows(shape(:, :, i), slope)
       end do
     end do
-    call coefficients_of(plan, of_shape, basis%matrix(:, :, of_rate))
-    call coefficients_of(plan, of_slope, basis%matrix(:, :, of_drift))
   end subroutine add_damping
 
   !> X from subspace iterations on the mass matrix.
@@ -222,14 +224,15 @@ contains
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan
     real(wp), intent(in) :: shape(:, :, :)
-    real(wp), allocatable, intent(out) :: sums(:, :, :) !! (samples, number², matrices)
+    real(wp), allocatable, intent(out) :: sums(:, :, :) !! (samples, number², matrices), zero where
+                                                        !! they are none of these
 
     real(wp), allocatable :: first(:, :, :), q(:, :, :)
     integer :: b, i, j, n, number
 
     n = grid%samples
     number = size(shape, 3)
-    allocate (sums(n, number**2, 6))
+    allocate (sums(n, number**2, matrices))
     sums = 0.0_wp
     do b = 1, size(grid%integrals)
       associate (integrals => grid%integrals(b))
@@ -408,16 +411,7 @@ contains
     motion%number = m
     motion%steps = n
     motion%rule = new_collocation(stages)
-    ! M, G, W − K/ω² − XᵀCX'/ω, XᵀCX/ω
-    allocate (total(n, m**2, 4))
-    total(:, :, 1:2) = basis%matrix(:, :, 1:2)
-    total(:, :, 3) = basis%matrix(:, :, of_w) - basis%matrix(:, :, of_speed) - (basis%matrix(:, :, &
-      of_stiffness) + basis%matrix(:, :, of_loads))/speed**2
-    total(:, :, 4) = 0.0_wp
-    if (size(basis%matrix, 3) == of_drift) then
-      total(:, :, 3) = total(:, :, 3) - basis%matrix(:, :, of_drift)/speed
-      total(:, :, 4) = basis%matrix(:, :, of_rate)/speed
-    end if
+    call matrices_at_speed(basis, speed, n, total)
     allocate (at_stage(m**2, 4, stages, n), values(n, m**2))
     do i = 1, stages
       do c = 1, 4
@@ -425,8 +419,7 @@ contains
         at_stage(:, c, i, :) = transpose(values)
       end do
     end do
-    motion%scale = sqrt(sum(abs(basis%matrix(1, 1::m + 1, of_mass)))* &
-      sum(abs(basis%matrix(1, 1::m + 1, of_stiffness))))/(m*abs(speed))
+    motion%scale = sqrt(sum(abs(total(1, 1::m + 1, 1)))*mean_stiffness(basis))/(m*abs(speed))
     allocate (motion%transfer(2*m, 2*m, n), motion%response(2*m, m*stages, n))
     do k = 1, n
       call make_step(motion, k, at_stage(:, :, :, k))
@@ -450,6 +443,71 @@ contains
     if (info /= 0) call set_error(error, error_of_numerics, &
       "resonance: the slow motion has a multiplier of 1")
   end subroutine new_slow_motion
+
+  !> Coefficients of M, G, W − K/ω² − XᵀCX'/ω and XᵀCX/ω.
+  subroutine matrices_at_speed(basis, speed, samples, total)
+    type(slow_basis_t), intent(in) :: basis
+    real(wp), intent(in) :: speed
+    integer, intent(in) :: samples                       !! of the motion
+    real(wp), allocatable, intent(out) :: total(:, :, :) !! (samples, number², 4)
+
+    type(fourier_plan_t) :: plan
+    real(wp) :: at_sample(basis%number, basis%number, 5), coefficients(size(basis%sums, 1), &
+      size(basis%sums, 2))
+    real(wp), allocatable :: values(:, :, :)
+    integer :: c, k, m, n
+
+    m = basis%number
+    n = size(basis%sums, 1)
+    allocate (values(n, m**2, 4), total(samples, m**2, 4))
+    associate (sums => basis%sums)
+      values(:, :, 1:2) = sums(:, :, [of_mass, of_g])
+      values(:, :, 3) = sums(:, :, of_w) - sums(:, :, of_speed) - (sums(:, :, of_stiffness) + &
+        sums(:, :, of_loads))/speed**2 - sums(:, :, of_drift)/speed
+      values(:, :, 4) = sums(:, :, of_rate)/speed
+      if (allocated(basis%products)) then
+        do k = 1, n
+          at_sample(:, :, :4) = reshape(values(k, :, :), [m, m, 4])
+          at_sample(:, :, 5) = reshape(sums(k, :, of_slope), [m, m])
+          call add_followers(basis%products(:, :, k), speed, at_sample(:, :, 5), &
+            at_sample(:, :, 4), at_sample(:, :, 1), at_sample(:, :, 2), at_sample(:, :, 3))
+          values(k, :, :3) = reshape(at_sample(:, :, :3), [m**2, 3])
+        end do
+      end if
+    end associate
+    call open_fourier(n, plan)
+    do c = 1, 4
+      call coefficients_of(plan, values(:, :, c), coefficients)
+      total(:, :, c) = resampled(coefficients, samples)
+    end do
+    call close_fourier(plan)
+  end subroutine matrices_at_speed
+
+  !> Mean of the trace of XᵀX over the turn.
+  pure function mean_stiffness(basis) result(mean)
+    type(slow_basis_t), intent(in) :: basis
+    real(wp) :: mean
+
+    mean = sum(basis%sums(:, 1::basis%number + 1, of_stiffness))/size(basis%sums, 1)
+  end function mean_stiffness
+
+  !> Mass and stiffness matrix of the linkage frozen at a sample of the coarse grid, under the axial
+  !! forces of a speed.
+  pure subroutine frozen_matrices(basis, speed, sample, mass, stiffness)
+    type(slow_basis_t), intent(in) :: basis
+    real(wp), intent(in) :: speed               !! ω2 [rad/s]
+    integer, intent(in) :: sample
+    real(wp), intent(out) :: mass(:, :)         !! (number, number) [s²]
+    real(wp), intent(out) :: stiffness(:, :)    !! (number, number)
+
+    associate (sums => basis%sums(sample, :, :), m => basis%number)
+      mass = reshape(sums(:, of_mass), [m, m])
+      stiffness = reshape(sums(:, of_stiffness) + speed**2*sums(:, of_speed) + sums(:, of_loads), &
+        [m, m])
+    end associate
+    if (allocated(basis%products)) stiffness = stiffness - frozen_stiffness(basis%products(:, :, &
+      sample), speed, mass, stiffness)
+  end subroutine frozen_matrices
 
   !> One step: coordinates and momenta at its end from those at its start and the loads at its
   !! stages. Unknowns of the stages are z': `A z' = B`, and what is wanted is `E z'`. There are
@@ -572,10 +630,13 @@ contains
 
     real(wp) :: a(2*motion%number, 2*motion%number), vectors(2*motion%number, 2*motion%number)
     real(wp) :: re(2*motion%number), im(2*motion%number), work(32*motion%number), none(1, 1)
+    real(wp), dimension(motion%number, motion%number) :: mass, stiffness
     integer :: i, m, n, number, info
 
     m = motion%number
     n = 2*m
+    mass = reshape(basis%sums(1, :, of_mass), [m, m])
+    stiffness = reshape(basis%sums(1, :, of_stiffness), [m, m])
     a = motion%monodromy
     call dgeev("N", "V", n, a, n, re, im, none, 1, vectors, n, work, size(work), info)
     if (info /= 0) then
@@ -590,10 +651,11 @@ contains
       associate (mode => modes(number))
         mode%exponent = log(cmplx(re(i), im(i), wp))/two_pi
         mode%start = cmplx(vectors(:, i), 0.0_wp, wp)
-        if (im(i) > 0.0_wp) mode%start = cmplx(vectors(:, i), vectors(:, i + 1), wp)
+        mode%is_complex = im(i) > 0.0_wp
+        if (mode%is_complex) mode%start = cmplx(vectors(:, i), vectors(:, i + 1), wp)
         associate (z => mode%start(:m))
-          mode%frequency = sqrt(real(dot_product(z, matmul(basis%start_stiffness, z)))/ &
-            real(dot_product(z, matmul(basis%start_mass, z))))
+          mode%frequency = sqrt(real(dot_product(z, matmul(stiffness, z)))/ &
+            real(dot_product(z, matmul(mass, z))))
         end associate
       end associate
     end do

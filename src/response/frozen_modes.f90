@@ -1,0 +1,40 @@
+!> Natural frequencies of a linkage frozen at the positions of a turn, under the axial forces of its
+!! motion, from the slow coordinates and what follows them.
+module frozen_modes
+  use band_matrix, only: full_band
+  use dense_eigensolver, only: solve_dense
+  use errors, only: error_t
+  use kinds, only: wp
+  use slow_motions, only: frozen_matrices, slow_basis_t
+  implicit none (type, external)
+  private
+
+  public :: find_frozen_frequencies
+
+contains
+
+  !> Frequencies at every second sample of the coarse grid, in ascending order at each.
+  !!
+  !! Errors: the stiffness is not positive definite: a link buckles under the forces.
+  subroutine find_frozen_frequencies(basis, speed, frequency, error)
+    type(slow_basis_t), intent(in) :: basis          !! with its followers
+    real(wp), intent(in) :: speed                    !! ω2 [rad/s]
+    real(wp), intent(out) :: frequency(:, :)         !! (modes, positions) [rad/s]: half as many as
+                                                     !! samples
+    type(error_t), allocatable, intent(out) :: error !! why there are none
+
+    real(wp) :: mass(basis%number, basis%number), stiffness(basis%number, basis%number)
+    real(wp) :: inverse(size(frequency, 1))
+    real(wp), allocatable :: vectors(:, :)
+    integer :: k
+
+    do k = 1, size(frequency, 2)
+      call frozen_matrices(basis, speed, 2*k - 1, mass, stiffness)
+      call solve_dense(full_band(stiffness), full_band(mass), size(inverse), .false., inverse, &
+        vectors, error)
+      if (allocated(error)) return
+      frequency(:, k) = 1.0_wp/sqrt(inverse)
+    end do
+  end subroutine find_frozen_frequencies
+
+end module frozen_modes
