@@ -11,7 +11,8 @@ module models
   use materials, only: material_t
   use motor_cards, only: motor_t, resistance_t
   use output_units, only: output_units_t
-  use report_cards, only: default_response_accuracy, report_t
+  use report_cards, only: report_t
+  use report_kinds, only: report_kind_t
   use response_cards, only: damping_card_t, gauge_t, omitted_terms_t
   use sections, only: section_t
   use text, only: to_string
@@ -22,7 +23,8 @@ module models
   private
 
   public :: model_t, report_number, needs_study, needs_positions, is_moving, is_loaded, &
-    needs_loads, needs_inertia, needs_frequencies, needs_response, response_accuracy, needs_beams, &
+    needs_loads, needs_inertia, needs_frequencies, needs_response, report_in_motion, &
+    accuracy_of_study, needs_beams, &
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
     link_line_density, speed_in_table, speed_in_words
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
@@ -138,7 +140,8 @@ contains
     needs = any(model%reports%kind%frequencies)
   end function needs_frequencies
 
-  !> Whether the elastic response of the links at constant speed is requested.
+  !> Whether anything is requested of the elastic linkage that turns at constant speed: its
+  !! response, its stability.
   pure function needs_response(model) result(needs)
     type(model_t), intent(in) :: model !! as read
     logical :: needs
@@ -146,16 +149,30 @@ contains
     needs = any(model%reports%kind%response)
   end function needs_response
 
-  !> The accuracy of the elastic response, relative to the largest value of each quantity over the
-  !! turn: the smallest of all reports on it, for they share one solution.
-  pure function response_accuracy(model) result(accuracy)
-    type(model_t), intent(in) :: model !! as read
+  !> The first report on the elastic linkage that turns at constant speed: `REPORT response`.
+  pure function report_in_motion(model) result(words)
+    type(model_t), intent(in) :: model !! with such a report
+    character(len=:), allocatable :: words
+
+    words = "REPORT "//trim(model%reports(findloc(model%reports%kind%response, .true., &
+      dim=1))%kind%name)
+  end function report_in_motion
+
+  !> The accuracy of a study of the elastic linkage in motion: the smallest of all reports on it,
+  !! for they share one solution.
+  pure function accuracy_of_study(model, study) result(accuracy)
+    type(model_t), intent(in) :: model    !! as read, with a report on it
+    character(len=*), intent(in) :: study !! name of the study, as in the table of reports
     real(wp) :: accuracy
 
-    accuracy = default_response_accuracy
-    if (needs_response(model)) accuracy = minval(model%reports%accuracy, &
-      mask=model%reports%kind%response)
-  end function response_accuracy
+    integer :: i
+
+    accuracy = huge(1.0_wp)
+    do i = 1, size(model%reports)
+      if (uses_study(model%reports(i)%kind, study)) accuracy = min(accuracy, &
+        model%reports(i)%accuracy)
+    end do
+  end function accuracy_of_study
 
   !> Whether any report is on links that bend, by their elements or without.
   pure function bends_links(model) result(bends)
@@ -194,10 +211,18 @@ contains
 
     needs = .false.
     do i = 1, size(model%reports)
-      needs = needs .or. &
-        index(" "//model%reports(i)%kind%studies, " "//trim(study)//" ") > 0
+      needs = needs .or. uses_study(model%reports(i)%kind, study)
     end do
   end function needs_study
+
+  !> Whether a report takes its rows from a study.
+  pure function uses_study(kind, study) result(uses)
+    type(report_kind_t), intent(in) :: kind
+    character(len=*), intent(in) :: study
+    logical :: uses
+
+    uses = index(" "//kind%studies, " "//trim(study)//" ") > 0
+  end function uses_study
 
   !> Whether any report is on masses and their loads.
   pure function needs_masses(model) result(needs)

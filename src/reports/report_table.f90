@@ -36,6 +36,7 @@ module report_table
   use report_kinds, only: report_kind_t, table_kind_t
   use response_notes, only: add_failed_speed, has_response
   use response_report, only: add_response, response_notes_of, response_point_names
+  use stability_report, only: add_stability, stability_notes, stability_words
   use strains_report, only: add_strains, gauge_names, strains_notes
   use table_columns, only: name_list_t, new_table_layout, table_layout_t
   use table_rows, only: add_failed_row, add_gap, rows_t
@@ -57,10 +58,10 @@ module report_table
   end type table_plan_t
 
   !> All studies in the order in which they are made: some use the results of others. The last
-  !! four are made by `variant_runs`, some of them block by block or step by step.
-  character(len=*), parameter :: study_names(13) = [character(len=12) :: "kinematics", "geometry", &
+  !! five are made by `variant_runs`, some of them block by block or step by step.
+  character(len=*), parameter :: study_names(14) = [character(len=12) :: "kinematics", "geometry", &
     "inertia", "points", "reactions", "lagrange", "balance", "harmonics", "linkage", "response", &
-    "motion", "frequencies", "loci"]
+    "stability", "motion", "frequencies", "loci"]
 
   !> Tables of the elastic response with rows for every position.
   character(len=*), parameter :: response_tables(3) = [character(len=8) :: "response", "strains", &
@@ -153,6 +154,11 @@ module report_table
       response=.true., tables=[ &
       table_kind_t("validity", "speed:speed link:name deflection,load,quadratic:- "// &
       "out_of_plane:Hz distance,error:-"), no_table]), &
+    report_kind_t(name="stability", help="whether vibrations of the running linkage grow", &
+      pattern="REPORT stability [accuracy=]", default="accuracy=1e-8", studies="stability", &
+      response=.true., tables=[ &
+      table_kind_t("stability", "speed:speed mode:# turns,growth:- frequency:Hz signature:# "// &
+      "error:- verdict:name"), no_table]), &
     report_kind_t(name="motion", help="the motion under motor and loads", &
       pattern="REPORT motion crank= [speed=0] end= step=", default="speed=0", &
       studies="motion", masses=.true., tables=[ &
@@ -260,6 +266,9 @@ contains
     case ("peaks", "validity")
       names(1) = link_names(variant)
       plan%items = plan%speeds
+    case ("stability")
+      names(1) = stability_words()
+      plan%items = plan%speeds
     end select
     call new_table_layout(table, variant%model%outputs, count, optional, names, plan%layout)
   end subroutine plan_table
@@ -318,6 +327,8 @@ contains
       call drive_notes(variant, notes)
     case ("validity")
       call validity_notes(variant, notes)
+    case ("stability")
+      call stability_notes(variant, notes)
     end select
   end subroutine table_notes
 
@@ -343,6 +354,8 @@ contains
       call add_loci(variant, plan%layout, rows)
     case ("peaks", "validity")
       call add_speed(plan%name, variant, plan%layout, number, rows)
+    case ("stability")
+      call add_stability(variant, plan%layout, number, rows)
     case ("shapes")
       if (number > 1) call add_gap(rows, 2)
       call add_shapes(variant, plan%layout, plan%drawn(1, number), plan%drawn(2, number), rows)

@@ -1,7 +1,7 @@
 !> Remarks and failed rows that all tables of the elastic response have.
 module response_notes
   use kinds, only: long, wp
-  use models, only: inertia_lumped, response_accuracy, speed_in_words
+  use models, only: inertia_lumped, accuracy_of_study, speed_in_words
   use response_study, only: largest_deflection
   use table_rows, only: add_failed_row, rows_t
   use text, only: append_string, string_t, to_string
@@ -29,7 +29,8 @@ contains
       if (model%inertia == inertia_lumped) call append_string(notes, "the mass of the links is "// &
         "distributed along them: INERTIA lumped does not apply to the response")
       call append_string(notes, "error: estimated, relative to the largest value of the "// &
-        "quantity over the turn; accuracy asked for: "//to_string(response_accuracy(model)))
+        "quantity over the turn; accuracy asked for: "//to_string(accuracy_of_study(model, &
+        "response")))
     end associate
     call append_method(notes, variant)
   end subroutine append_response_notes

@@ -14,6 +14,7 @@ module floquet_exponents
   use kinds, only: wp
   use periodic_solver, only: add_slow, complete_solution, slow_part
   use quadratic_pencil, only: find_pencil_modes
+  use row_products, only: sum_of_products
   use slow_motions, only: slow_basis_t, slow_mode_shape, slow_mode_t, slow_modes, slow_motion_t, &
     solve_slow_shifted
   use turn_grids, only: turn_grid_t
@@ -30,8 +31,12 @@ module floquet_exponents
   !! together.
   real(wp), parameter :: together = 0.03_wp
 
-  !> Most vectors of the space.
-  integer, parameter :: most_vectors = 30
+  !> Most vectors of the space, and most that are near to begin with. After some rounds (without and
+  !! with damping, where values converge slowly) it is begun anew with the mode, its partner and
+  !! those near: corrections also bring in a little of modes of high frequency, whose exponents lie
+  !! densely, and in a large space one of these is taken for the mode before long.
+  integer, parameter :: most_vectors = 24, most_near = 8, most_rounds = 40, &
+    rounds_of_space(2) = [6, 10]
 
   !> Where only the nearness of resonance is asked for, the exponent changes by no more than this in
   !! the last round.
@@ -68,6 +73,7 @@ module floquet_exponents
   !> Vectors, orthonormal, with the equation applied to them, and its projection.
   type :: space_t
     integer :: number = 0
+    complex(wp), allocatable :: near(:, :)     !! (vectors, modes near) these in the vectors
     real(wp), allocatable :: vector(:, :, :)   !! (samples, real parts and imaginary parts, vectors)
     real(wp), allocatable :: parts(:, :, :, :) !! (…, 0:2, vectors)
     complex(wp), allocatable :: projection(:, :, :) !! (vectors, vectors, 0:2)
@@ -202,17 +208,18 @@ contains
     type(floquet_mode_t), intent(out) :: mode
 
     type(space_t) :: space
-    complex(wp), allocatable :: values(:), vectors(:, :)
+    complex(wp), allocatable :: values(:), vectors(:, :), weights(:), partner_weights(:)
     complex(wp) :: fixed, before
     real(wp) :: correction(grid%samples, 2*grid%unknowns)
     integer :: number, partner, round
-    logical :: grew
+    logical :: grew, is_damped
 
+    is_damped = any(damping > 0.0_wp)
     mode%exponent = slow(wanted)%exponent
     mode%change = huge(1.0_wp)
     fixed = mode%exponent + shift
     call start
-    do round = 1, most_vectors
+    do round = 1, most_rounds
       call find_pencil_modes(space%projection(:space%number, :space%number, :), fixed, values, &
         vectors)
       if (size(values) == 0) return
@@ -220,21 +227,25 @@ contains
       number = minloc(abs(values - before), dim=1)
       mode%exponent = values(number)
       if (round > 1) mode%change = abs(mode%exponent - before)
-      if (mode%change <= tolerance .or. space%number >= most_vectors - 1) exit
-      ! The partner first: it moves the value of the mode, too.
-      grew = .false.
-      if (.not. any(damping > 0.0_wp) .and. abs(real(mode%exponent)) > off_circle) then
+      weights = vectors(:, number)
+      if (mode%change <= tolerance) exit
+      partner = number
+      if (.not. is_damped .and. abs(real(mode%exponent)) > off_circle) &
         partner = minloc(abs(values + conjg(mode%exponent)), dim=1)
-        if (partner /= number) then
-          call correct(values(partner), vectors(:, partner))
-          call add_vector(correction, grew)
-        end if
+      partner_weights = vectors(:, partner)
+      if (modulo(round, rounds_of_space(merge(2, 1, is_damped))) == 0) call gather(weights, &
+        partner_weights)
+      ! The partner moves the value of the mode, too.
+      grew = .false.
+      if (partner /= number) then
+        call correct(values(partner), partner_weights)
+        call add_vector(correction, grew)
       end if
-      call correct(mode%exponent, vectors(:, number))
+      call correct(mode%exponent, weights)
       call add_vector(correction, grew)
       if (.not. grew) exit
     end do
-    call describe(vectors(:, number))
+    call describe(weights)
 
   contains
 
@@ -256,11 +267,66 @@ contains
           waves = nint(aimag(mode%exponent - there))
           if (i == wanted .and. kind == 1) cycle
           if (abs(there + cmplx(0.0_wp, waves, wp) - mode%exponent) > together) cycle
-          if (space%number > most_vectors/2) return
+          if (space%number == most_near) exit
           call add_vector(expanded(basis, motion, slow(i), kind == 2, waves), added)
         end do
       end do
+      space%near = unit_matrix(space%number)
     end subroutine start
+
+    !> Begins the space anew with the mode, its partner and the modes near.
+    subroutine gather(weights, partner_weights)
+      complex(wp), allocatable, intent(inout) :: weights(:), partner_weights(:)
+
+      complex(wp) :: q(space%number, size(space%near, 2) + 2)
+      real(wp), allocatable :: vector(:, :, :), parts(:, :, :, :)
+      complex(wp), allocatable :: near(:, :)
+      real(wp) :: length
+      integer :: c, i, k, n, p, time
+
+      n = space%number
+      allocate (near(n, size(space%near, 2)))
+      near = 0.0_wp
+      near(:size(space%near, 1), :) = space%near
+      k = 0
+      do c = 1, size(q, 2)
+        k = k + 1
+        if (c == 1) q(:, k) = weights
+        if (c == 2) q(:, k) = partner_weights
+        if (c > 2) q(:, k) = near(:, c - 2)
+        do time = 1, 2
+          do i = 1, k - 1
+            q(:, k) = q(:, k) - dot_product(q(:, i), q(:, k))*q(:, i)
+          end do
+          length = sqrt(sum(abs(q(:, k))**2))
+          if (length < within) exit
+          q(:, k) = q(:, k)/length
+        end do
+        if (length < within) k = k - 1
+      end do
+      allocate (vector(grid%samples, 2*grid%unknowns, k), parts(grid%samples, 2*grid%unknowns, &
+        0:2, k))
+      vector = 0.0_wp
+      parts = 0.0_wp
+      do c = 1, k
+        do i = 1, n
+          vector(:, :, c) = vector(:, :, c) + times(q(i, c), space%vector(:, :, i))
+          do p = 0, 2
+            parts(:, :, p, c) = parts(:, :, p, c) + times(q(i, c), space%parts(:, :, p, i))
+          end do
+        end do
+      end do
+      space%vector(:, :, :k) = vector
+      space%parts(:, :, :, :k) = parts
+      do p = 0, 2
+        space%projection(:k, :k, p) = matmul(conjg(transpose(q(:, :k))), &
+          matmul(space%projection(:n, :n, p), q(:, :k)))
+      end do
+      space%near = matmul(conjg(transpose(q(:, :k))), near)
+      space%number = k
+      weights = matmul(conjg(transpose(q(:, :k))), weights)
+      partner_weights = matmul(conjg(transpose(q(:, :k))), partner_weights)
+    end subroutine gather
 
     !> Adds a vector to the space, unless it is in it.
     subroutine add_vector(new, added)
@@ -293,7 +359,12 @@ contains
       do p = 0, 2
         do i = 1, k
           space%projection(i, k, p) = product_of(space%vector(:, :, i), space%parts(:, :, p, k))
-          space%projection(k, i, p) = product_of(v, space%parts(:, :, p, i))
+          if (is_damped) then
+            space%projection(k, i, p) = product_of(v, space%parts(:, :, p, i))
+          else
+            ! L0 and L2 are Hermitian, L1 is not but for its sign.
+            space%projection(k, i, p) = merge(-1, 1, p == 1)*conjg(space%projection(i, k, p))
+          end if
         end do
       end do
       space%number = k
@@ -350,6 +421,19 @@ contains
 
   end subroutine refine
 
+  !> The unit matrix.
+  pure function unit_matrix(n) result(matrix)
+    integer, intent(in) :: n
+    complex(wp) :: matrix(n, n)
+
+    integer :: i
+
+    matrix = 0.0_wp
+    do i = 1, n
+      matrix(i, i) = 1.0_wp
+    end do
+  end function unit_matrix
+
   !> `zᴴ f`.
   pure function product_of(z, f) result(product)
     real(wp), intent(in) :: z(:, :), f(:, :)
@@ -358,7 +442,8 @@ contains
     integer :: n
 
     n = size(z, 2)/2
-    product = cmplx(sum(z*f), sum(z(:, :n)*f(:, n + 1:)) - sum(z(:, n + 1:)*f(:, :n)), wp)
+    product = cmplx(sum_of_products(z, f), sum_of_products(z(:, :n), f(:, n + 1:)) - &
+      sum_of_products(z(:, n + 1:), f(:, :n)), wp)
   end function product_of
 
   !> `c f`.

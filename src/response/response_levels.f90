@@ -123,11 +123,13 @@ contains
   !> Makes the slow coordinates of a level, unless they are there.
   !!
   !! Errors: as `new_slow_basis`.
-  subroutine need_basis(number, dampings, level, error)
+  subroutine need_basis(number, dampings, level, error, followers)
     integer, intent(in) :: number                    !! of slow coordinates
     type(link_damping_t), intent(in) :: dampings(:)  !! (bodies), the same for all of a level
     type(level_t), intent(inout) :: level
     type(error_t), allocatable, intent(out) :: error !! why there are none
+    logical, intent(in), optional :: followers       !! as for `new_slow_basis`, the same for all of
+                                                     !! a level
 
     type(fourier_plan_t) :: plan, coarse_plan
 
@@ -135,7 +137,7 @@ contains
     call open_fourier(level%grid%samples, plan)
     call open_fourier(level%coarse%samples, coarse_plan)
     call new_slow_basis(level%coarse, coarse_plan, plan, number, damping_of(dampings, &
-      level%grid), level%basis(number), error)
+      level%grid), level%basis(number), error, followers)
     call close_fourier(plan)
     call close_fourier(coarse_plan)
   end subroutine need_basis

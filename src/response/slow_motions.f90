@@ -27,7 +27,7 @@ module slow_motions
 
   public :: slow_basis_t, new_slow_basis, slow_motion_t, new_slow_motion, solve_slow, &
     slow_count, own_squares, slow_mode_t, slow_modes, slow_mode_shape, solve_slow_shifted, &
-    frozen_matrices
+    frozen_matrices, add_shape_frequencies
 
   !> Subspace iterations: the error of the lowest frequencies falls by the square of the ratio of
   !! frequencies each time.
@@ -50,6 +50,8 @@ module slow_motions
     !> (5 number, 5 number, samples of the coarse grid) of the fast deformations that follow; not
     !! there where they are left out
     real(wp), allocatable :: products(:, :, :)
+    !> (samples, number², 2) M and XᵀX, with the followers only
+    real(wp), allocatable :: form(:, :, :)
   end type slow_basis_t
 
   integer, parameter :: of_mass = 1, of_g = 2, of_w = 3, of_stiffness = 4, of_speed = 5, &
@@ -77,6 +79,9 @@ module slow_motions
                                                !! crank angle
     logical :: is_complex = .false.            !! its conjugate is another
     real(wp) :: frequency = 0.0_wp             !! of the shape there, `√(zᴴXᵀX z/zᴴM z)` [rad/s]
+    real(wp) :: shape_frequency = 0.0_wp       !! over the turn, `√(∮zᴴXᵀX z/∮zᴴM z)` [rad/s]
+    real(wp) :: action = 0.0_wp                !! about 1 or −1 by the Krein signature, 0 at
+                                               !! collisions
   end type slow_mode_t
 
 contains
@@ -149,8 +154,7 @@ contains
     call derivatives(coarse_plan, basis%sums(:, :, of_g), basis%sums(:, :, of_slope))
     if (any(damping > 0.0_wp)) call add_damping(coarse_plan, damping, shape, basis%sums)
     if (present(followers)) then
-      if (followers .and. number < coarse%unknowns) call follower_products(coarse, coarse_plan, &
-        shape, basis%products)
+      if (followers) call add_what_follows
     end if
     allocate (basis%shape(plan%samples, coarse%unknowns, number))
     do i = 1, number
@@ -167,6 +171,17 @@ contains
     do k = 1, plan%samples
       call invert((basis%inverse(k, :, :)), basis%inverse(k, :, :))
     end do
+
+  contains
+
+    subroutine add_what_follows
+      if (number < coarse%unknowns) call follower_products(coarse, coarse_plan, shape, &
+        basis%products)
+      allocate (basis%form(plan%samples, number**2, 2))
+      call resample(coarse_plan, basis%sums(:, :, of_mass), plan, basis%form(:, :, 1))
+      call resample(coarse_plan, basis%sums(:, :, of_stiffness), plan, basis%form(:, :, 2))
+    end subroutine add_what_follows
+
   end subroutine new_slow_basis
 
   !> Adds XᵀCX and XᵀCX'.
@@ -491,16 +506,18 @@ contains
     mean = sum(basis%sums(:, 1::basis%number + 1, of_stiffness))/size(basis%sums, 1)
   end function mean_stiffness
 
-  !> Mass and stiffness matrix of the linkage frozen at a sample of the coarse grid, under the axial
-  !! forces of a speed.
-  pure subroutine frozen_matrices(basis, speed, sample, mass, stiffness)
+  !> Mass, stiffness and damping matrix of the linkage frozen at a sample of the coarse grid, under
+  !! the axial forces of a speed.
+  pure subroutine frozen_matrices(basis, speed, sample, mass, stiffness, damping)
     type(slow_basis_t), intent(in) :: basis
     real(wp), intent(in) :: speed               !! ω2 [rad/s]
     integer, intent(in) :: sample
     real(wp), intent(out) :: mass(:, :)         !! (number, number) [s²]
     real(wp), intent(out) :: stiffness(:, :)    !! (number, number)
+    real(wp), intent(out), optional :: damping(:, :) !! (number, number) of the slow coordinates [s]
 
     associate (sums => basis%sums(sample, :, :), m => basis%number)
+      if (present(damping)) damping = reshape(sums(:, of_rate), [m, m])
       mass = reshape(sums(:, of_mass), [m, m])
       stiffness = reshape(sums(:, of_stiffness) + speed**2*sums(:, of_speed) + sums(:, of_loads), &
         [m, m])
@@ -660,6 +677,38 @@ contains
       end associate
     end do
   end subroutine slow_modes
+
+  !> Adds frequencies of shapes over the turn, and actions `ω Im(zᴴp)` over the root of
+  !! `∮zᴴXᵀX z ∮zᴴM z`: without damping the first is the same at all angles.
+  pure subroutine add_shape_frequencies(basis, motion, speed, modes)
+    type(slow_basis_t), intent(in) :: basis        !! with its followers
+    type(slow_motion_t), intent(in) :: motion      !! of these coordinates
+    real(wp), intent(in) :: speed                  !! ω2 [rad/s]
+    type(slow_mode_t), intent(inout) :: modes(:)
+
+    complex(wp) :: shape(motion%steps, motion%number)
+    real(wp) :: product(motion%steps), form(2)
+    integer :: at, c, i, j, k, m
+
+    m = motion%number
+    do k = 1, size(modes)
+      shape = slow_mode_shape(motion, modes(k))
+      form = 0.0_wp
+      do j = 1, m
+        do i = 1, m
+          at = (j - 1)*m + i
+          product = real(conjg(shape(:, i))*shape(:, j))
+          do c = 1, 2
+            form(c) = form(c) + sum(product*basis%form(:, at, c))
+          end do
+        end do
+      end do
+      form = form/motion%steps
+      modes(k)%shape_frequency = sqrt(form(2)/form(1))
+      modes(k)%action = speed*motion%scale*aimag(dot_product(modes(k)%start(:m), &
+        modes(k)%start(m + 1:)))/sqrt(form(1)*form(2))
+    end do
+  end subroutine add_shape_frequencies
 
   !> z of a free motion over the turn. That of a mode that fades fast is lost in the rounding of
   !! slower ones.

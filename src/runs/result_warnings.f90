@@ -3,7 +3,7 @@
 module result_warnings
   use kinds, only: wp
   use mechanisms, only: mechanism_t
-  use models, only: model_t, needs_frequencies, needs_response, response_accuracy, speed_in_words
+  use models, only: accuracy_of_study, model_t, needs_frequencies, needs_study, speed_in_words
   use position_results, only: error_of_divergence, error_of_orders, error_of_position
   use positions, only: positions_t
   use response_parts, only: body_damping_t, damping_none, dampings_of
@@ -53,7 +53,7 @@ contains
     integer :: k
 
     ! Function results go through a variable: gfortran 12 does not free them if they are arguments.
-    if (needs_response(variant%model)) then
+    if (needs_study(variant%model, "response")) then
       associate (model => variant%model, response => variant%found%response)
         warning = response_deflections(model, variant%mechanism, response)
         call add_if_any(findings, model%variant, warning)
@@ -308,14 +308,14 @@ contains
     speeds = 0
     do k = 1, size(response%at_speed)
       if (allocated(response%at_speed(k)%error)) cycle
-      if (response%at_speed(k)%largest_error <= response_accuracy(model)) cycle
+      if (response%at_speed(k)%largest_error <= accuracy_of_study(model, "response")) cycle
       speeds = speeds + 1
       if (response%at_speed(k)%largest_error <= warning%amount) cycle
       worst = k
       warning%amount = response%at_speed(k)%largest_error
     end do
     if (speeds == 0) return
-    warning%text = "the accuracy "//to_string(response_accuracy(model))// &
+    warning%text = "the accuracy "//to_string(accuracy_of_study(model, "response"))// &
       " of the response is not reached at "//plural(speeds, "speed")//": the error is up to "// &
       to_string(warning%amount, 2)//", at "//speed_in_words(model, worst, &
       model%speed%value(worst))

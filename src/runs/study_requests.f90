@@ -2,24 +2,26 @@
 module study_requests
   use attached_parts, only: body_of
   use drives, only: motor_drive_t, resistances_t
+  use elastic_equations, only: elastic_terms_t
   use frequency_report, only: is_drawn
   use kinds, only: wp
   use load_cases, only: has_constant_loads
   use mechanisms, only: mechanism_t
   use models, only: effects_static, inertia_lumped, model_t, needs_loads, needs_study, &
-    report_number, response_accuracy, solver_band, solver_dense
+    report_number, accuracy_of_study, solver_band, solver_dense
   use motion_study, only: motion_request_t
   use positions, only: positions_t
   use response_parts, only: body_damping_t, damping_by_ratio, damping_by_time, dampings_of
   use response_types, only: damping_ratio, damping_time, gauge_t, link_damping_t, no_damping, &
     response_point_t, response_request_t
   use sections, only: outer_distance
+  use stability_types, only: stability_request_t
   use vibration_models, only: any_method, by_band, by_dense, chosen_method, mode_request_t
   implicit none (type, external)
   private
 
   public :: mode_request_of, method_wanted, drawn_states, motion_request_of, &
-    motion_instants_of, response_request_of
+    motion_instants_of, response_request_of, stability_request_of
 
 contains
 
@@ -112,29 +114,17 @@ contains
     type(mechanism_t), intent(in) :: mechanism !! of the model
     type(response_request_t) :: request
 
-    type(body_damping_t) :: dampings(size(model%loop))
     integer :: b, i
 
     request%speed = model%speed%value
     request%crank = model%crank%value
-    request%accuracy = response_accuracy(model)
-    request%terms%coriolis = .not. model%without%coriolis
-    request%terms%centripetal = .not. model%without%centripetal
-    request%terms%axial = .not. model%without%axial
-    request%terms%quadratic = .not. model%without%quadratic
+    request%accuracy = accuracy_of_study(model, "response")
+    request%terms = terms_of(model)
+    request%damping = link_dampings_of(model)
     request%peaks = report_number(model, "peaks") > 0
     request%validity = report_number(model, "validity") > 0
-    dampings = dampings_of(model)
-    allocate (request%damping(size(dampings)), request%section(size(dampings)))
-    do b = 1, size(dampings)
-      select case (dampings(b)%kind)
-      case (damping_by_time)
-        request%damping(b) = link_damping_t(damping_time, dampings(b)%value)
-      case (damping_by_ratio)
-        request%damping(b) = link_damping_t(damping_ratio, dampings(b)%value)
-      case default
-        request%damping(b) = link_damping_t(no_damping, 0.0_wp)
-      end select
+    allocate (request%section(size(model%loop)))
+    do b = 1, size(model%loop)
       associate (link => model%links(model%loop(b)))
         if (link%section > 0) request%section(b)%outer = &
           outer_distance(model%sections(link%section))
@@ -157,6 +147,50 @@ contains
       end associate
     end do
   end function response_request_of
+
+  !> The requested exponents.
+  pure function stability_request_of(model) result(request)
+    type(model_t), intent(in) :: model !! with a report on stability
+    type(stability_request_t) :: request
+
+    request%speed = model%speed%value
+    request%modes = model%modes
+    request%accuracy = accuracy_of_study(model, "stability")
+    request%terms = terms_of(model)
+    request%damping = link_dampings_of(model)
+  end function stability_request_of
+
+  !> The terms of the equations of motion that are not left out.
+  pure function terms_of(model) result(terms)
+    type(model_t), intent(in) :: model
+    type(elastic_terms_t) :: terms
+
+    terms%coriolis = .not. model%without%coriolis
+    terms%centripetal = .not. model%without%centripetal
+    terms%axial = .not. model%without%axial
+    terms%quadratic = .not. model%without%quadratic
+  end function terms_of
+
+  !> Damping of every body.
+  pure function link_dampings_of(model) result(found)
+    type(model_t), intent(in) :: model
+    type(link_damping_t) :: found(size(model%loop))
+
+    type(body_damping_t) :: dampings(size(model%loop))
+    integer :: b
+
+    dampings = dampings_of(model)
+    do b = 1, size(dampings)
+      select case (dampings(b)%kind)
+      case (damping_by_time)
+        found(b) = link_damping_t(damping_time, dampings(b)%value)
+      case (damping_by_ratio)
+        found(b) = link_damping_t(damping_ratio, dampings(b)%value)
+      case default
+        found(b) = link_damping_t(no_damping, 0.0_wp)
+      end select
+    end do
+  end function link_dampings_of
 
   !> The motor on the driven link; without MOTOR its torque is 0.
   pure function drive_of(model) result(drive)

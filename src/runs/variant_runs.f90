@@ -17,7 +17,9 @@ module variant_runs
   use reach_texts, only: open_linkage_text, reachable_text
   use report_table, only: find_study, study_names
   use response_study, only: find_response
-  use study_requests, only: drawn_states, mode_request_of, motion_request_of, response_request_of
+  use stability_study, only: find_stability_of
+  use study_requests, only: drawn_states, mode_request_of, motion_request_of, &
+    response_request_of, stability_request_of
   use sweep_bytes, only: get_result, put_result
   use sweeps, only: sweep_t
   use task_journal, only: journal_t
@@ -93,6 +95,8 @@ contains
           call compute_motion(run)
         case ("response")
           call compute_response(run, threads, store)
+        case ("stability")
+          call compute_stability(run, threads, store)
         case ("frequencies")
           call compute_sweep(run, threads, journal, group, store, error)
           if (allocated(error)) return
@@ -168,6 +172,24 @@ contains
       end do
     end associate
   end subroutine compute_response
+
+  !> The exponents of the motion at all speeds.
+  subroutine compute_stability(run, threads, store)
+    type(variant_run_t), intent(inout) :: run
+    integer, intent(in) :: threads
+    type(link_store_t), intent(inout) :: store
+
+    integer :: k
+
+    associate (mechanism => run%results%mechanism, stability => run%results%found%stability)
+      call find_stability_of(mechanism%structure_t, stability_request_of(run%results%model), &
+        threads, store, stability)
+      do k = 1, size(stability%at_speed)
+        if (.not. allocated(stability%at_speed(k)%error)) cycle
+        call name_link(mechanism%names, stability%at_speed(k)%error)
+      end do
+    end associate
+  end subroutine compute_stability
 
   !> Frequencies at every position that has a pose. Positions that need higher orders than the
   !! samples by which orders were chosen are solved again, with orders chosen for them.

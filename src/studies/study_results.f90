@@ -13,6 +13,7 @@ module study_results
   use positions, only: positions_t
   use reactions_study, only: reactions_result_t
   use response_types, only: response_t
+  use stability_types, only: stability_t
   use sweeps, only: sweep_t
   implicit none (type, external)
   private
@@ -35,6 +36,7 @@ module study_results
     type(sweep_t) :: sweep
     type(loci_t) :: loci
     type(response_t) :: response
+    type(stability_t) :: stability
   end type study_results_t
 
 end module study_results

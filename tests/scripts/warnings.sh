@@ -71,8 +71,8 @@ idle_response() {
     warned idle_again "$text" <"$scratch/idle.deck" || return 1
   done
   beam_deck "CRANK 0" "SPEED 20" "REPORT peaks" >"$scratch/other.deck"
-  warned other_lumped "INERTIA lumped does not apply to the response" <"$scratch/other.deck" &&
-    warned other_mesh "'elements=' does not apply to the response" <"$scratch/other.deck"
+  warned other_lumped "INERTIA lumped does not apply to REPORT response" <"$scratch/other.deck" &&
+    warned other_mesh "'elements=' does not apply to REPORT response" <"$scratch/other.deck"
 }
 
 divergence() {

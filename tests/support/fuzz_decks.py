@@ -28,7 +28,7 @@ PIECES = [b"\0", b"\t", b"\r", b"\n", b"\r\n", b"&", b" & \n", b"!", b"#", b"=",
 BEAM_REPORTS = ["kinematics", "inertia", "mesh", "frequencies", "shapes", "branches"]
 OWN_CARD_REPORTS = ["motion"]
 # Those of a crank that turns at constant speed.
-RESPONSE_REPORTS = ["response", "strains", "peaks", "drive", "validity"]
+RESPONSE_REPORTS = ["response", "strains", "peaks", "drive", "validity", "stability"]
 LENGTHS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "in": 0.0254, "ft": 0.3048}
 MASSES = {"kg": 1.0, "g": 1e-3, "tonne": 1e3, "lbm": 0.45359237, "slug": 14.593903, "slinch": 175.126835}
 TIMES = {"s": 1.0, "ms": 1e-3}

@@ -14,12 +14,13 @@ module report_cards
   implicit none (type, external)
   private
 
-  public :: report_t, read_report, default_response_accuracy
+  public :: report_t, read_report
 
-  !> `accuracy=` of reports on the elastic response: relative to the largest value of a quantity
-  !! over the turn.
+  !> `accuracy=` of reports on the elastic response, relative to the largest value of a quantity
+  !! over the turn, and on stability, of exponents.
   real(wp), parameter :: default_response_accuracy = 1.0e-6_wp, &
-    finest_response_accuracy = 1.0e-12_wp*fineness, coarsest_response_accuracy = 1.0e-2_wp
+    default_stability_accuracy = 1.0e-8_wp, finest_response_accuracy = 1.0e-12_wp*fineness, &
+    coarsest_response_accuracy = 1.0e-2_wp
 
   !> One REPORT card.
   type :: report_t
@@ -29,7 +30,7 @@ module report_cards
     type(value_list_t) :: speed  !! `speed=` of shapes [rad/s]; empty: all speeds. Of motion: its
                                  !! start speed, as a list of one, or none
     integer :: points = 21       !! `points=` of shapes, along each link
-    real(wp) :: accuracy = default_response_accuracy !! of reports on the elastic response
+    real(wp) :: accuracy = default_response_accuracy !! of reports on the elastic linkage in motion
     ! REPORT motion: each value with its word, which has no line if the card does not give it.
     real(wp) :: start_angle = 0.0_wp !! of the crank [deg]
     real(wp) :: start_speed = 0.0_wp !! of the crank [rad/s]
@@ -95,7 +96,7 @@ contains
     end select
   end subroutine read_report
 
-  !> Reads `REPORT response [accuracy=]`, and the other reports on the elastic response.
+  !> Reads `REPORT response [accuracy=]`, and the other reports on the elastic linkage in motion.
   pure subroutine read_response(card, system, diagnostics, report)
     type(card_t), intent(in) :: card
     type(unit_system_t), intent(in) :: system
@@ -107,6 +108,7 @@ contains
 
     call read_entry_accuracy(card, finest_response_accuracy, coarsest_response_accuracy, system, &
       diagnostics, accuracy, fine)
+    if (report%kind%studies == "stability") report%accuracy = default_stability_accuracy
     if (fine) report%accuracy = accuracy
   end subroutine read_response
 

@@ -5,7 +5,7 @@ module request_checks
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use kinds, only: wp
   use models, only: effects_static, is_loaded, is_moving, model_t, needs_frequencies, &
-    needs_positions, needs_response, report_number
+    needs_positions, needs_response, needs_study, report_number
   use report_kinds, only: report_kind_t, report_names
   use report_needs, only: check_report_needs
   use response_cards, only: is_response_form
@@ -23,7 +23,7 @@ module request_checks
   !> Below this ratio of length to depth, shear and rotary inertia matter.
   real(wp), parameter :: least_slenderness = 10.0_wp
 
-  integer, parameter :: most_modes = 100
+  integer, parameter :: most_modes = 100, most_exponents = 20
 
 contains
 
@@ -132,6 +132,9 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
+    if (needs_study(model, "stability") .and. model%modes > most_exponents) &
+      call add_error(diagnostics, model%modes_word, "at most "//to_string(most_exponents)// &
+      " exponents are found in REPORT stability, not "//to_string(model%modes))
     if (.not. needs_frequencies(model) .or. model%modes <= most_modes) return
     call add_error(diagnostics, model%modes_word, "at most "//to_string(most_modes)// &
       " modes are certified, not "//to_string(model%modes))

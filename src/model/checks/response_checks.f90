@@ -6,7 +6,8 @@ module response_checks
   use cards, only: card_t
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use kinds, only: wp
-  use models, only: inertia_lumped, model_t, needs_response, report_number
+  use models, only: inertia_lumped, model_t, needs_response, report_in_motion, &
+    report_number
   use name_checks, only: link_ends
   use name_index, only: name_index_t, new_name_index
   use text, only: same_word
@@ -109,8 +110,8 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
-    character(len=*), parameter :: idle = " is used by REPORT response, strains, peaks, drive "// &
-      "and validity only, none of which is asked for"
+    character(len=*), parameter :: idle = " is used by REPORT response, strains, peaks, "// &
+      "drive, validity and stability only, none of which is asked for"
     integer :: i
 
     if (report_number(model, "strains") == 0) then
@@ -133,10 +134,10 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
-    character(len=*), parameter :: why = &
-      ": the linkage stands still, and the response needs a turning crank"
+    character(len=:), allocatable :: why
     integer :: zero
 
+    why = ": the linkage stands still, and "//report_in_motion(model)//" needs a turning crank"
     associate (speed => model%speed)
       if (size(speed%words) == 0) return
       zero = findloc(abs(speed%value) <= 0.0_wp, .true., dim=1)
@@ -162,8 +163,9 @@ contains
       if (.not. same_word(cards(i)%keyword%text, "SPEED")) cycle
       entry = entry_number(cards(i), "alpha")
       if (entry == 0) cycle
-      call add_error(diagnostics, cards(i)%entries(entry)%value, "the response is a steady "// &
-        "state, and an accelerating crank has none; expected no 'alpha=', or alpha=0")
+      call add_error(diagnostics, cards(i)%entries(entry)%value, report_in_motion(model)// &
+        " is on a steady state, and an accelerating crank has none; expected no 'alpha=', or "// &
+        "alpha=0")
     end do
   end subroutine refuse_acceleration
 
@@ -197,12 +199,14 @@ contains
     integer :: i
 
     if (model%inertia == inertia_lumped) call add_warning(diagnostics, model%inertia_word, &
-      "INERTIA lumped does not apply to the response: the inertia of its links is distributed")
+      "INERTIA lumped does not apply to "//report_in_motion(model)// &
+      ": the inertia of its links is distributed")
     do i = 1, size(model%meshes)
       if (model%meshes(i)%keyword%line == 0 .or. model%meshes(i)%elements == 0) cycle
       if (model%meshes(i)%accuracy > 0.0_wp) cycle
       call add_warning(diagnostics, model%meshes(i)%keyword, "'elements=' does not apply to "// &
-        "the response: its links are continuous, and REPORT ... accuracy= is its accuracy")
+        report_in_motion(model)//": its links are continuous, and REPORT ... accuracy= is its "// &
+        "accuracy")
       return
     end do
   end subroutine warn_of_other_models

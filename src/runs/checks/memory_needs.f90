@@ -9,7 +9,7 @@ module memory_needs
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
   use models, only: effects_static, model_t, needs_frequencies, needs_response, report_number, &
-    response_accuracy
+    accuracy_of_study
   use response_types, only: drive_values, strain_values
   use study_requests, only: method_wanted, motion_instants_of
   use text, only: plural, to_string
@@ -134,7 +134,7 @@ contains
       size(model%gauges))
     need%bytes = number*(size(model%crank%value)*size(model%speed%value)*results + &
       samples*unknowns*size(model%links)*(kept + own*threads)* &
-      merge(more, 1.0_wp, response_accuracy(model) < hard))
+      merge(more, 1.0_wp, accuracy_of_study(model, "response") < hard))
   end subroutine add_needs_of_response
 
   !> Displacements at the points of all links for every mode, kept until they are written.

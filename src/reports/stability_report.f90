@@ -1,0 +1,101 @@
+!> `stability.dat`: Floquet exponents of the slowest vibrations at every speed, with verdicts.
+module stability_report
+  use constants, only: two_pi
+  use models, only: accuracy_of_study
+  use response_notes, only: damping_note, without_note
+  use stability_types, only: exponent_t, stable, unstable_combination, unstable_flip, unstable_fold
+  use table_columns, only: cells, name_list_t, table_layout_t
+  use table_rows, only: add_failed_row, add_row, rows_t
+  use tables, only: integer_cell, name_cell
+  use text, only: append_string, string_t, to_string
+  use variant_results, only: variant_results_t
+  implicit none (type, external)
+  private
+
+  public :: stability_notes, stability_words, add_stability, verdict_word
+
+  !> Width of the column `verdict`: the longest word, and a blank.
+  integer, parameter :: verdict_width = 16
+
+contains
+
+  !> Meaning of the columns, damping, accuracy.
+  pure subroutine stability_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its stability computed
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    call append_string(notes, "free vibrations of the moving linkage at constant speed of the "// &
+      "crank; after a turn each is multiplied by e^(growth + 2 pi i turns); modes are numbered "// &
+      "by the frequencies of their shapes over the turn")
+    call append_string(notes, "frequency: of those that the turns allow, (whole number + or - "// &
+      "turns) x speed, the one nearest to the mean of the frozen linkage; signature: of Krein, "// &
+      "0 where multipliers have met")
+    call append_string(notes, "verdict: stable; unstable:flip, unstable:fold (turns 1/2, 0), "// &
+      "unstable:2+3 (multipliers of these modes have met); undecided where the error does not "// &
+      "decide")
+    call append_string(notes, damping_note(variant))
+    associate (model => variant%model)
+      if (model%without%keyword%line > 0) call append_string(notes, without_note(variant))
+      call append_string(notes, "error: estimated, of growth and of 2 pi turns; accuracy asked "// &
+        "for: "//to_string(accuracy_of_study(model, "stability")))
+    end associate
+  end subroutine stability_notes
+
+  !> The column `verdict`, with a word as long as the longest.
+  pure function stability_words() result(list)
+    type(name_list_t) :: list
+
+    list%column = "verdict"
+    allocate (list%names(1))
+    list%names(1)%text = repeat("x", verdict_width - 1)
+  end function stability_words
+
+  !> Appends the rows of a speed, one per mode, or its failure.
+  subroutine add_stability(variant, layout, speed, rows)
+    type(variant_results_t), intent(in) :: variant !! with its stability computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
+
+    integer :: i
+
+    associate (found => variant%found%stability%at_speed(speed), &
+        shown => variant%model%shown_speed(speed))
+      if (allocated(found%error)) then
+        call add_failed_row(rows, [shown], found%error%text)
+        return
+      end if
+      do i = 1, size(found%exponent)
+        associate (exponent => found%exponent(i))
+          call add_row(rows, cells(layout, 1, [shown])//integer_cell(exponent%mode, "mode")// &
+            cells(layout, 3, [exponent%turns, exponent%growth, exponent%frequency/two_pi])// &
+            integer_cell(exponent%signature, "signature")//cells(layout, 7, [exponent%error])// &
+            name_cell(trim(verdict_word(exponent)), verdict_width))
+        end associate
+      end do
+    end associate
+  end subroutine add_stability
+
+  !> Word in the column `verdict`.
+  pure function verdict_word(exponent) result(word)
+    type(exponent_t), intent(in) :: exponent
+    character(len=24) :: word
+
+    select case (exponent%verdict)
+    case (stable)
+      word = "stable"
+    case (unstable_flip)
+      word = "unstable:flip"
+    case (unstable_fold)
+      word = "unstable:fold"
+    case (unstable_combination)
+      word = "unstable"
+      if (exponent%partner > 0) word = "unstable:"// &
+        to_string(min(exponent%mode, exponent%partner))//"+"// &
+        to_string(max(exponent%mode, exponent%partner))
+    case default
+      word = "undecided"
+    end select
+  end function verdict_word
+
+end module stability_report

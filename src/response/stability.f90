@@ -1,0 +1,529 @@
+!> Stability of the motion of an elastic linkage at constant speed: the Floquet exponents of its
+!! slowest vibrations, each found twice, with other orders and with samples that are no multiple.
+!!
+!! The second solution is the result, the difference its error. A verdict is given where the error
+!! allows one: a multiplier that grows does so by more than its error; one without damping is stable
+!! where it is on the circle and farther from those of the other signature, with which alone it
+!! could leave it (Krein), than errors reach.
+module stability
+  use constants, only: two_pi
+  use elastic_equations, only: elastic_terms_t
+  use errors, only: error_of_numerics, error_t, set_error
+  use floquet_exponents, only: find_floquet_modes, floquet_mode_t
+  use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
+  use frozen_modes, only: find_frozen_frequencies
+  use interruption, only: was_interrupted
+  use kinds, only: wp
+  use link_store, only: link_store_t
+  use mode_numbers, only: growing_mode, most_spread, numbers_of
+  use response_levels, only: damping_of, level_slot_t, level_t, need_basis, need_level, &
+    sample_numbers
+  use response_types, only: no_damping
+  use slow_motions, only: add_shape_frequencies, new_slow_motion, own_squares, slow_mode_t, &
+    slow_modes, slow_motion_t
+  use sorting, only: ascending_order
+  use stability_types, only: exponent_t, is_unstable, speed_stability_t, stability_request_t, &
+    stability_t, stable, undecided, unstable_combination, unstable_flip, unstable_fold
+  use structures, only: structure_t
+  use text, only: to_string
+  use turn_grids, only: turn_grid_t
+  implicit none (type, external)
+  private
+
+  public :: find_stability, turn_spectrum_t, find_spectrum, slow_number, first_order, &
+    first_samples
+
+  !> Orders of the second solution above those of the first; its samples are half as many more.
+  integer, parameter :: orders_above = 2
+
+  !> Slow coordinates beside those of the modes wanted, and at least.
+  integer, parameter :: slow_above = 5, least_slow = 8
+
+  !> Stages of the collocation of slow motions.
+  integer, parameter :: stages = 4
+
+  !> Exponents change by no more than this share of the accuracy in the last round; errors are to
+  !! hold that many of these changes.
+  real(wp), parameter :: solved_to = 1.0e-2_wp, least_change = 1.0e-13_wp, many = 10.0_wp
+
+  !> No error is stated smaller than this share of the accuracy: two solutions may agree by chance.
+  real(wp), parameter :: least_share = 1.0e-2_wp
+
+  !> Largest order, most times that order and samples are raised, and what each has to gain.
+  integer, parameter :: most_order = 26, most_rounds = 6
+  real(wp), parameter :: least_gain = 0.5_wp
+
+  !> Vibrations have at least this many samples a period.
+  real(wp), parameter :: samples_a_period = 6.0_wp
+
+  !> Vibrations of the frozen linkage that fade by more than e to this in a turn beside the slowest
+  !! to fade: those of the moving one may be lost in rounding.
+  real(wp), parameter :: most_fading = 0.75_wp*most_spread
+
+  !> Turns as near as this to 0 or 1/2 are so; exponents as near to each other as this are one.
+  real(wp), parameter :: as_good_as = 1.0e-9_wp
+
+  !> Larger errors, which leave no digit.
+  real(wp), parameter :: no_digits = 0.1_wp
+
+  !> With damping, multipliers that have met are no farther from each other than this.
+  real(wp), parameter :: met = 0.05_wp
+
+  !> Free motions of the slow coordinates at a speed.
+  type :: turn_spectrum_t
+    type(slow_motion_t) :: motion
+    type(slow_mode_t), allocatable :: mode(:)
+    integer, allocatable :: number(:) !! of the vibration, of every mode
+  end type turn_spectrum_t
+
+  !> Orders and samples of a speed.
+  type :: choice_t
+    integer :: order = 0
+    integer :: at = 0        !! of `sample_numbers`
+    integer :: level(2) = 0  !! numbers of the levels of both solutions
+    integer :: round = 0     !! times raised
+    logical :: pending = .true.
+    real(wp) :: smallest = huge(1.0_wp) !! largest error of the best result so far
+  end type choice_t
+
+contains
+
+  !> Finds the exponents at all speeds.
+  !!
+  !! Errors: the crank does not turn fully; own modes of a link could not be found. Those of a speed
+  !! are in its result.
+  subroutine find_stability(structure, request, threads, store, found, error)
+    class(structure_t), intent(in) :: structure      !! linkage and beams
+    type(stability_request_t), intent(in) :: request !! speeds, modes, accuracy
+    integer, intent(in) :: threads                   !! number of OpenMP threads
+    type(link_store_t), intent(inout) :: store       !! links decomposed earlier
+    type(stability_t), intent(out) :: found
+    type(error_t), allocatable, intent(out) :: error !! why there is nothing at any speed
+
+    type(level_slot_t), allocatable :: levels(:)
+    type(choice_t) :: choice(size(request%speed))
+    integer, allocatable :: pending(:)
+    integer :: first, i, k, n, order
+
+    n = size(request%speed)
+    allocate (found%at_speed(n), levels(0))
+    order = first_order(request%accuracy)
+    call need_level(structure, order, sample_numbers(1), .false., store, levels, first, error)
+    if (allocated(error)) return
+    do k = 1, n
+      choice(k)%order = order
+      choice(k)%at = first_samples(levels(first)%level%grid, request%modes, request%speed(k), &
+        request%accuracy)
+      if (choice(k)%at > 0) cycle
+      choice(k)%pending = .false.
+      call set_error(found%at_speed(k)%error, error_of_numerics, "the crank turns too slowly: "// &
+        "more vibrations a turn than "//to_string(sample_numbers(size(sample_numbers)))// &
+        " samples resolve")
+    end do
+    do
+      pending = pack([(k, k=1, n)], choice%pending)
+      if (size(pending) == 0) exit
+      do i = 1, size(pending)
+        call find_levels(structure, request, request%speed(pending(i)), store, levels, &
+          choice(pending(i)), error)
+        if (allocated(error)) return
+      end do
+      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
+      do i = 1, size(pending)
+        ! An interrupted run leaves no results.
+        choice(pending(i))%pending = .not. was_interrupted()
+        if (.not. choice(pending(i))%pending) cycle
+        associate (here => choice(pending(i)))
+          call solve_speed(request, abs(request%speed(pending(i))), levels(here%level(1))%level, &
+            levels(here%level(2))%level, here, found%at_speed(pending(i)))
+        end associate
+      end do
+      !$omp end parallel do
+    end do
+  end subroutine find_stability
+
+  !> Polynomial degree to begin with: exponents are eigenvalues, whose errors fall twice as fast as
+  !! those of shapes.
+  pure function first_order(accuracy) result(order)
+    real(wp), intent(in) :: accuracy
+    integer :: order
+
+    order = max(8, min(8 + 2*ceiling(-0.25_wp*log10(accuracy)), 16))
+  end function first_order
+
+  !> Samples to begin with, from the vibrations a turn of the highest mode wanted.
+  pure function first_samples(grid, modes, speed, accuracy) result(at)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: modes
+    real(wp), intent(in) :: speed, accuracy
+    integer :: at !! of `sample_numbers`; 0: too many
+
+    real(wp) :: square(grid%unknowns), vibrations, wanted
+
+    square = own_squares(grid)
+    square = square(ascending_order(-square))
+    vibrations = 1.0_wp/max(abs(speed)*sqrt(square(min(modes, size(square)))), tiny(1.0_wp))
+    wanted = (64.0_wp + 10.0_wp*min(vibrations, 1.0e6_wp))*(0.4_wp - 0.075_wp*log10(accuracy))
+    at = 0
+    if (samples_a_period*vibrations > sample_numbers(size(sample_numbers))) return
+    at = findloc(sample_numbers >= min(nint(wanted), sample_numbers(size(sample_numbers))), &
+      .true., dim=1)
+  end function first_samples
+
+  !> Slow coordinates for so many modes.
+  pure function slow_number(grid, modes) result(number)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: modes
+    integer :: number
+
+    number = min(grid%unknowns, max(modes + slow_above, least_slow))
+  end function slow_number
+
+  !> Finds or makes the two levels of a speed, with their slow coordinates.
+  subroutine find_levels(structure, request, speed, store, levels, choice, error)
+    class(structure_t), intent(in) :: structure
+    type(stability_request_t), intent(in) :: request
+    real(wp), intent(in) :: speed
+    type(link_store_t), intent(inout) :: store
+    type(level_slot_t), allocatable, intent(inout) :: levels(:)
+    type(choice_t), intent(inout) :: choice
+    type(error_t), allocatable, intent(out) :: error
+
+    integer :: i
+
+    do i = 1, 2
+      call need_level(structure, choice%order + (i - 1)*orders_above, &
+        (i + 1)*sample_numbers(choice%at)/2, speed < 0.0_wp, store, levels, choice%level(i), error)
+      if (allocated(error)) return
+      associate (level => levels(choice%level(i))%level)
+        call need_basis(slow_number(level%grid, request%modes), request%damping, level, error, &
+          .true.)
+      end associate
+      if (allocated(error)) return
+    end do
+  end subroutine find_levels
+
+  !> Free motions of the slow coordinates of a level, with their numbers.
+  !!
+  !! Errors: they grow too much in a turn; their multipliers do not converge.
+  subroutine find_spectrum(level, plan, slow, speed, spectrum, error)
+    type(level_t), intent(in) :: level               !! with this many slow coordinates
+    type(fourier_plan_t), intent(in) :: plan         !! for its samples
+    integer, intent(in) :: slow                      !! coordinates
+    real(wp), intent(in) :: speed                    !! |ω2| [rad/s]
+    type(turn_spectrum_t), intent(out) :: spectrum
+    type(error_t), allocatable, intent(out) :: error
+
+    call new_slow_motion(plan, level%basis(slow), speed, stages, spectrum%motion, error)
+    if (allocated(error)) return
+    call slow_modes(level%basis(slow), spectrum%motion, spectrum%mode, error)
+    if (allocated(error)) return
+    call add_shape_frequencies(level%basis(slow), spectrum%motion, speed, spectrum%mode)
+    spectrum%number = numbers_of(spectrum%mode)
+  end subroutine find_spectrum
+
+  !> Solves one speed on both levels: its result, and its next choice of orders and samples if it is
+  !! not accurate enough.
+  subroutine solve_speed(request, speed, level, above, choice, found)
+    type(stability_request_t), intent(in) :: request
+    real(wp), intent(in) :: speed
+    type(level_t), intent(in) :: level, above
+    type(choice_t), intent(inout) :: choice
+    type(speed_stability_t), intent(inout) :: found
+
+    type(speed_stability_t) :: here
+    type(fourier_plan_t) :: plan, above_plan
+    type(turn_spectrum_t) :: spectrum, above_spectrum
+    type(floquet_mode_t), allocatable :: modes(:), above_modes(:)
+    real(wp), allocatable :: mean(:)
+    integer, allocatable :: wanted(:), above_wanted(:)
+    real(wp) :: largest
+    integer :: slow
+
+    choice%pending = .false.
+    slow = slow_number(above%grid, request%modes)
+    call open_fourier(level%grid%samples, plan)
+    call open_fourier(above%grid%samples, above_plan)
+    attempt: block
+      call find_spectrum(level, plan, slow_number(level%grid, request%modes), speed, spectrum, &
+        here%error)
+      if (allocated(here%error)) exit attempt
+      wanted = wanted_modes(spectrum, request%modes)
+      call find_means(level, spectrum%motion%number, speed, spectrum, wanted, mean, here%error)
+      if (allocated(here%error)) exit attempt
+      call refine_all(request, level, plan, speed, spectrum, wanted, modes)
+      call find_spectrum(above, above_plan, slow, speed, above_spectrum, here%error)
+      if (allocated(here%error)) exit attempt
+      above_wanted = matched(spectrum, wanted, above_spectrum)
+      call refine_all(request, above, above_plan, speed, above_spectrum, above_wanted, &
+        above_modes)
+      here%order = above%order
+      here%samples = above%grid%samples
+      here%slow = slow
+      call judge
+    end block attempt
+    call close_fourier(above_plan)
+    call close_fourier(plan)
+    if (allocated(modes)) here%applications = sum(modes%applications)
+    if (allocated(above_modes)) here%applications = here%applications + &
+      sum(above_modes%applications)
+    here%applications = here%applications + found%applications
+    call settle
+
+  contains
+
+    !> Values, errors and verdicts.
+    subroutine judge
+      real(wp) :: left(2), change
+      integer :: i, j
+
+      allocate (here%exponent(size(wanted)))
+      do i = 1, size(wanted)
+        associate (mode => modes(i), better => above_modes(i), exponent => here%exponent(i))
+          exponent%mode = spectrum%number(wanted(i))
+          exponent%turns = abs(aimag(better%exponent))
+          exponent%growth = two_pi*real(better%exponent)
+          ! On the circle, where multipliers stay without damping.
+          if (.not. has_damping() .and. abs(exponent%growth) <= least_change) &
+            exponent%growth = 0.0_wp
+          left = [mode%change, better%change]
+          change = abs(cmplx(real(better%exponent - mode%exponent), exponent%turns - &
+            abs(aimag(mode%exponent)), wp))
+          do j = 1, size(wanted)
+            if (j == i) cycle
+            ! Two approximations that lead to one mode: another is missed.
+            if (abs(above_modes(j)%exponent - better%exponent) <= as_good_as) change = 1.0_wp
+          end do
+          exponent%error = max(two_pi*(change + many*sum(left)), least_share*request%accuracy)
+          exponent%signature = 0
+          if (abs(exponent%growth) <= exponent%error .or. has_damping()) &
+            exponent%signature = merge(1, -1, better%action > 0.0_wp)
+          if (exponent%turns <= as_good_as) exponent%turns = 0.0_wp
+          if (0.5_wp - exponent%turns <= as_good_as) exponent%turns = 0.5_wp
+          if (is_real(exponent)) exponent%signature = 0
+          exponent%frequency = nearest_frequency(exponent, mean(exponent%mode))
+        end associate
+      end do
+      do i = 1, size(wanted)
+        call give_verdict(i)
+      end do
+    end subroutine judge
+
+    pure function has_damping() result(yes)
+      logical :: yes
+
+      yes = any(request%damping%kind /= no_damping)
+    end function has_damping
+
+    !> Whether the multiplier is a real number.
+    pure function is_real(exponent) result(yes)
+      type(exponent_t), intent(in) :: exponent
+      logical :: yes
+
+      yes = min(exponent%turns, 0.5_wp - exponent%turns) <= 0.0_wp
+    end function is_real
+
+    !> The frequency that the turns allow next to a given one.
+    pure function nearest_frequency(exponent, mean) result(frequency)
+      type(exponent_t), intent(in) :: exponent
+      real(wp), intent(in) :: mean
+      real(wp) :: frequency
+
+      real(wp) :: turns
+
+      turns = merge(-1.0_wp, 1.0_wp, exponent%signature < 0)*exponent%turns
+      frequency = speed*abs(nint(mean/speed - turns) + turns)
+    end function nearest_frequency
+
+    !> Whether an exponent is stable, or how it became unstable.
+    subroutine give_verdict(i)
+      integer, intent(in) :: i
+
+      complex(wp) :: partner
+      integer :: k
+
+      associate (exponent => here%exponent(i))
+        exponent%verdict = undecided
+        if (exponent%error > no_digits) return
+        if (exponent%growth > exponent%error .or. (.not. has_damping() .and. &
+          exponent%growth < -exponent%error)) then
+          if (is_real(exponent)) then
+            exponent%verdict = merge(unstable_flip, unstable_fold, exponent%turns > 0.25_wp)
+          else
+            exponent%verdict = unstable_combination
+            partner = above_modes(i)%exponent
+            if (.not. has_damping()) partner = -conjg(partner)
+            k = nearest_other(above_spectrum, above_wanted(i), partner)
+            if (k > 0) exponent%partner = above_spectrum%number(k)
+          end if
+        else if (has_damping()) then
+          if (exponent%growth < -exponent%error) exponent%verdict = stable
+        else if (abs(exponent%growth) <= exponent%error) then
+          if (separation(i) > many*exponent%error/two_pi) exponent%verdict = stable
+        end if
+      end associate
+    end subroutine give_verdict
+
+    !> Distance in turns from the nearest multiplier of the other signature, certainly.
+    function separation(i) result(distance)
+      integer, intent(in) :: i
+      real(wp) :: distance
+
+      complex(wp) :: other
+      real(wp) :: apart, doubt
+      integer :: k, kind
+
+      distance = huge(1.0_wp)
+      associate (spectrum => above_spectrum, mine => above_modes(i))
+        ! Those of others are known from the slow motion.
+        doubt = many*abs(spectrum%mode(above_wanted(i))%exponent - mine%exponent)
+        do k = 1, size(spectrum%mode)
+          do kind = 1, 2
+            other = spectrum%mode(k)%exponent
+            if (kind == 2) other = conjg(other)
+            if (k == above_wanted(i) .and. kind == 1) cycle
+            if (k == above_wanted(i)) other = conjg(mine%exponent)
+            apart = aimag(other - mine%exponent)
+            apart = abs(cmplx(real(other - mine%exponent), apart - anint(apart), wp))
+            if (k /= above_wanted(i) .and. same_side(spectrum%mode(k)%action*merge(-1, 1, &
+              kind == 2), mine%action)) cycle
+            if (k /= above_wanted(i)) apart = apart - doubt
+            distance = min(distance, apart)
+          end do
+        end do
+      end associate
+    end function separation
+
+    !> Keeps the better result, and raises order and samples if it is not good enough.
+    subroutine settle
+      here%applications = max(here%applications, found%applications)
+      largest = huge(1.0_wp)
+      if (allocated(here%exponent)) largest = maxval(here%exponent%error)
+      if (largest < choice%smallest .or. .not. allocated(found%exponent)) then
+        choice%pending = largest > request%accuracy
+        if (allocated(here%exponent)) choice%pending = choice%pending .and. largest <= &
+          least_gain*choice%smallest
+        choice%smallest = min(largest, choice%smallest)
+        found = here
+      end if
+      found%applications = here%applications
+      if (.not. choice%pending) return
+      choice%round = choice%round + 1
+      choice%pending = choice%round <= most_rounds .and. choice%at < size(sample_numbers) .and. &
+        choice%order < most_order
+      if (.not. choice%pending) return
+      choice%at = choice%at + 1
+      choice%order = choice%order + 2
+    end subroutine settle
+
+  end subroutine solve_speed
+
+  !> Whether actions have one sign for certain.
+  pure function same_side(one, other) result(same)
+    real(wp), intent(in) :: one, other
+    logical :: same
+
+    real(wp), parameter :: certain = 1.0e-3_wp
+
+    same = min(abs(one), abs(other)) > certain .and. one*other > 0.0_wp
+  end function same_side
+
+  !> Numbers of the modes of the slowest vibrations, in their order.
+  pure function wanted_modes(spectrum, modes) result(wanted)
+    type(turn_spectrum_t), intent(in) :: spectrum
+    integer, intent(in) :: modes
+    integer, allocatable :: wanted(:)
+
+    integer :: i
+
+    wanted = [(growing_mode(spectrum%mode, spectrum%number, i), i=1, min(modes, &
+      maxval(spectrum%number)))]
+  end function wanted_modes
+
+  !> Modes of the whole equation.
+  subroutine refine_all(request, level, plan, speed, spectrum, wanted, modes)
+    type(stability_request_t), intent(in) :: request
+    type(level_t), intent(in) :: level
+    type(fourier_plan_t), intent(in) :: plan
+    real(wp), intent(in) :: speed
+    type(turn_spectrum_t), intent(in) :: spectrum
+    integer, intent(in) :: wanted(:)
+    type(floquet_mode_t), allocatable, intent(out) :: modes(:)
+
+    allocate (modes(size(wanted)))
+    call find_floquet_modes(level%grid, plan, level%basis(spectrum%motion%number), &
+      spectrum%motion, speed, damping_of(request%damping, level%grid), request%terms, &
+      max(solved_to*request%accuracy/two_pi, least_change), spectrum%mode, wanted, modes)
+  end subroutine refine_all
+
+  !> The modes of another level with the exponents of those wanted, each once.
+  pure function matched(spectrum, wanted, other) result(found)
+    type(turn_spectrum_t), intent(in) :: spectrum, other
+    integer, intent(in) :: wanted(:)
+    integer :: found(size(wanted))
+
+    logical :: free(size(other%mode))
+    integer :: i
+
+    free = .true.
+    do i = 1, size(wanted)
+      found(i) = minloc(abs(other%mode%exponent - spectrum%mode(wanted(i))%exponent), dim=1, &
+        mask=free)
+      free(found(i)) = .false.
+    end do
+  end function matched
+
+  !> The mode of another vibration whose exponent is nearest; 0: none is near.
+  pure function nearest_other(spectrum, mine, exponent) result(nearest)
+    type(turn_spectrum_t), intent(in) :: spectrum
+    integer, intent(in) :: mine
+    complex(wp), intent(in) :: exponent
+    integer :: nearest
+
+    real(wp) :: apart, smallest
+    integer :: k
+
+    nearest = 0
+    smallest = met
+    do k = 1, size(spectrum%mode)
+      if (spectrum%number(k) == spectrum%number(mine)) cycle
+      apart = min(abs(spectrum%mode(k)%exponent - exponent), &
+        abs(spectrum%mode(k)%exponent - conjg(exponent)))
+      if (apart >= smallest) cycle
+      smallest = apart
+      nearest = k
+    end do
+  end function nearest_other
+
+  !> Mean frequencies over the turn of the frozen linkage; where it buckles in some position, those
+  !! of the shapes of the moving one.
+  !!
+  !! Errors: a vibration fades so fast that its multiplier is lost in rounding.
+  subroutine find_means(level, slow, speed, spectrum, wanted, mean, error)
+    type(level_t), intent(in) :: level
+    integer, intent(in) :: slow
+    real(wp), intent(in) :: speed
+    type(turn_spectrum_t), intent(in) :: spectrum
+    integer, intent(in) :: wanted(:)
+    real(wp), allocatable, intent(out) :: mean(:) !! (modes) [rad/s]
+    type(error_t), allocatable, intent(out) :: error
+
+    type(error_t), allocatable :: buckles
+    real(wp), dimension(size(wanted), level%coarse%samples/2) :: frequency, fading
+    real(wp) :: spread
+
+    call find_frozen_frequencies(level%basis(slow), speed, frequency, fading, buckles)
+    if (allocated(buckles)) then
+      mean = spectrum%mode(wanted)%shape_frequency
+      return
+    end if
+    mean = sum(frequency, dim=2)/size(frequency, 2)
+    associate (mean_fading => sum(fading, dim=2)/size(fading, 2))
+      spread = two_pi/speed*(maxval(mean_fading) - minval(mean_fading))
+    end associate
+    if (spread > most_fading) call set_error(error, error_of_numerics, "a vibration fades too "// &
+      "fast: by about e^"//to_string(spread, 3)//" in a turn beside another, and rounding "// &
+      "leaves nothing of its exponent")
+  end subroutine find_means
+
+end module stability

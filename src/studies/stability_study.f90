@@ -1,0 +1,40 @@
+!> Stability of the motion at all speeds of a deck.
+module stability_study
+  use crank_cycle, only: turns_freely
+  use errors, only: error_of_reach, error_t, set_error
+  use link_store, only: link_store_t
+  use stability, only: find_stability
+  use stability_types, only: stability_request_t, stability_t
+  use structures, only: structure_t
+  implicit none (type, external)
+  private
+
+  public :: find_stability_of
+
+contains
+
+  !> The exponents at every speed. What prevents them at all speeds fails each of them.
+  subroutine find_stability_of(structure, request, threads, store, found)
+    class(structure_t), intent(in) :: structure      !! linkage and beams
+    type(stability_request_t), intent(in) :: request !! speeds, modes, accuracy
+    integer, intent(in) :: threads                   !! number of OpenMP threads
+    type(link_store_t), intent(inout) :: store       !! links decomposed earlier
+    type(stability_t), intent(out) :: found          !! with a result or an error at every speed
+
+    type(error_t), allocatable :: error
+    integer :: k
+
+    if (turns_freely(structure%linkage)) then
+      call find_stability(structure, request, threads, store, found, error)
+    else
+      allocate (found%at_speed(size(request%speed)))
+      call set_error(error, error_of_reach, "the crank does not turn fully, or meets a dead "// &
+        "point: there is no steady motion")
+    end if
+    if (.not. allocated(error)) return
+    do k = 1, size(request%speed)
+      found%at_speed(k)%error = error
+    end do
+  end subroutine find_stability_of
+
+end module stability_study
