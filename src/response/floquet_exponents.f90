@@ -1,11 +1,16 @@
 !> Floquet exponents of an elastic linkage: `y = e^{σ θ} z(θ)` with z periodic solves the equation
 !! of motion without load, `L(σ) z = (L0 + σ L1 + σ² L2) z = 0`.
 !!
-!! The slow motion gives first approximations. The whole equation is then projected on a growing
-!! space (Davidson; Sleijpen et al., BIT 36 (1996) 595): of the modes of the slow motion that are
-!! near, and of corrections from the residual by the approximate inverse. Without damping
-!! `L(−σ̄)ᴴ = L(σ)`: values of stable modes then are as good as the square of their vectors, and so
-!! are those of unstable ones if the space has the partner at −σ̄, too.
+!! The slow motion gives first approximations. L is projected on a growing space of motions: those of
+!! the modes of the slow motion that are near, and what the approximate inverse P makes of residuals
+!! (Davidson's method). Where that does not end soon, the motion is that of the space for which
+!! `P L(σ) z` is small (harmonic Ritz vectors; Morgan, Linear Algebra Appl. 154 (1991) 289):
+!! exponents of modes of high frequency, known but for whole turns, lie densely everywhere, and
+!! motions found by projection mix with them.
+!!
+!! Without damping `L(−σ̄)ᴴ = L(σ)`: values of stable modes are as good as the square of their
+!! motions, from `zᴴL(σ) z = 0`, and so are those of unstable ones from their motion and that of
+!! their partner at −σ̄.
 module floquet_exponents
   use constants, only: two_pi
   use elastic_equations, only: elastic_terms_t, equation_parts
@@ -31,12 +36,12 @@ module floquet_exponents
   !! together.
   real(wp), parameter :: together = 0.03_wp
 
-  !> Most vectors of the space, and most that are near to begin with. After some rounds (without and
-  !! with damping, where values converge slowly) it is begun anew with the mode, its partner and
-  !! those near: corrections also bring in a little of modes of high frequency, whose exponents lie
-  !! densely, and in a large space one of these is taken for the mode before long.
-  integer, parameter :: most_vectors = 24, most_near = 8, most_rounds = 40, &
-    rounds_of_space(2) = [6, 10]
+  !> Most vectors of the space, and most that are near to begin with. When it is full it is begun
+  !! anew with the mode, its partner and those near.
+  integer, parameter :: most_vectors = 20, most_near = 8, most_rounds = 50
+
+  !> Rounds of projection, without and with damping, before harmonic vectors are taken.
+  integer, parameter :: rounds_of_projection(2) = [7, 12]
 
   !> Where only the nearness of resonance is asked for, the exponent changes by no more than this in
   !! the last round.
@@ -70,13 +75,17 @@ module floquet_exponents
                                                 !! Krein signature, 0 at collisions
   end type floquet_mode_t
 
-  !> Vectors, orthonormal, with the equation applied to them, and its projection.
+  !> Vectors, orthonormal, with what the equation and the approximate inverse make of them.
   type :: space_t
     integer :: number = 0
-    complex(wp), allocatable :: near(:, :)     !! (vectors, modes near) these in the vectors
-    real(wp), allocatable :: vector(:, :, :)   !! (samples, real parts and imaginary parts, vectors)
-    real(wp), allocatable :: parts(:, :, :, :) !! (…, 0:2, vectors)
-    complex(wp), allocatable :: projection(:, :, :) !! (vectors, vectors, 0:2)
+    real(wp), allocatable :: vector(:, :, :)    !! (samples, real parts and imaginary parts, vectors)
+    real(wp), allocatable :: parts(:, :, :, :)  !! (…, 0:2, vectors) L0 v, L1 v, L2 v
+    complex(wp), allocatable :: form(:, :, :)   !! (vectors, vectors, 0:2) vᴴ L v
+    logical :: is_harmonic = .false.            !! it also has:
+    real(wp), allocatable :: solved(:, :, :, :) !! (…, 0:3, vectors) P L0 v, P L1 v, P L2 v, and
+                                                !! P L(σ0) v at the shift σ0
+    complex(wp), allocatable :: harmonic(:, :, :) !! (vectors, vectors, 0:2) (P L(σ0) v)ᴴ P L v
+    complex(wp), allocatable :: near(:, :)      !! (vectors, modes near) these in the vectors
   end type space_t
 
 contains
@@ -209,7 +218,7 @@ contains
 
     type(space_t) :: space
     complex(wp), allocatable :: values(:), vectors(:, :), weights(:), partner_weights(:)
-    complex(wp) :: fixed, before
+    complex(wp) :: fixed, before, followed
     real(wp) :: correction(grid%samples, 2*grid%unknowns)
     integer :: number, partner, round
     logical :: grew, is_damped
@@ -218,24 +227,33 @@ contains
     mode%exponent = slow(wanted)%exponent
     mode%change = huge(1.0_wp)
     fixed = mode%exponent + shift
+    followed = mode%exponent
     call start
     do round = 1, most_rounds
-      call find_pencil_modes(space%projection(:space%number, :space%number, :), fixed, values, &
-        vectors)
+      if (space%is_harmonic) then
+        call find_pencil_modes(space%harmonic(:space%number, :space%number, :), fixed, values, &
+          vectors)
+      else
+        call find_pencil_modes(space%form(:space%number, :space%number, :), fixed, values, vectors)
+      end if
       if (size(values) == 0) return
-      before = mode%exponent
-      number = minloc(abs(values - before), dim=1)
-      mode%exponent = values(number)
-      if (round > 1) mode%change = abs(mode%exponent - before)
+      number = minloc(abs(values - followed), dim=1)
+      followed = values(number)
       weights = vectors(:, number)
-      if (mode%change <= tolerance) exit
       partner = number
-      if (.not. is_damped .and. abs(real(mode%exponent)) > off_circle) &
-        partner = minloc(abs(values + conjg(mode%exponent)), dim=1)
+      if (.not. is_damped .and. abs(real(followed)) > off_circle) &
+        partner = minloc(abs(values + conjg(followed)), dim=1)
       partner_weights = vectors(:, partner)
-      if (modulo(round, rounds_of_space(merge(2, 1, is_damped))) == 0) call gather(weights, &
-        partner_weights)
-      ! The partner moves the value of the mode, too.
+      before = mode%exponent
+      mode%exponent = followed
+      if (space%is_harmonic .and. .not. is_damped) call take_value_of_form
+      if (round > 1) mode%change = abs(mode%exponent - before)
+      if (mode%change <= tolerance) exit
+      if (round == rounds_of_projection(merge(2, 1, is_damped))) then
+        call gather(weights, partner_weights)
+        call make_harmonic
+      end if
+      if (space%number > most_vectors - 2) call gather(weights, partner_weights)
       grew = .false.
       if (partner /= number) then
         call correct(values(partner), partner_weights)
@@ -257,7 +275,7 @@ contains
 
       allocate (space%vector(grid%samples, 2*grid%unknowns, most_vectors), &
         space%parts(grid%samples, 2*grid%unknowns, 0:2, most_vectors), &
-        space%projection(most_vectors, most_vectors, 0:2))
+        space%form(most_vectors, most_vectors, 0:2))
       added = .false.
       call add_vector(expanded(basis, motion, slow(wanted), .false., 0), added)
       do i = 1, size(slow)
@@ -274,12 +292,32 @@ contains
       space%near = unit_matrix(space%number)
     end subroutine start
 
+    !> The value that `vᴴL(σ) v` gives, with that of the partner.
+    subroutine take_value_of_form
+      complex(wp), allocatable :: roots(:), ignored(:, :)
+      complex(wp) :: q(size(weights), 2), small(2, 2, 0:2)
+      real(wp) :: length
+      integer :: n, p
+
+      n = size(weights)
+      q(:, 1) = weights/sqrt(sum(abs(weights)**2))
+      q(:, 2) = partner_weights - dot_product(q(:, 1), partner_weights)*q(:, 1)
+      length = sqrt(sum(abs(q(:, 2))**2))
+      if (length > within) q(:, 2) = q(:, 2)/length
+      do p = 0, 2
+        small(:, :, p) = matmul(conjg(transpose(q)), matmul(space%form(:n, :n, p), q))
+      end do
+      p = merge(2, 1, length > within .and. partner /= number)
+      call find_pencil_modes(small(:p, :p, :), fixed, roots, ignored)
+      if (size(roots) > 0) mode%exponent = roots(minloc(abs(roots - followed), dim=1))
+    end subroutine take_value_of_form
+
     !> Begins the space anew with the mode, its partner and the modes near.
     subroutine gather(weights, partner_weights)
       complex(wp), allocatable, intent(inout) :: weights(:), partner_weights(:)
 
       complex(wp) :: q(space%number, size(space%near, 2) + 2)
-      real(wp), allocatable :: vector(:, :, :), parts(:, :, :, :)
+      real(wp), allocatable :: vector(:, :, :), parts(:, :, :, :), solved(:, :, :, :)
       complex(wp), allocatable :: near(:, :)
       real(wp) :: length
       integer :: c, i, k, n, p, time
@@ -305,28 +343,69 @@ contains
         if (length < within) k = k - 1
       end do
       allocate (vector(grid%samples, 2*grid%unknowns, k), parts(grid%samples, 2*grid%unknowns, &
-        0:2, k))
+        0:2, k), solved(grid%samples, 2*grid%unknowns, 0:3, merge(k, 0, space%is_harmonic)))
       vector = 0.0_wp
       parts = 0.0_wp
+      solved = 0.0_wp
       do c = 1, k
         do i = 1, n
           vector(:, :, c) = vector(:, :, c) + times(q(i, c), space%vector(:, :, i))
           do p = 0, 2
             parts(:, :, p, c) = parts(:, :, p, c) + times(q(i, c), space%parts(:, :, p, i))
           end do
+          if (.not. space%is_harmonic) cycle
+          do p = 0, 3
+            solved(:, :, p, c) = solved(:, :, p, c) + times(q(i, c), space%solved(:, :, p, i))
+          end do
         end do
       end do
       space%vector(:, :, :k) = vector
       space%parts(:, :, :, :k) = parts
-      do p = 0, 2
-        space%projection(:k, :k, p) = matmul(conjg(transpose(q(:, :k))), &
-          matmul(space%projection(:n, :n, p), q(:, :k)))
-      end do
-      space%near = matmul(conjg(transpose(q(:, :k))), near)
+      if (space%is_harmonic) space%solved(:, :, :, :k) = solved
+      associate (left => conjg(transpose(q(:, :k))))
+        do p = 0, 2
+          space%form(:k, :k, p) = matmul(left, matmul(space%form(:n, :n, p), q(:, :k)))
+          if (space%is_harmonic) space%harmonic(:k, :k, p) = matmul(left, &
+            matmul(space%harmonic(:n, :n, p), q(:, :k)))
+        end do
+        space%near = matmul(left, near)
+        weights = matmul(left, weights)
+        partner_weights = matmul(left, partner_weights)
+      end associate
       space%number = k
-      weights = matmul(conjg(transpose(q(:, :k))), weights)
-      partner_weights = matmul(conjg(transpose(q(:, :k))), partner_weights)
     end subroutine gather
+
+    !> From now on vectors of the space are chosen by what is left of them.
+    subroutine make_harmonic
+      integer :: k
+
+      allocate (space%solved(grid%samples, 2*grid%unknowns, 0:3, most_vectors), &
+        space%harmonic(most_vectors, most_vectors, 0:2))
+      space%is_harmonic = .true.
+      do k = 1, space%number
+        call add_solved(k)
+      end do
+    end subroutine make_harmonic
+
+    !> What the approximate inverse makes of a vector, and its products with those before.
+    subroutine add_solved(k)
+      integer, intent(in) :: k
+
+      integer :: i, p
+
+      do p = 0, 2
+        call approximate(space%parts(:, :, p, k), space%solved(:, :, p, k))
+      end do
+      space%solved(:, :, 3, k) = space%solved(:, :, 0, k) + times(fixed, &
+        space%solved(:, :, 1, k) + times(fixed, space%solved(:, :, 2, k)))
+      do p = 0, 2
+        do i = 1, k
+          space%harmonic(i, k, p) = product_of(space%solved(:, :, 3, i), space%solved(:, :, p, k))
+          if (i < k) space%harmonic(k, i, p) = product_of(space%solved(:, :, 3, k), &
+            space%solved(:, :, p, i))
+        end do
+      end do
+    end subroutine add_solved
 
     !> Adds a vector to the space, unless it is in it.
     subroutine add_vector(new, added)
@@ -358,27 +437,45 @@ contains
       mode%applications = mode%applications + 1
       do p = 0, 2
         do i = 1, k
-          space%projection(i, k, p) = product_of(space%vector(:, :, i), space%parts(:, :, p, k))
+          space%form(i, k, p) = product_of(space%vector(:, :, i), space%parts(:, :, p, k))
           if (is_damped) then
-            space%projection(k, i, p) = product_of(v, space%parts(:, :, p, i))
+            space%form(k, i, p) = product_of(v, space%parts(:, :, p, i))
           else
             ! L0 and L2 are Hermitian, L1 is not but for its sign.
-            space%projection(k, i, p) = merge(-1, 1, p == 1)*conjg(space%projection(i, k, p))
+            space%form(k, i, p) = merge(-1, 1, p == 1)*conjg(space%form(i, k, p))
           end if
         end do
       end do
+      if (space%is_harmonic) call add_solved(k)
       space%number = k
       added = .true.
     end subroutine add_vector
+
+    !> An approximate solution of the equation at the fixed shift.
+    subroutine approximate(load, y)
+      real(wp), intent(in) :: load(:, :)
+      real(wp), intent(out) :: y(:, :)
+
+      real(wp), dimension(grid%samples, basis%number) :: part, part_imaginary, z, z_imaginary
+      integer :: n
+
+      n = grid%unknowns
+      call slow_part(basis, load(:, :n), part)
+      call slow_part(basis, load(:, n + 1:), part_imaginary)
+      call solve_slow_shifted(plan, motion, fixed, part/speed**2, part_imaginary/speed**2, z, &
+        z_imaginary)
+      call complete_solution(plan, basis, speed, damping, load(:, :n), part, z, y(:, :n))
+      call complete_solution(plan, basis, speed, damping, load(:, n + 1:), part_imaginary, &
+        z_imaginary, y(:, n + 1:))
+    end subroutine approximate
 
     !> The correction of a vector of the space, from what it leaves in the equation.
     subroutine correct(exponent, weights)
       complex(wp), intent(in) :: exponent
       complex(wp), intent(in) :: weights(:) !! of the vectors
 
-      real(wp), dimension(grid%samples, basis%number) :: part, part_imaginary, z, z_imaginary
       real(wp) :: residual(grid%samples, 2*grid%unknowns)
-      integer :: i, n, p
+      integer :: i, p
 
       residual = 0.0_wp
       do i = 1, size(weights)
@@ -386,15 +483,7 @@ contains
           residual = residual + times(weights(i)*exponent**p, space%parts(:, :, p, i))
         end do
       end do
-      n = grid%unknowns
-      call slow_part(basis, residual(:, :n), part)
-      call slow_part(basis, residual(:, n + 1:), part_imaginary)
-      call solve_slow_shifted(plan, motion, fixed, part/speed**2, part_imaginary/speed**2, z, &
-        z_imaginary)
-      call complete_solution(plan, basis, speed, damping, residual(:, :n), part, z, &
-        correction(:, :n))
-      call complete_solution(plan, basis, speed, damping, residual(:, n + 1:), part_imaginary, &
-        z_imaginary, correction(:, n + 1:))
+      call approximate(residual, correction)
     end subroutine correct
 
     !> Frequency and action of the mode.

@@ -13,7 +13,7 @@ module stability
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
   use frozen_modes, only: find_frozen_frequencies
   use interruption, only: was_interrupted
-  use kinds, only: wp
+  use kinds, only: long, wp
   use link_store, only: link_store_t
   use mode_numbers, only: growing_mode, most_spread, numbers_of
   use response_levels, only: damping_of, level_slot_t, level_t, need_basis, need_level, &
@@ -53,6 +53,10 @@ module stability
   integer, parameter :: most_order = 26, most_rounds = 6
   real(wp), parameter :: least_gain = 0.5_wp
 
+  !> They are not raised any more when so much work is done at a speed, some two seconds: samples ×
+  !! unknowns × applications of the equation.
+  integer(long), parameter :: most_work = 10000000_long
+
   !> Vibrations have at least this many samples a period.
   real(wp), parameter :: samples_a_period = 6.0_wp
 
@@ -84,6 +88,7 @@ module stability
     integer :: round = 0     !! times raised
     logical :: pending = .true.
     real(wp) :: smallest = huge(1.0_wp) !! largest error of the best result so far
+    integer(long) :: work = 0_long !! so far, in the units of `most_work`
   end type choice_t
 
 contains
@@ -264,9 +269,8 @@ contains
     end block attempt
     call close_fourier(above_plan)
     call close_fourier(plan)
-    if (allocated(modes)) here%applications = sum(modes%applications)
-    if (allocated(above_modes)) here%applications = here%applications + &
-      sum(above_modes%applications)
+    if (allocated(modes)) call add_work(level%grid, sum(modes%applications))
+    if (allocated(above_modes)) call add_work(above%grid, sum(above_modes%applications))
     here%applications = here%applications + found%applications
     call settle
 
@@ -284,7 +288,7 @@ contains
           exponent%turns = abs(aimag(better%exponent))
           exponent%growth = two_pi*real(better%exponent)
           ! On the circle, where multipliers stay without damping.
-          if (.not. has_damping() .and. abs(exponent%growth) <= least_change) &
+          if (.not. has_damping() .and. abs(exponent%growth) <= least_share*request%accuracy) &
             exponent%growth = 0.0_wp
           left = [mode%change, better%change]
           change = abs(cmplx(real(better%exponent - mode%exponent), exponent%turns - &
@@ -300,7 +304,11 @@ contains
             exponent%signature = merge(1, -1, better%action > 0.0_wp)
           if (exponent%turns <= as_good_as) exponent%turns = 0.0_wp
           if (0.5_wp - exponent%turns <= as_good_as) exponent%turns = 0.5_wp
-          if (is_real(exponent)) exponent%signature = 0
+          if (is_real(exponent)) then
+            exponent%signature = 0
+            ! Without damping the other of the pair is its inverse.
+            if (.not. has_damping()) exponent%growth = abs(exponent%growth)
+          end if
           exponent%frequency = nearest_frequency(exponent, mean(exponent%mode))
         end associate
       end do
@@ -394,6 +402,14 @@ contains
       end associate
     end function separation
 
+    subroutine add_work(grid, applications)
+      type(turn_grid_t), intent(in) :: grid
+      integer, intent(in) :: applications
+
+      here%applications = here%applications + applications
+      choice%work = choice%work + int(applications, long)*grid%samples*grid%unknowns
+    end subroutine add_work
+
     !> Keeps the better result, and raises order and samples if it is not good enough.
     subroutine settle
       here%applications = max(here%applications, found%applications)
@@ -409,8 +425,8 @@ contains
       found%applications = here%applications
       if (.not. choice%pending) return
       choice%round = choice%round + 1
-      choice%pending = choice%round <= most_rounds .and. choice%at < size(sample_numbers) .and. &
-        choice%order < most_order
+      choice%pending = choice%round <= most_rounds .and. choice%work < most_work .and. &
+        choice%at < size(sample_numbers) .and. choice%order < most_order
       if (.not. choice%pending) return
       choice%at = choice%at + 1
       choice%order = choice%order + 2
