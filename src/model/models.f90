@@ -22,7 +22,8 @@ module models
   private
 
   public :: model_t, report_number, needs_study, needs_positions, is_moving, is_loaded, &
-    needs_loads, needs_inertia, needs_frequencies, needs_response, response_accuracy, needs_beams, &
+    needs_loads, needs_inertia, needs_frequencies, needs_response, needs_steady_state, &
+    response_accuracy, needs_beams, &
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
     link_line_density, speed_in_table, speed_in_words
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
@@ -65,6 +66,9 @@ module models
     real(wp), allocatable :: shown_speed(:)     !! (speeds) ω2 in `outputs%rate`, as the deck has it
     real(wp) :: shown_start = 0.0_wp            !! start speed of REPORT motion, likewise
     real(wp) :: acceleration = 0.0_wp           !! α2, at every speed [rad/s²]
+    real(wp) :: ramp = 0.0_wp                   !! time in which REPORT transient gets to the speed
+                                                !! from rest; 0: it has it [s]
+    type(token_t) :: ramp_word
     integer :: inertia = inertia_none           !! one of the inertia_… constants; none: no card
     type(token_t) :: inertia_word
     integer :: effects = effects_static         !! effects_static or effects_axial
@@ -146,6 +150,19 @@ contains
     needs = any(model%reports%kind%response)
   end function needs_response
 
+  !> Whether any report needs a crank that turns fully at constant speed: motions in time do if they
+  !! start from that state.
+  pure function needs_steady_state(model) result(needs)
+    type(model_t), intent(in) :: model !! as read
+    logical :: needs
+
+    integer :: number
+
+    needs = needs_study(model, "response")
+    number = report_number(model, "transient")
+    if (number > 0) needs = needs .or. model%reports(number)%transient%steady
+  end function needs_steady_state
+
   !> The accuracy of the elastic response, relative to the largest value of each quantity over the
   !! turn: the smallest of all reports on it, for they share one solution.
   pure function response_accuracy(model) result(accuracy)
@@ -153,8 +170,8 @@ contains
     real(wp) :: accuracy
 
     accuracy = default_response_accuracy
-    if (needs_response(model)) accuracy = minval(model%reports%accuracy, &
-      mask=model%reports%kind%response)
+    if (needs_study(model, "response")) accuracy = minval(model%reports%accuracy, &
+      mask=model%reports%kind%studies == "response")
   end function response_accuracy
 
   !> Whether any report is on links that bend, by their elements or without.

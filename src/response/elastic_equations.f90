@@ -12,8 +12,9 @@ module elastic_equations
   implicit none (type, external)
   private
 
-  public :: elastic_terms_t, inertia_force, slope_force, swept_force, apply_equation, load_at_speed, &
-    functions_of, geometric_force, slopes_of, mass_force, times_mass, spread_over_unknowns
+  public :: elastic_terms_t, inertia_force, slope_force, swept_force, apply_equation, &
+    load_at_speed, functions_of, geometric_force, slopes_of, mass_force, times_mass, &
+    spread_over_unknowns
 
   !> Terms of the equation and of the torque; false: omitted.
   type :: elastic_terms_t

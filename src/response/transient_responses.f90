@@ -41,6 +41,11 @@ module transient_responses
   !> No solution is begun that takes more than this: steps × (unknowns × stages)³, about a minute.
   real(wp), parameter :: most_work = 1.0e11_wp
 
+  !> Errors are to fall by this from one solution to the next; where they do not so many times, one
+  !! after another, more of the same does not help.
+  real(wp), parameter :: least_gain = 0.8_wp
+  integer, parameter :: most_idle = 2
+
   !> A quantity smaller than this beside what goes with it is taken for zero by its nature.
   real(wp), parameter :: by_nature = 1.0e-3_wp
 
@@ -83,12 +88,16 @@ contains
 
     type(deformation_model_t) :: model
     real(wp), allocatable :: before(:, :), series(:, :)
-    real(wp) :: work
-    integer :: round
+    real(wp) :: work, accuracy, last_error
+    integer :: round, idle, reached(2)
 
     call find_instants(request, law, found)
-    found%order = first_order(request%response%accuracy)
+    accuracy = request%response%accuracy
+    found%order = first_order(accuracy)
     found%steps = 0
+    reached = 0
+    idle = 0
+    last_error = huge(1.0_wp)
     do round = 1, most_rounds
       call new_order_model(structure, found%order, store, model, found%error)
       if (allocated(found%error)) return
@@ -97,23 +106,46 @@ contains
       if (.not. law%ramp > found%time(size(found%time))) work = min(work, (found%steps* &
         (request%instants + real(count(found%time < law%ramp), wp)))*(real(stages, wp)* &
         model%layout%unknowns)**3)
-      if (work > most_work .and. round > 2) exit
+      if (work > most_work .and. round > 2) then
+        found%order = reached(1)
+        found%steps = reached(2)
+        exit
+      end if
       call solve_once(structure, request, law, model, store, found, series)
       if (allocated(found%error) .or. was_interrupted()) return
       if (round > 1) then
         call evaluate(structure, request, before, series, found)
-        if (found%largest_error <= request%response%accuracy) return
+        if (found%largest_error <= accuracy) return
+        idle = merge(0, idle + 1, found%largest_error <= least_gain*last_error)
+        last_error = found%largest_error
+        if (idle >= most_idle) exit
       end if
       if (round == most_rounds .or. found%order + orders_above > most_order) exit
       call move_alloc(series, before)
+      reached = [found%order, found%steps]
       found%order = found%order + orders_above
       found%steps = (3*found%steps + 1)/2
     end do
-    call set_error(found%error, error_of_numerics, "the accuracy asked for, "// &
-      to_string(request%response%accuracy)//", is not reached: two solutions with orders up to "// &
-      to_string(found%order)//" and "//to_string(found%steps)//" steps between rows differ by "// &
-      to_string(found%largest_error, 2)//"; vibrations of the start that are too fast for the "// &
-      "steps may be to blame")
+    if (maxval([0.0_wp, found%displacement_error]) > accuracy) then
+      call set_missed(maxval(found%displacement_error), "displacements", found%error)
+    else
+      call set_missed(maxval(found%strain_error), "strains", found%strain_fault)
+    end if
+
+  contains
+
+    !> Says that the accuracy is not reached.
+    pure subroutine set_missed(difference, what, error)
+      real(wp), intent(in) :: difference     !! estimated error
+      character(len=*), intent(in) :: what
+      type(error_t), allocatable, intent(out) :: error
+
+      call set_error(error, error_of_numerics, "the accuracy asked for, "//to_string(accuracy)// &
+        ", is not reached: the error of "//what//" is "//to_string(difference, 2)// &
+        " with order "//to_string(found%order)//"; vibrations that the start excites are too "// &
+        "fast for the steps, or too short for the order")
+    end subroutine set_missed
+
   end subroutine find_transient
 
   !> Times and crank angles of the rows.

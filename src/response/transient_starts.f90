@@ -128,8 +128,8 @@ contains
       if (allocated(error) .and. at + 2 > size(sample_numbers)) return
     end do
     if (last > share*request%response%accuracy .or. remainder > share*request%response%accuracy) &
-      call set_error(error, error_of_numerics, "the steady state is not accurate enough to start "// &
-      "from: it lacks "//to_string(max(last, remainder), 2))
+      call set_error(error, error_of_numerics, "the steady state is not accurate enough to "// &
+      "start from: it lacks "//to_string(max(last, remainder), 2))
   end subroutine find_steady
 
   !> The shape of a mode of the linkage frozen at the first instant, with its largest displacement.

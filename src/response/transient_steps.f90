@@ -270,8 +270,8 @@ contains
     call add_change(change, state)
   end subroutine take_step
 
-  !> Solves `A X = B` of all stages. Own modes of different links are coupled through the unknowns of
-  !! the border only: link by link they are eliminated, and the border comes last.
+  !> Solves `A X = B` of all stages. Own modes of different links are coupled through the unknowns
+  !! of the border only: link by link they are eliminated, and the border comes last.
   subroutine solve_by_bodies(grid, left, right, error)
     type(turn_grid_t), intent(in) :: grid
     real(wp), intent(in) :: left(:, :)     !! A, stage after stage

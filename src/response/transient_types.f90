@@ -26,6 +26,7 @@ module transient_types
   !> The motion at one speed. Errors are relative to the largest value over the run.
   type :: speed_transient_t
     type(error_t), allocatable :: error            !! why there is none
+    type(error_t), allocatable :: strain_fault     !! why its strains are not there
     real(wp), allocatable :: time(:)               !! (instants) [s]
     real(wp), allocatable :: crank(:)              !! (instants), past whole turns [deg]
     real(wp), allocatable :: displacement(:, :, :) !! (x, y, rotation; points; instants) [m, rad]

@@ -3,7 +3,7 @@
 module result_warnings
   use kinds, only: wp
   use mechanisms, only: mechanism_t
-  use models, only: model_t, needs_frequencies, needs_response, response_accuracy, speed_in_words
+  use models, only: model_t, needs_frequencies, needs_study, response_accuracy, speed_in_words
   use position_results, only: error_of_divergence, error_of_orders, error_of_position
   use positions, only: positions_t
   use response_parts, only: body_damping_t, damping_none, dampings_of
@@ -53,7 +53,7 @@ contains
     integer :: k
 
     ! Function results go through a variable: gfortran 12 does not free them if they are arguments.
-    if (needs_response(variant%model)) then
+    if (needs_study(variant%model, "response")) then
       associate (model => variant%model, response => variant%found%response)
         warning = response_deflections(model, variant%mechanism, response)
         call add_if_any(findings, model%variant, warning)

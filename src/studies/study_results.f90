@@ -14,6 +14,7 @@ module study_results
   use reactions_study, only: reactions_result_t
   use response_types, only: response_t
   use sweeps, only: sweep_t
+  use transient_types, only: transient_t
   implicit none (type, external)
   private
 
@@ -35,6 +36,7 @@ module study_results
     type(sweep_t) :: sweep
     type(loci_t) :: loci
     type(response_t) :: response
+    type(transient_t) :: transient
   end type study_results_t
 
 end module study_results

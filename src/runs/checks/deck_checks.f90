@@ -7,7 +7,7 @@ module deck_checks
   use four_bar_limits, only: can_reach, crank_reach, reach_t
   use kinds, only: wp
   use mechanisms, only: mechanism_t, new_mechanism
-  use models, only: model_t, needs_frequencies, needs_response, report_number, solver_band, &
+  use models, only: model_t, needs_frequencies, needs_steady_state, report_number, solver_band, &
     solver_dense
   use motion_checks, only: check_motion
   use nodal_eigensolver, only: most_round_off
@@ -146,7 +146,7 @@ contains
       "; the response is the steady state of a crank that turns fully, and there is none"
     type(token_t) :: place
 
-    if (.not. needs_response(model)) return
+    if (.not. needs_steady_state(model)) return
     if (turns_freely(mechanism%linkage)) return
     place = model%reports(findloc(model%reports%kind%response, .true., dim=1))%keyword
     if (reach%least > 0.0_wp .or. reach%most < 180.0_wp) then

@@ -8,7 +8,7 @@ module memory_needs
   use deformation_shapes, only: bending_unknowns
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
-  use models, only: effects_static, model_t, needs_frequencies, needs_response, report_number, &
+  use models, only: effects_static, model_t, needs_frequencies, needs_study, report_number, &
     response_accuracy
   use response_types, only: drive_values, strain_values
   use study_requests, only: method_wanted, motion_instants_of
@@ -123,8 +123,8 @@ contains
     real(wp) :: results
     integer :: report
 
-    if (.not. needs_response(model)) return
-    report = findloc(model%reports%kind%response, .true., dim=1)
+    if (.not. needs_study(model, "response")) return
+    report = findloc(model%reports%kind%studies == "response", .true., dim=1)
     need%place = model%reports(report)%keyword
     need%what = "the elastic response at "//plural(size(model%crank%value), "position")//" and "// &
       plural(size(model%speed%value), "speed")
