@@ -328,6 +328,8 @@ plan_response() {
             done
         fi
     fi
+    have transient.dat && plan_speeds transient transient.dat 'ux uy' displacement_history.gp
+    have gauges.dat && plan_speeds transient_strains gauges.dat 'axial_strain bending_strain stress' strain_history.gp
     have drive.dat && plan_speeds drive drive.dat 'rigid linear quadratic'
     frequencies=
     [ -f frequencies.dat ] && frequencies=frequencies.dat

@@ -326,7 +326,8 @@ contains
       case ("CRANK")
         call read_crank(card, system, diagnostics, model%crank)
       case ("SPEED")
-        call read_speed(card, system, diagnostics, model%speed, model%acceleration)
+        call read_speed(card, system, diagnostics, model%speed, model%acceleration, &
+          model%ramp, model%ramp_word)
       case ("INERTIA")
         call read_option(card, diagnostics, model%inertia, model%inertia_word)
       case ("EFFECTS")

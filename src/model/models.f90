@@ -24,7 +24,7 @@ module models
 
   public :: model_t, report_number, needs_study, needs_positions, is_moving, is_loaded, &
     needs_loads, needs_inertia, needs_frequencies, needs_response, report_in_motion, &
-    accuracy_of_study, needs_beams, &
+    steady_state_report, accuracy_of_study, needs_beams, &
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
     link_line_density, speed_in_table, speed_in_words
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
@@ -67,6 +67,9 @@ module models
     real(wp), allocatable :: shown_speed(:)     !! (speeds) ω2 in `outputs%rate`, as the deck has it
     real(wp) :: shown_start = 0.0_wp            !! start speed of REPORT motion, likewise
     real(wp) :: acceleration = 0.0_wp           !! α2, at every speed [rad/s²]
+    real(wp) :: ramp = 0.0_wp                   !! time in which REPORT transient gets to the speed
+                                                !! from rest; 0: it has it [s]
+    type(token_t) :: ramp_word
     integer :: inertia = inertia_none           !! one of the inertia_… constants; none: no card
     type(token_t) :: inertia_word
     integer :: effects = effects_static         !! effects_static or effects_axial
@@ -173,6 +176,22 @@ contains
         model%reports(i)%accuracy)
     end do
   end function accuracy_of_study
+
+  !> Number of the first report that needs a crank that turns fully at constant speed, 0 if there is
+  !! none: all on the elastic linkage in motion, but motions in time only if they start from that
+  !! state.
+  pure function steady_state_report(model) result(number)
+    type(model_t), intent(in) :: model !! as read
+    integer :: number
+
+    do number = 1, size(model%reports)
+      associate (report => model%reports(number))
+        if (.not. report%kind%response) cycle
+        if (report%kind%name /= "transient" .or. report%transient%steady) return
+      end associate
+    end do
+    number = 0
+  end function steady_state_report
 
   !> Whether any report is on links that bend, by their elements or without.
   pure function bends_links(model) result(bends)

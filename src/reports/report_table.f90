@@ -41,6 +41,7 @@ module report_table
   use table_columns, only: name_list_t, new_table_layout, table_layout_t
   use table_rows, only: add_failed_row, add_gap, rows_t
   use text, only: string_t
+  use transient_report, only: add_transient, gauge_history_notes, transient_notes
   use validity_report, only: add_validity, validity_notes
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -59,9 +60,9 @@ module report_table
 
   !> All studies in the order in which they are made: some use the results of others. The last
   !! five are made by `variant_runs`, some of them block by block or step by step.
-  character(len=*), parameter :: study_names(14) = [character(len=12) :: "kinematics", "geometry", &
+  character(len=*), parameter :: study_names(15) = [character(len=12) :: "kinematics", "geometry", &
     "inertia", "points", "reactions", "lagrange", "balance", "harmonics", "linkage", "response", &
-    "stability", "motion", "frequencies", "loci"]
+    "stability", "transient", "motion", "frequencies", "loci"]
 
   !> Tables of the elastic response with rows for every position.
   character(len=*), parameter :: response_tables(3) = [character(len=8) :: "response", "strains", &
@@ -159,6 +160,14 @@ module report_table
       response=.true., tables=[ &
       table_kind_t("stability", "speed:speed mode:# turns,growth:- frequency:Hz signature:# "// &
       "error:- verdict:name"), no_table]), &
+    report_kind_t(name="transient", help="the elastic motion in time from a state", &
+      pattern="REPORT transient turns= [crank=0] [start=rest|steady] [perturb=mode,amplitude] "// &
+      "[instants=] [accuracy=]", default="crank=0 start=rest instants=72 accuracy=1e-6", &
+      studies="transient", response=.true., tables=[ &
+      table_kind_t("transient", "speed:speed time:time crank:deg point:name ux,uy:length "// &
+      "rotation:deg error:-"), &
+      table_kind_t("gauges", "speed:speed time:time crank:deg gauge:name "// &
+      "axial_strain,bending_strain:- moment:moment axial_force:force stress:stress error:-")]), &
     report_kind_t(name="motion", help="the motion under motor and loads", &
       pattern="REPORT motion crank= [speed=0] end= step=", default="speed=0", &
       studies="motion", masses=.true., tables=[ &
@@ -259,6 +268,12 @@ contains
     case ("motion")
       names(1) = motion_words()
       plan%items = 1
+    case ("transient")
+      names(1) = response_point_names(variant)
+      plan%items = plan%speeds
+    case ("gauges")
+      names(1) = gauge_names(variant)
+      plan%items = plan%speeds
     case ("response")
       names(1) = response_point_names(variant)
     case ("strains")
@@ -317,6 +332,10 @@ contains
       call harmonics_notes(variant, notes)
     case ("motion")
       call motion_notes(variant, notes)
+    case ("transient")
+      call transient_notes(variant, notes)
+    case ("gauges")
+      call gauge_history_notes(variant, notes)
     case ("response")
       call response_notes_of(variant, notes)
     case ("strains")
@@ -350,6 +369,9 @@ contains
       call add_harmonics(variant, plan%layout, rows)
     case ("motion")
       call add_motion(variant, plan%layout, rows)
+    case ("transient", "gauges")
+      if (number > 1) call add_gap(rows, 2)
+      call add_transient(plan%name, variant, plan%layout, number, rows)
     case ("branches")
       call add_loci(variant, plan%layout, rows)
     case ("peaks", "validity")

@@ -11,7 +11,7 @@ module strains_report
   implicit none (type, external)
   private
 
-  public :: strains_notes, gauge_names, add_strains
+  public :: strains_notes, append_gauge_notes, gauge_names, add_strains
 
 contains
 
@@ -20,21 +20,34 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with its response computed
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
+    call append_gauge_notes(notes, variant, .true.)
+    call append_response_notes(notes, variant)
+  end subroutine strains_notes
+
+  !> Meaning of the values of gauges, with or without the shear force, and the place of every gauge.
+  pure subroutine append_gauge_notes(notes, variant, shear)
+    type(string_t), allocatable, intent(inout) :: notes(:) !! to which they are appended
+    type(variant_results_t), intent(in) :: variant         !! with its mechanism
+    logical, intent(in) :: shear                           !! the table has shear forces
+
+    character(len=:), allocatable :: force
     integer :: i
 
     call append_string(notes, "axial_strain: of the axis, stretched positive; bending_strain: "// &
       "of the face of the gauge, positive on the right face where the link turns left along "// &
       "its LINK card")
+    force = ""
+    if (shear) force = "shear_force: on the part before the gauge by the part beyond, to the "// &
+      "left positive; "
     call append_string(notes, "moment: positive where the link turns left; axial_force: "// &
-      "tension positive; shear_force: on the part before the gauge by the part beyond, to the "// &
-      "left positive; all looking along the LINK card, whatever the side of the gauge")
+      "tension positive; "//force//"all looking along the LINK card, whatever the side of "// &
+      "the gauge")
     call append_string(notes, "stress: largest of the section, E(|axial strain| + |bending "// &
       "strain|) at the fibre farthest from the centroid")
     do i = 1, size(variant%mechanism%gauges)
       call append_string(notes, gauge_words(variant, i))
     end do
-    call append_response_notes(notes, variant)
-  end subroutine strains_notes
+  end subroutine append_gauge_notes
 
   !> `gauge mid: on link coupler, 139.7 mm from A, right`
   pure function gauge_words(variant, number) result(words)

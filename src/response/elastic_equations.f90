@@ -12,9 +12,9 @@ module elastic_equations
   implicit none (type, external)
   private
 
-  public :: elastic_terms_t, inertia_force, inertia_parts, slope_force, apply_equation, &
-    equation_parts, load_at_speed, functions_of, geometric_force, slopes_of, mass_force, &
-    times_mass, spread_over_unknowns
+  public :: elastic_terms_t, inertia_force, inertia_parts, slope_force, swept_force, &
+    apply_equation, equation_parts, load_at_speed, functions_of, geometric_force, slopes_of, &
+    mass_force, times_mass, spread_over_unknowns
 
   !> Terms of the equation and of the torque; false: omitted.
   type :: elastic_terms_t
@@ -361,6 +361,65 @@ contains
       end do
     end do
   end subroutine slope_force
+
+  !> `W y = ∫ μ S'ᵀS' dx y`: with the chords moved by C' and the axes turned by h,
+  !! `S' = C' + h J`, and turned lengthwise masses are those without rotary inertia.
+  pure subroutine swept_force(grid, y, force)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp), intent(in) :: y(:, :)      !! (samples, unknowns)
+    real(wp), intent(out) :: force(:, :) !! (samples, unknowns)
+
+    real(wp), allocatable :: q(:, :), moved(:, :), on_moved(:, :), on_turned(:, :), turned(:, :)
+    real(wp) :: motion(size(y, 1), 2)
+    integer :: b, i, j, k, p
+
+    force = 0.0_wp
+    do b = 1, size(grid%integrals)
+      associate (integrals => grid%integrals(b), h => grid%rate(:, b))
+        q = functions_of(grid, b, y)
+        allocate (moved, mold=q)
+        moved = 0.0_wp
+        do j = 1, grid%border
+          do i = 1, integrals%chord
+            moved(:, i) = moved(:, i) + grid%chord_slope(:, i, j, b)*y(:, j)
+          end do
+        end do
+        ! J is antisymmetric.
+        turned = -matmul(q, integrals%swap)
+        on_moved = times_mass(grid, b, moved)
+        do i = 1, size(q, 2)
+          on_moved(:, i) = on_moved(:, i) + h*turned(:, i)
+        end do
+        do j = 1, grid%border
+          do i = 1, integrals%chord
+            force(:, j) = force(:, j) + grid%chord_slope(:, i, j, b)*on_moved(:, i)
+          end do
+        end do
+        turned = matmul(moved, integrals%swap)
+        on_turned = times_mass(grid, b, q)
+        if (size(integrals%rotary) > 0) on_turned = on_turned - matmul(q, integrals%rotary)
+        do i = 1, size(q, 2)
+          on_turned(:, i) = h*turned(:, i) + h**2*on_turned(:, i)
+        end do
+        call spread_over_unknowns(grid, b, on_turned, force)
+        deallocate (moved)
+      end associate
+    end do
+    do p = 1, size(grid%pin_mass)
+      if (grid%pin_mass(p) <= 0.0_wp) cycle
+      motion = 0.0_wp
+      do j = 1, grid%border
+        do k = 1, 2
+          motion(:, k) = motion(:, k) + grid%pin_slope(:, k, p, j)*y(:, j)
+        end do
+      end do
+      do i = 1, grid%border
+        do k = 1, 2
+          force(:, i) = force(:, i) + grid%pin_mass(p)*grid%pin_slope(:, k, p, i)*motion(:, k)
+        end do
+      end do
+    end do
+  end subroutine swept_force
 
   !> Slopes of a body that axial forces act on: rotation of its chord, that of its clamped end, its
   !! own modes.

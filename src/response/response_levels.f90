@@ -15,7 +15,8 @@ module response_levels
   implicit none (type, external)
   private
 
-  public :: level_t, level_slot_t, need_level, need_basis, damping_of, sample_numbers
+  public :: level_t, level_slot_t, new_order_model, need_level, need_basis, damping_of, &
+    sample_numbers
 
   !> Degrees along a link are lower than those across it by this, and at least as high as this. The
   !! bending of the links loads them along their axes: both converge together.
@@ -100,6 +101,27 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     type(deformation_model_t) :: model
+
+    call new_order_model(structure, order, store, model, error)
+    if (allocated(error)) return
+    call new_turn_grid(structure%linkage, model, samples, level%grid, error, backwards)
+    if (allocated(error)) return
+    call new_turn_grid(structure%linkage, model, min(samples, basis_samples), level%coarse, error, &
+      backwards)
+    level%order = order
+    allocate (level%basis(model%layout%unknowns))
+  end subroutine new_level
+
+  !> The links' own deformations of an order.
+  !!
+  !! Errors: own modes of a link could not be found.
+  subroutine new_order_model(structure, order, store, model, error)
+    class(structure_t), intent(in) :: structure        !! linkage and beams
+    integer, intent(in) :: order                       !! highest polynomial degree
+    type(link_store_t), intent(inout) :: store         !! links decomposed earlier
+    type(deformation_model_t), intent(out) :: model
+    type(error_t), allocatable, intent(out) :: error   !! why there is none
+
     type(link_degrees_t) :: degrees(size(structure%beams))
     integer :: b, pieces, across
 
@@ -111,14 +133,7 @@ contains
     call new_deformation_model(structure%linkage, structure%beams, spread(0, 1, size(degrees)), &
       spread(order, 1, size(degrees)), spread(.false., 1, size(degrees)), model, error, store, &
       degrees)
-    if (allocated(error)) return
-    call new_turn_grid(structure%linkage, model, samples, level%grid, error, backwards)
-    if (allocated(error)) return
-    call new_turn_grid(structure%linkage, model, min(samples, basis_samples), level%coarse, error, &
-      backwards)
-    level%order = order
-    allocate (level%basis(model%layout%unknowns))
-  end subroutine new_level
+  end subroutine new_order_model
 
   !> Makes the slow coordinates of a level, unless they are there.
   !!

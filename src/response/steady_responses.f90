@@ -12,6 +12,7 @@ module steady_responses
   use floquet_exponents, only: find_nearest_mode, floquet_mode_t
   use fourier_transform, only: close_fourier, coefficients_of, fourier_plan_t, open_fourier, &
     resample, resampled, value_at, values_of
+  use gauge_values, only: gauge_values_of
   use interruption, only: was_interrupted
   use kinds, only: long, wp
   use link_loads, only: buckling_shares
@@ -25,9 +26,8 @@ module steady_responses
   use response_peaks, only: find_peaks, sampled_deflections
   use response_series, only: first_of_gauge, first_of_point, first_of_torque, point_series, &
     response_series_of, series_count, strains_along
-  use response_types, only: axial_force, axial_strain, bending_strain, drive_values, moment, &
-    no_damping, peak_t, power, quadratic_torque, response_request_t, response_t, rigid_torque, &
-    shear_force, speed_response_t, strain_values, stress, total_torque
+  use response_types, only: drive_values, no_damping, peak_t, power, quadratic_torque, &
+    response_request_t, response_t, rigid_torque, speed_response_t, strain_values, total_torque
   use sorting, only: ascending_order
   use slow_motions, only: new_slow_motion, own_squares, slow_basis_t, slow_count, slow_motion_t
   use structures, only: structure_t
@@ -699,15 +699,8 @@ contains
         associate (gauge => request%gauges(g), beam => structure%beams(request%gauges(g)%body), &
           section => request%section(request%gauges(g)%body))
           do k = 1, size(request%crank)
-            associate (axial => at_position(first, k), curvature => at_position(first + 1, k))
-              found%strain(axial_strain, g, k) = axial
-              found%strain(bending_strain, g, k) = gauge%side*gauge%sense*section%outer*curvature
-              found%strain(moment, g, k) = gauge%sense*beam%bending_stiffness*curvature
-              found%strain(axial_force, g, k) = beam%axial_stiffness*axial
-              found%strain(shear_force, g, k) = at_position(first + 2, k)
-              found%strain(stress, g, k) = section%modulus*(abs(axial) + &
-                section%outer*abs(curvature))
-            end associate
+            found%strain(:, g, k) = gauge_values_of(gauge, beam, section, at_position(first, k), &
+              at_position(first + 1, k), at_position(first + 2, k))
           end do
           strain = abs(values(:, first)) + section%outer*abs(values(:, first + 1))
           fine_strain = abs(fine(:, first)) + section%outer*abs(fine(:, first + 1))

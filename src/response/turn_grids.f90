@@ -5,6 +5,7 @@
 module turn_grids
   use axial_forces, only: distributed_unit_forces
   use body_lumps, only: lump_offsets
+  use chord_slopes, only: find_chord_slopes
   use deformation_model, only: deformation_model_t
   use errors, only: error_t
   use fourier_transform, only: close_fourier, derivatives, fourier_plan_t, open_fourier
@@ -21,7 +22,7 @@ module turn_grids
   implicit none (type, external)
   private
 
-  public :: turn_grid_t, new_turn_grid
+  public :: turn_grid_t, new_turn_grid, new_path_grid, place_grid
 
   !> Number of the load case of α2.
   integer, parameter :: of_acceleration = 2
@@ -73,14 +74,77 @@ contains
     type(pose_t) :: pose
     type(kinematic_coefficients_t) :: coefficients
     type(chords_t) :: chords
-    type(unit_loads_t) :: loads
-    type(unit_reactions_t) :: unit
-    real(wp), allocatable :: force(:, :, :)
     real(wp) :: sense
-    integer :: b, c, k, bodies, pins
+    integer :: k
 
     if (present(backwards)) grid%backwards = backwards
     sense = merge(-1.0_wp, 1.0_wp, grid%backwards)
+    call start_grid(linkage, model, samples, grid)
+    do k = 1, samples
+      call find_pose(linkage, sense*(360.0_wp*(k - 1))/samples, pose, error)
+      if (allocated(error)) return
+      coefficients = find_kinematic_coefficients(linkage, pose)
+      chords = find_chords(linkage, model%links, pose)
+      call take_pose(linkage, pose, coefficients, chords, k, grid)
+    end do
+    grid%rate = sense*grid%rate
+    grid%force(:, :, :, of_acceleration) = sense*grid%force(:, :, :, of_acceleration)
+    grid%load(:, :, of_acceleration) = sense*grid%load(:, :, of_acceleration)
+    call find_slopes(grid)
+  end subroutine new_turn_grid
+
+  !> Room for the terms at crank angles anywhere, which `place_grid` gives: the crank need not turn
+  !! fully.
+  subroutine new_path_grid(linkage, model, samples, grid)
+    type(linkage_t), intent(in) :: linkage         !! pins, bodies, loads
+    type(deformation_model_t), intent(in) :: model !! its links' own deformations
+    integer, intent(in) :: samples                 !! crank angles
+    type(turn_grid_t), intent(out) :: grid         !! for `place_grid`
+
+    call start_grid(linkage, model, samples, grid)
+    allocate (grid%chord_slope, mold=grid%chord)
+    allocate (grid%pin_slope, mold=grid%pin)
+    grid%chord_slope = 0.0_wp
+  end subroutine new_path_grid
+
+  !> The terms at other crank angles, with the derivatives of chords and pins from the motion of the
+  !! links at each of them: the angles need not be even.
+  !!
+  !! Errors: the crank cannot reach one of them, or meets a dead point there.
+  subroutine place_grid(linkage, crank, grid, error)
+    type(linkage_t), intent(in) :: linkage           !! of the grid
+    real(wp), intent(in) :: crank(:)                 !! (samples) crank angles [deg]
+    type(turn_grid_t), intent(inout) :: grid         !! by `new_path_grid`
+    type(error_t), allocatable, intent(out) :: error !! why the grid has no terms
+
+    type(pose_t) :: pose
+    type(kinematic_coefficients_t) :: coefficients
+    type(chords_t) :: chords, slopes
+    integer :: b, k
+
+    do k = 1, size(crank)
+      call find_pose(linkage, crank(k), pose, error)
+      if (allocated(error)) return
+      coefficients = find_kinematic_coefficients(linkage, pose)
+      chords = find_chords(linkage, grid%model%links, pose)
+      slopes = find_chord_slopes(linkage, grid%model%links, pose, coefficients, chords)
+      call take_pose(linkage, pose, coefficients, chords, k, grid)
+      grid%pin_slope(k, :, :, :) = slopes%pin
+      do b = 1, size(grid%integrals)
+        call take_chord(grid%model%links(b)%bends, slopes, b, grid%chord_slope(k, :, :, b))
+      end do
+    end do
+  end subroutine place_grid
+
+  !> Sizes, numbers of the unknowns, integrals over the links, and room for the terms.
+  subroutine start_grid(linkage, model, samples, grid)
+    type(linkage_t), intent(in) :: linkage
+    type(deformation_model_t), intent(in) :: model
+    integer, intent(in) :: samples
+    type(turn_grid_t), intent(inout) :: grid
+
+    integer :: b, bodies, pins
+
     bodies = size(linkage%bodies)
     pins = size(linkage%is_ground)
     grid%samples = samples
@@ -101,40 +165,57 @@ contains
     allocate (grid%load(samples, grid%unknowns, case_count), grid%torque(samples, case_count))
     grid%chord = 0.0_wp
     grid%load = 0.0_wp
-    do k = 1, samples
-      call find_pose(linkage, sense*(360.0_wp*(k - 1))/samples, pose, error)
-      if (allocated(error)) return
-      coefficients = find_kinematic_coefficients(linkage, pose)
-      chords = find_chords(linkage, model%links, pose)
-      grid%place(k, :, :) = pose%pin
-      grid%direction(k, :, :) = pose%direction
-      grid%rate(k, :) = sense*coefficients%turn
-      grid%rate_slope(k, :) = coefficients%turn_slope
-      grid%turn(k, :, :) = chords%turn
-      grid%pin(k, :, :, :) = chords%pin
-      do b = 1, bodies
-        if (model%links(b)%bends) then
-          grid%chord(k, :3, :, b) = chords%across(:, :, b)
-          grid%chord(k, 4:5, :, b) = chords%along(:, :, b)
-        else
-          grid%chord(k, :3, :, b) = body_displacement(chords, b)
-        end if
-      end do
-      loads = find_unit_loads(linkage, pose, coefficients)
-      force = distributed_unit_forces(linkage, pose, loads)
-      if (.not. allocated(grid%force)) allocate (grid%force(samples, size(force, 1), bodies, &
-        case_count))
-      grid%force(k, :, :, :) = force
-      call find_unit_reactions(linkage, spread(0, 1, bodies), pose, coefficients, unit)
-      do c = 1, case_count
-        grid%load(k, :, c) = load_of(linkage, grid, k, chords, pose, loads%of_case(c))
-        grid%torque(k, c) = unit%of_case(c)%joints%torque
-      end do
+  end subroutine start_grid
+
+  !> The terms at one crank angle; derivatives are with respect to θ2.
+  subroutine take_pose(linkage, pose, coefficients, chords, k, grid)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: coefficients
+    type(chords_t), intent(in) :: chords
+    integer, intent(in) :: k !! number of the crank angle
+    type(turn_grid_t), intent(inout) :: grid
+
+    type(unit_loads_t) :: loads
+    type(unit_reactions_t) :: unit
+    real(wp), allocatable :: force(:, :, :)
+    integer :: b, c
+
+    grid%place(k, :, :) = pose%pin
+    grid%direction(k, :, :) = pose%direction
+    grid%rate(k, :) = coefficients%turn
+    grid%rate_slope(k, :) = coefficients%turn_slope
+    grid%turn(k, :, :) = chords%turn
+    grid%pin(k, :, :, :) = chords%pin
+    do b = 1, size(grid%integrals)
+      call take_chord(grid%model%links(b)%bends, chords, b, grid%chord(k, :, :, b))
     end do
-    grid%force(:, :, :, of_acceleration) = sense*grid%force(:, :, :, of_acceleration)
-    grid%load(:, :, of_acceleration) = sense*grid%load(:, :, of_acceleration)
-    call find_slopes(grid)
-  end subroutine new_turn_grid
+    loads = find_unit_loads(linkage, pose, coefficients)
+    force = distributed_unit_forces(linkage, pose, loads)
+    if (.not. allocated(grid%force)) allocate (grid%force(grid%samples, size(force, 1), &
+      size(force, 2), case_count))
+    grid%force(k, :, :, :) = force
+    call find_unit_reactions(linkage, spread(0, 1, size(grid%integrals)), pose, coefficients, unit)
+    do c = 1, case_count
+      grid%load(k, :, c) = load_of(linkage, grid, k, chords, pose, loads%of_case(c))
+      grid%torque(k, c) = unit%of_case(c)%joints%torque
+    end do
+  end subroutine take_pose
+
+  !> Functions of the chord of a body for every border unknown.
+  pure subroutine take_chord(bends, chords, body, functions)
+    logical, intent(in) :: bends
+    type(chords_t), intent(in) :: chords
+    integer, intent(in) :: body
+    real(wp), intent(inout) :: functions(:, :) !! (functions, border)
+
+    if (bends) then
+      functions(:3, :) = chords%across(:, :, body)
+      functions(4:5, :) = chords%along(:, :, body)
+    else
+      functions(:3, :) = body_displacement(chords, body)
+    end if
+  end subroutine take_chord
 
   !> Derivatives of the motion of chords and pins over the turn.
   subroutine find_slopes(grid)

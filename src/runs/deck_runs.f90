@@ -32,6 +32,7 @@ module deck_runs
   use tables, only: column_t, real_column
   use task_journal, only: close_journal, journal_t, open_journal, remove_journal
   use text, only: plural, string_t, to_string
+  use transient_report, only: transient_log
   use variant_results, only: variant_results_t
   use variant_runs, only: begin_variant_run, compute_variant, variant_run_t
   use variant_tasks, only: run_variant_tasks, variant_job_t
@@ -353,6 +354,7 @@ contains
     associate (found => variant%found)
       if (allocated(found%motion%samples)) text = text//motion_log(found%motion)
       if (allocated(found%response%at_speed)) text = text//response_log(variant)
+      if (allocated(found%transient%at_speed)) text = text//transient_log(variant)
       if (allocated(found%sweep%results)) text = text//sweep_summary(found%sweep, &
         variant%mechanism%mesh)
     end associate

@@ -5,8 +5,7 @@ module result_failures
   use kinds, only: wp
   use models, only: needs_frequencies, speed_in_words
   use run_findings, only: add_failure, at_frequencies, at_position, failure_t, findings_t, &
-    in_motion, in_response, in_stability, &
-    of_variant
+    in_motion, in_response, in_stability, in_transient, of_variant
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -15,8 +14,9 @@ module result_failures
 
 contains
 
-  !> Appends every position, position and speed, or speed of a response, without a result, and a
-  !! motion that ended too soon; or the variant as a whole, if its linkage closes at no crank angle.
+  !> Appends every position, position and speed, or speed of a response or transient,
+  !! without a result, and a motion that ended too soon; or the variant as a whole, if its linkage
+  !! closes at no crank angle.
   pure subroutine find_failures(variant, findings)
     type(variant_results_t), intent(in) :: variant !! computed
     type(findings_t), intent(inout) :: findings    !! to which they are appended
@@ -60,6 +60,14 @@ contains
         do k = 1, size(found%stability%at_speed)
           if (allocated(found%stability%at_speed(k)%error)) call note_failure(variant, &
             in_stability, found%stability%at_speed(k)%error, 0.0_wp, k, 0.0_wp, findings)
+        end do
+      end if
+      if (allocated(found%transient%at_speed)) then
+        do k = 1, size(found%transient%at_speed)
+          if (allocated(found%transient%at_speed(k)%error)) call note_failure(variant, &
+            in_transient, found%transient%at_speed(k)%error, 0.0_wp, k, 0.0_wp, findings)
+          if (allocated(found%transient%at_speed(k)%strain_fault)) call note_failure(variant, &
+            in_transient, found%transient%at_speed(k)%strain_fault, 0.0_wp, k, 0.0_wp, findings)
         end do
       end if
       if (allocated(found%motion%error)) call note_failure(variant, in_motion, found%motion%error, &

@@ -16,12 +16,13 @@ module study_requests
     response_point_t, response_request_t
   use sections, only: outer_distance
   use stability_types, only: stability_request_t
+  use transient_types, only: from_rest, from_steady, transient_request_t
   use vibration_models, only: any_method, by_band, by_dense, chosen_method, mode_request_t
   implicit none (type, external)
   private
 
   public :: mode_request_of, method_wanted, drawn_states, motion_request_of, &
-    motion_instants_of, response_request_of, stability_request_of
+    motion_instants_of, response_request_of, stability_request_of, transient_request_of
 
 contains
 
@@ -114,7 +115,7 @@ contains
     type(mechanism_t), intent(in) :: mechanism !! of the model
     type(response_request_t) :: request
 
-    integer :: b, i
+    integer :: b
 
     request%speed = model%speed%value
     request%crank = model%crank%value
@@ -132,21 +133,56 @@ contains
           model%materials(link%material)%youngs_modulus
       end associate
     end do
-    allocate (request%gauges(merge(size(mechanism%gauges), 0, report_number(model, "strains") > 0)))
+    call add_places(mechanism, report_number(model, "response") > 0, report_number(model, &
+      "strains") > 0, request)
+  end function response_request_of
+
+  !> Gauges and points of the elastic response.
+  pure subroutine add_places(mechanism, displacements, strains, request)
+    type(mechanism_t), intent(in) :: mechanism
+    logical, intent(in) :: displacements, strains !! are asked for
+    type(response_request_t), intent(inout) :: request
+
+    integer :: i
+
+    allocate (request%gauges(merge(size(mechanism%gauges), 0, strains)))
     do i = 1, size(request%gauges)
       associate (gauge => mechanism%gauges(i))
         request%gauges(i) = gauge_t(gauge%body, gauge%place, merge(-1.0_wp, 1.0_wp, &
           gauge%is_reversed), real(gauge%side, wp))
       end associate
     end do
-    allocate (request%points(merge(size(mechanism%response_points), 0, report_number(model, &
-      "response") > 0)))
+    allocate (request%points(merge(size(mechanism%response_points), 0, displacements)))
     do i = 1, size(request%points)
       associate (point => mechanism%response_points(i))
         request%points(i) = response_point_t(point%body, point%place)
       end associate
     end do
-  end function response_request_of
+  end subroutine add_places
+
+  !> The requested elastic motions in time, at all pins, points and gauges.
+  pure function transient_request_of(model, mechanism) result(request)
+    type(model_t), intent(in) :: model         !! with REPORT transient
+    type(mechanism_t), intent(in) :: mechanism !! of the model
+    type(transient_request_t) :: request
+
+    associate (report => model%reports(report_number(model, "transient")))
+      associate (asked => report%transient)
+        request%response = response_request_of(model, mechanism)
+        if (allocated(request%response%points)) deallocate (request%response%points)
+        if (allocated(request%response%gauges)) deallocate (request%response%gauges)
+        call add_places(mechanism, .true., .true., request%response)
+        request%response%accuracy = report%accuracy
+        request%ramp = model%ramp
+        request%crank = asked%crank
+        request%turns = asked%turns
+        request%instants = asked%instants
+        request%start = merge(from_steady, from_rest, asked%steady)
+        request%mode = asked%mode
+        request%amplitude = asked%amplitude
+      end associate
+    end associate
+  end function transient_request_of
 
   !> The requested exponents.
   pure function stability_request_of(model) result(request)

@@ -19,7 +19,7 @@ module variant_runs
   use response_study, only: find_response
   use stability_study, only: find_stability_of
   use study_requests, only: drawn_states, mode_request_of, motion_request_of, &
-    response_request_of, stability_request_of
+    response_request_of, stability_request_of, transient_request_of
   use sweep_bytes, only: get_result, put_result
   use sweeps, only: sweep_t
   use task_journal, only: journal_t
@@ -27,6 +27,7 @@ module variant_runs
   use text, only: string_t
   use text_buffer, only: text_buffer_t
   use variant_results, only: variant_results_t
+  use transient_responses, only: find_transients
   use vibration_models, only: by_band, mode_request_t, new_vibration_models, vibration_models_t
   implicit none (type, external)
   private
@@ -97,6 +98,8 @@ contains
           call compute_response(run, threads, store)
         case ("stability")
           call compute_stability(run, threads, store)
+        case ("transient")
+          call compute_transient(run, store)
         case ("frequencies")
           call compute_sweep(run, threads, journal, group, store, error)
           if (allocated(error)) return
@@ -190,6 +193,23 @@ contains
       end do
     end associate
   end subroutine compute_stability
+
+  !> Elastic motions in time at all speeds.
+  subroutine compute_transient(run, store)
+    type(variant_run_t), intent(inout) :: run
+    type(link_store_t), intent(inout) :: store
+
+    integer :: k
+
+    associate (mechanism => run%results%mechanism, transient => run%results%found%transient)
+      call find_transients(mechanism%structure_t, transient_request_of(run%results%model, &
+        mechanism), store, transient)
+      do k = 1, size(transient%at_speed)
+        if (.not. allocated(transient%at_speed(k)%error)) cycle
+        call name_link(mechanism%names, transient%at_speed(k)%error)
+      end do
+    end associate
+  end subroutine compute_transient
 
   !> Frequencies at every position that has a pose. Positions that need higher orders than the
   !! samples by which orders were chosen are solved again, with orders chosen for them.

@@ -15,6 +15,7 @@ module study_results
   use response_types, only: response_t
   use stability_types, only: stability_t
   use sweeps, only: sweep_t
+  use transient_types, only: transient_t
   implicit none (type, external)
   private
 
@@ -37,6 +38,7 @@ module study_results
     type(loci_t) :: loci
     type(response_t) :: response
     type(stability_t) :: stability
+    type(transient_t) :: transient
   end type study_results_t
 
 end module study_results

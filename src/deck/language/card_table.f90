@@ -108,8 +108,8 @@ module card_table
     card_kind_t("CRANK", is_single=.true., is_list=.true., least=1, most=many, &
       pattern="CRANK a to b step s, or a list of angles", help="the positions"), &
     card_kind_t("SPEED", is_single=.true., is_list=.true., least=1, most=many, &
-      pattern="SPEED a list or range of speeds [rad/s|rpm] [alpha=]", default="0", &
-      help="of the crank; alpha is its angular acceleration at all of them"), &
+      pattern="SPEED a list or range of speeds [rad/s|rpm] [alpha=] [ramp=]", default="0", &
+      help="of the crank; alpha: acceleration at all of them; ramp: time up to them from rest"), &
     card_kind_t("INERTIA", is_single=.true., least=1, most=1, &
       pattern="INERTIA lumped|distributed", choices="lumped distributed", &
       help="where inertia loads act: at the nodes of the mesh, or along the links"), &

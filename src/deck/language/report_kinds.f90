@@ -24,9 +24,9 @@ module report_kinds
   type :: report_kind_t
     character(len=12) :: name = ""    !! in small letters
     character(len=64) :: help = ""    !! in one line
-    character(len=56) :: pattern = "" !! correct form of the card, its keys end with `=`; blank: the
-                                      !! name alone
-    character(len=16) :: default = "" !! default entry of its card; blank: none
+    character(len=112) :: pattern = "" !! correct form of the card, its keys end with `=`; blank:
+                                       !! the name alone
+    character(len=64) :: default = "" !! default entries of its card; blank: none
     character(len=32) :: studies = "" !! that provide its rows, separated by blanks
     logical :: positions = .false.    !! it has rows for every crank angle
     logical :: masses = .false.       !! it uses masses and their loads

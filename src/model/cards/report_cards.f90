@@ -9,6 +9,7 @@ module report_cards
   use report_kinds, only: kind_named, report_kind_t, report_names
   use text, only: joined, lower_case, to_string, word_list
   use tokens, only: token_t
+  use transient_cards, only: read_transient, transient_card_t
   use units, only: dimension_angle, dimension_rate, dimension_time, unit_system_t
   use value_lists, only: empty_list, list_steps, read_entry_list, read_values, value_list_t
   implicit none (type, external)
@@ -38,6 +39,7 @@ module report_cards
     real(wp) :: time_step = 0.0_wp   !! between rows [s]
     type(value_list_t) :: instants   !! of the rows [s]
     type(token_t) :: start_angle_word, start_speed_word, end_time_word, time_step_word
+    type(transient_card_t) :: transient !! REPORT transient
   end type report_t
 
   !> A motion with more rows than this is taken for a mistake.
@@ -93,6 +95,8 @@ contains
       call read_geometry(card, known_keys, system, diagnostics, report)
     case ("motion")
       call read_motion(card, known_keys, system, diagnostics, report)
+    case ("transient")
+      call read_transient(card, known_keys, system, diagnostics, report%transient)
     end select
   end subroutine read_report
 

@@ -1,7 +1,8 @@
 !> TITLE, DRIVE, CRANK, SPEED and MODES cards, and cards that choose one of several words (BRANCH,
 !! INERTIA, SOLVER).
 module request_cards
-  use card_reader, only: check_form, read_choice, read_entry_quantity
+  use card_reader, only: check_form, entry_number, read_choice, read_entry_quantity, &
+    require_positive
   use card_table, only: card_kind_t, kind_of_card
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
@@ -10,7 +11,8 @@ module request_cards
   use numbers, only: read_integer
   use text, only: to_string
   use tokens, only: token_t
-  use units, only: dimension_angle, dimension_angular_acceleration, dimension_rate, unit_system_t
+  use units, only: dimension_angle, dimension_angular_acceleration, dimension_rate, &
+    dimension_time, unit_system_t
   use value_lists, only: read_values, value_list_t
   implicit none (type, external)
   private
@@ -87,14 +89,19 @@ contains
     call read_values(card%words, dimension_angle, system, "crank angle", diagnostics, crank)
   end subroutine read_crank
 
-  !> Reads `SPEED` values [rad/s], listed like crank angles, and `alpha=` [rad/s²]. Errors: as for
-  !! CRANK, and an unreadable `alpha=`.
-  pure subroutine read_speed(card, system, diagnostics, speed, acceleration)
+  !> Reads `SPEED` values [rad/s], listed like crank angles, and `alpha=` [rad/s²], and
+  !! `ramp=` [s]. Errors: as for CRANK, and an unreadable `alpha=` or `ramp=`; a ramp of no time.
+  pure subroutine read_speed(card, system, diagnostics, speed, acceleration, ramp, ramp_word)
     type(card_t), intent(in) :: card                  !! the SPEED card
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(value_list_t), intent(out) :: speed          !! ω2 [rad/s]
     real(wp), intent(out) :: acceleration             !! α2 [rad/s²]
+    real(wp), intent(inout) :: ramp                   !! time from rest to the speed [s]; unchanged
+                                                      !! without the key
+    type(token_t), intent(inout) :: ramp_word         !! its word in the deck; likewise
+
+    real(wp) :: time
 
     logical :: fine
 
@@ -102,6 +109,11 @@ contains
     call read_values(card%words, dimension_rate, system, "speed", diagnostics, speed)
     call read_entry_quantity(card, "alpha", dimension_angular_acceleration, system, .false., &
       diagnostics, acceleration, fine)
+    call read_entry_quantity(card, "ramp", dimension_time, system, .false., diagnostics, time, fine)
+    if (.not. fine) return
+    call require_positive(card, "ramp", time, diagnostics)
+    ramp = max(time, 0.0_wp)
+    ramp_word = card%entries(entry_number(card, "ramp"))%value
   end subroutine read_speed
 
   !> Reads `MODES number`. Errors: words or keys that do not fit the card, a number that is not

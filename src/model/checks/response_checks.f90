@@ -98,10 +98,12 @@ contains
     type(model_t), intent(in) :: model                !! as far as its cards could be read
 
     call warn_of_idle_cards(diagnostics, model)
+    call check_ramp(diagnostics, model)
     if (.not. needs_response(model)) return
     call check_speeds(diagnostics, model)
     call refuse_acceleration(cards, diagnostics, model)
     call check_depths(diagnostics, model)
+    call check_transient(diagnostics, model)
     call warn_of_other_models(diagnostics, model)
   end subroutine check_response
 
@@ -111,14 +113,14 @@ contains
     type(model_t), intent(in) :: model
 
     character(len=*), parameter :: idle = " is used by REPORT response, strains, peaks, "// &
-      "drive, validity and stability only, none of which is asked for"
+      "drive, validity, stability and transient only, none of which is asked for"
     integer :: i
 
-    if (report_number(model, "strains") == 0) then
+    if (report_number(model, "strains") == 0 .and. report_number(model, "transient") == 0) then
       do i = 1, size(model%gauges)
         if (model%gauges(i)%name%line == 0) cycle
         call add_warning(diagnostics, model%gauges(i)%name, &
-          "GAUGE is used by REPORT strains only, which is not asked for")
+          "GAUGE is used by REPORT strains and transient only, neither of which is asked for")
       end do
     end if
     if (needs_response(model)) return
@@ -169,6 +171,37 @@ contains
     end do
   end subroutine refuse_acceleration
 
+  !> `ramp=` serves motions in time; all other reports are at the speeds themselves.
+  pure subroutine check_ramp(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    if (model%ramp <= 0.0_wp .or. report_number(model, "transient") > 0) return
+    call add_warning(diagnostics, model%ramp_word, &
+      "'ramp=' is used by REPORT transient only, which is not asked for")
+  end subroutine check_ramp
+
+  !> Motions in time. Errors: a start from the steady state with a ramp; terms of the equation left
+  !! out that its momenta need.
+  pure subroutine check_transient(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: number
+
+    number = report_number(model, "transient")
+    if (number == 0) return
+    associate (asked => model%reports(number)%transient, without => model%without)
+      if (asked%steady .and. model%ramp > 0.0_wp) call add_error(diagnostics, asked%start_word, &
+        "the steady state is that of a speed, and the crank starts at rest; expected start=rest", &
+        model%ramp_word, "by this ramp")
+      if (without%coriolis .or. without%centripetal .or. without%tangential) call &
+        add_error(diagnostics, without%keyword, "REPORT transient has all terms of inertia; "// &
+        "expected 'without=axial' or no EFFECTS response", model%reports(number)%keyword, &
+        "asked for here")
+    end associate
+  end subroutine check_transient
+
   !> Strains and stresses of bending are those of the faces, whose distance a general section need
   !! not give.
   pure subroutine check_depths(diagnostics, model)
@@ -177,7 +210,8 @@ contains
 
     integer :: i, report
 
-    report = max(report_number(model, "strains"), report_number(model, "peaks"))
+    report = max(report_number(model, "strains"), report_number(model, "peaks"), &
+      report_number(model, "transient"))
     if (report == 0) return
     do i = 1, size(model%sections)
       associate (section => model%sections(i))

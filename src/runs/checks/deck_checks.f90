@@ -7,8 +7,8 @@ module deck_checks
   use four_bar_limits, only: can_reach, crank_reach, reach_t
   use kinds, only: wp
   use mechanisms, only: mechanism_t, new_mechanism
-  use models, only: model_t, needs_frequencies, needs_response, report_in_motion, report_number, &
-    solver_band, &
+  use models, only: model_t, needs_frequencies, report_number, solver_band, &
+    steady_state_report, &
     solver_dense
   use motion_checks, only: check_motion
   use nodal_eigensolver, only: most_round_off
@@ -145,12 +145,14 @@ contains
 
     character(len=:), allocatable :: no_state
     type(token_t) :: place
+    integer :: report
 
-    if (.not. needs_response(model)) return
+    report = steady_state_report(model)
+    if (report == 0) return
     if (turns_freely(mechanism%linkage)) return
-    place = model%reports(findloc(model%reports%kind%response, .true., dim=1))%keyword
-    no_state = "; "//report_in_motion(model)//" is on the steady state of a crank that turns "// &
-      "fully, and there is none"
+    place = model%reports(report)%keyword
+    no_state = "; REPORT "//trim(model%reports(report)%kind%name)//" is on the steady state of "// &
+      "a crank that turns fully, and there is none"
     if (reach%least > 0.0_wp .or. reach%most < 180.0_wp) then
       call add_error(diagnostics, place, "the crank turns only "//reachable_text(reach)//no_state, &
         kind=error_of_reach)

@@ -8,8 +8,8 @@ module memory_needs
   use deformation_shapes, only: bending_unknowns
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
-  use models, only: effects_static, model_t, needs_frequencies, needs_response, report_number, &
-    accuracy_of_study
+  use models, only: accuracy_of_study, effects_static, model_t, needs_frequencies, needs_response, &
+    report_number
   use response_types, only: drive_values, strain_values
   use study_requests, only: method_wanted, motion_instants_of
   use text, only: plural, to_string

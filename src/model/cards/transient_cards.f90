@@ -1,0 +1,106 @@
+!> `REPORT transient`: elastic motions in time.
+module transient_cards
+  use card_reader, only: entry_number, read_choice, read_entry_count, read_entry_quantity, &
+    read_quantity, require_positive
+  use cards, only: card_t
+  use diagnostics, only: add_error, diagnostics_t
+  use errors, only: error_of_input, error_t, set_error
+  use kinds, only: wp
+  use numbers, only: read_integer
+  use text, only: to_string
+  use tokens, only: token_t
+  use units, only: dimension_angle, dimension_length, dimension_none, unit_system_t
+  use value_lists, only: find_items, read_entry_list, value_list_t
+  implicit none (type, external)
+  private
+
+  public :: transient_card_t, read_transient
+
+  !> What a motion in time is to be. Words have no line if the card does not give them.
+  type :: transient_card_t
+    real(wp) :: crank = 0.0_wp     !! first crank angle [deg]
+    real(wp) :: turns = 0.0_wp     !! of the crank
+    integer :: instants = 72       !! rows in the time of a turn at the speed
+    logical :: steady = .false.    !! it starts from the steady state; else from rest
+    integer :: mode = 0            !! of the perturbation; 0: none
+    real(wp) :: amplitude = 0.0_wp !! of the perturbation [m]
+    type(token_t) :: start_word
+  end type transient_card_t
+
+  !> Rows beyond this are taken for a mistake, modes for more than are certified.
+  integer, parameter :: most_rows = 100000, most_modes = 100
+
+contains
+
+  !> Reads the keys of `REPORT transient turns= [crank=0] [start=rest|steady]
+  !! [perturb=mode,amplitude] [instants=72]`. Errors: no `turns=`; unreadable values; turns or an
+  !! amplitude that is not above 0; an unknown start; no whole mode from 1; too many rows.
+  pure subroutine read_transient(card, known_keys, system, diagnostics, transient)
+    type(card_t), intent(in) :: card                  !! the REPORT card
+    logical, intent(in) :: known_keys                 !! no key is unknown: a missing one is an
+                                                      !! error
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(transient_card_t), intent(out) :: transient  !! as read
+
+    type(value_list_t) :: angle
+    integer :: choice, i, instants
+    logical :: fine
+
+    transient%start_word = token_t("", 0, 0)
+    call read_entry_quantity(card, "turns", dimension_none, system, known_keys, diagnostics, &
+      transient%turns, fine)
+    if (fine) call require_positive(card, "turns", transient%turns, diagnostics)
+    call read_entry_list(card, "crank", dimension_angle, system, diagnostics, angle)
+    if (size(angle%value) > 1) then
+      call add_error(diagnostics, angle%words(2), &
+        "a motion starts at one crank angle, not at several")
+    else if (size(angle%value) == 1) then
+      transient%crank = angle%value(1)
+    end if
+    call read_entry_count(card, "instants", 1, diagnostics, instants, fine)
+    if (fine) transient%instants = instants
+    i = entry_number(card, "turns")
+    if (i > 0 .and. transient%turns*transient%instants > most_rows) call add_error(diagnostics, &
+      card%entries(i)%value, "a motion of more than "//to_string(most_rows)//" rows is asked "// &
+      "for: "//to_string(transient%instants)//" in a turn; expected fewer 'turns=' or 'instants='")
+    i = entry_number(card, "start")
+    if (i > 0) then
+      transient%start_word = card%entries(i)%value
+      call read_choice(transient%start_word, "rest steady", diagnostics, choice)
+      transient%steady = choice == 2
+    end if
+    if (entry_number(card, "perturb") > 0) call read_perturbation(card, system, diagnostics, &
+      transient)
+  end subroutine read_transient
+
+  !> Reads `perturb=mode,amplitude`.
+  pure subroutine read_perturbation(card, system, diagnostics, transient)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(transient_card_t), intent(inout) :: transient
+
+    type(token_t), allocatable :: words(:)
+    type(error_t), allocatable :: error
+    logical :: fine
+
+    call find_items(card, "perturb", diagnostics, words, fine)
+    if (.not. fine) return
+    if (size(words) /= 2) then
+      call add_error(diagnostics, words(min(3, size(words))), "'perturb=' takes the number of "// &
+        "a mode and a length: perturb=mode,amplitude")
+      return
+    end if
+    call read_integer(words(1)%text, transient%mode, error)
+    if (.not. allocated(error) .and. (transient%mode < 1 .or. transient%mode > most_modes)) then
+      call set_error(error, error_of_input, "there is no mode "//words(1)%text//"; expected "// &
+        "one from 1 to "//to_string(most_modes))
+    end if
+    if (allocated(error)) call add_error(diagnostics, words(1), error%text)
+    call read_quantity(words(2), dimension_length, system, diagnostics, transient%amplitude, fine)
+    if (fine .and. transient%amplitude <= 0.0_wp) call add_error(diagnostics, words(2), &
+      "an amplitude must be greater than 0, not "//words(2)%text)
+  end subroutine read_perturbation
+
+end module transient_cards

@@ -1,0 +1,92 @@
+!> The matrices of the equation of motion at crank angles anywhere, in all unknowns. They do not
+!! depend on speed and acceleration.
+module motion_matrices
+  use elastic_equations, only: geometric_force, mass_force, slope_force, swept_force
+  use kinds, only: wp
+  use load_cases, only: case_count, constant_case
+  use turn_grids, only: turn_grid_t
+  implicit none (type, external)
+  private
+
+  public :: motion_matrices_t, find_motion_matrices, stiffness_at, load_at
+
+  !> Matrices (unknowns, unknowns, samples).
+  type :: motion_matrices_t
+    real(wp), allocatable :: mass(:, :, :)  !! M [s²]
+    real(wp), allocatable :: slope(:, :, :) !! G = ∫ μ SᵀS' dx [s²]
+    real(wp), allocatable :: swept(:, :, :) !! W = ∫ μ S'ᵀS' dx [s²]
+    !> (unknowns, unknowns, samples, cases) K_G per ω2² and α2, and of the constant loads
+    real(wp), allocatable :: geometric(:, :, :, :)
+    real(wp), allocatable :: load(:, :, :)  !! (unknowns, samples, cases) f likewise
+  end type motion_matrices_t
+
+contains
+
+  !> All matrices, column by column.
+  subroutine find_motion_matrices(grid, matrices)
+    type(turn_grid_t), intent(in) :: grid !! with its terms and their slopes
+    type(motion_matrices_t), intent(inout) :: matrices !! room is kept from one call to the next
+
+    real(wp), dimension(grid%samples, grid%unknowns) :: y, force
+    integer :: c, j, n
+
+    n = grid%unknowns
+    if (.not. allocated(matrices%mass)) then
+      allocate (matrices%mass(n, n, grid%samples), matrices%slope(n, n, grid%samples))
+      allocate (matrices%swept(n, n, grid%samples))
+      allocate (matrices%geometric(n, n, grid%samples, case_count))
+      allocate (matrices%load(n, grid%samples, case_count))
+    end if
+    do j = 1, n
+      y = 0.0_wp
+      y(:, j) = 1.0_wp
+      call mass_force(grid, y, force)
+      matrices%mass(:, j, :) = transpose(force)
+      call slope_force(grid, y, force)
+      matrices%slope(:, j, :) = transpose(force)
+      call swept_force(grid, y, force)
+      matrices%swept(:, j, :) = transpose(force)
+      do c = 1, case_count
+        force = 0.0_wp
+        call geometric_force(grid, grid%force(:, :, :, c), y, force)
+        matrices%geometric(:, j, :, c) = transpose(force)
+      end do
+    end do
+    do c = 1, case_count
+      matrices%load(:, :, c) = transpose(grid%load(:, :, c))
+    end do
+  end subroutine find_motion_matrices
+
+  !> `1 + K_G` at a speed and an acceleration.
+  pure function stiffness_at(matrices, sample, speed, acceleration, axial) result(stiffness)
+    type(motion_matrices_t), intent(in) :: matrices
+    integer, intent(in) :: sample
+    real(wp), intent(in) :: speed        !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration !! α2 [rad/s²]
+    logical, intent(in) :: axial         !! with K_G
+    real(wp) :: stiffness(size(matrices%mass, 1), size(matrices%mass, 1))
+
+    integer :: i
+
+    stiffness = 0.0_wp
+    if (axial) stiffness = speed**2*matrices%geometric(:, :, sample, 1) + &
+      acceleration*matrices%geometric(:, :, sample, 2) + &
+      matrices%geometric(:, :, sample, constant_case)
+    do i = 1, size(stiffness, 1)
+      stiffness(i, i) = stiffness(i, i) + 1.0_wp
+    end do
+  end function stiffness_at
+
+  !> f at a speed and an acceleration [√J].
+  pure function load_at(matrices, sample, speed, acceleration) result(load)
+    type(motion_matrices_t), intent(in) :: matrices
+    integer, intent(in) :: sample
+    real(wp), intent(in) :: speed        !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration !! α2 [rad/s²]
+    real(wp) :: load(size(matrices%mass, 1))
+
+    load = speed**2*matrices%load(:, sample, 1) + acceleration*matrices%load(:, sample, 2) + &
+      matrices%load(:, sample, constant_case)
+  end function load_at
+
+end module motion_matrices

@@ -1,0 +1,185 @@
+!> States from which an elastic motion in time starts.
+module transient_starts
+  use constants, only: degree
+  use crank_laws, only: crank_acceleration_at, crank_law_t, crank_speed_at
+  use elastic_equations, only: load_at_speed
+  use errors, only: error_of_numerics, error_t, set_error
+  use fourier_transform, only: close_fourier, coefficients_of, derivative_of, fourier_plan_t, &
+    open_fourier, value_at
+  use kinds, only: wp
+  use lapack, only: dsygvx
+  use link_store, only: link_store_t
+  use motion_matrices, only: find_motion_matrices, motion_matrices_t, stiffness_at
+  use periodic_solver, only: solve_periodic
+  use response_levels, only: damping_of, level_slot_t, need_basis, need_level, sample_numbers
+  use response_series, only: point_series
+  use slow_motions, only: new_slow_motion, slow_count, slow_motion_t
+  use structures, only: structure_t
+  use text, only: to_string
+  use transient_steps, only: momenta_of
+  use transient_types, only: from_steady, transient_request_t
+  use turn_grids, only: new_path_grid, place_grid, turn_grid_t
+  implicit none (type, external)
+  private
+
+  public :: find_start
+
+  !> Stages of the collocation of slow motions, and samples of a period of the fastest of them.
+  integer, parameter :: slow_stages = 3
+  real(wp), parameter :: samples_a_period = 2.5_wp
+
+  !> The periodic motion is solved to this; what it lacks is to be below so much of the accuracy.
+  real(wp), parameter :: tolerance = 1.0e-13_wp, share = 0.1_wp
+
+  !> The highest eighth of the harmonics of the periodic motion, beside the whole.
+  real(wp), parameter :: tail = 1.0e-11_wp
+
+  !> Places along a link at which the largest displacement of a shape is sought.
+  integer, parameter :: places = 100
+
+contains
+
+  !> y and P at the first instant: undeformed, with ẏ = 0, or in the steady state at the first crank
+  !! angle; with the shape of a mode added that has no velocity.
+  !!
+  !! Errors: the crank cannot reach its first angle; there is no steady state, or it is not accurate
+  !! enough; the mode does not exist.
+  subroutine find_start(structure, request, law, order, grid, store, start, error)
+    class(structure_t), intent(in) :: structure       !! linkage and beams
+    type(transient_request_t), intent(in) :: request
+    type(crank_law_t), intent(in) :: law              !! of the crank
+    integer, intent(in) :: order                      !! of the model
+    type(turn_grid_t), intent(inout) :: grid          !! of the model, for one crank angle
+    type(link_store_t), intent(inout) :: store        !! links decomposed earlier
+    real(wp), allocatable, intent(out) :: start(:)    !! (2 unknowns)
+    type(error_t), allocatable, intent(out) :: error
+
+    type(motion_matrices_t) :: matrices
+    real(wp), dimension(grid%unknowns) :: y, rates, shape
+    real(wp) :: speed
+
+    call place_grid(structure%linkage, [law%start], grid, error)
+    if (allocated(error)) return
+    call find_motion_matrices(grid, matrices)
+    y = 0.0_wp
+    rates = 0.0_wp
+    if (request%start == from_steady) then
+      call find_steady(structure, request, law, order, store, y, rates, error)
+      if (allocated(error)) return
+    end if
+    if (request%mode > 0) then
+      call find_shape(structure, request, law, grid, matrices, shape, error)
+      if (allocated(error)) return
+      y = y + shape
+    end if
+    speed = crank_speed_at(law, 0.0_wp)
+    start = [y, momenta_of(matrices, 1, speed, y, rates)]
+  end subroutine find_start
+
+  !> y and ẏ of the steady state at the first crank angle, with as many samples of the turn as its
+  !! harmonics need.
+  subroutine find_steady(structure, request, law, order, store, y, rates, error)
+    class(structure_t), intent(in) :: structure
+    type(transient_request_t), intent(in) :: request
+    type(crank_law_t), intent(in) :: law
+    integer, intent(in) :: order
+    type(link_store_t), intent(inout) :: store
+    real(wp), intent(out) :: y(:), rates(:)
+    type(error_t), allocatable, intent(out) :: error
+
+    type(level_slot_t), allocatable :: levels(:)
+    type(slow_motion_t) :: motion
+    type(fourier_plan_t) :: plan
+    real(wp), allocatable :: periodic(:, :), coefficients(:, :)
+    real(wp) :: speed, theta, remainder, last
+    integer :: at, iterations, level, n, slow
+
+    speed = abs(law%speed)
+    theta = sign(1.0_wp, law%speed)*law%start*degree
+    last = huge(1.0_wp)
+    do at = 3, size(sample_numbers), 2
+      n = sample_numbers(at)
+      allocate (levels(0))
+      call need_level(structure, order, n, law%speed < 0.0_wp, store, levels, level, error)
+      if (allocated(error)) return
+      associate (here => levels(level)%level)
+        slow = slow_count(here%coarse, speed*n/samples_a_period)
+        call need_basis(slow, request%response%damping, here, error)
+        if (allocated(error)) return
+        call open_fourier(n, plan)
+        allocate (periodic(n, size(y)), coefficients(n, size(y)))
+        periodic = 0.0_wp
+        remainder = huge(1.0_wp)
+        call new_slow_motion(plan, here%basis(slow), speed, slow_stages, motion, error)
+        if (.not. allocated(error)) call solve_periodic(here%grid, plan, here%basis(slow), motion, &
+          speed, damping_of(request%response%damping, here%grid), request%response%terms, &
+          load_at_speed(here%grid, speed), tolerance, periodic, iterations, remainder, error)
+        if (.not. allocated(error)) then
+          call coefficients_of(plan, periodic, coefficients)
+          last = norm2(coefficients(n - n/8:, :))/max(norm2(coefficients), tiny(1.0_wp))
+          y = value_at(coefficients, theta)
+          rates = speed*value_at(derivative_of(coefficients), theta)
+        end if
+        call close_fourier(plan)
+      end associate
+      deallocate (levels, periodic, coefficients)
+      if (.not. allocated(error) .and. last <= tail .and. remainder <= &
+        share*request%response%accuracy) return
+      if (allocated(error) .and. at + 2 > size(sample_numbers)) return
+    end do
+    if (last > share*request%response%accuracy .or. remainder > share*request%response%accuracy) &
+      call set_error(error, error_of_numerics, "the steady state is not accurate enough to "// &
+      "start from: it lacks "//to_string(max(last, remainder), 2))
+  end subroutine find_steady
+
+  !> The shape of a mode of the linkage frozen at the first instant, with its largest displacement.
+  !! The largest displacement across a link at its middle is to the left.
+  subroutine find_shape(structure, request, law, grid, matrices, shape, error)
+    class(structure_t), intent(in) :: structure
+    type(transient_request_t), intent(in) :: request
+    type(crank_law_t), intent(in) :: law
+    type(turn_grid_t), intent(in) :: grid             !! at the first crank angle
+    type(motion_matrices_t), intent(in) :: matrices   !! there
+    real(wp), intent(out) :: shape(:)                 !! (unknowns) y
+    type(error_t), allocatable, intent(out) :: error
+
+    real(wp), dimension(size(shape), size(shape)) :: mass, stiffness
+    real(wp) :: value(size(shape)), vector(size(shape), 1), work(8*size(shape)), moved(1, 3)
+    real(wp) :: largest, across, here
+    integer :: iwork(5*size(shape)), fail(size(shape)), b, found, i, info, n, number
+
+    n = size(shape)
+    number = n + 1 - request%mode
+    if (number < 1) then
+      call set_error(error, error_of_numerics, "there is no mode "//to_string(request%mode)// &
+        ": the links have "//to_string(n)//" modes at order "//to_string(maxval( &
+        grid%model%links%modes)))
+      return
+    end if
+    mass = matrices%mass(:, :, 1)
+    stiffness = stiffness_at(matrices, 1, crank_speed_at(law, 0.0_wp), &
+      crank_acceleration_at(law, 0.0_wp), request%response%terms%axial)
+    ! M φ = 1/ω² (1 + K_G) φ: the lowest modes have the largest values.
+    call dsygvx(1, "V", "I", "U", n, mass, n, stiffness, n, 0.0_wp, 0.0_wp, number, number, &
+      0.0_wp, found, value, vector, n, work, size(work), iwork, fail, info)
+    if (info /= 0) then
+      call set_error(error, error_of_numerics, "the linkage frozen at the first crank angle "// &
+        "diverges: it has no modes of vibration there")
+      return
+    end if
+    shape = vector(:, 1)
+    largest = 0.0_wp
+    across = 0.0_wp
+    do b = 1, size(structure%beams)
+      do i = 0, places
+        moved = point_series(grid, b, [structure%linkage%bodies(b)%length*i/places, 0.0_wp], &
+          transpose(vector))
+        largest = max(largest, norm2(moved(1, :2)))
+        here = grid%direction(1, 1, b)*moved(1, 2) - grid%direction(1, 2, b)*moved(1, 1)
+        if (2*i == places .and. abs(here) > abs(across)) across = here
+      end do
+    end do
+    shape = shape*sign(request%amplitude/largest, across)
+  end subroutine find_shape
+
+end module transient_starts
