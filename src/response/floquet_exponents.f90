@@ -1,8 +1,8 @@
 !> Floquet exponents of an elastic linkage: `y = e^{σ θ} z(θ)` with z periodic solves the equation
 !! of motion without load, `L(σ) z = (L0 + σ L1 + σ² L2) z = 0`.
 !!
-!! The slow motion gives first approximations. L is projected on a growing space of motions: those of
-!! the modes of the slow motion that are near, and what the approximate inverse P makes of residuals
+!! The slow motion gives first approximations. L is projected on a growing space of motions: of the
+!! modes of the slow motion that are near, and of what the approximate inverse P makes of residuals
 !! (Davidson's method). Where that does not end soon, the motion is that of the space for which
 !! `P L(σ) z` is small (harmonic Ritz vectors; Morgan, Linear Algebra Appl. 154 (1991) 289):
 !! exponents of modes of high frequency, known but for whole turns, lie densely everywhere, and
@@ -78,7 +78,7 @@ module floquet_exponents
   !> Vectors, orthonormal, with what the equation and the approximate inverse make of them.
   type :: space_t
     integer :: number = 0
-    real(wp), allocatable :: vector(:, :, :)    !! (samples, real parts and imaginary parts, vectors)
+    real(wp), allocatable :: vector(:, :, :)    !! (samples, real and imaginary parts, vectors)
     real(wp), allocatable :: parts(:, :, :, :)  !! (…, 0:2, vectors) L0 v, L1 v, L2 v
     complex(wp), allocatable :: form(:, :, :)   !! (vectors, vectors, 0:2) vᴴ L v
     logical :: is_harmonic = .false.            !! it also has:

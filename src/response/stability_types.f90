@@ -7,7 +7,8 @@ module stability_types
   implicit none (type, external)
   private
 
-  public :: stability_request_t, exponent_t, speed_stability_t, stability_t
+  public :: stability_request_t, exponent_t, speed_stability_t, stability_t, &
+    instability_t, gap_t, intervals_t
   public :: stable, undecided, unstable_flip, unstable_fold, unstable_combination, is_unstable
 
   !> Verdicts: a multiplier is inside the unit circle or, without damping, on it and cannot leave
@@ -19,6 +20,7 @@ module stability_types
     real(wp), allocatable :: speed(:)               !! ω2, none zero [rad/s]
     integer :: modes = 3                            !! vibrations wanted, from the slowest
     real(wp) :: accuracy = 1.0e-8_wp                !! of growth [nepers a turn]
+    real(wp) :: least_growth = 1.0e-4_wp            !! of intervals that are wanted [nepers a turn]
     type(elastic_terms_t) :: terms
     type(link_damping_t), allocatable :: damping(:) !! (bodies)
   end type stability_request_t
@@ -49,6 +51,32 @@ module stability_types
   type :: stability_t
     type(speed_stability_t), allocatable :: at_speed(:) !! (speeds)
   end type stability_t
+
+  !> An interval of speeds at which vibrations grow.
+  type :: instability_t
+    real(wp) :: from = 0.0_wp, to = 0.0_wp !! edges [rad/s]
+    integer :: kind = unstable_flip        !! one of the verdicts of instability
+    integer :: mode(2) = 0                 !! numbers of the vibrations that meet, at the speed of
+                                           !! the largest growth; equal unless it is a combination
+    real(wp) :: growth = 0.0_wp            !! the largest [nepers a turn]
+    real(wp) :: at = 0.0_wp                !! its speed [rad/s]
+    real(wp) :: error = 0.0_wp             !! of the edges [rad/s]
+    real(wp) :: growth_error = 0.0_wp      !! of the largest growth
+  end type instability_t
+
+  !> Speeds between which a vibration could not be followed.
+  type :: gap_t
+    real(wp) :: from = 0.0_wp, to = 0.0_wp !! [rad/s]
+    character(len=80) :: reason = ""
+  end type gap_t
+
+  type :: intervals_t
+    type(instability_t), allocatable :: interval(:) !! by speed
+    type(gap_t), allocatable :: gap(:)
+    real(wp) :: range(2) = 0.0_wp                   !! of the speed [rad/s]
+    integer :: stations = 0, meetings = 0           !! speeds that were looked at, meetings found
+    type(error_t), allocatable :: error             !! why there are none
+  end type intervals_t
 
 contains
 
