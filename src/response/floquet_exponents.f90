@@ -26,7 +26,8 @@ module floquet_exponents
   implicit none (type, external)
   private
 
-  public :: floquet_mode_t, find_floquet_modes, find_nearest_mode
+  public :: floquet_mode_t, find_floquet_modes, find_nearest_mode, floquet_pair_t, &
+    find_floquet_pair
 
   !> The shift from the first approximation at which equations are solved: near enough to converge
   !! in a few rounds, far enough to leave them regular.
@@ -49,6 +50,13 @@ module floquet_exponents
 
   !> No exponent differs more than this from its first approximation.
   real(wp), parameter :: farthest = 0.02_wp
+
+  !> Where two modes are found together, the square of the difference of their exponents changes by
+  !! no more than this in the last round, or by this share.
+  real(wp), parameter :: least_square_change = 1.0e-14_wp, square_change = 1.0e-8_wp
+
+  !> Exponents nearer to each other than this are one that was found twice.
+  real(wp), parameter :: as_good_as = 1.0e-9_wp
 
   !> A vector of which less is left in a space is in it.
   real(wp), parameter :: within = 1.0e-10_wp
@@ -74,6 +82,20 @@ module floquet_exponents
     real(wp) :: action = 0.0_wp                 !! `Im ∮ zᴴ(L1 + 2σ L2) z`, about 1 or −1 by the
                                                 !! Krein signature, 0 at collisions
   end type floquet_mode_t
+
+  !> Two modes whose multipliers are near each other, or one mode and its conjugate. That of the
+  !! exponents which the slow motion gives for the second is meant whose conjugate, if wanted, has
+  !! so many turns more.
+  type :: floquet_pair_t
+    integer :: mode(2) = 0           !! numbers among the modes of the slow motion
+    logical :: conjugate = .false.   !! the second is the conjugate of that mode
+    integer :: waves = 0             !! turns that the second has more
+    complex(wp) :: exponent(2) = 0.0_wp !! found, on sheets where they are near each other
+    real(wp) :: change = 0.0_wp      !! in the last round, of the square of their difference
+    integer :: applications = 0      !! of the equation, to complex motions
+    !> (samples, real and imaginary parts, vectors) both modes, to begin with at a speed near by
+    real(wp), allocatable :: known(:, :, :)
+  end type floquet_pair_t
 
   !> Vectors, orthonormal, with what the equation and the approximate inverse make of them.
   type :: space_t
@@ -113,6 +135,26 @@ contains
         modes(i))
     end do
   end subroutine find_floquet_modes
+
+  !> Two modes of the whole equation together: where multipliers meet, the square of the difference
+  !! of their exponents is found as well as elsewhere, each by itself is not.
+  subroutine find_floquet_pair(grid, plan, basis, motion, speed, damping, terms, slow, pair)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan   !! for its samples
+    type(slow_basis_t), intent(in) :: basis    !! of this grid
+    type(slow_motion_t), intent(in) :: motion  !! at this speed, with as many steps as samples
+    real(wp), intent(in) :: speed              !! ω2 [rad/s]
+    real(wp), intent(in) :: damping(:)         !! (unknowns) c [s]
+    type(elastic_terms_t), intent(in) :: terms
+    type(slow_mode_t), intent(in) :: slow(:)   !! all modes of the slow motion
+    type(floquet_pair_t), intent(inout) :: pair !! gets its exponents
+
+    type(floquet_mode_t) :: mode
+
+    call refine(grid, plan, basis, motion, speed, damping, terms, 0.0_wp, slow, pair%mode(1), &
+      mode, pair)
+    pair%applications = mode%applications
+  end subroutine find_floquet_pair
 
   !> The mode whose multiplier is nearest to 1, which says how near the linkage is to resonance, and
   !! the largest growth of any. Only modes count whose vibrations the samples resolve.
@@ -202,9 +244,9 @@ contains
     z = z/norm2(z)
   end function expanded
 
-  !> A mode of the whole equation.
+  !> A mode of the whole equation, or two together.
   subroutine refine(grid, plan, basis, motion, speed, damping, terms, tolerance, slow, wanted, &
-    mode)
+    mode, pair)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan
     type(slow_basis_t), intent(in) :: basis
@@ -215,10 +257,12 @@ contains
     type(slow_mode_t), intent(in) :: slow(:)
     integer, intent(in) :: wanted              !! its number
     type(floquet_mode_t), intent(out) :: mode
+    type(floquet_pair_t), intent(inout), optional :: pair !! that mode and another
 
     type(space_t) :: space
     complex(wp), allocatable :: values(:), vectors(:, :), weights(:), partner_weights(:)
-    complex(wp) :: fixed, before, followed
+    complex(wp) :: fixed, before, followed, followed_partner, square, square_before
+    real(wp), allocatable :: likeness(:)
     real(wp) :: correction(grid%samples, 2*grid%unknowns)
     integer :: number, partner, round
     logical :: grew, is_damped
@@ -226,8 +270,10 @@ contains
     is_damped = any(damping > 0.0_wp)
     mode%exponent = slow(wanted)%exponent
     mode%change = huge(1.0_wp)
+    if (present(pair)) pair%change = huge(1.0_wp)
     fixed = mode%exponent + shift
     followed = mode%exponent
+    square = 0.0_wp
     call start
     do round = 1, most_rounds
       if (space%is_harmonic) then
@@ -238,17 +284,34 @@ contains
       end if
       if (size(values) == 0) return
       number = minloc(abs(values - followed), dim=1)
+      if (present(pair)) then
+        likeness = like_slow_modes(values, vectors)
+        number = maxloc(likeness, dim=1)
+      end if
       followed = values(number)
       weights = vectors(:, number)
       partner = number
       if (.not. is_damped .and. abs(real(followed)) > off_circle) &
         partner = minloc(abs(values + conjg(followed)), dim=1)
+      if (present(pair)) partner = maxloc(likeness, dim=1, mask=abs(values - values(number)) > &
+        as_good_as)
+      if (partner == 0) return
+      followed_partner = values(partner)
       partner_weights = vectors(:, partner)
       before = mode%exponent
       mode%exponent = followed
+      if (present(pair)) pair%exponent = [followed, followed_partner]
       if (space%is_harmonic .and. .not. is_damped) call take_value_of_form
       if (round > 1) mode%change = abs(mode%exponent - before)
-      if (mode%change <= tolerance) exit
+      if (present(pair)) then
+        square_before = square
+        square = (pair%exponent(1) - pair%exponent(2))**2
+        pair%change = abs(square - square_before)
+        if (round > 1 .and. pair%change <= max(least_square_change, square_change* &
+          abs(square))) exit
+      else if (mode%change <= tolerance) then
+        exit
+      end if
       if (round == rounds_of_projection(merge(2, 1, is_damped))) then
         call gather(weights, partner_weights)
         call make_harmonic
@@ -264,6 +327,7 @@ contains
       if (.not. grew) exit
     end do
     call describe(weights)
+    if (present(pair)) call remember
 
   contains
 
@@ -278,6 +342,18 @@ contains
         space%form(most_vectors, most_vectors, 0:2))
       added = .false.
       call add_vector(expanded(basis, motion, slow(wanted), .false., 0), added)
+      if (present(pair)) then
+        followed_partner = slow(pair%mode(2))%exponent
+        if (pair%conjugate) followed_partner = conjg(followed_partner)
+        followed_partner = followed_partner + cmplx(0.0_wp, pair%waves, wp)
+        call add_vector(expanded(basis, motion, slow(pair%mode(2)), pair%conjugate, pair%waves), &
+          added)
+        if (allocated(pair%known)) then
+          do i = 1, size(pair%known, 3)
+            call add_vector(pair%known(:, :, i), added)
+          end do
+        end if
+      end if
       do i = 1, size(slow)
         do kind = 1, 2
           if (kind == 2 .and. .not. slow(i)%is_complex) cycle
@@ -291,6 +367,21 @@ contains
       end do
       space%near = unit_matrix(space%number)
     end subroutine start
+
+    !> Which part of each vector is of the two modes of the slow motion; those with exponents far
+    !! away have none.
+    pure function like_slow_modes(values, vectors) result(part)
+      complex(wp), intent(in) :: values(:), vectors(:, :)
+      real(wp) :: part(size(values))
+
+      integer :: k, n
+
+      n = size(space%near, 1)
+      do k = 1, size(values)
+        part(k) = sum(abs(matmul(conjg(transpose(space%near(:, :2))), vectors(:n, k)))**2)
+      end do
+      where (abs(values - slow(wanted)%exponent) > together) part = 0.0_wp
+    end function like_slow_modes
 
     !> The value that `vᴴL(σ) v` gives, with that of the partner.
     subroutine take_value_of_form
@@ -309,8 +400,27 @@ contains
       end do
       p = merge(2, 1, length > within .and. partner /= number)
       call find_pencil_modes(small(:p, :p, :), fixed, roots, ignored)
-      if (size(roots) > 0) mode%exponent = roots(minloc(abs(roots - followed), dim=1))
+      if (size(roots) == 0) return
+      n = minloc(abs(roots - followed), dim=1)
+      mode%exponent = roots(n)
+      if (.not. present(pair) .or. size(roots) == 1) return
+      p = minloc(abs(roots - followed_partner), dim=1, mask=abs(roots - roots(n)) > as_good_as)
+      if (p > 0) pair%exponent = roots([n, p])
     end subroutine take_value_of_form
+
+    !> Keeps both modes for a speed near by.
+    subroutine remember
+      integer :: i
+
+      if (allocated(pair%known)) deallocate (pair%known)
+      allocate (pair%known(grid%samples, 2*grid%unknowns, 2))
+      pair%known = 0.0_wp
+      do i = 1, size(weights)
+        pair%known(:, :, 1) = pair%known(:, :, 1) + times(weights(i), space%vector(:, :, i))
+        pair%known(:, :, 2) = pair%known(:, :, 2) + times(partner_weights(i), &
+          space%vector(:, :, i))
+      end do
+    end subroutine remember
 
     !> Begins the space anew with the mode, its partner and the modes near.
     subroutine gather(weights, partner_weights)

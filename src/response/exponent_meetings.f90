@@ -1,0 +1,278 @@
+!> Where two exponents that depend on a parameter meet, and how far they are apart then.
+!!
+!! Each by itself has a branch point there; their sum and the square of their difference are
+!! analytic. Both are interpolated by parabolas through three values beside a place, which is then
+!! looked at itself, until it stays: two or three values are enough for a place.
+module exponent_meetings
+  use constants, only: two_pi
+  use kinds, only: wp
+  use sorting, only: ascending_order
+  implicit none (type, external)
+  private
+
+  public :: exponent_pair_t, interval_t, find_closest, find_interval
+
+  !> Two exponents σ of a parameter.
+  type, abstract :: exponent_pair_t
+    logical :: is_damped = .false. !! else σ is on the imaginary axis or has a partner −σ̄
+  contains
+    procedure(evaluate_i), deferred :: evaluate
+  end type exponent_pair_t
+
+  abstract interface
+    !> Sum of the exponents and `−(σ1 − σ2)²`.
+    subroutine evaluate_i(self, place, total, square, good)
+      import :: exponent_pair_t, wp
+      class(exponent_pair_t), intent(inout) :: self
+      real(wp), intent(in) :: place          !! of the parameter
+      complex(wp), intent(out) :: total, square
+      logical, intent(out) :: good           !! they were found
+    end subroutine evaluate_i
+  end interface
+
+  !> Where exponents have positive real parts.
+  type :: interval_t
+    real(wp) :: from = 0.0_wp, to = 0.0_wp
+    real(wp) :: at = 0.0_wp     !! where one is largest
+    real(wp) :: growth = 0.0_wp !! 2π times the largest; 0: there is no interval
+  end type interval_t
+
+  !> What is known of a pair.
+  type :: samples_t
+    integer :: number = 0
+    real(wp) :: place(64) = 0.0_wp
+    complex(wp) :: total(64) = 0.0_wp, square(64) = 0.0_wp
+  end type samples_t
+
+  !> A place is found when a value is known so near to it, in terms of the interval's width.
+  real(wp), parameter :: reach = 1.0e-3_wp
+
+  !> Most places are looked at so many times; widths by which one is left at most.
+  integer, parameter :: most_rounds = 14
+  real(wp), parameter :: farthest = 10.0_wp
+
+  !> Steps of bisections and golden sections of parabolas.
+  integer, parameter :: bisections = 60, sections = 80
+
+contains
+
+  !> Where two exponents are closest, or farthest from the imaginary axis: the least value of the
+  !! real part of the square, by parabolas.
+  subroutine find_closest(pair, place, step, square, slope, good)
+    class(exponent_pair_t), intent(inout) :: pair
+    real(wp), intent(inout) :: place      !! about, then where
+    real(wp), intent(in) :: step          !! for differences
+    real(wp), intent(out) :: square       !! there
+    real(wp), intent(out) :: slope        !! of the difference beside, root of half the second
+                                          !! derivative of the square
+    logical, intent(out) :: good          !! it was found
+
+    integer, parameter :: most = 8
+    real(wp), parameter :: near = 3.0_wp
+    complex(wp) :: total, value(-1:1)
+    real(wp) :: curvature, gradient, move
+    integer :: i, round
+
+    square = 0.0_wp
+    slope = 0.0_wp
+    do round = 1, most
+      do i = -1, 1
+        call pair%evaluate(place + i*step, total, value(i), good)
+        if (.not. good) return
+      end do
+      curvature = real(value(-1) - 2.0_wp*value(0) + value(1))/(2.0_wp*step**2)
+      gradient = real(value(1) - value(-1))/(2.0_wp*step)
+      good = curvature > 0.0_wp
+      if (.not. good) return
+      move = -gradient/(2.0_wp*curvature)
+      square = real(value(0)) + 0.5_wp*gradient*move
+      slope = sqrt(curvature)
+      good = abs(move) <= max(near*step, 0.1_wp*sqrt(max(-square, 0.0_wp))/slope)
+      place = place + move
+      if (good) return
+    end do
+  end subroutine find_closest
+
+  !> Edges, largest growth and its place of an interval.
+  subroutine find_interval(pair, center, width, interval, good)
+    class(exponent_pair_t), intent(inout) :: pair
+    real(wp), intent(in) :: center, width    !! about where it is, and half its width
+    type(interval_t), intent(out) :: interval !! without growth if there is none
+    logical, intent(out) :: good             !! values were found, and places stay
+
+    type(samples_t) :: samples
+    real(wp) :: goal(3), scale
+    integer :: i, round
+    logical :: exists, added
+
+    scale = width
+    do i = -1, 1
+      call add(center + i*width)
+      if (.not. good) return
+    end do
+    goal = center + [-1, 0, 1]*width
+    do round = 1, most_rounds
+      goal(2) = peak_of(near_three(samples, goal(2)), pair%is_damped, goal(2), farthest*scale)
+      exists = largest_real_part(near_three(samples, goal(2)), goal(2), pair%is_damped) > 0.0_wp
+      if (exists) then
+        goal(1) = edge_of(samples, pair%is_damped, goal(2), -scale, goal(1))
+        goal(3) = edge_of(samples, pair%is_damped, goal(2), scale, goal(3))
+        scale = 0.5_wp*(goal(3) - goal(1))
+      end if
+      added = .false.
+      do i = 1, 3
+        if (i /= 2 .and. .not. exists) cycle
+        if (minval(abs(samples%place(:samples%number) - goal(i))) <= reach*scale) cycle
+        call add(goal(i))
+        if (.not. good) return
+        added = .true.
+      end do
+      if (.not. added) exit
+    end do
+    good = .not. added
+    if (.not. good .or. .not. exists) return
+    interval%from = goal(1)
+    interval%at = goal(2)
+    interval%to = goal(3)
+    interval%growth = two_pi*largest_real_part(near_three(samples, goal(2)), goal(2), &
+      pair%is_damped)
+
+  contains
+
+    subroutine add(place)
+      real(wp), intent(in) :: place
+
+      good = samples%number < size(samples%place)
+      if (.not. good) return
+      samples%number = samples%number + 1
+      associate (n => samples%number)
+        samples%place(n) = place
+        call pair%evaluate(place, samples%total(n), samples%square(n), good)
+        print "(a,f14.8,4es14.5,l2)", "D", place, samples%total(n), samples%square(n), good
+      end associate
+    end subroutine add
+
+  end subroutine find_interval
+
+  !> The three samples nearest to a place.
+  pure function near_three(samples, place) result(three)
+    type(samples_t), intent(in) :: samples
+    real(wp), intent(in) :: place
+    type(samples_t) :: three
+
+    integer :: order(samples%number)
+
+    order = ascending_order(abs(samples%place(:samples%number) - place))
+    three%number = 3
+    three%place(:3) = samples%place(order(:3))
+    three%total(:3) = samples%total(order(:3))
+    three%square(:3) = samples%square(order(:3))
+  end function near_three
+
+  !> The parabola through three values.
+  pure function parabola(place, value, x) result(y)
+    real(wp), intent(in) :: place(3), x
+    complex(wp), intent(in) :: value(3)
+    complex(wp) :: y
+
+    complex(wp) :: first, second
+
+    first = (value(2) - value(1))/(place(2) - place(1))
+    second = ((value(3) - value(2))/(place(3) - place(2)) - first)/(place(3) - place(1))
+    y = value(1) + (x - place(1))*(first + (x - place(2))*second)
+  end function parabola
+
+  !> The greater real part of both exponents by parabolas. Without damping exponents are on the axis
+  !! or beside it by half the root of the square, which is negative then.
+  pure function largest_real_part(three, place, is_damped) result(largest)
+    type(samples_t), intent(in) :: three
+    real(wp), intent(in) :: place
+    logical, intent(in) :: is_damped
+    real(wp) :: largest
+
+    complex(wp) :: square
+
+    square = parabola(three%place(:3), three%square(:3), place)
+    if (is_damped) then
+      largest = 0.5_wp*(real(parabola(three%place(:3), three%total(:3), place)) + &
+        abs(real(sqrt(-square))))
+    else
+      largest = 0.5_wp*sign(sqrt(abs(real(square))), -real(square))
+    end if
+  end function largest_real_part
+
+  !> Where the real part is largest, by golden section; without damping by the vertex.
+  pure function peak_of(three, is_damped, about, farthest) result(peak)
+    type(samples_t), intent(in) :: three
+    logical, intent(in) :: is_damped
+    real(wp), intent(in) :: about, farthest
+    real(wp) :: peak
+
+    real(wp), parameter :: golden = 0.381966011250105152_wp
+    real(wp) :: low, high, a, b, at_a, at_b, first, second
+    integer :: step
+
+    low = about - farthest
+    high = about + farthest
+    if (.not. is_damped) then
+      associate (x => three%place(:3), y => real(three%square(:3), wp))
+        first = (y(2) - y(1))/(x(2) - x(1))
+        second = ((y(3) - y(2))/(x(3) - x(2)) - first)/(x(3) - x(1))
+        peak = about
+        if (second > 0.0_wp) peak = 0.5_wp*(x(1) + x(2) - first/second)
+      end associate
+      peak = max(low, min(high, peak))
+      return
+    end if
+    a = low + golden*(high - low)
+    b = high - golden*(high - low)
+    at_a = largest_real_part(three, a, is_damped)
+    at_b = largest_real_part(three, b, is_damped)
+    do step = 1, sections
+      if (at_a > at_b) then
+        high = b
+        b = a
+        at_b = at_a
+        a = low + golden*(high - low)
+        at_a = largest_real_part(three, a, is_damped)
+      else
+        low = a
+        a = b
+        at_a = at_b
+        b = high - golden*(high - low)
+        at_b = largest_real_part(three, b, is_damped)
+      end if
+    end do
+    peak = 0.5_wp*(low + high)
+  end function peak_of
+
+  !> The edge on one side of a peak, by bisection of the parabola near where it was.
+  pure function edge_of(samples, is_damped, peak, step, before) result(edge)
+    type(samples_t), intent(in) :: samples
+    logical, intent(in) :: is_damped
+    real(wp), intent(in) :: peak, step, before
+    real(wp) :: edge
+
+    type(samples_t) :: three
+    real(wp) :: inside, outside
+    integer :: i
+
+    three = near_three(samples, before)
+    inside = peak
+    outside = peak
+    do i = 1, 4*nint(farthest)
+      outside = outside + 0.25_wp*step
+      if (largest_real_part(three, outside, is_damped) <= 0.0_wp) exit
+      inside = outside
+    end do
+    do i = 1, bisections
+      edge = 0.5_wp*(inside + outside)
+      if (largest_real_part(three, edge, is_damped) > 0.0_wp) then
+        inside = edge
+      else
+        outside = edge
+      end if
+    end do
+  end function edge_of
+
+end module exponent_meetings
