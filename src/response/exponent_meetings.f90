@@ -44,8 +44,9 @@ module exponent_meetings
     complex(wp) :: total(64) = 0.0_wp, square(64) = 0.0_wp
   end type samples_t
 
-  !> A place is found when a value is known so near to it, in terms of the interval's width.
-  real(wp), parameter :: reach = 1.0e-3_wp
+  !> A place is found when a value is known so near to it, in terms of the interval's width, or when
+  !! parabolas are good enough there: they bend otherwise over this share of the parameter.
+  real(wp), parameter :: reach = 0.05_wp, bends_over = 0.1_wp
 
   !> Most places are looked at so many times; widths by which one is left at most.
   integer, parameter :: most_rounds = 14
@@ -94,9 +95,10 @@ contains
   end subroutine find_closest
 
   !> Edges, largest growth and its place of an interval.
-  subroutine find_interval(pair, center, width, interval, good)
+  subroutine find_interval(pair, center, width, tolerance, interval, good)
     class(exponent_pair_t), intent(inout) :: pair
     real(wp), intent(in) :: center, width    !! about where it is, and half its width
+    real(wp), intent(in) :: tolerance        !! of its edges, beside a thousandth of the width
     type(interval_t), intent(out) :: interval !! without growth if there is none
     logical, intent(out) :: good             !! values were found, and places stay
 
@@ -122,7 +124,7 @@ contains
       added = .false.
       do i = 1, 3
         if (i /= 2 .and. .not. exists) cycle
-        if (minval(abs(samples%place(:samples%number) - goal(i))) <= reach*scale) cycle
+        if (is_known(goal(i))) cycle
         call add(goal(i))
         if (.not. good) return
         added = .true.
@@ -139,6 +141,17 @@ contains
 
   contains
 
+    !> Whether parabolas are good enough at a place.
+    function is_known(place) result(known)
+      real(wp), intent(in) :: place
+      logical :: known
+
+      real(wp) :: apart
+
+      apart = minval(abs(samples%place(:samples%number) - place))
+      known = apart <= reach*scale .or. apart*(scale + apart) <= tolerance*bends_over*abs(place)
+    end function is_known
+
     subroutine add(place)
       real(wp), intent(in) :: place
 
@@ -148,7 +161,6 @@ contains
       associate (n => samples%number)
         samples%place(n) = place
         call pair%evaluate(place, samples%total(n), samples%square(n), good)
-        print "(a,f14.8,4es14.5,l2)", "D", place, samples%total(n), samples%square(n), good
       end associate
     end subroutine add
 

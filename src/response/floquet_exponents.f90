@@ -341,25 +341,26 @@ contains
         space%parts(grid%samples, 2*grid%unknowns, 0:2, most_vectors), &
         space%form(most_vectors, most_vectors, 0:2))
       added = .false.
-      call add_vector(expanded(basis, motion, slow(wanted), .false., 0), added)
       if (present(pair)) then
         followed_partner = slow(pair%mode(2))%exponent
         if (pair%conjugate) followed_partner = conjg(followed_partner)
         followed_partner = followed_partner + cmplx(0.0_wp, pair%waves, wp)
-        call add_vector(expanded(basis, motion, slow(pair%mode(2)), pair%conjugate, pair%waves), &
-          added)
         if (allocated(pair%known)) then
           do i = 1, size(pair%known, 3)
             call add_vector(pair%known(:, :, i), added)
           end do
         end if
       end if
+      if (space%number < 2) call add_vector(expanded(basis, motion, slow(wanted), .false., 0), added)
+      if (present(pair) .and. space%number < 2) call add_vector(expanded(basis, motion, &
+        slow(pair%mode(2)), pair%conjugate, pair%waves), added)
       do i = 1, size(slow)
         do kind = 1, 2
           if (kind == 2 .and. .not. slow(i)%is_complex) cycle
           there = merge(conjg(slow(i)%exponent), slow(i)%exponent, kind == 2)
           waves = nint(aimag(mode%exponent - there))
           if (i == wanted .and. kind == 1) cycle
+          if (is_second(i, kind, waves)) cycle
           if (abs(there + cmplx(0.0_wp, waves, wp) - mode%exponent) > together) cycle
           if (space%number == most_near) exit
           call add_vector(expanded(basis, motion, slow(i), kind == 2, waves), added)
@@ -367,6 +368,16 @@ contains
       end do
       space%near = unit_matrix(space%number)
     end subroutine start
+
+    !> Whether a mode of the slow motion is the second of the pair.
+    pure function is_second(i, kind, waves) result(is)
+      integer, intent(in) :: i, kind, waves
+      logical :: is
+
+      is = .false.
+      if (present(pair)) is = i == pair%mode(2) .and. (kind == 2 .eqv. pair%conjugate) .and. &
+        waves == pair%waves
+    end function is_second
 
     !> Which part of each vector is of the two modes of the slow motion; those with exponents far
     !! away have none.

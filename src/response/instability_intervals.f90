@@ -17,11 +17,12 @@ module instability_intervals
   use response_levels, only: level_slot_t, need_basis, need_level, sample_numbers
   use response_types, only: link_damping_t, no_damping
   use sorting, only: ascending_order
-  use stability, only: first_order, first_samples, slow_number
+  use stability, only: first_order, first_samples
   use stability_types, only: gap_t, instability_t, intervals_t, stability_request_t, &
     unstable_combination, unstable_flip, unstable_fold
   use structures, only: structure_t
   use text, only: to_string
+  use turn_grids, only: turn_grid_t
   use vibration_branches, only: begin_branches, branches_t, find_meetings, go_on, meeting_t, &
     new_station, station_t
   implicit none (type, external)
@@ -34,8 +35,8 @@ module instability_intervals
   real(wp), parameter :: step_share = 0.01_wp, longest_step = 0.125_wp
   integer, parameter :: most_halvings = 5, most_over = 3
 
-  !> Vibrations are followed by so many slow coordinates more than are wanted, with steps for this
-  !! accuracy: meetings only have to be found.
+  !> There are so many slow coordinates more than vibrations that are wanted. These are followed
+  !! with steps for this accuracy: meetings only have to be found.
   integer, parameter :: above_wanted = 2, least_slow = 4
   real(wp), parameter :: to_follow = 0.1_wp
 
@@ -50,8 +51,8 @@ module instability_intervals
   integer, parameter :: orders_above = 2, most_rounds = 3, most_order = 24
 
   !> Estimated errors are this many times the difference of both solutions, and no less than these
-  !! shares of the speed and of the width.
-  real(wp), parameter :: safety = 2.0_wp, of_speed = 1.0e-9_wp, of_width = 1.0e-6_wp
+  !! shares of the accuracy and of the width.
+  real(wp), parameter :: safety = 2.0_wp, least_share = 1.0e-2_wp, of_width = 1.0e-4_wp
 
   !> A meeting on its way.
   type :: search_t
@@ -191,7 +192,7 @@ contains
     real(wp), allocatable :: speeds(:)
     real(wp) :: from, speed
     integer :: i, k, last, number(size(sample_numbers)), over, slow
-    logical :: failed, found_again
+    logical :: failed
 
     allocate (levels(0), searches(0))
     call make_levels(error)
@@ -263,7 +264,7 @@ contains
       call need_level(structure, first_order(to_follow), sample_numbers(1), backwards, store, &
         levels, place, error)
       if (allocated(error)) return
-      slow = min(levels(1)%level%grid%unknowns, max(request%modes + above_wanted, least_slow))
+      slow = slow_count_of(levels(1)%level%grid, request%modes)
       last = first_samples(levels(1)%level%grid, request%modes, found%range(1), to_follow)
       if (last == 0) last = size(sample_numbers)
       number = 0
@@ -300,8 +301,8 @@ contains
 
       call open_pair(request, levels(level_for(speed))%level, slow, meeting_t(), .false., pair)
       call pair%find_spectrum(speed)
-      if (.not. allocated(pair%error)) call new_station(pair%spectrum, &
-        request%modes, speed, station)
+      if (.not. allocated(pair%error)) call new_station(pair%spectrum, speed, &
+        station)
       call close_pair(pair)
     end subroutine find_station
 
@@ -331,19 +332,20 @@ contains
       type(station_t) :: station
       type(branches_t) :: next
       integer :: halvings
+      logical :: is_like, is_near
 
       halvings = 0
       station = goal
       do
         failed = .not. allocated(station%phase)
         if (.not. failed) then
-          call go_on(branches, station, next, found_again)
-          failed = .not. found_again
+          call go_on(branches, station, request%modes, next, is_near, is_like)
+          ! Two that pass each other closely need not be told apart.
+          failed = .not. is_near .or. .not. (is_like .or. halvings == most_halvings)
         end if
         if (.not. failed) then
           call find_meetings(branches, next, meetings)
           branches = next
-          print "(a,f10.4,3f12.5)", "next", branches%speed, branches%frequency/two_pi
           if (branches%speed >= goal%speed) return
           station = goal
           halvings = max(0, halvings - 1)
@@ -388,6 +390,15 @@ contains
     end subroutine look_into
 
   end subroutine follow
+
+  !> Slow coordinates for so many vibrations.
+  pure function slow_count_of(grid, modes) result(number)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: modes
+    integer :: number
+
+    number = min(grid%unknowns, max(modes + above_wanted, least_slow))
+  end function slow_count_of
 
   !> Measures intervals by the whole equation, on two levels, and with higher orders and more
   !! samples where they are not accurate enough.
@@ -443,7 +454,7 @@ contains
           search%level(k), error)
         if (allocated(error)) return
         associate (level => levels(search%level(k))%level)
-          call need_basis(slow_number(level%grid, request%modes), request%damping, level, error, &
+          call need_basis(slow_count_of(level%grid, request%modes), request%damping, level, error, &
             .true.)
         end associate
         if (allocated(error)) return
@@ -463,13 +474,15 @@ contains
       of(2)%at = search%center
       do k = 1, 2
         associate (level => levels(search%level(k))%level)
-          call open_pair(request, level, slow_number(level%grid, request%modes), meeting, .true., &
+          call open_pair(request, level, slow_count_of(level%grid, request%modes), meeting, .true., &
             pair)
         end associate
         if (k == 1) then
-          call find_interval(pair, search%center, search%width, of(k), good)
+          call find_interval(pair, search%center, search%width, least_error()*search%center, &
+            of(k), good)
         else
-          call find_interval(pair, of(1)%at, 0.5_wp*(of(1)%to - of(1)%from), of(k), good)
+          call find_interval(pair, of(1)%at, 0.5_wp*(of(1)%to - of(1)%from), least_error()* &
+            search%center, of(k), good)
         end if
         call close_pair(pair)
         search%interval%growth = 0.0_wp
@@ -491,7 +504,7 @@ contains
         interval%at = of(2)%at
         interval%growth = of(2)%growth
         interval%error = safety*max(abs(of(2)%from - of(1)%from), abs(of(2)%to - of(1)%to)) + &
-          of_speed*interval%at + of_width*(interval%to - interval%from)
+          least_error()*interval%at + of_width*(interval%to - interval%from)
         interval%kind = unstable_combination
         if (meeting%vibration(1) == meeting%vibration(2)) interval%kind = merge(unstable_flip, &
           unstable_fold, modulo(meeting%total, 2) == 1)
@@ -510,7 +523,7 @@ contains
     pure function least_error() result(least)
       real(wp) :: least
 
-      least = 1.0e-2_wp*request%accuracy
+      least = least_share*request%accuracy
     end function least_error
 
   end subroutine measure

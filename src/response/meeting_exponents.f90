@@ -105,6 +105,7 @@ contains
     if (self%whole) then
       call refine(exponent(1) - exponent(2))
       exponent = self%pair%exponent
+      print *, "E", self%level%grid%samples, self%pair%applications
     end if
     total = sum(exponent)
     square = -(exponent(1) - exponent(2))**2

@@ -21,7 +21,7 @@ module vibration_branches
 
   !> A vibration is found again if its phase is expected as near as this [turns], and if its product
   !! is no less than this.
-  real(wp), parameter :: near_enough = 0.05_wp, same_enough = 0.8_wp
+  real(wp), parameter :: near_enough = 0.05_wp, same_enough = 0.6_wp
 
   !> Sums of phases this near to a whole number are locked to it.
   real(wp), parameter :: locked = 1.0e-9_wp
@@ -43,6 +43,7 @@ module vibration_branches
     real(wp), allocatable :: frequency(:)   !! (vibrations) F [rad/s]
     real(wp), allocatable :: slope(:)       !! (vibrations) of F over the speed
     real(wp), allocatable :: shape(:)       !! (vibrations) frequency of the shape over the turn
+    logical, allocatable :: is_wanted(:)    !! (vibrations) by that frequency
     logical, allocatable :: is_known(:)     !! (vibrations) `state` is there
     complex(wp), allocatable :: state(:, :) !! (coordinates and momenta, vibrations) where they were
                                             !! last seen apart from others
@@ -60,9 +61,8 @@ module vibration_branches
 contains
 
   !> The multipliers of a spectrum.
-  subroutine new_station(spectrum, vibrations, speed, station)
+  subroutine new_station(spectrum, speed, station)
     type(turn_spectrum_t), intent(in) :: spectrum !! without damping
-    integer, intent(in) :: vibrations             !! the slowest that are followed
     real(wp), intent(in) :: speed                 !! |ω2| [rad/s]
     type(station_t), intent(out) :: station
 
@@ -77,7 +77,7 @@ contains
       station%state(2*m, n))
     n = 0
     do k = 1, size(spectrum%mode)
-      if (spectrum%number(k) < 1 .or. spectrum%number(k) > vibrations) cycle
+      if (spectrum%number(k) == 0) cycle
       associate (mode => spectrum%mode(k))
         if (abs(mode%action) < certain) then
           call add(mode, aimag(mode%exponent), mode%start)
@@ -135,61 +135,70 @@ contains
 
     integer :: i, k, n
 
-    n = min(size(mean), maxval(station%number))
+    n = maxval(station%number)
     branches%speed = station%speed
     allocate (branches%frequency(n), branches%shape(n), branches%state(size(station%state, 1), n))
     branches%slope = [(0.0_wp, i=1, n)]
     branches%is_known = [(.false., i=1, n)]
+    branches%is_wanted = [(i <= size(mean), i=1, n)]
     do i = 1, n
       k = findloc(station%number, i, dim=1)
-      branches%frequency(i) = station%speed*(station%phase(k) + anint(mean(i)/station%speed - &
-        station%phase(k)))
       branches%shape(i) = station%frequency(k)
+      branches%frequency(i) = branches%shape(i)
+      if (i <= size(mean)) branches%frequency(i) = mean(i)
+      branches%frequency(i) = station%speed*(station%phase(k) + anint(branches%frequency(i)/ &
+        station%speed - station%phase(k)))
       branches%is_known(i) = .not. station%has_met(k)
       branches%state(:, i) = station%state(:, k)
     end do
   end subroutine begin_branches
 
   !> Goes on to another speed: the multipliers that are nearest to where phases are expected, and
-  !! most like those known. `good`: each was found.
-  pure subroutine go_on(branches, station, next, good)
+  !! most like those known. Of vibrations that are not wanted phases are not needed.
+  pure subroutine go_on(branches, station, vibrations, next, is_near, is_like)
     type(branches_t), intent(in) :: branches
     type(station_t), intent(in) :: station
+    integer, intent(in) :: vibrations        !! that are wanted
     type(branches_t), intent(out) :: next
-    logical, intent(out) :: good
+    logical, intent(out) :: is_near, is_like !! each that is wanted was found where its phase is
+                                             !! expected, and is like it was
 
     real(wp), dimension(size(branches%frequency), size(station%phase)) :: apart, unlike
     logical, dimension(size(branches%frequency), size(station%phase)) :: free
-    real(wp) :: expected
+    real(wp) :: expected(size(branches%frequency))
     integer :: at(2), i, k, n, step
 
     n = size(branches%frequency)
+    expected = branches%frequency + branches%slope*(station%speed - branches%speed)
     do k = 1, size(station%phase)
       do i = 1, n
-        expected = (branches%frequency(i) + branches%slope(i)*(station%speed - branches%speed))/ &
-          station%speed
-        apart(i, k) = station%phase(k) - expected - anint(station%phase(k) - expected)
+        apart(i, k) = station%phase(k) - expected(i)/station%speed
         ! Where nothing can be told the phase decides.
         unlike(i, k) = 1.0_wp - same_enough
         if (branches%is_known(i) .and. .not. station%has_met(k)) unlike(i, k) = &
           max(0.0_wp, 1.0_wp - abs(product_of(branches%state(:, i), station%state(:, k))))
       end do
     end do
+    apart = apart - anint(apart)
     next = branches
     next%speed = station%speed
     free = .true.
-    good = size(station%phase) >= n
-    if (.not. good) return
+    is_near = size(station%phase) >= n
+    is_like = is_near
+    if (.not. is_near) return
     do step = 1, n
-      at = minloc((apart/near_enough)**2 + (unlike/(1.0_wp - same_enough))**2, mask=free)
+      at = minloc(min(1.0_wp, apart/near_enough)**2 + (unlike/(1.0_wp - same_enough))**2, mask=free)
       i = at(1)
       k = at(2)
       free(i, :) = .false.
       free(:, k) = .false.
-      good = good .and. abs(apart(i, k)) < near_enough .and. unlike(i, k) <= 1.0_wp - same_enough
-      expected = branches%frequency(i) + branches%slope(i)*(station%speed - branches%speed)
-      next%frequency(i) = expected + apart(i, k)*station%speed
+      next%frequency(i) = expected(i) + apart(i, k)*station%speed
       next%shape(i) = station%frequency(k)
+      next%is_wanted(i) = station%number(k) <= vibrations
+      if (branches%is_wanted(i) .or. next%is_wanted(i)) then
+        is_near = is_near .and. abs(apart(i, k)) < near_enough
+        is_like = is_like .and. unlike(i, k) <= 1.0_wp - same_enough
+      end if
       if (station%has_met(k)) cycle
       if (branches%is_known(i)) next%slope(i) = (next%frequency(i) - branches%frequency(i))/ &
         (station%speed - branches%speed)
@@ -212,6 +221,7 @@ contains
     is_first = .not. right%speed > left%speed
     do i = 1, size(left%frequency)
       do j = i, size(left%frequency)
+        if (.not. (all(left%is_wanted([i, j])) .or. all(right%is_wanted([i, j])))) cycle
         total = [(left%frequency(i) + left%frequency(j))/left%speed, &
           (right%frequency(i) + right%frequency(j))/right%speed]
         do n = ceiling(minval(total) - locked), floor(maxval(total) + locked)
