@@ -51,9 +51,8 @@ module floquet_exponents
   !> No exponent differs more than this from its first approximation.
   real(wp), parameter :: farthest = 0.02_wp
 
-  !> Where two modes are found together, the square of the difference of their exponents changes by
-  !! no more than this in the last round, or by this share.
-  real(wp), parameter :: least_square_change = 1.0e-14_wp, square_change = 1.0e-8_wp
+  !> No smaller change of the square of a difference of exponents can be asked for.
+  real(wp), parameter :: least_square_change = 1.0e-14_wp
 
   !> Exponents nearer to each other than this are one that was found twice.
   real(wp), parameter :: as_good_as = 1.0e-9_wp
@@ -91,7 +90,8 @@ module floquet_exponents
     logical :: conjugate = .false.   !! the second is the conjugate of that mode
     integer :: waves = 0             !! turns that the second has more
     complex(wp) :: exponent(2) = 0.0_wp !! found, on sheets where they are near each other
-    real(wp) :: change = 0.0_wp      !! in the last round, of the square of their difference
+    real(wp) :: tolerance = 0.0_wp   !! of the last change of the square of their difference
+    real(wp) :: change = 0.0_wp      !! of that
     integer :: applications = 0      !! of the equation, to complex motions
     !> (samples, real and imaginary parts, vectors) both modes, to begin with at a speed near by
     real(wp), allocatable :: known(:, :, :)
@@ -307,8 +307,7 @@ contains
         square_before = square
         square = (pair%exponent(1) - pair%exponent(2))**2
         pair%change = abs(square - square_before)
-        if (round > 1 .and. pair%change <= max(least_square_change, square_change* &
-          abs(square))) exit
+        if (round > 1 .and. pair%change <= max(pair%tolerance, least_square_change)) exit
       else if (mode%change <= tolerance) then
         exit
       end if

@@ -13,7 +13,8 @@ module instability_intervals
   use interruption, only: was_interrupted
   use kinds, only: wp
   use link_store, only: link_store_t
-  use meeting_exponents, only: close_pair, meeting_pair_t, open_pair
+  use meeting_exponents, only: begin_with, close_pair, find_numbers, &
+    meeting_pair_t, open_pair
   use response_levels, only: level_slot_t, need_basis, need_level, sample_numbers
   use response_types, only: link_damping_t, no_damping
   use sorting, only: ascending_order
@@ -33,7 +34,7 @@ module instability_intervals
   !> Steps of the speed: so long, in terms of the speed, and no longer than this [rad/s]; most
   !! halvings, and most steps at once.
   real(wp), parameter :: step_share = 0.01_wp, longest_step = 0.125_wp
-  integer, parameter :: most_halvings = 5, most_over = 3
+  integer, parameter :: most_halvings = 9, most_over = 3
 
   !> There are so many slow coordinates more than vibrations that are wanted. These are followed
   !! with steps for this accuracy: meetings only have to be found.
@@ -115,10 +116,22 @@ contains
       if (allocated(error)) return
     end if
     call add_gaps(meetings, searches, found)
-    found%interval = pack(searches%interval, searches%interval%growth >= request%least_growth .and. &
-      searches%interval%to > found%range(1) .and. searches%interval%from < found%range(2))
+    found%interval = pack(searches%interval, [(is_asked_for(searches(i)%interval), i=1, &
+      size(searches))])
     found%interval = found%interval(ascending_order(found%interval%from))
     if (request%speed(1) < 0.0_wp) call turn_round(found)
+
+  contains
+
+    !> Whether an interval counts, is at least partly in the range, and of a vibration that is wanted.
+    pure function is_asked_for(interval) result(yes)
+      type(instability_t), intent(in) :: interval
+      logical :: yes
+
+      yes = interval%growth >= request%least_growth .and. interval%to > found%range(1) .and. &
+        interval%from < found%range(2) .and. interval%mode(1) <= request%modes
+    end function is_asked_for
+
   end subroutine find_intervals
 
   !> Intervals of negative speeds.
@@ -382,6 +395,8 @@ contains
         rate), square, slope, good)
       call close_pair(pair)
       if (.not. good) then
+        print *, "LOST", &
+ meeting%total, meeting%speed, search%center, meeting%frequency, meeting%shape, square, slope
         search%fault = "their multipliers are too near to others"
         return
       end if
@@ -466,49 +481,49 @@ contains
       type(meeting_t), intent(in) :: meeting
       type(search_t), intent(inout) :: search
 
-      type(meeting_pair_t) :: pair
+      type(meeting_pair_t) :: pair(2)
       type(interval_t) :: of(2)
+      real(wp) :: doubt
       integer :: k
       logical :: good
 
-      of(2)%at = search%center
       do k = 1, 2
         associate (level => levels(search%level(k))%level)
-          call open_pair(request, level, slow_count_of(level%grid, request%modes), meeting, .true., &
-            pair)
+          call open_pair(request, level, slow_count_of(level%grid, request%modes), meeting, &
+            .true., pair(k), search%growth)
         end associate
         if (k == 1) then
-          call find_interval(pair, search%center, search%width, least_error()*search%center, &
-            of(k), good)
+          call find_interval(pair(1), search%center, search%width, least_error()*search%center, &
+            of(1), good)
         else
-          call find_interval(pair, of(1)%at, 0.5_wp*(of(1)%to - of(1)%from), least_error()* &
-            search%center, of(k), good)
+          call begin_with(pair(1), pair(2))
+          call find_interval(pair(2), of(1)%at, 0.5_wp*(of(1)%to - of(1)%from), least_error()* &
+            search%center, of(2), good)
         end if
-        call close_pair(pair)
-        search%interval%growth = 0.0_wp
-        if (.not. good) then
-          search%fault = "their exponents are not found"
-          search%pending = .false.
-          return
-        end if
-        if (of(k)%growth <= 0.0_wp) exit
+        if (.not. good .or. of(k)%growth <= 0.0_wp) exit
       end do
+      if (good .and. of(2)%growth > 0.0_wp) call find_numbers(pair(2), of(2)%at, good)
+      do k = 1, min(k, 2)
+        call close_pair(pair(k))
+      end do
+      if (.not. good) search%fault = "their exponents are not found"
+      search%interval%growth = 0.0_wp
+      search%pending = good .and. of(2)%growth > 0.0_wp
+      if (.not. search%pending) return
       associate (interval => search%interval)
-        interval%growth_error = safety*abs(of(2)%growth - of(1)%growth) + least_error()
-        if (of(k - 1 + merge(1, 0, k <= 2))%growth <= 0.0_wp) then
-          search%pending = .false.
-          return
-        end if
+        doubt = safety*maxval(pair%doubt)
+        interval%growth_error = safety*abs(of(2)%growth - of(1)%growth) + doubt*of(2)%growth + &
+          least_error()
         interval%from = of(2)%from
         interval%to = of(2)%to
         interval%at = of(2)%at
         interval%growth = of(2)%growth
         interval%error = safety*max(abs(of(2)%from - of(1)%from), abs(of(2)%to - of(1)%to)) + &
-          least_error()*interval%at + of_width*(interval%to - interval%from)
+          least_error()*interval%at + (of_width + doubt)*(interval%to - interval%from)
         interval%kind = unstable_combination
         if (meeting%vibration(1) == meeting%vibration(2)) interval%kind = merge(unstable_flip, &
           unstable_fold, modulo(meeting%total, 2) == 1)
-        interval%mode = meeting%vibration
+        interval%mode = [minval(pair(2)%number), maxval(pair(2)%number)]
         search%center = interval%at
         search%width = 0.5_wp*(interval%to - interval%from)
         search%pending = search%order + 2 <= most_order .and. search%at < size(sample_numbers) &

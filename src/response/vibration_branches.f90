@@ -14,7 +14,7 @@ module vibration_branches
   private
 
   public :: station_t, new_station, branches_t, begin_branches, go_on, meeting_t, find_meetings, &
-    frequency_at
+    frequency_at, unlikeness
 
   !> Actions below this are of multipliers that have met: they have no signature.
   real(wp), parameter :: certain = 0.1_wp
@@ -56,6 +56,8 @@ module vibration_branches
     real(wp) :: speed(2) = 0.0_wp          !! between which it is [rad/s]
     real(wp) :: frequency(2, 2) = 0.0_wp   !! (vibrations, speeds) [rad/s]
     real(wp) :: shape(2) = 0.0_wp          !! their least and greatest frequency of the shape
+    logical :: is_known(2, 2) = .false.    !! (vibrations, speeds)
+    complex(wp), allocatable :: state(:, :, :) !! (coordinates and momenta, vibrations, speeds)
   end type meeting_t
 
 contains
@@ -66,15 +68,12 @@ contains
     real(wp), intent(in) :: speed                 !! |ω2| [rad/s]
     type(station_t), intent(out) :: station
 
-    real(wp) :: scale
-    integer :: k, m, n
+    integer :: k, n
 
     station%speed = speed
-    m = spectrum%motion%number
-    scale = speed*spectrum%motion%scale
     n = 2*size(spectrum%mode)
     allocate (station%number(n), station%phase(n), station%frequency(n), station%has_met(n), &
-      station%state(2*m, n))
+      station%state(2*spectrum%motion%number, n))
     n = 0
     do k = 1, size(spectrum%mode)
       if (spectrum%number(k) == 0) cycle
@@ -107,13 +106,48 @@ contains
       station%phase(n) = phase
       station%frequency(n) = mode%shape_frequency
       station%has_met(n) = abs(mode%action) < certain
-      station%state(:m, n) = start(:m)
-      station%state(m + 1:, n) = scale*start(m + 1:)
-      if (.not. station%has_met(n)) station%state(:, n) = station%state(:, n)/ &
-        sqrt(abs(product_of(station%state(:, n), station%state(:, n))))
+      station%state(:, n) = state_of(start, spectrum%motion%scale*speed)
     end subroutine add
 
   end subroutine new_station
+
+  !> Coordinates and momenta at the first crank angle, of product 1 with themselves.
+  pure function state_of(start, scale) result(state)
+    complex(wp), intent(in) :: start(:) !! as in a mode of the slow motion
+    real(wp), intent(in) :: scale       !! of momenta, times the speed
+    complex(wp) :: state(size(start))
+
+    integer :: m
+
+    m = size(start)/2
+    state(:m) = start(:m)
+    state(m + 1:) = scale*start(m + 1:)
+    state = state/sqrt(max(abs(product_of(state, state)), tiny(1.0_wp)))
+  end function state_of
+
+  !> How unlike a vibration a mode of the slow motion is, or its conjugate, from 0 to 1: by their
+  !! product, where both have one.
+  pure function unlikeness(meeting, vibration, mode, scale, conjugate) result(unlike)
+    type(meeting_t), intent(in) :: meeting
+    integer, intent(in) :: vibration    !! 1 or 2
+    type(slow_mode_t), intent(in) :: mode
+    real(wp), intent(in) :: scale       !! of momenta, times the speed
+    logical, intent(in) :: conjugate
+    real(wp) :: unlike
+
+    complex(wp) :: state(size(mode%start))
+    integer :: k
+
+    unlike = 1.0_wp - same_enough
+    if (abs(mode%action) < certain .or. .not. any(meeting%is_known(vibration, :))) return
+    state = state_of(mode%start, scale)
+    if (conjugate) state = conjg(state)
+    unlike = 1.0_wp
+    do k = 1, 2
+      if (meeting%is_known(vibration, k)) unlike = min(unlike, &
+        abs(1.0_wp - abs(product_of(meeting%state(:, vibration, k), state))))
+    end do
+  end function unlikeness
 
   !> The symplectic product `zᴴp − pᴴz` of two states.
   pure function product_of(one, other) result(product)
@@ -231,6 +265,12 @@ contains
           meeting%speed = [left%speed, right%speed]
           meeting%frequency(:, 1) = left%frequency([i, j])
           meeting%frequency(:, 2) = right%frequency([i, j])
+          meeting%is_known(:, 1) = left%is_known([i, j])
+          meeting%is_known(:, 2) = right%is_known([i, j])
+          if (allocated(meeting%state)) deallocate (meeting%state)
+          allocate (meeting%state(size(left%state, 1), 2, 2))
+          meeting%state(:, :, 1) = left%state(:, [i, j])
+          meeting%state(:, :, 2) = right%state(:, [i, j])
           meeting%shape = [minval([left%shape([i, j]), right%shape([i, j])]), &
             maxval([left%shape([i, j]), right%shape([i, j])])]
           meetings = [meetings, meeting]
