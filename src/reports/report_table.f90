@@ -17,6 +17,7 @@ module report_table
   use harmonics_study, only: find_harmonics, highest_harmonic
   use inertia_report, only: add_inertia, has_moments, inertia_notes, inertia_owners
   use inertia_study, only: find_inertia_loads
+  use intervals_report, only: add_intervals, interval_words, intervals_notes
   use kinematics_report, only: add_kinematics, kinematics_notes
   use kinematics_study, only: find_kinematics
   use lagrange_report, only: add_lagrange, lagrange_notes
@@ -59,10 +60,10 @@ module report_table
   end type table_plan_t
 
   !> All studies in the order in which they are made: some use the results of others. The last
-  !! five are made by `variant_runs`, some of them block by block or step by step.
-  character(len=*), parameter :: study_names(15) = [character(len=12) :: "kinematics", "geometry", &
+  !! are made by `variant_runs`, some of them block by block or step by step.
+  character(len=*), parameter :: study_names(16) = [character(len=12) :: "kinematics", "geometry", &
     "inertia", "points", "reactions", "lagrange", "balance", "harmonics", "linkage", "response", &
-    "stability", "transient", "motion", "frequencies", "loci"]
+    "stability", "intervals", "transient", "motion", "frequencies", "loci"]
 
   !> Tables of the elastic response with rows for every position.
   character(len=*), parameter :: response_tables(3) = [character(len=8) :: "response", "strains", &
@@ -160,6 +161,11 @@ module report_table
       response=.true., tables=[ &
       table_kind_t("stability", "speed:speed mode:# turns,growth:- frequency:Hz signature:# "// &
       "error:- verdict:name"), no_table]), &
+    report_kind_t(name="intervals", help="all speeds at which vibrations grow", &
+      pattern="REPORT intervals [growth=] [accuracy=]", default="growth=1e-4 accuracy=1e-5", &
+      studies="intervals", response=.true., tables=[ &
+      table_kind_t("intervals", "from,to:speed kind,modes:name largest_growth,growth_error:- "// &
+      "at,error:speed"), no_table]), &
     report_kind_t(name="transient", help="the elastic motion in time from a state", &
       pattern="REPORT transient turns= [crank=0] [start=rest|steady] [perturb=mode,amplitude] "// &
       "[instants=] [accuracy=]", default="crank=0 start=rest instants=72 accuracy=1e-6", &
@@ -284,6 +290,9 @@ contains
     case ("stability")
       names(1) = stability_words()
       plan%items = plan%speeds
+    case ("intervals")
+      names(:2) = interval_words()
+      plan%items = 1
     end select
     call new_table_layout(table, variant%model%outputs, count, optional, names, plan%layout)
   end subroutine plan_table
@@ -348,6 +357,8 @@ contains
       call validity_notes(variant, notes)
     case ("stability")
       call stability_notes(variant, notes)
+    case ("intervals")
+      call intervals_notes(variant, notes)
     end select
   end subroutine table_notes
 
@@ -378,6 +389,8 @@ contains
       call add_speed(plan%name, variant, plan%layout, number, rows)
     case ("stability")
       call add_stability(variant, plan%layout, number, rows)
+    case ("intervals")
+      call add_intervals(variant, plan%layout, rows)
     case ("shapes")
       if (number > 1) call add_gap(rows, 2)
       call add_shapes(variant, plan%layout, plan%drawn(1, number), plan%drawn(2, number), rows)

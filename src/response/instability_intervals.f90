@@ -7,7 +7,7 @@
 !! orders and numbers of samples, without damping and then with it.
 module instability_intervals
   use constants, only: two_pi
-  use errors, only: error_t
+  use errors, only: error_of_numerics, error_t
   use exponent_meetings, only: find_closest, find_interval, interval_t
   use frozen_modes, only: find_frozen_frequencies
   use interruption, only: was_interrupted
@@ -32,9 +32,9 @@ module instability_intervals
   public :: find_intervals
 
   !> Steps of the speed: so long, in terms of the speed, and no longer than this [rad/s]; most
-  !! halvings, and most steps at once.
+  !! halvings, most steps at once, and pieces of one where meetings are near each other.
   real(wp), parameter :: step_share = 0.01_wp, longest_step = 0.125_wp
-  integer, parameter :: most_halvings = 9, most_over = 3
+  integer, parameter :: most_halvings = 9, most_over = 3, pieces = 16
 
   !> There are so many slow coordinates more than vibrations that are wanted. These are followed
   !! with steps for this accuracy: meetings only have to be found.
@@ -143,7 +143,9 @@ contains
     found%range = -found%range([2, 1])
     do i = 1, size(found%gap)
       associate (gap => found%gap(i))
-        gap = gap_t(-gap%to, -gap%from, gap%reason)
+        call exchange(gap%from, gap%to)
+        gap%from = -gap%from
+        gap%to = -gap%to
       end associate
     end do
     do i = 1, size(found%interval)
@@ -171,7 +173,7 @@ contains
   end subroutine turn_round
 
   !> Names the speeds of meetings that could not be looked into.
-  pure subroutine add_gaps(meetings, searches, found)
+  subroutine add_gaps(meetings, searches, found)
     type(meeting_t), intent(in) :: meetings(:)
     type(search_t), intent(in) :: searches(:)
     type(intervals_t), intent(inout) :: found
@@ -181,12 +183,25 @@ contains
     do i = 1, size(searches)
       if (len_trim(searches(i)%fault) == 0) cycle
       associate (speed => meetings(i)%speed)
-        found%gap = [found%gap, gap_t(speed(1), speed(2), "vibrations "// &
-          to_string(meetings(i)%vibration(1))//" and "//to_string(meetings(i)%vibration(2))// &
-          " meet: "//searches(i)%fault)]
+        call add_gap(speed(1), speed(2), "two multipliers meet: "//trim(searches(i)%fault), found)
       end associate
     end do
   end subroutine add_gaps
+
+  !> Names speeds at which intervals could not be found.
+  subroutine add_gap(from, to, reason, found)
+    real(wp), intent(in) :: from, to !! [rad/s]
+    character(len=*), intent(in) :: reason
+    type(intervals_t), intent(inout) :: found
+
+    type(gap_t) :: gap
+
+    gap%from = from
+    gap%to = to
+    gap%error%kind = error_of_numerics
+    gap%error%text = reason
+    found%gap = [found%gap, gap]
+  end subroutine add_gap
 
   !> Follows the vibrations over the speed by the slow motion, and looks into their meetings.
   subroutine follow(structure, request, threads, store, found, meetings, searches, error)
@@ -205,6 +220,9 @@ contains
     real(wp), allocatable :: speeds(:)
     real(wp) :: from, speed
     integer :: i, k, last, number(size(sample_numbers)), over, slow
+    type(branches_t), allocatable :: trail(:)
+    integer, allocatable :: lost(:)
+    integer :: steps
     logical :: failed
 
     allocate (levels(0), searches(0))
@@ -216,7 +234,7 @@ contains
     end do
     if (from > found%range(1)) call add_gap(found%range(1), min(from, found%range(2)), &
       "too many vibrations in a turn of the crank for "// &
-      to_string(sample_numbers(size(sample_numbers)))//" samples")
+      to_string(sample_numbers(size(sample_numbers)))//" samples", found)
     if (from >= found%range(2)) return
     speeds = [from]
     do while (speeds(size(speeds)) < found%range(2))
@@ -229,6 +247,8 @@ contains
       if (.not. was_interrupted()) call find_station(speeds(k), stations(k))
     end do
     !$omp end parallel do
+    allocate (trail(2*size(speeds)))
+    steps = 0
     k = 0
     last = 0
     failed = .true.
@@ -239,9 +259,10 @@ contains
           if (allocated(stations(k)%phase)) exit
         end do
         if (k > size(stations)) exit
-        if (k > 1) call add_gap(speeds(max(1, last)), speeds(k), "vibrations cannot be followed")
+        if (k > 1) call add_gap(speeds(max(1, last)), speeds(k), &
+          "vibrations cannot be followed", found)
         call begin_branches(stations(k), means_at(speeds(k)), branches)
-        call find_meetings(branches, branches, meetings)
+        call keep(branches)
         failed = .false.
       else
         ! Where two pass each other the next may do, or the one after.
@@ -254,7 +275,7 @@ contains
       if (.not. failed) last = k
     end do
     if (last < size(speeds)) call add_gap(speeds(max(1, last)), speeds(size(speeds)), &
-      "vibrations cannot be followed")
+      "vibrations cannot be followed", found)
     found%stations = found%stations + size(speeds)
     deallocate (searches)
     allocate (searches(size(meetings)))
@@ -263,8 +284,69 @@ contains
       if (.not. was_interrupted()) call look_into(meetings(i), searches(i))
     end do
     !$omp end parallel do
+    ! Meetings near those of others: in short steps.
+    lost = pack(meetings%step, [(len_trim(searches(i)%fault) > 0, i=1, size(searches))])
+    do i = 1, size(lost)
+      if (any(lost(:i - 1) == lost(i)) .or. was_interrupted()) cycle
+      call look_again(lost(i))
+    end do
 
   contains
+
+    !> Keeps the state after a step, and its meetings.
+    subroutine keep(next)
+      type(branches_t), intent(in) :: next
+
+      integer :: before
+
+      before = size(meetings)
+      if (steps == size(trail)) trail = [trail, trail]
+      steps = steps + 1
+      trail(steps) = next
+      if (failed) then
+        call find_meetings(next, next, meetings)
+      else
+        call find_meetings(trail(steps - 1), next, meetings)
+      end if
+      meetings(before + 1:)%step = steps
+    end subroutine keep
+
+    !> Looks again into the meetings of a step, which is divided.
+    subroutine look_again(step)
+      integer, intent(in) :: step
+
+      type(branches_t) :: left, right
+      type(station_t) :: station
+      type(meeting_t), allocatable :: more(:)
+      type(search_t), allocatable :: more_searches(:)
+      logical, allocatable :: others(:)
+      real(wp) :: from, to
+      logical :: is_like, is_near
+      integer :: i
+
+      if (step == 1) return
+      from = trail(step - 1)%speed
+      to = trail(step)%speed
+      left = trail(step - 1)
+      allocate (more(0))
+      do i = 1, pieces
+        call find_station(from + (to - from)*i/pieces, station)
+        if (.not. allocated(station%phase)) return
+        call go_on(left, station, request%modes, right, is_near, is_like)
+        if (.not. is_near) return
+        call find_meetings(left, right, more)
+        left = right
+      end do
+      found%stations = found%stations + pieces
+      more%step = step
+      allocate (more_searches(size(more)))
+      do i = 1, size(more)
+        call look_into(more(i), more_searches(i))
+      end do
+      others = meetings%step /= step
+      meetings = [pack(meetings, others), more]
+      searches = [pack(searches, others), more_searches]
+    end subroutine look_again
 
     !> The levels of all speeds.
     subroutine make_levels(error)
@@ -298,13 +380,6 @@ contains
 
       level = number(first_samples(levels(1)%level%grid, request%modes, speed, to_follow))
     end function level_for
-
-    subroutine add_gap(from, to, reason)
-      real(wp), intent(in) :: from, to
-      character(len=*), intent(in) :: reason
-
-      found%gap = [found%gap, gap_t(from, to, reason)]
-    end subroutine add_gap
 
     subroutine find_station(speed, station)
       real(wp), intent(in) :: speed
@@ -357,7 +432,7 @@ contains
           failed = .not. is_near .or. .not. (is_like .or. halvings == most_halvings)
         end if
         if (.not. failed) then
-          call find_meetings(branches, next, meetings)
+          call keep(next)
           branches = next
           if (branches%speed >= goal%speed) return
           station = goal
@@ -395,8 +470,6 @@ contains
         rate), square, slope, good)
       call close_pair(pair)
       if (.not. good) then
-        print *, "LOST", &
- meeting%total, meeting%speed, search%center, meeting%frequency, meeting%shape, square, slope
         search%fault = "their multipliers are too near to others"
         return
       end if

@@ -64,10 +64,10 @@ module stability_types
     real(wp) :: growth_error = 0.0_wp      !! of the largest growth
   end type instability_t
 
-  !> Speeds between which a vibration could not be followed.
+  !> Speeds at which intervals could not be found.
   type :: gap_t
     real(wp) :: from = 0.0_wp, to = 0.0_wp !! [rad/s]
-    character(len=80) :: reason = ""
+    type(error_t) :: error                 !! why
   end type gap_t
 
   type :: intervals_t

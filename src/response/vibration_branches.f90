@@ -53,6 +53,7 @@ module vibration_branches
   type :: meeting_t
     integer :: vibration(2) = 0            !! their numbers
     integer :: total = 0                   !! αᵢ + αⱼ
+    integer :: step = 0                    !! number of the step of the speed in which it is
     real(wp) :: speed(2) = 0.0_wp          !! between which it is [rad/s]
     real(wp) :: frequency(2, 2) = 0.0_wp   !! (vibrations, speeds) [rad/s]
     real(wp) :: shape(2) = 0.0_wp          !! their least and greatest frequency of the shape

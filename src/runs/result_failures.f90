@@ -5,7 +5,10 @@ module result_failures
   use kinds, only: wp
   use models, only: needs_frequencies, speed_in_words
   use run_findings, only: add_failure, at_frequencies, at_position, failure_t, findings_t, &
-    in_motion, in_response, in_stability, in_transient, of_variant
+    in_intervals, in_motion, in_response, in_stability, in_transient, of_variant
+  use stability_types, only: gap_t
+  use text, only: to_string
+  use units, only: from_si
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -62,6 +65,11 @@ contains
             in_stability, found%stability%at_speed(k)%error, 0.0_wp, k, 0.0_wp, findings)
         end do
       end if
+      if (allocated(found%intervals%gap)) then
+        do k = 1, size(found%intervals%gap)
+          call note_gap(variant, found%intervals%gap(k), findings)
+        end do
+      end if
       if (allocated(found%transient%at_speed)) then
         do k = 1, size(found%transient%at_speed)
           if (allocated(found%transient%at_speed(k)%error)) call note_failure(variant, &
@@ -101,5 +109,25 @@ contains
     failure%varied = variant%model%varied
     call add_failure(findings, failure)
   end subroutine note_failure
+
+  !> Speeds at which intervals could not be found.
+  pure subroutine note_gap(variant, gap, findings)
+    type(variant_results_t), intent(in) :: variant
+    type(gap_t), intent(in) :: gap
+    type(findings_t), intent(inout) :: findings
+
+    type(failure_t) :: failure
+
+    failure%stage = in_intervals
+    failure%speed = gap%from
+    associate (rate => variant%model%outputs%rate)
+      failure%speed_words = to_string(from_si(gap%from, rate), 6)//" to "// &
+        to_string(from_si(gap%to, rate), 6)//" "//rate%name
+    end associate
+    failure%error = gap%error
+    failure%variant = variant%model%variant
+    failure%varied = variant%model%varied
+    call add_failure(findings, failure)
+  end subroutine note_gap
 
 end module result_failures

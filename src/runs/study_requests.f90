@@ -22,7 +22,8 @@ module study_requests
   private
 
   public :: mode_request_of, method_wanted, drawn_states, motion_request_of, &
-    motion_instants_of, response_request_of, stability_request_of, transient_request_of
+    intervals_request_of, motion_instants_of, response_request_of, stability_request_of, &
+    transient_request_of
 
 contains
 
@@ -195,6 +196,19 @@ contains
     request%terms = terms_of(model)
     request%damping = link_dampings_of(model)
   end function stability_request_of
+
+  !> The requested intervals of instability.
+  pure function intervals_request_of(model) result(request)
+    type(model_t), intent(in) :: model !! with REPORT intervals
+    type(stability_request_t) :: request
+
+    request%speed = model%speed%value
+    request%modes = model%modes
+    request%accuracy = accuracy_of_study(model, "intervals")
+    request%least_growth = model%reports(report_number(model, "intervals"))%least_growth
+    request%terms = terms_of(model)
+    request%damping = link_dampings_of(model)
+  end function intervals_request_of
 
   !> The terms of the equations of motion that are not left out.
   pure function terms_of(model) result(terms)

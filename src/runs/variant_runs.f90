@@ -17,9 +17,9 @@ module variant_runs
   use reach_texts, only: open_linkage_text, reachable_text
   use report_table, only: find_study, study_names
   use response_study, only: find_response
-  use stability_study, only: find_stability_of
-  use study_requests, only: drawn_states, mode_request_of, motion_request_of, &
-    response_request_of, stability_request_of, transient_request_of
+  use stability_study, only: find_intervals_of, find_stability_of
+  use study_requests, only: drawn_states, intervals_request_of, mode_request_of, &
+    motion_request_of, response_request_of, stability_request_of, transient_request_of
   use sweep_bytes, only: get_result, put_result
   use sweeps, only: sweep_t
   use task_journal, only: journal_t
@@ -98,6 +98,8 @@ contains
           call compute_response(run, threads, store)
         case ("stability")
           call compute_stability(run, threads, store)
+        case ("intervals")
+          call compute_intervals(run, threads, store)
         case ("transient")
           call compute_transient(run, store)
         case ("frequencies")
@@ -193,6 +195,23 @@ contains
       end do
     end associate
   end subroutine compute_stability
+
+  !> The intervals of speed in which vibrations grow.
+  subroutine compute_intervals(run, threads, store)
+    type(variant_run_t), intent(inout) :: run
+    integer, intent(in) :: threads
+    type(link_store_t), intent(inout) :: store
+
+    integer :: k
+
+    associate (mechanism => run%results%mechanism, intervals => run%results%found%intervals)
+      call find_intervals_of(mechanism%structure_t, intervals_request_of(run%results%model), &
+        threads, store, intervals)
+      do k = 1, size(intervals%gap)
+        call name_link(mechanism%names, intervals%gap(k)%error)
+      end do
+    end associate
+  end subroutine compute_intervals
 
   !> Elastic motions in time at all speeds.
   subroutine compute_transient(run, store)

@@ -1,15 +1,19 @@
 !> Stability of the motion at all speeds of a deck.
 module stability_study
   use crank_cycle, only: turns_freely
+  use instability_intervals, only: find_intervals
   use errors, only: error_of_reach, error_t, set_error
   use link_store, only: link_store_t
   use stability, only: find_stability
-  use stability_types, only: stability_request_t, stability_t
+  use stability_types, only: gap_t, instability_t, intervals_t, stability_request_t, stability_t
   use structures, only: structure_t
   implicit none (type, external)
   private
 
-  public :: find_stability_of
+  public :: find_stability_of, find_intervals_of
+
+  character(len=*), parameter :: no_motion = "the crank does not turn fully, or meets a dead "// &
+    "point: there is no steady motion"
 
 contains
 
@@ -28,13 +32,35 @@ contains
       call find_stability(structure, request, threads, store, found, error)
     else
       allocate (found%at_speed(size(request%speed)))
-      call set_error(error, error_of_reach, "the crank does not turn fully, or meets a dead "// &
-        "point: there is no steady motion")
+      call set_error(error, error_of_reach, no_motion)
     end if
     if (.not. allocated(error)) return
     do k = 1, size(request%speed)
       found%at_speed(k)%error = error
     end do
   end subroutine find_stability_of
+
+  !> The intervals of speed in which vibrations grow. What prevents them is a gap from the least to
+  !! the greatest speed.
+  subroutine find_intervals_of(structure, request, threads, store, found)
+    class(structure_t), intent(in) :: structure      !! linkage and beams
+    type(stability_request_t), intent(in) :: request !! range of speeds of one sign, modes, accuracy,
+                                                     !! least growth
+    integer, intent(in) :: threads                   !! number of OpenMP threads
+    type(link_store_t), intent(inout) :: store       !! links decomposed earlier
+    type(intervals_t), intent(out) :: found
+
+    type(error_t), allocatable :: error
+
+    if (turns_freely(structure%linkage)) then
+      call find_intervals(structure, request, threads, store, found, error)
+    else
+      call set_error(error, error_of_reach, no_motion)
+    end if
+    if (.not. allocated(error)) return
+    found%range = [minval(request%speed), maxval(request%speed)]
+    found%interval = [instability_t ::]
+    found%gap = [gap_t(found%range(1), found%range(2), error)]
+  end subroutine find_intervals_of
 
 end module stability_study

@@ -13,7 +13,7 @@ module study_results
   use positions, only: positions_t
   use reactions_study, only: reactions_result_t
   use response_types, only: response_t
-  use stability_types, only: stability_t
+  use stability_types, only: intervals_t, stability_t
   use sweeps, only: sweep_t
   use transient_types, only: transient_t
   implicit none (type, external)
@@ -38,6 +38,7 @@ module study_results
     type(loci_t) :: loci
     type(response_t) :: response
     type(stability_t) :: stability
+    type(intervals_t) :: intervals
     type(transient_t) :: transient
   end type study_results_t
 

@@ -10,7 +10,7 @@ module report_cards
   use text, only: joined, lower_case, to_string, word_list
   use tokens, only: token_t
   use transient_cards, only: read_transient, transient_card_t
-  use units, only: dimension_angle, dimension_rate, dimension_time, unit_system_t
+  use units, only: dimension_angle, dimension_none, dimension_rate, dimension_time, unit_system_t
   use value_lists, only: empty_list, list_steps, read_entry_list, read_values, value_list_t
   implicit none (type, external)
   private
@@ -20,7 +20,8 @@ module report_cards
   !> `accuracy=` of reports on the elastic response, relative to the largest value of a quantity
   !! over the turn, and on stability, of exponents.
   real(wp), parameter :: default_response_accuracy = 1.0e-6_wp, &
-    default_stability_accuracy = 1.0e-8_wp, finest_response_accuracy = 1.0e-12_wp*fineness, &
+    default_stability_accuracy = 1.0e-8_wp, default_intervals_accuracy = 1.0e-5_wp, &
+    finest_response_accuracy = 1.0e-12_wp*fineness, &
     coarsest_response_accuracy = 1.0e-2_wp
 
   !> One REPORT card.
@@ -31,6 +32,7 @@ module report_cards
     type(value_list_t) :: speed  !! `speed=` of shapes [rad/s]; empty: all speeds. Of motion: its
                                  !! start speed, as a list of one, or none
     integer :: points = 21       !! `points=` of shapes, along each link
+    real(wp) :: least_growth = 1.0e-4_wp !! `growth=` of intervals [nepers a turn]
     real(wp) :: accuracy = default_response_accuracy !! of reports on the elastic linkage in motion
     ! REPORT motion: each value with its word, which has no line if the card does not give it.
     real(wp) :: start_angle = 0.0_wp !! of the crank [deg]
@@ -95,6 +97,8 @@ contains
       call read_geometry(card, known_keys, system, diagnostics, report)
     case ("motion")
       call read_motion(card, known_keys, system, diagnostics, report)
+    case ("intervals")
+      call read_intervals(card, system, diagnostics, report)
     case ("transient")
       call read_transient(card, known_keys, system, diagnostics, report%transient)
     end select
@@ -113,8 +117,33 @@ contains
     call read_entry_accuracy(card, finest_response_accuracy, coarsest_response_accuracy, system, &
       diagnostics, accuracy, fine)
     if (report%kind%studies == "stability") report%accuracy = default_stability_accuracy
+    if (report%kind%studies == "intervals") report%accuracy = default_intervals_accuracy
     if (fine) report%accuracy = accuracy
   end subroutine read_response
+
+  !> Reads `growth=` of `REPORT intervals`.
+  pure subroutine read_intervals(card, system, diagnostics, report)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(report_t), intent(inout) :: report
+
+    real(wp), parameter :: least = 1.0e-6_wp, most = 1.0_wp
+    real(wp) :: growth
+    logical :: fine
+    integer :: i
+
+    call read_entry_quantity(card, "growth", dimension_none, system, .false., diagnostics, growth, &
+      fine)
+    if (.not. fine) return
+    i = entry_number(card, "growth")
+    if (growth < least .or. growth > most) then
+      call add_error(diagnostics, card%entries(i)%value, "the growth in a turn from which "// &
+        "intervals count is from 1e-6 to 1, not "//card%entries(i)%value%text)
+    else
+      report%least_growth = growth
+    end if
+  end subroutine read_intervals
 
   !> Reads `REPORT shapes [crank=a,b,...] [speed=...] [points=]`.
   pure subroutine read_shapes(card, system, diagnostics, report)

@@ -104,6 +104,7 @@ contains
     call refuse_acceleration(cards, diagnostics, model)
     call check_depths(diagnostics, model)
     call check_transient(diagnostics, model)
+    call check_range(diagnostics, model)
     call warn_of_other_models(diagnostics, model)
   end subroutine check_response
 
@@ -113,7 +114,7 @@ contains
     type(model_t), intent(in) :: model
 
     character(len=*), parameter :: idle = " is used by REPORT response, strains, peaks, "// &
-      "drive, validity, stability and transient only, none of which is asked for"
+      "drive, validity, stability, intervals and transient only, none of which is asked for"
     integer :: i
 
     if (report_number(model, "strains") == 0 .and. report_number(model, "transient") == 0) then
@@ -201,6 +202,31 @@ contains
         "asked for here")
     end associate
   end subroutine check_transient
+
+  !> Intervals are looked for between the least and the greatest speed. Errors: these are the same, or
+  !! of two signs.
+  pure subroutine check_range(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    character(len=*), parameter :: asked = "REPORT intervals is on the speeds between the least "// &
+      "and the greatest of SPEED"
+    integer :: report
+
+    report = report_number(model, "intervals")
+    if (report == 0 .or. size(model%speed%words) == 0) return
+    associate (speed => model%speed%value)
+      if (.not. maxval(speed) > minval(speed)) then
+        call add_error(diagnostics, model%speed%words(1), asked// &
+          ", and there is only one; expected a range as 'SPEED 40 to 60 step 5'", &
+          model%reports(report)%keyword, "asked for here")
+      else if (minval(speed) < 0.0_wp .and. maxval(speed) > 0.0_wp) then
+        call add_error(diagnostics, model%speed%words(1), asked// &
+          ", and these have two signs; expected speeds of one sign", &
+          model%reports(report)%keyword, "asked for here")
+      end if
+    end associate
+  end subroutine check_range
 
   !> Strains and stresses of bending are those of the faces, whose distance a general section need
   !! not give.
