@@ -48,12 +48,13 @@ module exponent_meetings
   !! parabolas are good enough there: they bend otherwise over this share of the parameter.
   real(wp), parameter :: reach = 0.05_wp, bends_over = 0.1_wp
 
-  !> Most places are looked at so many times; widths by which one is left at most.
+  !> Most places are looked at so many times; widths by which one is left at most, and share of it
+  !! for a peak with damping.
   integer, parameter :: most_rounds = 14
-  real(wp), parameter :: farthest = 10.0_wp
+  real(wp), parameter :: farthest = 10.0_wp, near_peak = 0.25_wp
 
-  !> Steps of bisections and golden sections of parabolas.
-  integer, parameter :: bisections = 60, sections = 80
+  !> Steps of bisections and golden sections of parabolas, and pieces in which a peak is looked for.
+  integer, parameter :: bisections = 60, sections = 60, scan = 200
 
 contains
 
@@ -236,6 +237,18 @@ contains
       peak = max(low, min(high, peak))
       return
     end if
+    ! Beside an interval the real part hardly changes: the peak is among many places, not far away.
+    low = about - near_peak*farthest
+    high = about + near_peak*farthest
+    peak = low
+    do step = 0, scan
+      a = low + step*(high - low)/scan
+      if (largest_real_part(three, a, is_damped) > largest_real_part(three, peak, is_damped)) &
+        peak = a
+    end do
+    a = (high - low)/scan
+    low = peak - a
+    high = peak + a
     a = low + golden*(high - low)
     b = high - golden*(high - low)
     at_a = largest_real_part(three, a, is_damped)

@@ -507,6 +507,7 @@ contains
       request%speed(1) < 0.0_wp, store, levels, number, error)
     if (allocated(error)) return
     do i = 1, size(searches)
+      if (.not. searches(i)%pending) cycle
       searches(i)%order = first_order(request%accuracy)
       searches(i)%at = first_samples(levels(number)%level%grid, request%modes, &
         searches(i)%center, request%accuracy)

@@ -23,8 +23,8 @@ module meeting_exponents
   !! share; of several that which is nearest and most like the vibration.
   real(wp), parameter :: near_enough = 0.05_wp, like_enough = 0.3_wp, unlike_enough = 0.4_wp
 
-  !> Actions above this are certain of their sign.
-  real(wp), parameter :: certain = 0.1_wp
+  !> Actions above this are certain of their sign, without and with damping.
+  real(wp), parameter :: certain(2) = [0.1_wp, 0.6_wp]
 
   !> The square of the difference of exponents by the whole equation is to change by no more than
   !! this share of the largest in the last round; it is not found where it changes by more than the
@@ -147,7 +147,8 @@ contains
     call self%find_spectrum(place)
     good = .not. allocated(self%error)
     if (.not. good) return
-    call find_modes(self%spectrum, self%meeting, place, mode, conjugate, waves, exponent, good)
+    call find_modes(self%spectrum, self%meeting, place, certain(merge(2, 1, self%is_damped)), &
+      mode, conjugate, waves, exponent, good)
     if (.not. good) return
     self%number = self%spectrum%number(mode)
     if (self%whole) then
@@ -191,10 +192,12 @@ contains
 
   !> The two multipliers of a meeting at a speed: numbers of their modes, whether each is the
   !! conjugate, turns that it has more on a common sheet, exponents on that.
-  pure subroutine find_modes(spectrum, meeting, speed, mode, conjugate, waves, exponent, good)
+  pure subroutine find_modes(spectrum, meeting, speed, certain, mode, conjugate, waves, exponent, &
+    good)
     type(turn_spectrum_t), intent(in) :: spectrum
     type(meeting_t), intent(in) :: meeting
     real(wp), intent(in) :: speed
+    real(wp), intent(in) :: certain !! actions above this are certain of their sign
     integer, intent(out) :: mode(2)
     logical, intent(out) :: conjugate(2)
     integer, intent(out) :: waves(2)
