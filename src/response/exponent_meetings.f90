@@ -283,6 +283,7 @@ contains
     integer :: i
 
     three = near_three(samples, before)
+    if (largest_real_part(three, peak, is_damped) <= 0.0_wp) three = near_three(samples, peak)
     inside = peak
     outside = peak
     do i = 1, 4*nint(farthest)

@@ -261,8 +261,7 @@ contains
 
     type(space_t) :: space
     complex(wp), allocatable :: values(:), vectors(:, :), weights(:), partner_weights(:)
-    complex(wp) :: fixed, before, followed, followed_partner, square, square_before
-    real(wp), allocatable :: likeness(:)
+    complex(wp) :: fixed, before, followed, followed_partner, second, square, square_before
     real(wp) :: correction(grid%samples, 2*grid%unknowns)
     integer :: number, partner, round
     logical :: grew, is_damped
@@ -284,17 +283,14 @@ contains
       end if
       if (size(values) == 0) return
       number = minloc(abs(values - followed), dim=1)
-      if (present(pair)) then
-        likeness = like_slow_modes(values, vectors)
-        number = maxloc(likeness, dim=1)
-      end if
+      if (present(pair)) number = minloc(distance(values, vectors, slow(wanted)%exponent), dim=1)
       followed = values(number)
       weights = vectors(:, number)
       partner = number
       if (.not. is_damped .and. abs(real(followed)) > off_circle) &
         partner = minloc(abs(values + conjg(followed)), dim=1)
-      if (present(pair)) partner = maxloc(likeness, dim=1, mask=abs(values - values(number)) > &
-        as_good_as)
+      if (present(pair)) partner = minloc(distance(values, vectors, second), dim=1, &
+        mask=abs(values - values(number)) > as_good_as)
       if (partner == 0) return
       followed_partner = values(partner)
       partner_weights = vectors(:, partner)
@@ -341,9 +337,9 @@ contains
         space%form(most_vectors, most_vectors, 0:2))
       added = .false.
       if (present(pair)) then
-        followed_partner = slow(pair%mode(2))%exponent
-        if (pair%conjugate) followed_partner = conjg(followed_partner)
-        followed_partner = followed_partner + cmplx(0.0_wp, pair%waves, wp)
+        second = slow(pair%mode(2))%exponent
+        if (pair%conjugate) second = conjg(second)
+        second = second + cmplx(0.0_wp, pair%waves, wp)
         if (allocated(pair%known)) then
           do i = 1, size(pair%known, 3)
             call add_vector(pair%known(:, :, i), added)
@@ -378,20 +374,21 @@ contains
         waves == pair%waves
     end function is_second
 
-    !> Which part of each vector is of the two modes of the slow motion; those with exponents far
-    !! away have none.
-    pure function like_slow_modes(values, vectors) result(part)
-      complex(wp), intent(in) :: values(:), vectors(:, :)
-      real(wp) :: part(size(values))
+    !> How far modes are from one of a pair: by their exponents, and by the part of their motions
+    !! that is of the two with which the space began. Values of the projection that are of no mode
+    !! have no such part, and where several modes meet all have some.
+    pure function distance(values, vectors, expected)
+      complex(wp), intent(in) :: values(:), vectors(:, :), expected
+      real(wp) :: distance(size(values))
 
       integer :: k, n
 
       n = size(space%near, 1)
       do k = 1, size(values)
-        part(k) = sum(abs(matmul(conjg(transpose(space%near(:, :2))), vectors(:n, k)))**2)
+        distance(k) = abs((values(k) - expected)/shift)**2 + (1.0_wp - &
+          sum(abs(matmul(conjg(transpose(space%near(:, :2))), vectors(:n, k)))**2))**2
       end do
-      where (abs(values - slow(wanted)%exponent) > together) part = 0.0_wp
-    end function like_slow_modes
+    end function distance
 
     !> The value that `vᴴL(σ) v` gives, with that of the partner.
     subroutine take_value_of_form

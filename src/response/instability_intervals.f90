@@ -44,8 +44,9 @@ module instability_intervals
   !> Distance in turns of the places beside a meeting from which its growth is found.
   real(wp), parameter :: beside = 3.0e-4_wp
 
-  !> Growth in the slow motion above this share of the least that counts is looked into.
-  real(wp), parameter :: worth = 0.5_wp
+  !> Growth in the slow motion above this share of the least that counts is looked into, and above
+  !! the second there is growth.
+  real(wp), parameter :: worth = 0.5_wp, certain = 2.0_wp
 
   !> Orders of the second solution above those of the first; most times orders and samples are
   !! raised, and the largest order.
@@ -182,8 +183,9 @@ contains
 
     do i = 1, size(searches)
       if (len_trim(searches(i)%fault) == 0) cycle
-      associate (speed => meetings(i)%speed)
-        call add_gap(speed(1), speed(2), "two multipliers meet: "//trim(searches(i)%fault), found)
+      associate (speed => meetings(i)%speed, search => searches(i))
+        call add_gap(min(speed(1), search%center - search%width), max(speed(2), search%center + &
+          search%width), "two multipliers meet: "//trim(search%fault), found)
       end associate
     end do
   end subroutine add_gaps
@@ -580,6 +582,9 @@ contains
       do k = 1, min(k, 2)
         call close_pair(pair(k))
       end do
+      ! Much growth of the slow motion is growth.
+      if (good .and. .not. pair(1)%is_damped) good = of(2)%growth > 0.0_wp .or. search%growth < &
+        certain*request%least_growth
       if (.not. good) search%fault = "their exponents are not found"
       search%interval%growth = 0.0_wp
       search%pending = good .and. of(2)%growth > 0.0_wp

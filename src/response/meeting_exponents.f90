@@ -28,8 +28,8 @@ module meeting_exponents
 
   !> The square of the difference of exponents by the whole equation is to change by no more than
   !! this share of the largest in the last round; it is not found where it changes by more than the
-  !! second, or the difference is as far as the third from that of the slow motion.
-  real(wp), parameter :: fine_change = 1.0e-5_wp, most_change = 1.0e-3_wp, farthest = 0.05_wp
+  !! second, or where the difference is farther than the third from that of the slow motion [turns].
+  real(wp), parameter :: fine_change = 1.0e-5_wp, most_change = 1.0e-3_wp, farthest = 5.0e-3_wp
 
   type, extends(exponent_pair_t) :: meeting_pair_t
     type(stability_request_t), pointer :: request => null()
@@ -184,7 +184,8 @@ contains
         self%largest = max(self%largest, abs(difference)**2)
         self%doubt = max(self%doubt, self%pair%change/self%largest)
         good = self%pair%change <= most_change*self%largest .and. &
-          abs(difference**2 - merge(conjg(apart), apart, conjugate(1))**2) <= farthest**2
+          abs(difference**2 - merge(conjg(apart), apart, conjugate(1))**2) <= &
+          farthest*(2.0_wp*abs(apart) + farthest)
       end associate
     end subroutine refine
 
