@@ -346,7 +346,8 @@ contains
           end do
         end if
       end if
-      if (space%number < 2) call add_vector(expanded(basis, motion, slow(wanted), .false., 0), added)
+      if (space%number < 2) call add_vector(expanded(basis, motion, slow(wanted), .false., 0), &
+        added)
       if (present(pair) .and. space%number < 2) call add_vector(expanded(basis, motion, &
         slow(pair%mode(2)), pair%conjugate, pair%waves), added)
       do i = 1, size(slow)

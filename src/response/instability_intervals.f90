@@ -124,7 +124,7 @@ contains
 
   contains
 
-    !> Whether an interval counts, is at least partly in the range, and of a vibration that is wanted.
+    !> Whether an interval counts, is at least partly in the range, and of a vibration wanted.
     pure function is_asked_for(interval) result(yes)
       type(instability_t), intent(in) :: interval
       logical :: yes
@@ -184,8 +184,8 @@ contains
     do i = 1, size(searches)
       if (len_trim(searches(i)%fault) == 0) cycle
       associate (speed => meetings(i)%speed, search => searches(i))
-        call add_gap(min(speed(1), search%center - search%width), max(speed(2), search%center + &
-          search%width), "two multipliers meet: "//trim(search%fault), found)
+        call add_gap(min(speed(1), meetings(i)%around(1)), max(speed(2), meetings(i)%around(2)), &
+          "two multipliers meet: "//trim(search%fault), found)
       end associate
     end do
   end subroutine add_gaps
@@ -292,6 +292,9 @@ contains
       if (any(lost(:i - 1) == lost(i)) .or. was_interrupted()) cycle
       call look_again(lost(i))
     end do
+    do i = 1, size(meetings)
+      meetings(i)%around = around(meetings(i)%step)
+    end do
 
   contains
 
@@ -349,6 +352,23 @@ contains
       meetings = [pack(meetings, others), more]
       searches = [pack(searches, others), more_searches]
     end subroutine look_again
+
+    !> The nearest speeds before and after a step at which no multipliers have met.
+    function around(step) result(speed)
+      integer, intent(in) :: step
+      real(wp) :: speed(2)
+
+      integer :: k
+
+      do k = max(1, step - 1), 2, -1
+        if (.not. trail(k)%have_met) exit
+      end do
+      speed(1) = trail(max(k, 1))%speed
+      do k = step, steps - 1
+        if (.not. trail(k)%have_met) exit
+      end do
+      speed(2) = trail(min(k, steps))%speed
+    end function around
 
     !> The levels of all speeds.
     subroutine make_levels(error)

@@ -98,7 +98,7 @@ contains
 
   !> Begins with the motions found on another level.
   subroutine begin_with(other, pair)
-    type(meeting_pair_t), intent(in) :: other   !! evaluated, orders no higher than those of the pair
+    type(meeting_pair_t), intent(in) :: other   !! evaluated, orders no higher than of the pair
     type(meeting_pair_t), intent(inout) :: pair !! of the same meeting
 
     real(wp), allocatable :: part(:, :)

@@ -1,8 +1,8 @@
 !> Vibrations of a running linkage, without damping, followed over its speed, and where multipliers
 !! of two of them meet.
 !!
-!! Each vibration has one multiplier of positive Krein signature; its phase is `α = F/ω` turns but for
-!! whole turns, with the frequency F that is followed. A multiplier belongs to the vibration whose
+!! Each vibration has one multiplier of positive Krein signature; its phase is `α = F/ω` turns but
+!! for whole turns, with the frequency F that is followed. A multiplier belongs to the vibration whose
 !! phase is expected there and with which alone it has a symplectic product: multipliers of others
 !! pass through. Two multipliers of opposite signature meet where `αᵢ + αⱼ` is a whole number; with
 !! i = j it is a vibration that meets its own conjugate.
@@ -44,6 +44,7 @@ module vibration_branches
     real(wp), allocatable :: slope(:)       !! (vibrations) of F over the speed
     real(wp), allocatable :: shape(:)       !! (vibrations) frequency of the shape over the turn
     logical, allocatable :: is_wanted(:)    !! (vibrations) by that frequency
+    logical :: have_met = .false.           !! multipliers of some that are wanted
     logical, allocatable :: is_known(:)     !! (vibrations) `state` is there
     complex(wp), allocatable :: state(:, :) !! (coordinates and momenta, vibrations) where they were
                                             !! last seen apart from others
@@ -54,6 +55,7 @@ module vibration_branches
     integer :: vibration(2) = 0            !! their numbers
     integer :: total = 0                   !! αᵢ + αⱼ
     integer :: step = 0                    !! number of the step of the speed in which it is
+    real(wp) :: around(2) = 0.0_wp         !! speeds about it at which no multipliers have met
     real(wp) :: speed(2) = 0.0_wp          !! between which it is [rad/s]
     real(wp) :: frequency(2, 2) = 0.0_wp   !! (vibrations, speeds) [rad/s]
     real(wp) :: shape(2) = 0.0_wp          !! their least and greatest frequency of the shape
@@ -217,6 +219,7 @@ contains
     apart = apart - anint(apart)
     next = branches
     next%speed = station%speed
+    next%have_met = any(station%has_met .and. station%number <= vibrations)
     free = .true.
     is_near = size(station%phase) >= n
     is_like = is_near
@@ -242,8 +245,8 @@ contains
     end do
   end subroutine go_on
 
-  !> Appends the meetings between two speeds: all with a whole number between both sums of phases, or
-  !! at the second speed. One that lasts at the first has been counted before.
+  !> Appends the meetings between two speeds: all with a whole number between both sums of phases,
+  !! or at the second speed. One that lasts at the first has been counted before.
   pure subroutine find_meetings(left, right, meetings)
     type(branches_t), intent(in) :: left, right !! the same for meetings at the first speed of all
     type(meeting_t), allocatable, intent(inout) :: meetings(:)

@@ -44,8 +44,8 @@ contains
   !! the greatest speed.
   subroutine find_intervals_of(structure, request, threads, store, found)
     class(structure_t), intent(in) :: structure      !! linkage and beams
-    type(stability_request_t), intent(in) :: request !! range of speeds of one sign, modes, accuracy,
-                                                     !! least growth
+    type(stability_request_t), intent(in) :: request !! range of speeds of one sign, modes,
+                                                     !! accuracy, least growth
     integer, intent(in) :: threads                   !! number of OpenMP threads
     type(link_store_t), intent(inout) :: store       !! links decomposed earlier
     type(intervals_t), intent(out) :: found

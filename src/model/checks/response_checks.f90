@@ -203,14 +203,14 @@ contains
     end associate
   end subroutine check_transient
 
-  !> Intervals are looked for between the least and the greatest speed. Errors: these are the same, or
-  !! of two signs.
+  !> Intervals are looked for between the least and the greatest speed. Errors: these are the same,
+  !! or of two signs.
   pure subroutine check_range(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
-    character(len=*), parameter :: asked = "REPORT intervals is on the speeds between the least "// &
-      "and the greatest of SPEED"
+    character(len=*), parameter :: asked = "REPORT intervals is on the speeds between the "// &
+      "least and the greatest of SPEED"
     integer :: report
 
     report = report_number(model, "intervals")
