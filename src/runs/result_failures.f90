@@ -5,7 +5,7 @@ module result_failures
   use kinds, only: wp
   use models, only: needs_frequencies, speed_in_words
   use run_findings, only: add_failure, at_frequencies, at_position, failure_t, findings_t, &
-    in_motion, in_response, in_stability, in_transient, of_variant
+    in_motion, in_response, in_stability, in_transient, in_campbell, of_variant
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -60,6 +60,12 @@ contains
         do k = 1, size(found%stability%at_speed)
           if (allocated(found%stability%at_speed(k)%error)) call note_failure(variant, &
             in_stability, found%stability%at_speed(k)%error, 0.0_wp, k, 0.0_wp, findings)
+        end do
+      end if
+      if (allocated(found%campbell%at_speed)) then
+        do k = 1, size(found%campbell%at_speed)
+          if (allocated(found%campbell%at_speed(k)%error)) call note_failure(variant, &
+            in_campbell, found%campbell%at_speed(k)%error, 0.0_wp, k, 0.0_wp, findings)
         end do
       end if
       if (allocated(found%transient%at_speed)) then

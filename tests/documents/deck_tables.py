@@ -17,7 +17,7 @@ CARDS = {
     "DRIVE": "DRIVE crank",
     "MESH": "MESH * elements=2",
     "CRANK": "CRANK 30 60",
-    "SPEED": "SPEED 20",
+    "SPEED": "SPEED 20 30",
     "INERTIA": "INERTIA distributed",
     "POINT": "POINT tip coupler along=100",
 }

@@ -135,6 +135,9 @@ contains
     if (needs_study(model, "stability") .and. model%modes > most_exponents) &
       call add_error(diagnostics, model%modes_word, "at most "//to_string(most_exponents)// &
       " exponents are found in REPORT stability, not "//to_string(model%modes))
+    if (needs_study(model, "campbell") .and. model%modes > most_exponents) &
+      call add_error(diagnostics, model%modes_word, "at most "//to_string(most_exponents)// &
+      " exponents are found in REPORT campbell, not "//to_string(model%modes))
     if (.not. needs_frequencies(model) .or. model%modes <= most_modes) return
     call add_error(diagnostics, model%modes_word, "at most "//to_string(most_modes)// &
       " modes are certified, not "//to_string(model%modes))

@@ -104,6 +104,7 @@ contains
     call refuse_acceleration(cards, diagnostics, model)
     call check_depths(diagnostics, model)
     call check_transient(diagnostics, model)
+    call check_campbell(diagnostics, model)
     call warn_of_other_models(diagnostics, model)
   end subroutine check_response
 
@@ -113,7 +114,7 @@ contains
     type(model_t), intent(in) :: model
 
     character(len=*), parameter :: idle = " is used by REPORT response, strains, peaks, "// &
-      "drive, validity, stability and transient only, none of which is asked for"
+      "drive, validity, stability, campbell and transient only, none of which is asked for"
     integer :: i
 
     if (report_number(model, "strains") == 0 .and. report_number(model, "transient") == 0) then
@@ -201,6 +202,27 @@ contains
         "asked for here")
     end associate
   end subroutine check_transient
+
+  !> A Campbell diagram. Errors: a single speed; speeds of both signs.
+  pure subroutine check_campbell(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: number
+
+    number = report_number(model, "campbell")
+    if (number == 0 .or. size(model%speed%words) == 0) return
+    associate (speed => model%speed, report => model%reports(number)%keyword)
+      if (abs(maxval(abs(speed%value)) - minval(abs(speed%value))) <= 0.0_wp) then
+        call add_error(diagnostics, report, "REPORT campbell needs a range of speeds; "// &
+          "expected 'SPEED 20 to 60 step 1', for example", speed%words(1), "there is one only")
+      else if (maxval(speed%value) > 0.0_wp .and. minval(speed%value) < 0.0_wp) then
+        call add_error(diagnostics, speed%words(speed%word(findloc(speed%value < 0.0_wp, .true., &
+          dim=1))), "a speed of the other sense: REPORT campbell needs speeds of one sign", &
+          report, "asked for here")
+      end if
+    end associate
+  end subroutine check_campbell
 
   !> Strains and stresses of bending are those of the faces, whose distance a general section need
   !! not give.
