@@ -41,7 +41,7 @@ contains
 
     type(stability_t) :: exponents
     type(slow_basis_t) :: basis(2)
-    real(wp) :: fastest
+    real(wp) :: frequency(2)
     integer :: k, modes
 
     found%damped = any(request%damping%kind /= no_damping)
@@ -64,16 +64,16 @@ contains
       end associate
     end do
     !$omp end parallel do
-    fastest = 0.0_wp
+    frequency = [huge(1.0_wp), 0.0_wp]
     do k = 1, size(request%speed)
       if (.not. allocated(found%at_speed(k)%band)) cycle
       associate (band => found%at_speed(k)%band)
-        fastest = max(fastest, band(size(band))%mean)
+        frequency = [min(frequency(1), band(1)%mean), max(frequency(2), band(size(band))%mean)]
       end associate
     end do
-    if (fastest <= 0.0_wp .or. was_interrupted()) return
+    if (frequency(2) <= 0.0_wp .or. was_interrupted()) return
     deallocate (found%critical, found%gap)
-    call find_critical_speeds(structure, request, fastest, threads, store, found%critical, &
+    call find_critical_speeds(structure, request, frequency, threads, store, found%critical, &
       found%gap, found%left_out, error)
     if (allocated(error)) return
     found%critical%speed = sign(found%critical%speed, request%speed(1))

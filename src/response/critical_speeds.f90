@@ -52,6 +52,10 @@ module critical_speeds
   !! least as for this one, in turns.
   real(wp), parameter :: outside = 3.0_wp, narrow = 1.0e-5_wp
 
+  !> The ends of intervals in which turns would be more than this are looked for in so many rounds.
+  real(wp), parameter :: wide_enough = 1.0e-4_wp
+  integer, parameter :: rounds_of_ends = 2
+
   !> The second solution of an excitation has orders and samples above those of the first.
   integer, parameter :: orders_above = 2
 
@@ -87,11 +91,11 @@ contains
   !> All critical speeds between the least and the greatest of a request.
   !!
   !! Errors: the crank does not turn fully; own modes of a link could not be found.
-  subroutine find_critical_speeds(structure, request, fastest, threads, store, critical, gap, &
+  subroutine find_critical_speeds(structure, request, frequency, threads, store, critical, gap, &
     left_out, error)
     class(structure_t), intent(in) :: structure      !! linkage and beams
     type(stability_request_t), intent(in) :: request !! speeds of one sign, modes, accuracy
-    real(wp), intent(in) :: fastest                  !! frequency of the highest mode [rad/s]
+    real(wp), intent(in) :: frequency(2)             !! of the lowest and the highest mode [rad/s]
     integer, intent(in) :: threads                   !! number of OpenMP threads
     type(link_store_t), intent(inout) :: store       !! links decomposed earlier
     type(critical_t), allocatable, intent(out) :: critical(:) !! ascending
@@ -107,7 +111,8 @@ contains
 
     allocate (levels(0))
     left_out = 0
-    call find_crossings(structure, request, fastest, threads, store, levels, crossing, gap, error)
+    call find_crossings(structure, request, frequency, threads, store, levels, crossing, gap, &
+      error)
     if (allocated(error)) return
     allocate (candidate(size(crossing)), rough(size(crossing)))
     do i = 1, size(crossing)
@@ -259,9 +264,9 @@ contains
     trial%apart = abs(trial%alone - centre)
   end subroutine complete
 
-  !> The middle of the interval in which multipliers are real, from the parabola of the square of
-  !! turns, less than 0 in it, through a speed in it and one on either side. Its half width is added
-  !! to the error.
+  !> The middle of the interval in which multipliers are real, from its ends: those of the parabola
+  !! of the square of turns, less than 0 in it, through a speed in it and one on either side, then
+  !! better ones. Its half width is added to the error.
   subroutine find_middle(request, level, slope, inside, candidate, centre)
     type(stability_request_t), intent(in) :: request
     type(level_t), intent(in) :: level
@@ -271,7 +276,8 @@ contains
     real(wp), intent(out) :: centre               !! mean real part of the exponents on either side
 
     type(trial_t) :: side(2)
-    real(wp) :: wide, bend, tilt
+    type(trial_t) :: at_end
+    real(wp) :: wide, bend, tilt, half, ends(2)
     integer :: i, round
 
     centre = candidate%centre(2)
@@ -290,9 +296,20 @@ contains
       bend = (0.5_wp*(before + after) - here)/wide**2
       tilt = 0.5_wp*(after - before)/wide
       if (.not. bend > 0.0_wp) return
-      candidate%speed = candidate%speed - 0.5_wp*tilt/bend
-      candidate%speed_error = candidate%speed_error + sqrt(max(0.0_wp, 0.25_wp*tilt**2/bend - here))
+      half = sqrt(max(0.0_wp, (0.25_wp*tilt**2/bend - here)/bend))
+      ends = candidate%speed - 0.5_wp*tilt/bend + [-half, half]
     end associate
+    ! The parabola is not quite one.
+    do round = 1, merge(rounds_of_ends, 0, half*abs(slope) > wide_enough)
+      do i = 1, 2
+        call try_speed(request, level, candidate, ends(i), at_end)
+        if (.not. at_end%found .or. abs(at_end%turns) > far) cycle
+        call complete(centre, at_end)
+        ends(i) = ends(i) - (at_end%turns**2 - at_end%apart**2)/(bend*(2*i - 3)*(ends(2) - ends(1)))
+      end do
+    end do
+    candidate%speed = 0.5_wp*(ends(1) + ends(2))
+    candidate%speed_error = candidate%speed_error + 0.5_wp*abs(slope)*(ends(2) - ends(1))
   end subroutine find_middle
 
   !> The exponent of the crossing at a speed near it.

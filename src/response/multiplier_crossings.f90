@@ -62,11 +62,11 @@ contains
   !! in ascending order of the speed.
   !!
   !! Errors: the crank does not turn fully; own modes of a link could not be found.
-  subroutine find_crossings(structure, request, fastest, threads, store, levels, crossing, gap, &
+  subroutine find_crossings(structure, request, frequency, threads, store, levels, crossing, gap, &
     error)
     class(structure_t), intent(in) :: structure      !! linkage and beams
     type(stability_request_t), intent(in) :: request !! speeds of one sign, modes, damping
-    real(wp), intent(in) :: fastest                  !! frequency of the highest mode [rad/s]
+    real(wp), intent(in) :: frequency(2)             !! of the lowest and the highest mode [rad/s]
     integer, intent(in) :: threads                   !! number of OpenMP threads
     type(link_store_t), intent(inout) :: store       !! links decomposed earlier
     type(level_slot_t), allocatable, intent(inout) :: levels(:) !! made so far
@@ -79,7 +79,7 @@ contains
     integer, allocatable :: partner(:, :) !! (angles, points but the last) at the next point
     integer :: i, k
 
-    point = first_points(minval(abs(request%speed)), maxval(abs(request%speed)), fastest)
+    point = first_points([minval(abs(request%speed)), maxval(abs(request%speed))], frequency)
     call find_all(point)
     do i = 1, most_refinements
       if (allocated(error)) return
@@ -276,9 +276,11 @@ contains
 
   end subroutine find_crossings
 
-  !> Speeds in steps in which the fastest vibration turns by a part of the circle.
-  pure function first_points(least, greatest, fastest) result(point)
-    real(wp), intent(in) :: least, greatest, fastest !! [rad/s]
+  !> Speeds in steps in which the fastest vibration turns by a part of the circle, from that on at
+  !! which the slowest is not too fast.
+  pure function first_points(range, frequency) result(point)
+    real(wp), intent(in) :: range(2)     !! of speeds [rad/s]
+    real(wp), intent(in) :: frequency(2) !! of the slowest and the fastest vibration [rad/s]
     type(angles_t), allocatable :: point(:)
 
     real(wp) :: speed
@@ -287,12 +289,13 @@ contains
     do i = 1, 2
       if (i == 2) allocate (point(n))
       n = 0
-      speed = least
+      speed = min(range(2), max(range(1), frequency(1)/(most_line + 2)))
       do
         n = n + 1
         if (i == 2) point(n)%speed = speed
-        if (speed >= greatest) exit
-        speed = min(greatest, speed*exp(step/max(1.0_wp, min(fastest/speed, real(most_line, wp)))))
+        if (speed >= range(2)) exit
+        speed = min(range(2), speed*exp(step/max(1.0_wp, min(frequency(2)/speed, real(most_line, &
+          wp)))))
       end do
     end do
   end function first_points

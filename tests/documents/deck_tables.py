@@ -22,7 +22,7 @@ CARDS = {
     "POINT": "POINT tip coupler along=100",
 }
 BEAMS, BODIES = " material=steel section=strip", " mass=1 inertia=1000"
-KEYS = {"motion": " crank=30 end=1 step=0.1", "geometry": " crank=30"}
+KEYS = {"motion": " crank=30 end=1 step=0.1", "geometry": " crank=30", "transient": " turns=1"}
 
 
 class Tables:
