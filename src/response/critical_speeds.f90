@@ -59,8 +59,9 @@ module critical_speeds
   !> The second solution of an excitation has orders and samples above those of the first.
   integer, parameter :: orders_above = 2
 
-  !> Estimated errors are differences of two solutions times this; none is stated below rounding.
-  real(wp), parameter :: safety = 2.0_wp, rounding = 1.0e-9_wp
+  !> Estimated errors are differences of two solutions times the first, last changes of exponents
+  !! times the second; none is stated below rounding.
+  real(wp), parameter :: safety = 2.0_wp, many = 10.0_wp, rounding = 1.0e-9_wp
 
   !> A crossing on its way to a critical speed.
   type :: candidate_t
@@ -229,7 +230,8 @@ contains
     end do
     call try_speed(request, level, candidate, here%speed, rough)
     if (.not. rough%found .or. abs(rough%turns) > far) return
-    candidate%speed_error = abs(here%turns) + safety*(abs(here%turns - rough%turns) + here%change)
+    candidate%speed_error = abs(here%turns) + safety*abs(here%turns - rough%turns) + &
+      many*here%change
     if (here%apart > solved_to_turns .or. abs(here%alone) > 0.0_wp) then
       call find_middle(request, above, slope, here, candidate, centre)
       call try_speed(request, above, candidate, candidate%speed, here)
