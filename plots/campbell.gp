@@ -50,9 +50,11 @@ entries = 3*modes + 1 + (has_critical > 0) + (unstable > 0)
 eval page_of_one(entries, longest, "frequency", "Hz", 0, greatest)
 set yrange [0:top]
 eval sprintf("set ytics (%s)", ticks_between(0, top, value_step(0, greatest, plot_height), 0))
-# Room for the numbers of multiples beside the plot.
+# Room for the numbers of multiples beside the plot and above it.
 plot_width = plot_width - 62
+plot_height = plot_height - 22
 set rmargin at screen across(plot_left + plot_width)
+set tmargin at screen down(147)
 eval abscissa_between(speed_low, speed_high, abscissa_step(speed_low, speed_high))
 set xlabel abscissa_title("crank speed ω₂", unit_speed, speed_low, speed_high)
 unset grid
