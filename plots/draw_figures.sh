@@ -334,6 +334,11 @@ plan_response() {
     frequencies=
     [ -f frequencies.dat ] && frequencies=frequencies.dat
     have peaks.dat speed && several peaks.dat speed && add largest_strain largest_strain.gp peaks.dat "$frequencies"
+    critical=
+    [ -f critical.dat ] && critical=critical.dat
+    intervals=
+    [ -f intervals.dat ] && intervals=intervals.dat
+    have campbell.dat speed && several campbell.dat speed && add campbell campbell.gp campbell.dat "$critical" "$intervals"
     have validity.dat speed && several validity.dat speed && add validity validity.gp validity.dat
 }
 

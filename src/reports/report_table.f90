@@ -10,6 +10,8 @@ module report_table
   use balance_report, only: add_balance, add_harmonics, balance_notes, harmonics_notes, &
     harmonics_words
   use balance_study, only: find_balance
+  use campbell_report, only: add_campbell, add_critical, campbell_notes, campbell_words, &
+    critical_notes
   use drive_report, only: add_drive, drive_notes
   use frequency_report, only: add_frequencies, add_shapes, drawn_rows, frequency_notes, shape_notes
   use geometry_report, only: add_geometry, geometry_notes, geometry_words
@@ -61,9 +63,9 @@ module report_table
 
   !> All studies in the order in which they are made: some use the results of others. The last
   !! are made by `variant_runs`, some of them block by block or step by step.
-  character(len=*), parameter :: study_names(16) = [character(len=12) :: "kinematics", "geometry", &
+  character(len=*), parameter :: study_names(17) = [character(len=12) :: "kinematics", "geometry", &
     "inertia", "points", "reactions", "lagrange", "balance", "harmonics", "linkage", "response", &
-    "stability", "intervals", "transient", "motion", "frequencies", "loci"]
+    "stability", "intervals", "campbell", "transient", "motion", "frequencies", "loci"]
 
   !> Tables of the elastic response with rows for every position.
   character(len=*), parameter :: response_tables(3) = [character(len=8) :: "response", "strains", &
@@ -166,6 +168,13 @@ module report_table
       studies="intervals", response=.true., tables=[ &
       table_kind_t("intervals", "from,to:speed kind,modes:name largest_growth,growth_error:- "// &
       "at,error:speed"), no_table]), &
+    report_kind_t(name="campbell", help="frequencies against the speed, and critical speeds", &
+      pattern="REPORT campbell [accuracy=]", default="accuracy=1e-6", studies="campbell", &
+      response=.true., tables=[ &
+      table_kind_t("campbell", "speed:speed mode:# least,mean,greatest:Hz band_error:- "// &
+      "floquet:Hz growth,error:- verdict:name"), &
+      table_kind_t("critical", "speed:rate speed_error:- line,mode:# frequency:Hz "// &
+      "excitation:length amplitude?:length growth,error:-")]), &
     report_kind_t(name="transient", help="the elastic motion in time from a state", &
       pattern="REPORT transient turns= [crank=0] [start=rest|steady] [perturb=mode,amplitude] "// &
       "[instants=] [accuracy=]", default="crank=0 start=rest instants=72 accuracy=1e-6", &
@@ -287,6 +296,12 @@ contains
     case ("peaks", "validity")
       names(1) = link_names(variant)
       plan%items = plan%speeds
+    case ("campbell")
+      names(1) = campbell_words()
+      plan%items = plan%speeds
+    case ("critical")
+      optional = variant%found%campbell%damped
+      plan%items = 1
     case ("stability")
       names(1) = stability_words()
       plan%items = plan%speeds
@@ -359,6 +374,10 @@ contains
       call stability_notes(variant, notes)
     case ("intervals")
       call intervals_notes(variant, notes)
+    case ("campbell")
+      call campbell_notes(variant, notes)
+    case ("critical")
+      call critical_notes(variant, notes)
     end select
   end subroutine table_notes
 
@@ -391,6 +410,10 @@ contains
       call add_stability(variant, plan%layout, number, rows)
     case ("intervals")
       call add_intervals(variant, plan%layout, rows)
+    case ("campbell")
+      call add_campbell(variant, plan%layout, number, rows)
+    case ("critical")
+      call add_critical(variant, plan%layout, rows)
     case ("shapes")
       if (number > 1) call add_gap(rows, 2)
       call add_shapes(variant, plan%layout, plan%drawn(1, number), plan%drawn(2, number), rows)

@@ -5,14 +5,14 @@
 !! diagonal, harmonic by harmonic: what is left converges in a few iterations, in all unknowns and
 !! all harmonics of the grid.
 module periodic_solver
-  use elastic_equations, only: apply_equation, elastic_terms_t
+  use elastic_equations, only: apply_equation, elastic_terms_t, equation_parts
   use errors, only: error_of_numerics, error_t, set_error
   use fourier_transform, only: coefficients_of, fourier_plan_t, values_of
   use interruption, only: was_interrupted
   use kinds, only: wp
   use minimal_residuals, only: add_combination, add_product, minimal_residual_t, start_residual
   use row_products, only: products_of_rows
-  use slow_motions, only: slow_basis_t, slow_motion_t, solve_slow
+  use slow_motions, only: slow_basis_t, slow_motion_t, solve_slow, solve_slow_shifted
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
@@ -37,7 +37,7 @@ contains
   !!
   !! Errors: the iterations do not converge at all.
   subroutine solve_periodic(grid, plan, basis, motion, speed, damping, terms, load, &
-    tolerance, y, iterations, remainder, error, last_change)
+    tolerance, y, iterations, remainder, error, last_change, exponent)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan    !! for its samples
     type(slow_basis_t), intent(in) :: basis     !! of this grid
@@ -55,6 +55,8 @@ contains
     real(wp), allocatable, intent(out), optional :: last_change(:, :) !! (samples, unknowns) last
                                                 !! correction, from the residual of y: y lacks some
                                                 !! times this at most
+    real(wp), intent(in), optional :: exponent  !! σ: of `e^{σ θ} y` under `e^{σ θ}` times the load;
+                                                !! absent: 0
 
     type(minimal_residual_t) :: problem
     real(wp), allocatable :: residual(:, :), correction(:, :), product(:, :)
@@ -68,10 +70,9 @@ contains
     exhausted = .false.
     do round = 1, most_rounds
       iterations = iterations + 1
-      call apply_equation(grid, plan, speed, damping, terms, y, product)
+      call apply(y, product)
       residual = load - product
-      call approximate_solution(plan, basis, motion, speed, damping, residual, &
-        correction)
+      call approximate(residual, correction)
       length = norm2(y + correction)
       if (.not. length <= huge(1.0_wp)) then
         remainder = huge(1.0_wp)
@@ -82,11 +83,9 @@ contains
       limit = 0.5_wp*tolerance*length
       call start_residual(correction, most_iterations, problem)
       do while (problem%last <= most_iterations .and. problem%residual > limit)
-        call apply_equation(grid, plan, speed, damping, terms, &
-          problem%vector(:, :, problem%last), product)
+        call apply(problem%vector(:, :, problem%last), product)
         iterations = iterations + 1
-        call approximate_solution(plan, basis, motion, speed, damping, product, &
-          correction)
+        call approximate(product, correction)
         call add_product(problem, correction)
         if (was_interrupted()) exit
       end do
@@ -100,21 +99,55 @@ contains
     end if
     y = y + correction
     if (present(last_change)) call move_alloc(correction, last_change)
+
+  contains
+
+    !> The left side of the equation.
+    subroutine apply(motion_of_load, force)
+      real(wp), intent(in) :: motion_of_load(:, :)
+      real(wp), intent(out) :: force(:, :)
+
+      real(wp), allocatable :: parts(:, :, :)
+
+      if (present(exponent)) then
+        allocate (parts(size(force, 1), size(force, 2), 0:2))
+        call equation_parts(grid, plan, speed, damping, terms, motion_of_load, parts)
+        force = parts(:, :, 0) + exponent*(parts(:, :, 1) + exponent*parts(:, :, 2))
+      else
+        call apply_equation(grid, plan, speed, damping, terms, motion_of_load, force)
+      end if
+    end subroutine apply
+
+    subroutine approximate(force, motion_of_load)
+      real(wp), intent(in) :: force(:, :)
+      real(wp), intent(out) :: motion_of_load(:, :)
+
+      call approximate_solution(plan, basis, motion, speed, damping, force, motion_of_load, &
+        exponent)
+    end subroutine approximate
+
   end subroutine solve_periodic
 
   !> An approximate solution: the slow motion, and the rest by its diagonal.
-  subroutine approximate_solution(plan, basis, motion, speed, damping, load, y)
+  subroutine approximate_solution(plan, basis, motion, speed, damping, load, y, exponent)
     type(fourier_plan_t), intent(in) :: plan        !! for the samples
     type(slow_basis_t), intent(in) :: basis         !! of these samples
     type(slow_motion_t), intent(in) :: motion       !! at this speed
     real(wp), intent(in) :: speed, damping(:)       !! as for `solve_periodic`
     real(wp), intent(in) :: load(:, :)              !! (samples, unknowns)
     real(wp), intent(out) :: y(:, :)                !! (samples, unknowns)
+    real(wp), intent(in), optional :: exponent      !! as for `solve_periodic`
 
-    real(wp) :: part(size(load, 1), basis%number), z(size(load, 1), basis%number)
+    real(wp), dimension(size(load, 1), basis%number) :: part, z, none, ignored
 
     call slow_part(basis, load, part)
-    call solve_slow(plan, motion, part/speed**2, z)
+    if (present(exponent)) then
+      none = 0.0_wp
+      call solve_slow_shifted(plan, motion, cmplx(exponent, 0.0_wp, wp), part/speed**2, none, z, &
+        ignored)
+    else
+      call solve_slow(plan, motion, part/speed**2, z)
+    end if
     call complete_solution(plan, basis, speed, damping, load, part, z, y)
   end subroutine approximate_solution
 

@@ -2,10 +2,10 @@
 !! of two of them meet.
 !!
 !! Each vibration has one multiplier of positive Krein signature; its phase is `α = F/ω` turns but
-!! for whole turns, with the frequency F that is followed. A multiplier belongs to the vibration whose
-!! phase is expected there and with which alone it has a symplectic product: multipliers of others
-!! pass through. Two multipliers of opposite signature meet where `αᵢ + αⱼ` is a whole number; with
-!! i = j it is a vibration that meets its own conjugate.
+!! for whole turns, with the frequency F that is followed. A multiplier belongs to the vibration
+!! whose phase is expected there and with which alone it has a symplectic product: multipliers of
+!! others pass through. Two multipliers of opposite signature meet where `αᵢ + αⱼ` is a whole
+!! number; with i = j it is a vibration that meets its own conjugate.
 module vibration_branches
   use kinds, only: wp
   use slow_motions, only: slow_mode_t

@@ -5,7 +5,7 @@ module result_failures
   use kinds, only: wp
   use models, only: needs_frequencies, speed_in_words
   use run_findings, only: add_failure, at_frequencies, at_position, failure_t, findings_t, &
-    in_intervals, in_motion, in_response, in_stability, in_transient, of_variant
+    in_campbell, in_intervals, in_motion, in_response, in_stability, in_transient, of_variant
   use stability_types, only: gap_t
   use text, only: to_string
   use units, only: from_si
@@ -68,6 +68,12 @@ contains
       if (allocated(found%intervals%gap)) then
         do k = 1, size(found%intervals%gap)
           call note_gap(variant, found%intervals%gap(k), findings)
+        end do
+      end if
+      if (allocated(found%campbell%at_speed)) then
+        do k = 1, size(found%campbell%at_speed)
+          if (allocated(found%campbell%at_speed(k)%error)) call note_failure(variant, &
+            in_campbell, found%campbell%at_speed(k)%error, 0.0_wp, k, 0.0_wp, findings)
         end do
       end if
       if (allocated(found%transient%at_speed)) then

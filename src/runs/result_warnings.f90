@@ -1,6 +1,7 @@
 !> Warnings about results of a variant: static divergence, large deflections, accuracy not reached,
 !! unstable steady states.
 module result_warnings
+  use campbell_types, only: campbell_t
   use kinds, only: wp
   use mechanisms, only: mechanism_t
   use models, only: accuracy_of_study, model_t, needs_frequencies, needs_study, speed_in_words
@@ -12,6 +13,7 @@ module result_warnings
   use run_findings, only: add_warning_of_run, findings_t, place_in_words
   use sweeps, only: has_result, sweep_t
   use text, only: plural, to_string
+  use units, only: from_si
   use variant_results, only: variant_results_t
   use vibration_models, only: by_orders
   use warnings, only: grade_meaningless, warning_t
@@ -21,14 +23,15 @@ module result_warnings
   public :: find_warnings
   public :: warning_of_divergence, warning_of_deflection, warning_of_accuracy, &
     warning_of_response_deflection, warning_of_response_accuracy, warning_of_instability, &
-    warning_of_no_damping
+    warning_of_no_damping, warning_of_gaps
 
   !> Kinds of warnings: an eigenvalue is negative; the loads bend a link too much; the accuracy is
   !! not reached; the last two in the elastic response; its steady state is unstable; nothing
-  !! damps it.
+  !! damps it; critical speeds may be missed.
   integer, parameter :: warning_of_divergence = 1, warning_of_deflection = 2, &
     warning_of_accuracy = 3, warning_of_response_deflection = 4, &
-    warning_of_response_accuracy = 5, warning_of_instability = 6, warning_of_no_damping = 7
+    warning_of_response_accuracy = 5, warning_of_instability = 6, warning_of_no_damping = 7, &
+    warning_of_gaps = 8
 
   !> Largest static deflection without a warning, relative to the link's length: the axial
   !! frequencies assume that the loads bend the links little [-].
@@ -64,6 +67,10 @@ contains
         warning = missed_response_accuracy(model, response)
         call add_if_any(findings, model%variant, warning)
       end associate
+    end if
+    if (needs_study(variant%model, "campbell")) then
+      warning = missed_critical_speeds(variant%model, variant%found%campbell)
+      call add_if_any(findings, variant%model%variant, warning)
     end if
     if (.not. needs_frequencies(variant%model)) return
     associate (model => variant%model, positions => variant%found%positions, &
@@ -294,6 +301,34 @@ contains
     if (speeds > 2) warning%text = warning%text//"; so are those at "//to_string(speeds - 1)// &
       " other speeds"
   end function instabilities
+
+  !> The speeds between which critical ones may be missed.
+  pure function missed_critical_speeds(model, campbell) result(warning)
+    type(model_t), intent(in) :: model
+    type(campbell_t), intent(in) :: campbell
+    type(warning_t) :: warning !! without a text if there is none
+
+    integer, parameter :: most_named = 5
+    real(wp) :: ends(2)
+    integer :: i
+
+    warning%kind = warning_of_gaps
+    if (size(campbell%gap) == 0) return
+    warning%amount = size(campbell%gap)
+    warning%text = "critical speeds may be missed: multipliers cannot be followed"
+    do i = 1, min(size(campbell%gap), most_named)
+      ends = from_si(campbell%gap(i)%speed, model%outputs%rate)
+      if (i > 1) warning%text = warning%text//","
+      if (ends(2) > ends(1)) then
+        warning%text = warning%text//" from "//to_string(ends(1), 6)//" to "// &
+          to_string(ends(2), 6)
+      else
+        warning%text = warning%text//" near "//to_string(ends(1), 6)
+      end if
+    end do
+    warning%text = warning%text//" "//model%outputs%rate%name
+    if (size(campbell%gap) > most_named) warning%text = warning%text//", and elsewhere"
+  end function missed_critical_speeds
 
   !> The speeds at which the response is less accurate than requested, and the worst of them.
   pure function missed_response_accuracy(model, response) result(warning)

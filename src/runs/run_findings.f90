@@ -13,13 +13,13 @@ module run_findings
   public :: findings_t, failure_t, add_failure, add_warning_of_run, add_findings, put_findings, &
     get_findings, warnings_of_grade, place_in_words
   public :: at_position, at_frequencies, in_motion, of_variant, in_response, in_stability, &
-    in_intervals, in_transient
+    in_intervals, in_transient, in_campbell
 
   !> Stages at which rows fail: no pose at a crank angle, hence no row at any speed; no frequencies
   !! at a crank angle and speed; a motion that ended too soon; a variant that has no pose at any
   !! crank angle; no elastic response, and no exponents, at a speed.
   integer, parameter :: at_position = 1, at_frequencies = 2, in_motion = 3, of_variant = 4, &
-    in_response = 5, in_stability = 6, in_transient = 7, in_intervals = 8
+    in_response = 5, in_stability = 6, in_transient = 7, in_intervals = 8, in_campbell = 9
 
   !> A position, or an instant of a motion, without a result.
   type :: failure_t

@@ -22,8 +22,8 @@ module study_requests
   private
 
   public :: mode_request_of, method_wanted, drawn_states, motion_request_of, &
-    intervals_request_of, motion_instants_of, response_request_of, stability_request_of, &
-    transient_request_of
+    campbell_request_of, intervals_request_of, motion_instants_of, response_request_of, &
+    stability_request_of, transient_request_of
 
 contains
 
@@ -190,12 +190,29 @@ contains
     type(model_t), intent(in) :: model !! with a report on stability
     type(stability_request_t) :: request
 
+    request = exponents_of_study(model, "stability")
+  end function stability_request_of
+
+  !> The requested Campbell diagram.
+  pure function campbell_request_of(model) result(request)
+    type(model_t), intent(in) :: model !! with REPORT campbell
+    type(stability_request_t) :: request
+
+    request = exponents_of_study(model, "campbell")
+  end function campbell_request_of
+
+  !> Exponents at the speeds of the deck, with the accuracy of a study.
+  pure function exponents_of_study(model, study) result(request)
+    type(model_t), intent(in) :: model
+    character(len=*), intent(in) :: study !! name
+    type(stability_request_t) :: request
+
     request%speed = model%speed%value
     request%modes = model%modes
-    request%accuracy = accuracy_of_study(model, "stability")
+    request%accuracy = accuracy_of_study(model, study)
     request%terms = terms_of(model)
     request%damping = link_dampings_of(model)
-  end function stability_request_of
+  end function exponents_of_study
 
   !> The requested intervals of instability.
   pure function intervals_request_of(model) result(request)

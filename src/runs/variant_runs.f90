@@ -1,5 +1,6 @@
 !> Computes one variant of a deck; a deck without VARY has just one.
 module variant_runs
+  use campbell_study, only: find_campbell_of
   use errors, only: error_of_reach, error_t
   use frequency_study, only: begin_sweep, block_count, block_of, finish_sweep, missed_states, &
     most_attempts, solve_block
@@ -18,7 +19,8 @@ module variant_runs
   use report_table, only: find_study, study_names
   use response_study, only: find_response
   use stability_study, only: find_intervals_of, find_stability_of
-  use study_requests, only: drawn_states, intervals_request_of, mode_request_of, &
+  use study_requests, only: campbell_request_of, drawn_states, intervals_request_of, &
+    mode_request_of, &
     motion_request_of, response_request_of, stability_request_of, transient_request_of
   use sweep_bytes, only: get_result, put_result
   use sweeps, only: sweep_t
@@ -100,6 +102,8 @@ contains
           call compute_stability(run, threads, store)
         case ("intervals")
           call compute_intervals(run, threads, store)
+        case ("campbell")
+          call compute_campbell(run, threads, store)
         case ("transient")
           call compute_transient(run, store)
         case ("frequencies")
@@ -212,6 +216,24 @@ contains
       end do
     end associate
   end subroutine compute_intervals
+
+  !> Bands and exponents at all speeds, and critical speeds.
+  subroutine compute_campbell(run, threads, store)
+    type(variant_run_t), intent(inout) :: run
+    integer, intent(in) :: threads
+    type(link_store_t), intent(inout) :: store
+
+    integer :: k
+
+    associate (mechanism => run%results%mechanism, campbell => run%results%found%campbell)
+      call find_campbell_of(mechanism%structure_t, campbell_request_of(run%results%model), &
+        threads, store, campbell)
+      do k = 1, size(campbell%at_speed)
+        if (.not. allocated(campbell%at_speed(k)%error)) cycle
+        call name_link(mechanism%names, campbell%at_speed(k)%error)
+      end do
+    end associate
+  end subroutine compute_campbell
 
   !> Elastic motions in time at all speeds.
   subroutine compute_transient(run, store)

@@ -2,6 +2,7 @@
 module study_results
   use balance_study, only: balance_result_t
   use body_points, only: point_coefficients_t
+  use campbell_types, only: campbell_t
   use geometry_study, only: geometry_result_t
   use harmonics_study, only: harmonics_result_t
   use inertia_study, only: inertia_result_t
@@ -39,6 +40,7 @@ module study_results
     type(response_t) :: response
     type(stability_t) :: stability
     type(intervals_t) :: intervals
+    type(campbell_t) :: campbell
     type(transient_t) :: transient
   end type study_results_t
 

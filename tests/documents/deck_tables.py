@@ -17,12 +17,12 @@ CARDS = {
     "DRIVE": "DRIVE crank",
     "MESH": "MESH * elements=2",
     "CRANK": "CRANK 30 60",
-    "SPEED": "SPEED 20",
+    "SPEED": "SPEED 20 30",
     "INERTIA": "INERTIA distributed",
     "POINT": "POINT tip coupler along=100",
 }
 BEAMS, BODIES = " material=steel section=strip", " mass=1 inertia=1000"
-KEYS = {"motion": " crank=30 end=1 step=0.1", "geometry": " crank=30"}
+KEYS = {"motion": " crank=30 end=1 step=0.1", "geometry": " crank=30", "transient": " turns=1"}
 
 
 class Tables:

@@ -258,6 +258,30 @@ class Tables:
         return [Word(what), Number(values[shown][0], ".12f"), Number(values[shown][1], ".12f"),
                 error(max(abs(here - closed) for closed, here, _ in values)/abs(scale)), error(values[0][2], ESTIMATED_ROUNDING)]
 
+    def critical_speed(self):
+        """Hill's equations of the mass on a strip under hardly any gravity have constant coefficients: D(w) x = f."""
+        gravity, stiffness, low, high = 1e-6, 1e4, 1.5, 2.5
+        for _ in range(100):
+            speed = 0.5*(low + high)
+            left = (tip_stiffness(speed**2) - 2*speed**2)*(stiffness - 2*speed**2) - 4*speed**4
+            low, high = (speed, high) if left > 0 else (low, speed)
+        z = (2j*speed**2, stiffness - 2*speed**2)
+        work = abs(z[0].conjugate()*1j*gravity - z[1]*gravity)
+        slope = abs(-2*speed*(abs(z[0])**2 + z[1]**2) + 2*(z[0].conjugate()*-2j*speed*z[1]).real)
+        growth = TURN/speed*z[1]*work/slope
+        with open(os.path.join("tests", "documents", "mass_on_strip.deck"), encoding="utf-8") as file:
+            text = file.read()
+        for old, new in ((r"density=1e-25", "density=1e-12"), (r"GRAVITY  0 -2", f"GRAVITY  0 -{gravity}"), (r"GAUGE.*\n", ""),
+                         (r"CRANK.*", "MODES    1"),
+                         (r"SPEED .*", "SPEED    1.5 2.5"), (r"REPORT   response.*", "REPORT   campbell accuracy=1e-9"),
+                         (r"REPORT   strains\n", "")):
+            text = re.sub(old, new, text)
+        row, = self._run(text).rows("critical")
+        yield [Word("critical speed"), Number(speed, ".12f"), Number(row["speed"], ".12f"), error(abs(row["speed"]/speed - 1), 1e-9),
+               error(row["speed_error"], 1e-9)]
+        yield [Word("excitation"), Number(growth, ".8e"), Number(row["excitation"]/1000, ".8e"),
+               error(abs(row["excitation"]/1000/growth - 1), 1e-9), error(row["error"], 1e-9)]
+
     def _response(self, accuracy, *changes):
         return self._run(deck("response", (r"^(REPORT +\w+).*", rf"\1 accuracy={accuracy}"), *changes))
 

@@ -29,6 +29,7 @@ BEAM_REPORTS = ["kinematics", "inertia", "mesh", "frequencies", "shapes", "branc
 OWN_CARD_REPORTS = ["motion"]
 # Those of a crank that turns at constant speed.
 RESPONSE_REPORTS = ["response", "strains", "peaks", "drive", "validity", "stability"]
+RANGE_REPORTS = ["campbell"]
 LENGTHS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "in": 0.0254, "ft": 0.3048}
 MASSES = {"kg": 1.0, "g": 1e-3, "tonne": 1e3, "lbm": 0.45359237, "slug": 14.593903, "slinch": 175.126835}
 TIMES = {"s": 1.0, "ms": 1e-3}
@@ -147,7 +148,7 @@ def bodies(dice, links, pins, scale, mass, speed, bare):
         end = min(2.0, dice.between(0.5, 9.0)/speed)
         cards.append(f"REPORT motion crank={dice.choice([0, 30, 45, 90, 200])} speed={speed*dice.between(-1, 1):.4g}rad/s "
                      f"end={quantity(dice, end, bare[2], TIMES)} step={number(dice, end/dice.choice([1, 7, 40])/bare[2]*0.999)}")
-    kinds = [kind for kind in language().reports if kind not in BEAM_REPORTS + OWN_CARD_REPORTS + RESPONSE_REPORTS
+    kinds = [kind for kind in language().reports if kind not in BEAM_REPORTS + OWN_CARD_REPORTS + RESPONSE_REPORTS + RANGE_REPORTS
              and dice.chance(0.3)]
     if not any(card.startswith("POINT") for card in cards) and dice.chance(0.9):
         kinds = [kind for kind in kinds if kind != "points"]

@@ -132,10 +132,16 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
-    if ((needs_study(model, "stability") .or. needs_study(model, "intervals")) .and. &
-      model%modes > most_exponents) call add_error(diagnostics, model%modes_word, "at most "// &
-      to_string(most_exponents)//" exponents are found in REPORT stability and intervals, not "// &
-      to_string(model%modes))
+    character(len=*), parameter :: exponent_studies(3) = [character(len=9) :: "stability", &
+      "intervals", "campbell"]
+    integer :: i
+
+    do i = 1, size(exponent_studies)
+      if (needs_study(model, trim(exponent_studies(i))) .and. model%modes > most_exponents) &
+        call add_error(diagnostics, model%modes_word, "at most "//to_string(most_exponents)// &
+        " exponents are found in REPORT "//trim(exponent_studies(i))//", not "// &
+        to_string(model%modes))
+    end do
     if (.not. needs_frequencies(model) .or. model%modes <= most_modes) return
     call add_error(diagnostics, model%modes_word, "at most "//to_string(most_modes)// &
       " modes are certified, not "//to_string(model%modes))

@@ -104,7 +104,8 @@ contains
     call refuse_acceleration(cards, diagnostics, model)
     call check_depths(diagnostics, model)
     call check_transient(diagnostics, model)
-    call check_range(diagnostics, model)
+    call check_range("campbell", diagnostics, model)
+    call check_range("intervals", diagnostics, model)
     call warn_of_other_models(diagnostics, model)
   end subroutine check_response
 
@@ -114,7 +115,8 @@ contains
     type(model_t), intent(in) :: model
 
     character(len=*), parameter :: idle = " is used by REPORT response, strains, peaks, "// &
-      "drive, validity, stability, intervals and transient only, none of which is asked for"
+      "drive, validity, stability, intervals, campbell and transient only, none of which is "// &
+      "asked for"
     integer :: i
 
     if (report_number(model, "strains") == 0 .and. report_number(model, "transient") == 0) then
@@ -203,27 +205,25 @@ contains
     end associate
   end subroutine check_transient
 
-  !> Intervals are looked for between the least and the greatest speed. Errors: these are the same,
-  !! or of two signs.
-  pure subroutine check_range(diagnostics, model)
+  !> A report on all speeds between those of the deck. Errors: a single speed; speeds of both signs.
+  pure subroutine check_range(name, diagnostics, model)
+    character(len=*), intent(in) :: name !! of the report
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
-    character(len=*), parameter :: asked = "REPORT intervals is on the speeds between the "// &
-      "least and the greatest of SPEED"
-    integer :: report
+    integer :: number
 
-    report = report_number(model, "intervals")
-    if (report == 0 .or. size(model%speed%words) == 0) return
-    associate (speed => model%speed%value)
-      if (.not. maxval(speed) > minval(speed)) then
-        call add_error(diagnostics, model%speed%words(1), asked// &
-          ", and there is only one; expected a range as 'SPEED 40 to 60 step 5'", &
-          model%reports(report)%keyword, "asked for here")
-      else if (minval(speed) < 0.0_wp .and. maxval(speed) > 0.0_wp) then
-        call add_error(diagnostics, model%speed%words(1), asked// &
-          ", and these have two signs; expected speeds of one sign", &
-          model%reports(report)%keyword, "asked for here")
+    number = report_number(model, name)
+    if (number == 0 .or. size(model%speed%words) == 0) return
+    associate (speed => model%speed, report => model%reports(number)%keyword)
+      if (maxval(speed%value) > 0.0_wp .and. minval(speed%value) < 0.0_wp) then
+        call add_error(diagnostics, speed%words(speed%word(findloc(speed%value < 0.0_wp, .true., &
+          dim=1))), "a speed of the other sense: REPORT "//name//" needs speeds of one sign", &
+          report, "asked for here")
+      else if (.not. maxval(speed%value) > minval(speed%value)) then
+        call add_error(diagnostics, report, "REPORT "//name//" needs a range of speeds; "// &
+          "expected 'SPEED 20 to 60 step 1', for example", speed%words(1), &
+          "there is one only")
       end if
     end associate
   end subroutine check_range

@@ -9,7 +9,7 @@ module deck_summary
   use models, only: model_t, needs_frequencies
   use program_version, only: program_name, version_number
   use run_findings, only: at_position, failure_t, findings_t, in_motion, in_response, &
-    in_intervals, in_stability, in_transient, of_variant
+    in_campbell, in_intervals, in_stability, in_transient, of_variant
   use run_totals, only: run_totals_t
   use tables, only: column_t, has_unit, table_t
   use text, only: character_count, plural, string_t
@@ -351,6 +351,9 @@ contains
     case (in_intervals)
       call add_member(object, "stage", json_value("intervals"))
       call add_member(object, "speed", json_value(failure%speed))
+    case (in_campbell)
+      call add_member(object, "stage", json_value("campbell"))
+      call add_member(object, "speed", json_value(failure%speed))
     case (in_transient)
       call add_member(object, "stage", json_value("transient"))
       call add_member(object, "speed", json_value(failure%speed))
@@ -361,7 +364,7 @@ contains
       call add_member(object, "stage", json_value("frequencies"))
       call add_member(object, "speed", json_value(failure%speed))
     end select
-    if (any(failure%stage == [of_variant, in_response, in_stability, in_intervals, &
+    if (any(failure%stage == [of_variant, in_response, in_stability, in_intervals, in_campbell, &
       in_transient])) then
       call add_member(object, "crank", json_null)
     else

@@ -3,8 +3,8 @@ module findings_texts
   use deck_source, only: source_t
   use diagnostics, only: diagnostics_t, warning_texts
   use run_findings, only: at_position, failure_t, findings_t, in_motion, in_response, &
-    in_intervals, in_stability, in_transient, of_variant, &
-    place_in_words, warnings_of_grade
+    in_campbell, in_intervals, in_stability, in_transient, of_variant, place_in_words, &
+    warnings_of_grade
   use text, only: string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use warnings, only: grade_doubt, grade_meaningless
@@ -37,6 +37,8 @@ contains
       line = "stability, speed "//failure%speed_words
     case (in_intervals)
       line = "intervals, speeds "//failure%speed_words
+    case (in_campbell)
+      line = "campbell, speed "//failure%speed_words
     case (in_transient)
       line = "transient, speed "//failure%speed_words
     case (of_variant)

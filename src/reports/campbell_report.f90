@@ -1,0 +1,129 @@
+!> `campbell.dat`, `critical.dat`: frequencies of a running linkage against its speed, and the
+!! speeds at which they are multiples of it.
+module campbell_report
+  use constants, only: two_pi
+  use models, only: accuracy_of_study
+  use response_notes, only: damping_note, without_note
+  use stability_report, only: stability_words, verdict_word
+  use table_columns, only: cells, column_width, name_list_t, table_layout_t
+  use table_rows, only: add_failed_row, add_row, rows_t
+  use tables, only: integer_cell, name_cell
+  use text, only: append_string, string_t, to_string
+  use units, only: from_si
+  use variant_results, only: variant_results_t
+  implicit none (type, external)
+  private
+
+  public :: campbell_notes, campbell_words, critical_notes, add_campbell, add_critical
+
+contains
+
+  !> Meaning of the columns of frequencies, damping, accuracy.
+  pure subroutine campbell_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its Campbell diagram computed
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    call append_string(notes, "least, mean, greatest: frequencies over a turn of the linkage "// &
+      "frozen at its positions, with the axial forces of the speed; modes in ascending order")
+    call append_string(notes, "floquet: of the free vibrations of the moving linkage; of those "// &
+      "that the multiplier of a turn allows, the one nearest to the mean; modes by the "// &
+      "frequencies of their shapes over the turn")
+    call append_string(notes, "band_error: estimated, relative, of least, mean and greatest; "// &
+      "error: estimated, of growth and of 2 pi floquet/speed")
+    call append_common_notes(notes, variant)
+  end subroutine campbell_notes
+
+  !> Meaning of the columns of critical speeds, damping, accuracy.
+  pure subroutine critical_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its Campbell diagram computed
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    call append_string(notes, "speeds at which a Floquet frequency is line x speed: a "// &
+      "multiplier of a turn is real and positive, and the loads excite the vibration")
+    call append_string(notes, "excitation: growth of the largest deflection of a link in the "// &
+      "first turn, from the loads alone")
+    if (variant%found%campbell%damped) call append_string(notes, "amplitude: largest "// &
+      "deflection of the resonant part of the steady state")
+    call append_string(notes, "speed_error: estimated, relative, with half the width of the "// &
+      "interval in which the multiplier is real; error: of excitation and amplitude, relative")
+    if (variant%found%campbell%left_out > 0) call append_string(notes, "not listed: "// &
+      to_string(variant%found%campbell%left_out)//" with less than 1/100 of the greatest "// &
+      "excitation")
+    call append_common_notes(notes, variant)
+  end subroutine critical_notes
+
+  pure subroutine append_common_notes(notes, variant)
+    type(string_t), allocatable, intent(inout) :: notes(:)
+    type(variant_results_t), intent(in) :: variant
+
+    call append_string(notes, damping_note(variant))
+    associate (model => variant%model)
+      if (model%without%keyword%line > 0) call append_string(notes, without_note(variant))
+      call append_string(notes, "accuracy asked for: "//to_string(accuracy_of_study(model, &
+        "campbell")))
+    end associate
+  end subroutine append_common_notes
+
+  !> The column `verdict`, with a word as long as the longest.
+  pure function campbell_words() result(list)
+    type(name_list_t) :: list
+
+    list = stability_words()
+  end function campbell_words
+
+  !> Appends the rows of a speed, one per mode, or its failure.
+  subroutine add_campbell(variant, layout, speed, rows)
+    type(variant_results_t), intent(in) :: variant !! with its Campbell diagram computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
+
+    integer :: i
+
+    associate (found => variant%found%campbell%at_speed(speed), &
+        shown => variant%model%shown_speed(speed))
+      if (allocated(found%error)) then
+        call add_failed_row(rows, [shown], found%error%text)
+        return
+      end if
+      do i = 1, size(found%exponent)
+        associate (exponent => found%exponent(i), band => found%band(i))
+          call add_row(rows, cells(layout, 1, [shown])//integer_cell(exponent%mode, "mode")// &
+            cells(layout, 3, [band%least/two_pi, band%mean/two_pi, band%greatest/two_pi, &
+            band%error, exponent%frequency/two_pi, exponent%growth, exponent%error])// &
+            name_cell(trim(verdict_word(exponent)), column_width(layout, 10)))
+        end associate
+      end do
+    end associate
+  end subroutine add_campbell
+
+  !> Appends the rows of all critical speeds.
+  subroutine add_critical(variant, layout, rows)
+    type(variant_results_t), intent(in) :: variant !! with its Campbell diagram computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
+
+    integer :: i
+
+    associate (campbell => variant%found%campbell, model => variant%model)
+      do i = 1, size(campbell%critical)
+        associate (here => campbell%critical(i))
+          if (allocated(here%fault)) then
+            call add_failed_row(rows, [from_si(here%speed, model%outputs%rate)], here%fault%text)
+          else if (campbell%damped) then
+            call add_row(rows, cells(layout, 1, [here%speed, here%speed_error])// &
+              integer_cell(here%line, "line")//integer_cell(here%mode, "mode")// &
+              cells(layout, 5, [here%frequency/two_pi, here%excitation, here%amplitude, &
+              here%growth, here%error]))
+          else
+            call add_row(rows, cells(layout, 1, [here%speed, here%speed_error])// &
+              integer_cell(here%line, "line")//integer_cell(here%mode, "mode")// &
+              cells(layout, 5, [here%frequency/two_pi, here%excitation, here%growth, &
+              here%error]))
+          end if
+        end associate
+      end do
+    end associate
+  end subroutine add_critical
+
+end module campbell_report

@@ -1,0 +1,452 @@
+!> Critical speeds of a linkage: those at which a Floquet frequency is a multiple of the speed, so
+!! that the loads of the motion, which repeat with the turn, excite the vibration; and how much.
+!!
+!! Crossings of slow motions are solved again with the exponents of the whole equation, whose errors
+!! are known. A multiplier that meets its own conjugate at 1 leaves the circle in a narrow interval
+!! of speeds: then the critical speed is its middle. Near a crossing the square of turns, less than
+!! 0 where multipliers are real, is `s² (ω − ω_c)² − κ²`, s being the slope of turns.
+!!
+!! Crossings that the slow motion says to be hardly excited are left out.
+module critical_speeds
+  use campbell_types, only: critical_t, gap_t
+  use constants, only: two_pi
+  use errors, only: error_of_numerics, error_t, set_error
+  use floquet_exponents, only: find_floquet_modes, floquet_mode_t
+  use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
+  use frozen_modes, only: find_frozen_frequencies
+  use kinds, only: wp
+  use link_store, only: link_store_t
+  use mode_numbers, only: growing_mode
+  use multiplier_angles, only: angle_t, angles_of, nearest_to_one
+  use multiplier_crossings, only: beside, crossing_t, find_crossings
+  use resonance_growth, only: find_growth
+  use response_levels, only: damping_of, level_slot_t, level_t, need_basis, need_level, &
+    sample_numbers
+  use response_peaks, only: find_peaks, sampled_deflections
+  use response_types, only: no_damping, response_request_t, speed_response_t
+  use stability, only: find_spectrum, first_order, first_samples, slow_number, turn_spectrum_t
+  use stability_types, only: stability_request_t
+  use structures, only: structure_t
+  use turn_grids, only: turn_grid_t
+  implicit none (type, external)
+  private
+
+  public :: find_critical_speeds
+
+  !> Critical speeds with less of the greatest excitation are left out; so are, before, those with
+  !! less of it in slow motions.
+  real(wp), parameter :: least_excited = 1.0e-2_wp, hardly_excited = 5.0e-3_wp
+
+  !> Speeds are solved for in so many rounds at most, to the first share of the accuracy; exponents
+  !! change by no more than the second in their last round, or than the least.
+  integer, parameter :: most_rounds = 6
+  real(wp), parameter :: enough = 0.1_wp, solved_to = 1.0e-2_wp, least_change = 1.0e-13_wp
+
+  !> Turns below this are 0; real multipliers less apart are one.
+  real(wp), parameter :: on_axis = 1.0e-9_wp, solved_to_turns = 1.0e-7_wp
+
+  !> Exponents that are farther from a multiple than this are not those of the crossing.
+  real(wp), parameter :: far = 0.05_wp
+
+  !> Multipliers that are real are looked at this far from the middle, times their distance; at
+  !! least as for this one, in turns.
+  real(wp), parameter :: outside = 3.0_wp, narrow = 1.0e-5_wp
+
+  !> The ends of intervals in which turns would be more than this are looked for in so many rounds.
+  real(wp), parameter :: wide_enough = 1.0e-4_wp
+  integer, parameter :: rounds_of_ends = 2
+
+  !> The second solution of an excitation has orders and samples above those of the first.
+  integer, parameter :: orders_above = 2
+
+  !> Estimated errors are differences of two solutions times the first, last changes of exponents
+  !! times the second; none is stated below rounding.
+  real(wp), parameter :: safety = 2.0_wp, many = 10.0_wp, rounding = 1.0e-9_wp
+
+  !> A crossing on its way to a critical speed.
+  type :: candidate_t
+    type(crossing_t) :: crossing
+    real(wp) :: speed = 0.0_wp       !! next to be tried, then the critical one [rad/s]
+    real(wp) :: speed_error = 0.0_wp !! relative
+    integer :: line = 0
+    real(wp) :: centre(2) = 0.0_wp   !! of its exponents on both levels, per radian of the crank
+    real(wp) :: square(2) = 0.0_wp   !! of their distance from it; less than 0: it is imaginary
+    integer :: level(2) = 0          !! numbers of the levels of both solutions
+    logical :: found = .false.
+  end type candidate_t
+
+  !> What is found at a speed near a crossing.
+  type :: trial_t
+    real(wp) :: speed = 0.0_wp       !! [rad/s]
+    real(wp) :: turns = 0.0_wp       !! with their sense
+    real(wp) :: change = 0.0_wp      !! of the exponent in the last round
+    real(wp) :: centre = 0.0_wp, apart = 0.0_wp !! real part, or mean and distance of two
+    real(wp) :: alone = 0.0_wp       !! of two real exponents the only one found, perhaps; 0: both
+                                     !! are
+    real(wp) :: mean = 0.0_wp        !! frequency of the frozen linkage [rad/s]
+    logical :: found = .false.
+  end type trial_t
+
+contains
+
+  !> All critical speeds between the least and the greatest of a request.
+  !!
+  !! Errors: the crank does not turn fully; own modes of a link could not be found.
+  subroutine find_critical_speeds(structure, request, frequency, threads, store, critical, gap, &
+    left_out, error)
+    class(structure_t), intent(in) :: structure      !! linkage and beams
+    type(stability_request_t), intent(in) :: request !! speeds of one sign, modes, accuracy
+    real(wp), intent(in) :: frequency(2)             !! of the lowest and the highest mode [rad/s]
+    integer, intent(in) :: threads                   !! number of OpenMP threads
+    type(link_store_t), intent(inout) :: store       !! links decomposed earlier
+    type(critical_t), allocatable, intent(out) :: critical(:) !! ascending
+    type(gap_t), allocatable, intent(out) :: gap(:)  !! speeds between which some may be missed
+    integer, intent(out) :: left_out                 !! hardly excited
+    type(error_t), allocatable, intent(out) :: error !! why there is nothing
+
+    type(level_slot_t), allocatable :: levels(:)
+    type(crossing_t), allocatable :: crossing(:)
+    type(candidate_t), allocatable :: candidate(:)
+    real(wp), allocatable :: rough(:)
+    integer :: i
+
+    allocate (levels(0))
+    left_out = 0
+    call find_crossings(structure, request, frequency, threads, store, levels, crossing, gap, &
+      error)
+    if (allocated(error)) return
+    allocate (candidate(size(crossing)), rough(size(crossing)))
+    do i = 1, size(crossing)
+      candidate(i)%crossing = crossing(i)
+      candidate(i)%speed = crossing(i)%speed
+      candidate(i)%centre = crossing(i)%angle%growth
+      candidate(i)%square = crossing(i)%angle%apart**2
+      call find_levels(structure, request, crossing(i)%speed, store, levels, candidate(i)%level, &
+        error)
+      if (allocated(error)) return
+    end do
+    !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
+    do i = 1, size(candidate)
+      call find_rough(request, levels(candidate(i)%level(1))%level, candidate(i), rough(i))
+    end do
+    !$omp end parallel do
+    candidate = pack(candidate, rough >= hardly_excited*maxval(rough))
+    left_out = size(crossing) - size(candidate)
+    !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
+    do i = 1, size(candidate)
+      call refine_speed(request, levels(candidate(i)%level(1))%level, &
+        levels(candidate(i)%level(2))%level, candidate(i))
+    end do
+    !$omp end parallel do
+    do i = 1, size(candidate)
+      if (.not. candidate(i)%found) gap = [gap, gap_t(spread(candidate(i)%crossing%speed, 1, 2))]
+    end do
+    candidate = pack(candidate, candidate%found)
+    allocate (critical(size(candidate)))
+    !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
+    do i = 1, size(candidate)
+      call find_excitation(request, levels(candidate(i)%level(1))%level, &
+        levels(candidate(i)%level(2))%level, candidate(i), critical(i))
+    end do
+    !$omp end parallel do
+    i = size(critical)
+    critical = pack(critical, critical%excitation >= least_excited*maxval(critical%excitation) &
+      .or. [(allocated(critical(i)%fault), i=1, size(critical))])
+    left_out = left_out + size(candidate) - size(critical)
+  end subroutine find_critical_speeds
+
+  !> Finds or makes the levels of both solutions of an excitation.
+  subroutine find_levels(structure, request, speed, store, levels, number, error)
+    class(structure_t), intent(in) :: structure
+    type(stability_request_t), intent(in) :: request
+    real(wp), intent(in) :: speed
+    type(link_store_t), intent(inout) :: store
+    type(level_slot_t), allocatable, intent(inout) :: levels(:)
+    integer, intent(out) :: number(2)
+    type(error_t), allocatable, intent(out) :: error
+
+    integer :: at, i, order
+    logical :: backwards
+
+    backwards = request%speed(1) < 0.0_wp
+    order = first_order(request%accuracy)
+    call need_level(structure, order, sample_numbers(1), backwards, store, levels, number(1), error)
+    if (allocated(error)) return
+    at = first_samples(levels(number(1))%level%grid, request%modes, speed, request%accuracy)
+    if (at == 0) at = size(sample_numbers)
+    do i = 1, 2
+      call need_level(structure, order + (i - 1)*orders_above, (i + 1)*sample_numbers(at)/2, &
+        backwards, store, levels, number(i), error)
+      if (allocated(error)) return
+      associate (level => levels(number(i))%level)
+        call need_basis(slow_number(level%grid, request%modes), request%damping, level, error, &
+          .true.)
+      end associate
+      if (allocated(error)) return
+    end do
+  end subroutine find_levels
+
+  !> The excitation by the slow motion alone.
+  subroutine find_rough(request, level, candidate, excitation)
+    type(stability_request_t), intent(in) :: request
+    type(level_t), intent(in) :: level
+    type(candidate_t), intent(in) :: candidate
+    real(wp), intent(out) :: excitation !! [m]
+
+    real(wp), allocatable :: growth(:, :, :), steady(:, :, :)
+    type(error_t), allocatable :: error
+
+    call find_growth(level, slow_number(level%grid, request%modes), candidate%speed, &
+      damping_of(request%damping, level%grid), request%terms, candidate%centre(1), &
+      candidate%square(1), huge(1.0_wp), growth, steady, error)
+    excitation = huge(1.0_wp)
+    if (allocated(error)) return
+    excitation = maxval(sampled_deflections(level%grid, growth(:, :, 1)))
+  end subroutine find_rough
+
+  !> Solves for the speed with the exponents of the whole equation: by secants on the finer level,
+  !! its error from the other. Between two speeds at which multipliers are real the middle counts.
+  subroutine refine_speed(request, level, above, candidate)
+    type(stability_request_t), intent(in) :: request
+    type(level_t), intent(in) :: level, above
+    type(candidate_t), intent(inout) :: candidate
+
+    type(trial_t) :: here, before, rough
+    real(wp) :: slope, accuracy, centre
+    integer :: round
+
+    slope = candidate%crossing%slope
+    accuracy = request%accuracy
+    do round = 1, most_rounds
+      call try_speed(request, above, candidate, candidate%speed, here)
+      if (.not. here%found .or. abs(here%turns) > far) return
+      if (round > 1 .and. abs(here%turns - before%turns) > 0.0_wp) slope = secant(before, here)
+      ! Differences of rounding tell no slope.
+      if (abs(slope/candidate%crossing%slope - 1.0_wp) > 0.5_wp) slope = candidate%crossing%slope
+      if (abs(here%turns/slope) <= enough*accuracy*here%speed) exit
+      if (round == most_rounds) return
+      before = here
+      candidate%speed = here%speed - here%turns/slope
+    end do
+    call try_speed(request, level, candidate, here%speed, rough)
+    if (.not. rough%found .or. abs(rough%turns) > far) return
+    candidate%speed_error = abs(here%turns) + safety*abs(here%turns - rough%turns) + &
+      many*here%change
+    if (here%apart > solved_to_turns .or. abs(here%alone) > 0.0_wp) then
+      call find_middle(request, above, slope, here, candidate, centre)
+      call try_speed(request, above, candidate, candidate%speed, here)
+      call try_speed(request, level, candidate, candidate%speed, rough)
+      if (.not. (here%found .and. rough%found)) return
+      call complete(centre, here)
+      call complete(centre, rough)
+    end if
+    candidate%centre = [rough%centre, here%centre]
+    candidate%square = [rough%apart, here%apart]**2 - [rough%turns, here%turns]**2
+    candidate%speed_error = max(rounding, candidate%speed_error/(abs(slope)*here%speed))
+    candidate%line = nint(here%mean/here%speed)
+    candidate%found = candidate%line > 0
+
+  contains
+
+    pure real(wp) function secant(one, other)
+      type(trial_t), intent(in) :: one, other
+
+      secant = (other%turns - one%turns)/(other%speed - one%speed)
+    end function secant
+
+  end subroutine refine_speed
+
+  !> The other of two real exponents, from their mean.
+  pure subroutine complete(centre, trial)
+    real(wp), intent(in) :: centre
+    type(trial_t), intent(inout) :: trial
+
+    if (abs(trial%alone) <= 0.0_wp) return
+    trial%centre = centre
+    trial%apart = abs(trial%alone - centre)
+  end subroutine complete
+
+  !> The middle of the interval in which multipliers are real, from its ends: those of the parabola
+  !! of the square of turns, less than 0 in it, through a speed in it and one on either side, then
+  !! better ones. Its half width is added to the error.
+  subroutine find_middle(request, level, slope, inside, candidate, centre)
+    type(stability_request_t), intent(in) :: request
+    type(level_t), intent(in) :: level
+    real(wp), intent(in) :: slope                 !! of turns
+    type(trial_t), intent(inout) :: inside        !! completed
+    type(candidate_t), intent(inout) :: candidate !! at a speed in it; error in turns
+    real(wp), intent(out) :: centre               !! mean real part of the exponents on either side
+
+    type(trial_t) :: side(2)
+    type(trial_t) :: at_end
+    real(wp) :: wide, bend, tilt, half, ends(2)
+    integer :: i, round
+
+    centre = candidate%centre(2)
+    wide = outside*max(inside%apart, narrow)/abs(slope)
+    do round = 1, most_rounds
+      do i = 1, 2
+        call try_speed(request, level, candidate, candidate%speed + (2*i - 3)*wide, side(i))
+      end do
+      if (.not. all(side%found)) return
+      if (all(abs(side%turns) > 0.0_wp)) exit
+      wide = 2.0_wp*wide
+    end do
+    centre = 0.5_wp*sum(side%centre)
+    call complete(centre, inside)
+    associate (before => side(1)%turns**2, after => side(2)%turns**2, here => -inside%apart**2)
+      bend = (0.5_wp*(before + after) - here)/wide**2
+      tilt = 0.5_wp*(after - before)/wide
+      if (.not. bend > 0.0_wp) return
+      half = sqrt(max(0.0_wp, (0.25_wp*tilt**2/bend - here)/bend))
+      ends = candidate%speed - 0.5_wp*tilt/bend + [-half, half]
+    end associate
+    ! The parabola is not quite one.
+    do round = 1, merge(rounds_of_ends, 0, half*abs(slope) > wide_enough)
+      do i = 1, 2
+        call try_speed(request, level, candidate, ends(i), at_end)
+        if (.not. at_end%found .or. abs(at_end%turns) > far) cycle
+        call complete(centre, at_end)
+        ends(i) = ends(i) - (at_end%turns**2 - at_end%apart**2)/(bend*(2*i - 3)*(ends(2) - ends(1)))
+      end do
+    end do
+    candidate%speed = 0.5_wp*(ends(1) + ends(2))
+    candidate%speed_error = candidate%speed_error + 0.5_wp*abs(slope)*(ends(2) - ends(1))
+  end subroutine find_middle
+
+  !> The exponent of the crossing at a speed near it.
+  subroutine try_speed(request, level, candidate, speed, trial)
+    type(stability_request_t), intent(in) :: request
+    type(level_t), intent(in) :: level
+    type(candidate_t), intent(in) :: candidate
+    real(wp), intent(in) :: speed              !! |ω2| [rad/s]
+    type(trial_t), intent(out) :: trial
+
+    type(fourier_plan_t) :: plan
+    type(turn_spectrum_t) :: spectrum
+    type(angle_t), allocatable :: angle(:)
+    type(floquet_mode_t), allocatable :: mode(:)
+    integer, allocatable :: wanted(:)
+    type(error_t), allocatable :: error
+    real(wp) :: damping(level%grid%unknowns)
+    integer :: slow, i, m
+
+    trial%speed = speed
+    slow = slow_number(level%grid, request%modes)
+    damping = damping_of(request%damping, level%grid)
+    call open_fourier(level%grid%samples, plan)
+    attempt: block
+      call find_spectrum(level, plan, slow, speed, spectrum, error)
+      if (allocated(error)) exit attempt
+      angle = angles_of(spectrum%mode, spectrum%number, speed, request%modes + beside)
+      if (size(angle) == 0) exit attempt
+      m = nearest_to_one(angle, candidate%crossing%angle%rate)
+      ! Of a pair on the circle one tells of both.
+      wanted = pack([(i, i=1, size(spectrum%number))], spectrum%number == m)
+      if (all(damping <= 0.0_wp)) wanted = [growing_mode(spectrum%mode, spectrum%number, m)]
+      allocate (mode(size(wanted)))
+      call find_floquet_modes(level%grid, plan, level%basis(slow), spectrum%motion, speed, &
+        damping, request%terms, max(solved_to*request%accuracy/two_pi, least_change), &
+        spectrum%mode, wanted, mode)
+      trial%turns = abs(aimag(mode(1)%exponent))
+      trial%change = maxval(mode%change)
+      if (any(damping > 0.0_wp)) trial%centre = sum(real(mode%exponent))/size(mode)
+      if (trial%turns <= on_axis) then
+        trial%turns = 0.0_wp
+        trial%apart = abs(real(mode(1)%exponent) - trial%centre)
+        if (any(damping > 0.0_wp) .and. trial%apart < solved_to_turns) trial%alone = &
+          real(mode(1)%exponent)
+      end if
+      trial%turns = sign(trial%turns, mode(1)%action)
+      call find_mean(level, slow, speed, angle(m)%rate*speed, candidate%crossing%mode, trial%mean)
+      trial%found = .true.
+    end block attempt
+    call close_fourier(plan)
+  end subroutine try_speed
+
+  !> Mean frequency of a mode of the frozen linkage; where it buckles in some position, that of its
+  !! shape.
+  subroutine find_mean(level, slow, speed, of_shape, mode, mean)
+    type(level_t), intent(in) :: level
+    integer, intent(in) :: slow
+    real(wp), intent(in) :: speed, of_shape !! [rad/s]
+    integer, intent(in) :: mode
+    real(wp), intent(out) :: mean           !! [rad/s]
+
+    real(wp), dimension(mode, level%coarse%samples/2) :: frequency, fading
+    type(error_t), allocatable :: buckles
+
+    mean = of_shape
+    call find_frozen_frequencies(level%basis(slow), speed, frequency, fading, buckles)
+    if (.not. allocated(buckles)) mean = sum(frequency(mode, :))/size(frequency, 2)
+  end subroutine find_mean
+
+  !> The excitation at a critical speed, on both levels.
+  subroutine find_excitation(request, level, above, candidate, critical)
+    type(stability_request_t), intent(in) :: request
+    type(level_t), intent(in) :: level, above
+    type(candidate_t), intent(in) :: candidate
+    type(critical_t), intent(out) :: critical
+
+    real(wp), dimension(2) :: rough, fine, ignored, change !! of growth and steady part
+
+    critical%speed = candidate%speed
+    critical%speed_error = candidate%speed_error
+    critical%mode = candidate%crossing%mode
+    critical%line = candidate%line
+    critical%frequency = critical%line*candidate%speed
+    critical%growth = two_pi*candidate%centre(2)
+    call solve(level, 1, rough, ignored)
+    if (allocated(critical%fault)) return
+    call solve(above, 2, fine, change)
+    if (allocated(critical%fault)) return
+    critical%excitation = fine(1)
+    critical%amplitude = fine(2)
+    critical%error = max(rounding, maxval((safety*abs(fine - rough) + change)/max(fine, &
+      tiny(1.0_wp))))
+    if (fine(2) <= 0.0_wp .and. any(request%damping%kind /= no_damping)) call set_error( &
+      critical%fault, error_of_numerics, "vibrations grow by themselves: there is no steady state")
+
+  contains
+
+    subroutine solve(on, number, largest, change)
+      type(level_t), intent(in) :: on
+      integer, intent(in) :: number !! of the level
+      real(wp), intent(out) :: largest(2), change(2) !! [m]
+
+      type(fourier_plan_t) :: plan
+      real(wp), allocatable :: growth(:, :, :), steady(:, :, :)
+
+      call find_growth(on, slow_number(on%grid, request%modes), candidate%speed, &
+        damping_of(request%damping, on%grid), request%terms, candidate%centre(number), &
+        candidate%square(number), max(enough*request%accuracy, least_change), growth, steady, &
+        critical%fault)
+      if (allocated(critical%fault)) return
+      call open_fourier(on%grid%samples, plan)
+      largest = [largest_deflection(on%grid, plan, growth(:, :, 1)), largest_deflection(on%grid, &
+        plan, steady(:, :, 1))]
+      change = [maxval(sampled_deflections(on%grid, growth(:, :, 2))), &
+        maxval(sampled_deflections(on%grid, steady(:, :, 2)))]
+      call close_fourier(plan)
+    end subroutine solve
+
+  end subroutine find_excitation
+
+  !> The largest deflection of all links.
+  function largest_deflection(grid, plan, y) result(largest)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan
+    real(wp), intent(in) :: y(:, :)
+    real(wp) :: largest !! [m]
+
+    type(response_request_t) :: nothing
+    type(speed_response_t) :: peaks
+
+    largest = 0.0_wp
+    if (maxval(abs(y)) <= 0.0_wp) return
+    allocate (nothing%section(size(grid%integrals)))
+    call find_peaks(grid, plan, nothing, y, peaks)
+    largest = maxval(peaks%largest_deflection%value)
+  end function largest_deflection
+
+end module critical_speeds
