@@ -78,6 +78,7 @@ module floquet_exponents
     integer :: applications = 0                 !! of the equation, to complex motions
     real(wp) :: frequency = 0.0_wp              !! of its shape over the turn,
                                                 !! `√(∮ zᴴz / ∮ zᴴM z)` [rad/s]
+    real(wp), allocatable :: motion(:, :)       !! (samples, real and imaginary parts) z
     real(wp) :: action = 0.0_wp                 !! `Im ∮ zᴴ(L1 + 2σ L2) z`, about 1 or −1 by the
                                                 !! Krein signature, 0 at collisions
   end type floquet_mode_t
@@ -112,9 +113,10 @@ module floquet_exponents
 
 contains
 
-  !> Modes of the whole equation that belong to modes of the slow motion.
+  !> Modes of the whole equation that belong to modes of the slow motion. They are found sooner if
+  !! they are known from other orders or samples.
   subroutine find_floquet_modes(grid, plan, basis, motion, speed, damping, terms, tolerance, &
-    slow, wanted, modes)
+    slow, wanted, modes, known)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan   !! for its samples
     type(slow_basis_t), intent(in) :: basis    !! of this grid
@@ -127,12 +129,18 @@ contains
     type(slow_mode_t), intent(in) :: slow(:)   !! all modes of the slow motion
     integer, intent(in) :: wanted(:)           !! numbers of those that are wanted
     type(floquet_mode_t), intent(out) :: modes(:) !! (as many)
+    type(floquet_mode_t), intent(in), optional :: known(:) !! the same, with exponents and motions
 
     integer :: i
 
     do i = 1, size(wanted)
-      call refine(grid, plan, basis, motion, speed, damping, terms, tolerance, slow, wanted(i), &
-        modes(i))
+      if (present(known)) then
+        call refine(grid, plan, basis, motion, speed, damping, terms, tolerance, slow, wanted(i), &
+          modes(i), known=known(i))
+      else
+        call refine(grid, plan, basis, motion, speed, damping, terms, tolerance, slow, wanted(i), &
+          modes(i))
+      end if
     end do
   end subroutine find_floquet_modes
 
@@ -246,7 +254,7 @@ contains
 
   !> A mode of the whole equation, or two together.
   subroutine refine(grid, plan, basis, motion, speed, damping, terms, tolerance, slow, wanted, &
-    mode, pair)
+    mode, pair, known)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan
     type(slow_basis_t), intent(in) :: basis
@@ -258,6 +266,7 @@ contains
     integer, intent(in) :: wanted              !! its number
     type(floquet_mode_t), intent(out) :: mode
     type(floquet_pair_t), intent(inout), optional :: pair !! that mode and another
+    type(floquet_mode_t), intent(in), optional :: known   !! about that mode
 
     type(space_t) :: space
     complex(wp), allocatable :: values(:), vectors(:, :), weights(:), partner_weights(:)
@@ -272,6 +281,7 @@ contains
     if (present(pair)) pair%change = huge(1.0_wp)
     fixed = mode%exponent + shift
     followed = mode%exponent
+    if (present(known)) followed = known%exponent
     square = 0.0_wp
     call start
     do round = 1, most_rounds
@@ -346,6 +356,7 @@ contains
           end do
         end if
       end if
+      if (present(known)) call add_vector(known%motion, added)
       if (space%number < 2) call add_vector(expanded(basis, motion, slow(wanted), .false., 0), &
         added)
       if (present(pair) .and. space%number < 2) call add_vector(expanded(basis, motion, &
@@ -620,6 +631,7 @@ contains
         first = first + times(weights(i), space%parts(:, :, 1, i))
         second = second + times(weights(i), space%parts(:, :, 2, i))
       end do
+      mode%motion = z
       kinetic = product_of(z, second)
       mode%frequency = abs(speed)*norm2(z)/sqrt(max(real(kinetic), tiny(1.0_wp)))
       mode%action = aimag(product_of(z, first) + 2.0_wp*mode%exponent*kinetic)/ &

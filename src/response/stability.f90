@@ -16,6 +16,7 @@ module stability
   use kinds, only: long, wp
   use link_store, only: link_store_t
   use mode_numbers, only: growing_mode, most_spread, numbers_of
+  use order_transfer, only: transferred
   use response_levels, only: damping_of, level_slot_t, level_t, need_basis, need_level, &
     sample_numbers
   use response_types, only: no_damping
@@ -239,7 +240,7 @@ contains
     type(speed_stability_t) :: here
     type(fourier_plan_t) :: plan, above_plan
     type(turn_spectrum_t) :: spectrum, above_spectrum
-    type(floquet_mode_t), allocatable :: modes(:), above_modes(:)
+    type(floquet_mode_t), allocatable :: modes(:), above_modes(:), known(:)
     real(wp), allocatable :: mean(:)
     integer, allocatable :: wanted(:), above_wanted(:)
     real(wp) :: largest
@@ -260,8 +261,9 @@ contains
       call find_spectrum(above, above_plan, slow, speed, above_spectrum, here%error)
       if (allocated(here%error)) exit attempt
       above_wanted = matched(spectrum, wanted, above_spectrum)
+      call transfer
       call refine_all(request, above, above_plan, speed, above_spectrum, above_wanted, &
-        above_modes)
+        above_modes, known)
       here%order = above%order
       here%samples = above%grid%samples
       here%slow = slow
@@ -275,6 +277,25 @@ contains
     call settle
 
   contains
+
+    !> The motions found, on the grid of the second solution.
+    subroutine transfer
+      real(wp), allocatable :: part(:, :)
+      integer :: i, j, n
+
+      known = modes
+      do i = 1, size(modes)
+        deallocate (known(i)%motion)
+        allocate (known(i)%motion(above%grid%samples, 2*above%grid%unknowns))
+        do j = 0, 1
+          n = level%grid%unknowns
+          call transferred(level%grid, plan, above%grid, above_plan, modes(i)%motion(:, j*n + 1:(j &
+            + 1)*n), part)
+          n = above%grid%unknowns
+          known(i)%motion(:, j*n + 1:(j + 1)*n) = part
+        end do
+      end do
+    end subroutine transfer
 
     !> Values, errors and verdicts.
     subroutine judge
@@ -457,7 +478,7 @@ contains
   end function wanted_modes
 
   !> Modes of the whole equation.
-  subroutine refine_all(request, level, plan, speed, spectrum, wanted, modes)
+  subroutine refine_all(request, level, plan, speed, spectrum, wanted, modes, known)
     type(stability_request_t), intent(in) :: request
     type(level_t), intent(in) :: level
     type(fourier_plan_t), intent(in) :: plan
@@ -465,11 +486,13 @@ contains
     type(turn_spectrum_t), intent(in) :: spectrum
     integer, intent(in) :: wanted(:)
     type(floquet_mode_t), allocatable, intent(out) :: modes(:)
+    type(floquet_mode_t), intent(in), optional :: known(:) !! about these
 
     allocate (modes(size(wanted)))
     call find_floquet_modes(level%grid, plan, level%basis(spectrum%motion%number), &
       spectrum%motion, speed, damping_of(request%damping, level%grid), request%terms, &
-      max(solved_to*request%accuracy/two_pi, least_change), spectrum%mode, wanted, modes)
+      max(solved_to*request%accuracy/two_pi, least_change), spectrum%mode, wanted, modes, &
+      known)
   end subroutine refine_all
 
   !> The modes of another level with the exponents of those wanted, each once.

@@ -282,6 +282,24 @@ class Tables:
         yield [Word("excitation"), Number(growth, ".8e"), Number(row["excitation"]/1000, ".8e"),
                error(abs(row["excitation"]/1000/growth - 1), 1e-9), error(row["error"], 1e-9)]
 
+    def _stability(self, *changes):
+        return self._run(deck("stability", *changes))
+
+    def exponents(self):
+        """The slowest exponents at 20 rad/s, without and with damping."""
+        one_speed = ((r"^SPEED .*", "SPEED 20"), (r"^REPORT +intervals.*", ""))
+        undamped = self._stability(*one_speed).rows("stability")
+        damped = self._stability(*one_speed, (r"^MODES.*", "MODES 3\nDAMPING * time=1e-4")).rows("stability")
+        for one, other in zip(undamped, damped):
+            yield [Word(f"{one['mode']:.0f}"), Number(one["turns"], ".11f"), error(one["error"]), Number(other["turns"], ".11f"),
+                   Number(other["growth"], ".8f"), error(other["error"])]
+
+    def intervals(self):
+        for row in self._stability((r"^SPEED .*", "SPEED 52.5 53.1"), (r"^REPORT +stability.*", "")).rows("intervals"):
+            modes = row["modes"]
+            yield [Word(modes if isinstance(modes, str) else f"{modes:.0f}"), Word(row["kind"]), Number(row["from"], ".5f"), Number(row["to"], ".5f"), error(row["error"]),
+                   Number(row["largest_growth"], ".5e"), error(row["growth_error"])]
+
     def _response(self, accuracy, *changes):
         return self._run(deck("response", (r"^(REPORT +\w+).*", rf"\1 accuracy={accuracy}"), *changes))
 
