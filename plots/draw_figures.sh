@@ -340,6 +340,12 @@ plan_response() {
     [ -f intervals.dat ] && intervals=intervals.dat
     have campbell.dat speed && several campbell.dat speed && add campbell campbell.gp campbell.dat "$critical" "$intervals"
     have validity.dat speed && several validity.dat speed && add validity validity.gp validity.dat
+    have stability.dat speed && add multipliers multipliers.gp stability.dat
+    if [ -f stability.dat ] && have stability.dat speed && several stability.dat speed; then
+        add growth growth.gp stability.dat "$intervals"
+    elif [ -n "$intervals" ] && [ -n "$(ask 'distinct from' intervals.dat)" ]; then
+        add growth growth.gp '' "$intervals"
+    fi
 }
 
 # Modes swing; a linkage turns, and moves as its motor makes it.

@@ -1,0 +1,69 @@
+# Growth of free vibrations in a turn against the speed of the crank: exponents at single speeds, and whole intervals.
+#   gnuplot -c growth.gp stability.dat|'' OUT [intervals.dat [FIGURE [REMARK]]]
+# An interval is drawn as the half ellipse through its edges and its largest growth, which growth follows nearly.
+
+load ARG0[1 : strlen(ARG0) - strlen("growth.gp")]."style.gp"
+table = ARG1; out = ARG2; intervals = argument(3); figure = argument(4); remark = argument(5)
+
+read = table eq "" ? intervals : table
+has_points = table ne ""
+has_intervals = intervals ne "" && answer(intervals, "distinct from") ne "" ? 1 : 0
+eval answer(read, "facts")
+unit_of_speed = has_points ? unit_speed : unit_from
+speed_a = has_points ? low_speed : low_from
+speed_b = has_points ? high_speed : high_to
+high_growth_all = has_points ? larger(high_growth, 0) : 0
+if (has_intervals) {
+    rows = system("awk ".quoted("!/^#/ && NF { print $1, $2, $3, $4, $5, $7 }")." ".quoted(intervals))
+    number = words(rows)/6
+    do for [k=1:number] { high_growth_all = larger(high_growth_all, word(rows, 6*k - 1) + 0.0) }
+    do for [k=1:number] { speed_a = lesser(speed_a, word(rows, 6*k - 5) + 0.0); speed_b = larger(speed_b, word(rows, 6*k - 4) + 0.0) }
+} else { rows = ""; number = 0 }
+if (high_growth_all <= 0) { high_growth_all = 0.01 }
+headline = numbered(figure, "Growth of free vibrations in a turn of the crank")
+note = has_intervals ? "filled: intervals of instability, from edge to edge, as high as their largest growth" : ""
+kinds = "flip fold combination"
+names = "\"flip (ρ = −1)\" \"fold (ρ = 1)\" combination"
+fill(k) = word("#0060A8 #C04000 #007A5A", k)
+seen(k) = (sum [j=1:number] (word(rows, 6*j - 3) eq word(kinds, k) ? 1 : 0)) > 0 ? 1 : 0
+modes = has_points ? int(high_mode) : 0
+name_of(k) = sprintf("mode %d", k)
+shown_kinds = seen(1) + seen(2) + seen(3)
+longest = larger(widest(names, 20), text_width(name_of(10), 20))
+eval page_of_one(shown_kinds + modes, longest, "growth in a turn", "-", 0, high_growth_all)
+eval abscissa(speed_a, speed_b)
+set xlabel abscissa_title("crank speed ω₂", unit_of_speed, speed_a, speed_b)
+set parametric
+set trange [0:pi]
+set samples 121
+set style fill transparent solid 0.45 border
+middle(j) = 0.5*(word(rows, 6*j - 5) + word(rows, 6*j - 4))
+half(j) = 0.5*abs(word(rows, 6*j - 4) - word(rows, 6*j - 5))
+peak(j) = word(rows, 6*j - 1) + 0.0
+kind_of(j) = word(rows, 6*j - 3) eq "flip" ? 1 : word(rows, 6*j - 3) eq "fold" ? 2 : 3
+set table $ARCS
+plot for [j=1:number] middle(j) + half(j)*cos(t), peak(j)*sin(t)
+unset table
+unset parametric
+# Modes that meet stand above the higher intervals that have room.
+last_label = -1e300
+room = 1.0*abs(speed_b - speed_a)/plot_width
+do for [j=1:number] {
+    text = word(rows, 6*j - 2)
+    wide = text_width(text, 15)*room
+    higher = sum [k=1:number] (k != j && peak(k) > peak(j) && abs(middle(k) - middle(j)) < 0.5*wide + half(k))
+    if (peak(j) < 0.12*high_growth_all || middle(j) - 0.5*wide < last_label || higher > 0) { continue }
+    last_label = middle(j) + 0.55*wide
+    eval sprintf("set label %d '%s' at first %.12g, %.12g center offset 0, 0.6 noenhanced font ',15' tc rgb '%s'", \
+        1000 + j, text, middle(j), peak(j), fill(kind_of(j)))
+}
+of_mode(k) = has_points ? rows_if(table, is_at("mode", sprintf("%d", k))) : "< echo NaN"
+mark(k) = int(word("7 9 5 13 11 15 6 8", 1 + (k - 1)%8))
+col_growth = exists("col_growth") ? col_growth : 1
+col_speed = exists("col_speed") ? col_speed : 1
+plot for [j=1:number] $ARCS index j - 1 using 1:2 with filledcurves y1=0 lw 1.5 fc rgb fill(kind_of(j)) notitle, \
+    for [k=1:modes] of_mode(k) using (column(col_speed)):(column(col_growth) > 1e-9 ? column(col_growth) : NaN) \
+        with points pt mark(k) ps 1.0 lc rgb "#303030" notitle, \
+    for [k=1:3] for [j=1:seen(k)] keyentry with boxes fs transparent solid 0.45 border fc rgb fill(k) title word(names, k), \
+    for [k=1:modes] keyentry with points pt mark(k) ps 1.4 lc rgb "#303030" title name_of(k)
+eval close
