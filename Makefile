@@ -21,7 +21,7 @@ unit_tests = $(if $(PFUNIT_DIR),pfunit,funit)/unit_tests
 
 ifndef kind
 # ---------------------------------------------------------------------------------------------- what a person types
-.PHONY: all debug quad thesis run figures animate check documents bench bench-pictures stress stress-responses accuracies references fuzz memory golden \
+.PHONY: all debug quad thesis run figures animate check documents bench bench-pictures stress stress-responses stress-stability accuracies references fuzz memory golden \
         install setup clean help
 
 all: setup
@@ -90,6 +90,11 @@ bench: all
 bench-pictures:
 	@test -f outputs/bench/ratios.dat || { echo "make: nothing was timed yet; say: make bench" >&2; exit 2; }
 	cp outputs/bench/*.png docs/pictures/
+
+SPEEDS ?= 50
+stress-stability: all
+	$(stage) kind=release build/release/stress/stability
+	build/release/stress/stability $(if $(filter file,$(origin CASES)),20,$(CASES)) $(SPEEDS) $(shell nproc)
 
 # The same SEED makes the same decks.
 FUZZ ?= 10000
@@ -167,6 +172,7 @@ help:
 	@echo "make memory             every deck of inputs/ under the sanitizers of addresses, leaks and undefined behaviour"
 	@echo "make stress             estimated errors against true ones in extreme cases, with figures, in outputs/stress/"
 	@echo "make stress-responses   the same of the elastic response of random mechanisms; CASES=210 FIRST=1 for fewer or others"
+	@echo "make stress-stability   verdicts on random mechanisms with several numbers of samples; CASES=20 SPEEDS=50"
 	@echo "make accuracies         random decks at several accuracies, each against the finest; FREQUENCIES=5000 SEED=7"
 	@echo "make references         regenerate the quadruple-precision values of make stress (hours)"
 	@echo "make quad               build build/quad/flexmech, the program in quadruple precision (slow)"
@@ -271,6 +277,15 @@ $(build)/bench/bench: $(bench_sources) $(modules)
 stress_sources = $(patsubst %,tests/stress/responses/%.f90,random_numbers random_mechanisms stress_responses)
 
 $(build)/stress/responses: $(stress_sources) $(modules)
+	@echo "link $@"
+	mkdir -p $(@D)
+	$(compile) -ffree-line-length-132 $(warnings_$(kind)) -J$(@D) -I$(build) $^ $(libraries) -o $@
+
+# ------------------------------------------------------------------------------ the program that tests verdicts on stability
+verdict_sources = tests/stress/responses/random_numbers.f90 tests/stress/responses/random_mechanisms.f90 \
+                  tests/stress/stability/stress_stability.f90
+
+$(build)/stress/stability: $(verdict_sources) $(modules)
 	@echo "link $@"
 	mkdir -p $(@D)
 	$(compile) -ffree-line-length-132 $(warnings_$(kind)) -J$(@D) -I$(build) $^ $(libraries) -o $@

@@ -109,9 +109,11 @@ contains
     type(level_slot_t), allocatable :: levels(:)
     type(choice_t) :: choice(size(request%speed))
     integer, allocatable :: pending(:)
-    integer :: first, i, k, n, order
+    integer :: first, i, k, most_samples, n, order
 
     n = size(request%speed)
+    most_samples = sample_numbers(size(sample_numbers))
+    if (request%samples > 0) most_samples = request%samples
     allocate (found%at_speed(n), levels(0))
     order = first_order(request%accuracy)
     call need_level(structure, order, sample_numbers(1), .false., store, levels, first, error)
@@ -120,11 +122,14 @@ contains
       choice(k)%order = order
       choice(k)%at = first_samples(levels(first)%level%grid, request%modes, request%speed(k), &
         request%accuracy)
+      if (request%samples > 0 .and. choice(k)%at > 0) then
+        if (samples_a_period*vibrations_of(levels(first)%level%grid, request%modes, &
+          request%speed(k)) > request%samples) choice(k)%at = 0
+      end if
       if (choice(k)%at > 0) cycle
       choice(k)%pending = .false.
       call set_error(found%at_speed(k)%error, error_of_numerics, "the crank turns too slowly: "// &
-        "more vibrations a turn than "//to_string(sample_numbers(size(sample_numbers)))// &
-        " samples resolve")
+        "more vibrations a turn than "//to_string(most_samples)//" samples resolve")
     end do
     do
       pending = pack([(k, k=1, n)], choice%pending)
@@ -164,17 +169,29 @@ contains
     real(wp), intent(in) :: speed, accuracy
     integer :: at !! of `sample_numbers`; 0: too many
 
-    real(wp) :: square(grid%unknowns), vibrations, wanted
+    real(wp) :: vibrations, wanted
 
-    square = own_squares(grid)
-    square = square(ascending_order(-square))
-    vibrations = 1.0_wp/max(abs(speed)*sqrt(square(min(modes, size(square)))), tiny(1.0_wp))
+    vibrations = vibrations_of(grid, modes, speed)
     wanted = (64.0_wp + 10.0_wp*min(vibrations, 1.0e6_wp))*(0.4_wp - 0.075_wp*log10(accuracy))
     at = 0
     if (samples_a_period*vibrations > sample_numbers(size(sample_numbers))) return
     at = findloc(sample_numbers >= min(nint(wanted), sample_numbers(size(sample_numbers))), &
       .true., dim=1)
   end function first_samples
+
+  !> Vibrations a turn of the highest mode wanted.
+  pure function vibrations_of(grid, modes, speed) result(vibrations)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: modes
+    real(wp), intent(in) :: speed
+    real(wp) :: vibrations
+
+    real(wp) :: square(grid%unknowns)
+
+    square = own_squares(grid)
+    square = square(ascending_order(-square))
+    vibrations = 1.0_wp/max(abs(speed)*sqrt(square(min(modes, size(square)))), tiny(1.0_wp))
+  end function vibrations_of
 
   !> Slow coordinates for so many modes.
   pure function slow_number(grid, modes) result(number)
@@ -195,11 +212,13 @@ contains
     type(choice_t), intent(inout) :: choice
     type(error_t), allocatable, intent(out) :: error
 
-    integer :: i
+    integer :: i, samples
 
+    samples = sample_numbers(choice%at)
+    if (request%samples > 0) samples = request%samples
     do i = 1, 2
-      call need_level(structure, choice%order + (i - 1)*orders_above, &
-        (i + 1)*sample_numbers(choice%at)/2, speed < 0.0_wp, store, levels, choice%level(i), error)
+      call need_level(structure, choice%order + (i - 1)*orders_above, (i + 1)*samples/2, &
+        speed < 0.0_wp, store, levels, choice%level(i), error)
       if (allocated(error)) return
       associate (level => levels(choice%level(i))%level)
         call need_basis(slow_number(level%grid, request%modes), request%damping, level, error, &
@@ -449,6 +468,7 @@ contains
       choice%pending = choice%round <= most_rounds .and. choice%work < most_work .and. &
         choice%at < size(sample_numbers) .and. choice%order < most_order
       if (.not. choice%pending) return
+      choice%pending = choice%pending .and. request%samples == 0
       choice%at = choice%at + 1
       choice%order = choice%order + 2
     end subroutine settle

@@ -20,6 +20,9 @@ module stability_types
     real(wp), allocatable :: speed(:)               !! ω2, none zero [rad/s]
     integer :: modes = 3                            !! vibrations wanted, from the slowest
     real(wp) :: accuracy = 1.0e-8_wp                !! of growth [nepers a turn]
+    integer :: samples = 0                          !! over the turn, of the first solution; the
+                                                    !! second has half as many more. 0: as many as
+                                                    !! the accuracy needs
     real(wp) :: least_growth = 1.0e-4_wp            !! of intervals that are wanted [nepers a turn]
     type(elastic_terms_t) :: terms
     type(link_damping_t), allocatable :: damping(:) !! (bodies)
