@@ -291,8 +291,8 @@ class Tables:
         undamped = self._stability(*one_speed).rows("stability")
         damped = self._stability(*one_speed, (r"^MODES.*", "MODES 3\nDAMPING * time=1e-4")).rows("stability")
         for one, other in zip(undamped, damped):
-            yield [Word(f"{one['mode']:.0f}"), Number(one["turns"], ".11f"), error(one["error"]), Number(other["turns"], ".11f"),
-                   Number(other["growth"], ".8f"), error(other["error"])]
+            yield [Word(f"{one['mode']:.0f}"), Number(one["turns"], ".11f"), error(one["error"], 1e-8), Number(other["turns"], ".11f"),
+                   Number(other["growth"], ".8f"), error(other["error"], 1e-8)]
 
     def intervals(self):
         for row in self._stability((r"^SPEED .*", "SPEED 52.5 53.1"), (r"^REPORT +stability.*", "")).rows("intervals"):
