@@ -197,7 +197,13 @@ contains
     type(intervals_t), intent(inout) :: found
 
     type(gap_t) :: gap
+    integer :: i
 
+    do i = 1, size(found%gap)
+      ! Several meetings there.
+      if (found%gap(i)%error%text == reason .and. abs(found%gap(i)%from - from) <= 0.0_wp .and. &
+        abs(found%gap(i)%to - to) <= 0.0_wp) return
+    end do
     gap%from = from
     gap%to = to
     gap%error%kind = error_of_numerics
