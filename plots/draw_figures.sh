@@ -343,7 +343,7 @@ plan_response() {
     have stability.dat speed && add multipliers multipliers.gp stability.dat
     if [ -f stability.dat ] && have stability.dat speed && several stability.dat speed; then
         add growth growth.gp stability.dat "$intervals"
-    elif [ -n "$intervals" ] && [ -n "$(ask 'distinct from' intervals.dat)" ]; then
+    elif [ -n "$intervals" ] && ask facts intervals.dat | grep -q col_largest_growth && have intervals.dat from; then
         add growth growth.gp '' "$intervals"
     fi
 }

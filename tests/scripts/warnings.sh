@@ -67,12 +67,12 @@ mass_at_ground() {
 # Cards that serve the elastic response, without one of its reports; cards that it does not use.
 idle_response() {
   beam_deck "CRANK 0" "DAMPING * time=1e-4" "GAUGE g crank at=5" "EFFECTS response without=axial" "REPORT frequencies" >"$scratch/idle.deck"
-  for text in "DAMPING is used by REPORT response" "GAUGE is used by REPORT strains only" "EFFECTS response is used by REPORT response"; do
+  for text in "DAMPING is used by REPORT response" "GAUGE is used by REPORT strains and transient only" "EFFECTS response is used by REPORT response"; do
     warned idle_again "$text" <"$scratch/idle.deck" || return 1
   done
   beam_deck "CRANK 0" "SPEED 20" "REPORT peaks" >"$scratch/other.deck"
-  warned other_lumped "INERTIA lumped does not apply to REPORT response" <"$scratch/other.deck" &&
-    warned other_mesh "'elements=' does not apply to REPORT response" <"$scratch/other.deck"
+  warned other_lumped "INERTIA lumped does not apply to REPORT peaks" <"$scratch/other.deck" &&
+    warned other_mesh "'elements=' does not apply to REPORT peaks" <"$scratch/other.deck"
 }
 
 divergence() {
