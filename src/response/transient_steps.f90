@@ -293,6 +293,7 @@ contains
     border = at_stages([(i, i=1, grid%border)])
     last = left(border, border)
     rest = right(border, :)
+    info = 0
     do b = 1, size(parts)
       associate (part => parts(b), link => grid%model%links(b))
         own = [(i, i=grid%first(b), grid%first(b) + link%modes - 1), &
