@@ -159,7 +159,7 @@ module report_table
       table_kind_t("validity", "speed:speed link:name deflection,load,quadratic:- "// &
       "out_of_plane:Hz distance,error:-"), no_table]), &
     report_kind_t(name="stability", help="whether vibrations of the running linkage grow", &
-      pattern="REPORT stability [accuracy=]", default="accuracy=1e-8", studies="stability", &
+      pattern="REPORT stability [accuracy=]", default="accuracy=1e-6", studies="stability", &
       response=.true., tables=[ &
       table_kind_t("stability", "speed:speed mode:# turns,growth:- frequency:Hz signature:# "// &
       "error:- verdict:name"), no_table]), &

@@ -448,27 +448,30 @@ contains
     real(wp), intent(in) :: y(:, :)           !! (samples, unknowns)
     real(wp), intent(inout) :: force(:, :)    !! (samples, unknowns)
 
-    real(wp), allocatable :: slope(:, :), bent(:, :), total(:, :)
-    integer :: b, i, j
+    real(wp), allocatable :: slope(:, :), pulled(:, :), stacked(:, :), total(:, :)
+    integer :: b, i, j, n
 
     do b = 1, size(grid%integrals)
       associate (link => grid%model%links(b), first => grid%first(b))
         slope = slopes_of(grid, b, y)
-        allocate (total(size(y, 1), size(slope, 2)))
-        total = 0.0_wp
+        n = size(slope, 2)
+        ! One product of large matrices takes less time than several of small ones.
+        allocate (pulled(size(y, 1), n*size(link%geometric, 3)), &
+          stacked(n*size(link%geometric, 3), n))
         do j = 1, size(link%geometric, 3)
-          bent = matmul(slope, link%geometric(:, :, j))
-          do i = 1, size(slope, 2)
-            total(:, i) = total(:, i) + force_of(:, j, b)*bent(:, i)
+          stacked((j - 1)*n + 1:j*n, :) = link%geometric(:, :, j)
+          do i = 1, n
+            pulled(:, (j - 1)*n + i) = force_of(:, j, b)*slope(:, i)
           end do
         end do
+        total = matmul(pulled, stacked)
         do j = 1, grid%border
           force(:, j) = force(:, j) + grid%turn(:, j, b)*total(:, 1)
           if (link%bends) force(:, j) = force(:, j) + grid%chord(:, 3, j, b)*total(:, 2)
         end do
         force(:, first:first + link%modes - 1) = force(:, first:first + link%modes - 1) + &
           total(:, 3:)
-        deallocate (slope, total)
+        deallocate (slope, pulled, stacked, total)
       end associate
     end do
   end subroutine geometric_force

@@ -357,8 +357,8 @@ contains
         end if
       end if
       if (present(known)) call add_vector(known%motion, added)
-      if (space%number < 2) call add_vector(expanded(basis, motion, slow(wanted), .false., 0), &
-        added)
+      if (space%number < 2 .and. .not. present(known)) call add_vector(expanded(basis, motion, &
+        slow(wanted), .false., 0), added)
       if (present(pair) .and. space%number < 2) call add_vector(expanded(basis, motion, &
         slow(pair%mode(2)), pair%conjugate, pair%waves), added)
       do i = 1, size(slow)

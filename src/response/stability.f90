@@ -43,9 +43,11 @@ module stability
   !> Stages of the collocation of slow motions.
   integer, parameter :: stages = 4
 
-  !> Exponents change by no more than this share of the accuracy in the last round; errors are to
-  !! hold that many of these changes.
-  real(wp), parameter :: solved_to = 1.0e-2_wp, least_change = 1.0e-13_wp, many = 10.0_wp
+  !> Exponents of both solutions change by no more than these shares of the accuracy in the last
+  !! round. Errors are to hold that many changes of the second; what the first lacks is in the
+  !! difference of both.
+  real(wp), parameter :: solved_to(2) = [1.0e-1_wp, 3.0e-2_wp], least_change = 1.0e-13_wp, many = &
+    10.0_wp
 
   !> No error is stated smaller than this share of the accuracy: two solutions may agree by chance.
   real(wp), parameter :: least_share = 1.0e-2_wp
@@ -159,7 +161,7 @@ contains
     real(wp), intent(in) :: accuracy
     integer :: order
 
-    order = max(8, min(8 + 2*ceiling(-0.25_wp*log10(accuracy)), 16))
+    order = max(8, min(4 + 2*ceiling(-0.5_wp*log10(accuracy)), 16))
   end function first_order
 
   !> Samples to begin with, from the vibrations a turn of the highest mode wanted.
@@ -276,13 +278,13 @@ contains
       wanted = wanted_modes(spectrum, request%modes)
       call find_means(level, spectrum%motion%number, speed, spectrum, wanted, mean, here%error)
       if (allocated(here%error)) exit attempt
-      call refine_all(request, level, plan, speed, spectrum, wanted, modes)
+      call refine_all(request, solved_to(1), level, plan, speed, spectrum, wanted, modes)
       call find_spectrum(above, above_plan, slow, speed, above_spectrum, here%error)
       if (allocated(here%error)) exit attempt
       above_wanted = matched(spectrum, wanted, above_spectrum)
       call transfer
-      call refine_all(request, above, above_plan, speed, above_spectrum, above_wanted, &
-        above_modes, known)
+      call refine_all(request, solved_to(2), above, above_plan, speed, above_spectrum, &
+        above_wanted, above_modes, known)
       here%order = above%order
       here%samples = above%grid%samples
       here%slow = slow
@@ -318,7 +320,7 @@ contains
 
     !> Values, errors and verdicts.
     subroutine judge
-      real(wp) :: left(2), change
+      real(wp) :: change
       integer :: i, j
 
       allocate (here%exponent(size(wanted)))
@@ -330,7 +332,6 @@ contains
           ! On the circle, where multipliers stay without damping.
           if (.not. has_damping() .and. abs(exponent%growth) <= least_share*request%accuracy) &
             exponent%growth = 0.0_wp
-          left = [mode%change, better%change]
           change = abs(cmplx(real(better%exponent - mode%exponent), exponent%turns - &
             abs(aimag(mode%exponent)), wp))
           do j = 1, size(wanted)
@@ -338,7 +339,8 @@ contains
             ! Two approximations that lead to one mode: another is missed.
             if (abs(above_modes(j)%exponent - better%exponent) <= as_good_as) change = 1.0_wp
           end do
-          exponent%error = max(two_pi*(change + many*sum(left)), least_share*request%accuracy)
+          exponent%error = max(two_pi*(change + mode%change + many*better%change), &
+            least_share*request%accuracy)
           exponent%signature = 0
           if (abs(exponent%growth) <= exponent%error .or. has_damping()) &
             exponent%signature = merge(1, -1, better%action > 0.0_wp)
@@ -498,8 +500,9 @@ contains
   end function wanted_modes
 
   !> Modes of the whole equation.
-  subroutine refine_all(request, level, plan, speed, spectrum, wanted, modes, known)
+  subroutine refine_all(request, share, level, plan, speed, spectrum, wanted, modes, known)
     type(stability_request_t), intent(in) :: request
+    real(wp), intent(in) :: share !! of the accuracy, of the last change
     type(level_t), intent(in) :: level
     type(fourier_plan_t), intent(in) :: plan
     real(wp), intent(in) :: speed
@@ -511,7 +514,7 @@ contains
     allocate (modes(size(wanted)))
     call find_floquet_modes(level%grid, plan, level%basis(spectrum%motion%number), &
       spectrum%motion, speed, damping_of(request%damping, level%grid), request%terms, &
-      max(solved_to*request%accuracy/two_pi, least_change), spectrum%mode, wanted, modes, &
+      max(share*request%accuracy/two_pi, least_change), spectrum%mode, wanted, modes, &
       known)
   end subroutine refine_all
 

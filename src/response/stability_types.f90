@@ -19,7 +19,7 @@ module stability_types
   type :: stability_request_t
     real(wp), allocatable :: speed(:)               !! ω2, none zero [rad/s]
     integer :: modes = 3                            !! vibrations wanted, from the slowest
-    real(wp) :: accuracy = 1.0e-8_wp                !! of growth [nepers a turn]
+    real(wp) :: accuracy = 1.0e-6_wp                !! of growth [nepers a turn]
     integer :: samples = 0                          !! over the turn, of the first solution; the
                                                     !! second has half as many more. 0: as many as
                                                     !! the accuracy needs

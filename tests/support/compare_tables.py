@@ -47,6 +47,10 @@ LEFT_BY_ITERATIONS = 1e-3
 # compared to this share of the accuracy asked for, errors absolutely. Frozen frequencies are as all others.
 OF_EXPONENTS = ("stability", "intervals", "campbell", "critical")
 EXPONENTS_SHARE = 0.1
+# Where several multipliers are near each other rounding decides by which steps the edges of an interval are found: what a row gives
+# holds within its errors, and these agree to a factor.
+OWN_ERROR = {"intervals": {"from": "error", "to": "error", "at": "error", "largest_growth": "growth_error"}}
+ERROR_FACTOR = 10.0
 EXACT = r"speed|mode|line|signature|least|mean|greatest|kind|modes|verdict"
 
 
@@ -92,15 +96,28 @@ def difference(kept_path, new_path):
     if len(kept_lines) != len(new_lines):
         return f"{len(kept_lines) - 1} lines kept, {len(new_lines) - 1} now"
 
-    asked = next((float(found[1]) for line in kept_lines if (found := re.match(r"# .*accuracy asked for: (\S+)$", line))), 0.0)
     table = os.path.splitext(os.path.basename(kept_path))[0]
+    own = OWN_ERROR.get(table, {})
+    for i, (old, line) in enumerate(zip(kept_lines, new_lines), 1):
+        if old.startswith("#") or not old.strip():
+            continue
+        old_cells, cells = (dict(zip(names, text.split())) for text in (old, line))
+        for name, error in own.items():
+            if abs(float(old_cells[name]) - float(cells[name])) > max(float(old_cells[error]), float(cells[error])):
+                return f"line {i}, {name}: kept {old_cells[name]}, now {cells[name]}, farther apart than their errors"
+
+    asked = next((float(found[1]) for line in kept_lines if (found := re.match(r"# .*accuracy asked for: (\S+)$", line))), 0.0)
     command = ["numdiff", "-V"]
     for field, name in enumerate(names, 1):
         relative, absolute = next((r, a) for pattern, r, a in TOLERANCES if re.fullmatch(pattern, name))
         rounding = next((a for pattern, a in ROUNDING.items() if re.fullmatch(pattern, name)), 0.0)
         if name == "error":
             rounding = max(rounding, LEFT_BY_ITERATIONS * asked)
-        if table in OF_EXPONENTS and not re.fullmatch(EXACT, name) or (table, name) == ("critical", "speed"):
+        if name in own:
+            relative = 1.0
+        elif name in own.values():
+            relative = ERROR_FACTOR - 1.0
+        elif table in OF_EXPONENTS and not re.fullmatch(EXACT, name) or (table, name) == ("critical", "speed"):
             relative, rounding = EXPONENTS_SHARE * asked, EXPONENTS_SHARE * asked if "error" in name else rounding
         command += ["-r", f"{relative:.0e}:{field}", "-a", f"{max(rounding, absolute * largest.get(name, 0.0)):.3e}:{field}"]
     run = subprocess.run(command + [kept_path, new_path], capture_output=True, text=True, check=False)

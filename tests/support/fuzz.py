@@ -48,7 +48,7 @@ RUN_TIME = re.compile(r"Fortran runtime|Backtrace|SIG[A-Z]{3}|At line \d+ of fil
 NOT_A_NUMBER = re.compile(r"\b(?:NaN|[-+]?Inf(?:inity)?)\b|\*{4,}|is not a number$")
 REAL = re.compile(r"-?\d\.\d+E[-+]\d{3}$")
 PLACE = re.compile(r"(?P<deck>.*?):(?P<line>\d+):(?P<column>\d+): (?:error|warning|note): .")
-WORDS = {"link", "event", "point", "gauge", "linkage", "quantity"}  # columns of words; and `branch`, but for branches.dat
+WORDS = {"link", "event", "point", "gauge", "linkage", "quantity", "kind", "modes", "verdict"}  # columns of words; and `branch`, but for branches.dat
 GAPS = {"quadratic", "out_of_plane"}  # of validity.dat: - where nothing is estimated
 OTHERS = {"echo.deck", "run.log", "summary.json"}
 # What a deck may include.
@@ -120,7 +120,7 @@ def fault_of_table(name, text):
                 continue
             if column in GAPS and cell == "-":
                 continue
-            if not REAL.match(cell) and not re.match(r"\d+$", cell):
+            if not REAL.match(cell) and not re.match(r"-?\d+$", cell):
                 return f"{name}: {column} is {cell}"
     return None
 
@@ -166,8 +166,8 @@ def fault_of_run(words, run, deck):
         return f"a runtime error: {stderr[-400:]}"
     if run.returncode == 2:
         return fault_of_message(words, stderr)
-    # A response of a whole turn fails at a speed, without a crank angle.
-    if run.returncode == 1 and not re.search(r"^d\.deck: error: .*(crank \S+ deg|response, speed \S+ (rad/s|rpm)): .", stderr, re.MULTILINE):
+    # A response of a whole turn fails at a speed, without a crank angle; intervals of stability in a range of speeds.
+    if run.returncode == 1 and not re.search(r"^d\.deck: error: .*(crank \S+ deg|, speeds? (\S+ to )?\S+ (rad/s|rpm)): .", stderr, re.MULTILINE):
         return f"status 1, but no failure is reported: {stderr[-400:]}"
     return None
 

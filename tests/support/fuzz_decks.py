@@ -26,10 +26,10 @@ PIECES = [b"\0", b"\t", b"\r", b"\n", b"\r\n", b"&", b" & \n", b"!", b"#", b"=",
           b"x"*5000, b"\n"*50, b"\nINCLUDE part.deck\n", b"\nINCLUDE d.deck\n", b"\nSET x 1\n", b"\nVARY x 1 2\n", b"$half", b"&\n"*20, b"%s%n", b"{", b"()", b"END\n", b"NaN", b"*****"]
 # Reports that a sound deck with beams asks for, and those that need a card of their own or keys; all others fit any deck.
 BEAM_REPORTS = ["kinematics", "inertia", "mesh", "frequencies", "shapes", "branches"]
-OWN_CARD_REPORTS = ["motion"]
-# Those of a crank that turns at constant speed.
+OWN_CARD_REPORTS = ["motion", "transient"]
+# Those of a crank that turns at constant speed, and of a range of speeds.
 RESPONSE_REPORTS = ["response", "strains", "peaks", "drive", "validity", "stability"]
-RANGE_REPORTS = ["campbell"]
+RANGE_REPORTS = ["campbell", "intervals"]
 LENGTHS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "in": 0.0254, "ft": 0.3048}
 MASSES = {"kg": 1.0, "g": 1e-3, "tonne": 1e3, "lbm": 0.45359237, "slug": 14.593903, "slinch": 175.126835}
 TIMES = {"s": 1.0, "ms": 1e-3}
@@ -199,7 +199,16 @@ def responses(dice, cards, names, lengths, own_speed):
     if dice.chance(0.3):
         cards.append("EFFECTS response without=" + dice.choice(["coriolis", "centripetal,tangential", "axial,quadratic"]))
     more = dice.choice(["", "", " accuracy=1e-4", " accuracy=1e-9"])
-    cards += [f"REPORT {kind}{more}" for kind in [kind for kind in RESPONSE_REPORTS if dice.chance(0.5)] or ["response"]]
+    kinds = [kind for kind in RESPONSE_REPORTS if dice.chance(0.5)] or ["response"]
+    if dice.chance(0.1):
+        kinds, more = [dice.choice(RANGE_REPORTS)], dice.choice(["", " accuracy=1e-3"])
+        cards[:] = [card for card in cards if not card.startswith("SPEED")]
+        cards.append(f"SPEED {speed:.4g} {dice.choice([1.05, -1.0, 1.0])*speed:.4g} rad/s")
+    elif dice.chance(0.1):
+        kinds = []
+        start = dice.choice(["", "", " start=steady", " perturb=1,0.001"])
+        cards.append(f"REPORT transient turns={dice.choice([0.01, 0.1, 1.5])} crank={dice.choice([0, 90])}{start}")
+    cards += [f"REPORT {kind}{more}" for kind in kinds]
 
 
 def sound_deck(dice):

@@ -18,9 +18,9 @@ module report_cards
   public :: report_t, read_report
 
   !> `accuracy=` of reports on the elastic response, relative to the largest value of a quantity
-  !! over the turn, and on stability, of exponents.
+  !! over the turn; on stability, of exponents; of intervals, relative to the speed.
   real(wp), parameter :: default_response_accuracy = 1.0e-6_wp, &
-    default_stability_accuracy = 1.0e-8_wp, default_intervals_accuracy = 1.0e-5_wp, &
+    default_intervals_accuracy = 1.0e-5_wp, &
     finest_response_accuracy = 1.0e-12_wp*fineness, &
     coarsest_response_accuracy = 1.0e-2_wp
 
@@ -116,7 +116,6 @@ contains
 
     call read_entry_accuracy(card, finest_response_accuracy, coarsest_response_accuracy, system, &
       diagnostics, accuracy, fine)
-    if (report%kind%studies == "stability") report%accuracy = default_stability_accuracy
     if (report%kind%studies == "intervals") report%accuracy = default_intervals_accuracy
     if (fine) report%accuracy = accuracy
   end subroutine read_response

@@ -3,7 +3,7 @@
 !!
 !!     stability CASES SPEEDS THREADS
 !!
-!! Prints every contradiction and the share of undecided verdicts. Exit status 1 if there is a contradiction.
+!! Prints every mechanism and contradiction, and the share of undecided verdicts. Exit status 1 if there is a contradiction.
 program stress_stability
   use, intrinsic :: iso_fortran_env, only: output_unit
   use errors, only: error_t
@@ -96,6 +96,8 @@ contains
       end do
       call compare(number, case, request%speed(k), k, found)
     end do
+    print "(a, i0, 3a, 3(i0, a))", "mechanism ", number, " (", trim(family_names(case%family)), "): so far ", verdicts, " verdicts, ", &
+      undecided_ones, " undecided, ", contradictions, " contradictions"
     flush (output_unit)
   end subroutine try
 
