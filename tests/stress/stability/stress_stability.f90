@@ -96,8 +96,8 @@ contains
       end do
       call compare(number, case, request%speed(k), k, found)
     end do
-    print "(a, i0, 3a, 3(i0, a))", "mechanism ", number, " (", trim(family_names(case%family)), "): so far ", verdicts, " verdicts, ", &
-      undecided_ones, " undecided, ", contradictions, " contradictions"
+    print "(a, i0, 3a, 3(i0, a))", "mechanism ", number, " (", trim(family_names(case%family)), "): so far ", &
+      verdicts, " verdicts, ", undecided_ones, " undecided, ", contradictions, " contradictions"
     flush (output_unit)
   end subroutine try
 
