@@ -94,7 +94,7 @@ bench-pictures:
 SPEEDS ?= 50
 stress-stability: all
 	$(stage) kind=release build/release/stress/stability
-	build/release/stress/stability $(if $(filter file,$(origin CASES)),20,$(CASES)) $(SPEEDS) $(shell nproc)
+	build/release/stress/stability $(if $(filter file,$(origin CASES)),20,$(CASES)) $(SPEEDS) $(shell nproc) $(FIRST)
 
 # The same SEED makes the same decks.
 FUZZ ?= 10000

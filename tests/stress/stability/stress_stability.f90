@@ -1,7 +1,7 @@
 !> The stress test of verdicts on stability: random mechanisms, with and without damping, at many speeds, each with several numbers of
 !! samples over the turn. No mode may be stable with one of them and unstable with another; undecided is allowed.
 !!
-!!     stability CASES SPEEDS THREADS
+!!     stability CASES SPEEDS THREADS [FIRST]
 !!
 !! Prints every mechanism and contradiction, and the share of undecided verdicts. Exit status 1 if there is a contradiction.
 program stress_stability
@@ -20,15 +20,15 @@ program stress_stability
   !> Vibrations of the slowest link in a turn, of the fastest and of the slowest speed.
   real(wp), parameter :: vibrations(2) = [2.0_wp, 12.0_wp]
 
-  integer :: cases, speeds, threads, number, contradictions, verdicts, undecided_ones, failed, unstable_ones
+  integer :: cases, speeds, threads, first, number, contradictions, verdicts, undecided_ones, failed, unstable_ones
 
-  call read_arguments(cases, speeds, threads)
+  call read_arguments(cases, speeds, threads, first)
   contradictions = 0
   verdicts = 0
   undecided_ones = 0
   unstable_ones = 0
   failed = 0
-  do number = 1, cases
+  do number = first, first + cases - 1
     call try(number)
   end do
   print "(i0, a, i0, a, i0, a)", cases, " mechanisms, ", cases*speeds, " speeds, ", size(samples), " numbers of samples"
@@ -40,20 +40,22 @@ program stress_stability
 
 contains
 
-  subroutine read_arguments(cases, speeds, threads)
-    integer, intent(out) :: cases, speeds, threads
+  subroutine read_arguments(cases, speeds, threads, first)
+    integer, intent(out) :: cases, speeds, threads, first
 
     character(len=32) :: word
-    integer :: number(3), i, status
+    integer :: number(4), i, status
 
-    do i = 1, 3
+    number(4) = 1
+    do i = 1, max(3, min(command_argument_count(), 4))
       call get_command_argument(i, word)
       read (word, *, iostat=status) number(i)
-      if (status /= 0 .or. number(i) < 1) error stop "usage: stability CASES SPEEDS THREADS"
+      if (status /= 0 .or. number(i) < 1) error stop "usage: stability CASES SPEEDS THREADS [FIRST]"
     end do
     cases = number(1)
     speeds = number(2)
     threads = number(3)
+    first = number(4)
   end subroutine read_arguments
 
   !> One mechanism; every second is damped.
