@@ -270,7 +270,7 @@ contains
 
     type(space_t) :: space
     complex(wp), allocatable :: values(:), vectors(:, :), weights(:), partner_weights(:)
-    complex(wp) :: fixed, before, followed, followed_partner, second, square, square_before
+    complex(wp) :: fixed, before, expected, followed, followed_partner, second, square, square_before
     real(wp) :: correction(grid%samples, 2*grid%unknowns)
     integer :: number, partner, round
     logical :: grew, is_damped
@@ -280,8 +280,8 @@ contains
     mode%change = huge(1.0_wp)
     if (present(pair)) pair%change = huge(1.0_wp)
     fixed = mode%exponent + shift
-    followed = mode%exponent
-    if (present(known)) followed = known%exponent
+    expected = mode%exponent
+    if (present(known)) expected = known%exponent
     square = 0.0_wp
     call start
     do round = 1, most_rounds
@@ -292,14 +292,17 @@ contains
         call find_pencil_modes(space%form(:space%number, :space%number, :), fixed, values, vectors)
       end if
       if (size(values) == 0) return
-      number = minloc(abs(values - followed), dim=1)
-      if (present(pair)) number = minloc(distance(values, vectors, slow(wanted)%exponent), dim=1)
+      if (present(pair)) then
+        number = minloc(distance(values, vectors, slow(wanted)%exponent, 2), dim=1)
+      else
+        number = minloc(distance(values, vectors, expected, 1), dim=1)
+      end if
       followed = values(number)
       weights = vectors(:, number)
       partner = number
       if (.not. is_damped .and. abs(real(followed)) > off_circle) &
         partner = minloc(abs(values + conjg(followed)), dim=1)
-      if (present(pair)) partner = minloc(distance(values, vectors, second), dim=1, &
+      if (present(pair)) partner = minloc(distance(values, vectors, second, 2), dim=1, &
         mask=abs(values - values(number)) > as_good_as)
       if (partner == 0) return
       followed_partner = values(partner)
@@ -386,11 +389,12 @@ contains
         waves == pair%waves
     end function is_second
 
-    !> How far modes are from one of a pair: by their exponents, and by the part of their motions
-    !! that is of the two with which the space began. Values of the projection that are of no mode
-    !! have no such part, and where several modes meet all have some.
-    pure function distance(values, vectors, expected)
+    !> How far modes are from the one that is meant, or one of a pair: by their exponents, and by the
+    !! part of their motions that is of those with which the space began. Values of the projection
+    !! that are of no mode have no such part, and where several modes meet all have some.
+    pure function distance(values, vectors, expected, meant)
       complex(wp), intent(in) :: values(:), vectors(:, :), expected
+      integer, intent(in) :: meant !! motions with which the space began
       real(wp) :: distance(size(values))
 
       integer :: k, n
@@ -398,7 +402,7 @@ contains
       n = size(space%near, 1)
       do k = 1, size(values)
         distance(k) = abs((values(k) - expected)/shift)**2 + (1.0_wp - &
-          sum(abs(matmul(conjg(transpose(space%near(:, :2))), vectors(:n, k)))**2))**2
+          sum(abs(matmul(conjg(transpose(space%near(:, :meant))), vectors(:n, k)))**2))**2
       end do
     end function distance
 

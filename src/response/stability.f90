@@ -320,7 +320,7 @@ contains
 
     !> Values, errors and verdicts.
     subroutine judge
-      real(wp) :: change
+      real(wp) :: change, same
       integer :: i, j
 
       allocate (here%exponent(size(wanted)))
@@ -336,16 +336,25 @@ contains
             abs(aimag(mode%exponent)), wp))
           do j = 1, size(wanted)
             if (j == i) cycle
-            ! Two approximations that lead to one mode: another is missed.
-            if (abs(above_modes(j)%exponent - better%exponent) <= as_good_as) change = 1.0_wp
+            ! Two approximations that lead to one mode or to its conjugate: another is missed.
+            associate (other => above_modes(j))
+              if (min(abs(other%exponent - better%exponent), abs(conjg(other%exponent) - &
+                better%exponent)) <= as_good_as + many*(better%change + other%change)) &
+                change = 1.0_wp
+            end associate
           end do
+          if (is_of_another(above_wanted(i), better%exponent)) change = 1.0_wp
           exponent%error = max(two_pi*(change + mode%change + many*better%change), &
             least_share*request%accuracy)
           exponent%signature = 0
           if (abs(exponent%growth) <= exponent%error .or. has_damping()) &
             exponent%signature = merge(1, -1, better%action > 0.0_wp)
-          if (exponent%turns <= as_good_as) exponent%turns = 0.0_wp
-          if (0.5_wp - exponent%turns <= as_good_as) exponent%turns = 0.5_wp
+          same = as_good_as
+          ! Off the circle, a number that is real within its error is real.
+          if (abs(exponent%growth) > exponent%error .and. exponent%error <= no_digits) &
+            same = max(same, exponent%error/two_pi)
+          if (exponent%turns <= same) exponent%turns = 0.0_wp
+          if (0.5_wp - exponent%turns <= same) exponent%turns = 0.5_wp
           if (is_real(exponent)) then
             exponent%signature = 0
             ! Without damping the other of the pair is its inverse.
@@ -364,6 +373,20 @@ contains
 
       yes = any(request%damping%kind /= no_damping)
     end function has_damping
+
+    !> Whether an exponent is certainly that of another mode of the slow motion: much nearer to it.
+    pure function is_of_another(wanted, exponent) result(yes)
+      integer, intent(in) :: wanted
+      complex(wp), intent(in) :: exponent
+      logical :: yes
+
+      real(wp), parameter :: near = 1.0e-3_wp, much = 3.0_wp
+      real(wp) :: apart(size(above_spectrum%mode))
+
+      apart = min(abs(above_spectrum%mode%exponent - exponent), &
+        abs(conjg(above_spectrum%mode%exponent) - exponent))
+      yes = apart(wanted) > near + much*minval(apart)
+    end function is_of_another
 
     !> Whether the multiplier is a real number.
     pure function is_real(exponent) result(yes)

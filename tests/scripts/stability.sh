@@ -61,6 +61,15 @@ for name in ("units", "turned", "mirrored", "order"):
 END_OF_PYTHON
 }
 
+# A vibration that grows beside the multiplier of a faster one is not mistaken for it.
+crowded() {
+  sed -e '/^SPEED\|^MODES\|^REPORT\|^END\|^CRANK/d' inputs/kitis.deck >"$scratch/crowded.deck"
+  printf '%s\n' "SPEED 50.34 50.36 50.42 rad/s" "MODES 4" "REPORT stability" >>"$scratch/crowded.deck"
+  run 0 --quiet --out "$out" "$scratch/crowded.deck" || return 1
+  grep -v '^#' "$out/crowded/stability.dat" | awk '/unstable/ {printf "%d %s %.4f ", $2, $8, $4}' >"$scratch/found"
+  [ "$(cat "$scratch/found")" = "2 unstable:fold 0.1065 2 unstable:fold 0.1095 3 unstable:fold 0.1042 " ] || { cat "$scratch/found"; return 1; }
+}
+
 # Speeds at which the multipliers of several vibrations meet at once are named, and the intervals beside them are there.
 gaps() {
   first gap "" "SPEED 57.2 58.5" "REPORT intervals"
@@ -98,6 +107,7 @@ echo_deck() {
 check "exponents, intervals and motions are the same for any number of threads" threads
 check "variants have the exponents of plain decks" variants
 check "a mechanism described otherwise has the same exponents" otherwise
+check "a vibration that grows beside a faster one is found" crowded
 check "speeds whose multipliers cannot be followed are named" gaps
 check "speeds whose exponents are lost are named" lost
 check "a crank that does not turn has no exponents" rocker
