@@ -261,14 +261,13 @@ def main(tests):
     jobs = [(unit_tests, build, tests) for build in BUILDS]
     jobs += [(assertions, build, tests) for build in of_assertions] + [(layers,), (documents,)]
     jobs += [(refused_decks, build) for build in BUILDS] + [(goldens, build) for build in BUILDS] + [(repeated_runs,)]
+    jobs += [(scripts, build) for build in BUILDS]
     # Two at once: unit tests take one processor, and decks of one speed, too.
     with multiprocessing.Pool(min(2, os.cpu_count())) as pool:
         for printed, passed, failed in pool.imap(stage, jobs):
             print(printed, end="", flush=True)
             Group.passed += passed
             Group.failed += failed
-    for build in BUILDS:
-        scripts(build)
     fuzzed_decks()
 
     total = f"{Group.passed} passed, {Group.failed} failed"
