@@ -270,7 +270,8 @@ contains
 
     type(space_t) :: space
     complex(wp), allocatable :: values(:), vectors(:, :), weights(:), partner_weights(:)
-    complex(wp) :: fixed, before, expected, followed, followed_partner, second, square, square_before
+    complex(wp) :: fixed, before, expected, followed, followed_partner, second
+    complex(wp) :: square, square_before
     real(wp) :: correction(grid%samples, 2*grid%unknowns)
     integer :: number, partner, round
     logical :: grew, is_damped
@@ -389,7 +390,7 @@ contains
         waves == pair%waves
     end function is_second
 
-    !> How far modes are from the one that is meant, or one of a pair: by their exponents, and by the
+    !> How far modes are from the one that is meant, or one of a pair: by exponents, and by the
     !! part of their motions that is of those with which the space began. Values of the projection
     !! that are of no mode have no such part, and where several modes meet all have some.
     pure function distance(values, vectors, expected, meant)
