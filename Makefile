@@ -377,6 +377,7 @@ $(build)/pfunit/must_fail: $(build)/pfunit/must_fail_driver.o $(build)/pfunit/te
 	$(pfunit_compile) $^ $(PFUNIT_LIBRARIES) -o $@
 endif
 
-# Keep what is made on the way: a debugger wants the translated tests.
-.SECONDARY:
+# Keep what is made on the way: a debugger wants the translated tests. (A .SECONDARY: without names would keep everything, but make then
+# walks every path through the dependencies of an empty build folder: a minute.)
+.PRECIOUS: $(build)/funit/%.F90 $(build)/pfunit/%.F90 $(build)/pfunit/%.inc
 endif
