@@ -172,7 +172,7 @@ help:
 	@echo "make memory             every deck of inputs/ under the sanitizers of addresses, leaks and undefined behaviour"
 	@echo "make stress             estimated errors against true ones in extreme cases, with figures, in outputs/stress/"
 	@echo "make stress-responses   the same of the elastic response of random mechanisms; CASES=210 FIRST=1 for fewer or others"
-	@echo "make stress-stability   verdicts on random mechanisms with several numbers of samples; CASES=20 SPEEDS=50"
+	@echo "make stress-stability   verdicts on random mechanisms with several numbers of samples; CASES=20 SPEEDS=50 FIRST=1"
 	@echo "make accuracies         random decks at several accuracies, each against the finest; FREQUENCIES=5000 SEED=7"
 	@echo "make references         regenerate the quadruple-precision values of make stress (hours)"
 	@echo "make quad               build build/quad/flexmech, the program in quadruple precision (slow)"
