@@ -36,9 +36,10 @@ module instability_intervals
   real(wp), parameter :: step_share = 0.01_wp, longest_step = 0.125_wp
   integer, parameter :: most_halvings = 9, most_over = 3, pieces = 16
 
-  !> There are so many slow coordinates more than vibrations that are wanted. These are followed
-  !! with steps for this accuracy: meetings only have to be found.
-  integer, parameter :: above_wanted = 2, least_slow = 4
+  !> There are so many slow coordinates more than vibrations that are wanted; they and the samples
+  !! are for no fewer vibrations than this: the next ones take part where multipliers are near each
+  !! other. These are followed with steps for this accuracy: meetings only have to be found.
+  integer, parameter :: above_wanted = 2, least_modes = 3
   real(wp), parameter :: to_follow = 0.1_wp
 
   !> Distance in turns of the places beside a meeting from which its growth is found.
@@ -190,7 +191,7 @@ contains
     end do
   end subroutine add_gaps
 
-  !> Names speeds at which intervals could not be found.
+  !> Names speeds at which intervals could not be found, as far as they are in the range.
   subroutine add_gap(from, to, reason, found)
     real(wp), intent(in) :: from, to !! [rad/s]
     character(len=*), intent(in) :: reason
@@ -199,13 +200,14 @@ contains
     type(gap_t) :: gap
     integer :: i
 
+    if (from >= found%range(2) .or. to <= found%range(1)) return
+    gap%from = max(from, found%range(1))
+    gap%to = min(to, found%range(2))
     do i = 1, size(found%gap)
       ! Several meetings there.
-      if (found%gap(i)%error%text == reason .and. abs(found%gap(i)%from - from) <= 0.0_wp .and. &
-        abs(found%gap(i)%to - to) <= 0.0_wp) return
+      if (found%gap(i)%error%text == reason .and. abs(found%gap(i)%from - gap%from) <= 0.0_wp &
+        .and. abs(found%gap(i)%to - gap%to) <= 0.0_wp) return
     end do
-    gap%from = from
-    gap%to = to
     gap%error%kind = error_of_numerics
     gap%error%text = reason
     found%gap = [found%gap, gap]
@@ -226,7 +228,7 @@ contains
     type(station_t), allocatable :: stations(:)
     type(branches_t) :: branches
     real(wp), allocatable :: speeds(:)
-    real(wp) :: from, speed
+    real(wp) :: from, range(2), speed
     integer :: i, k, last, number(size(sample_numbers)), over, slow
     type(branches_t), allocatable :: trail(:)
     integer, allocatable :: lost(:)
@@ -234,20 +236,22 @@ contains
     logical :: failed
 
     allocate (levels(0), searches(0))
+    ! By the slow motion meetings are a little beside where they are.
+    range = found%range + [-1, 1]*step_at(found%range)
     call make_levels(error)
     if (allocated(error)) return
-    from = found%range(1)
-    do while (first_samples(levels(1)%level%grid, request%modes, from, to_follow) == 0)
+    from = range(1)
+    do while (samples_at(levels(1)%level%grid, request%modes, from, to_follow) == 0)
       from = 1.1_wp*from
     end do
-    if (from > found%range(1)) call add_gap(found%range(1), min(from, found%range(2)), &
+    if (from > range(1)) call add_gap(range(1), min(from, range(2)), &
       "too many vibrations in a turn of the crank for "// &
       to_string(sample_numbers(size(sample_numbers)))//" samples", found)
-    if (from >= found%range(2)) return
+    if (from >= range(2)) return
     speeds = [from]
-    do while (speeds(size(speeds)) < found%range(2))
+    do while (speeds(size(speeds)) < range(2))
       speed = speeds(size(speeds))
-      speeds = [speeds, min(speed + min(step_share*speed, longest_step), found%range(2))]
+      speeds = [speeds, min(speed + step_at(speed), range(2))]
     end do
     allocate (stations(size(speeds)))
     !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k)
@@ -388,11 +392,10 @@ contains
         levels, place, error)
       if (allocated(error)) return
       slow = slow_count_of(levels(1)%level%grid, request%modes)
-      last = first_samples(levels(1)%level%grid, request%modes, found%range(1), to_follow)
+      last = samples_at(levels(1)%level%grid, request%modes, range(1), to_follow)
       if (last == 0) last = size(sample_numbers)
       number = 0
-      do at = max(1, first_samples(levels(1)%level%grid, request%modes, found%range(2), &
-        to_follow)), last
+      do at = max(1, samples_at(levels(1)%level%grid, request%modes, range(2), to_follow)), last
         call need_level(structure, first_order(to_follow), sample_numbers(at), backwards, store, &
           levels, number(at), error)
         if (allocated(error)) return
@@ -406,7 +409,7 @@ contains
       real(wp), intent(in) :: speed
       integer :: level
 
-      level = number(first_samples(levels(1)%level%grid, request%modes, speed, to_follow))
+      level = number(samples_at(levels(1)%level%grid, request%modes, speed, to_follow))
     end function level_for
 
     subroutine find_station(speed, station)
@@ -507,13 +510,32 @@ contains
 
   end subroutine follow
 
+  !> The step from a speed to the next.
+  elemental function step_at(speed) result(step)
+    real(wp), intent(in) :: speed !! [rad/s]
+    real(wp) :: step
+
+    step = min(step_share*speed, longest_step)
+  end function step_at
+
+  !> Samples for so many vibrations; 0: too many.
+  pure function samples_at(grid, modes, speed, accuracy) result(at)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: modes
+    real(wp), intent(in) :: speed !! [rad/s]
+    real(wp), intent(in) :: accuracy
+    integer :: at !! of `sample_numbers`
+
+    at = first_samples(grid, max(modes, least_modes), speed, accuracy)
+  end function samples_at
+
   !> Slow coordinates for so many vibrations.
   pure function slow_count_of(grid, modes) result(number)
     type(turn_grid_t), intent(in) :: grid
     integer, intent(in) :: modes
     integer :: number
 
-    number = min(grid%unknowns, max(modes + above_wanted, least_slow))
+    number = min(grid%unknowns, max(modes, least_modes) + above_wanted)
   end function slow_count_of
 
   !> Measures intervals by the whole equation, on two levels, and with higher orders and more
@@ -537,7 +559,7 @@ contains
     do i = 1, size(searches)
       if (.not. searches(i)%pending) cycle
       searches(i)%order = first_order(request%accuracy)
-      searches(i)%at = first_samples(levels(number)%level%grid, request%modes, &
+      searches(i)%at = samples_at(levels(number)%level%grid, request%modes, &
         searches(i)%center, request%accuracy)
       if (searches(i)%at > 0) cycle
       searches(i)%pending = .false.
