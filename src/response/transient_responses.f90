@@ -143,7 +143,8 @@ contains
       call set_error(error, error_of_numerics, "the accuracy asked for, "//to_string(accuracy)// &
         ", is not reached: the error of "//what//" is "//to_string(difference, 2)// &
         " with order "//to_string(found%order)//"; vibrations that the start excites are too "// &
-        "fast for the steps, or too short for the order")
+        "fast for the steps, or too short for the order: a coarser 'accuracy=', 'ramp=' of "// &
+        "SPEED or DAMPING helps")
     end subroutine set_missed
 
   end subroutine find_transient

@@ -21,6 +21,7 @@ module report_cards
   !! over the turn; on stability, of exponents; of intervals, relative to the speed.
   real(wp), parameter :: default_response_accuracy = 1.0e-6_wp, &
     default_intervals_accuracy = 1.0e-5_wp, &
+    default_transient_accuracy = 1.0e-3_wp, &
     finest_response_accuracy = 1.0e-12_wp*fineness, &
     coarsest_response_accuracy = 1.0e-2_wp
 
@@ -117,6 +118,7 @@ contains
     call read_entry_accuracy(card, finest_response_accuracy, coarsest_response_accuracy, system, &
       diagnostics, accuracy, fine)
     if (report%kind%studies == "intervals") report%accuracy = default_intervals_accuracy
+    if (report%kind%studies == "transient") report%accuracy = default_transient_accuracy
     if (fine) report%accuracy = accuracy
   end subroutine read_response
 

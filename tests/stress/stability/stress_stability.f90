@@ -20,6 +20,13 @@ program stress_stability
   !> Vibrations of the slowest link in a turn, of the fastest and of the slowest speed.
   real(wp), parameter :: vibrations(2) = [2.0_wp, 12.0_wp]
 
+  !> Why there are no exponents, up to the first number, and how often.
+  type :: reason_t
+    character(len=:), allocatable :: text
+    integer :: times = 0
+  end type reason_t
+
+  type(reason_t), allocatable :: reasons(:)
   integer :: cases, speeds, threads, first, number, contradictions, verdicts, undecided_ones, failed, unstable_ones
 
   call read_arguments(cases, speeds, threads, first)
@@ -28,6 +35,7 @@ program stress_stability
   undecided_ones = 0
   unstable_ones = 0
   failed = 0
+  allocate (reasons(0))
   do number = first, first + cases - 1
     call try(number)
   end do
@@ -35,6 +43,9 @@ program stress_stability
   print "(i0, a, i0, a, i0, a, f0.2, a, i0, a, f0.2, a)", verdicts, " verdicts, ", unstable_ones, " unstable, ", undecided_ones, &
     " undecided (", 100.0_wp*undecided_ones/max(1, verdicts), " %); ", failed, " speeds without exponents (", &
     100.0_wp*failed/(cases*speeds*size(samples)), " %)"
+  do number = 1, size(reasons)
+    print "(i8, 2a)", reasons(number)%times, " times: ", reasons(number)%text
+  end do
   print "(i0, a)", contradictions, " contradictions"
   if (contradictions > 0) stop 1
 
@@ -87,7 +98,7 @@ contains
     do k = 1, speeds
       do i = 1, size(samples)
         if (.not. allocated(found(i)%at_speed(k)%exponent)) then
-          failed = failed + 1
+          call count_failure(found(i)%at_speed(k)%error)
           cycle
         end if
         associate (verdict => found(i)%at_speed(k)%exponent%verdict)
@@ -102,6 +113,26 @@ contains
       verdicts, " verdicts, ", undecided_ones, " undecided, ", contradictions, " contradictions"
     flush (output_unit)
   end subroutine try
+
+  !> Counts a speed without exponents.
+  subroutine count_failure(error)
+    type(error_t), intent(in) :: error
+
+    type(reason_t) :: reason
+    integer :: i, length
+
+    failed = failed + 1
+    length = scan(error%text, "0123456789") - 1
+    if (length < 0) length = len(error%text)
+    do i = 1, size(reasons)
+      if (reasons(i)%text /= error%text(:length)) cycle
+      reasons(i)%times = reasons(i)%times + 1
+      return
+    end do
+    reason%text = error%text(:length)
+    reason%times = 1
+    reasons = [reasons, reason]
+  end subroutine count_failure
 
   !> No exponent that grows with one number of samples may be stable with another. Modes may be numbered otherwise: that with the same
   !! turns is meant.
