@@ -293,17 +293,13 @@ contains
         call find_pencil_modes(space%form(:space%number, :space%number, :), fixed, values, vectors)
       end if
       if (size(values) == 0) return
-      if (present(pair)) then
-        number = minloc(distance(values, vectors, slow(wanted)%exponent, 2), dim=1)
-      else
-        number = minloc(distance(values, vectors, expected, 1), dim=1)
-      end if
+      number = minloc(distance(values, vectors, expected), dim=1)
       followed = values(number)
       weights = vectors(:, number)
       partner = number
       if (.not. is_damped .and. abs(real(followed)) > off_circle) &
         partner = minloc(abs(values + conjg(followed)), dim=1)
-      if (present(pair)) partner = minloc(distance(values, vectors, second, 2), dim=1, &
+      if (present(pair)) partner = minloc(distance(values, vectors, second), dim=1, &
         mask=abs(values - values(number)) > as_good_as)
       if (partner == 0) return
       followed_partner = values(partner)
@@ -393,13 +389,13 @@ contains
     !> How far modes are from the one that is meant, or one of a pair: by exponents, and by the
     !! part of their motions that is of those with which the space began. Values of the projection
     !! that are of no mode have no such part, and where several modes meet all have some.
-    pure function distance(values, vectors, expected, meant)
+    pure function distance(values, vectors, expected)
       complex(wp), intent(in) :: values(:), vectors(:, :), expected
-      integer, intent(in) :: meant !! motions with which the space began
       real(wp) :: distance(size(values))
 
-      integer :: k, n
+      integer :: k, meant, n
 
+      meant = merge(2, 1, present(pair))
       n = size(space%near, 1)
       do k = 1, size(values)
         distance(k) = abs((values(k) - expected)/shift)**2 + (1.0_wp - &

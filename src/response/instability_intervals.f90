@@ -244,9 +244,8 @@ contains
     do while (samples_at(levels(1)%level%grid, request%modes, from, to_follow) == 0)
       from = 1.1_wp*from
     end do
-    if (from > range(1)) call add_gap(range(1), min(from, range(2)), &
-      "too many vibrations in a turn of the crank for "// &
-      to_string(sample_numbers(size(sample_numbers)))//" samples", found)
+    if (from > range(1)) call add_gap(range(1), from, "too many vibrations in a turn of the "// &
+      "crank for "//to_string(sample_numbers(size(sample_numbers)))//" samples", found)
     if (from >= range(2)) return
     speeds = [from]
     do while (speeds(size(speeds)) < range(2))

@@ -7,7 +7,7 @@ module meeting_exponents
   use floquet_exponents, only: find_floquet_pair, floquet_pair_t
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
   use kinds, only: wp
-  use order_transfer, only: transferred
+  use order_transfer, only: transferred_halves
   use response_levels, only: damping_of, level_t
   use response_types, only: no_damping
   use stability, only: find_spectrum, turn_spectrum_t
@@ -101,8 +101,8 @@ contains
     type(meeting_pair_t), intent(in) :: other   !! evaluated, orders no higher than of the pair
     type(meeting_pair_t), intent(inout) :: pair !! of the same meeting
 
-    real(wp), allocatable :: part(:, :)
-    integer :: i, j, n
+    real(wp), allocatable :: motion(:, :)
+    integer :: i
 
     if (.not. allocated(other%pair%known)) return
     pair%was_conjugate = other%was_conjugate
@@ -110,13 +110,9 @@ contains
     allocate (pair%pair%known(pair%level%grid%samples, 2*pair%level%grid%unknowns, &
       size(other%pair%known, 3)))
     do i = 1, size(other%pair%known, 3)
-      do j = 0, 1
-        n = other%level%grid%unknowns
-        call transferred(other%level%grid, other%plan, pair%level%grid, pair%plan, &
-          other%pair%known(:, j*n + 1:(j + 1)*n, i), part)
-        n = pair%level%grid%unknowns
-        pair%pair%known(:, j*n + 1:(j + 1)*n, i) = part
-      end do
+      call transferred_halves(other%level%grid, other%plan, pair%level%grid, pair%plan, &
+        other%pair%known(:, :, i), motion)
+      pair%pair%known(:, :, i) = motion
     end do
   end subroutine begin_with
 

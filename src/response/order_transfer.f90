@@ -8,7 +8,7 @@ module order_transfer
   implicit none (type, external)
   private
 
-  public :: transferred
+  public :: transferred, transferred_halves
 
 contains
 
@@ -47,6 +47,26 @@ contains
       end associate
     end do
   end subroutine transferred
+
+  !> Likewise for a complex motion, whose real and imaginary parts stand side by side.
+  subroutine transferred_halves(from, from_plan, to, to_plan, y, other)
+    type(turn_grid_t), intent(in) :: from             !! grid of the motion
+    type(fourier_plan_t), intent(in) :: from_plan     !! for its samples
+    type(turn_grid_t), intent(in) :: to               !! same linkage, orders at least as high
+    type(fourier_plan_t), intent(in) :: to_plan       !! for its samples
+    real(wp), intent(in) :: y(:, :)                   !! (samples, 2 unknowns) [√J]
+    real(wp), allocatable, intent(out) :: other(:, :) !! (samples, 2 unknowns) on the other grid
+
+    real(wp), allocatable :: half(:, :)
+    integer :: i
+
+    allocate (other(to%samples, 2*to%unknowns))
+    do i = 0, 1
+      call transferred(from, from_plan, to, to_plan, y(:, i*from%unknowns + 1:(i + 1)* &
+        from%unknowns), half)
+      other(:, i*to%unknowns + 1:(i + 1)*to%unknowns) = half
+    end do
+  end subroutine transferred_halves
 
   !> Own modes of the other model from those of this one, through the strains of both.
   pure function changed(own, modes, to_modes, number) result(to_own)

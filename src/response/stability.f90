@@ -16,7 +16,7 @@ module stability
   use kinds, only: long, wp
   use link_store, only: link_store_t
   use mode_numbers, only: growing_mode, most_spread, numbers_of
-  use order_transfer, only: transferred
+  use order_transfer, only: transferred_halves
   use response_levels, only: damping_of, level_slot_t, level_t, need_basis, need_level, &
     sample_numbers
   use response_types, only: no_damping
@@ -301,20 +301,12 @@ contains
 
     !> The motions found, on the grid of the second solution.
     subroutine transfer
-      real(wp), allocatable :: part(:, :)
-      integer :: i, j, n
+      integer :: i
 
       known = modes
       do i = 1, size(modes)
-        deallocate (known(i)%motion)
-        allocate (known(i)%motion(above%grid%samples, 2*above%grid%unknowns))
-        do j = 0, 1
-          n = level%grid%unknowns
-          call transferred(level%grid, plan, above%grid, above_plan, modes(i)%motion(:, j*n + 1:(j &
-            + 1)*n), part)
-          n = above%grid%unknowns
-          known(i)%motion(:, j*n + 1:(j + 1)*n) = part
-        end do
+        call transferred_halves(level%grid, plan, above%grid, above_plan, modes(i)%motion, &
+          known(i)%motion)
       end do
     end subroutine transfer
 
@@ -338,9 +330,8 @@ contains
             if (j == i) cycle
             ! Two approximations that lead to one mode or to its conjugate: another is missed.
             associate (other => above_modes(j))
-              if (min(abs(other%exponent - better%exponent), abs(conjg(other%exponent) - &
-                better%exponent)) <= as_good_as + many*(better%change + other%change)) &
-                change = 1.0_wp
+              if (apart_from(other%exponent, better%exponent) <= as_good_as + &
+                many*(better%change + other%change)) change = 1.0_wp
             end associate
           end do
           if (is_of_another(above_wanted(i), better%exponent)) change = 1.0_wp
@@ -383,8 +374,7 @@ contains
       real(wp), parameter :: near = 1.0e-3_wp, much = 3.0_wp
       real(wp) :: apart(size(above_spectrum%mode))
 
-      apart = min(abs(above_spectrum%mode%exponent - exponent), &
-        abs(conjg(above_spectrum%mode%exponent) - exponent))
+      apart = apart_from(above_spectrum%mode%exponent, exponent)
       yes = apart(wanted) > near + much*minval(apart)
     end function is_of_another
 
@@ -558,6 +548,14 @@ contains
     end do
   end function matched
 
+  !> Distance of an exponent from another or from its conjugate, which is of the same vibration.
+  elemental function apart_from(other, exponent) result(apart)
+    complex(wp), intent(in) :: other, exponent
+    real(wp) :: apart
+
+    apart = min(abs(other - exponent), abs(conjg(other) - exponent))
+  end function apart_from
+
   !> The mode of another vibration whose exponent is nearest; 0: none is near.
   pure function nearest_other(spectrum, mine, exponent) result(nearest)
     type(turn_spectrum_t), intent(in) :: spectrum
@@ -572,8 +570,7 @@ contains
     smallest = met
     do k = 1, size(spectrum%mode)
       if (spectrum%number(k) == spectrum%number(mine)) cycle
-      apart = min(abs(spectrum%mode(k)%exponent - exponent), &
-        abs(spectrum%mode(k)%exponent - conjg(exponent)))
+      apart = apart_from(spectrum%mode(k)%exponent, exponent)
       if (apart >= smallest) cycle
       smallest = apart
       nearest = k

@@ -3,12 +3,15 @@
 !! The table itself is in `report_table`, where reports are computed and written; it is passed to
 !! the procedures that read a deck.
 module report_kinds
+  use errors, only: error_t
+  use kinds, only: wp
+  use numbers, only: read_real
   use text, only: append_string, string_t
   implicit none (type, external)
   private
 
   public :: report_kind_t, table_kind_t, column_kind_t, report_names, kind_named, columns_of, &
-    is_column_of
+    is_column_of, default_number
 
   !> One table of a report. Columns with the same unit are separated by commas, with the unit after
   !! a colon, and these groups by blanks: `crank:deg x,y:length`. A unit is given as printed in the
@@ -75,6 +78,23 @@ contains
     end do
     number = 0
   end function kind_named
+
+  !> The number that a report's card has for a key by default; 0 without one.
+  pure function default_number(kind, key) result(number)
+    type(report_kind_t), intent(in) :: kind !! the report
+    character(len=*), intent(in) :: key     !! in small letters, without `=`
+    real(wp) :: number
+
+    type(error_t), allocatable :: error
+    integer :: first
+
+    number = 0.0_wp
+    first = index(" "//kind%default, " "//key//"=")
+    if (first == 0) return
+    first = first + len(key) + 1
+    call read_real(kind%default(first:first + index(kind%default(first:)//" ", " ") - 2), number, &
+      error)
+  end function default_number
 
   !> The columns of a table, in their order.
   pure subroutine columns_of(table, columns)

@@ -6,7 +6,7 @@ module report_cards
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: fineness, wp
-  use report_kinds, only: kind_named, report_kind_t, report_names
+  use report_kinds, only: default_number, kind_named, report_kind_t, report_names
   use text, only: joined, lower_case, to_string, word_list
   use tokens, only: token_t
   use transient_cards, only: read_transient, transient_card_t
@@ -19,10 +19,7 @@ module report_cards
 
   !> `accuracy=` of reports on the elastic response, relative to the largest value of a quantity
   !! over the turn; on stability, of exponents; of intervals, relative to the speed.
-  real(wp), parameter :: default_response_accuracy = 1.0e-6_wp, &
-    default_intervals_accuracy = 1.0e-5_wp, &
-    default_transient_accuracy = 1.0e-3_wp, &
-    finest_response_accuracy = 1.0e-12_wp*fineness, &
+  real(wp), parameter :: finest_response_accuracy = 1.0e-12_wp*fineness, &
     coarsest_response_accuracy = 1.0e-2_wp
 
   !> One REPORT card.
@@ -32,9 +29,9 @@ module report_cards
     type(value_list_t) :: crank  !! `crank=` of shapes and geometry [deg]; empty: all positions
     type(value_list_t) :: speed  !! `speed=` of shapes [rad/s]; empty: all speeds. Of motion: its
                                  !! start speed, as a list of one, or none
-    integer :: points = 21       !! `points=` of shapes, along each link
-    real(wp) :: least_growth = 1.0e-4_wp !! `growth=` of intervals [nepers a turn]
-    real(wp) :: accuracy = default_response_accuracy !! of reports on the elastic linkage in motion
+    integer :: points = 0        !! `points=` of shapes, along each link
+    real(wp) :: least_growth = 0.0_wp !! `growth=` of intervals [nepers a turn]
+    real(wp) :: accuracy = 0.0_wp !! of reports on the elastic linkage in motion
     ! REPORT motion: each value with its word, which has no line if the card does not give it.
     real(wp) :: start_angle = 0.0_wp !! of the crank [deg]
     real(wp) :: start_speed = 0.0_wp !! of the crank [rad/s]
@@ -117,8 +114,7 @@ contains
 
     call read_entry_accuracy(card, finest_response_accuracy, coarsest_response_accuracy, system, &
       diagnostics, accuracy, fine)
-    if (report%kind%studies == "intervals") report%accuracy = default_intervals_accuracy
-    if (report%kind%studies == "transient") report%accuracy = default_transient_accuracy
+    report%accuracy = default_number(report%kind, "accuracy")
     if (fine) report%accuracy = accuracy
   end subroutine read_response
 
@@ -134,6 +130,7 @@ contains
     logical :: fine
     integer :: i
 
+    report%least_growth = default_number(report%kind, "growth")
     call read_entry_quantity(card, "growth", dimension_none, system, .false., diagnostics, growth, &
       fine)
     if (.not. fine) return
@@ -159,6 +156,7 @@ contains
     call read_entry_list(card, "crank", dimension_angle, system, diagnostics, report%crank)
     call read_entry_list(card, "speed", dimension_rate, system, diagnostics, report%speed)
     call read_entry_count(card, "points", 2, diagnostics, points, fine)
+    report%points = nint(default_number(report%kind, "points"))
     if (fine) report%points = points
   end subroutine read_shapes
 
