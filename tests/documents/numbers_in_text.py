@@ -87,6 +87,11 @@ def rough_error(value):
     return Number(value, ".0e", FACTOR)
 
 
+def rounding(value, bound):
+    """A difference that is all rounding, which machines do differently: `< 1e-12` where it is below this bound."""
+    return Word("< " + re.sub("e-0*", "e-", f"{bound:.0e}")) if abs(value) < bound else error(value)
+
+
 class Leading(Cell):
     """A number, with words of the document behind it."""
 

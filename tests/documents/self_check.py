@@ -5,7 +5,7 @@ Prints nothing if all is well; an assertion that fails ends it with status 1.
 """
 
 from markdown import Sentence, tables
-from numbers_in_text import Leading, Phrase, Word, count, error, fixed, rough_error
+from numbers_in_text import Leading, Phrase, Word, count, error, fixed, rough_error, rounding
 
 LINES = """A page.
 
@@ -38,6 +38,8 @@ def numbers():
     assert error(2e-11, 1e-10).agrees("5.9e-11") and not error(2e-11).agrees("2.1e-11")
     assert rough_error(9e-16).agrees("3e-15") and not rough_error(9e-16).agrees("4e-15")
     assert rough_error(9e-12).agrees("1e-11") and not rough_error(9e-12).agrees("1e-10")
+    assert rounding(-9e-13, 1e-12).agrees("< 1e-12") and not rounding(9e-13, 1e-12).agrees("9.0e-13")
+    assert rounding(2e-12, 1e-12).agrees("2.0e-12") and not rounding(2e-12, 1e-12).agrees("< 1e-12")
     assert Leading(error(9.9e-2)).agrees("9.9e-2 (one element)") and not Leading(error(9.9e-2)).agrees("9.8e-2 (one element)")
     assert Leading(error(9.9e-2)).instead_of("1.0e-1 (one element)") == "9.9e-2 (one element)"
 
