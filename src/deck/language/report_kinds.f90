@@ -6,7 +6,7 @@ module report_kinds
   use errors, only: error_t
   use kinds, only: wp
   use numbers, only: read_real
-  use text, only: append_string, string_t
+  use text, only: append_string, string_t, word_list
   implicit none (type, external)
   private
 
@@ -86,14 +86,16 @@ contains
     real(wp) :: number
 
     type(error_t), allocatable :: error
-    integer :: first
+    type(string_t), allocatable :: entries(:)
+    integer :: i
 
     number = 0.0_wp
-    first = index(" "//kind%default, " "//key//"=")
-    if (first == 0) return
-    first = first + len(key) + 1
-    call read_real(kind%default(first:first + index(kind%default(first:)//" ", " ") - 2), number, &
-      error)
+    entries = word_list(trim(kind%default))
+    do i = 1, size(entries)
+      associate (entry => entries(i)%text)
+        if (index(entry, key//"=") == 1) call read_real(entry(len(key) + 2:), number, error)
+      end associate
+    end do
   end function default_number
 
   !> The columns of a table, in their order.

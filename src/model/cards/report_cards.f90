@@ -98,7 +98,7 @@ contains
     case ("intervals")
       call read_intervals(card, system, diagnostics, report)
     case ("transient")
-      call read_transient(card, known_keys, system, diagnostics, report%transient)
+      call read_transient(card, report%kind, known_keys, system, diagnostics, report%transient)
     end select
   end subroutine read_report
 

@@ -7,6 +7,7 @@ module transient_cards
   use errors, only: error_of_input, error_t, set_error
   use kinds, only: wp
   use numbers, only: read_integer
+  use report_kinds, only: default_number, report_kind_t
   use text, only: to_string
   use tokens, only: token_t
   use units, only: dimension_angle, dimension_length, dimension_none, unit_system_t
@@ -20,7 +21,7 @@ module transient_cards
   type :: transient_card_t
     real(wp) :: crank = 0.0_wp     !! first crank angle [deg]
     real(wp) :: turns = 0.0_wp     !! of the crank
-    integer :: instants = 72       !! rows in the time of a turn at the speed
+    integer :: instants = 0        !! rows in the time of a turn at the speed
     logical :: steady = .false.    !! it starts from the steady state; else from rest
     integer :: mode = 0            !! of the perturbation; 0: none
     real(wp) :: amplitude = 0.0_wp !! of the perturbation [m]
@@ -32,11 +33,12 @@ module transient_cards
 
 contains
 
-  !> Reads the keys of `REPORT transient turns= [crank=0] [start=rest|steady]
-  !! [perturb=mode,amplitude] [instants=72]`. Errors: no `turns=`; unreadable values; turns or an
+  !> Reads the keys of `REPORT transient turns= [crank=] [start=rest|steady]
+  !! [perturb=mode,amplitude] [instants=]`. Errors: no `turns=`; unreadable values; turns or an
   !! amplitude that is not above 0; an unknown start; no whole mode from 1; too many rows.
-  pure subroutine read_transient(card, known_keys, system, diagnostics, transient)
+  pure subroutine read_transient(card, kind, known_keys, system, diagnostics, transient)
     type(card_t), intent(in) :: card                  !! the REPORT card
+    type(report_kind_t), intent(in) :: kind           !! with the defaults of its keys
     logical, intent(in) :: known_keys                 !! no key is unknown: a missing one is an
                                                       !! error
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
@@ -51,6 +53,7 @@ contains
     call read_entry_quantity(card, "turns", dimension_none, system, known_keys, diagnostics, &
       transient%turns, fine)
     if (fine) call require_positive(card, "turns", transient%turns, diagnostics)
+    transient%crank = default_number(kind, "crank")
     call read_entry_list(card, "crank", dimension_angle, system, diagnostics, angle)
     if (size(angle%value) > 1) then
       call add_error(diagnostics, angle%words(2), &
@@ -58,6 +61,7 @@ contains
     else if (size(angle%value) == 1) then
       transient%crank = angle%value(1)
     end if
+    transient%instants = nint(default_number(kind, "instants"))
     call read_entry_count(card, "instants", 1, diagnostics, instants, fine)
     if (fine) transient%instants = instants
     i = entry_number(card, "turns")
