@@ -4,7 +4,7 @@ module chord_slopes
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use link_modes, only: link_modes_t
-  use linkages, only: cross, dyad_t, linkage_t, normal_to
+  use linkages, only: cross, group_t, linkage_t, normal_to
   use pin_displacements, only: border_numbers, chords_t
   use poses, only: arm_to_middle, pose_t
   implicit none (type, external)
@@ -35,8 +35,8 @@ contains
         slopes%pin(:, driven%last_pin, number(1)) = links(1)%elongation*normal_to(e)
       end if
     end associate
-    do i = 1, size(linkage%dyads)
-      call move_dyad(linkage, links, linkage%dyads(i), pose, coefficients, number, chords, slopes)
+    do i = 1, size(linkage%groups)
+      call move_dyad(linkage, links, linkage%groups(i), pose, coefficients, number, chords, slopes)
     end do
     allocate (slopes%across, mold=chords%across)
     allocate (slopes%along, mold=chords%along)
@@ -64,7 +64,7 @@ contains
   pure subroutine move_dyad(linkage, links, dyad, pose, coefficients, number, chords, slopes)
     type(linkage_t), intent(in) :: linkage
     type(link_modes_t), intent(in) :: links(:)
-    type(dyad_t), intent(in) :: dyad
+    type(group_t), intent(in) :: dyad
     type(pose_t), intent(in) :: pose
     type(kinematic_coefficients_t), intent(in) :: coefficients
     integer, intent(in) :: number(0:) !! of the border unknowns

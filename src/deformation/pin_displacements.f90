@@ -70,8 +70,8 @@ contains
         chords%pin(:, driven%last_pin, number(1)) = links(1)%elongation*pose%direction(:, 1)
       end if
     end associate
-    do i = 1, size(linkage%dyads)
-      associate (dyad => linkage%dyads(i))
+    do i = 1, size(linkage%groups)
+      associate (dyad => linkage%groups(i))
         do k = 1, 2
           e(:, k) = arm_to_middle(linkage, dyad, pose, k)
         end do

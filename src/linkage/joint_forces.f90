@@ -1,27 +1,39 @@
 !> Forces in the pins, from the equilibrium of every link.
 module joint_forces
+  use dense_factor, only: dense_factor_t, solve_transposed
+  use group_equations, only: factorize_group, find_gradient, gradient_t
   use inertia_loads, only: load_t
   use kinds, only: wp
-  use linkages, only: cross, dyad_t, linkage_t, normal_to
+  use linkages, only: cross, demands_angle, demands_drive, demands_length, demands_line, &
+    demands_turn, drives_length, group_t, groups_carried, groups_dyad, is_dyad_linkage, &
+    linkage_t, normal_to
+  use pose_types, only: arm_to_pin
   use poses, only: arm_to_middle, pose_t
   implicit none (type, external)
   private
 
-  public :: joint_forces_t, find_joint_forces
+  public :: joint_forces_t, find_joint_forces, force_at_pin
 
   !> Forces on the bodies at their pins, and the torque of the drive.
   type :: joint_forces_t
     real(wp), allocatable :: on_first(:, :) !! (2, bodies) force on the body at its first pin [N]
     real(wp), allocatable :: on_last(:, :)  !! (2, bodies) force on the body at its last pin [N]
-    real(wp) :: torque = 0.0_wp             !! of the drive on the driven body [N m]
+    real(wp) :: torque = 0.0_wp             !! of the first drive on what it drives [N m] or [N]
+    ! Not allocated in linkages of a crank and dyads of binary links:
+    real(wp), allocatable :: on_further(:, :) !! (2, further pins of all bodies) force on the body
+                                              !! there [N]; see `force_at_pin`
+    real(wp), allocatable :: guide(:)         !! (sliders) force of the line on the pin, along the
+                                              !! normal of the line [N]
+    real(wp), allocatable :: couple(:)        !! (turns) moment on its body from the other one [N m]
+    real(wp), allocatable :: drive(:)         !! (drives) torque or force of each [N m] or [N]
   end type joint_forces_t
 
 contains
 
   !> Forces at the pins and driving torque by Ulker 2010 (2.47) to (2.49).
   !!
-  !! Dyads are removed in the reverse of the order in which they are placed. Each passes the forces
-  !! at its bases on as loads on the pins that carry it, until only the driven body is left.
+  !! Groups are removed in the reverse of the order in which they are placed. Each passes the forces
+  !! at its bases on as loads on what carries it, until only the driven body is left.
   pure function find_joint_forces(linkage, pose, body_load, pin_load) result(forces)
     type(linkage_t), intent(in) :: linkage   !! bodies and dyads
     type(pose_t), intent(in) :: pose         !! away from dead points
@@ -29,6 +41,7 @@ contains
     real(wp), intent(in) :: pin_load(:, :)   !! (2, pins) loads on the pins [N]
     type(joint_forces_t) :: forces
 
+    type(load_t) :: load(size(body_load))
     real(wp) :: carried(2, size(pin_load, 2))
     integer :: i
 
@@ -36,22 +49,205 @@ contains
     forces%on_first = 0.0_wp
     forces%on_last = 0.0_wp
     carried = pin_load
-    do i = size(linkage%dyads), 1, -1
-      call solve_dyad(linkage, linkage%dyads(i), pose, pose%sine(i), body_load, carried, forces)
+    load = body_load
+    if (.not. is_dyad_linkage(linkage)) call clear_further_forces(linkage, forces)
+    do i = size(linkage%groups), 1, -1
+      select case (linkage%groups(i)%kind)
+      case (groups_dyad)
+        call solve_dyad(linkage, linkage%groups(i), pose, pose%sine(i), load, carried, forces)
+      case (groups_carried)
+        call load_body(linkage, linkage%groups(i), pose, carried, load, forces)
+      case default
+        call solve_group(linkage, linkage%groups(i), pose, carried, load, forces)
+      end select
     end do
-    associate (crank => linkage%bodies(1))
-      forces%on_last(:, 1) = carried(:, crank%last_pin)
-      forces%on_first(:, 1) = -(forces%on_last(:, 1) + body_load(1)%force)
-      forces%torque = -(crank%length*cross(pose%direction(:, 1), forces%on_last(:, 1)) + &
-        body_load(1)%moment)
-    end associate
+    if (linkage%has_crank) then
+      associate (crank => linkage%bodies(1))
+        forces%on_last(:, 1) = carried(:, crank%last_pin)
+        forces%on_first(:, 1) = -(forces%on_last(:, 1) + load(1)%force)
+        forces%torque = -(crank%length*cross(pose%direction(:, 1), forces%on_last(:, 1)) + &
+          load(1)%moment)
+      end associate
+      if (allocated(forces%drive)) forces%drive(1) = forces%torque
+    else
+      forces%torque = forces%drive(1)
+    end if
   end function find_joint_forces
+
+  !> Makes room for what a four-bar does not have.
+  pure subroutine clear_further_forces(linkage, forces)
+    type(linkage_t), intent(in) :: linkage
+    type(joint_forces_t), intent(inout) :: forces
+
+    integer :: b, further
+
+    further = 0
+    do b = 1, size(linkage%bodies)
+      further = further + size(linkage%bodies(b)%further)
+    end do
+    allocate (forces%on_further(2, further), forces%guide(size(linkage%sliders)), &
+      forces%couple(size(linkage%turns)), forces%drive(size(linkage%drives)))
+    forces%on_further = 0.0_wp
+    forces%guide = 0.0_wp
+    forces%couple = 0.0_wp
+    forces%drive = 0.0_wp
+  end subroutine clear_further_forces
+
+  !> Force on a body at one of its pins [N].
+  pure function force_at_pin(linkage, forces, body, pin) result(force)
+    type(linkage_t), intent(in) :: linkage     !! its bodies
+    type(joint_forces_t), intent(in) :: forces !! of this linkage
+    integer, intent(in) :: body                !! number, from 1
+    integer, intent(in) :: pin                 !! number, one of its pins
+    real(wp) :: force(2)
+
+    if (pin == linkage%bodies(body)%first_pin) then
+      force = forces%on_first(:, body)
+    else if (pin == linkage%bodies(body)%last_pin) then
+      force = forces%on_last(:, body)
+    else
+      force = forces%on_further(:, number_of_further(linkage, body, pin))
+    end if
+  end function force_at_pin
+
+  !> Number of a further pin among those of all bodies.
+  pure function number_of_further(linkage, body, pin) result(number)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: body, pin
+    integer :: number
+
+    integer :: b
+
+    number = 0
+    do b = 1, body - 1
+      number = number + size(linkage%bodies(b)%further)
+    end do
+    number = number + findloc(linkage%bodies(body)%further%pin, pin, dim=1)
+  end function number_of_further
+
+  !> Adds a force on a body at one of its pins.
+  pure subroutine add_force(linkage, body, pin, force, forces)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: body, pin
+    real(wp), intent(in) :: force(2)
+    type(joint_forces_t), intent(inout) :: forces
+
+    integer :: number
+
+    if (pin == linkage%bodies(body)%first_pin) then
+      forces%on_first(:, body) = forces%on_first(:, body) + force
+    else if (pin == linkage%bodies(body)%last_pin) then
+      forces%on_last(:, body) = forces%on_last(:, body) + force
+    else
+      number = number_of_further(linkage, body, pin)
+      forces%on_further(:, number) = forces%on_further(:, number) + force
+    end if
+  end subroutine add_force
+
+  !> Pins of a body that is placed before them: what they bear is a load of the body.
+  pure subroutine load_body(linkage, group, pose, carried, load, forces)
+    type(linkage_t), intent(in) :: linkage
+    type(group_t), intent(in) :: group
+    type(pose_t), intent(in) :: pose
+    real(wp), intent(in) :: carried(:, :)
+    type(load_t), intent(inout) :: load(:)
+    type(joint_forces_t), intent(inout) :: forces
+
+    integer :: i, pin, body
+
+    body = group%body(1)
+    do i = 1, size(group%pins)
+      pin = group%pins(i)
+      call add_force(linkage, body, pin, carried(:, pin), forces)
+      load(body)%force = load(body)%force + carried(:, pin)
+      load(body)%moment = load(body)%moment + cross(arm_to_pin(linkage, pose, body, pin), &
+        carried(:, pin))
+    end do
+  end subroutine load_body
+
+  !> Forces in a group, from its equations: `Jᵀ λ = −Q`, with Q the loads on its unknowns and λ the
+  !! forces that the equations stand for. They load what is placed before.
+  pure subroutine solve_group(linkage, group, pose, carried, load, forces)
+    type(linkage_t), intent(in) :: linkage
+    type(group_t), intent(in) :: group
+    type(pose_t), intent(in) :: pose
+    real(wp), intent(inout) :: carried(:, :) !! (2, pins) loads on pins so far [N]
+    type(load_t), intent(inout) :: load(:)   !! (bodies) so far, with those of pins they carry
+    type(joint_forces_t), intent(inout) :: forces
+
+    type(dense_factor_t) :: factor
+    type(gradient_t) :: gradient
+    real(wp) :: scales(size(group%bodies)), lambda(size(group%equations))
+    integer :: i, k, first
+
+    call factorize_group(linkage, group, pose, factor, scales)
+    ! The load of a body acts at its first pin, which passes it on.
+    do i = 1, size(group%loaded)
+      first = linkage%bodies(group%loaded(i))%first_pin
+      carried(:, first) = carried(:, first) + load(group%loaded(i))%force
+      forces%on_first(:, group%loaded(i)) = forces%on_first(:, group%loaded(i)) - &
+        load(group%loaded(i))%force
+    end do
+    do k = 1, size(group%pins)
+      lambda(2*k - 1:2*k) = -carried(:, group%pins(k))
+    end do
+    lambda(2*size(group%pins) + 1:) = -load(group%bodies)%moment/scales
+    lambda = solve_transposed(factor, lambda)
+    do i = 1, size(group%equations)
+      call find_gradient(linkage, group%equations(i), pose, gradient)
+      do k = 1, 2
+        if (gradient%body(k) > 0) load(gradient%body(k))%moment = load(gradient%body(k))%moment + &
+          lambda(i)*gradient%by_angle(k)
+      end do
+      if (gradient%pin(1) > 0) then
+        carried(:, gradient%pin(1)) = carried(:, gradient%pin(1)) + lambda(i)*gradient%by_pin(:, 1)
+        if (gradient%pin(2) > 0) call load_first_pin(linkage, group, &
+          gradient%body(1), lambda(i)*gradient%by_pin(:, 2), carried, load, forces)
+      end if
+      associate (number => group%equations(i)%number)
+        select case (group%equations(i)%kind)
+        case (demands_length, demands_angle)
+          call add_force(linkage, group%equations(i)%body, group%equations(i)%pin, &
+            -lambda(i)*gradient%by_pin(:, 1), forces)
+        case (demands_line)
+          forces%guide(number) = lambda(i)
+        case (demands_turn)
+          forces%couple(number) = lambda(i)
+        case (demands_drive)
+          forces%drive(number) = lambda(i)
+          if (linkage%drives(number)%kind == drives_length) call add_force(linkage, &
+            linkage%drives(number)%body, gradient%pin(1), -lambda(i)*gradient%by_pin(:, 1), forces)
+        end select
+      end associate
+    end do
+
+  end subroutine solve_group
+
+  !> What an equation puts on a body is a load on its first pin, which bears the opposite of it; if
+  !! the body is placed before, it is a load of the body.
+  pure subroutine load_first_pin(linkage, group, body, force, carried, load, forces)
+    type(linkage_t), intent(in) :: linkage
+    type(group_t), intent(in) :: group
+    integer, intent(in) :: body
+    real(wp), intent(in) :: force(2)
+    real(wp), intent(inout) :: carried(:, :)
+    type(load_t), intent(inout) :: load(:)
+    type(joint_forces_t), intent(inout) :: forces
+
+    if (any(group%loaded == body)) then
+      carried(:, linkage%bodies(body)%first_pin) = carried(:, linkage%bodies(body)%first_pin) + &
+        force
+      forces%on_first(:, body) = forces%on_first(:, body) - force
+    else
+      load(body)%force = load(body)%force + force
+    end if
+  end subroutine load_first_pin
 
   !> Forces in one dyad. The moments of each body about its base give the force X on the first body
   !! at the middle pin: `n3·X = p`, `n4·X = q`, hence `X = (p e4 − q e3)/sin(θ4 − θ3)`.
   pure subroutine solve_dyad(linkage, dyad, pose, sine, body_load, carried, forces)
     type(linkage_t), intent(in) :: linkage
-    type(dyad_t), intent(in) :: dyad
+    type(group_t), intent(in) :: dyad
     type(pose_t), intent(in) :: pose
     real(wp), intent(in) :: sine
     type(load_t), intent(in) :: body_load(:)

@@ -1,12 +1,16 @@
 !> Kinematic coefficients of the links at a pose. Found once, they hold for every speed and
 !! acceleration of the crank.
 !!
-!! With `h = dθ/dθ2` and `h' = d²θ/dθ2²` every angular velocity is `h ω2` and every angular
+!! Without a crank, or with a driven slider, θ2 is the coordinate of the first drive, an angle in
+!! radians or a length. With `h = dθ/dθ2` and `h' = d²θ/dθ2²` every angular velocity is `h ω2` and every angular
 !! acceleration `h α2 + h' ω2²`; the same holds for points. Setting ω2 = 1 and α2 = 0 in (2.22)
 !! and (2.23), (2.35) to (2.38) of Ulker (2010) gives h and h'.
 module kinematic_coefficients
+  use dense_factor, only: dense_factor_t, solve
+  use group_equations, only: curvature_of, drive_rate, factorize_group, find_gradient, gradient_t
   use kinds, only: wp
-  use linkages, only: dyad_t, linkage_t, normal_to
+  use linkages, only: demands_drive, group_t, groups_carried, groups_dyad, linkage_t, normal_to
+  use pose_types, only: arm_to_pin
   use poses, only: arm_to_middle, pose_t
   implicit none (type, external)
   private
@@ -24,7 +28,7 @@ module kinematic_coefficients
 
 contains
 
-  !> Kinematic coefficients of all bodies and pins, dyad by dyad.
+  !> Kinematic coefficients of all bodies and pins, group by group.
   pure function find_kinematic_coefficients(linkage, pose) result(coefficients)
     type(linkage_t), intent(in) :: linkage !! lengths and dyads
     type(pose_t), intent(in) :: pose       !! away from dead points
@@ -40,15 +44,112 @@ contains
     coefficients%turn_slope = 0.0_wp
     coefficients%pin = 0.0_wp
     coefficients%pin_slope = 0.0_wp
-    coefficients%turn(1) = 1.0_wp
-    associate (crank => linkage%bodies(1))
-      coefficients%pin(:, crank%last_pin) = crank%length*normal_to(pose%direction(:, 1))
-      coefficients%pin_slope(:, crank%last_pin) = -crank%length*pose%direction(:, 1)
-    end associate
-    do i = 1, size(linkage%dyads)
-      call move_dyad(linkage, linkage%dyads(i), pose, pose%sine(i), coefficients)
+    if (linkage%has_crank) then
+      coefficients%turn(1) = 1.0_wp
+      associate (crank => linkage%bodies(1))
+        coefficients%pin(:, crank%last_pin) = crank%length*normal_to(pose%direction(:, 1))
+        coefficients%pin_slope(:, crank%last_pin) = -crank%length*pose%direction(:, 1)
+      end associate
+    end if
+    do i = 1, size(linkage%groups)
+      select case (linkage%groups(i)%kind)
+      case (groups_dyad)
+        call move_dyad(linkage, linkage%groups(i), pose, pose%sine(i), coefficients)
+      case (groups_carried)
+        call move_carried(linkage, linkage%groups(i), pose, coefficients)
+      case default
+        call move_group(linkage, linkage%groups(i), pose, coefficients)
+      end select
     end do
   end function find_kinematic_coefficients
+
+  !> Pins of a body that moves already: x' = x_first' + h n and x'' = x_first'' + h' n − h² r, with r
+  !! from its first pin and n the same vector turned by 90°.
+  pure subroutine move_carried(linkage, group, pose, coefficients)
+    type(linkage_t), intent(in) :: linkage
+    type(group_t), intent(in) :: group
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(inout) :: coefficients
+
+    real(wp) :: arm(2), h, slope
+    integer :: i, first
+
+    first = group%base(1)
+    h = coefficients%turn(group%body(1))
+    slope = coefficients%turn_slope(group%body(1))
+    do i = 1, size(group%pins)
+      arm = arm_to_pin(linkage, pose, group%body(1), group%pins(i))
+      coefficients%pin(:, group%pins(i)) = coefficients%pin(:, first) + h*normal_to(arm)
+      coefficients%pin_slope(:, group%pins(i)) = coefficients%pin_slope(:, first) + &
+        slope*normal_to(arm) - h**2*arm
+    end do
+  end subroutine move_carried
+
+  !> First and second derivatives of the unknowns of a group, from its equations: `J q' = c' − J₀
+  !! q₀'` and `J q'' = −q'ᵀ ∇²C q' − J₀ q₀''`, where q₀ is placed before and c' the rate of drives.
+  pure subroutine move_group(linkage, group, pose, coefficients)
+    type(linkage_t), intent(in) :: linkage
+    type(group_t), intent(in) :: group
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(inout) :: coefficients
+
+    type(dense_factor_t) :: factor
+    type(gradient_t) :: gradient
+    real(wp) :: scales(size(group%bodies)), right(size(group%equations))
+    integer :: i
+
+    call factorize_group(linkage, group, pose, factor, scales)
+    coefficients%turn(group%bodies) = 0.0_wp
+    coefficients%pin(:, group%pins) = 0.0_wp
+    do i = 1, size(group%equations)
+      call find_gradient(linkage, group%equations(i), pose, gradient)
+      right(i) = -along(gradient, coefficients%pin, coefficients%turn)
+      if (group%equations(i)%kind == demands_drive) right(i) = right(i) + drive_rate(linkage, &
+        group%equations(i)%number)
+    end do
+    call take(group, scales, solve(factor, right), coefficients%pin, coefficients%turn)
+    do i = 1, size(group%equations)
+      call find_gradient(linkage, group%equations(i), pose, gradient)
+      right(i) = -along(gradient, coefficients%pin_slope, coefficients%turn_slope) - &
+        curvature_of(linkage, group%equations(i), pose, coefficients%turn, coefficients%pin)
+    end do
+    call take(group, scales, solve(factor, right), coefficients%pin_slope, &
+      coefficients%turn_slope)
+
+  end subroutine move_group
+
+  !> Puts derivatives of the unknowns of a group in their places.
+  pure subroutine take(group, scales, unknowns, pin, turn)
+    type(group_t), intent(in) :: group
+    real(wp), intent(in) :: scales(:)
+    real(wp), intent(in) :: unknowns(:)
+    real(wp), intent(inout) :: pin(:, :)
+    real(wp), intent(inout) :: turn(:)
+
+    integer :: k
+
+    do k = 1, size(group%pins)
+      pin(:, group%pins(k)) = unknowns(2*k - 1:2*k)
+    end do
+    turn(group%bodies) = unknowns(2*size(group%pins) + 1:)/scales
+  end subroutine take
+
+  !> A gradient times derivatives of pins and angles.
+  pure function along(gradient, pin, turn) result(rate)
+    type(gradient_t), intent(in) :: gradient
+    real(wp), intent(in) :: pin(:, :)
+    real(wp), intent(in) :: turn(:)
+    real(wp) :: rate
+
+    integer :: k
+
+    rate = 0.0_wp
+    do k = 1, 2
+      if (gradient%pin(k) > 0) rate = rate + dot_product(gradient%by_pin(:, k), pin(:, &
+        gradient%pin(k)))
+      if (gradient%body(k) > 0) rate = rate + gradient%by_angle(k)*turn(gradient%body(k))
+    end do
+  end function along
 
   !> Closes the loop through a dyad once for velocities and once for accelerations.
   !!
@@ -58,7 +159,7 @@ contains
   !! w' in place of w, (2.37) and (2.38).
   pure subroutine move_dyad(linkage, dyad, pose, sine, coefficients)
     type(linkage_t), intent(in) :: linkage
-    type(dyad_t), intent(in) :: dyad
+    type(group_t), intent(in) :: dyad
     type(pose_t), intent(in) :: pose
     real(wp), intent(in) :: sine
     type(kinematic_coefficients_t), intent(inout) :: coefficients

@@ -1,15 +1,36 @@
-!> A planar linkage in terms of mechanics: pins, links between them, one driven link, and dyads
-!! attached to it.
+!> A planar linkage in terms of mechanics: pins, bodies between them, sliders, drives, and the groups
+!! in which it is placed, moved and solved.
 !!
-!! Everything but `new_four_bar` works for any linkage of mobility one that can be built from a
-!! driven link and dyads. A dyad is two links that meet in a pin, each attached to a pin whose
-!! motion is already known.
+!! Everything but `new_four_bar` works for any linkage. The groups are found by `assembly_plan`. Most
+!! are dyads: two bodies that meet in a pin, each attached to a pin whose motion is already known.
 module linkages
   use kinds, only: wp
   implicit none (type, external)
   private
 
-  public :: linkage_t, body_t, lump_t, dyad_t, new_four_bar, mobility, cross, normal_to
+  public :: linkage_t, body_t, body_pin_t, lump_t, slider_t, turn_t, drive_t, drawing_t, &
+    equation_t, group_t, redundancy_t, path_t
+  public :: new_four_bar, mobility, reference_point, is_dyad_linkage, cross, normal_to, turned
+  public :: drives_angle, drives_slider, drives_length
+  public :: demands_length, demands_angle, demands_line, demands_turn, demands_drive
+  public :: groups_dyad, groups_carried, groups_on_line, groups_through_pin, groups_two_lines, &
+    groups_cross_slide, groups_turned, groups_spanned, groups_placed, groups_by_newton
+
+  !> What a drive gives: the angle of a body, the place of a slider along its line, the length of a
+  !! body.
+  integer, parameter :: drives_angle = 1, drives_slider = 2, drives_length = 3
+
+  !> What an equation demands.
+  integer, parameter :: demands_length = 1, demands_angle = 2, demands_line = 3, demands_turn = 4, &
+    demands_drive = 5
+
+  !> How a group is placed: RRR; pins of a body that is placed; a body with its end on a line (RRP);
+  !! a body whose line passes through a pin (RPR); a pin on two lines (PRP); a body that does not
+  !! turn, with a pin on a line and its own line through a pin (PPR); a body whose angle is given; a
+  !! body between two pins; a pin whose place on a line is given; by iterations.
+  integer, parameter :: groups_dyad = 1, groups_carried = 2, groups_on_line = 3, &
+    groups_through_pin = 4, groups_two_lines = 5, groups_cross_slide = 6, groups_turned = 7, &
+    groups_spanned = 8, groups_placed = 9, groups_by_newton = 10
 
   !> A mass fixed to a body. In the axes of the body x is along it and y to the left, looking from
   !! its first pin to its last.
@@ -20,31 +41,110 @@ module linkages
     real(wp) :: inertia = 0.0_wp   !! moment of inertia about its own mass centre [kg m²]
   end type lump_t
 
-  !> A straight link: uniform, with lumps, or a rigid shape of any kind, given by a lump alone. Its
-  !! coordinate runs from its first pin to its last, in the direction round the loop.
+  !> A further pin of a body.
+  type :: body_pin_t
+    integer :: pin = 0
+    real(wp) :: place(2) = 0.0_wp  !! from the first pin, in the axes of the body [m]
+  end type body_pin_t
+
+  !> A straight link: uniform, with lumps, or a rigid shape of any kind, given by lumps alone. Its
+  !! coordinate runs from its first pin to its last: from where it is placed.
   type :: body_t
-    integer :: first_pin = 0              !! where the path round the loop enters it
-    integer :: last_pin = 0               !! where the path leaves it
+    integer :: first_pin = 0              !! placed before the body, unless its group places both
+    integer :: last_pin = 0
     real(wp) :: length = 0.0_wp           !! [m]
     real(wp) :: line_density = 0.0_wp     !! mass per length [kg/m]
-    real(wp) :: sense = 1.0_wp            !! +1: its angle is that of first → last pin, −1: that of
-                                          !! last → first
+    real(wp) :: heading(2) = [1.0_wp, 0.0_wp] !! unit vector, in its axes, whose angle is that of
+                                          !! the body; [−1, 0]: its angle is that of last → first
+    real(wp) :: origin(2) = 0.0_wp        !! from its first pin, in its axes: the first pin of the
+                                          !! deck, from which the deck measures [m]
+    real(wp) :: card_axis(2) = [1.0_wp, 0.0_wp] !! unit vector, in its axes, along which the deck
+                                          !! measures
     real(wp) :: rotary_inertia = 0.0_wp   !! ρI of its cross-sections per length [kg m];
                                           !! 0: neglected
     logical :: bends = .true.             !! as a beam; else rigid
     type(lump_t), allocatable :: lumps(:) !! masses fixed to it
+    type(body_pin_t), allocatable :: further(:) !! pins beside its first and its last
   end type body_t
 
-  !> Two bodies that meet in a pin, each attached to a pin that is placed before.
-  type :: dyad_t
-    integer :: base(2) = 0      !! pins that carry it
-    integer :: body(2) = 0      !! bodies from each base to the middle
-    integer :: middle = 0       !! pin where the bodies meet
-    real(wp) :: side = 1.0_wp   !! +1: the middle lies to the left of base 1 → base 2, −1: to its
-                                !! right
-  end type dyad_t
+  !> A pin that slides along a straight line: fixed, or of a body.
+  type :: slider_t
+    integer :: pin = 0
+    integer :: body = 0                          !! that has the line; 0: it is fixed
+    real(wp) :: point(2) = 0.0_wp                !! of the line: in global axes, or from the first
+                                                 !! pin in the axes of the body [m]
+    real(wp) :: direction(2) = [1.0_wp, 0.0_wp]  !! unit vector, likewise
+  end type slider_t
 
-  !> Pins, bodies, dyads and constant loads.
+  !> Two bodies that turn together, or a body that does not turn.
+  type :: turn_t
+    integer :: body = 0                         !! number, from 1
+    integer :: against = 0                      !! the other one; 0: the ground
+    real(wp) :: relative(2) = [1.0_wp, 0.0_wp]  !! direction of `body` in the axes of the other
+    integer :: slider = 0                       !! whose block it is; 0: a weld
+  end type turn_t
+
+  !> An input. Its coordinate is `ratio*c + phase` with the coordinate c of the first one.
+  type :: drive_t
+    integer :: kind = drives_angle    !! one of the drives_… constants
+    integer :: body = 0               !! that turns, or whose length changes
+    integer :: against = 0            !! body from which its angle is measured; 0: the ground
+    integer :: slider = 0             !! that is moved
+    real(wp) :: ratio = 1.0_wp        !! to the first drive's [-], or between angle and length
+                                      !! [m/deg], [deg/m]
+    real(wp) :: phase = 0.0_wp        !! [deg] or [m]
+  end type drive_t
+
+  !> Rough places of pins.
+  type :: drawing_t
+    logical, allocatable :: is_drawn(:) !! (pins)
+    real(wp), allocatable :: pin(:, :)  !! (2, pins) in global axes [m]; zero where not drawn
+  end type drawing_t
+
+  !> What bodies, sliders, turns and drives demand. A pin of a body demands two things: `demands_length`,
+  !! its distance from the first pin, and `demands_angle`, its direction from there.
+  type :: equation_t
+    integer :: kind = 0              !! one of the demands_… constants
+    integer :: body = 0              !! of a pin of a body
+    integer :: pin = 0               !! the same
+    real(wp) :: place(2) = 0.0_wp    !! of that pin, from the first one, in the axes of the body [m]
+    integer :: number = 0            !! of the slider, turn or drive
+  end type equation_t
+
+  !> Pins and bodies that are placed together. Those of `groups_dyad` are two bodies that meet in a
+  !! pin, each attached to a pin that is placed before; those of `groups_carried` are pins of a body
+  !! placed before.
+  type :: group_t
+    integer :: kind = groups_dyad  !! one of the groups_… constants
+    integer :: base(2) = 0         !! pins that carry it
+    integer :: body(2) = 0         !! bodies from each base to the middle
+    integer :: middle = 0          !! pin where the bodies meet
+    real(wp) :: side = 1.0_wp      !! +1: the middle lies to the left of base 1 → base 2, −1: to its
+                                   !! right; on a line: beyond the foot of the perpendicular, before
+    integer :: slider(2) = 0       !! whose lines place it
+    integer, allocatable :: pins(:)    !! that it places
+    integer, allocatable :: bodies(:)  !! that it turns
+    integer, allocatable :: loaded(:)  !! bodies whose loads it bears
+    type(equation_t), allocatable :: equations(:) !! as many as it has unknowns; none of
+                                                  !! `groups_dyad` and `groups_carried`
+  end type group_t
+
+  !> An equation that the others fulfil, or the linkage does not fit.
+  type :: redundancy_t
+    type(equation_t) :: equation
+  end type redundancy_t
+
+  !> The way of a linkage with groups that only iterations place, from the drawing over whole turns.
+  type :: path_t
+    real(wp), allocatable :: crank(:)            !! (stations) ascending [deg] or [m]
+    real(wp), allocatable :: pin(:, :, :)        !! (2, pins, stations) from `reference_point` [m]
+    real(wp), allocatable :: direction(:, :, :)  !! (2, bodies, stations)
+    real(wp), allocatable :: pin_rate(:, :, :)   !! (2, pins, stations) per crank [m/deg], [-]
+    real(wp), allocatable :: turn_rate(:, :)     !! (bodies, stations) per crank [rad/deg], [rad/m]
+    real(wp) :: period = 0.0_wp                  !! after which it repeats [deg]; 0: it does not
+  end type path_t
+
+  !> Pins, bodies, what joins and drives them, and constant loads.
   type :: linkage_t
     logical, allocatable :: is_ground(:)           !! (pins) fixed to the ground
     real(wp), allocatable :: ground_position(:, :) !! (2, pins) [m]; zero for moving pins
@@ -53,9 +153,17 @@ module linkages
     real(wp), allocatable :: pin_force(:, :)       !! (2, pins) constant external forces on the
                                                    !! pins [N]
     real(wp), allocatable :: couple(:)             !! (bodies) constant external torques [N m]
-    type(body_t), allocatable :: bodies(:)         !! in the order round the loop; the first is
-                                                   !! driven about its first pin
-    type(dyad_t), allocatable :: dyads(:)          !! in the order in which they are placed
+    type(body_t), allocatable :: bodies(:)         !! in the order in which they are placed
+    type(slider_t), allocatable :: sliders(:)      !! pins on lines
+    type(turn_t), allocatable :: turns(:)          !! bodies that turn together
+    type(drive_t), allocatable :: drives(:)        !! the first is the crank of tables and speeds
+    type(drawing_t) :: drawing                     !! where pins are about, to start from
+    logical :: has_crank = .true.                  !! the first drive turns the first body about its
+                                                   !! first pin, a ground pivot
+    type(group_t), allocatable :: groups(:)        !! what is placed together, in this order; the
+                                                   !! crank is placed before
+    type(redundancy_t), allocatable :: redundancies(:) !! equations that others fulfil
+    type(path_t) :: path                           !! of groups without a closed form
   end type linkage_t
 
 contains
@@ -88,10 +196,19 @@ contains
       linkage%bodies(i)%last_pin = i + 1
       linkage%bodies(i)%length = length(i)
       linkage%bodies(i)%line_density = line_density(i)
-      if (i == 3) linkage%bodies(i)%sense = -1.0_wp
-      allocate (linkage%bodies(i)%lumps(0))
+      if (i == 3) linkage%bodies(i)%heading = [-1.0_wp, 0.0_wp]
+      allocate (linkage%bodies(i)%lumps(0), linkage%bodies(i)%further(0))
     end do
-    linkage%dyads = [dyad_t([2, 4], [2, 3], 3, merge(-1.0_wp, 1.0_wp, crossed))]
+    allocate (linkage%sliders(0), linkage%turns(0), linkage%drives(1), linkage%groups(1), &
+      linkage%redundancies(0))
+    linkage%drives(1)%body = 1
+    linkage%groups(1)%base = [2, 4]
+    linkage%groups(1)%body = [2, 3]
+    linkage%groups(1)%middle = 3
+    linkage%groups(1)%side = merge(-1.0_wp, 1.0_wp, crossed)
+    allocate (linkage%drawing%is_drawn(4), linkage%drawing%pin(2, 4))
+    linkage%drawing%is_drawn = .false.
+    linkage%drawing%pin = 0.0_wp
   end function new_four_bar
 
   !> Degrees of freedom by counting: `3(n − 1) − 2j` for n links with the ground and j pins of two
@@ -111,6 +228,38 @@ contains
     freedoms = 3*size(linkage%bodies) - 2*pins
   end function mobility
 
+  !> The place from which positions are counted while they are found, so that a far-off origin of
+  !! the drawing costs no digits: the crank's pivot; without a crank a ground pivot, or a fixed line.
+  pure function reference_point(linkage) result(point)
+    type(linkage_t), intent(in) :: linkage !! its pins and sliders
+    real(wp) :: point(2)                   !! in global axes [m]
+
+    integer :: i
+
+    if (linkage%has_crank) then
+      point = linkage%ground_position(:, linkage%bodies(1)%first_pin)
+      return
+    end if
+    point = 0.0_wp
+    i = findloc(linkage%is_ground, .true., dim=1)
+    if (i > 0) then
+      point = linkage%ground_position(:, i)
+    else
+      i = findloc(linkage%sliders%body, 0, dim=1)
+      if (i > 0) point = linkage%sliders(i)%point
+    end if
+  end function reference_point
+
+  !> Whether a crank and dyads of binary links are all: closed forms of four-bars and bending links
+  !! know no more.
+  pure function is_dyad_linkage(linkage) result(is)
+    type(linkage_t), intent(in) :: linkage !! its bodies and groups
+    logical :: is
+
+    is = linkage%has_crank .and. all(linkage%groups%kind == groups_dyad) .and. &
+      size(linkage%sliders) == 0 .and. size(linkage%drives) == 1
+  end function is_dyad_linkage
+
   !> Component of `a × b` normal to the plane.
   pure function cross(a, b)
     real(wp), intent(in) :: a(2) !! first vector
@@ -127,5 +276,14 @@ contains
 
     normal = [-a(2), a(1)]
   end function normal_to
+
+  !> A vector in the axes that a unit vector gives: `a(1)` along it, `a(2)` to its left.
+  pure function turned(a, axis) result(vector)
+    real(wp), intent(in) :: a(2)    !! components
+    real(wp), intent(in) :: axis(2) !! unit vector
+    real(wp) :: vector(2)
+
+    vector = a(1)*axis + a(2)*[-axis(2), axis(1)]
+  end function turned
 
 end module linkages

@@ -1,23 +1,18 @@
 !> Positions of the links at a crank angle.
 module poses
-  use constants, only: degree
-  use errors, only: error_of_dead_point, error_of_reach, error_t, set_error
+  use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error
+  use group_equations, only: drive_direction
+  use group_places, only: improve_group, place_group
   use kinds, only: wp
-  use linkages, only: cross, dyad_t, linkage_t, normal_to
+  use linkages, only: cross, group_t, groups_by_newton, groups_dyad, is_dyad_linkage, linkage_t, &
+    normal_to, path_t, reference_point, turned
+  use pose_types, only: pose_t
   use text, only: to_string
   implicit none (type, external)
   private
 
-  public :: pose_t, find_pose, place_links, arm_to_middle, arm_to_place, body_angle, &
+  public :: pose_t, find_pose, place_links, place_groups, arm_to_middle, arm_to_place, body_angle, &
     transmission_angle, dead_point_sine
-
-  !> Positions of the pins and directions of the bodies.
-  type :: pose_t
-    real(wp), allocatable :: pin(:, :)       !! (2, pins) positions [m]
-    real(wp), allocatable :: direction(:, :) !! (2, bodies) unit vectors, first → last pin
-    real(wp), allocatable :: sine(:)         !! (dyads) of the angle from base 1 → middle to base 2
-                                             !! → middle; 0 at a dead point
-  end type pose_t
 
   !> Where |sin(θ4 − θ3)| is below this, near a dead point, the motion is not computed: velocities
   !! grow like 1/sin(θ4 − θ3).
@@ -31,79 +26,188 @@ contains
 
   !> Places every pin for a crank angle at which the crank can move the links.
   !!
-  !! Errors: those of `place_links`; a dead point (`|sin(θ4 − θ3)|` below 1e-6).
-  pure subroutine find_pose(linkage, crank_degrees, pose, error)
-    type(linkage_t), intent(in) :: linkage           !! lengths, pins and dyads
-    real(wp), intent(in) :: crank_degrees            !! angle of the driven body from the global x
-                                                     !! axis [deg]
+  !! Errors: those of `place_links`; a dead point (`|sin(θ4 − θ3)|`, or the scaled determinant of
+  !! another group, below 1e-6).
+  pure subroutine find_pose(linkage, crank, pose, error)
+    type(linkage_t), intent(in) :: linkage           !! bodies, groups and what joins them
+    real(wp), intent(in) :: crank                    !! angle of the driven body from the global x
+                                                     !! axis [deg], or coordinate of the first
+                                                     !! drive [m]
     type(pose_t), intent(out) :: pose                !! incomplete if out of reach
     type(error_t), allocatable, intent(out) :: error !! why the links cannot be moved
 
     integer :: i
 
-    call place_links(linkage, crank_degrees, pose, error)
+    call place_links(linkage, crank, pose, error)
     if (allocated(error)) return
     do i = 1, size(pose%sine)
       if (abs(pose%sine(i)) >= dead_point_sine) cycle
-      call set_error(error, error_of_dead_point, "dead point: |sin(theta4 - theta3)| = "// &
-        to_string(abs(pose%sine(i)), 3)//" is below "//to_string(dead_point_sine))
+      if (is_dyad_linkage(linkage) .and. size(linkage%groups) == 1) then
+        call set_error(error, error_of_dead_point, "dead point: |sin(theta4 - theta3)| = "// &
+          to_string(abs(pose%sine(i)), 3)//" is below "//to_string(dead_point_sine))
+      else
+        call set_error(error, error_of_dead_point, "dead point: the scaled determinant "// &
+          to_string(abs(pose%sine(i)), 3)//" is below "//to_string(dead_point_sine), &
+          body=a_body_of(linkage%groups(i)))
+      end if
       return
     end do
   end subroutine find_pose
 
+  !> The first body of a group; 0 if it has none.
+  pure function a_body_of(group) result(body)
+    type(group_t), intent(in) :: group
+    integer :: body
+
+    body = group%body(1)
+    if (allocated(group%bodies)) then
+      if (size(group%bodies) > 0) body = group%bodies(1)
+    end if
+  end function a_body_of
+
   !> Places every pin for a crank angle, including dead points: Ulker 2010 (2.1), solved by
-  !! intersecting circles.
+  !! intersecting circles, and other groups of bodies.
   !!
   !! Errors: the position is out of reach; the two bases of a dyad coincide, which leaves its
-  !! direction undetermined.
-  pure subroutine place_links(linkage, crank_degrees, pose, error)
-    type(linkage_t), intent(in) :: linkage           !! lengths, pins and dyads
-    real(wp), intent(in) :: crank_degrees            !! angle of the driven body from the global x
-                                                     !! axis [deg]
+  !! direction undetermined; iterations that do not converge.
+  pure subroutine place_links(linkage, crank, pose, error)
+    type(linkage_t), intent(in) :: linkage           !! bodies, groups and what joins them
+    real(wp), intent(in) :: crank                    !! angle of the driven body from the global x
+                                                     !! axis [deg], or coordinate of the first
+                                                     !! drive [m]
     type(pose_t), intent(out) :: pose                !! incomplete after an error
     type(error_t), allocatable, intent(out) :: error !! why there is no pose
 
-    real(wp) :: origin(2)
-    integer :: i
+    real(wp) :: origin(2), correction, allowed
 
-    allocate (pose%pin(2, size(linkage%is_ground)), pose%direction(2, size(linkage%bodies)), &
-      pose%sine(size(linkage%dyads)))
-    ! Relative to the crank's pivot, so that a far-off origin of the drawing costs no digits.
-    origin = linkage%ground_position(:, linkage%bodies(1)%first_pin)
-    pose%pin = linkage%ground_position - spread(origin, 2, size(pose%pin, 2))
-    pose%direction = 0.0_wp
-    pose%sine = 0.0_wp
-    pose%direction(:, 1) = direction_at(crank_degrees)
-    pose%pin(:, linkage%bodies(1)%last_pin) = linkage%bodies(1)%length*pose%direction(:, 1)
-    do i = 1, size(linkage%dyads)
-      call place_dyad(linkage, linkage%dyads(i), pose, pose%sine(i), error)
+    origin = reference_point(linkage)
+    if (.not. allocated(linkage%path%crank)) then
+      call place_groups(linkage, crank, pose, correction, error)
+    else
+      call start_on_path(linkage%path, crank, pose, allowed, error)
       if (allocated(error)) return
-    end do
+      call place_groups(linkage, crank, pose, correction, error)
+      if (allocated(error)) return
+      if (correction > allowed) call set_error(error, error_of_numerics, &
+        "the position was not found by iterations: they left the path")
+    end if
+    if (allocated(error)) return
     pose%pin = pose%pin + spread(origin, 2, size(pose%pin, 2))
   end subroutine place_links
 
-  !> Cosine and sine of an angle in degrees. Whole turns are removed first: 0° and 360° are the same
-  !! position to the last digit.
-  pure function direction_at(degrees) result(direction)
-    real(wp), intent(in) :: degrees
-    real(wp) :: direction(2)
+  !> Places the crank, and group after group. Positions are relative to `reference_point`, so that a
+  !! far-off origin of the drawing costs no digits.
+  !!
+  !! Errors: those of `place_links`.
+  pure subroutine place_groups(linkage, crank, pose, correction, error)
+    type(linkage_t), intent(in) :: linkage  !! bodies, groups and what joins them
+    real(wp), intent(in) :: crank           !! coordinate of the first drive [deg] or [m]
+    type(pose_t), intent(inout) :: pose     !! near by, for groups that iterations place; without
+                                            !! such groups it may be empty. The pose
+    real(wp), intent(out) :: correction     !! largest of iterations [m]
+    type(error_t), allocatable, intent(inout) :: error !! why there is no pose
 
-    real(wp) :: angle, quadrants
+    real(wp) :: origin(2), largest
+    integer :: i, iterations
 
-    ! Within ±45° of an axis cosine and sine keep their last digits: 90° gives 0 and 1.
-    angle = modulo(degrees, 360.0_wp)
-    quadrants = anint(angle/90.0_wp)
-    angle = (angle - 90.0_wp*quadrants)*degree
-    direction = [cos(angle), sin(angle)]
-    select case (modulo(nint(quadrants), 4))
-    case (1)
-      direction = [-direction(2), direction(1)]
-    case (2)
-      direction = -direction
-    case (3)
-      direction = [direction(2), -direction(1)]
-    end select
-  end function direction_at
+    origin = reference_point(linkage)
+    correction = 0.0_wp
+    if (.not. allocated(pose%pin)) then
+      allocate (pose%pin(2, size(linkage%is_ground)), pose%direction(2, size(linkage%bodies)))
+      pose%pin = 0.0_wp
+      pose%direction = 0.0_wp
+    end if
+    if (.not. allocated(pose%sine)) allocate (pose%sine(size(linkage%groups)))
+    do i = 1, size(linkage%is_ground)
+      if (linkage%is_ground(i)) pose%pin(:, i) = linkage%ground_position(:, i) - origin
+    end do
+    pose%sine = 0.0_wp
+    if (linkage%has_crank) then
+      pose%direction(:, 1) = drive_direction(linkage, 1, pose, crank)
+      pose%pin(:, linkage%bodies(1)%last_pin) = linkage%bodies(1)%length*pose%direction(:, 1)
+    end if
+    do i = 1, size(linkage%groups)
+      associate (group => linkage%groups(i))
+        if (group%kind == groups_dyad) then
+          call place_dyad(linkage, group, pose, pose%sine(i), error)
+        else if (group%kind == groups_by_newton) then
+          call improve_group(linkage, group, origin, crank, pose, pose%sine(i), largest, &
+            iterations, error)
+          correction = max(correction, largest)
+        else
+          call place_group(linkage, group, origin, crank, pose, pose%sine(i), error)
+        end if
+      end associate
+      if (allocated(error)) return
+    end do
+  end subroutine place_groups
+
+  !> A start for iterations, between two stations of the path: cubic polynomials with the positions
+  !! and the rates there.
+  !!
+  !! Errors: the position lies beyond the ends of the path.
+  pure subroutine start_on_path(path, crank, pose, allowed, error)
+    type(path_t), intent(in) :: path    !! with stations
+    real(wp), intent(in) :: crank       !! coordinate of the first drive [deg] or [m]
+    type(pose_t), intent(out) :: pose   !! relative to the reference point
+    real(wp), intent(out) :: allowed    !! correction: a quarter of the way between the stations [m]
+    type(error_t), allocatable, intent(inout) :: error !! out of reach
+
+    real(wp) :: c, t, h, weight(2), slope_weight(2)
+    integer :: k, b, last
+
+    last = size(path%crank)
+    c = crank
+    if (path%period > 0.0_wp) c = path%crank(1) + modulo(crank - path%crank(1), path%period)
+    allowed = 0.0_wp
+    if (c < path%crank(1) - slack(path) .or. c > path%crank(last) + slack(path)) then
+      call set_error(error, error_of_reach, "the position is out of reach")
+      return
+    end if
+    k = station_before(path%crank, c)
+    h = path%crank(k + 1) - path%crank(k)
+    t = (c - path%crank(k))/h
+    weight = [(1.0_wp + 2.0_wp*t)*(1.0_wp - t)**2, t**2*(3.0_wp - 2.0_wp*t)]
+    slope_weight = h*[t*(1.0_wp - t)**2, t**2*(t - 1.0_wp)]
+    pose%pin = weight(1)*path%pin(:, :, k) + weight(2)*path%pin(:, :, k + 1) + &
+      slope_weight(1)*path%pin_rate(:, :, k) + slope_weight(2)*path%pin_rate(:, :, k + 1)
+    allocate (pose%direction, mold=path%direction(:, :, k))
+    do b = 1, size(pose%direction, 2)
+      pose%direction(:, b) = weight(1)*path%direction(:, b, k) + weight(2)*path%direction(:, b, &
+        k + 1) + slope_weight(1)*path%turn_rate(b, k)*normal_to(path%direction(:, b, k)) + &
+        slope_weight(2)*path%turn_rate(b, k + 1)*normal_to(path%direction(:, b, k + 1))
+      pose%direction(:, b) = pose%direction(:, b)/norm2(pose%direction(:, b))
+    end do
+    allowed = 0.25_wp*maxval(abs(path%pin(:, :, k + 1) - path%pin(:, :, k)))
+  end subroutine start_on_path
+
+  !> By how much rounding may put a coordinate beyond the ends of the path.
+  pure function slack(path)
+    type(path_t), intent(in) :: path
+    real(wp) :: slack
+
+    slack = 1.0e-12_wp*(path%crank(size(path%crank)) - path%crank(1))
+  end function slack
+
+  !> Number of the last station, but one, at or before a coordinate, by bisection.
+  pure function station_before(stations, c) result(k)
+    real(wp), intent(in) :: stations(:)
+    real(wp), intent(in) :: c
+    integer :: k
+
+    integer :: upper, middle
+
+    k = 1
+    upper = size(stations)
+    do while (upper - k > 1)
+      middle = (k + upper)/2
+      if (stations(middle) <= c) then
+        k = middle
+      else
+        upper = middle
+      end if
+    end do
+  end function station_before
 
   !> Intersects the circles about the two bases of a dyad.
   !!
@@ -111,7 +215,7 @@ contains
   !! whose factors vanish exactly where the dyad is stretched or folded.
   pure subroutine place_dyad(linkage, dyad, pose, sine, error)
     type(linkage_t), intent(in) :: linkage
-    type(dyad_t), intent(in) :: dyad
+    type(group_t), intent(in) :: dyad
     type(pose_t), intent(inout) :: pose
     real(wp), intent(out) :: sine
     type(error_t), allocatable, intent(inout) :: error
@@ -159,7 +263,7 @@ contains
 
     real(wp) :: e(2)
 
-    e = linkage%bodies(body)%sense*pose%direction(:, body)
+    e = turned(linkage%bodies(body)%heading, pose%direction(:, body))
     ! Adding zero turns -0 into 0: an angle of -π would be outside the interval.
     angle = atan2(e(2) + 0.0_wp, e(1) + 0.0_wp)
   end function body_angle
@@ -176,7 +280,7 @@ contains
     integer :: k
 
     do k = 1, 2
-      arm(:, k) = arm_to_middle(linkage, linkage%dyads(dyad), pose, k)
+      arm(:, k) = arm_to_middle(linkage, linkage%groups(dyad), pose, k)
     end do
     angle = atan2(abs(pose%sine(dyad)), dot_product(arm(:, 1), arm(:, 2)))
   end function transmission_angle
@@ -194,7 +298,7 @@ contains
   !> Unit vector along a body of a dyad, from its base to the middle pin.
   pure function arm_to_middle(linkage, dyad, pose, k) result(arm)
     type(linkage_t), intent(in) :: linkage !! last pins of its bodies
-    type(dyad_t), intent(in) :: dyad       !! of this linkage
+    type(group_t), intent(in) :: dyad       !! of this linkage
     type(pose_t), intent(in) :: pose       !! directions of the bodies
     integer, intent(in) :: k               !! body of the dyad, 1 or 2
     real(wp) :: arm(2)

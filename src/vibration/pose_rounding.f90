@@ -115,8 +115,8 @@ contains
 
     largest = maxval(linkage%bodies%length)
     shortest = huge(shortest)
-    do i = 1, size(linkage%dyads)
-      associate (dyad => linkage%dyads(i))
+    do i = 1, size(linkage%groups)
+      associate (dyad => linkage%groups(i))
         largest = max(largest, norm2(pose%pin(:, dyad%base(2)) - pose%pin(:, dyad%base(1))))
         shortest = min(shortest, minval(linkage%bodies(dyad%body)%length))
       end associate

@@ -156,7 +156,7 @@ contains
       return
     end if
     do b = 1, size(linkage%bodies)
-      across(b) = linkage%bodies(b)%sense*dot_product(normal_to(pose%direction(:, b)), at(:2, &
+      across(b) = linkage%bodies(b)%heading(1)*dot_product(normal_to(pose%direction(:, b)), at(:2, &
         at_middle, b))
     end do
     b = findloc(abs(across) >= (1.0_wp - tie)*maxval(abs(across)), .true., dim=1)

@@ -74,7 +74,7 @@ contains
 
     lump%mass = norm2(weight%first_moment)/radius
     lump%place = weight%first_moment*(radius/norm2(weight%first_moment))
-    if (body%sense < 0.0_wp) lump%place = [body%length, 0.0_wp] - lump%place
+    if (body%heading(1) < 0.0_wp) lump%place = [body%length, 0.0_wp] - lump%place
   end function counterweight_lump
 
   !> The linkage with its counterweights, each at a distance from its pivot equal to the length of

@@ -38,7 +38,7 @@ contains
     real(wp) :: carried(3), force(2, 3)
     integer :: i, number(3), base(3)
 
-    associate (dyad => linkage%dyads(1), r => linkage%bodies%length)
+    associate (dyad => linkage%groups(1), r => linkage%bodies%length)
       number = [1, dyad%body]
       base = [linkage%bodies(1)%first_pin, dyad%base]
       do i = 1, 3

@@ -113,7 +113,7 @@ contains
     call find_point(motion%system%curve, motion%state(1:3), point, is_smooth)
     motion%is_open = point%sine > 0.0_wp
     if (abs(point%sine) < dead_point_sine) then
-      motion%is_open = linkage%dyads(1)%side > 0.0_wp
+      motion%is_open = linkage%groups(1)%side > 0.0_wp
       if (abs(speed) > 0.0_wp) call set_error(error, error_of_dead_point, &
         "dead point: at a limit position the crank turns back and can have no "// &
         "speed; expected speed=0")

@@ -46,7 +46,7 @@ contains
     type(linkage_t), intent(in) :: linkage !! a four-bar
     type(loop_curve_t) :: curve
 
-    associate (dyad => linkage%dyads(1))
+    associate (dyad => linkage%groups(1))
       curve%length = [linkage%bodies(1)%length, linkage%bodies(dyad%body)%length]
       curve%ground = linkage%ground_position(:, dyad%base(2)) - linkage%ground_position(:, &
         linkage%bodies(1)%first_pin)
@@ -71,7 +71,7 @@ contains
     if (allocated(error)) return
     e(:, 1) = pose%direction(:, 1)
     do k = 1, 2
-      e(:, k + 1) = arm_to_middle(linkage, linkage%dyads(1), pose, k)
+      e(:, k + 1) = arm_to_middle(linkage, linkage%groups(1), pose, k)
     end do
     ! Adding zero turns -0 into 0: an angle of -π would be outside the interval.
     angle = atan2(e(2, :) + 0.0_wp, e(1, :) + 0.0_wp)

@@ -1,0 +1,344 @@
+!> What pins of bodies, sliders, turns and drives demand of the pose: misfits, gradients, and second
+!! derivatives along the motion.
+!!
+!! The unknowns of a group are the positions of its pins and the angles of its bodies. With u from
+!! the first pin of a body to another one, a the unit vector there and n its normal, both turning
+!! with the body, the pin demands `a·u = r` and `n·u = 0`; a pin on the line of a body `m·u = c` with
+!! the normal m of the line. One matrix of gradients serves positions (Newton), velocities and
+!! accelerations, and, transposed, the forces.
+module group_equations
+  use constants, only: degree
+  use dense_factor, only: dense_factor_t, factorize
+  use kinds, only: wp
+  use linkages, only: cross, demands_angle, demands_drive, demands_length, demands_line, &
+    demands_turn, drives_angle, drive_t, drives_length, drives_slider, equation_t, group_t, linkage_t, &
+    normal_to, turned
+  use pose_types, only: pose_t
+  implicit none (type, external)
+  private
+
+  public :: gradient_t, find_gradient, misfit_of, curvature_of, drive_rate, drive_value, &
+    drive_direction, direction_at, unknowns_of, column_scales, group_matrix, factorize_group, &
+    world_line, line_offset
+
+  !> Derivatives of an equation by the positions of up to two pins and the angles of up to two
+  !! bodies.
+  type :: gradient_t
+    integer :: pin(2) = 0                    !! 0: none
+    integer :: body(2) = 0                   !! 0: none
+    real(wp) :: by_pin(2, 2) = 0.0_wp        !! (2, pins) [-]
+    real(wp) :: by_angle(2) = 0.0_wp         !! (bodies) [m], or [-] of equations between angles
+  end type gradient_t
+
+contains
+
+  !> Gradient of an equation at a pose.
+  pure subroutine find_gradient(linkage, equation, pose, gradient)
+    type(linkage_t), intent(in) :: linkage        !! bodies, sliders, turns and drives
+    type(equation_t), intent(in) :: equation      !! one of its equations
+    type(pose_t), intent(in) :: pose              !! pins and directions
+    type(gradient_t), intent(out) :: gradient     !! of its misfit
+
+    real(wp) :: axis(2)
+
+    select case (equation%kind)
+    case (demands_length, demands_angle)
+      axis = turned(equation%place, pose%direction(:, equation%body))
+      axis = axis/norm2(axis)
+      if (equation%kind == demands_angle) axis = normal_to(axis)
+      call along_body(linkage, pose, equation%body, equation%pin, axis, gradient)
+    case (demands_line)
+      call on_line(linkage, pose, equation%number, .true., gradient)
+    case (demands_turn)
+      gradient%body = [linkage%turns(equation%number)%body, &
+        linkage%turns(equation%number)%against]
+      gradient%by_angle = [1.0_wp, -1.0_wp]
+    case (demands_drive)
+      associate (drive => linkage%drives(equation%number))
+        select case (drive%kind)
+        case (drives_angle)
+          gradient%body = [drive%body, drive%against]
+          gradient%by_angle = [1.0_wp, -1.0_wp]
+        case (drives_slider)
+          call on_line(linkage, pose, drive%slider, .false., gradient)
+        case (drives_length)
+          call along_body(linkage, pose, drive%body, linkage%bodies(drive%body)%last_pin, &
+            pose%direction(:, drive%body), gradient)
+        end select
+      end associate
+    end select
+  end subroutine find_gradient
+
+  !> `e·u` with e turning with a body, and u from its first pin to another one.
+  pure subroutine along_body(linkage, pose, body, pin, e, gradient)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    integer, intent(in) :: body !! number
+    integer, intent(in) :: pin  !! at the end of u
+    real(wp), intent(in) :: e(2)
+    type(gradient_t), intent(inout) :: gradient
+
+    gradient%pin = [pin, linkage%bodies(body)%first_pin]
+    gradient%by_pin(:, 1) = e
+    gradient%by_pin(:, 2) = -e
+    gradient%body(1) = body
+    gradient%by_angle(1) = dot_product(normal_to(e), pose%pin(:, pin) - pose%pin(:, &
+      linkage%bodies(body)%first_pin))
+  end subroutine along_body
+
+  !> Across the line of a slider, or along it.
+  pure subroutine on_line(linkage, pose, number, is_across, gradient)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    integer, intent(in) :: number !! of the slider
+    logical, intent(in) :: is_across
+    type(gradient_t), intent(inout) :: gradient
+
+    real(wp) :: e(2)
+
+    associate (slider => linkage%sliders(number))
+      e = slider%direction
+      if (slider%body > 0) e = turned(e, pose%direction(:, slider%body))
+      if (is_across) e = normal_to(e)
+      if (slider%body > 0) then
+        call along_body(linkage, pose, slider%body, slider%pin, e, gradient)
+      else
+        gradient%pin(1) = slider%pin
+        gradient%by_pin(:, 1) = e
+      end if
+    end associate
+  end subroutine on_line
+
+  !> By how much an equation is not fulfilled [m], or [rad] between angles.
+  pure function misfit_of(linkage, equation, pose, origin, crank) result(misfit)
+    type(linkage_t), intent(in) :: linkage   !! bodies, sliders, turns and drives
+    type(equation_t), intent(in) :: equation !! one of its equations
+    type(pose_t), intent(in) :: pose         !! pins and directions
+    real(wp), intent(in) :: origin(2)        !! from which the pins of the pose are counted [m]
+    real(wp), intent(in) :: crank            !! coordinate of the first drive [deg] or [m]
+    real(wp) :: misfit
+
+    real(wp) :: axis(2), u(2), wanted(2), found(2)
+
+    misfit = 0.0_wp
+    select case (equation%kind)
+    case (demands_length, demands_angle)
+      axis = turned(equation%place, pose%direction(:, equation%body))
+      u = pose%pin(:, equation%pin) - pose%pin(:, linkage%bodies(equation%body)%first_pin)
+      if (equation%kind == demands_angle) then
+        misfit = cross(axis, u)/norm2(axis)
+      else
+        ! From the difference of the vectors: nothing is lost where they are equal.
+        misfit = dot_product(axis, u - axis)/norm2(axis)
+      end if
+    case (demands_line)
+      call world_line(linkage, pose, equation%number, origin, axis, u)
+      misfit = cross(axis, pose%pin(:, linkage%sliders(equation%number)%pin) - u)
+    case (demands_turn)
+      associate (turn => linkage%turns(equation%number))
+        wanted = turn%relative
+        if (turn%against > 0) wanted = turned(wanted, pose%direction(:, turn%against))
+        found = pose%direction(:, turn%body)
+      end associate
+      misfit = atan2(cross(wanted, found), dot_product(wanted, found))
+    case (demands_drive)
+      associate (drive => linkage%drives(equation%number))
+        select case (drive%kind)
+        case (drives_angle)
+          wanted = drive_direction(linkage, equation%number, pose, crank)
+          found = pose%direction(:, drive%body)
+          misfit = atan2(cross(wanted, found), dot_product(wanted, found))
+        case (drives_slider)
+          call world_line(linkage, pose, drive%slider, origin, axis, u)
+          misfit = dot_product(axis, pose%pin(:, linkage%sliders(drive%slider)%pin) - u) - &
+            drive_value(drive, crank)
+        case (drives_length)
+          u = pose%pin(:, linkage%bodies(drive%body)%last_pin) - pose%pin(:, &
+            linkage%bodies(drive%body)%first_pin)
+          misfit = dot_product(pose%direction(:, drive%body), u) - drive_value(drive, crank)
+        end select
+      end associate
+    end select
+  end function misfit_of
+
+  !> Second derivative of an equation along the motion without second derivatives of the unknowns:
+  !! q'ᵀ ∇²C q' [m per crank²].
+  pure function curvature_of(linkage, equation, pose, turn, pin_rate) result(curvature)
+    type(linkage_t), intent(in) :: linkage   !! bodies, sliders, turns and drives
+    type(equation_t), intent(in) :: equation !! one of its equations
+    type(pose_t), intent(in) :: pose         !! pins and directions
+    real(wp), intent(in) :: turn(:)          !! (bodies) h
+    real(wp), intent(in) :: pin_rate(:, :)   !! (2, pins) [m]
+    real(wp) :: curvature
+
+    type(gradient_t) :: gradient
+    real(wp) :: e(2), u(2), w(2), h
+
+    curvature = 0.0_wp
+    call find_gradient(linkage, equation, pose, gradient)
+    ! Only those along or across the axis of a body that turns.
+    if (gradient%pin(1) == 0 .or. gradient%body(1) == 0) return
+    e = gradient%by_pin(:, 1)
+    h = turn(gradient%body(1))
+    u = pose%pin(:, gradient%pin(1)) - pose%pin(:, gradient%pin(2))
+    w = pin_rate(:, gradient%pin(1)) - pin_rate(:, gradient%pin(2))
+    curvature = 2.0_wp*h*dot_product(normal_to(e), w) - h**2*dot_product(e, u)
+  end function curvature_of
+
+  !> Coordinate of a drive [deg] or [m].
+  pure function drive_value(drive, crank) result(value)
+    type(drive_t), intent(in) :: drive !! its ratio and phase
+    real(wp), intent(in) :: crank      !! coordinate of the first drive [deg] or [m]
+    real(wp) :: value
+
+    value = drive%ratio*crank + drive%phase
+  end function drive_value
+
+  !> Rate of a drive's coordinate, angles in radians, per that of the first drive.
+  pure function drive_rate(linkage, number) result(rate)
+    type(linkage_t), intent(in) :: linkage !! its drives
+    integer, intent(in) :: number          !! of the drive, from 1
+    real(wp) :: rate
+
+    rate = linkage%drives(number)%ratio
+    if (linkage%drives(number)%kind == drives_angle) rate = rate*degree
+    if (linkage%drives(1)%kind == drives_angle) rate = rate/degree
+    if (number == 1) rate = 1.0_wp
+  end function drive_rate
+
+  !> The direction, first → last pin, that a drive gives its body.
+  pure function drive_direction(linkage, number, pose, crank) result(direction)
+    type(linkage_t), intent(in) :: linkage !! its drives and bodies
+    integer, intent(in) :: number          !! of a drive of an angle
+    type(pose_t), intent(in) :: pose       !! direction of the body from which it is measured
+    real(wp), intent(in) :: crank          !! coordinate of the first drive [deg] or [m]
+    real(wp) :: direction(2)
+
+    associate (drive => linkage%drives(number))
+      direction = direction_at(drive_value(drive, crank))
+      if (drive%against > 0) direction = turned(direction, &
+        turned(linkage%bodies(drive%against)%heading, pose%direction(:, drive%against)))
+      associate (heading => linkage%bodies(drive%body)%heading)
+        direction = turned([heading(1), -heading(2)], direction)
+      end associate
+    end associate
+  end function drive_direction
+
+  !> Cosine and sine of an angle in degrees. Whole turns are removed first: 0° and 360° are the same
+  !! position to the last digit.
+  pure function direction_at(degrees) result(direction)
+    real(wp), intent(in) :: degrees !! [deg]
+    real(wp) :: direction(2)
+
+    real(wp) :: angle, quadrants
+
+    ! Within ±45° of an axis cosine and sine keep their last digits: 90° gives 0 and 1.
+    angle = modulo(degrees, 360.0_wp)
+    quadrants = anint(angle/90.0_wp)
+    angle = (angle - 90.0_wp*quadrants)*degree
+    direction = [cos(angle), sin(angle)]
+    select case (modulo(nint(quadrants), 4))
+    case (1)
+      direction = [-direction(2), direction(1)]
+    case (2)
+      direction = -direction
+    case (3)
+      direction = [direction(2), -direction(1)]
+    end select
+  end function direction_at
+
+  !> Direction and a point of the line of a slider.
+  pure subroutine world_line(linkage, pose, number, origin, direction, point)
+    type(linkage_t), intent(in) :: linkage !! its sliders
+    type(pose_t), intent(in) :: pose       !! of the body that has the line
+    integer, intent(in) :: number          !! of the slider, from 1
+    real(wp), intent(in) :: origin(2)      !! from which the pins of the pose are counted [m]
+    real(wp), intent(out) :: direction(2)  !! unit vector, global axes
+    real(wp), intent(out) :: point(2)      !! from the origin [m]
+
+    associate (slider => linkage%sliders(number))
+      if (slider%body > 0) then
+        direction = turned(slider%direction, pose%direction(:, slider%body))
+        point = pose%pin(:, linkage%bodies(slider%body)%first_pin) + turned(slider%point, &
+          pose%direction(:, slider%body))
+      else
+        direction = slider%direction
+        point = slider%point - origin
+      end if
+    end associate
+  end subroutine world_line
+
+  !> Distance of the line of a body from its first pin, positive if the pin lies to its right [m].
+  pure function line_offset(linkage, number) result(offset)
+    type(linkage_t), intent(in) :: linkage !! its sliders
+    integer, intent(in) :: number          !! of a slider on a body
+    real(wp) :: offset
+
+    offset = cross(linkage%sliders(number)%direction, linkage%sliders(number)%point)
+  end function line_offset
+
+  !> Number of unknowns of a group: two of each pin, one of each body.
+  pure function unknowns_of(group) result(number)
+    type(group_t), intent(in) :: group !! its pins and bodies
+    integer :: number
+
+    number = 2*size(group%pins) + size(group%bodies)
+  end function unknowns_of
+
+  !> Lengths with which the angles of the bodies of a group are multiplied, so that all its unknowns
+  !! are lengths: the farthest of their pins [m].
+  pure function column_scales(linkage, group) result(scales)
+    type(linkage_t), intent(in) :: linkage !! its bodies
+    type(group_t), intent(in) :: group     !! of this linkage
+    real(wp) :: scales(size(group%bodies))
+
+    integer :: b, i
+
+    do b = 1, size(group%bodies)
+      associate (body => linkage%bodies(group%bodies(b)))
+        scales(b) = body%length
+        do i = 1, size(body%further)
+          scales(b) = max(scales(b), norm2(body%further(i)%place))
+        end do
+      end associate
+    end do
+  end function column_scales
+
+  !> Gradients of the equations of a group by its unknowns: pins first, then angles by lengths.
+  pure function group_matrix(linkage, group, pose, scales) result(matrix)
+    type(linkage_t), intent(in) :: linkage !! bodies, sliders, turns and drives
+    type(group_t), intent(in) :: group     !! with equations
+    type(pose_t), intent(in) :: pose       !! pins and directions
+    real(wp), intent(in) :: scales(:)      !! of `column_scales` [m]
+    real(wp) :: matrix(size(group%equations), size(group%equations))
+
+    type(gradient_t) :: gradient
+    integer :: i, k, at, first_angle
+
+    matrix = 0.0_wp
+    first_angle = 2*size(group%pins)
+    do i = 1, size(group%equations)
+      call find_gradient(linkage, group%equations(i), pose, gradient)
+      do k = 1, 2
+        at = findloc(group%pins, gradient%pin(k), dim=1)
+        if (at > 0) matrix(i, 2*at - 1:2*at) = matrix(i, 2*at - 1:2*at) + gradient%by_pin(:, k)
+        at = findloc(group%bodies, gradient%body(k), dim=1)
+        if (at > 0) matrix(i, first_angle + at) = matrix(i, first_angle + at) + &
+          gradient%by_angle(k)/scales(at)
+      end do
+    end do
+  end function group_matrix
+
+  !> Factors of the matrix of a group at a pose.
+  pure subroutine factorize_group(linkage, group, pose, factor, scales)
+    type(linkage_t), intent(in) :: linkage       !! bodies, sliders, turns and drives
+    type(group_t), intent(in) :: group           !! with equations
+    type(pose_t), intent(in) :: pose             !! pins and directions
+    type(dense_factor_t), intent(out) :: factor  !! of `group_matrix`
+    real(wp), intent(out) :: scales(:)           !! (bodies of the group) [m]
+
+    scales = column_scales(linkage, group)
+    call factorize(group_matrix(linkage, group, pose, scales), factor)
+  end subroutine factorize_group
+
+end module group_equations

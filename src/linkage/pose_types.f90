@@ -1,0 +1,58 @@
+!> The pose of a linkage: where its pins are and how its bodies are turned.
+module pose_types
+  use kinds, only: wp
+  use linkages, only: body_t, linkage_t, turned
+  implicit none (type, external)
+  private
+
+  public :: pose_t, arm_to_pin, pins_of_body, place_of_pin
+
+  !> Positions of the pins and directions of the bodies.
+  type :: pose_t
+    real(wp), allocatable :: pin(:, :)       !! (2, pins) positions [m]
+    real(wp), allocatable :: direction(:, :) !! (2, bodies) unit vectors, first → last pin
+    real(wp), allocatable :: sine(:)         !! (groups) of a dyad: of the angle from base 1 →
+                                             !! middle to base 2 → middle; of others: the scaled
+                                             !! determinant of their equations; 0 at a dead point
+  end type pose_t
+
+contains
+
+  !> Numbers of all pins of a body: first, last, further.
+  pure function pins_of_body(body) result(pins)
+    type(body_t), intent(in) :: body !! with its pins
+    integer :: pins(2 + size(body%further))
+
+    pins(:2) = [body%first_pin, body%last_pin]
+    pins(3:) = body%further%pin
+  end function pins_of_body
+
+  !> Place of one of its pins on a body, from its first pin, in its axes [m].
+  pure function place_of_pin(body, pin) result(place)
+    type(body_t), intent(in) :: body !! with its pins
+    integer, intent(in) :: pin       !! number, one of its pins
+    real(wp) :: place(2)
+
+    integer :: i
+
+    place = 0.0_wp
+    if (pin == body%first_pin) return
+    place(1) = body%length
+    if (pin == body%last_pin) return
+    do i = 1, size(body%further)
+      if (body%further(i)%pin == pin) place = body%further(i)%place
+    end do
+  end function place_of_pin
+
+  !> From the first pin of a body to one of its pins, in global axes [m].
+  pure function arm_to_pin(linkage, pose, body, pin) result(arm)
+    type(linkage_t), intent(in) :: linkage !! its bodies
+    type(pose_t), intent(in) :: pose       !! directions of the bodies
+    integer, intent(in) :: body            !! number, from 1
+    integer, intent(in) :: pin             !! number, one of its pins
+    real(wp) :: arm(2)
+
+    arm = turned(place_of_pin(linkage%bodies(body), pin), pose%direction(:, body))
+  end function arm_to_pin
+
+end module pose_types
