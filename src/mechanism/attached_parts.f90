@@ -83,7 +83,7 @@ contains
     integer, intent(in) :: body        !! number in the linkage, from 1
     logical :: against
 
-    against = .not. same_word(model%links(model%loop(body))%pin(1)%text, &
+    against = .not. same_word(model%links(model%loop(body))%pins(1)%text, &
       model%loop_pins(body)%text)
   end function runs_against
 

@@ -1,11 +1,13 @@
 !> Order of the links and pins round the loop of a four-bar: driven link, coupler, follower.
 module loop_finder
   use diagnostics, only: add_error, diagnostics_t, has_errors
+  use drive_cards, only: branch_left
+  use kinds, only: wp
   use link_cards, only: link_t
-  use models, only: model_t
-  use name_checks, only: look_up
+  use link_shapes, only: find_drawn_pin
+  use models, only: branch_crossed, branch_open, is_four_bar, model_t
   use name_index, only: find_name, name_index_t, new_name_index
-  use text, only: same_word, to_string
+  use text, only: same_word
   use tokens, only: token_t, token_texts
   implicit none (type, external)
   private
@@ -14,48 +16,44 @@ module loop_finder
 
 contains
 
-  !> Finds the order of the links round the four-bar: driven link, coupler, follower; and of its
-  !! pins, from the driven ground pivot to the other one. Errors: an unknown driven link, not three
-  !! links and two ground pivots, a driven link on no or both ground pivots, links that form no
-  !! loop. The order is then incomplete.
+  !> Finds the order of the links round a four-bar: driven link, coupler, follower; and of its pins,
+  !! from the driven ground pivot to the other one; and its branch, where the drawing or a BRANCH
+  !! card about the pin of coupler and follower gives it. Errors: links that form no loop, BRANCH
+  !! open or crossed in another linkage. The order is then incomplete. Any other linkage has
+  !! no loop.
   pure subroutine find_loop(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added; the loop is not searched
                                                       !! if it has any before
-    type(model_t), intent(inout) :: model             !! `loop` and `loop_pins` are set
+    type(model_t), intent(inout) :: model             !! `loop`, `loop_pins` and `branch` are set
 
-    type(name_index_t) :: links, grounds
+    type(name_index_t) :: grounds
     type(token_t) :: pin
-    integer :: i, position, link, grounded, far_end
+    integer :: position, link, far_end
     logical :: used(size(model%links))
 
-    links = new_name_index(token_texts(model%links%name))
-    grounds = new_name_index(token_texts(model%grounds%pin))
-    link = 0
-    if (model%drive%line > 0) call look_up(model%drive, links, "link", diagnostics, link)
-    allocate (model%loop(3), model%loop_pins(4))
-    model%loop = 0
-    if (link == 0 .or. has_errors(diagnostics)) return
-
-    grounded = count([(find_name(grounds, model%links(link)%pin(i)%text) > 0, i=1, 2)])
-    if (size(model%links) /= 3 .or. size(model%grounds) /= 2) then
-      call add_error(diagnostics, model%links(min(4, size(model%links)))%name, &
-        "only the four-bar can be solved: three links and two ground pivots; this deck has "// &
-        to_string(size(model%links))//" and "//to_string(size(model%grounds)))
-      return
-    else if (grounded /= 1) then
-      call add_error(diagnostics, model%drive, "the driven link '"//model%drive%text//"' "// &
-        merge("turns about no ground pivot", "joins the two ground pivots", grounded == 0))
+    if (.not. is_four_bar(model) .or. size(model%drives) == 0) then
+      allocate (model%loop(0), model%loop_pins(0))
+      if (has_errors(diagnostics) .or. model%branch_word%line == 0) return
+      call add_error(diagnostics, model%branch_word, "open and crossed are the branches of a "// &
+        "four-bar; of another linkage: BRANCH pin left|right pin pin, BRANCH pin "// &
+        "forward|backward, or PIN cards")
       return
     end if
+    allocate (model%loop(3), model%loop_pins(4))
+    model%loop = 0
+    link = model%drives(1)%link
+    if (link == 0 .or. has_errors(diagnostics)) return
+    grounds = new_name_index(token_texts(model%grounds%pin))
 
     used = .false.
-    pin = model%links(link)%pin(merge(1, 2, find_name(grounds, model%links(link)%pin(1)%text) > 0))
+    far_end = merge(2, 1, find_name(grounds, model%links(link)%pins(1)%text) > 0)
+    pin = model%links(link)%pins(3 - far_end)
     model%loop_pins(1) = pin
     do position = 1, 3
       used(link) = .true.
       model%loop(position) = link
-      far_end = merge(2, 1, same_word(model%links(link)%pin(1)%text, pin%text))
-      pin = model%links(link)%pin(far_end)
+      far_end = merge(2, 1, same_word(model%links(link)%pins(1)%text, pin%text))
+      pin = model%links(link)%pins(far_end)
       model%loop_pins(position + 1) = pin
       if (position == 3) exit
       link = link_at(model%links, used, pin%text)
@@ -64,7 +62,46 @@ contains
         return
       end if
     end do
+    call choose_branch(diagnostics, model)
   end subroutine find_loop
+
+  !> Open or crossed, without a card that says so: by a BRANCH card about the pin of coupler and
+  !! follower, or else by the drawing. Errors: a card about another pin, or the side of another way
+  !! than that from the driven link's pin to the other ground pivot.
+  pure subroutine choose_branch(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(inout) :: model
+
+    real(wp) :: place(2, 4), side
+    logical :: is_drawn(4), is_left, is_reverse
+    integer :: i
+
+    do i = 1, size(model%branches)
+      associate (branch => model%branches(i), a => model%loop_pins(2), o4 => model%loop_pins(4))
+        is_reverse = same_word(branch%from%text, o4%text) .and. same_word(branch%to%text, a%text)
+        if (model%branch_word%line > 0) then
+          call add_error(diagnostics, branch%pin, "a second branch of the four-bar", &
+            model%branch_word, "the first is here")
+        else if (.not. same_word(branch%pin%text, model%loop_pins(3)%text) .or. .not. &
+          (is_reverse .or. (same_word(branch%from%text, a%text) .and. same_word(branch%to%text, &
+          o4%text)))) then
+          call add_error(diagnostics, branch%pin, "the branch of this four-bar is: BRANCH "// &
+            model%loop_pins(3)%text//" left|right "//a%text//" "//o4%text)
+        else
+          is_left = (branch%which == branch_left) .neqv. is_reverse
+          model%branch = merge(branch_open, branch_crossed, is_left)
+        end if
+      end associate
+    end do
+    if (size(model%branches) > 0 .or. model%branch_word%line > 0) return
+    do i = 1, 4
+      call find_drawn_pin(model, model%loop_pins(i)%text, place(:, i), is_drawn(i))
+    end do
+    if (.not. all(is_drawn)) return
+    side = (place(1, 4) - place(1, 2))*(place(2, 3) - place(2, 2)) - &
+      (place(2, 4) - place(2, 2))*(place(1, 3) - place(1, 2))
+    model%branch = merge(branch_crossed, branch_open, side < 0.0_wp)
+  end subroutine choose_branch
 
   !> Reports why the links form no loop, although every moving pin joins two links: two of the three
   !! are joined to each other, and the third joins the ground pivots.
@@ -78,8 +115,8 @@ contains
 
     do i = 1, size(model%links)
       if (used(i)) cycle
-      if (find_name(grounds, model%links(i)%pin(1)%text) == 0 .or. find_name(grounds, &
-        model%links(i)%pin(2)%text) == 0) cycle
+      if (find_name(grounds, model%links(i)%pins(1)%text) == 0 .or. find_name(grounds, &
+        model%links(i)%pins(2)%text) == 0) cycle
       call add_error(diagnostics, model%links(i)%name, "link '"//model%links(i)%name%text// &
         "' joins the two ground pivots and cannot move")
       return
@@ -100,7 +137,7 @@ contains
     number = 0
     do n = 1, size(links)
       if (used(n)) cycle
-      if (same_word(links(n)%pin(1)%text, name) .or. same_word(links(n)%pin(2)%text, name)) &
+      if (same_word(links(n)%pins(1)%text, name) .or. same_word(links(n)%pins(2)%text, name)) &
         number = n
     end do
   end function link_at

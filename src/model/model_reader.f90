@@ -5,21 +5,26 @@ module model_reader
   use card_table, only: card_kind_number, card_kinds, card_names
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
+  use drive_cards, only: branch_t, kind_of_drive, moves_along, read_branch, read_drive
+  use drive_checks, only: check_drives
   use effect_cards, only: effects_axial, effects_static, effects_t, read_effects
+  use joint_cards, only: read_guide, read_pin, read_slider, read_weld
+  use joint_checks, only: check_joints
   use kinds, only: wp
   use link_cards, only: read_link
+  use link_checks, only: check_links
   use linkage_cards, only: read_ground, read_mesh, read_pin_mass, set_default_mesh
   use load_cards, only: read_force, read_gravity, read_torque
   use loop_finder, only: find_loop
   use materials, only: read_material
   use mesh_checks, only: check_meshes
-  use models, only: is_loaded, is_moving, model_t, needs_mesh, report_number
+  use models, only: drives_length, is_loaded, is_moving, model_t, needs_mesh, report_number
   use motor_cards, only: read_motor, read_resistance
   use name_checks, only: check_names
   use output_units, only: new_output_units, output_units_t, table_name
   use report_cards, only: read_report
   use report_kinds, only: report_kind_t
-  use request_cards, only: read_crank, read_drive, read_modes, read_option, read_speed, read_title
+  use request_cards, only: read_crank, read_modes, read_option, read_speed, read_title
   use request_checks, only: check_requests, check_required
   use response_cards, only: is_response_form, read_damping, read_gauge, read_omitted_terms, &
     response_form
@@ -31,7 +36,7 @@ module model_reader
   use tokens, only: token_t
   use unit_cards, only: read_units
   use unit_checks, only: check_bare_units
-  use units, only: from_si, si_units, unit_system_t
+  use units, only: coherent_unit, dimension_velocity, from_si, si_units, unit_system_t, unit_t
   use value_lists, only: value_list_t
   implicit none (type, external)
   private
@@ -49,7 +54,7 @@ contains
                                                       !! place of the `$name`s
     type(report_kind_t), intent(in) :: reports(:)     !! (kinds) all that exist
     type(diagnostics_t), intent(inout) :: diagnostics !! errors and warnings are added
-    type(model_t), intent(out) :: model               !! in SI, crank angles in degrees
+    type(model_t), intent(out) :: model               !! in SI, but angles of CRANK in degrees
 
     logical :: chooses_rate !! UNITS has `speed=`
 
@@ -57,6 +62,7 @@ contains
     model%variant = ""
     allocate (model%varied(0))
     model%drive = token_t("", 0, 0)
+    model%branch_word = token_t("", 0, 0)
     model%shear_word = token_t("", 0, 0)
     model%modes_word = token_t("", 0, 0)
     model%inertia_word = token_t("", 0, 0)
@@ -75,6 +81,7 @@ contains
     call read_system(cards, diagnostics, model%units, model%outputs, chooses_rate)
     call read_model_cards(cards, reports, diagnostics, model)
     if (.not. chooses_rate) call take_rate_of_deck(model)
+    call choose_speed_unit(model)
     call show_speeds(model)
     if (model%effects == 0) model%effects = merge(effects_axial, effects_static, &
       is_moving(model) .or. is_loaded(model))
@@ -86,6 +93,9 @@ contains
     call check_required(cards, reports, diagnostics, model)
     call check_names(diagnostics, model)
     call check_bodies(diagnostics, model)
+    call check_links(diagnostics, model)
+    call check_joints(diagnostics, model)
+    call check_drives(diagnostics, model)
     call find_dampings(diagnostics, model)
     call find_gauges(diagnostics, model)
     call find_loop(diagnostics, model)
@@ -129,16 +139,23 @@ contains
     character(len=:), allocatable :: hint
 
     ! In any spelling with or without an s at its end.
-    character(len=*), parameter :: not_built = " SLIDER SLIDE PISTON PRISMATIC GUIDE SLOT RACK "// &
-      "SPRING TORSION DAMPER DASHPOT CAM GEAR BELT CHAIN FRICTION CONTACT CLEARANCE JOINT "
+    character(len=*), parameter :: not_built = " RACK SPRING TORSION DAMPER DASHPOT CAM GEAR "// &
+      "BELT CHAIN FRICTION CONTACT CLEARANCE ", sliding = " SLIDE PISTON PRISMATIC SLOT BLOCK ", &
+      joints = " JOINT HINGE REVOLUTE PIVOT "
     character(len=*), parameter :: signs(*) = ["//", "/*", "--", "% ", "* ", "; ", "''"]
     character(len=:), allocatable :: word
 
     word = upper_case(keyword)
     if (len(word) > 1 .and. word(len(word):) == "S") word = word(:len(word) - 1)
     if (index(not_built, " "//word//" ") > 0) then
-      hint = ": this program computes four-bar linkages; sliders, springs, dampers, cams and "// &
-        "gears are not built yet"
+      hint = ": springs, dampers, cams, gears, belts, friction and contact are not built yet"
+      return
+    else if (index(sliding, " "//word//" ") > 0) then
+      hint = "; what slides is described by SLIDER, and what it slides along by GUIDE or LINK"
+      return
+    else if (index(joints, " "//word//" ") > 0) then
+      hint = "; links with the same pin turn on it without a card, GROUND fixes a pin, and "// &
+        "WELD joins links rigidly"
       return
     end if
     if (any(signs(:3) == keyword(:min(2, len(keyword)))) .or. &
@@ -200,7 +217,7 @@ contains
     integer :: motion
 
     motion = report_number(model, "motion")
-    if (allocated(model%speed%unit%name)) then
+    if (allocated(model%speed%unit%name) .and. .not. drives_length(model)) then
       model%outputs%rate = model%speed%unit
     else if (motion > 0) then
       if (allocated(model%reports(motion)%speed%unit%name)) &
@@ -209,28 +226,42 @@ contains
     model%outputs%rate%name = table_name(model%outputs%rate)
   end subroutine take_rate_of_deck
 
+  !> The unit of speeds in tables: that of angular velocities, or of a slider or a ram the unit that
+  !! the SPEED card names, else the deck's.
+  pure subroutine choose_speed_unit(model)
+    type(model_t), intent(inout) :: model !! with its cards read, and the unit of angular velocities
+
+    model%speed_unit = model%outputs%rate
+    if (.not. drives_length(model)) return
+    model%speed_unit = coherent_unit(model%units, dimension_velocity)
+    if (allocated(model%speed%unit%name)) model%speed_unit = model%speed%unit
+    model%speed_unit%name = table_name(model%speed_unit)
+  end subroutine choose_speed_unit
+
   !> The speeds in the unit of results. Where this is the unit that the deck gives them in, they are
   !! its numbers.
   pure subroutine show_speeds(model)
-    type(model_t), intent(inout) :: model !! with its speeds, and the unit of angular velocities
+    type(model_t), intent(inout) :: model !! with its speeds and their unit, and that of angular
+                                          !! velocities
 
     integer :: motion
 
-    model%shown_speed = shown(model%speed)
+    model%shown_speed = shown(model%speed, model%speed_unit)
     motion = report_number(model, "motion")
     if (motion == 0) return
     if (size(model%reports(motion)%speed%value) == 0) return
-    model%shown_start = sum(shown(model%reports(motion)%speed))
+    model%shown_start = sum(shown(model%reports(motion)%speed, model%outputs%rate))
 
   contains
 
-    pure function shown(list) result(values)
-      type(value_list_t), intent(in) :: list !! [rad/s]
+    pure function shown(list, unit) result(values)
+      type(value_list_t), intent(in) :: list !! in SI
+      type(unit_t), intent(in) :: unit       !! of the result
       real(wp) :: values(size(list%value))
 
-      values = from_si(list%value, model%outputs%rate)
+      values = from_si(list%value, unit)
       if (.not. allocated(list%unit%name)) return
-      if (table_name(list%unit) == model%outputs%rate%name) values = list%written
+      if (table_name(list%unit) == unit%name) values = list%written
     end function shown
 
   end subroutine show_speeds
@@ -242,7 +273,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(inout) :: model !! has its units
 
-    integer :: so_far(size(card_kinds)), i, kind
+    integer :: so_far(size(card_kinds)), i, kind, first_drive
 
     allocate (model%materials(number_of(cards, "MATERIAL")), &
       model%sections(number_of(cards, "SECTION")), model%grounds(number_of(cards, "GROUND")), &
@@ -252,15 +283,41 @@ contains
       model%forces(number_of(cards, "FORCE")), model%torques(number_of(cards, "TORQUE")), &
       model%resistances(number_of(cards, "LOAD")), &
       model%dampings(number_of(cards, "DAMPING")), model%gauges(number_of(cards, "GAUGE")))
+    allocate (model%drawn_pins(number_of(cards, "PIN")), model%welds(number_of(cards, "WELD")), &
+      model%guides(number_of(cards, "GUIDE")), model%sliders(number_of(cards, "SLIDER")), &
+      model%drives(number_of(cards, "DRIVE")), model%branches(number_of(cards, "BRANCH")))
+    ! What the first drive moves says what CRANK and SPEED are.
+    do first_drive = 1, size(cards)
+      if (same_word(cards(first_drive)%keyword%text, "DRIVE")) exit
+    end do
     so_far = 0
     do i = 1, size(cards)
       kind = card_kind_number(cards(i)%keyword%text)
       if (kind == 0) cycle
       so_far(kind) = so_far(kind) + 1
-      call read_card(cards(i), trim(card_kinds(kind)%keyword), so_far(kind), reports, diagnostics, &
-        model)
+      call read_card(cards(i), trim(card_kinds(kind)%keyword), so_far(kind), &
+        cards(min(first_drive, size(cards))), reports, diagnostics, model)
     end do
+    call keep_branches_of_pins(model)
+    if (size(model%drives) > 0) model%drive = model%drives(1)%subject
   end subroutine read_model_cards
+
+  !> Removes from the list the BRANCH cards of one word, and those that cannot be read.
+  pure subroutine keep_branches_of_pins(model)
+    type(model_t), intent(inout) :: model
+
+    type(branch_t), allocatable :: branches(:)
+    integer :: i, filled
+
+    allocate (branches(count(model%branches%pin%line > 0)))
+    filled = 0
+    do i = 1, size(model%branches)
+      if (model%branches(i)%pin%line == 0) cycle
+      filled = filled + 1
+      branches(filled) = model%branches(i)
+    end do
+    call move_alloc(branches, model%branches)
+  end subroutine keep_branches_of_pins
 
   pure function number_of(cards, keyword) result(number)
     type(card_t), intent(in) :: cards(:)
@@ -276,14 +333,20 @@ contains
   end function number_of
 
   !> Reads one card. UNITS is read before; INCLUDE, SET and VARY are already carried out.
-  subroutine read_card(card, keyword, number, reports, diagnostics, model)
+  subroutine read_card(card, keyword, number, first_drive, reports, diagnostics, model)
     type(card_t), intent(in) :: card
     character(len=*), intent(in) :: keyword       !! as in the table of cards
     integer, intent(in) :: number                 !! of the card among those of its keyword, from 1
+    type(card_t), intent(in) :: first_drive       !! the first DRIVE card, if there is one
     type(report_kind_t), intent(in) :: reports(:) !! (kinds) all that exist
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(inout) :: model !! has its units, and its lists their lengths
 
+    logical :: by_length
+
+    by_length = .false.
+    if (same_word(first_drive%keyword%text, "DRIVE")) by_length = &
+      moves_along(kind_of_drive(first_drive))
     associate (system => model%units)
       select case (keyword)
       case ("TITLE")
@@ -297,9 +360,18 @@ contains
       case ("LINK")
         call read_link(card, system, diagnostics, model%links(number))
       case ("DRIVE")
-        call read_drive(card, diagnostics, model%drive)
+        call read_drive(card, first_drive, system, diagnostics, model%drives(number))
       case ("BRANCH")
-        call read_option(card, diagnostics, model%branch)
+        call read_branch(card, diagnostics, model%branch, model%branch_word, &
+          model%branches(number))
+      case ("PIN")
+        call read_pin(card, system, diagnostics, model%drawn_pins(number))
+      case ("WELD")
+        call read_weld(card, diagnostics, model%welds(number))
+      case ("GUIDE")
+        call read_guide(card, system, diagnostics, model%guides(number))
+      case ("SLIDER")
+        call read_slider(card, system, diagnostics, model%sliders(number))
       case ("PINMASS")
         call read_pin_mass(card, system, diagnostics, model%pin_masses(number))
       case ("MESH")
@@ -324,10 +396,10 @@ contains
       case ("LOAD")
         call read_resistance(card, system, diagnostics, model%resistances(number))
       case ("CRANK")
-        call read_crank(card, system, diagnostics, model%crank)
+        call read_crank(card, system, diagnostics, model%crank, by_length)
       case ("SPEED")
         call read_speed(card, system, diagnostics, model%speed, model%acceleration, &
-          model%ramp, model%ramp_word)
+          model%ramp, model%ramp_word, by_length)
       case ("INERTIA")
         call read_option(card, diagnostics, model%inertia, model%inertia_word)
       case ("EFFECTS")

@@ -3,7 +3,9 @@
 module models
   use body_cards, only: mass_card_t, point_t
   use card_echo, only: echo_line_t
+  use drive_cards, only: branch_t, drive_angle, drive_t, moves_along
   use effect_cards, only: effects_axial, effects_static
+  use joint_cards, only: drawn_pin_t, guide_t, slider_t, weld_t
   use kinds, only: wp
   use link_cards, only: has_own_mass, link_t
   use linkage_cards, only: ground_t, mesh_t, pin_mass_t
@@ -15,9 +17,9 @@ module models
   use report_kinds, only: report_kind_t
   use response_cards, only: damping_card_t, gauge_t, omitted_terms_t
   use sections, only: section_t
-  use text, only: to_string
+  use text, only: same_word, to_string
   use tokens, only: token_t
-  use units, only: from_si, unit_system_t
+  use units, only: from_si, unit_system_t, unit_t
   use value_lists, only: value_list_t
   implicit none (type, external)
   private
@@ -26,7 +28,7 @@ module models
     needs_loads, needs_inertia, needs_frequencies, needs_response, report_in_motion, &
     steady_state_report, accuracy_of_study, needs_beams, &
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
-    link_line_density, speed_in_table, speed_in_words
+    link_line_density, speed_in_table, speed_in_words, is_four_bar, drives_length
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
@@ -43,7 +45,11 @@ module models
     type(material_t), allocatable :: materials(:)
     type(section_t), allocatable :: sections(:)
     type(ground_t), allocatable :: grounds(:)
+    type(drawn_pin_t), allocatable :: drawn_pins(:) !! PIN cards
     type(link_t), allocatable :: links(:)
+    type(weld_t), allocatable :: welds(:)
+    type(guide_t), allocatable :: guides(:)
+    type(slider_t), allocatable :: sliders(:)
     type(pin_mass_t), allocatable :: pin_masses(:)
     type(mesh_t), allocatable :: meshes(:)
     type(mass_card_t), allocatable :: masses(:)
@@ -56,17 +62,27 @@ module models
     type(torque_card_t), allocatable :: torques(:)
     type(motor_t) :: motor
     type(resistance_t), allocatable :: resistances(:)
-    integer, allocatable :: loop(:)             !! (3) links round the loop from the driven ground:
-                                                !! numbers in `links`
+    integer, allocatable :: loop(:)             !! (3) of a four-bar: links round the loop from the
+                                                !! driven ground, numbers in `links`; of any other
+                                                !! linkage none
     type(token_t), allocatable :: loop_pins(:)  !! (4) pins round the loop, from the driven ground
-                                                !! pivot to the other one
-    type(token_t) :: drive                      !! name of the driven link
-    integer :: branch = branch_open             !! assembly mode: one of the branch_… constants
-    type(value_list_t) :: crank                 !! angles [deg]
-    type(value_list_t) :: speed                 !! ω2 [rad/s]
-    real(wp), allocatable :: shown_speed(:)     !! (speeds) ω2 in `outputs%rate`, as the deck has it
-    real(wp) :: shown_start = 0.0_wp            !! start speed of REPORT motion, likewise
-    real(wp) :: acceleration = 0.0_wp           !! α2, at every speed [rad/s²]
+                                                !! pivot to the other one; likewise
+    type(drive_t), allocatable :: drives(:)     !! the first one's positions are those of CRANK
+    type(token_t) :: drive                      !! first word of the first DRIVE card: the driven
+                                                !! link, or the pin of the driven slider
+    integer :: branch = branch_open             !! of a four-bar: branch_open or branch_crossed
+    type(token_t) :: branch_word                !! keyword of BRANCH open|crossed
+    type(branch_t), allocatable :: branches(:)  !! BRANCH cards about pins
+    type(value_list_t) :: crank                 !! positions of the first drive: angles [deg], of a
+                                                !! slider or a ram [m]
+    type(value_list_t) :: speed                 !! ω2 [rad/s], of a slider or a ram [m/s]
+    type(unit_t) :: speed_unit                  !! of speeds in tables: `outputs%rate`, of a slider
+                                                !! or a ram a unit of velocity
+    real(wp), allocatable :: shown_speed(:)     !! (speeds) in `speed_unit`, as the deck has them
+    real(wp) :: shown_start = 0.0_wp            !! start speed of REPORT motion in `outputs%rate`,
+                                                !! likewise
+    real(wp) :: acceleration = 0.0_wp           !! α2, at every speed [rad/s²], of a slider or a ram
+                                                !! [m/s²]
     real(wp) :: ramp = 0.0_wp                   !! time in which REPORT transient gets to the speed
                                                 !! from rest; 0: it has it [s]
     type(token_t) :: ramp_word
@@ -103,6 +119,108 @@ contains
       if (model%reports(i)%kind%name == name) number = i
     end do
   end function report_number
+
+  !> Whether the linkage has the parts of a four-bar and no others: three links between two pins
+  !! each, two ground pivots, one driven link. Decks that were made with PIN or BRANCH cards about
+  !! pins must form its loop, too; of others a pin that does not fit is a mistake.
+  pure function is_four_bar(model) result(is)
+    type(model_t), intent(in) :: model !! as read
+    logical :: is
+
+    integer :: i
+
+    is = size(model%links) == 3 .and. size(model%grounds) == 2 .and. size(model%guides) == 0 .and. &
+      size(model%sliders) == 0 .and. size(model%welds) == 0 .and. size(model%drives) <= 1
+    if (.not. is) return
+    do i = 1, size(model%drives)
+      is = is .and. model%drives(i)%kind <= drive_angle .and. .not. model%drives(i)%is_free
+    end do
+    do i = 1, 3
+      ! A link without pins cannot be read.
+      is = is .and. size(model%links(i)%pins) <= 2
+    end do
+    do i = 1, size(model%points)
+      is = is .and. .not. is_pin(model, model%points(i)%name%text)
+    end do
+    if (.not. is .or. (size(model%drawn_pins) == 0 .and. size(model%branches) == 0)) return
+    is = forms_loop(model)
+  end function is_four_bar
+
+  !> Whether links, PINMASS or FORCE cards take a name for that of a pin.
+  pure function is_pin(model, name) result(is)
+    type(model_t), intent(in) :: model
+    character(len=*), intent(in) :: name
+    logical :: is
+
+    integer :: i, k
+
+    is = .true.
+    do i = 1, size(model%links)
+      do k = 1, size(model%links(i)%pins)
+        if (same_word(model%links(i)%pins(k)%text, name)) return
+      end do
+    end do
+    do i = 1, size(model%pin_masses)
+      if (same_word(model%pin_masses(i)%pin%text, name)) return
+    end do
+    do i = 1, size(model%forces)
+      if (same_word(model%forces(i)%pin%text, name)) return
+    end do
+    is = .false.
+  end function is_pin
+
+  !> Whether three links of two pins lead from one ground pivot to the other: each ground pivot
+  !! carries one link, each other pin joins two, and no link joins the ground pivots.
+  pure function forms_loop(model) result(forms)
+    type(model_t), intent(in) :: model !! with two ground pivots
+    logical :: forms
+
+    integer :: i, k, g, uses, grounded
+    logical :: is_ground
+
+    forms = .true.
+    do i = 1, 3
+      grounded = 0
+      do k = 1, size(model%links(i)%pins)
+        associate (pin => model%links(i)%pins(k)%text)
+          is_ground = .false.
+          do g = 1, 2
+            is_ground = is_ground .or. same_word(model%grounds(g)%pin%text, pin)
+          end do
+          if (is_ground) grounded = grounded + 1
+          uses = pin_uses(model, pin)
+          forms = forms .and. uses == merge(1, 2, is_ground)
+        end associate
+      end do
+      forms = forms .and. grounded < 2
+    end do
+  end function forms_loop
+
+  !> How many links have a pin.
+  pure function pin_uses(model, name) result(uses)
+    type(model_t), intent(in) :: model
+    character(len=*), intent(in) :: name
+    integer :: uses
+
+    integer :: i, k
+
+    uses = 0
+    do i = 1, size(model%links)
+      do k = 1, size(model%links(i)%pins)
+        if (same_word(model%links(i)%pins(k)%text, name)) uses = uses + 1
+      end do
+    end do
+  end function pin_uses
+
+  !> Whether positions and speeds of the deck are those of a slider or a ram, lengths and
+  !! velocities; else they are angles and angular velocities.
+  pure function drives_length(model) result(drives)
+    type(model_t), intent(in) :: model !! as read
+    logical :: drives
+
+    drives = .false.
+    if (size(model%drives) > 0) drives = moves_along(model%drives(1)%kind)
+  end function drives_length
 
   !> Whether any report has a row for every crank angle; true without REPORT cards. A report that
   !! cannot be read does not count.
@@ -298,7 +416,7 @@ contains
     real(wp) :: value
 
     ! A study may have other speeds than the deck: static frequencies have one, 0.
-    value = from_si(speed, model%outputs%rate)
+    value = from_si(speed, model%speed_unit)
     if (number > size(model%speed%value)) return
     if (abs(model%speed%value(number) - speed) <= 0.0_wp) value = model%shown_speed(number)
   end function speed_in_table
@@ -310,7 +428,7 @@ contains
     real(wp), intent(in) :: speed      !! ω2 [rad/s]
     character(len=:), allocatable :: words
 
-    words = to_string(speed_in_table(model, number, speed), 12)//" "//model%outputs%rate%name
+    words = to_string(speed_in_table(model, number, speed), 12)//" "//model%speed_unit%name
   end function speed_in_words
 
   !> Mass of a link [kg]: `mass=` of its card, else that of material and section; 0 without either.

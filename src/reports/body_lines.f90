@@ -29,7 +29,7 @@ contains
       line = "body of link "//this%name%text//": mass "// &
         to_string(from_si(link_mass(model, link), mass), 12)//" "//mass%name// &
         source(this%has_mass, "of the section")//", mass centre at "// &
-        place_words(link_center(model, link), length)//" from "//this%pin(1)%text// &
+        place_words(link_center(model, link), length)//" from "//this%pins(1)%text// &
         source(this%has_center, "middle")//", moment of inertia "// &
         to_string(from_si(link_inertia(model, link), inertia), 12)//" "//inertia%name// &
         source(this%has_inertia, "of the section")
@@ -48,7 +48,7 @@ contains
     associate (this => model%masses(number))
       line = "mass on link "//this%link_name%text//": "//to_string(from_si(this%mass, mass), 12)// &
         " "//mass%name//" at "//place_words(this%place, coherent_unit(model%units, &
-        dimension_length))//" from "//model%links(this%link)%pin(1)%text
+        dimension_length))//" from "//model%links(this%link)%pins(1)%text
     end associate
   end function mass_line
 

@@ -27,7 +27,7 @@ contains
         associate (point => model%points(i), link => model%links(model%points(i)%link))
           call append_string(notes, "point "//point%name%text//": on link "//link%name%text// &
             ", "//place_words(point%place, table_unit("length", model%outputs))//" from "// &
-            link%pin(1)%text)
+            link%pins(1)%text)
         end associate
       end do
       call append_string(notes, "global axes; "//acceleration_note(model))

@@ -64,7 +64,7 @@ contains
         if (size(model%gauges) > 0) place = model%gauges(number)%at
         words = "gauge "//gauge%name//": on link "//link%name%text//", "// &
           place_words([place, 0.0_wp], table_unit("length", model%outputs))//" from "// &
-          link%pin(1)%text//", "//trim(merge("right", "left ", gauge%side > 0))//" face"
+          link%pins(1)%text//", "//trim(merge("right", "left ", gauge%side > 0))//" face"
       end associate
     end associate
   end function gauge_words

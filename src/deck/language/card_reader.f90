@@ -16,9 +16,13 @@ module card_reader
   implicit none (type, external)
   private
 
-  public :: check_form, check_words, unit_apart, has_key, entry_number, read_name, read_quantity, &
-    read_measure, require_positive, refuse_negative
+  public :: check_form, check_words, unit_apart, has_key, entry_number, read_name, &
+    read_part_name, read_quantity, read_measure, require_positive, refuse_negative
   public :: read_entry_quantity, read_entry_count, read_entry_accuracy, read_choice
+
+  !> Words that stand beside names of links, pins and guides on cards, and are no names themselves.
+  character(len=*), parameter :: reserved_words = &
+    "rigid against free length forward backward left right"
 
 contains
 
@@ -124,6 +128,18 @@ contains
     call check_name(word%text, error)
     if (allocated(error)) call add_error(diagnostics, word, error%text)
   end subroutine read_name
+
+  !> As `read_name`, for a link, a pin, a point or a guide.
+  !!
+  !! Errors: also a word that stands beside such names on cards.
+  pure subroutine read_part_name(word, diagnostics)
+    type(token_t), intent(in) :: word                 !! of a card
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+
+    call read_name(word, diagnostics)
+    if (has_word(word_list(reserved_words), word%text)) call add_error(diagnostics, word, "'"// &
+      word%text//"' is no name of a link, pin or guide: the word has a meaning on cards")
+  end subroutine read_part_name
 
   !> Reads a number with or without a unit of its own; the caller gives the unit of a bare number.
   !!

@@ -71,15 +71,26 @@ module card_table
       pattern="SECTION name general A= I= [depth=] [shear_coefficient=]", &
       help="I about the axis normal to the plane; strains and a warning need the depth"), &
     card_kind_t("GROUND", least=3, most=3, pattern="GROUND name x y", help="a fixed pivot"), &
-    card_kind_t("LINK", least=3, most=4, &
-      pattern="LINK name pin pin [rigid] length= [material= section=] [mass= inertia= "// &
-      "center=along,offset]", choices="rigid", &
-      help="a straight uniform link, or a rigid body of any shape"), &
-    card_kind_t("DRIVE", least=1, most=1, pattern="DRIVE link", &
-      help="the link whose angle is given; required"), &
-    card_kind_t("BRANCH", is_single=.true., least=1, most=1, pattern="BRANCH open|crossed", &
-      choices="open crossed", default="open", &
-      help="on which side of the line from A to O4 pin B lies: open is to the left"), &
+    card_kind_t("PIN", least=3, most=3, pattern="PIN name x y", &
+      help="where a moving pin is in the drawing: for lengths, branches and welds"), &
+    card_kind_t("LINK", least=3, most=many, &
+      pattern="LINK name pin pin ... [rigid] [length= | lengths= turns=] [material= section=] "// &
+      "[mass= inertia= center=along,offset]", choices="rigid", &
+      help="a uniform link, straight from pin to pin, or a rigid body of any shape"), &
+    card_kind_t("WELD", least=3, most=many, pattern="WELD pin link link ...", &
+      help="these links turn together at a pin"), &
+    card_kind_t("GUIDE", least=3, most=3, pattern="GUIDE name x y angle=", &
+      help="a fixed straight guide through a point"), &
+    card_kind_t("SLIDER", least=2, most=3, pattern="SLIDER pin guide [link] [mass= inertia=]", &
+      help="a block at a pin slides along a GUIDE or LINK; the third word: a link fixed to it"), &
+    card_kind_t("DRIVE", least=1, most=4, &
+      pattern="DRIVE link, DRIVE link against link, DRIVE pin guide or DRIVE link length, with "// &
+      "[free] [at=] [ratio= phase=]", choices="against length free", &
+      help="whose angle, place or length is given; required; further ones: at= or ratio="), &
+    card_kind_t("BRANCH", least=1, most=4, &
+      pattern="BRANCH open|crossed, BRANCH pin left|right pin pin, or BRANCH pin "// &
+      "forward|backward", choices="open crossed left right forward backward", default="open", &
+      help="of a four-bar: open is B to the left of the line from A to O4; or the side of a pin"), &
     card_kind_t("PINMASS", least=2, most=2, pattern="PINMASS pin mass", &
       help="a mass at a moving pin"), &
     card_kind_t("MESH", least=1, most=many, &
@@ -89,7 +100,7 @@ module card_table
     card_kind_t("MASS", least=2, most=2, pattern="MASS link at= [offset= inertia=] mass", &
       entry="offset=0 inertia=0", help="a mass fixed to a link"), &
     card_kind_t("POINT", least=2, most=2, pattern="POINT name link along= [offset=]", &
-      entry="offset=0", help="a point of a link, for REPORT points"), &
+      entry="offset=0", help="a point of a link, for REPORT points or as a pin of others"), &
     card_kind_t("GAUGE", least=2, most=2, pattern="GAUGE name link at= [side=left|right]", &
       choices="left right", entry="side=right", help="a strain gauge, for REPORT strains"), &
     card_kind_t("DAMPING", least=1, most=many, &

@@ -1,8 +1,8 @@
 !> MASS and POINT cards: masses and points fixed to links. Names are looked up later, by
 !! `body_checks`.
 module body_cards
-  use card_reader, only: check_form, entry_number, read_entry_quantity, read_name, read_quantity, &
-    refuse_negative
+  use card_reader, only: check_form, entry_number, read_entry_quantity, read_part_name, &
+    read_quantity, refuse_negative
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
@@ -77,7 +77,7 @@ contains
     call check_form(card, diagnostics, fine, known_keys)
     if (size(card%words) > 0) then
       point%name = card%words(1)
-      call read_name(point%name, diagnostics)
+      call read_part_name(point%name, diagnostics)
     end if
     if (size(card%words) > 1) point%link_name = card%words(2)
     call read_place(card, "along", known_keys, system, diagnostics, point%place, place_word)

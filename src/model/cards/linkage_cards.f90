@@ -2,7 +2,7 @@
 !! Names are looked up later, by `name_checks`.
 module linkage_cards
   use card_reader, only: check_form, entry_number, has_key, read_entry_accuracy, read_entry_count, &
-    read_name, read_quantity, refuse_negative
+    read_part_name, read_quantity, refuse_negative
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: fineness, wp
@@ -66,7 +66,7 @@ contains
     call check_form(card, diagnostics, fine)
     if (size(card%words) > 0) then
       ground%pin = card%words(1)
-      call read_name(ground%pin, diagnostics)
+      call read_part_name(ground%pin, diagnostics)
     end if
     if (.not. fine) return
     call read_quantity(card%words(2), dimension_length, system, diagnostics, ground%position(1), &

@@ -1,5 +1,5 @@
-!> TITLE, DRIVE, CRANK, SPEED and MODES cards, and cards that choose one of several words (BRANCH,
-!! INERTIA, SOLVER).
+!> TITLE, CRANK, SPEED and MODES cards, and cards that choose one of several words (INERTIA,
+!! SOLVER).
 module request_cards
   use card_reader, only: check_form, entry_number, read_choice, read_entry_quantity, &
     require_positive
@@ -11,13 +11,13 @@ module request_cards
   use numbers, only: read_integer
   use text, only: to_string
   use tokens, only: token_t
-  use units, only: dimension_angle, dimension_angular_acceleration, dimension_rate, &
-    dimension_time, unit_system_t
+  use units, only: dimension_acceleration, dimension_angle, dimension_angular_acceleration, &
+    dimension_length, dimension_rate, dimension_time, dimension_velocity, unit_system_t
   use value_lists, only: read_values, value_list_t
   implicit none (type, external)
   private
 
-  public :: read_title, read_drive, read_option, read_crank, read_speed, read_modes
+  public :: read_title, read_option, read_crank, read_speed, read_modes
 
 contains
 
@@ -33,29 +33,10 @@ contains
       card%words(1), "a blank must stand between TITLE and its text")
   end subroutine read_title
 
-  !> Reads `DRIVE link`. Errors: words or keys that do not fit the card, a link driven before.
-  pure subroutine read_drive(card, diagnostics, drive)
-    type(card_t), intent(in) :: card                  !! the DRIVE card
-    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
-    type(token_t), intent(inout) :: drive             !! name of the driven link; without a line
-                                                      !! before the first card
-
-    logical :: fine
-
-    call check_form(card, diagnostics, fine)
-    if (.not. fine) return
-    if (drive%line > 0) then
-      call add_error(diagnostics, card%words(1), &
-        "the linkage is driven twice; it has one driven link", drive, "first driven here")
-    else
-      drive = card%words(1)
-    end if
-  end subroutine read_drive
-
-  !> Reads a card of one word, such as `BRANCH open|crossed`. Errors: words or keys that do not fit
+  !> Reads a card of one word, such as `SOLVER dense`. Errors: words or keys that do not fit
   !! the card, an unknown word.
   pure subroutine read_option(card, diagnostics, option, word)
-    type(card_t), intent(in) :: card                  !! BRANCH, INERTIA or SOLVER
+    type(card_t), intent(in) :: card                  !! INERTIA or SOLVER
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     integer, intent(inout) :: option                  !! number among the card's words in the table
                                                       !! of cards; unchanged after an error
@@ -74,41 +55,58 @@ contains
     if (present(word)) word = card%words(1)
   end subroutine read_option
 
-  !> Reads `CRANK` angles [deg]: numbers and ranges `a to b step s`, with or without one unit at the
-  !! end for all. Errors: words or keys that do not fit the card, unreadable values or ranges, a
-  !! value given twice.
-  pure subroutine read_crank(card, system, diagnostics, crank)
+  !> Reads `CRANK` angles [deg], or lengths [m]: numbers and ranges `a to b step s`, with or
+  !! without one unit at the end for all. Errors: words or keys that do not fit the card, unreadable
+  !! values or ranges, a value given twice.
+  pure subroutine read_crank(card, system, diagnostics, crank, by_length)
     type(card_t), intent(in) :: card                  !! the CRANK card
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
-    type(value_list_t), intent(out) :: crank          !! angles [deg]
+    type(value_list_t), intent(out) :: crank          !! angles [deg] or lengths [m]
+    logical, intent(in), optional :: by_length        !! positions are those of a slider or a ram;
+                                                      !! absent: they are angles
 
-    logical :: fine
+    logical :: fine, lengths
 
+    lengths = .false.
+    if (present(by_length)) lengths = by_length
     call check_form(card, diagnostics, fine)
-    call read_values(card%words, dimension_angle, system, "crank angle", diagnostics, crank)
+    if (lengths) then
+      call read_values(card%words, dimension_length, system, "position", diagnostics, crank)
+    else
+      call read_values(card%words, dimension_angle, system, "crank angle", diagnostics, crank)
+    end if
   end subroutine read_crank
 
   !> Reads `SPEED` values [rad/s], listed like crank angles, and `alpha=` [rad/s²], and
-  !! `ramp=` [s]. Errors: as for CRANK, and an unreadable `alpha=` or `ramp=`; a ramp of no time.
-  pure subroutine read_speed(card, system, diagnostics, speed, acceleration, ramp, ramp_word)
+  !! `ramp=` [s]; of a slider or a ram in m/s and m/s². Errors: as for CRANK, and an unreadable
+  !! `alpha=` or `ramp=`; a ramp of no time.
+  pure subroutine read_speed(card, system, diagnostics, speed, acceleration, ramp, ramp_word, &
+    by_length)
     type(card_t), intent(in) :: card                  !! the SPEED card
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
-    type(value_list_t), intent(out) :: speed          !! ω2 [rad/s]
-    real(wp), intent(out) :: acceleration             !! α2 [rad/s²]
+    type(value_list_t), intent(out) :: speed          !! [rad/s] or [m/s]
+    real(wp), intent(out) :: acceleration             !! [rad/s²] or [m/s²]
     real(wp), intent(inout) :: ramp                   !! time from rest to the speed [s]; unchanged
                                                       !! without the key
     type(token_t), intent(inout) :: ramp_word         !! its word in the deck; likewise
+    logical, intent(in), optional :: by_length        !! as for `read_crank`
 
     real(wp) :: time
-
+    integer :: rate(4), change(4)
     logical :: fine
 
+    rate = dimension_rate
+    change = dimension_angular_acceleration
+    if (present(by_length)) then
+      if (by_length) rate = dimension_velocity
+      if (by_length) change = dimension_acceleration
+    end if
     call check_form(card, diagnostics, fine)
-    call read_values(card%words, dimension_rate, system, "speed", diagnostics, speed)
-    call read_entry_quantity(card, "alpha", dimension_angular_acceleration, system, .false., &
-      diagnostics, acceleration, fine)
+    call read_values(card%words, rate, system, "speed", diagnostics, speed)
+    call read_entry_quantity(card, "alpha", change, system, .false., diagnostics, acceleration, &
+      fine)
     call read_entry_quantity(card, "ramp", dimension_time, system, .false., diagnostics, time, fine)
     if (.not. fine) return
     call require_positive(card, "ramp", time, diagnostics)

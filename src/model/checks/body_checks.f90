@@ -4,8 +4,9 @@ module body_checks
   use diagnostics, only: add_error, diagnostics_t
   use link_cards, only: link_t
   use models, only: model_t
-  use name_checks, only: link_ends, look_up
+  use name_checks, only: link_ends, look_up, pin_names
   use name_index, only: find_name, name_index_t, new_name_index
+  use text, only: same_word
   use tokens, only: token_t, token_texts
   implicit none (type, external)
   private
@@ -15,7 +16,8 @@ module body_checks
 contains
 
   !> Looks up the links of all these cards. Errors: an unknown link or pin, a point named like a
-  !! pin, a force on a ground pivot, a link with a mass but no moment of inertia.
+  !! pin of its own link or a ground pivot, a force on a ground pivot, a link with a mass but
+  !! no moment of inertia.
   pure subroutine check_bodies(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(model_t), intent(inout) :: model             !! has its links with materials and sections;
@@ -63,40 +65,45 @@ contains
     end if
   end subroutine seek_link
 
-  !> Refuses points named like pins: in the tables both appear by their names.
+  !> Refuses points named like pins of their own links, or like ground pivots: a point with the name
+  !! of another link's pin is that pin.
   pure subroutine check_points(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
-    type(token_t), allocatable :: ends(:)
-    type(name_index_t) :: pins
-    integer :: i, number
+    type(name_index_t) :: grounds
+    integer :: i, k, number
 
-    ends = link_ends(model%links)
-    pins = new_name_index(token_texts(ends))
+    grounds = new_name_index(token_texts(model%grounds%pin))
     do i = 1, size(model%points)
       associate (name => model%points(i)%name)
         if (name%line == 0) cycle
-        number = find_name(pins, name%text)
-        if (number == 0) cycle
-        call add_error(diagnostics, name, "the point '"//name%text//"' has the name of a pin", &
-          ends(number), "the pin is here")
+        number = find_name(grounds, name%text)
+        if (number > 0) call add_error(diagnostics, name, "the point '"//name%text// &
+          "' has the name of a ground pivot", model%grounds(number)%pin, "the pivot is here")
+        if (model%points(i)%link == 0) cycle
+        associate (link => model%links(model%points(i)%link))
+          do k = 1, size(link%pins)
+            if (.not. same_word(link%pins(k)%text, name%text)) cycle
+            call add_error(diagnostics, name, "the point '"//name%text// &
+              "' has the name of a pin of its own link", link%pins(k), "the pin is here")
+          end do
+        end associate
       end associate
     end do
   end subroutine check_points
 
-  !> Forces must act on moving pins.
+  !> Forces must act on moving pins or points.
   pure subroutine check_forces(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
-    character(len=*), parameter :: only_pins = "; a FORCE acts on a moving pin only"
-    type(name_index_t) :: pins, grounds, points, links
+    character(len=*), parameter :: only_pins = "; a FORCE acts on a moving pin or a point"
+    type(name_index_t) :: pins, grounds, links
     integer :: i, number
 
-    pins = new_name_index(token_texts(link_ends(model%links)))
+    pins = new_name_index(token_texts(pin_names(model)))
     grounds = new_name_index(token_texts(model%grounds%pin))
-    points = new_name_index(token_texts(model%points%name))
     links = new_name_index(token_texts(model%links%name))
     do i = 1, size(model%forces)
       associate (pin => model%forces(i)%pin)
@@ -108,10 +115,6 @@ contains
             model%grounds(number)%pin, "'"//pin%text//"' is fixed here")
         else if (find_name(pins, pin%text) > 0) then
           cycle
-        else if (find_name(points, pin%text) > 0) then
-          call add_error(diagnostics, pin, "'"//pin%text//"' is a point"//only_pins// &
-            " (the weight of a body there comes from MASS and GRAVITY)", &
-            model%points(find_name(points, pin%text))%name, "the point is here")
         else if (find_name(links, pin%text) > 0) then
           call add_error(diagnostics, pin, "'"//pin%text//"' is a link"//only_pins// &
             ", a TORQUE on a link")

@@ -2,15 +2,15 @@
 module name_checks
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use link_cards, only: link_t
-  use models, only: model_t
+  use models, only: is_four_bar, model_t
   use name_index, only: find_name, name_index_t, new_name_index
   use spelling, only: suggestion
-  use text, only: same_word, string_t
+  use text, only: append_string, same_word, string_t
   use tokens, only: token_t, token_texts
   implicit none (type, external)
   private
 
-  public :: check_names, look_up, link_ends
+  public :: check_names, look_up, link_ends, pin_names
 
   !> More than the number of report kinds: limits the comparisons in a deck of very many cards.
   integer, parameter :: most_reports = 100
@@ -19,7 +19,8 @@ contains
 
   !> Checks names, and gives each link its material, section and mesh. Errors: a name defined twice,
   !! an unknown material, section, link or pin, two meshes for a link or one for a rigid link, a
-  !! moving pin at one link only, an unused ground pivot. Warning: a mass at a ground pivot.
+  !! moving pin at one link only that looks misspelt, an unused ground pivot. Warning: a mass at a
+  !! ground pivot.
   subroutine check_names(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors and warnings are added
     type(model_t), intent(inout) :: model             !! material, section and mesh numbers of its
@@ -43,7 +44,10 @@ contains
     call refuse_same(model%materials%name, "material")
     call refuse_same(model%sections%name, "section")
     call refuse_same(model%grounds%pin, "ground pivot")
+    call refuse_same(model%drawn_pins%pin, "place of pin")
     call refuse_same(model%links%name, "link")
+    call refuse_same(model%guides%name, "guide")
+    call refuse_same(model%branches%pin, "branch of pin")
     call refuse_same(model%pin_masses%pin, "mass at pin")
     call refuse_same(model%points%name, "point")
     call refuse_same(model%gauges%name, "gauge")
@@ -155,63 +159,140 @@ contains
       suggestion(word%text, list%name))
   end subroutine look_up
 
-  !> Every moving pin joins at least two links; every ground pivot carries at least one.
+  !> Every moving pin of a four-bar joins at least two links; of another linkage it may be an end,
+  !! unless it looks like a misspelt one. Every ground pivot carries a link or a block.
   pure subroutine check_pins(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
-    type(name_index_t) :: grounds, ends
+    type(name_index_t) :: grounds, ends, named, blocks
+    character(len=:), allocatable :: hint
     integer, allocatable :: uses(:)
     integer :: i, k, first
+    logical :: four_bar
 
     ! An unreadable card would make the pins on it look unused.
-    if (any(model%grounds%pin%line == 0)) return
+    if (any(model%grounds%pin%line == 0) .or. any(model%sliders%pin%line == 0)) return
     do i = 1, size(model%links)
-      if (any(model%links(i)%pin%line == 0)) return
+      if (size(model%links(i)%pins) == 0) return
     end do
+    four_bar = is_four_bar(model)
     grounds = new_name_index(token_texts(model%grounds%pin))
     ends = new_name_index(token_texts(link_ends(model%links)))
+    named = new_name_index(names_on_other_cards(model))
+    blocks = new_name_index(token_texts(model%sliders%pin))
     allocate (uses(size(ends%name)))
     uses = 0
     do i = 1, size(uses)
       first = find_name(ends, ends%name(i)%text)
       uses(first) = uses(first) + 1
     end do
+    k = 0
     do i = 1, size(model%links)
-      do k = 1, 2
-        associate (pin => model%links(i)%pin(k))
-          if (uses(2*(i - 1) + k) /= 1) cycle
-          if (find_name(grounds, pin%text) > 0) cycle
+      do first = 1, size(model%links(i)%pins)
+        k = k + 1
+        associate (pin => model%links(i)%pins(first))
+          if (uses(k) /= 1 .or. find_name(grounds, pin%text) > 0) cycle
+          if (.not. four_bar .and. find_name(named, pin%text) > 0) cycle
+          hint = suggestion(pin%text, other_names(ends, grounds, pin%text, .not. four_bar))
+          if (.not. four_bar .and. len(hint) == 0) cycle
           call add_error(diagnostics, pin, "pin '"//pin%text// &
-            "' is used once only; a moving pin joins two links"// &
-            suggestion(pin%text, other_names(ends, grounds, pin%text)))
+            "' is used once only; a moving pin joins two links"//hint)
         end associate
       end do
     end do
     do i = 1, size(model%grounds)
       if (find_name(ends, model%grounds(i)%pin%text) > 0) cycle
+      if (find_name(blocks, model%grounds(i)%pin%text) > 0) cycle
       call add_error(diagnostics, model%grounds(i)%pin, "no link uses the ground pivot '"// &
         model%grounds(i)%pin%text//"'")
     end do
   end subroutine check_pins
 
-  !> The pins of all links: those of link i at 2i − 1 and 2i.
+  !> The pins of all links, one link after the other.
   pure function link_ends(links) result(pins)
     type(link_t), intent(in) :: links(:) !! (links)
-    type(token_t) :: pins(2*size(links))
+    type(token_t), allocatable :: pins(:)
 
-    integer :: i
+    integer :: i, k, filled
 
+    filled = 0
     do i = 1, size(links)
-      pins(2*i - 1:2*i) = links(i)%pin
+      filled = filled + size(links(i)%pins)
+    end do
+    allocate (pins(filled))
+    filled = 0
+    do i = 1, size(links)
+      do k = 1, size(links(i)%pins)
+        filled = filled + 1
+        pins(filled) = links(i)%pins(k)
+      end do
     end do
   end function link_ends
 
+  !> All that a card may take for a pin: the pins of links, then the POINTs.
+  pure function pin_names(model) result(pins)
+    type(model_t), intent(in) :: model !! as read
+    type(token_t), allocatable :: pins(:)
+
+    type(token_t), allocatable :: ends(:)
+    integer :: i
+
+    ends = link_ends(model%links)
+    allocate (pins(size(ends) + size(model%points)))
+    do i = 1, size(ends)
+      pins(i) = ends(i)
+    end do
+    do i = 1, size(model%points)
+      pins(size(ends) + i) = model%points(i)%name
+    end do
+  end function pin_names
+
+  !> The pins that cards other than LINK name: who writes such a card knows the pin.
+  pure function names_on_other_cards(model) result(names)
+    type(model_t), intent(in) :: model
+    type(string_t), allocatable :: names(:)
+
+    integer :: filled
+
+    filled = size(model%drawn_pins) + size(model%points) + size(model%pin_masses) + &
+      size(model%forces) + size(model%sliders) + size(model%welds) + size(model%drives) + &
+      3*size(model%branches)
+    allocate (names(filled))
+    filled = 0
+    call take(model%drawn_pins%pin, filled, names)
+    call take(model%points%name, filled, names)
+    call take(model%pin_masses%pin, filled, names)
+    call take(model%forces%pin, filled, names)
+    call take(model%sliders%pin, filled, names)
+    call take(model%welds%pin, filled, names)
+    call take(model%drives%subject, filled, names)
+    call take(model%branches%pin, filled, names)
+    call take(model%branches%from, filled, names)
+    call take(model%branches%to, filled, names)
+  end function names_on_other_cards
+
+  !> Appends the texts of words.
+  pure subroutine take(words, filled, names)
+    type(token_t), intent(in) :: words(:)
+    integer, intent(inout) :: filled !! names so far
+    type(string_t), intent(inout) :: names(:)
+
+    integer :: n
+
+    do n = 1, size(words)
+      filled = filled + 1
+      names(filled)%text = words(n)%text
+    end do
+  end subroutine take
+
   !> Names that a misspelt pin may stand for: all pins and ground pivots but itself. Empty for a
   !! deck with more than 100 link ends.
-  pure function other_names(ends, grounds, name) result(list)
+  pure function other_names(ends, grounds, name, numbered) result(list)
     type(name_index_t), intent(in) :: ends, grounds
     character(len=*), intent(in) :: name
+    logical, intent(in) :: numbered !! names that differ in digits only, P4 and P5, are different on
+                                    !! purpose
     type(string_t), allocatable :: list(:)
 
     integer, parameter :: most_names = 100
@@ -220,10 +301,30 @@ contains
     allocate (list(0))
     if (size(ends%name) > most_names) return
     do n = 1, size(ends%name)
-      if (.not. same_word(ends%name(n)%text, name)) list = [list, ends%name(n)]
+      if (same_word(ends%name(n)%text, name)) cycle
+      if (numbered .and. differ_in_digits(ends%name(n)%text, name)) cycle
+      call append_string(list, ends%name(n)%text)
     end do
-    list = [list, grounds%name]
+    do n = 1, size(grounds%name)
+      if (numbered .and. differ_in_digits(grounds%name(n)%text, name)) cycle
+      call append_string(list, grounds%name(n)%text)
+    end do
   end function other_names
+
+  !> Whether two names are the same but for digits.
+  pure function differ_in_digits(a, b) result(differ)
+    character(len=*), intent(in) :: a, b
+    logical :: differ
+
+    character(len=*), parameter :: digits = "0123456789"
+    integer :: i
+
+    differ = len(a) == len(b)
+    do i = 1, min(len(a), len(b))
+      differ = differ .and. (same_word(a(i:i), b(i:i)) .or. &
+        (index(digits, a(i:i)) > 0 .and. index(digits, b(i:i)) > 0))
+    end do
+  end function differ_in_digits
 
   !> Pin masses must sit at moving pins; at a ground pivot they only cause a warning.
   pure subroutine check_pin_masses(diagnostics, model)
@@ -233,7 +334,7 @@ contains
     type(name_index_t) :: pins, grounds
     integer :: i, number
 
-    pins = new_name_index(token_texts(link_ends(model%links)))
+    pins = new_name_index(token_texts(pin_names(model)))
     grounds = new_name_index(token_texts(model%grounds%pin))
     do i = 1, size(model%pin_masses)
       associate (pin => model%pin_masses(i)%pin)

@@ -6,7 +6,7 @@ module unit_checks
   use diagnostics, only: add_warning, diagnostics_t
   use errors, only: error_t
   use kinds, only: wp
-  use models, only: model_t
+  use models, only: drives_length, model_t
   use numbers, only: number_length, read_real
   use text, only: same_word, to_string
   use tokens, only: token_t
@@ -30,6 +30,8 @@ contains
       model%outputs%force, diagnostics)
     call check_quantity(cards, "torques", coherent_unit(model%units, dimension_moment), &
       model%outputs%moment, diagnostics)
+    ! Velocities of a slider or a ram are in the deck's own unit in tables, too.
+    if (drives_length(model)) return
     call check_quantity(cards, "speeds", coherent_unit(model%units, dimension_rate), &
       model%outputs%rate, diagnostics)
   end subroutine check_bare_units

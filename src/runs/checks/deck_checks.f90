@@ -43,6 +43,12 @@ contains
     type(mechanism_t) :: mechanism
     type(reach_t) :: reach
 
+    if (size(model%loop) == 0) then
+      call add_error(diagnostics, model%links(min(4, size(model%links)))%name, &
+        "only the four-bar can be solved: three links and two ground pivots; this deck has "// &
+        to_string(size(model%links))//" and "//to_string(size(model%grounds)))
+      return
+    end if
     mechanism = new_mechanism(model)
     associate (ground => mechanism%linkage%ground_position(:, [1, 4]))
       if (norm2(ground(:, 2) - ground(:, 1)) <= 0.0_wp) then

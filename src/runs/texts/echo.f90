@@ -7,7 +7,7 @@ module echo
   use kinds, only: wp
   use link_bodies, only: link_center, link_inertia
   use link_cards, only: has_own_mass
-  use models, only: link_mass, model_t
+  use models, only: branch_crossed, link_mass, model_t
   use response_cards, only: response_form
   use sections, only: shape_channel
   use shear, only: link_rotary_inertia, link_shear_stiffness, shear_coefficient
@@ -69,6 +69,10 @@ contains
       ! A model without MESH cards has a mesh only where a report needs one.
       if (size(model%meshes) > 0) call append_default_text(buffer, model, trim(kind%keyword), &
         trim(kind%default))
+    case ("BRANCH")
+      ! Other linkages have none; that of a four-bar may come from the drawing.
+      if (size(model%loop) > 0) call append_default_text(buffer, model, trim(kind%keyword), &
+        trim(merge("crossed", "open   ", model%branch == branch_crossed)))
     case ("EFFECTS")
       call append_default_text(buffer, model, trim(kind%keyword), effect_words(model%effects, &
         .false., .false.))
@@ -153,7 +157,7 @@ contains
       to_string(from_si(link_mass(model, link), mass), 15)//" "//mass%name// &
       ", moment of inertia = "//to_string(from_si(link_inertia(model, link), inertia), 15)//" "// &
       inertia%name//" about its mass centre, "//place_words(link_center(model, link), length)// &
-      " from "//model%links(link)%pin(1)%text//achar(10))
+      " from "//model%links(link)%pins(1)%text//achar(10))
   end subroutine append_body
 
   !> Rotary inertia and shear stiffness of a link, if EFFECTS requests them.

@@ -1,0 +1,282 @@
+!> DRIVE and BRANCH cards: what is given at a position, and in which of its assemblies the linkage
+!! is. Names are looked up later, by `drive_checks`.
+module drive_cards
+  use card_reader, only: check_form, entry_number, has_key, read_choice, read_entry_quantity, &
+    read_measure, read_quantity
+  use card_table, only: pattern_of
+  use cards, only: card_t
+  use diagnostics, only: add_error, diagnostics_t
+  use kinds, only: wp
+  use spelling, only: suggestion
+  use text, only: same_word, word_list
+  use tokens, only: token_t
+  use units, only: coherent_factor, dimension_angle, dimension_length, dimension_none, to_si, &
+    unit_system_t, unit_t
+  implicit none (type, external)
+  private
+
+  public :: drive_t, branch_t, read_drive, read_branch, kind_of_drive, moves_along
+  public :: drive_angle, drive_relative, drive_slider, drive_ram
+  public :: branch_left, branch_right, branch_forward, branch_backward
+
+  integer, parameter :: drive_angle = 1    !! the angle of a link
+  integer, parameter :: drive_relative = 2 !! the angle of a link minus that of another
+  integer, parameter :: drive_slider = 3   !! the place of a slider
+  integer, parameter :: drive_ram = 4      !! the length of a link
+
+  ! In the order of `branch_words`.
+  integer, parameter :: branch_left = 1, branch_right = 2, branch_forward = 3, branch_backward = 4
+  character(len=*), parameter :: branch_words = "left right forward backward"
+
+  !> One DRIVE card. A word without a line is not on the card.
+  type :: drive_t
+    type(token_t) :: keyword
+    integer :: kind = 0            !! one of the drive_… constants; 0: it cannot be read
+    type(token_t) :: subject       !! link, or pin of a slider
+    type(token_t) :: against       !! the other link, or the guide or link that the slider is on
+    logical :: is_free = .false.   !! its position is given, but it is not held in vibration
+    logical :: has_at = .false.    !! `at=` is given
+    real(wp) :: at = 0.0_wp        !! [rad], of a slider or a ram [m]
+    type(token_t) :: at_word
+    logical :: has_ratio = .false. !! `ratio=` is given
+    real(wp) :: ratio = 0.0_wp     !! position over that of the first drive [SI: 1, m/rad or rad/m]
+    type(token_t) :: ratio_word
+    real(wp) :: phase = 0.0_wp     !! position where that of the first drive is 0 [as `at`]
+    integer :: link = 0            !! number of `subject` in the model's list; 0: it is a pin
+    integer :: against_link = 0    !! number of `against` in the model's list; 0: it is none
+    integer :: slider = 0          !! number of the slider in the model's list; 0: it is none
+  end type drive_t
+
+  !> A BRANCH card about a pin.
+  type :: branch_t
+    type(token_t) :: pin            !! without a line if the card cannot be read
+    type(token_t) :: word           !! left, right, forward or backward
+    integer :: which = 0            !! one of the branch_… constants
+    type(token_t) :: from, to       !! pins: the side is that of the way from one to the other;
+                                    !! without a line for forward and backward
+  end type branch_t
+
+contains
+
+  !> What a DRIVE card drives: one of the drive_… constants; 0 if its words fit none of them.
+  pure function kind_of_drive(card) result(kind)
+    type(card_t), intent(in) :: card !! the DRIVE card
+    integer :: kind
+
+    kind = 0
+    select case (word_count(card))
+    case (1)
+      kind = drive_angle
+    case (2)
+      kind = merge(drive_ram, drive_slider, same_word(card%words(2)%text, "length"))
+    case (3)
+      if (same_word(card%words(2)%text, "against")) kind = drive_relative
+    end select
+  end function kind_of_drive
+
+  !> Whether a drive's position is a length; else it is an angle.
+  pure function moves_along(kind) result(along)
+    integer, intent(in) :: kind !! one of the drive_… constants
+    logical :: along
+
+    along = kind == drive_slider .or. kind == drive_ram
+  end function moves_along
+
+  !> Number of words without `free` at the end.
+  pure function word_count(card) result(words)
+    type(card_t), intent(in) :: card
+    integer :: words
+
+    words = size(card%words)
+    if (words == 0) return
+    if (same_word(card%words(words)%text, "free")) words = words - 1
+  end function word_count
+
+  !> Reads a DRIVE card: `link`, `link against link`, `pin guide` or `link length`, then `free`, and
+  !! of a further card `at=` or `ratio= [phase=]`. A ratio of a length to an angle is in the deck's
+  !! length per degree. Errors: words or keys that do not fit the card, unreadable values, a first
+  !! card with a position of its own, a further one without.
+  pure subroutine read_drive(card, first, system, diagnostics, drive)
+    type(card_t), intent(in) :: card                  !! the DRIVE card
+    type(card_t), intent(in) :: first                 !! the first of the deck, perhaps the same
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(drive_t), intent(out) :: drive               !! as read; the names are not looked up
+
+    type(token_t) :: nowhere
+    logical :: fine, known_keys
+
+    nowhere = token_t("", 0, 0)
+    drive%keyword = card%keyword
+    drive%subject = nowhere
+    drive%against = nowhere
+    drive%at_word = nowhere
+    drive%ratio_word = nowhere
+    call check_form(card, diagnostics, fine, known_keys)
+    if (.not. fine) return
+    call read_subject(card, diagnostics, drive)
+    if (drive%kind == 0) return
+    drive%has_at = has_key(card, "at")
+    drive%has_ratio = has_key(card, "ratio")
+    if (card%keyword%line == first%keyword%line .and. card%keyword%column == &
+      first%keyword%column) then
+      if (size(card%entries) > 0 .and. known_keys) call add_error(diagnostics, &
+        card%entries(1)%key, "the first DRIVE has its positions from CRANK; '"// &
+        card%entries(1)%key%text//"=' is for further ones")
+      return
+    end if
+    call read_position(card, kind_of_drive(first), system, diagnostics, drive)
+    if (.not. known_keys .or. drive%is_free .or. drive%has_at .or. drive%has_ratio) return
+    ! That the same thing is driven twice is found by `drive_checks`.
+    if (drive%kind == kind_of_drive(first) .and. same_word(drive%subject%text, &
+      first%words(1)%text)) return
+    call add_error(diagnostics, drive%subject, "the linkage is driven already; a further DRIVE "// &
+      "needs 'at=' or 'ratio='", first%words(1), "first driven here")
+  end subroutine read_drive
+
+  !> Reads the words of a DRIVE card.
+  pure subroutine read_subject(card, diagnostics, drive)
+    type(card_t), intent(in) :: card
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(drive_t), intent(inout) :: drive
+
+    integer :: words
+
+    words = word_count(card)
+    drive%is_free = words < size(card%words)
+    drive%kind = kind_of_drive(card)
+    if (drive%kind > 0) drive%subject = card%words(1)
+    if (drive%kind == drive_slider) drive%against = card%words(2)
+    if (drive%kind == drive_relative) drive%against = card%words(3)
+    if (drive%kind > 0) return
+    if (words == 0) then
+      call add_error(diagnostics, card%keyword, "this card is too short; expected: "// &
+        pattern_of("DRIVE"))
+    else
+      ! Of three words the second is wrong, of four the fourth is not `free`.
+      words = merge(2, 4, words == 3)
+      call add_error(diagnostics, card%words(words), "unexpected '"//card%words(words)%text// &
+        "'"//suggestion(card%words(words)%text, word_list("against free"))//"; expected: "// &
+        pattern_of("DRIVE"))
+    end if
+  end subroutine read_subject
+
+  !> Reads `at=`, or `ratio=` and `phase=`.
+  pure subroutine read_position(card, first_kind, system, diagnostics, drive)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: first_kind !! of the first drive
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(drive_t), intent(inout) :: drive
+
+    integer :: dimension(4), i
+    logical :: fine
+
+    dimension = merge(dimension_length, dimension_angle, moves_along(drive%kind))
+    call read_entry_quantity(card, "at", dimension, system, .false., diagnostics, drive%at, fine)
+    if (fine) drive%at_word = card%entries(entry_number(card, "at"))%value
+    call read_entry_quantity(card, "phase", dimension, system, .false., diagnostics, drive%phase, &
+      fine)
+    i = entry_number(card, "ratio")
+    if (i > 0) then
+      call read_ratio(card%entries(i)%value, moves_along(drive%kind), moves_along(first_kind), &
+        system, diagnostics, drive)
+    end if
+    do i = 1, size(card%entries)
+      associate (key => card%entries(i)%key)
+        if (drive%has_at .and. (same_word(key%text, "ratio") .or. same_word(key%text, "phase"))) &
+          then
+          call add_error(diagnostics, key, "'"//key%text//"=' has no meaning beside 'at='")
+          return
+        else if (same_word(key%text, "phase") .and. .not. drive%has_ratio) then
+          call add_error(diagnostics, key, "'phase=' needs 'ratio='")
+        end if
+      end associate
+    end do
+  end subroutine read_position
+
+  !> Reads the value of `ratio=`.
+  pure subroutine read_ratio(word, along, first_along, system, diagnostics, drive)
+    type(token_t), intent(in) :: word
+    logical, intent(in) :: along, first_along !! this drive's position and that of the first one
+                                              !! are lengths
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(drive_t), intent(inout) :: drive
+
+    type(unit_t) :: length, angle, bare, measure
+    real(wp) :: value
+    logical :: fine
+
+    drive%ratio_word = word
+    if (along .eqv. first_along) then
+      call read_quantity(word, dimension_none, system, diagnostics, drive%ratio, fine)
+      return
+    end if
+    length = system%length
+    angle = coherent_factor(system, dimension_angle)
+    if (first_along) then
+      bare = angle
+      angle = length
+      length = bare
+    end if
+    bare%name = ""
+    bare%dimension = length%dimension - angle%dimension
+    bare%numerator = length%numerator*angle%denominator
+    bare%denominator = length%denominator*angle%numerator
+    call read_measure(word, bare%dimension, bare, diagnostics, value, measure, fine)
+    if (fine) drive%ratio = to_si(value, measure)
+  end subroutine read_ratio
+
+  !> Reads a BRANCH card: `open` or `crossed`, `pin left|right pin pin`, or `pin forward|backward`.
+  !! Errors: words or keys that do not fit the card, a second card of one word.
+  pure subroutine read_branch(card, diagnostics, mode, keyword, branch)
+    type(card_t), intent(in) :: card                  !! the BRANCH card
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    integer, intent(inout) :: mode                    !! 1: open, 2: crossed; unchanged by a card
+                                                      !! about a pin and after an error
+    type(token_t), intent(inout) :: keyword           !! of the card with open or crossed; without a
+                                                      !! line before there is one
+    type(branch_t), intent(out) :: branch             !! of a card about a pin
+
+    type(token_t) :: nowhere
+    integer :: choice
+    logical :: fine
+
+    nowhere = token_t("", 0, 0)
+    branch%pin = nowhere
+    branch%word = nowhere
+    branch%from = nowhere
+    branch%to = nowhere
+    if (size(card%words) == 1 .and. keyword%line > 0) then
+      call add_error(diagnostics, card%keyword, "a second BRANCH card", keyword, &
+        "the first is here")
+    end if
+    call check_form(card, diagnostics, fine)
+    if (.not. fine) return
+    if (size(card%words) == 1) then
+      if (keyword%line == 0) keyword = card%keyword
+      call read_choice(card%words(1), "open crossed", diagnostics, choice)
+      if (choice > 0) mode = choice
+      return
+    end if
+    call read_choice(card%words(2), branch_words, diagnostics, choice)
+    if (choice == 0) return
+    if (choice <= branch_right .and. size(card%words) /= 4) then
+      call add_error(diagnostics, card%words(2), "'"//card%words(2)%text// &
+        "' of the way from which pin to which? expected: BRANCH pin left|right pin pin")
+      return
+    else if (choice > branch_right .and. size(card%words) > 2) then
+      call add_error(diagnostics, card%words(3), "unexpected '"//card%words(3)%text// &
+        "'; expected: BRANCH pin forward|backward")
+      return
+    end if
+    branch%pin = card%words(1)
+    branch%word = card%words(2)
+    branch%which = choice
+    if (choice > branch_right) return
+    branch%from = card%words(3)
+    branch%to = card%words(4)
+  end subroutine read_branch
+
+end module drive_cards

@@ -1,0 +1,215 @@
+!> Checks of DRIVE and BRANCH cards: the links, pins and guides that they name.
+module drive_checks
+  use body_checks, only: seek_link
+  use diagnostics, only: add_error, diagnostics_t, has_errors
+  use drive_cards, only: branch_forward, branch_t, drive_angle, drive_ram, drive_relative, &
+    drive_slider, drive_t
+  use joint_checks, only: seek_pin
+  use models, only: model_t
+  use name_checks, only: pin_names
+  use name_index, only: find_name, name_index_t, new_name_index
+  use spelling, only: suggestion
+  use text, only: append_string, same_word, string_t
+  use tokens, only: token_t, token_texts
+  implicit none (type, external)
+  private
+
+  public :: check_drives
+
+contains
+
+  !> Looks up what these cards name. Errors: an unknown link, pin or guide, the angle of a link
+  !! without a ground pivot or with several, a link against itself, a pin that does not slide there,
+  !! the length of a link with more than two pins, one thing driven twice; a branch of a fixed pin,
+  !! the side of a way from a pin to itself, forward or backward of a pin that does not slide.
+  pure subroutine check_drives(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(model_t), intent(inout) :: model             !! numbers of links and sliders are set
+
+    type(name_index_t) :: links, pins, grounds
+    type(drive_t) :: drive
+    integer :: i
+
+    links = new_name_index(token_texts(model%links%name))
+    pins = new_name_index(token_texts(pin_names(model)))
+    grounds = new_name_index(token_texts(model%grounds%pin))
+    do i = 1, size(model%drives)
+      drive = model%drives(i)
+      select case (drive%kind)
+      case (drive_slider)
+        call find_driven_slider(diagnostics, model, links, pins, drive)
+      case (drive_angle, drive_relative, drive_ram)
+        call find_driven_link(diagnostics, model, links, pins, grounds, drive)
+      end select
+      model%drives(i) = drive
+    end do
+    call refuse_same_drives(diagnostics, model)
+    do i = 1, size(model%branches)
+      call check_branch(diagnostics, model, links, pins, grounds, model%branches(i))
+    end do
+  end subroutine check_drives
+
+  !> Looks up the links of a drive.
+  pure subroutine find_driven_link(diagnostics, model, links, pins, grounds, drive)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: links, pins, grounds
+    type(drive_t), intent(inout) :: drive
+
+    integer :: i, grounded
+
+    call seek_link(drive%subject, links, pins, diagnostics, drive%link)
+    if (drive%kind == drive_relative) then
+      call seek_link(drive%against, links, pins, diagnostics, drive%against_link)
+      if (drive%link > 0 .and. drive%link == drive%against_link) call add_error(diagnostics, &
+        drive%against, "link '"//drive%against%text//"' cannot be driven against itself")
+    end if
+    if (drive%link == 0) return
+    associate (link => model%links(drive%link))
+      if (size(link%pins) == 0) return
+      if (drive%kind == drive_ram .and. size(link%pins) > 2) then
+        call add_error(diagnostics, drive%subject, "the length of link '"//link%name%text// &
+          "' cannot be driven: it has more than two pins", link%name, "the link is here")
+      else if (drive%kind == drive_angle .and. .not. has_errors(diagnostics)) then
+        ! After errors about pins this may be their consequence.
+        grounded = 0
+        do i = 1, size(link%pins)
+          if (find_name(grounds, link%pins(i)%text) > 0) grounded = grounded + 1
+        end do
+        if (grounded == 0) call add_error(diagnostics, drive%subject, "the driven link '"// &
+          drive%subject%text//"' turns about no ground pivot; drive it against a link that does")
+        if (grounded > 1) call add_error(diagnostics, drive%subject, "the driven link '"// &
+          drive%subject%text//"' joins the two ground pivots")
+      end if
+    end associate
+  end subroutine find_driven_link
+
+  !> Looks up the slider of a drive.
+  pure subroutine find_driven_slider(diagnostics, model, links, pins, drive)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: links, pins
+    type(drive_t), intent(inout) :: drive
+
+    type(string_t), allocatable :: names(:)
+    integer :: i
+    logical :: known, known_guide
+
+    if (find_name(links, drive%subject%text) > 0 .and. find_name(pins, drive%subject%text) == 0) &
+      then
+      call add_error(diagnostics, drive%subject, "'"//drive%subject%text//"' is a link; "// &
+        "expected: DRIVE link against link, DRIVE link length, or DRIVE pin guide")
+      return
+    end if
+    call seek_pin(drive%subject, pins, links, diagnostics, known)
+    allocate (names(0))
+    known_guide = .false.
+    do i = 1, size(model%sliders)
+      call append_string(names, model%sliders(i)%on%text)
+      known_guide = known_guide .or. same_word(model%sliders(i)%on%text, drive%against%text)
+      if (.not. same_word(model%sliders(i)%pin%text, drive%subject%text)) cycle
+      if (same_word(model%sliders(i)%on%text, drive%against%text)) drive%slider = i
+    end do
+    if (drive%slider > 0 .or. .not. known) return
+    do i = 1, size(model%guides)
+      call append_string(names, model%guides(i)%name%text)
+      known_guide = known_guide .or. same_word(model%guides(i)%name%text, drive%against%text)
+    end do
+    call append_string(names, "free")
+    if (known_guide) then
+      call add_error(diagnostics, drive%against, "no SLIDER card lets pin '"// &
+        drive%subject%text//"' slide along '"//drive%against%text//"'")
+    else
+      call add_error(diagnostics, drive%against, "unknown guide '"//drive%against%text//"'"// &
+        suggestion(drive%against%text, names))
+    end if
+  end subroutine find_driven_slider
+
+  !> One thing has one drive.
+  pure subroutine refuse_same_drives(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer, parameter :: most_compared = 100
+    integer :: i, k
+
+    do i = 2, size(model%drives)
+      do k = 1, min(i - 1, most_compared)
+        if (.not. are_same(model%drives(i), model%drives(k))) cycle
+        call add_error(diagnostics, model%drives(i)%subject, "'"// &
+          model%drives(i)%subject%text//"' is driven twice", model%drives(k)%subject, &
+          "first driven here")
+        exit
+      end do
+    end do
+  end subroutine refuse_same_drives
+
+  pure function are_same(a, b) result(same)
+    type(drive_t), intent(in) :: a, b
+    logical :: same
+
+    select case (a%kind)
+    case (drive_angle, drive_ram)
+      same = a%kind == b%kind .and. a%link > 0 .and. a%link == b%link
+    case (drive_relative)
+      same = a%kind == b%kind .and. a%link > 0 .and. a%against_link > 0 .and. &
+        min(a%link, a%against_link) == min(b%link, b%against_link) .and. &
+        max(a%link, a%against_link) == max(b%link, b%against_link)
+    case default
+      same = a%kind == b%kind .and. a%slider > 0 .and. a%slider == b%slider
+    end select
+  end function are_same
+
+  !> Checks the pins of a BRANCH card.
+  pure subroutine check_branch(diagnostics, model, links, pins, grounds, branch)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: links, pins, grounds
+    type(branch_t), intent(in) :: branch
+
+    integer :: ground
+    logical :: known(3)
+
+    ground = find_name(grounds, branch%pin%text)
+    if (ground > 0) then
+      call add_error(diagnostics, branch%pin, "'"//branch%pin%text//"' is fixed and has no "// &
+        "branch", model%grounds(ground)%pin, "it is fixed here")
+      return
+    end if
+    call seek_pin(branch%pin, pins, links, diagnostics, known(1))
+    if (branch%which >= branch_forward) then
+      if (.not. known(1) .or. slides(model, branch%pin%text)) return
+      call add_error(diagnostics, branch%pin, "pin '"//branch%pin%text//"' has no SLIDER: "// &
+        branch%word%text//" of which guide?")
+      return
+    end if
+    known(2) = find_name(grounds, branch%from%text) > 0
+    known(3) = find_name(grounds, branch%to%text) > 0
+    if (.not. known(2)) call seek_pin(branch%from, pins, links, diagnostics, known(2))
+    if (.not. known(3)) call seek_pin(branch%to, pins, links, diagnostics, known(3))
+    if (.not. all(known)) return
+    if (same_word(branch%from%text, branch%to%text)) then
+      call add_error(diagnostics, branch%to, "the way from a pin to itself has no side")
+    else if (same_word(branch%pin%text, branch%from%text) .or. same_word(branch%pin%text, &
+      branch%to%text)) then
+      call add_error(diagnostics, branch%pin, "pin '"//branch%pin%text// &
+        "' is an end of the way on whose side it is to be")
+    end if
+  end subroutine check_branch
+
+  !> Whether a pin has a SLIDER card.
+  pure function slides(model, name) result(does)
+    type(model_t), intent(in) :: model
+    character(len=*), intent(in) :: name
+    logical :: does
+
+    integer :: i
+
+    does = .true.
+    do i = 1, size(model%sliders)
+      if (same_word(model%sliders(i)%pin%text, name)) return
+    end do
+    does = .false.
+  end function slides
+
+end module drive_checks

@@ -1,0 +1,321 @@
+!> Checks of PIN, WELD and SLIDER cards: the pins, links and guides that they name.
+module joint_checks
+  use diagnostics, only: add_error, diagnostics_t
+  use joint_cards, only: slider_t, weld_t
+  use kinds, only: wp
+  use link_shapes, only: find_drawn_pin
+  use models, only: model_t
+  use name_checks, only: look_up, pin_names
+  use name_index, only: find_name, name_index_t, new_name_index
+  use spelling, only: suggestion
+  use text, only: append_string, same_word, string_t
+  use tokens, only: token_t, token_texts
+  implicit none (type, external)
+  private
+
+  public :: check_joints, joins, seek_pin
+
+contains
+
+  !> Looks up what these cards name. Errors: an unknown pin, link or guide, a PIN of a ground pivot,
+  !! a weld of a link that is not at the pin, of one link twice, of all links at a pin, or of links
+  !! that are not in the drawing, a guide with the name of a link where either may stand, a block on
+  !! its own link or twice on one, a fixed one, an inertia that cannot turn.
+  pure subroutine check_joints(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(model_t), intent(inout) :: model             !! numbers of links and guides are set
+
+    type(name_index_t) :: links, guides, pins, grounds
+    type(weld_t) :: weld
+    type(slider_t) :: slider
+    integer :: i
+
+    links = new_name_index(token_texts(model%links%name))
+    guides = new_name_index(token_texts(model%guides%name))
+    pins = new_name_index(token_texts(pin_names(model)))
+    grounds = new_name_index(token_texts(model%grounds%pin))
+    call check_drawing(diagnostics, model, pins, grounds)
+    do i = 1, size(model%welds)
+      weld = model%welds(i)
+      call find_weld(diagnostics, model, links, pins, grounds, weld)
+      model%welds(i) = weld
+    end do
+    do i = 1, size(model%sliders)
+      slider = model%sliders(i)
+      call find_slider(diagnostics, model, links, guides, pins, grounds, slider)
+      model%sliders(i) = slider
+    end do
+    call refuse_same_sliders(diagnostics, model)
+  end subroutine check_joints
+
+  !> Whether a link is at a pin: the pin is one of its own, or a POINT on it.
+  pure function joins(model, link, name) result(is)
+    type(model_t), intent(in) :: model   !! whose points have their links
+    integer, intent(in) :: link          !! number in the model
+    character(len=*), intent(in) :: name !! of the pin, in any case of letters
+    logical :: is
+
+    integer :: i
+
+    is = .true.
+    do i = 1, size(model%links(link)%pins)
+      if (same_word(model%links(link)%pins(i)%text, name)) return
+    end do
+    do i = 1, size(model%points)
+      if (model%points(i)%link /= link) cycle
+      if (same_word(model%points(i)%name%text, name)) return
+    end do
+    is = .false.
+  end function joins
+
+  !> Looks up a pin. Errors: an unknown pin, a link in its place.
+  pure subroutine seek_pin(word, pins, links, diagnostics, known)
+    type(token_t), intent(in) :: word                 !! without a line if the card lacks it
+    type(name_index_t), intent(in) :: pins, links     !! of the deck
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    logical, intent(out) :: known                     !! whether there is such a pin
+
+    known = .false.
+    if (word%line == 0) return
+    known = find_name(pins, word%text) > 0
+    if (known) return
+    if (find_name(links, word%text) > 0) then
+      call add_error(diagnostics, word, "'"//word%text//"' is a link; a pin is expected here")
+    else
+      call add_error(diagnostics, word, "unknown pin '"//word%text//"'"//suggestion(word%text, &
+        pins%name))
+    end if
+  end subroutine seek_pin
+
+  !> PIN cards are about moving pins.
+  pure subroutine check_drawing(diagnostics, model, pins, grounds)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: pins, grounds
+
+    integer :: i, ground, number
+
+    do i = 1, size(model%drawn_pins)
+      associate (pin => model%drawn_pins(i)%pin)
+        if (pin%line == 0) cycle
+        ground = find_name(grounds, pin%text)
+        if (ground > 0) then
+          call add_error(diagnostics, pin, "'"//pin%text//"' is a ground pivot and has its "// &
+            "place already", model%grounds(ground)%pin, "it is fixed here")
+        else
+          call look_up(pin, pins, "pin", diagnostics, number)
+        end if
+      end associate
+    end do
+  end subroutine check_drawing
+
+  !> Looks up the links of a weld.
+  pure subroutine find_weld(diagnostics, model, links, pins, grounds, weld)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: links, pins, grounds
+    type(weld_t), intent(inout) :: weld
+
+    integer :: i, k
+    logical :: known
+
+    if (size(weld%links) == 0) return
+    call seek_pin(weld%pin, pins, links, diagnostics, known)
+    do i = 1, size(weld%links)
+      associate (word => weld%links(i))
+        call look_up(word, links, "link", diagnostics, weld%link(i))
+        if (weld%link(i) == 0 .or. .not. known) cycle
+        if (.not. joins(model, weld%link(i), weld%pin%text)) then
+          call add_error(diagnostics, word, "link '"//word%text//"' is not at pin '"// &
+            weld%pin%text//"'", model%links(weld%link(i))%name, "its pins are here")
+          known = .false.
+          cycle
+        end if
+        do k = 1, i - 1
+          if (weld%link(k) /= weld%link(i)) cycle
+          call add_error(diagnostics, word, "link '"//word%text//"' is welded to itself", &
+            weld%links(k), "first named here")
+          exit
+        end do
+      end associate
+    end do
+    if (.not. known .or. any(weld%link == 0)) return
+    call refuse_weld_of_all(diagnostics, model, grounds, weld)
+    call require_drawn_weld(diagnostics, model, weld)
+  end subroutine find_weld
+
+  !> Where nothing else turns at the pin, the welded links are one.
+  pure subroutine refuse_weld_of_all(diagnostics, model, grounds, weld)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: grounds
+    type(weld_t), intent(in) :: weld
+
+    integer :: i
+
+    if (find_name(grounds, weld%pin%text) > 0) return
+    do i = 1, size(model%sliders)
+      if (same_word(model%sliders(i)%pin%text, weld%pin%text)) return
+    end do
+    do i = 1, size(model%links)
+      if (any(weld%link == i)) cycle
+      ! A link whose pins cannot be read may be at this pin.
+      if (size(model%links(i)%pins) == 0) return
+      if (joins(model, i, weld%pin%text)) return
+    end do
+    call add_error(diagnostics, weld%pin, "weld of all links at pin '"//weld%pin%text// &
+      "' leaves no joint; one LINK that names the pins of all says the same")
+  end subroutine refuse_weld_of_all
+
+  !> The angle between welded links is that of the drawing.
+  pure subroutine require_drawn_weld(diagnostics, model, weld)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+    type(weld_t), intent(in) :: weld
+
+    type(string_t), allocatable :: told(:)
+    real(wp) :: place(2)
+    integer :: i, k
+    logical :: is_drawn
+
+    do i = 1, size(weld%link)
+      associate (link => model%links(weld%link(i)))
+        do k = 1, size(link%pins)
+          call find_drawn_pin(model, link%pins(k)%text, place, is_drawn)
+          if (.not. is_drawn) call append_once(told, link%pins(k)%text)
+        end do
+      end associate
+    end do
+    if (.not. allocated(told)) return
+    call add_error(diagnostics, weld%pin, "the angle between welded links is that of the "// &
+      "drawing; expected "//pins_in_words(told))
+  end subroutine require_drawn_weld
+
+  pure subroutine append_once(list, name)
+    type(string_t), allocatable, intent(inout) :: list(:)
+    character(len=*), intent(in) :: name
+
+    integer :: i
+
+    if (allocated(list)) then
+      do i = 1, size(list)
+        if (same_word(list(i)%text, name)) return
+      end do
+    end if
+    call append_string(list, name)
+  end subroutine append_once
+
+  !> `PIN cards for 'A' and 'B'`
+  pure function pins_in_words(names) result(words)
+    type(string_t), intent(in) :: names(:)
+    character(len=:), allocatable :: words
+
+    integer :: i
+
+    words = "PIN cards for "
+    if (size(names) == 1) words = "a PIN card for "
+    do i = 1, size(names)
+      if (i > 1 .and. i < size(names)) words = words//", "
+      if (i > 1 .and. i == size(names)) words = words//" and "
+      words = words//"'"//names(i)%text//"'"
+    end do
+  end function pins_in_words
+
+  !> Looks up the names of a SLIDER card.
+  pure subroutine find_slider(diagnostics, model, links, guides, pins, grounds, slider)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: links, guides, pins, grounds
+    type(slider_t), intent(inout) :: slider
+
+    integer :: ground
+    logical :: known
+
+    if (slider%pin%line == 0 .or. slider%on%line == 0) return
+    ground = find_name(grounds, slider%pin%text)
+    known = ground > 0
+    if (.not. known) call seek_pin(slider%pin, pins, links, diagnostics, known)
+    call find_way(diagnostics, model, links, guides, slider)
+    if (slider%guide > 0 .and. ground > 0) then
+      call add_error(diagnostics, slider%pin, "'"//slider%pin%text//"' is fixed and cannot "// &
+        "slide along a guide", model%grounds(ground)%pin, "it is fixed here")
+    else if (slider%link > 0 .and. known) then
+      if (joins(model, slider%link, slider%pin%text)) call add_error(diagnostics, slider%on, &
+        "pin '"//slider%pin%text//"' belongs to link '"//slider%on%text//"' and cannot slide "// &
+        "along it", model%links(slider%link)%name, "its pins are here")
+    end if
+    if (slider%turned%line > 0) call find_turned_link(diagnostics, model, links, known, slider)
+    if (slider%guide > 0 .and. slider%turned%line == 0 .and. slider%inertia_word%line > 0) &
+      call add_error(diagnostics, slider%inertia_word, "a block on a fixed guide does not "// &
+      "turn: 'inertia=' has no meaning here")
+  end subroutine find_slider
+
+  !> Looks up the guide or link that a block slides along.
+  pure subroutine find_way(diagnostics, model, links, guides, slider)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: links, guides
+    type(slider_t), intent(inout) :: slider
+
+    type(string_t), allocatable :: names(:)
+    integer :: i
+
+    slider%guide = find_name(guides, slider%on%text)
+    slider%link = find_name(links, slider%on%text)
+    if (slider%guide > 0 .and. slider%link > 0) then
+      call add_error(diagnostics, slider%on, "'"//slider%on%text//"' is a guide and a link; "// &
+        "here either may stand, so they need different names", model%guides(slider%guide)%name, &
+        "the guide is here")
+      slider%link = 0
+    else if (slider%guide == 0 .and. slider%link == 0) then
+      allocate (names(0))
+      do i = 1, size(guides%name)
+        call append_string(names, guides%name(i)%text)
+      end do
+      do i = 1, size(links%name)
+        call append_string(names, links%name(i)%text)
+      end do
+      call add_error(diagnostics, slider%on, "unknown guide or link '"//slider%on%text//"'"// &
+        suggestion(slider%on%text, names))
+    end if
+  end subroutine find_way
+
+  !> Looks up the link that cannot turn on a block.
+  pure subroutine find_turned_link(diagnostics, model, links, known, slider)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: links
+    logical, intent(in) :: known !! the pin is
+    type(slider_t), intent(inout) :: slider
+
+    call look_up(slider%turned, links, "link", diagnostics, slider%turned_link)
+    if (slider%turned_link == 0 .or. .not. known) return
+    if (joins(model, slider%turned_link, slider%pin%text)) return
+    call add_error(diagnostics, slider%turned, "link '"//slider%turned%text// &
+      "' is not at pin '"//slider%pin%text//"'", model%links(slider%turned_link)%name, &
+      "its pins are here")
+  end subroutine find_turned_link
+
+  !> One block at a pin slides along one guide.
+  pure subroutine refuse_same_sliders(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    type(string_t) :: pairs(size(model%sliders))
+    type(name_index_t) :: list
+    integer :: i, first
+
+    do i = 1, size(pairs)
+      pairs(i)%text = model%sliders(i)%pin%text//" "//model%sliders(i)%on%text
+    end do
+    list = new_name_index(pairs)
+    do i = 1, size(pairs)
+      first = find_name(list, pairs(i)%text)
+      if (first == i .or. model%sliders(i)%on%line == 0) cycle
+      call add_error(diagnostics, model%sliders(i)%pin, "pin '"//model%sliders(i)%pin%text// &
+        "' slides along '"//model%sliders(i)%on%text//"' already", model%sliders(first)%pin, &
+        "the first SLIDER is here")
+    end do
+  end subroutine refuse_same_sliders
+
+end module joint_checks
