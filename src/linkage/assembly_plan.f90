@@ -355,7 +355,8 @@ contains
       group%loaded = [b]
       group%equations(1) = pin_equation(linkage, demands_angle, b, pins(2))
       ! A ram has no length of its own: its drive is what is redundant.
-      if (drive_of_length(linkage, b) == 0) then
+      if (drive_of_length(linkage, b) == 0 .and. .not. is_used(linkage, demands_length, b, &
+        pins(2))) then
         redundancy%equation = pin_equation(linkage, demands_length, b, pins(2))
         call append_redundancy(linkage, redundancy)
       end if
@@ -745,8 +746,7 @@ contains
     done%body(group%bodies) = .true.
     body_order = [body_order, group%bodies]
     do i = 1, size(group%bodies)
-      call carry_rest(linkage, group%bodies(i), pack(group%equations%pin, &
-        group%equations%body == group%bodies(i)), done)
+      call carry_rest(linkage, group%bodies(i), [integer ::], done)
     end do
   end subroutine settle_bodies
 
@@ -767,9 +767,11 @@ contains
       if (done%body(i)) cycle
       pins = pins_of_body(linkage%bodies(i))
       do k = 2, size(pins)
-        if (k > 2 .or. drive_of_length(linkage, i) == 0) call append_equation(equations, &
-          pin_equation(linkage, demands_length, i, pins(k)))
-        call append_equation(equations, pin_equation(linkage, demands_angle, i, pins(k)))
+        if (.not. is_used(linkage, demands_length, i, pins(k)) .and. (k > 2 .or. &
+          drive_of_length(linkage, i) == 0)) call append_equation(equations, pin_equation( &
+          linkage, demands_length, i, pins(k)))
+        if (.not. is_used(linkage, demands_angle, i, pins(k))) call append_equation(equations, &
+          pin_equation(linkage, demands_angle, i, pins(k)))
       end do
     end do
     do i = 1, size(linkage%turns)
@@ -899,9 +901,11 @@ contains
     do i = 2, size(pins)
       if (.not. done%pin(pins(i)) .or. any(used == pins(i))) cycle
       redundancy%equation = pin_equation(linkage, demands_length, body, pins(i))
-      call append_redundancy(linkage, redundancy)
+      if (.not. is_used(linkage, demands_length, body, pins(i))) call append_redundancy(linkage, &
+        redundancy)
       redundancy%equation = pin_equation(linkage, demands_angle, body, pins(i))
-      call append_redundancy(linkage, redundancy)
+      if (.not. is_used(linkage, demands_angle, body, pins(i))) call append_redundancy(linkage, &
+        redundancy)
     end do
     pins = pack(pins, .not. done%pin(pins))
     if (size(pins) == 0) return
@@ -913,6 +917,24 @@ contains
     done%pin(pins) = .true.
     call append(linkage, group)
   end subroutine carry_rest
+
+  !> Whether a group has used what a body demands of a pin.
+  pure function is_used(linkage, kind, body, pin)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: kind, body, pin
+    logical :: is_used
+
+    integer :: i
+
+    is_used = .false.
+    do i = 1, size(linkage%groups)
+      if (.not. allocated(linkage%groups(i)%equations)) cycle
+      associate (equations => linkage%groups(i)%equations)
+        is_used = is_used .or. any(equations%kind == kind .and. equations%body == body .and. &
+          equations%pin == pin)
+      end associate
+    end do
+  end function is_used
 
   !> Chooses the first and the last pin of a body; its axes, and what is placed in them, turn.
   pure subroutine rebase(linkage, body, first, last)
@@ -976,7 +998,8 @@ contains
     components = turned(a, [axis(1), -axis(2)])
   end function turned_back
 
-  !> The pins in the order in which the bodies have them, those of sliders alone last.
+  !> The pins in the order in which the bodies have them: first and last ones, further ones, those of
+  !! sliders alone.
   pure subroutine order_pins(linkage, body_order, pin_order)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: body_order(:)
@@ -987,7 +1010,13 @@ contains
 
     do i = 1, size(body_order)
       pins = pins_of_body(linkage%bodies(body_order(i)))
-      do k = 1, size(pins)
+      do k = 1, 2
+        if (.not. any(pin_order == pins(k))) pin_order = [pin_order, pins(k)]
+      end do
+    end do
+    do i = 1, size(body_order)
+      pins = pins_of_body(linkage%bodies(body_order(i)))
+      do k = 3, size(pins)
         if (.not. any(pin_order == pins(k))) pin_order = [pin_order, pins(k)]
       end do
     end do

@@ -43,8 +43,10 @@ contains
 
     type(load_t) :: load(size(body_load))
     real(wp) :: carried(2, size(pin_load, 2))
+    logical :: is_passed(size(body_load))
     integer :: i
 
+    is_passed = .false.
     allocate (forces%on_first(2, size(linkage%bodies)), forces%on_last(2, size(linkage%bodies)))
     forces%on_first = 0.0_wp
     forces%on_last = 0.0_wp
@@ -58,7 +60,7 @@ contains
       case (groups_carried)
         call load_body(linkage, linkage%groups(i), pose, carried, load, forces)
       case default
-        call solve_group(linkage, linkage%groups(i), pose, carried, load, forces)
+        call solve_group(linkage, linkage%groups(i), pose, is_passed, carried, load, forces)
       end select
     end do
     if (linkage%has_crank) then
@@ -167,10 +169,11 @@ contains
 
   !> Forces in a group, from its equations: `Jᵀ λ = −Q`, with Q the loads on its unknowns and λ the
   !! forces that the equations stand for. They load what is placed before.
-  pure subroutine solve_group(linkage, group, pose, carried, load, forces)
+  pure subroutine solve_group(linkage, group, pose, is_passed, carried, load, forces)
     type(linkage_t), intent(in) :: linkage
     type(group_t), intent(in) :: group
     type(pose_t), intent(in) :: pose
+    logical, intent(inout) :: is_passed(:)   !! (bodies) whose loads their first pins bear already
     real(wp), intent(inout) :: carried(:, :) !! (2, pins) loads on pins so far [N]
     type(load_t), intent(inout) :: load(:)   !! (bodies) so far, with those of pins they carry
     type(joint_forces_t), intent(inout) :: forces
@@ -188,6 +191,7 @@ contains
       forces%on_first(:, group%loaded(i)) = forces%on_first(:, group%loaded(i)) - &
         load(group%loaded(i))%force
     end do
+    is_passed(group%loaded) = .true.
     do k = 1, size(group%pins)
       lambda(2*k - 1:2*k) = -carried(:, group%pins(k))
     end do
@@ -201,7 +205,7 @@ contains
       end do
       if (gradient%pin(1) > 0) then
         carried(:, gradient%pin(1)) = carried(:, gradient%pin(1)) + lambda(i)*gradient%by_pin(:, 1)
-        if (gradient%pin(2) > 0) call load_first_pin(linkage, group, &
+        if (gradient%pin(2) > 0) call load_first_pin(linkage, is_passed(gradient%body(1)), &
           gradient%body(1), lambda(i)*gradient%by_pin(:, 2), carried, load, forces)
       end if
       associate (number => group%equations(i)%number)
@@ -225,16 +229,16 @@ contains
 
   !> What an equation puts on a body is a load on its first pin, which bears the opposite of it; if
   !! the body is placed before, it is a load of the body.
-  pure subroutine load_first_pin(linkage, group, body, force, carried, load, forces)
+  pure subroutine load_first_pin(linkage, is_passed, body, force, carried, load, forces)
     type(linkage_t), intent(in) :: linkage
-    type(group_t), intent(in) :: group
+    logical, intent(in) :: is_passed
     integer, intent(in) :: body
     real(wp), intent(in) :: force(2)
     real(wp), intent(inout) :: carried(:, :)
     type(load_t), intent(inout) :: load(:)
     type(joint_forces_t), intent(inout) :: forces
 
-    if (any(group%loaded == body)) then
+    if (is_passed) then
       carried(:, linkage%bodies(body)%first_pin) = carried(:, linkage%bodies(body)%first_pin) + &
         force
       forces%on_first(:, body) = forces%on_first(:, body) - force

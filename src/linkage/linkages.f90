@@ -82,6 +82,7 @@ module linkages
     integer :: against = 0                      !! the other one; 0: the ground
     real(wp) :: relative(2) = [1.0_wp, 0.0_wp]  !! direction of `body` in the axes of the other
     integer :: slider = 0                       !! whose block it is; 0: a weld
+    integer :: pin = 0                          !! where they do
   end type turn_t
 
   !> An input. Its coordinate is `ratio*c + phase` with the coordinate c of the first one.

@@ -7,6 +7,7 @@ module poses
   use linkages, only: cross, group_t, groups_by_newton, groups_dyad, is_dyad_linkage, linkage_t, &
     normal_to, path_t, reference_point, turned
   use pose_types, only: pose_t
+  use redundancies, only: refuse_misfit
   use text, only: to_string
   implicit none (type, external)
   private
@@ -69,7 +70,7 @@ contains
   !! intersecting circles, and other groups of bodies.
   !!
   !! Errors: the position is out of reach; the two bases of a dyad coincide, which leaves its
-  !! direction undetermined; iterations that do not converge.
+  !! direction undetermined; iterations that do not converge; redundant links that do not fit.
   pure subroutine place_links(linkage, crank, pose, error)
     type(linkage_t), intent(in) :: linkage           !! bodies, groups and what joins them
     real(wp), intent(in) :: crank                    !! angle of the driven body from the global x
@@ -92,6 +93,7 @@ contains
         "the position was not found by iterations: they left the path")
     end if
     if (allocated(error)) return
+    call refuse_misfit(linkage, pose, origin, crank, error)
     pose%pin = pose%pin + spread(origin, 2, size(pose%pin, 2))
   end subroutine place_links
 

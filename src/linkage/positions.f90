@@ -3,6 +3,7 @@ module positions
   use errors, only: error_t
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
+  use linkage_paths, only: period_of
   use linkages, only: linkage_t
   use poses, only: find_pose, pose_t
   use sorting, only: ascending_order
@@ -21,6 +22,7 @@ module positions
 
   !> All listed crank angles, and one state for each different angle.
   type :: positions_t
+    real(wp) :: period = 360.0_wp           !! after which positions repeat [deg]; 0: none
     real(wp), allocatable :: crank(:)       !! (positions) as the deck lists them [deg]
     integer, allocatable :: state(:)        !! (positions) number in `states`; 0° and 360° have the
                                             !! same
@@ -39,23 +41,26 @@ contains
 
     integer :: i
 
-    call list_positions(crank, positions)
+    call list_positions(crank, positions, period_of(linkage))
     do i = 1, size(positions%states)
       call find_state(linkage, positions%states(i))
     end do
   end function find_positions
 
-  !> The different angles of a list, without poses. Whole turns make no difference.
-  pure subroutine list_positions(crank, positions)
+  !> The different angles of a list, without poses. Whole turns make no difference, or whole periods
+  !! where the linkage repeats its positions later.
+  pure subroutine list_positions(crank, positions, period)
     real(wp), intent(in) :: crank(:)            !! (positions) crank angles [deg]
     type(positions_t), intent(out) :: positions !! with states yet to be found
+    real(wp), intent(in), optional :: period    !! of the linkage [deg]; 0: none; absent: a turn
 
     real(wp) :: reduced(size(crank))
     integer :: order(size(crank)), i, states
     integer :: first(size(crank))
 
     positions%crank = crank
-    reduced = modulo(crank, 360.0_wp)
+    if (present(period)) positions%period = period
+    reduced = reduced_crank(positions%period, crank)
     order = ascending_order(reduced)
     allocate (positions%state(size(crank)))
     ! Equal angles are adjacent in the sorted order, the first listed before the others.
@@ -98,7 +103,17 @@ contains
     type(positions_t), intent(in) :: positions !! their states may be yet to be found
     integer :: states(size(positions%states))
 
-    states = ascending_order(modulo(positions%states%crank, 360.0_wp))
+    states = ascending_order(reduced_crank(positions%period, positions%states%crank))
   end function by_crank_angle
+
+  !> Coordinates of the first drive without whole periods.
+  pure function reduced_crank(period, crank) result(reduced)
+    real(wp), intent(in) :: period   !! 0: none
+    real(wp), intent(in) :: crank(:) !! [deg] or [m]
+    real(wp) :: reduced(size(crank))
+
+    reduced = crank
+    if (period > 0.0_wp) reduced = modulo(crank, period)
+  end function reduced_crank
 
 end module positions

@@ -1,9 +1,10 @@
 !> Model → damping, gauges and points on the bodies of the linkage, for the elastic response.
 module response_parts
-  use attached_parts, only: body_of, body_point_t, place_on_body, points_of, runs_against
+  use attached_parts, only: body_point_t, place_on_body, points_of, runs_against
   use kinds, only: wp
   use linkages, only: linkage_t
   use models, only: model_t
+  use text, only: string_t
   use response_cards, only: side_left
   implicit none (type, external)
   private
@@ -35,15 +36,16 @@ module response_parts
 contains
 
   !> The damping of every body. A damping of 0 is none.
-  pure function dampings_of(model) result(dampings)
+  pure function dampings_of(model, links) result(dampings)
     type(model_t), intent(in) :: model !! without errors
-    type(body_damping_t) :: dampings(size(model%loop))
+    integer, intent(in) :: links(:)    !! (bodies) numbers of their links in the model
+    type(body_damping_t) :: dampings(size(links))
 
     integer :: i
 
-    do i = 1, size(model%loop)
-      if (model%links(model%loop(i))%damping == 0) cycle
-      associate (card => model%dampings(model%links(model%loop(i))%damping))
+    do i = 1, size(links)
+      if (model%links(links(i))%damping == 0) cycle
+      associate (card => model%dampings(model%links(links(i))%damping))
         if (card%time > 0.0_wp) dampings(i) = body_damping_t(damping_by_time, card%time)
         if (card%ratio > 0.0_wp) dampings(i) = body_damping_t(damping_by_ratio, card%ratio)
       end associate
@@ -52,8 +54,10 @@ contains
 
   !> The gauges in the order of the deck. In a deck without GAUGE cards there is one in the middle
   !! of every bending link, on its right, with the name of the link.
-  pure function gauges_of(model) result(gauges)
+  pure function gauges_of(model, links, linkage) result(gauges)
     type(model_t), intent(in) :: model           !! without errors
+    integer, intent(in) :: links(:)              !! (bodies) numbers of their links in the model
+    type(linkage_t), intent(in) :: linkage       !! its bodies
     type(body_gauge_t), allocatable :: gauges(:) !! (gauges)
 
     integer :: i, filled
@@ -62,27 +66,29 @@ contains
       allocate (gauges(size(model%gauges)))
       do i = 1, size(gauges)
         associate (card => model%gauges(i))
-          gauges(i) = gauge_on(model, card%link, card%at, merge(-1, 1, card%side == side_left))
+          gauges(i) = gauge_on(model, links, linkage, card%link, card%at, merge(-1, 1, card%side == side_left))
           gauges(i)%name = card%name%text
         end associate
       end do
       return
     end if
-    allocate (gauges(count(.not. model%links(model%loop)%rigid)))
+    allocate (gauges(count(.not. model%links(links)%rigid)))
     filled = 0
-    do i = 1, size(model%loop)
-      associate (link => model%links(model%loop(i)))
+    do i = 1, size(links)
+      associate (link => model%links(links(i)))
         if (link%rigid) cycle
         filled = filled + 1
-        gauges(filled) = gauge_on(model, model%loop(i), 0.5_wp*link%length, 1)
+        gauges(filled) = gauge_on(model, links, linkage, links(i), 0.5_wp*link%length, 1)
         gauges(filled)%name = link%name%text
       end associate
     end do
   end function gauges_of
 
   !> A gauge without its name, from the axes of its LINK card to those of its body.
-  pure function gauge_on(model, link, at, side) result(gauge)
+  pure function gauge_on(model, links, linkage, link, at, side) result(gauge)
     type(model_t), intent(in) :: model
+    integer, intent(in) :: links(:)
+    type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: link  !! number in the model's list
     real(wp), intent(in) :: at   !! from the first pin of its card [m]
     integer, intent(in) :: side  !! as in `body_gauge_t`
@@ -90,9 +96,9 @@ contains
 
     real(wp) :: place(2)
 
-    gauge%body = body_of(model, link)
-    gauge%is_reversed = runs_against(model, gauge%body)
-    place = place_on_body(model, gauge%body, [at, 0.0_wp])
+    gauge%body = findloc(links, link, dim=1)
+    gauge%is_reversed = runs_against(linkage%bodies(gauge%body))
+    place = place_on_body(linkage%bodies(gauge%body), [at, 0.0_wp])
     gauge%place = place(1)/model%links(link)%length
     gauge%side = side
   end function gauge_on
@@ -100,15 +106,17 @@ contains
   !> The points of REPORT response: for every moving pin the ends of the links that it joins, with
   !! names as `A:crank`, in the order of the loop, then the POINTs of the deck. The links that a pin
   !! joins have the same displacement there, and rotations of their own.
-  pure function response_points_of(model, linkage) result(points)
+  pure function response_points_of(model, links, pins, linkage) result(points)
     type(model_t), intent(in) :: model           !! without errors
+    integer, intent(in) :: links(:)              !! (bodies) numbers of their links in the model
+    type(string_t), intent(in) :: pins(:)        !! names
     type(linkage_t), intent(in) :: linkage       !! of the model
     type(body_point_t), allocatable :: points(:) !! (points)
 
     type(body_point_t), allocatable :: of_deck(:)
     integer :: b, i, p, filled
 
-    of_deck = points_of(model)
+    of_deck = points_of(model, links, linkage)
     associate (bodies => linkage%bodies, is_ground => linkage%is_ground)
       allocate (points(count(.not. is_ground(bodies%first_pin)) + &
         count(.not. is_ground(bodies%last_pin)) + size(of_deck)))
@@ -118,7 +126,7 @@ contains
         do b = 1, size(bodies)
           if (bodies(b)%first_pin /= p .and. bodies(b)%last_pin /= p) cycle
           filled = filled + 1
-          points(filled)%name = model%loop_pins(p)%text//":"//model%links(model%loop(b))%name%text
+          points(filled)%name = pins(p)%text//":"//model%links(links(b))%name%text
           points(filled)%body = b
           if (bodies(b)%last_pin == p) points(filled)%place = [bodies(b)%length, 0.0_wp]
         end do

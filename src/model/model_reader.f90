@@ -4,7 +4,7 @@ module model_reader
   use body_checks, only: check_bodies
   use card_table, only: card_kind_number, card_kinds, card_names
   use cards, only: card_t
-  use diagnostics, only: add_error, diagnostics_t
+  use diagnostics, only: add_error, diagnostics_t, has_errors
   use drive_cards, only: branch_t, kind_of_drive, moves_along, read_branch, read_drive
   use drive_checks, only: check_drives
   use effect_cards, only: effects_axial, effects_static, effects_t, read_effects
@@ -18,12 +18,12 @@ module model_reader
   use loop_finder, only: find_loop
   use materials, only: read_material
   use mesh_checks, only: check_meshes
-  use models, only: drives_length, is_loaded, is_moving, model_t, needs_mesh, report_number
+  use models, only: drives_length, is_four_bar, is_loaded, is_moving, model_t, needs_mesh, report_number
   use motor_cards, only: read_motor, read_resistance
   use name_checks, only: check_names
   use output_units, only: new_output_units, output_units_t, table_name
   use report_cards, only: read_report
-  use report_kinds, only: report_kind_t
+  use report_kinds, only: kind_of_linkage, report_kind_t
   use request_cards, only: read_crank, read_modes, read_option, read_speed, read_title
   use request_checks, only: check_requests, check_required
   use response_cards, only: is_response_form, read_damping, read_gauge, read_omitted_terms, &
@@ -80,6 +80,7 @@ contains
     call refuse_second_cards(cards, diagnostics)
     call read_system(cards, diagnostics, model%units, model%outputs, chooses_rate)
     call read_model_cards(cards, reports, diagnostics, model)
+    call choose_reports(reports, diagnostics, model)
     if (.not. chooses_rate) call take_rate_of_deck(model)
     call choose_speed_unit(model)
     call show_speeds(model)
@@ -104,6 +105,32 @@ contains
     call check_meshes(cards, diagnostics, model)
     call check_bare_units(cards, diagnostics, model)
   end subroutine read_model
+
+  !> Takes, of two reports with one name, that on the linkage of the deck.
+  pure subroutine choose_reports(reports, diagnostics, model)
+    type(report_kind_t), intent(in) :: reports(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(inout) :: model
+
+    logical :: four_bar
+    integer :: i, number
+
+    if (has_errors(diagnostics)) return
+    four_bar = is_four_bar(model)
+    do i = 1, size(model%reports)
+      associate (report => model%reports(i))
+        if (len_trim(report%kind%name) == 0) cycle
+        number = kind_of_linkage(reports, trim(report%kind%name), four_bar)
+        if (number > 0) then
+          report%kind = reports(number)
+        else
+          call add_error(diagnostics, report%keyword, "REPORT "//trim(report%kind%name)// &
+            " is made for four-bars only, so far: three links with two pins each, two ground "// &
+            "pivots, and a driven link")
+        end if
+      end associate
+    end do
+  end subroutine choose_reports
 
   !> Reports every unknown card.
   pure subroutine check_keywords(cards, diagnostics)

@@ -1,7 +1,7 @@
 !> `balance.dat` and `harmonics.dat`: shaking force, shaking moment and driving torque of a
 !! linkage, as given and with counterweights.
 module balance_report
-  use attached_parts, only: place_on_body
+  use attached_parts, only: place_on_card
   use constants, only: degree
   use harmonics_study, only: is_moment, quantity_count, quantity_names
   use kinds, only: wp
@@ -89,8 +89,8 @@ contains
           shortest_text(from_si(norm2(weight%first_moment), first_moment))//" "// &
           first_moment%name//", at "//shortest_text(atan2(weight%first_moment(2), &
           weight%first_moment(1))/degree)//" deg from "//from//" -> "//to)
-        ! `place_on_body` is its own inverse: here it goes from the body to the card.
-        place = from_si(place_on_body(variant%model, weight%body, lump%place), &
+        ! `place_on_card` is its own inverse: here it goes from the body to the card.
+        place = from_si(place_on_card(variant%mechanism%linkage%bodies(weight%body), lump%place), &
           table_unit("length", variant%model%outputs)) + 0.0_wp
         call append_string(list, "card, with the link's length for a radius (the shaking force "// &
           "depends on mass x radius only, moment and torque on the radius too):")

@@ -3,7 +3,7 @@ module load_notes
   use kinds, only: wp
   use link_cards, only: has_own_mass
   use mechanisms, only: mechanism_t
-  use models, only: model_t
+  use models, only: drives_length, model_t
   use text, only: append_string, plural, string_t, to_string
   use units, only: coherent_unit, dimension_acceleration, from_si, unit_t
   implicit none (type, external)
@@ -40,7 +40,7 @@ contains
     character(len=:), allocatable :: words
 
     associate (this => mechanism%linkage%bodies(body))
-      if (has_own_mass(model%links(model%loop(body)))) then
+      if (has_own_mass(model%links(mechanism%links(body)))) then
         words = "a body of its own"
       else if (this%line_density <= 0.0_wp) then
         words = "without mass"
@@ -115,6 +115,10 @@ contains
     character(len=:), allocatable :: words
     integer :: i
 
+    if (.not. mechanism%is_four_bar) then
+      call append_string(notes, acceleration_note(model))
+      return
+    end if
     words = ""
     do i = 1, 3
       if (mechanism%names(i)%text == links(i)) cycle
@@ -133,7 +137,22 @@ contains
     type(model_t), intent(in) :: model !! in SI
     character(len=:), allocatable :: note
 
-    note = "angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2"
+    if (drives_length(model)) then
+      note = "acceleration of the first drive: "//to_string(from_si(model%acceleration, &
+        coherent_unit(model%units, dimension_acceleration)))//" "//name_of_acceleration(model)
+    else
+      note = "angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2"
+    end if
   end function acceleration_note
+
+  pure function name_of_acceleration(model) result(name)
+    type(model_t), intent(in) :: model
+    character(len=:), allocatable :: name
+
+    type(unit_t) :: measure
+
+    measure = coherent_unit(model%units, dimension_acceleration)
+    name = measure%name
+  end function name_of_acceleration
 
 end module load_notes

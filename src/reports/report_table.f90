@@ -20,6 +20,9 @@ module report_table
   use inertia_report, only: add_inertia, has_moments, inertia_notes, inertia_owners
   use inertia_study, only: find_inertia_loads
   use intervals_report, only: add_intervals, interval_words, intervals_notes
+  use joint_study, only: find_joints
+  use joints_report, only: add_drives, add_joints, add_shaking, drive_columns, drive_names, &
+    drives_notes, joint_owners, joints_notes
   use kinematics_report, only: add_kinematics, kinematics_notes
   use kinematics_study, only: find_kinematics
   use lagrange_report, only: add_lagrange, lagrange_notes
@@ -27,16 +30,17 @@ module report_table
   use link_cards, only: has_own_mass
   use linkage_report, only: add_linkage, linkage_remarks, linkage_words
   use linkage_study, only: find_linkage
+  use links_report, only: add_links, add_pins, links_notes, pin_names, pins_notes, shown_crank
   use loci_report, only: add_loci, loci_notes, locus_words
   use mesh_report, only: add_mesh, mesh_notes
-  use models, only: report_number
+  use models, only: drives_length, is_four_bar, model_t, report_number
   use motion_report, only: add_motion, motion_notes, motion_words
   use peaks_report, only: add_peaks, peaks_notes
   use points_report, only: add_points, point_names, points_notes
   use points_study, only: find_points
   use reactions_report, only: add_reactions, reactions_notes
   use reactions_study, only: find_reactions
-  use report_kinds, only: report_kind_t, table_kind_t
+  use report_kinds, only: four_bars, other_linkages, report_kind_t, table_kind_t
   use response_notes, only: add_failed_speed, has_response
   use response_report, only: add_response, response_notes_of, response_point_names
   use stability_report, only: add_stability, stability_notes, stability_words
@@ -50,7 +54,8 @@ module report_table
   implicit none (type, external)
   private
 
-  public :: table_plan_t, reports, study_names, find_study, plan_table, table_notes, add_item_rows
+  public :: table_plan_t, reports, study_names, find_study, plan_table, table_notes, add_item_rows, &
+    table_in_units
 
   !> A table as it is to be written.
   type :: table_plan_t
@@ -63,13 +68,17 @@ module report_table
 
   !> All studies in the order in which they are made: some use the results of others. The last
   !! are made by `variant_runs`, some of them block by block or step by step.
-  character(len=*), parameter :: study_names(17) = [character(len=12) :: "kinematics", "geometry", &
-    "inertia", "points", "reactions", "lagrange", "balance", "harmonics", "linkage", "response", &
+  character(len=*), parameter :: study_names(18) = [character(len=12) :: "kinematics", "geometry", &
+    "inertia", "points", "reactions", "joints", "lagrange", "balance", "harmonics", "linkage", "response", &
     "stability", "intervals", "campbell", "transient", "motion", "frequencies", "loci"]
 
   !> Tables of the elastic response with rows for every position.
   character(len=*), parameter :: response_tables(3) = [character(len=8) :: "response", "strains", &
     "drive"]
+
+  !> Tables of linkages that are no four-bars, with rows of their own for every position.
+  character(len=*), parameter :: general_tables(4) = [character(len=10) :: "kinematics", &
+    "reactions", "drive", "shaking"]
 
   !> Where a report has one table only.
   type(table_kind_t), parameter :: no_table = table_kind_t()
@@ -78,37 +87,51 @@ module report_table
   !! tables with their columns.
   type(report_kind_t), parameter :: reports(*) = [ &
     report_kind_t(name="kinematics", help="how the links move", &
-      studies="kinematics", positions=.true., reserved=.true., numbers=11, tables=[ &
+      studies="kinematics", positions=.true., reserved=.true., linkages=four_bars, numbers=11, &
+      tables=[ &
       table_kind_t("kinematics", "speed:speed crank,theta3,theta4:deg omega3,omega4:rate "// &
       "alpha3,alpha4:rad/s2 Ax,Ay,Bx,By:length transmission_angle:deg"), no_table]), &
+    report_kind_t(name="kinematics", help="how the links move", &
+      studies="kinematics", positions=.true., reserved=.true., linkages=other_linkages, tables=[ &
+      table_kind_t("kinematics", "speed:speed crank:deg link:name theta:deg omega:rate "// &
+      "alpha:rad/s2"), no_table]), &
+    report_kind_t(name="pins", help="paths, velocities and accelerations of the pins", &
+      studies="kinematics", positions=.true., tables=[ &
+      table_kind_t("pins", "speed:speed crank:deg pin:name x,y:length vx,vy:velocity "// &
+      "ax,ay:acceleration"), no_table]), &
     report_kind_t(name="inertia", help="masses, their accelerations and inertia forces", &
-      studies="inertia", positions=.true., masses=.true., reserved=.true., numbers=46, tables=[ &
+      studies="inertia", positions=.true., masses=.true., reserved=.true., numbers=46, linkages=four_bars, tables=[ &
       table_kind_t("inertia", "speed:speed crank:deg mass:# link:name x,y:length "// &
       "ax,ay:acceleration Fx,Fy:force m:mass moment?:moment"), no_table]), &
     report_kind_t(name="mesh", help="the finite element model", &
-      positions=.true., beams=.true., reserved=.true., tables=[ &
+      positions=.true., beams=.true., reserved=.true., linkages=four_bars, tables=[ &
       table_kind_t("mesh", "crank:deg link:name element,node_a,node_b:# xa,ya,xb,yb:length "// &
       "mass_a,mass_b:mass"), no_table]), &
     report_kind_t(name="frequencies", help="natural frequencies with estimated errors", &
       studies="frequencies", positions=.true., beams=.true., frequencies=.true., &
-      reserved=.true., tables=[ &
+      reserved=.true., linkages=four_bars, tables=[ &
       table_kind_t("frequencies", "speed:speed crank:deg f*:Hz error*:-"), no_table]), &
     report_kind_t(name="shapes", help="mode shapes along the links", &
       pattern="REPORT shapes [crank=a,b,...] [speed=...] [points=]", default="points=21", &
       studies="frequencies", positions=.true., beams=.true., frequencies=.true., &
-      reserved=.true., tables=[ &
+      reserved=.true., linkages=four_bars, tables=[ &
       table_kind_t("shapes", "speed:speed crank:deg mode:# frequency:Hz link:name "// &
       "s,x,y:length ux,uy:mass^-1/2 rotation:rotation"), no_table]), &
     report_kind_t(name="branches", help="frequencies followed by their shapes", &
       studies="frequencies loci", positions=.true., beams=.true., frequencies=.true., &
-      reserved=.true., tables=[ &
+      reserved=.true., linkages=four_bars, tables=[ &
       table_kind_t("branches", "speed:speed crank:deg branch,mode:# frequency:Hz mac:- "// &
       "event:name"), no_table]), &
     report_kind_t(name="reactions", help="forces in the pins, torque, shaking force and moment", &
-      studies="reactions", positions=.true., masses=.true., numbers=48, tables=[ &
+      studies="reactions", positions=.true., masses=.true., linkages=four_bars, numbers=48, &
+      tables=[ &
       table_kind_t("reactions", "speed:speed crank:deg "// &
       "O2x,O2y,A2x,A2y,A3x,A3y,B3x,B3y,B4x,B4y,O4x,O4y:force torque:moment "// &
       "shaking_x,shaking_y:force shaking_moment:moment"), no_table]), &
+    report_kind_t(name="reactions", help="forces in pins, of guides, moments of blocks and welds", &
+      studies="joints", positions=.true., masses=.true., linkages=other_linkages, tables=[ &
+      table_kind_t("reactions", "speed:speed crank:deg pin,link:name fx,fy:force "// &
+      "moment:moment"), no_table]), &
     report_kind_t(name="points", help="paths, velocities and accelerations of points", &
       studies="points", positions=.true., tables=[ &
       table_kind_t("points", "speed:speed crank:deg point:name x,y:length vx,vy:velocity "// &
@@ -118,12 +141,12 @@ module report_table
       table_kind_t("lagrange", "speed:speed crank:deg M,dM:inertia "// &
       "V,gravity,load,torque:moment kinetic,potential:energy"), no_table]), &
     report_kind_t(name="linkage", help="class, limits and special positions", &
-      studies="linkage", tables=[ &
+      studies="linkage", linkages=four_bars, tables=[ &
       table_kind_t("linkage", "branch,event:name crank,theta3,theta4,transmission_angle:deg"), &
       no_table]), &
     report_kind_t(name="balance", help="shaking force, counterweights, harmonics", &
       studies="reactions balance harmonics", positions=.true., masses=.true., numbers=98, &
-      tables=[ &
+      linkages=four_bars, tables=[ &
       table_kind_t("balance", "speed:speed crank:deg xG,yG:length shaking_x,shaking_y:force "// &
       "shaking_moment,torque:moment balanced_x,balanced_y:force "// &
       "balanced_moment,balanced_torque:moment"), &
@@ -134,43 +157,49 @@ module report_table
       table_kind_t("geometry", "crank:deg link,part,place:name x,y:length"), no_table]), &
     report_kind_t(name="response", help="how far pins and points are from where rigid links are", &
       pattern="REPORT response [accuracy=]", default="accuracy=1e-6", studies="response", &
-      positions=.true., response=.true., tables=[ &
+      positions=.true., response=.true., linkages=four_bars, tables=[ &
       table_kind_t("response", "speed:speed crank:deg point:name ux,uy:length rotation:deg "// &
       "error:-"), no_table]), &
     report_kind_t(name="strains", help="strains, forces and stresses at gauges", &
       pattern="REPORT strains [accuracy=]", default="accuracy=1e-6", studies="response", &
-      positions=.true., response=.true., tables=[ &
+      positions=.true., response=.true., linkages=four_bars, tables=[ &
       table_kind_t("strains", "speed:speed crank:deg gauge:name axial_strain,bending_strain:- "// &
       "moment:moment axial_force,shear_force:force stress:stress error:-"), no_table]), &
     report_kind_t(name="peaks", help="largest strain, stress and deflection of every link", &
       pattern="REPORT peaks [accuracy=]", default="accuracy=1e-6", studies="response", &
-      response=.true., tables=[ &
+      response=.true., linkages=four_bars, tables=[ &
       table_kind_t("peaks", "speed:speed link:name strain:- strain_at:length "// &
       "strain_crank:deg stress:stress stress_at:length stress_crank:deg "// &
       "deflection,deflection_at:length deflection_crank:deg power:power error:-"), no_table]), &
     report_kind_t(name="drive", help="the driving torque with its parts, and the power", &
       pattern="REPORT drive [accuracy=]", default="accuracy=1e-6", studies="response", &
-      positions=.true., response=.true., tables=[ &
+      positions=.true., response=.true., linkages=four_bars, tables=[ &
       table_kind_t("drive", "speed:speed crank:deg rigid,linear,quadratic,total:moment "// &
       "power:power error:-"), no_table]), &
+    report_kind_t(name="drive", help="what every drive does, and shaking force and moment", &
+      studies="joints", positions=.true., masses=.true., linkages=other_linkages, tables=[ &
+      table_kind_t("drive", "speed:speed crank:deg drive:name position:deg rate:rate "// &
+      "force:moment"), &
+      table_kind_t("shaking", "speed:speed crank:deg shaking_x,shaking_y:force "// &
+      "shaking_moment:moment")]), &
     report_kind_t(name="validity", help="whether the equations of the response hold", &
       pattern="REPORT validity [accuracy=]", default="accuracy=1e-6", studies="response", &
-      response=.true., tables=[ &
+      response=.true., linkages=four_bars, tables=[ &
       table_kind_t("validity", "speed:speed link:name deflection,load,quadratic:- "// &
       "out_of_plane:Hz distance,error:-"), no_table]), &
     report_kind_t(name="stability", help="whether vibrations of the running linkage grow", &
       pattern="REPORT stability [accuracy=]", default="accuracy=1e-6", studies="stability", &
-      response=.true., tables=[ &
+      response=.true., linkages=four_bars, tables=[ &
       table_kind_t("stability", "speed:speed mode:# turns,growth:- frequency:Hz signature:# "// &
       "error:- verdict:name"), no_table]), &
     report_kind_t(name="intervals", help="all speeds at which vibrations grow", &
       pattern="REPORT intervals [growth=] [accuracy=]", default="growth=1e-4 accuracy=1e-5", &
-      studies="intervals", response=.true., tables=[ &
+      studies="intervals", response=.true., linkages=four_bars, tables=[ &
       table_kind_t("intervals", "from,to:speed kind,modes:name largest_growth,growth_error:- "// &
       "at,error:speed"), no_table]), &
     report_kind_t(name="campbell", help="frequencies against the speed, and critical speeds", &
       pattern="REPORT campbell [accuracy=]", default="accuracy=1e-6", studies="campbell", &
-      response=.true., tables=[ &
+      response=.true., linkages=four_bars, tables=[ &
       table_kind_t("campbell", "speed:speed mode:# least,mean,greatest:Hz band_error:- "// &
       "floquet:Hz growth,error:- verdict:name"), &
       table_kind_t("critical", "speed:rate speed_error:- line,mode:# frequency:Hz "// &
@@ -178,14 +207,14 @@ module report_table
     report_kind_t(name="transient", help="the elastic motion in time from a state", &
       pattern="REPORT transient turns= [crank=0] [start=rest|steady] [perturb=mode,amplitude] "// &
       "[instants=] [accuracy=]", default="crank=0 start=rest instants=72 accuracy=1e-3", &
-      studies="transient", response=.true., tables=[ &
+      studies="transient", response=.true., linkages=four_bars, tables=[ &
       table_kind_t("transient", "speed:speed time:time crank:deg point:name ux,uy:length "// &
       "rotation:deg error:-"), &
       table_kind_t("gauges", "speed:speed time:time crank:deg gauge:name "// &
       "axial_strain,bending_strain:- moment:moment axial_force:force stress:stress error:-")]), &
     report_kind_t(name="motion", help="the motion under motor and loads", &
       pattern="REPORT motion crank= [speed=0] end= step=", default="speed=0", &
-      studies="motion", masses=.true., tables=[ &
+      studies="motion", masses=.true., linkages=four_bars, tables=[ &
       table_kind_t("motion", "time:time crank,theta3,theta4:deg omega2,omega3,omega4:rate "// &
       "torque:moment kinetic,potential,work,energy_error:energy closure:length branch:name"), &
       no_table])]
@@ -204,9 +233,10 @@ contains
         model => variant%model, points => variant%mechanism%points, found => variant%found)
       select case (study)
       case ("kinematics")
-        call find_kinematics(linkage, found%positions, threads, found%kinematics)
+        if (variant%mechanism%is_four_bar) call find_kinematics(linkage, found%positions, threads, &
+          found%kinematics)
       case ("inertia")
-        call find_inertia_loads(linkage, elements, has_own_mass(model%links(model%loop)), &
+        call find_inertia_loads(linkage, elements, has_own_mass(model%links(variant%mechanism%links)), &
           found%positions, threads, found%inertia)
       case ("points")
         call find_points(linkage, points%body, &
@@ -218,6 +248,8 @@ contains
           model%reports(report_number(model, "geometry"))%crank%value, threads, found%geometry)
       case ("reactions")
         call find_reactions(linkage, elements, found%positions, threads, found%reactions)
+      case ("joints")
+        call find_joints(linkage, elements, found%positions, threads, found%joints)
       case ("lagrange")
         call find_lagrange_terms(linkage, elements, found%positions, threads, found%lagrange)
       case ("balance")
@@ -251,6 +283,12 @@ contains
     plan%positions = size(variant%found%positions%crank)
     plan%items = plan%positions*plan%speeds
     select case (plan%name)
+    case ("kinematics")
+      names(1) = link_names(variant)
+    case ("pins")
+      names(1) = pin_names(variant)
+    case ("drive")
+      names(1) = drive_names(variant)
     case ("inertia")
       names(1) = inertia_owners(variant)
       optional = has_moments(variant)
@@ -270,6 +308,9 @@ contains
       plan%items = 1
     case ("points")
       names(1) = point_names(variant)
+    case ("reactions")
+      names(1) = pin_names(variant)
+      names(2) = joint_owners(variant)
     case ("geometry")
       names = geometry_words(variant)
       plan%items = size(variant%found%geometry%crank)
@@ -327,9 +368,24 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with its results
     type(string_t), allocatable, intent(out) :: notes(:) !! a line each
 
+    if (.not. variant%mechanism%is_four_bar) then
+      select case (table)
+      case ("kinematics")
+        call links_notes(variant, notes)
+        return
+      case ("reactions")
+        call joints_notes(variant, notes)
+        return
+      case ("drive", "shaking")
+        call drives_notes(variant, notes)
+        return
+      end select
+    end if
     select case (table)
     case ("kinematics")
       call kinematics_notes(variant, notes)
+    case ("pins")
+      call pins_notes(variant, notes)
     case ("inertia")
       call inertia_notes(variant, notes)
     case ("mesh")
@@ -477,18 +533,23 @@ contains
     associate (positions => variant%found%positions)
       associate (state => positions%states(positions%state(position)), &
           crank => positions%crank(position))
-        if (any(table == response_tables)) then
+        if (variant%mechanism%is_four_bar .and. any(table == response_tables)) then
           call add_response_position(table, variant, layout, position, speed, rows)
         else if (table == "frequencies") then
           call add_frequencies(variant, layout, position, speed, rows)
         else if (allocated(state%error) .and. table == "mesh") then
           call add_failed_row(rows, [crank], state%error%text)
         else if (allocated(state%error)) then
-          call add_failed_row(rows, [variant%model%shown_speed(speed), crank], state%error%text)
+          call add_failed_row(rows, [variant%model%shown_speed(speed), shown_crank(variant, crank)], &
+            state%error%text)
+        else if (.not. variant%mechanism%is_four_bar .and. any(table == general_tables)) then
+          call add_general(table, variant, layout, position, speed, rows)
         else
           select case (table)
           case ("kinematics")
             call add_kinematics(variant, layout, position, speed, rows)
+          case ("pins")
+            call add_pins(variant, layout, position, speed, rows)
           case ("inertia")
             call add_inertia(variant, layout, position, speed, rows)
           case ("mesh")
@@ -506,5 +567,44 @@ contains
       end associate
     end associate
   end subroutine add_position
+
+  !> The rows of a position and speed of a linkage that is no four-bar.
+  subroutine add_general(table, variant, layout, position, speed, rows)
+    character(len=*), intent(in) :: table
+    type(variant_results_t), intent(in) :: variant
+    type(table_layout_t), intent(in) :: layout
+    integer, intent(in) :: position, speed !! numbers
+    type(rows_t), intent(inout) :: rows
+
+    select case (table)
+    case ("kinematics")
+      call add_links(variant, layout, position, speed, rows)
+    case ("reactions")
+      call add_joints(variant, layout, position, speed, rows)
+    case ("drive")
+      call add_drives(variant, layout, position, speed, rows)
+    case ("shaking")
+      call add_shaking(variant, layout, position, speed, rows)
+    end select
+  end subroutine add_general
+
+  !> A table in the units of the first drive: positions of a slider or a ram are lengths.
+  pure function table_in_units(table, model) result(fitted)
+    type(table_kind_t), intent(in) :: table !! of a report that the model asks for
+    type(model_t), intent(in) :: model      !! with its drives
+    type(table_kind_t) :: fitted
+
+    integer :: at
+
+    fitted = table
+    if (table%name == "drive" .and. .not. is_four_bar(model)) fitted%columns = drive_columns(model)
+    if (.not. drives_length(model)) return
+    at = index(fitted%columns, "crank:deg")
+    if (at > 0) fitted%columns = fitted%columns(:at - 1)//"crank:length"// &
+      trim(fitted%columns(at + 9:))
+    at = index(fitted%columns, "speed:speed")
+    if (at > 0) fitted%columns = fitted%columns(:at - 1)//"speed:"//model%speed_unit%name// &
+      trim(fitted%columns(at + 11:))
+  end function table_in_units
 
 end module report_table

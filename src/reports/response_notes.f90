@@ -74,9 +74,9 @@ contains
     integer :: b
 
     note = "damping:"
-    associate (model => variant%model)
-      do b = 1, size(model%loop)
-        associate (link => model%links(model%loop(b)))
+    associate (model => variant%model, links => variant%mechanism%links)
+      do b = 1, size(links)
+        associate (link => model%links(links(b)))
           if (b > 1) note = note//","
           note = note//" "//link%name%text
           if (link%rigid) then

@@ -58,7 +58,7 @@ contains
     real(wp) :: place
 
     associate (model => variant%model, gauge => variant%mechanism%gauges(number))
-      associate (link => model%links(model%loop(gauge%body)))
+      associate (link => model%links(variant%mechanism%links(gauge%body)))
         place = gauge%place*link%length
         if (gauge%is_reversed) place = (1.0_wp - gauge%place)*link%length
         if (size(model%gauges) > 0) place = model%gauges(number)%at

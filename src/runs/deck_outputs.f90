@@ -7,7 +7,7 @@ module deck_outputs
     output_file_t, publish_output, remove_output
   use report_kinds, only: table_kind_t
   use report_rows, only: find_rows
-  use report_table, only: plan_table, reports, table_notes, table_plan_t
+  use report_table, only: plan_table, reports, table_in_units, table_notes, table_plan_t
   use table_rows, only: rows_t
   use tables, only: begin_variant, column_t, discard_table, finish_table, open_table, &
     publish_table, table_t, write_header, write_notes, write_rows
@@ -96,13 +96,15 @@ contains
     type(model_t), intent(in) :: model
     type(table_kind_t), allocatable :: list(:)
 
-    integer :: i, t
+    integer :: i, t, number
 
     allocate (list(0))
     do t = 1, size(reports(1)%tables)
       do i = 1, size(reports)
-        if (reports(i)%tables(t)%name == "" .or. report_number(model, reports(i)%name) == 0) cycle
-        list = [list, reports(i)%tables(t)]
+        number = report_number(model, reports(i)%name)
+        if (reports(i)%tables(t)%name == "" .or. number == 0) cycle
+        if (model%reports(number)%kind%linkages /= reports(i)%linkages) cycle
+        list = [list, table_in_units(reports(i)%tables(t), model)]
       end do
     end do
   end function tables_of

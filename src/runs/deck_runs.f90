@@ -346,7 +346,7 @@ contains
     type(string_t), allocatable :: notes(:)
     integer :: i
 
-    text = model_summary(variant%model)
+    text = model_summary(variant%model, variant%mechanism)
     notes = notes_on_linkage(variant)
     do i = 1, size(notes)
       text = text//notes(i)%text//line_feed

@@ -266,11 +266,12 @@ contains
     type(model_t), intent(in) :: model
     type(warning_t) :: warning !! without a text if a link is damped, or none bends
 
-    type(body_damping_t) :: dampings(size(model%loop))
+    type(body_damping_t) :: dampings(size(model%links))
+    integer :: i
 
     warning%kind = warning_of_no_damping
-    dampings = dampings_of(model)
-    if (any(dampings%kind /= damping_none) .or. all(model%links(model%loop)%rigid)) return
+    dampings = dampings_of(model, [(i, i=1, size(model%links))])
+    if (any(dampings%kind /= damping_none) .or. all(model%links%rigid)) return
     warning%text = "no link has DAMPING: near resonances this response is that of no real machine"
   end function no_damping_at_all
 

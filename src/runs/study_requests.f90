@@ -1,6 +1,5 @@
 !> The requests of a model to the studies that are made step by step, in the terms of mechanics.
 module study_requests
-  use attached_parts, only: body_of
   use drives, only: motor_drive_t, resistances_t
   use elastic_equations, only: elastic_terms_t
   use frequency_report, only: is_drawn
@@ -84,8 +83,9 @@ contains
   end function drawn_states
 
   !> The requested motion.
-  pure function motion_request_of(model) result(request)
-    type(model_t), intent(in) :: model !! with REPORT motion
+  pure function motion_request_of(model, mechanism) result(request)
+    type(model_t), intent(in) :: model         !! with REPORT motion
+    type(mechanism_t), intent(in) :: mechanism !! of the model
     type(motion_request_t) :: request
 
     associate (asked => model%reports(report_number(model, "motion")))
@@ -95,7 +95,7 @@ contains
       request%instants = asked%instants%value
     end associate
     request%drive = drive_of(model)
-    request%resistances = resistances_of(model)
+    request%resistances = resistances_of(model, mechanism)
   end function motion_request_of
 
   !> Number of rows of a motion that reaches its end; 0 without REPORT motion.
@@ -122,12 +122,12 @@ contains
     request%crank = model%crank%value
     request%accuracy = accuracy_of_study(model, "response")
     request%terms = terms_of(model)
-    request%damping = link_dampings_of(model)
+    request%damping = link_dampings_of(model, mechanism%links)
     request%peaks = report_number(model, "peaks") > 0
     request%validity = report_number(model, "validity") > 0
-    allocate (request%section(size(model%loop)))
-    do b = 1, size(model%loop)
-      associate (link => model%links(model%loop(b)))
+    allocate (request%section(size(mechanism%links)))
+    do b = 1, size(mechanism%links)
+      associate (link => model%links(mechanism%links(b)))
         if (link%section > 0) request%section(b)%outer = &
           outer_distance(model%sections(link%section))
         if (link%material > 0) request%section(b)%modulus = &
@@ -186,24 +186,27 @@ contains
   end function transient_request_of
 
   !> The requested exponents.
-  pure function stability_request_of(model) result(request)
-    type(model_t), intent(in) :: model !! with a report on stability
+  pure function stability_request_of(model, mechanism) result(request)
+    type(model_t), intent(in) :: model         !! with a report on stability
+    type(mechanism_t), intent(in) :: mechanism !! of the model
     type(stability_request_t) :: request
 
-    request = exponents_of_study(model, "stability")
+    request = exponents_of_study(model, mechanism, "stability")
   end function stability_request_of
 
   !> The requested Campbell diagram.
-  pure function campbell_request_of(model) result(request)
-    type(model_t), intent(in) :: model !! with REPORT campbell
+  pure function campbell_request_of(model, mechanism) result(request)
+    type(model_t), intent(in) :: model         !! with REPORT campbell
+    type(mechanism_t), intent(in) :: mechanism !! of the model
     type(stability_request_t) :: request
 
-    request = exponents_of_study(model, "campbell")
+    request = exponents_of_study(model, mechanism, "campbell")
   end function campbell_request_of
 
   !> Exponents at the speeds of the deck, with the accuracy of a study.
-  pure function exponents_of_study(model, study) result(request)
+  pure function exponents_of_study(model, mechanism, study) result(request)
     type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
     character(len=*), intent(in) :: study !! name
     type(stability_request_t) :: request
 
@@ -211,12 +214,13 @@ contains
     request%modes = model%modes
     request%accuracy = accuracy_of_study(model, study)
     request%terms = terms_of(model)
-    request%damping = link_dampings_of(model)
+    request%damping = link_dampings_of(model, mechanism%links)
   end function exponents_of_study
 
   !> The requested intervals of instability.
-  pure function intervals_request_of(model) result(request)
-    type(model_t), intent(in) :: model !! with REPORT intervals
+  pure function intervals_request_of(model, mechanism) result(request)
+    type(model_t), intent(in) :: model         !! with REPORT intervals
+    type(mechanism_t), intent(in) :: mechanism !! of the model
     type(stability_request_t) :: request
 
     request%speed = model%speed%value
@@ -224,7 +228,7 @@ contains
     request%accuracy = accuracy_of_study(model, "intervals")
     request%least_growth = model%reports(report_number(model, "intervals"))%least_growth
     request%terms = terms_of(model)
-    request%damping = link_dampings_of(model)
+    request%damping = link_dampings_of(model, mechanism%links)
   end function intervals_request_of
 
   !> The terms of the equations of motion that are not left out.
@@ -239,14 +243,15 @@ contains
   end function terms_of
 
   !> Damping of every body.
-  pure function link_dampings_of(model) result(found)
+  pure function link_dampings_of(model, links) result(found)
     type(model_t), intent(in) :: model
-    type(link_damping_t) :: found(size(model%loop))
+    integer, intent(in) :: links(:) !! (bodies) numbers of their links in the model
+    type(link_damping_t) :: found(size(links))
 
-    type(body_damping_t) :: dampings(size(model%loop))
+    type(body_damping_t) :: dampings(size(links))
     integer :: b
 
-    dampings = dampings_of(model)
+    dampings = dampings_of(model, links)
     do b = 1, size(dampings)
       select case (dampings(b)%kind)
       case (damping_by_time)
@@ -271,15 +276,16 @@ contains
   end function drive_of
 
   !> Resisting torques of the LOAD cards, at most one per link, on the bodies.
-  pure function resistances_of(model) result(resistances)
+  pure function resistances_of(model, mechanism) result(resistances)
     type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
     type(resistances_t) :: resistances
 
     integer :: i, body
 
     do i = 1, size(model%resistances)
       associate (resistance => model%resistances(i))
-        body = body_of(model, resistance%link)
+        body = findloc(mechanism%links, resistance%link, dim=1)
         resistances%taken(body) = resistance%torque
         resistances%damping(body) = resistance%damping
       end associate

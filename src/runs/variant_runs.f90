@@ -7,7 +7,7 @@ module variant_runs
   use interruption, only: was_interrupted
   use kinds, only: wp
   use link_store, only: link_store_t
-  use linkage_study, only: classify_linkage
+  use linkage_study, only: class_of_other, classify_linkage
   use loci_study, only: follow_loci
   use mechanisms, only: new_mechanism
   use models, only: model_t, needs_positions, needs_study
@@ -87,8 +87,12 @@ contains
       else
         call find_all_positions(linkage, none, threads, found%positions)
       end if
-      call classify_linkage(linkage, found%class)
-      call explain_positions(run%results)
+      if (run%results%mechanism%is_four_bar) then
+        call classify_linkage(linkage, found%class)
+        call explain_positions(run%results)
+      else
+        found%class = class_of_other()
+      end if
       call find_study("kinematics", threads, run%results)
       do i = 1, size(study_names)
         if (study_names(i) == "kinematics" .or. .not. needs_study(model, study_names(i))) cycle
@@ -154,7 +158,7 @@ contains
     type(motion_under_way_t) :: under_way
 
     associate (mechanism => run%results%mechanism, motion => run%results%found%motion)
-      call begin_motion(motion_request_of(run%results%model), mechanism%linkage, &
+      call begin_motion(motion_request_of(run%results%model, mechanism), mechanism%linkage, &
         mechanism%load_elements, under_way, motion)
       do while (.not. under_way%is_over)
         call continue_motion(under_way, instants_at_a_time, motion)
@@ -191,7 +195,7 @@ contains
     integer :: k
 
     associate (mechanism => run%results%mechanism, stability => run%results%found%stability)
-      call find_stability_of(mechanism%structure_t, stability_request_of(run%results%model), &
+      call find_stability_of(mechanism%structure_t, stability_request_of(run%results%model, mechanism), &
         threads, store, stability)
       do k = 1, size(stability%at_speed)
         if (.not. allocated(stability%at_speed(k)%error)) cycle
@@ -209,7 +213,7 @@ contains
     integer :: k
 
     associate (mechanism => run%results%mechanism, intervals => run%results%found%intervals)
-      call find_intervals_of(mechanism%structure_t, intervals_request_of(run%results%model), &
+      call find_intervals_of(mechanism%structure_t, intervals_request_of(run%results%model, mechanism), &
         threads, store, intervals)
       do k = 1, size(intervals%gap)
         call name_link(mechanism%names, intervals%gap(k)%error)
@@ -226,7 +230,7 @@ contains
     integer :: k
 
     associate (mechanism => run%results%mechanism, campbell => run%results%found%campbell)
-      call find_campbell_of(mechanism%structure_t, campbell_request_of(run%results%model), &
+      call find_campbell_of(mechanism%structure_t, campbell_request_of(run%results%model, mechanism), &
         threads, store, campbell)
       do k = 1, size(campbell%at_speed)
         if (.not. allocated(campbell%at_speed(k)%error)) cycle

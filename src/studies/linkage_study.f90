@@ -10,7 +10,7 @@ module linkage_study
   implicit none (type, external)
   private
 
-  public :: linkage_class_t, linkage_result_t, branch_result_t, classify_linkage, find_linkage, &
+  public :: linkage_class_t, linkage_result_t, branch_result_t, classify_linkage, find_linkage, class_of_other, &
     event_names, special_position_t
 
   !> The two branches: open and crossed.
@@ -52,6 +52,16 @@ contains
     end associate
     class%limits = class%limits(ascending_order(class%limits))
   end subroutine classify_linkage
+
+  !> What runs need of a linkage that is no four-bar: it is in no class, and each position tells
+  !! whether it is reached.
+  pure function class_of_other() result(class)
+    type(linkage_class_t) :: class
+
+    class%grashof = ""
+    class%reach%closes = .true.
+    allocate (class%limits(0))
+  end function class_of_other
 
   !> Class, mobility, ranges and special positions of both branches, whichever of them the deck's
   !! linkage is on.

@@ -3,6 +3,7 @@ module position_study
   use kinds, only: wp
   use linkages, only: linkage_t
   use positions, only: find_state, list_positions, positions_t
+  use linkage_paths, only: period_of
   implicit none (type, external)
   private
 
@@ -21,7 +22,7 @@ contains
 
     integer :: i
 
-    call list_positions(crank, positions)
+    call list_positions(crank, positions, period_of(linkage))
     !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i)
     do i = 1, size(positions%states)
       call find_state(linkage, positions%states(i))

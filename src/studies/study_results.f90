@@ -6,6 +6,7 @@ module study_results
   use geometry_study, only: geometry_result_t
   use harmonics_study, only: harmonics_result_t
   use inertia_study, only: inertia_result_t
+  use joint_study, only: joints_result_t
   use kinematics_study, only: kinematics_result_t
   use lagrange, only: lagrange_t
   use linkage_study, only: linkage_class_t, linkage_result_t
@@ -30,6 +31,7 @@ module study_results
     type(inertia_result_t) :: inertia
     type(point_coefficients_t), allocatable :: points(:, :) !! (points, states)
     type(reactions_result_t) :: reactions
+    type(joints_result_t) :: joints
     type(lagrange_t), allocatable :: lagrange(:)            !! (states)
     type(balance_result_t) :: balance
     type(harmonics_result_t) :: harmonics

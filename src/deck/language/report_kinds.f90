@@ -11,7 +11,11 @@ module report_kinds
   private
 
   public :: report_kind_t, table_kind_t, column_kind_t, report_names, kind_named, columns_of, &
-    is_column_of, default_number
+    is_column_of, default_number, kind_of_linkage
+  public :: any_linkage, four_bars, other_linkages
+
+  !> The linkages that a report is about.
+  integer, parameter :: any_linkage = 0, four_bars = 1, other_linkages = 2
 
   !> One table of a report. Columns with the same unit are separated by commas, with the unit after
   !! a colon, and these groups by blanks: `crank:deg x,y:length`. A unit is given as printed in the
@@ -39,6 +43,7 @@ module report_kinds
     logical :: offered = .true.       !! listed in the error about a misspelt report
     logical :: reserved = .false.     !! its column names are refused on VARY cards even in decks
                                       !! without it
+    integer :: linkages = any_linkage !! that it is about; two records may have one name
     integer :: numbers = 0            !! how many numbers its studies keep for each position
     type(table_kind_t) :: tables(2)   !! those with a name
   end type report_kind_t
@@ -62,7 +67,8 @@ contains
 
     names = ""
     do i = 1, size(kinds)
-      if (kinds(i)%offered) names = names//" "//trim(kinds(i)%name)
+      if (kinds(i)%offered .and. kind_named(kinds, trim(kinds(i)%name)) == i) names = names//" "// &
+        trim(kinds(i)%name)
     end do
     names = names(2:)
   end function report_names
@@ -78,6 +84,20 @@ contains
     end do
     number = 0
   end function kind_named
+
+  !> The number of a report on a kind of linkages in the table; 0 if there is none.
+  pure function kind_of_linkage(kinds, name, is_four_bar) result(number)
+    type(report_kind_t), intent(in) :: kinds(:) !! (reports) the table of reports
+    character(len=*), intent(in) :: name        !! in small letters
+    logical, intent(in) :: is_four_bar          !! else any other linkage
+    integer :: number
+
+    do number = 1, size(kinds)
+      if (kinds(number)%name == name .and. any(kinds(number)%linkages == [any_linkage, &
+        merge(four_bars, other_linkages, is_four_bar)])) return
+    end do
+    number = 0
+  end function kind_of_linkage
 
   !> The number that a report's card has for a key by default; 0 without one.
   pure function default_number(kind, key) result(number)

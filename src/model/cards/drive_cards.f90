@@ -75,7 +75,7 @@ contains
   end function kind_of_drive
 
   !> Whether a drive's position is a length; else it is an angle.
-  pure function moves_along(kind) result(along)
+  elemental function moves_along(kind) result(along)
     integer, intent(in) :: kind !! one of the drive_… constants
     logical :: along
 

@@ -6,7 +6,9 @@ module deck_checks
   use errors, only: error_of_reach
   use four_bar_limits, only: can_reach, crank_reach, reach_t
   use kinds, only: wp
-  use mechanisms, only: mechanism_t, new_mechanism
+  use linkage_checks, only: check_linkage, report_problem
+  use linkage_parts, only: assemble_linkage, assembly_t
+  use mechanisms, only: mechanism_of, mechanism_t
   use models, only: model_t, needs_frequencies, report_number, solver_band, &
     steady_state_report, &
     solver_dense
@@ -42,14 +44,18 @@ contains
 
     type(mechanism_t) :: mechanism
     type(reach_t) :: reach
+    type(assembly_t) :: assembly
 
-    if (size(model%loop) == 0) then
-      call add_error(diagnostics, model%links(min(4, size(model%links)))%name, &
-        "only the four-bar can be solved: three links and two ground pivots; this deck has "// &
-        to_string(size(model%links))//" and "//to_string(size(model%grounds)))
+    call assemble_linkage(model, assembly)
+    if (allocated(assembly%problem)) then
+      call report_problem(model, assembly, diagnostics)
       return
     end if
-    mechanism = new_mechanism(model)
+    mechanism = mechanism_of(model, assembly)
+    if (.not. mechanism%is_four_bar) then
+      call check_linkage(model, assembly, mechanism, diagnostics)
+      return
+    end if
     associate (ground => mechanism%linkage%ground_position(:, [1, 4]))
       if (norm2(ground(:, 2) - ground(:, 1)) <= 0.0_wp) then
         call add_error(diagnostics, model%grounds(2)%pin, &
@@ -94,7 +100,7 @@ contains
 
     longest = longest_link(mechanism)
     place = model%grounds(2)%pin
-    if (longest > 0) place = model%links(model%loop(longest))%length_word
+    if (longest > 0) place = model%links(mechanism%links(longest))%length_word
     call add_error(diagnostics, place, open_linkage_text(mechanism), kind=error_of_reach)
   end subroutine report_open_linkage
 
@@ -270,7 +276,7 @@ contains
       end if
       amount = "more than 1000"
       if (bound < 1.0e3_wp) amount = to_string(bound, 2)
-      call add_error(diagnostics, model%meshes(model%links(model%loop(body))%mesh)%keyword, &
+      call add_error(diagnostics, model%meshes(model%links(mechanism%links(body))%mesh)%keyword, &
         fault//"; round-off in '"//mechanism%names(body)%text//"' may reach "//amount// &
         " times the lowest eigenvalue, and the limit is "//to_string(most_round_off))
     end do

@@ -4,8 +4,10 @@ module run_log
   use effect_cards, only: effect_words
   use kinds, only: wp
   use link_cards, only: has_own_mass
+  use mechanisms, only: mechanism_t
   use models, only: branch_crossed, inertia_distributed, inertia_lumped, link_mass, model_t, &
     needs_frequencies
+  use pose_types, only: pins_of_body
   use text, only: plural, to_string
   use units, only: coherent_unit, dimension_acceleration, dimension_damping, dimension_length, &
     dimension_mass, from_si, unit_t
@@ -18,9 +20,10 @@ module run_log
 
 contains
 
-  !> Title, links in the order of the loop, masses, loads, requests: a few lines.
-  pure function model_summary(model) result(text)
-    type(model_t), intent(in) :: model !! without errors
+  !> Title, links in the order in which they are placed, masses, loads, requests: a few lines.
+  pure function model_summary(model, mechanism) result(text)
+    type(model_t), intent(in) :: model         !! without errors
+    type(mechanism_t), intent(in) :: mechanism !! of the model
     character(len=:), allocatable :: text
 
     character(len=:), allocatable :: where_to
@@ -31,18 +34,18 @@ contains
     if (len(model%title) > 0) text = model%title//line_feed
     length = coherent_unit(model%units, dimension_length)
     mass = coherent_unit(model%units, dimension_mass)
-    do i = 1, size(model%loop)
-      associate (link => model%links(model%loop(i)))
-        where_to = model%loop_pins(i)%text//" - "//model%loop_pins(i + 1)%text
+    do i = 1, size(mechanism%links)
+      associate (link => model%links(mechanism%links(i)))
+        where_to = way_of(mechanism, i)
         text = text//"link "//link%name%text//": "//where_to//", length "// &
           to_string(from_si(link%length, length), 12)//" "//length%name
-        if (link_mass(model, model%loop(i)) > 0.0_wp) then
-          text = text//", mass "//to_string(from_si(link_mass(model, model%loop(i)), mass), 12)// &
+        if (link_mass(model, mechanism%links(i)) > 0.0_wp) then
+          text = text//", mass "//to_string(from_si(link_mass(model, mechanism%links(i)), mass), 12)// &
             " "//mass%name
         end if
         if (link%rigid) text = text//", rigid"
         text = text//line_feed
-        if (has_own_mass(link)) text = text//body_line(model, model%loop(i))//line_feed
+        if (has_own_mass(link)) text = text//body_line(model, mechanism%links(i))//line_feed
       end associate
     end do
     do i = 1, size(model%pin_masses)
@@ -56,8 +59,8 @@ contains
       text = text//"total mass: "//to_string(from_si(mass_of_model(model), mass), 12)//" "// &
         mass%name//line_feed
     end if
-    text = text//"branch: "//trim(merge("crossed", "open   ", model%branch == branch_crossed))// &
-      line_feed
+    if (mechanism%is_four_bar) text = text//"branch: "//trim(merge("crossed", "open   ", &
+      model%branch == branch_crossed))//line_feed
     if (model%inertia == inertia_lumped) text = text//"inertia loads: lumped"//line_feed
     if (model%inertia == inertia_distributed) text = text//"inertia loads: distributed"//line_feed
     text = text//load_lines(model)//motor_lines(model)
@@ -67,6 +70,21 @@ contains
     text = text//plural(size(model%crank%value), "crank angle")//", "// &
       plural(size(model%speed%value), "speed")//line_feed
   end function model_summary
+
+  !> `A - B - C`: the pins of a link; of a four-bar in the order of the loop.
+  pure function way_of(mechanism, body) result(way)
+    type(mechanism_t), intent(in) :: mechanism
+    integer, intent(in) :: body
+    character(len=:), allocatable :: way
+
+    integer :: pins(2 + size(mechanism%linkage%bodies(body)%further)), i
+
+    pins = pins_of_body(mechanism%linkage%bodies(body))
+    way = mechanism%pin_names(pins(1))%text
+    do i = 2, size(pins)
+      way = way//" - "//mechanism%pin_names(pins(i))%text
+    end do
+  end function way_of
 
   !> Constant loads, one per line.
   pure function load_lines(model) result(text)

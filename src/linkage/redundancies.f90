@@ -1,0 +1,81 @@
+!> Equations that the others must fulfil: whether a linkage with redundant links fits.
+module redundancies
+  use errors, only: error_of_reach, error_t, set_error
+  use group_equations, only: misfit_of
+  use kinds, only: wp
+  use linkages, only: demands_angle, demands_length, demands_turn, linkage_t
+  use pose_types, only: pose_t
+  use text, only: to_string
+  implicit none (type, external)
+  private
+
+  public :: largest_misfit, refuse_misfit, body_of_redundancy
+
+  !> A linkage fits where all equations are fulfilled to this share of its size.
+  real(wp), parameter :: most_misfit = 1.0e-9_wp
+
+contains
+
+  !> The largest misfit of redundant equations; angles count with the length of the body [m].
+  pure subroutine largest_misfit(linkage, pose, origin, crank, misfit, number)
+    type(linkage_t), intent(in) :: linkage !! with redundancies
+    type(pose_t), intent(in) :: pose       !! of all groups
+    real(wp), intent(in) :: origin(2)      !! from which the pins of the pose are counted [m]
+    real(wp), intent(in) :: crank          !! coordinate of the first drive [deg] or [m]
+    real(wp), intent(out) :: misfit        !! with its sign: of a length, how much it is too short
+    integer, intent(out) :: number         !! of the redundancy; 0: there is none
+
+    real(wp) :: this
+    integer :: i
+
+    misfit = 0.0_wp
+    number = 0
+    do i = 1, size(linkage%redundancies)
+      associate (equation => linkage%redundancies(i)%equation)
+        this = misfit_of(linkage, equation, pose, origin, crank)
+        if (equation%kind == demands_turn) this = this*linkage%bodies(linkage%turns( &
+          equation%number)%body)%length
+      end associate
+      if (number > 0 .and. abs(this) <= abs(misfit)) cycle
+      misfit = this
+      number = i
+    end do
+  end subroutine largest_misfit
+
+  !> An error where a linkage does not fit.
+  pure subroutine refuse_misfit(linkage, pose, origin, crank, error)
+    type(linkage_t), intent(in) :: linkage !! with or without redundancies
+    type(pose_t), intent(in) :: pose       !! of all groups
+    real(wp), intent(in) :: origin(2)      !! from which the pins of the pose are counted [m]
+    real(wp), intent(in) :: crank          !! coordinate of the first drive [deg] or [m]
+    type(error_t), allocatable, intent(inout) :: error !! allocated if it does not
+
+    real(wp) :: misfit
+    integer :: number
+
+    if (size(linkage%redundancies) == 0) return
+    call largest_misfit(linkage, pose, origin, crank, misfit, number)
+    if (abs(misfit) <= most_misfit*max(maxval(linkage%bodies%length), maxval(abs(pose%pin)))) return
+    call set_error(error, error_of_reach, "the redundant link does not fit, by "// &
+      to_string(abs(misfit), 3)//" m", body=body_of_redundancy(linkage, number))
+  end subroutine refuse_misfit
+
+  !> The body that a redundancy is about; 0 if it is about a pin on a fixed line.
+  pure function body_of_redundancy(linkage, number) result(body)
+    type(linkage_t), intent(in) :: linkage !! with redundancies
+    integer, intent(in) :: number          !! of one of them
+    integer :: body
+
+    associate (equation => linkage%redundancies(number)%equation)
+      select case (equation%kind)
+      case (demands_length, demands_angle)
+        body = equation%body
+      case (demands_turn)
+        body = linkage%turns(equation%number)%body
+      case default
+        body = linkage%sliders(equation%number)%body
+      end select
+    end associate
+  end function body_of_redundancy
+
+end module redundancies

@@ -1,0 +1,388 @@
+!> Model → linkage: pins, bodies, sliders, welds and drives by number, and the plan of its groups.
+module linkage_parts
+  use assembly_plan, only: plan_linkage, plan_problem_t, side_t
+  use constants, only: degree
+  use drive_cards, only: branch_backward, branch_left, branch_right, drive_ram, &
+    drive_slider, moves_along
+  use errors, only: error_t
+  use group_equations, only: direction_at, misfit_of
+  use kinds, only: wp
+  use link_shapes, only: find_drawn_link, find_drawn_pin, find_link_shape
+  use linkage_paths, only: follow_path
+  use linkages, only: body_t, demands_drive, drives_angle, drives_length, drives_slider, &
+    equation_t, linkage_t
+  use models, only: branch_crossed, is_four_bar, model_t
+  use name_index, only: find_name, name_index_t, new_name_index
+  use pose_types, only: pose_t
+  use text, only: same_word, string_t
+  use tokens, only: token_t
+  implicit none (type, external)
+  private
+
+  public :: assembly_t, assemble_linkage
+
+  !> A linkage, planned, with the parts of the deck that its numbers stand for.
+  type :: assembly_t
+    type(linkage_t) :: linkage             !! without masses and loads
+    integer, allocatable :: link(:)        !! (bodies) numbers in the model
+    type(string_t), allocatable :: pins(:) !! (pins) their names
+    type(plan_problem_t), allocatable :: problem !! why there is no plan
+    type(error_t), allocatable :: error    !! why there is no path of groups that iterations place
+    type(pose_t), allocatable :: nearest   !! then the assembly nearest to the drawing, if any
+  end type assembly_t
+
+contains
+
+  !> The linkage of a model: its bodies in the order in which they are placed, the crank first.
+  !!
+  !! Errors: a linkage without a plan has a problem; its numbers are those of the deck's order.
+  pure subroutine assemble_linkage(model, assembly)
+    type(model_t), intent(in) :: model         !! without errors
+    type(assembly_t), intent(out) :: assembly  !! with a plan, or a problem
+
+    type(side_t), allocatable :: sides(:)
+    integer, allocatable :: body_order(:), pin_order(:)
+    integer :: i
+
+    call list_pins(model, assembly%pins)
+    assembly%link = [(i, i=1, size(model%links))]
+    call take_parts(model, assembly, sides)
+    call plan_linkage(assembly%linkage, sides, assembly%problem, body_order, pin_order)
+    if (allocated(assembly%problem)) return
+    assembly%link = assembly%link(body_order)
+    assembly%pins = assembly%pins(pin_order)
+    call take_parts(model, assembly, sides)
+    call plan_linkage(assembly%linkage, sides, assembly%problem, body_order, pin_order)
+    if (is_four_bar(model)) assembly%linkage%bodies(2)%heading = [1.0_wp, 0.0_wp]
+    if (allocated(assembly%problem)) return
+    call follow_path(assembly%linkage, drawn_crank(assembly%linkage), assembly%nearest, &
+      assembly%error)
+  end subroutine assemble_linkage
+
+  !> The coordinate of the first drive in the drawing [deg] or [m]; 0 where it is not drawn.
+  pure function drawn_crank(linkage) result(crank)
+    type(linkage_t), intent(in) :: linkage
+    real(wp) :: crank
+
+    type(pose_t) :: pose
+    type(equation_t) :: equation
+    integer :: b
+
+    ! The drive is off by the coordinate that is sought.
+    equation%kind = demands_drive
+    equation%number = 1
+    pose%pin = linkage%drawing%pin
+    allocate (pose%direction(2, size(linkage%bodies)))
+    do b = 1, size(linkage%bodies)
+      associate (body => linkage%bodies(b))
+        pose%direction(:, b) = pose%pin(:, body%last_pin) - pose%pin(:, body%first_pin)
+        if (norm2(pose%direction(:, b)) > 0.0_wp) then
+          pose%direction(:, b) = pose%direction(:, b)/norm2(pose%direction(:, b))
+        else
+          pose%direction(:, b) = [1.0_wp, 0.0_wp]
+        end if
+      end associate
+    end do
+    crank = misfit_of(linkage, equation, pose, [0.0_wp, 0.0_wp], 0.0_wp)
+    if (linkage%drives(1)%kind == drives_angle) crank = crank/degree
+  end function drawn_crank
+
+  !> The pins of all links in the order of the deck, points of links that other cards use as pins,
+  !! and ground pivots that only sliders use.
+  pure subroutine list_pins(model, pins)
+    type(model_t), intent(in) :: model
+    type(string_t), allocatable, intent(out) :: pins(:)
+
+    integer :: i, k
+
+    allocate (pins(0))
+    do i = 1, size(model%links)
+      do k = 1, size(model%links(i)%pins)
+        call add_pin(model%links(i)%pins(k), pins)
+      end do
+    end do
+    do i = 1, size(model%sliders)
+      call add_pin(model%sliders(i)%pin, pins)
+    end do
+    do i = 1, size(model%pin_masses)
+      call add_pin(model%pin_masses(i)%pin, pins)
+    end do
+    do i = 1, size(model%forces)
+      call add_pin(model%forces(i)%pin, pins)
+    end do
+  end subroutine list_pins
+
+  !> Adds a pin to a list that does not have it.
+  pure subroutine add_pin(pin, pins)
+    type(token_t), intent(in) :: pin
+    type(string_t), allocatable, intent(inout) :: pins(:)
+
+    type(string_t), allocatable :: longer(:)
+    integer :: i
+
+    if (pin%line == 0) return
+    do i = 1, size(pins)
+      if (same_word(pins(i)%text, pin%text)) return
+    end do
+    allocate (longer(size(pins) + 1))
+    longer(:size(pins)) = pins
+    longer(size(longer))%text = pin%text
+    call move_alloc(longer, pins)
+  end subroutine add_pin
+
+  !> Pins, bodies, sliders, turns, drives and sides, in the order of the assembly's lists.
+  pure subroutine take_parts(model, assembly, sides)
+    type(model_t), intent(in) :: model
+    type(assembly_t), intent(inout) :: assembly
+    type(side_t), allocatable, intent(out) :: sides(:)
+
+    type(name_index_t) :: pins
+    type(linkage_t) :: linkage
+    integer :: i, k, n
+
+    pins = new_name_index(assembly%pins)
+    n = size(assembly%pins)
+    allocate (linkage%is_ground(n), linkage%ground_position(2, n), linkage%pin_mass(n), &
+      linkage%pin_force(2, n), linkage%couple(size(assembly%link)), &
+      linkage%bodies(size(assembly%link)), linkage%drawing%is_drawn(n), linkage%drawing%pin(2, n))
+    linkage%is_ground = .false.
+    linkage%ground_position = 0.0_wp
+    linkage%pin_mass = 0.0_wp
+    linkage%pin_force = 0.0_wp
+    linkage%couple = 0.0_wp
+    do i = 1, size(model%grounds)
+      k = find_name(pins, model%grounds(i)%pin%text)
+      if (k == 0) cycle
+      linkage%is_ground(k) = .true.
+      linkage%ground_position(:, k) = model%grounds(i)%position
+    end do
+    do i = 1, n
+      call find_drawn_pin(model, assembly%pins(i)%text, linkage%drawing%pin(:, i), &
+        linkage%drawing%is_drawn(i))
+    end do
+    do i = 1, size(assembly%link)
+      call take_body(model, pins, assembly%link(i), linkage%is_ground, linkage%bodies(i))
+    end do
+    call take_sliders(model, pins, assembly%link, linkage)
+    call take_turns(model, pins, assembly%link, linkage)
+    call take_drives(model, assembly%link, linkage)
+    call take_sides(model, pins, sides)
+    assembly%linkage = linkage
+  end subroutine take_parts
+
+  !> A body with the pins of its link: the first two of the card are its first and last.
+  pure subroutine take_body(model, pins, number, is_ground, body)
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: pins
+    integer, intent(in) :: number          !! of the link in the model
+    logical, intent(in) :: is_ground(:)
+    type(body_t), intent(inout) :: body
+
+    real(wp), allocatable :: places(:, :)
+    integer, allocatable :: points(:)
+    real(wp) :: way(2)
+    logical :: known
+    integer :: i, k, grounded
+
+    associate (link => model%links(number))
+      call find_link_shape(model, link, places, known)
+      points = points_as_pins(model, pins, number)
+      body%first_pin = find_name(pins, link%pins(1)%text)
+      body%last_pin = find_name(pins, link%pins(2)%text)
+      body%length = places(1, 2)
+      body%bends = .not. link%rigid
+      allocate (body%lumps(0), body%further(size(link%pins) - 2 + size(points)))
+      do i = 3, size(link%pins)
+        body%further(i - 2)%pin = find_name(pins, link%pins(i)%text)
+        body%further(i - 2)%place = places(:, i)
+      end do
+      do i = 1, size(points)
+        k = size(link%pins) - 2 + i
+        body%further(k)%pin = find_name(pins, model%points(points(i))%name%text)
+        body%further(k)%place = model%points(points(i))%place
+      end do
+      ! Its angle is that of the way from its ground pivot to the next pin of the card.
+      grounded = 0
+      do i = size(link%pins), 1, -1
+        if (is_ground(find_name(pins, link%pins(i)%text))) grounded = i
+      end do
+      if (grounded > 1) then
+        way = places(:, modulo(grounded, size(link%pins)) + 1) - places(:, grounded)
+        body%heading = way/norm2(way)
+      end if
+    end associate
+  end subroutine take_body
+
+  !> The points of a link that are pins: other cards name them.
+  pure function points_as_pins(model, pins, number) result(points)
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: pins
+    integer, intent(in) :: number !! of the link in the model
+    integer, allocatable :: points(:)
+
+    integer :: i
+
+    points = pack([(i, i=1, size(model%points))], model%points%link == number .and. &
+      [(find_name(pins, model%points(i)%name%text) > 0, i=1, size(model%points))])
+  end function points_as_pins
+
+  !> Pins on guides and on links: the line of a link is that through the first two pins of its card.
+  pure subroutine take_sliders(model, pins, link, linkage)
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: pins
+    integer, intent(in) :: link(:)
+    type(linkage_t), intent(inout) :: linkage
+
+    integer :: i
+
+    allocate (linkage%sliders(size(model%sliders)))
+    do i = 1, size(model%sliders)
+      associate (card => model%sliders(i), slider => linkage%sliders(i))
+        slider%pin = find_name(pins, card%pin%text)
+        if (card%guide > 0) then
+          slider%point = model%guides(card%guide)%point
+          slider%direction = direction_at(model%guides(card%guide)%degrees)
+        else
+          slider%body = findloc(link, card%link, dim=1)
+        end if
+      end associate
+    end do
+  end subroutine take_sliders
+
+  !> Links that cannot turn on a block, and welds: at the angle of the drawing. Without a drawing a
+  !! link lies along the line of its block.
+  pure subroutine take_turns(model, pins, link, linkage)
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: pins
+    integer, intent(in) :: link(:)
+    type(linkage_t), intent(inout) :: linkage
+
+    integer :: i, k, turns
+
+    turns = count(model%sliders%turned_link > 0)
+    do i = 1, size(model%welds)
+      turns = turns + max(0, size(model%welds(i)%link) - 1)
+    end do
+    allocate (linkage%turns(turns))
+    turns = 0
+    do i = 1, size(model%sliders)
+      associate (card => model%sliders(i))
+        if (card%turned_link == 0) cycle
+        turns = turns + 1
+        linkage%turns(turns)%body = findloc(link, card%turned_link, dim=1)
+        linkage%turns(turns)%slider = i
+        linkage%turns(turns)%pin = linkage%sliders(i)%pin
+        if (card%link > 0) then
+          linkage%turns(turns)%against = findloc(link, card%link, dim=1)
+          linkage%turns(turns)%relative = angle_between(drawn_axis(model, card%link), &
+            drawn_axis(model, card%turned_link))
+        else
+          linkage%turns(turns)%relative = drawn_axis(model, card%turned_link)
+          if (.not. norm2(linkage%turns(turns)%relative) > 0.0_wp) &
+            linkage%turns(turns)%relative = linkage%sliders(i)%direction
+        end if
+      end associate
+    end do
+    do i = 1, size(model%welds)
+      do k = 2, size(model%welds(i)%link)
+        turns = turns + 1
+        linkage%turns(turns)%body = findloc(link, model%welds(i)%link(k), dim=1)
+        linkage%turns(turns)%against = findloc(link, model%welds(i)%link(1), dim=1)
+        linkage%turns(turns)%pin = find_name(pins, model%welds(i)%pin%text)
+        linkage%turns(turns)%relative = angle_between(drawn_axis(model, model%welds(i)%link(1)), &
+          drawn_axis(model, model%welds(i)%link(k)))
+      end do
+    end do
+  end subroutine take_turns
+
+  !> Direction of the first segment of a link in the drawing; zero where it is not drawn.
+  pure function drawn_axis(model, number) result(axis)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: number !! of the link
+    real(wp) :: axis(2)
+
+    real(wp), allocatable :: drawn(:, :)
+    logical :: is_drawn
+
+    axis = 0.0_wp
+    call find_drawn_link(model, model%links(number), drawn, is_drawn)
+    if (.not. is_drawn) return
+    axis = drawn(:, 2) - drawn(:, 1)
+    if (norm2(axis) > 0.0_wp) axis = axis/norm2(axis)
+  end function drawn_axis
+
+  !> A direction in the axes that another one gives; along it where either is unknown.
+  pure function angle_between(axis, direction) result(relative)
+    real(wp), intent(in) :: axis(2), direction(2)
+    real(wp) :: relative(2)
+
+    relative = [dot_product(axis, direction), axis(1)*direction(2) - axis(2)*direction(1)]
+    if (norm2(relative) > 0.0_wp) then
+      relative = relative/norm2(relative)
+    else
+      relative = [1.0_wp, 0.0_wp]
+    end if
+  end function angle_between
+
+  !> Drives in degrees and metres.
+  pure subroutine take_drives(model, link, linkage)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: link(:)
+    type(linkage_t), intent(inout) :: linkage
+
+    real(wp) :: unit
+    integer :: i
+
+    allocate (linkage%drives(size(model%drives)))
+    do i = 1, size(model%drives)
+      associate (card => model%drives(i), drive => linkage%drives(i))
+        drive%kind = drives_angle
+        if (card%kind == drive_slider) drive%kind = drives_slider
+        if (card%kind == drive_ram) drive%kind = drives_length
+        if (card%link > 0) drive%body = findloc(link, card%link, dim=1)
+        if (card%against_link > 0 .and. drive%kind == drives_angle) drive%against = findloc(link, &
+          card%against_link, dim=1)
+        if (drive%kind == drives_slider) drive%slider = card%slider
+        if (i == 1) cycle
+        unit = 1.0_wp
+        if (.not. moves_along(card%kind)) unit = 1.0_wp/degree
+        drive%ratio = card%ratio*unit
+        if (.not. moves_along(model%drives(1)%kind)) drive%ratio = drive%ratio*degree
+        if (moves_along(card%kind) .eqv. moves_along(model%drives(1)%kind)) drive%ratio = card%ratio
+        drive%phase = card%phase*unit
+        if (card%has_at) then
+          drive%ratio = 0.0_wp
+          drive%phase = card%at*unit
+        end if
+      end associate
+    end do
+  end subroutine take_drives
+
+  !> The sides that BRANCH cards give, and that of a four-bar.
+  pure subroutine take_sides(model, pins, sides)
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: pins
+    type(side_t), allocatable, intent(out) :: sides(:)
+
+    integer :: i
+
+    if (is_four_bar(model)) then
+      allocate (sides(1))
+      sides(1)%pin = find_name(pins, model%loop_pins(3)%text)
+      sides(1)%side = merge(-1.0_wp, 1.0_wp, model%branch == branch_crossed)
+      sides(1)%base = [find_name(pins, model%loop_pins(2)%text), find_name(pins, &
+        model%loop_pins(4)%text)]
+      return
+    end if
+    allocate (sides(size(model%branches)))
+    do i = 1, size(sides)
+      associate (card => model%branches(i))
+        sides(i)%pin = find_name(pins, card%pin%text)
+        if (any(card%which == [branch_right, branch_backward])) sides(i)%side = -1.0_wp
+        if (any(card%which == [branch_left, branch_right])) sides(i)%base = [find_name(pins, &
+          card%from%text), find_name(pins, card%to%text)]
+      end associate
+    end do
+  end subroutine take_sides
+
+end module linkage_parts

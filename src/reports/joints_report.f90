@@ -1,0 +1,238 @@
+!> `reactions.dat`, `drive.dat` and `shaking.dat` of linkages that are no four-bars.
+module joints_report
+  use joint_study, only: drives_at_speed, joint_t, joints_at_speed
+  use kinds, only: wp
+  use linkages, only: drives_angle
+  use drive_cards, only: moves_along
+  use load_notes, only: acceleration_note, append_load_notes
+  use models, only: model_t
+  use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
+    table_unit
+  use table_rows, only: add_row, rows_t
+  use tables, only: name_cell
+  use text, only: append_string, string_t
+  use units, only: from_si, unit_t
+  use variant_results, only: variant_results_t
+  implicit none (type, external)
+  private
+
+  public :: joints_notes, joint_owners, add_joints, drives_notes, drive_names, drive_columns, &
+    add_drives, add_shaking
+
+contains
+
+  !> On what the forces act, axes and signs, loads.
+  pure subroutine joints_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its mechanism
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    call append_string(notes, "forces in global axes on the link at the pin; of a guide: by the "// &
+      "guide on the pin; of a block on a link: by the block on that link")
+    call append_string(notes, "moment: on the link, of a weld or of a block on which it cannot "// &
+      "turn; counter-clockwise positive")
+    call append_string(notes, acceleration_note(variant%model))
+    call append_load_notes(notes, variant%model, variant%mechanism)
+  end subroutine joints_notes
+
+  !> The names in the column `link`: links, and the guides of the deck.
+  pure function joint_owners(variant) result(list)
+    type(variant_results_t), intent(in) :: variant !! with its mechanism
+    type(name_list_t) :: list
+
+    integer :: i
+
+    list%column = "link"
+    list%names = variant%mechanism%names
+    do i = 1, size(variant%model%guides)
+      call append_string(list%names, variant%model%guides(i)%name%text)
+    end do
+  end function joint_owners
+
+  !> Appends the rows of a position and speed, one per joint.
+  subroutine add_joints(variant, layout, position, speed, rows)
+    type(variant_results_t), intent(in) :: variant !! with its joints computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list, with a pose
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
+
+    real(wp), allocatable :: forces(:, :)
+    integer :: i
+
+    associate (positions => variant%found%positions, omega => variant%model%speed%value(speed), &
+        mechanism => variant%mechanism, joints => variant%found%joints%joints)
+      forces = joints_at_speed(variant%found%joints, positions%state(position), omega, &
+        variant%model%acceleration)
+      do i = 1, size(joints)
+        call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed), &
+          positions%crank(position)])//name_cell(mechanism%pin_names(joints(i)%pin)%text, &
+          column_width(layout, 3))//owner_cell(variant, joints(i), column_width(layout, 4))// &
+          cells(layout, 5, forces(:, i)))
+      end do
+    end associate
+  end subroutine add_joints
+
+  !> The cell of the link or the guide of a joint.
+  function owner_cell(variant, joint, width) result(cell)
+    type(variant_results_t), intent(in) :: variant
+    type(joint_t), intent(in) :: joint
+    integer, intent(in) :: width
+    character(len=width) :: cell
+
+    if (joint%body > 0) then
+      cell = name_cell(variant%mechanism%names(joint%body)%text, width)
+    else
+      cell = name_cell(variant%model%guides(variant%model%sliders(joint%slider)%guide)%name%text, &
+        width)
+    end if
+  end function owner_cell
+
+  !> Units and signs of the drives, about what shaking moments are, loads.
+  pure subroutine drives_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its mechanism
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    integer :: i
+
+    do i = 1, size(variant%model%drives)
+      associate (card => variant%model%drives(i))
+        if (moves_along(card%kind)) then
+          call append_string(notes, "drive "//card%subject%text//": "//units_text(variant, &
+            "length", "velocity", "force"))
+        else
+          call append_string(notes, "drive "//card%subject%text//": deg, "// &
+            variant%model%outputs%rate%name//", "//variant%model%outputs%moment%name)
+        end if
+      end associate
+    end do
+    call append_string(notes, "force: of the drive on what it moves, positive in the sense of "// &
+      "its position")
+    call append_string(notes, "shaking: resultant of -m a of all masses; shaking_moment: of "// &
+      "these and of -I alpha of all links, about "//reference_words(variant)//"; weights and "// &
+      "external loads are not included")
+    call append_string(notes, acceleration_note(variant%model))
+    call append_load_notes(notes, variant%model, variant%mechanism)
+  end subroutine drives_notes
+
+  !> `mm, mm/s, N`
+  pure function units_text(variant, position, rate, force) result(words)
+    type(variant_results_t), intent(in) :: variant
+    character(len=*), intent(in) :: position, rate, force
+    character(len=:), allocatable :: words
+
+    words = trim(unit_name(variant, position))//", "//trim(unit_name(variant, rate))//", "// &
+      trim(unit_name(variant, force))
+  end function units_text
+
+  pure function unit_name(variant, quantity) result(name)
+    type(variant_results_t), intent(in) :: variant
+    character(len=*), intent(in) :: quantity
+    character(len=40) :: name
+
+    type(unit_t) :: measure
+
+    measure = table_unit(quantity, variant%model%outputs)
+    name = measure%name
+  end function unit_name
+
+  !> The point about which shaking moments are.
+  pure function reference_words(variant) result(words)
+    type(variant_results_t), intent(in) :: variant
+    character(len=:), allocatable :: words
+
+    integer :: i
+
+    associate (linkage => variant%mechanism%linkage)
+      i = findloc(linkage%is_ground, .true., dim=1)
+      if (linkage%has_crank) i = linkage%bodies(1)%first_pin
+      if (i > 0) then
+        words = "pin "//variant%mechanism%pin_names(i)%text
+      else
+        words = "the point of guide "//variant%model%guides(1)%name%text
+      end if
+    end associate
+  end function reference_words
+
+  !> The names in the column `drive`: driven links, and pins of driven sliders.
+  pure function drive_names(variant) result(list)
+    type(variant_results_t), intent(in) :: variant !! with its model
+    type(name_list_t) :: list
+
+    integer :: i
+
+    list%column = "drive"
+    allocate (list%names(size(variant%model%drives)))
+    do i = 1, size(list%names)
+      list%names(i)%text = variant%model%drives(i)%subject%text
+    end do
+  end function drive_names
+
+  !> The columns of `drive.dat`: in the units of angles or of lengths, if all drives have the same;
+  !! else each row has those of its drive, which stand in the head.
+  pure function drive_columns(model) result(columns)
+    type(model_t), intent(in) :: model !! with its drives
+    character(len=:), allocatable :: columns
+
+    columns = "speed:speed crank:deg drive:name "
+    if (all(moves_along(model%drives%kind))) then
+      columns = columns//"position:length rate:velocity force:force"
+    else if (any(moves_along(model%drives%kind))) then
+      columns = columns//"position,rate,force:see_head"
+    else
+      columns = columns//"position:deg rate:rate force:moment"
+    end if
+  end function drive_columns
+
+  !> Appends the rows of a position and speed, one per drive.
+  subroutine add_drives(variant, layout, position, speed, rows)
+    type(variant_results_t), intent(in) :: variant !! with its joints computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list, with a pose
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
+
+    real(wp), allocatable :: values(:, :)
+    logical :: mixed
+    integer :: i
+
+    associate (model => variant%model, positions => variant%found%positions, &
+        linkage => variant%mechanism%linkage)
+      values = drives_at_speed(linkage, variant%found%joints, positions%state(position), &
+        positions%crank(position), model%speed%value(speed), model%acceleration)
+      mixed = any(moves_along(model%drives%kind)) .and. .not. all(moves_along(model%drives%kind))
+      do i = 1, size(values, 2)
+        if (mixed) then
+          if (linkage%drives(i)%kind == drives_angle) then
+            values(2, i) = from_si(values(2, i), model%outputs%rate)
+            values(3, i) = from_si(values(3, i), table_factor("moment", model%outputs))
+          else
+            values(1, i) = from_si(values(1, i), table_factor("length", model%outputs))
+            values(2, i) = from_si(values(2, i), table_factor("velocity", model%outputs))
+            values(3, i) = from_si(values(3, i), table_factor("force", model%outputs))
+          end if
+        end if
+        call add_row(rows, cells(layout, 1, [model%shown_speed(speed), positions%crank( &
+          position)])//name_cell(model%drives(i)%subject%text, column_width(layout, 3))// &
+          cells(layout, 4, values(:, i)))
+      end do
+    end associate
+  end subroutine add_drives
+
+  !> Appends the row of a position and speed: shaking force and moment.
+  subroutine add_shaking(variant, layout, position, speed, rows)
+    type(variant_results_t), intent(in) :: variant !! with its joints computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list, with a pose
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which it is appended
+
+    associate (model => variant%model, positions => variant%found%positions, &
+        shaking => variant%found%joints%shaking)
+      associate (state => positions%state(position), omega => model%speed%value(speed))
+        call add_row(rows, cells(layout, 1, [model%shown_speed(speed), positions%crank(position), &
+          omega**2*shaking(:, 1, state) + model%acceleration*shaking(:, 2, state)]))
+      end associate
+    end associate
+  end subroutine add_shaking
+
+end module joints_report

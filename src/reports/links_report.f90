@@ -1,0 +1,155 @@
+!> `kinematics.dat` of linkages that are no four-bars: angle, angular velocity and acceleration of
+!! every link, a row each; and `pins.dat`: paths, velocities and accelerations of the pins.
+module links_report
+  use constants, only: degree
+  use kinds, only: wp
+  use linkage_notes, only: notes_on_linkage
+  use load_notes, only: acceleration_note
+  use mechanisms, only: mechanism_t
+  use models, only: drives_length
+  use poses, only: body_angle
+  use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t
+  use table_rows, only: add_row, rows_t
+  use tables, only: name_cell
+  use text, only: append_string, same_word, string_t
+  use units, only: from_si
+  use variant_results, only: variant_results_t
+  implicit none (type, external)
+  private
+
+  public :: links_notes, add_links, pins_notes, pin_names, add_pins, shown_crank
+
+contains
+
+  !> How the linkage is placed, from where to where the angle of every link is measured, the
+  !! acceleration of the first drive.
+  pure subroutine links_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its mechanism
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    integer :: b
+
+    notes = notes_on_linkage(variant)
+    do b = 1, size(variant%mechanism%names)
+      call append_string(notes, "angle of link "//variant%mechanism%names(b)%text//": "// &
+        way_of_angle(variant, b))
+    end do
+    call append_string(notes, acceleration_note(variant%model))
+  end subroutine links_notes
+
+  !> `from A to B`: the pins that the angle of a link is measured from and to.
+  pure function way_of_angle(variant, body) result(words)
+    type(variant_results_t), intent(in) :: variant
+    integer, intent(in) :: body
+    character(len=:), allocatable :: words
+
+    character(len=:), allocatable :: from, to
+    integer :: i, first, second
+
+    associate (mechanism => variant%mechanism, link => variant%model%links( &
+        variant%mechanism%links(body)))
+      ! From its ground pivot, else from the pin named first; to the next pin of the card.
+      first = 1
+      do i = size(link%pins), 1, -1
+        if (is_ground_pin(mechanism, link%pins(i)%text)) first = i
+      end do
+      second = modulo(first, size(link%pins)) + 1
+      from = link%pins(first)%text
+      to = link%pins(second)%text
+    end associate
+    words = "from "//from//" to "//to
+
+  end function way_of_angle
+
+  pure function is_ground_pin(mechanism, name) result(is)
+    type(mechanism_t), intent(in) :: mechanism
+    character(len=*), intent(in) :: name
+    logical :: is
+
+    integer :: p
+
+    is = .false.
+    do p = 1, size(mechanism%pin_names)
+      if (mechanism%linkage%is_ground(p)) is = is .or. same_word(mechanism%pin_names(p)%text, name)
+    end do
+  end function is_ground_pin
+
+  !> Appends the rows of a position and speed, one per link.
+  subroutine add_links(variant, layout, position, speed, rows)
+    type(variant_results_t), intent(in) :: variant !! with its positions
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list, with a pose
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
+
+    integer :: b
+
+    associate (positions => variant%found%positions, omega => variant%model%speed%value(speed), &
+        mechanism => variant%mechanism)
+      associate (state => positions%states(positions%state(position)))
+        do b = 1, size(mechanism%names)
+          call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed), &
+            positions%crank(position)])//name_cell(mechanism%names(b)%text, column_width(layout, &
+            3))//cells(layout, 4, [body_angle(mechanism%linkage, state%pose, b)/degree, &
+            state%coefficients%turn(b)*omega, state%coefficients%turn(b)* &
+            variant%model%acceleration + state%coefficients%turn_slope(b)*omega**2]))
+        end do
+      end associate
+    end associate
+  end subroutine add_links
+
+  !> Axes, and the acceleration of the first drive.
+  pure subroutine pins_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its model
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    call append_string(notes, "global axes; "//acceleration_note(variant%model))
+  end subroutine pins_notes
+
+  !> The names in a column `pin`.
+  pure function pin_names(variant) result(list)
+    type(variant_results_t), intent(in) :: variant !! with its mechanism
+    type(name_list_t) :: list
+
+    list%column = "pin"
+    list%names = variant%mechanism%pin_names
+  end function pin_names
+
+  !> Appends the rows of a position and speed, one per moving pin.
+  subroutine add_pins(variant, layout, position, speed, rows)
+    type(variant_results_t), intent(in) :: variant !! with its positions
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list, with a pose
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
+
+    integer :: p
+
+    associate (positions => variant%found%positions, omega => variant%model%speed%value(speed), &
+        mechanism => variant%mechanism)
+      associate (state => positions%states(positions%state(position)))
+        do p = 1, size(mechanism%pin_names)
+          if (mechanism%linkage%is_ground(p)) cycle
+          call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed), &
+            positions%crank(position)])//name_cell(mechanism%pin_names(p)%text, &
+            column_width(layout, 3))//cells(layout, 4, [state%pose%pin(:, p), &
+            state%coefficients%pin(:, p)*omega, state%coefficients%pin(:, p)* &
+            variant%model%acceleration + state%coefficients%pin_slope(:, p)*omega**2]))
+        end do
+      end associate
+    end associate
+  end subroutine add_pins
+
+  !> A position in the unit of tables: angles in degrees, places of a slider or a ram in the deck's
+  !! lengths.
+  pure function shown_crank(variant, crank) result(shown)
+    type(variant_results_t), intent(in) :: variant !! with its model
+    real(wp), intent(in) :: crank                  !! [deg] or [m]
+    real(wp) :: shown
+
+    shown = crank
+    if (drives_length(variant%model)) shown = from_si(crank, table_factor("length", &
+      variant%model%outputs))
+  end function shown_crank
+
+end module links_report

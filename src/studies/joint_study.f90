@@ -1,0 +1,201 @@
+!> Forces in the joints of any linkage: on every link at every pin, of guides, blocks and welds, of
+!! the drives, and those that shake the ground.
+module joint_study
+  use group_equations, only: drive_rate, drive_value
+  use joint_forces, only: force_at_pin, joint_forces_t
+  use kinds, only: wp
+  use linkages, only: linkage_t
+  use load_cases, only: case_count
+  use pose_types, only: pins_of_body
+  use positions, only: positions_t
+  use reactions, only: find_unit_reactions, unit_reactions_t
+  implicit none (type, external)
+  private
+
+  public :: joint_t, joints_result_t, find_joints, joints_at_speed, drives_at_speed
+
+  !> A row of forces: of a pin on a body, or of a slider on its pin or on the body of its line.
+  type :: joint_t
+    integer :: pin = 0
+    integer :: body = 0   !! on which the force acts; 0: on the pin, by a fixed guide
+    integer :: slider = 0 !! whose force it is; 0: that of the pin
+  end type joint_t
+
+  !> Forces of the three unit loads, of which those at any speed are composed; zeros where there is
+  !! no pose.
+  type :: joints_result_t
+    type(joint_t), allocatable :: joints(:)    !! pins in their order, then sliders
+    real(wp), allocatable :: force(:, :, :, :) !! (3, joints, cases, states) fx, fy, moment [N, N m]
+    real(wp), allocatable :: drive(:, :, :)    !! (drives, cases, states) [N m] or [N]
+    real(wp), allocatable :: shaking(:, :, :)  !! (3, cases, states) force and moment [N, N m]
+  end type joints_result_t
+
+contains
+
+  !> Forces at all positions, once for all speeds.
+  subroutine find_joints(linkage, elements, positions, threads, found)
+    type(linkage_t), intent(in) :: linkage      !! of any kind
+    integer, intent(in) :: elements(:)          !! (bodies) on whose nodes the masses are lumped;
+                                                !! 0: distributed
+    type(positions_t), intent(in) :: positions  !! of the run
+    integer, intent(in) :: threads              !! number of OpenMP threads
+    type(joints_result_t), intent(out) :: found !! for all positions and speeds
+
+    type(unit_reactions_t) :: unit
+    integer :: i, k, n
+
+    call list_joints(linkage, found%joints)
+    n = size(positions%states)
+    allocate (found%force(3, size(found%joints), case_count, n), &
+      found%drive(size(linkage%drives), case_count, n), found%shaking(3, case_count, n))
+    found%force = 0.0_wp
+    found%drive = 0.0_wp
+    found%shaking = 0.0_wp
+    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i, k, unit)
+    do i = 1, n
+      associate (state => positions%states(i))
+        if (allocated(state%error)) cycle
+        call find_unit_reactions(linkage, elements, state%pose, state%coefficients, unit)
+        do k = 1, case_count
+          associate (part => unit%of_case(k))
+            call take_forces(linkage, found%joints, part%joints, found%force(:, :, k, i))
+            if (allocated(part%joints%drive)) then
+              found%drive(:, k, i) = part%joints%drive
+            else
+              found%drive(1, k, i) = part%joints%torque
+            end if
+            found%shaking(:, k, i) = [part%shaking_force, part%shaking_moment]
+          end associate
+        end do
+        call turn_guides(linkage, found%joints, state%pose%direction, found%force(:, :, :, i))
+      end associate
+    end do
+    !$omp end parallel do
+  end subroutine find_joints
+
+  !> All joints: every body at every pin, then every slider.
+  pure subroutine list_joints(linkage, joints)
+    type(linkage_t), intent(in) :: linkage
+    type(joint_t), allocatable, intent(out) :: joints(:)
+
+    type(joint_t), allocatable :: room(:)
+    integer :: p, b, i, filled
+
+    allocate (room(size(linkage%is_ground)*size(linkage%bodies) + 2*size(linkage%sliders)))
+    filled = 0
+    do p = 1, size(linkage%is_ground)
+      do b = 1, size(linkage%bodies)
+        if (.not. any(pins_of_body(linkage%bodies(b)) == p)) cycle
+        filled = filled + 1
+        room(filled) = joint_t(p, b, 0)
+      end do
+    end do
+    do i = 1, size(linkage%sliders)
+      filled = filled + 1
+      room(filled) = joint_t(linkage%sliders(i)%pin, linkage%sliders(i)%body, i)
+    end do
+    allocate (joints(filled))
+    joints = room(:filled)
+  end subroutine list_joints
+
+  !> Forces and moments of one unit load. That of a slider is along the normal of its line: its
+  !! first component alone, until `turn_guides` turns it.
+  pure subroutine take_forces(linkage, joints, forces, values_of)
+    type(linkage_t), intent(in) :: linkage
+    type(joint_t), intent(in) :: joints(:)
+    type(joint_forces_t), intent(in) :: forces
+    real(wp), intent(inout) :: values_of(:, :) !! (3, joints)
+
+    integer :: i, t
+
+    do i = 1, size(joints)
+      associate (joint => joints(i))
+        if (joint%slider > 0) then
+          values_of(1, i) = forces%guide(joint%slider)
+        else
+          values_of(:2, i) = force_at_pin(linkage, forces, joint%body, joint%pin)
+        end if
+        do t = 1, size(linkage%turns)
+          associate (turn => linkage%turns(t))
+            if (turn%pin /= joint%pin .or. turn%slider /= joint%slider .and. &
+              .not. (joint%slider == 0 .and. turn%slider > 0)) cycle
+            ! The moment on the block is that of its guide; a link on the block bears it.
+            if (joint%slider > 0) then
+              values_of(3, i) = values_of(3, i) + merge(-1.0_wp, 1.0_wp, joint%body > 0)* &
+                forces%couple(t)
+            else if (turn%body == joint%body) then
+              values_of(3, i) = values_of(3, i) + forces%couple(t)
+            else if (turn%against == joint%body .and. turn%slider == 0) then
+              values_of(3, i) = values_of(3, i) - forces%couple(t)
+            end if
+          end associate
+        end do
+      end associate
+    end do
+  end subroutine take_forces
+
+  !> Forces of sliders from the axes of their lines to global axes; those on the body of a line are
+  !! opposite to those on the pin. The force of a drive along the line belongs to the drive.
+  pure subroutine turn_guides(linkage, joints, direction, force)
+    type(linkage_t), intent(in) :: linkage
+    type(joint_t), intent(in) :: joints(:)
+    real(wp), intent(in) :: direction(:, :)    !! (2, bodies)
+    real(wp), intent(inout) :: force(:, :, :)  !! (3, joints, cases)
+
+    real(wp) :: normal(2), axis(2)
+    integer :: i, k
+
+    do i = 1, size(joints)
+      if (joints(i)%slider == 0) cycle
+      associate (slider => linkage%sliders(joints(i)%slider))
+        axis = slider%direction
+        if (slider%body > 0) axis = -(slider%direction(1)*direction(:, slider%body) + &
+          slider%direction(2)*[-direction(2, slider%body), direction(1, slider%body)])
+        normal = [-axis(2), axis(1)]
+      end associate
+      do k = 1, size(force, 3)
+        force(:2, i, k) = force(1, i, k)*normal
+      end do
+    end do
+  end subroutine turn_guides
+
+  !> Force and moment of every joint at a speed: ω2² and α2 times those of the unit loads, plus those
+  !! of the constant loads.
+  pure function joints_at_speed(found, state, speed, acceleration) result(forces)
+    type(joints_result_t), intent(in) :: found !! for all positions
+    integer, intent(in) :: state               !! number; with a pose
+    real(wp), intent(in) :: speed              !! of the first drive [rad/s] or [m/s]
+    real(wp), intent(in) :: acceleration       !! of the first drive [rad/s²] or [m/s²]
+    real(wp) :: forces(3, size(found%joints))  !! fx, fy, moment [N, N m]
+
+    real(wp) :: factor(case_count)
+    integer :: k
+
+    factor = [speed**2, acceleration, 1.0_wp]
+    forces = 0.0_wp
+    do k = 1, case_count
+      forces = forces + factor(k)*found%force(:, :, k, state)
+    end do
+  end function joints_at_speed
+
+  !> Position, rate and force of every drive at a position and speed.
+  pure function drives_at_speed(linkage, found, state, crank, speed, acceleration) result(drives)
+    type(linkage_t), intent(in) :: linkage     !! its drives
+    type(joints_result_t), intent(in) :: found !! for all positions
+    integer, intent(in) :: state               !! number; with a pose
+    real(wp), intent(in) :: crank              !! coordinate of the first drive [deg] or [m]
+    real(wp), intent(in) :: speed              !! of the first drive [rad/s] or [m/s]
+    real(wp), intent(in) :: acceleration       !! of the first drive [rad/s²] or [m/s²]
+    real(wp) :: drives(3, size(linkage%drives)) !! [deg, rad/s, N m] or [m, m/s, N]
+
+    integer :: d
+
+    do d = 1, size(linkage%drives)
+      drives(1, d) = drive_value(linkage%drives(d), crank)
+      drives(2, d) = drive_rate(linkage, d)*speed
+      drives(3, d) = speed**2*found%drive(d, 1, state) + acceleration*found%drive(d, 2, state) + &
+        found%drive(d, 3, state)
+    end do
+  end function drives_at_speed
+
+end module joint_study
