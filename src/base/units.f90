@@ -461,6 +461,8 @@ contains
     if (all(dimension == dimension_area)) noun = "area"
     if (all(dimension == dimension_second_moment)) noun = "second moment of area"
     if (all(dimension == dimension_inertia)) noun = "moment of inertia"
+    if (all(dimension == dimension_length - dimension_angle)) noun = "length per angle"
+    if (all(dimension == dimension_angle - dimension_length)) noun = "angle per length"
     if (all(dimension == dimension_damping)) noun = "moment per angular velocity"
   end function dimension_noun
 

@@ -440,7 +440,7 @@ contains
       case ("MODES")
         call read_modes(card, diagnostics, model%modes, model%modes_word)
       case ("REPORT")
-        call read_report(card, reports, system, diagnostics, model%reports(number))
+        call read_report(card, reports, system, diagnostics, model%reports(number), by_length)
       end select
     end associate
   end subroutine read_card

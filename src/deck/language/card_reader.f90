@@ -20,9 +20,9 @@ module card_reader
     read_part_name, read_quantity, read_measure, require_positive, refuse_negative
   public :: read_entry_quantity, read_entry_count, read_entry_accuracy, read_choice
 
-  !> Words that stand beside names of links, pins and guides on cards, and are no names themselves.
-  character(len=*), parameter :: reserved_words = &
-    "rigid against free length forward backward left right"
+  !> Words that stand where names of links, pins and guides may stand, and are no names themselves.
+  !! `left` and `right` are names in many decks, and their place on BRANCH tells them from these.
+  character(len=*), parameter :: reserved_words = "rigid against free length forward backward"
 
 contains
 

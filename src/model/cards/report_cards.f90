@@ -10,7 +10,8 @@ module report_cards
   use text, only: joined, lower_case, to_string, word_list
   use tokens, only: token_t
   use transient_cards, only: read_transient, transient_card_t
-  use units, only: dimension_angle, dimension_none, dimension_rate, dimension_time, unit_system_t
+  use units, only: dimension_angle, dimension_length, dimension_none, dimension_rate, &
+    dimension_time, dimension_velocity, unit_system_t
   use value_lists, only: empty_list, list_steps, read_entry_list, read_values, value_list_t
   implicit none (type, external)
   private
@@ -26,9 +27,10 @@ module report_cards
   type :: report_t
     type(token_t) :: keyword
     type(report_kind_t) :: kind  !! without a name if it is unknown
-    type(value_list_t) :: crank  !! `crank=` of shapes and geometry [deg]; empty: all positions
-    type(value_list_t) :: speed  !! `speed=` of shapes [rad/s]; empty: all speeds. Of motion: its
-                                 !! start speed, as a list of one, or none
+    type(value_list_t) :: crank  !! `crank=` of shapes and geometry [deg], where a slider or a ram
+                                 !! is driven [m]; empty: all positions
+    type(value_list_t) :: speed  !! `speed=` of shapes [rad/s] or [m/s]; empty: all speeds. Of
+                                 !! motion: its start speed, as a list of one, or none
     integer :: points = 0        !! `points=` of shapes, along each link
     real(wp) :: least_growth = 0.0_wp !! `growth=` of intervals [nepers a turn]
     real(wp) :: accuracy = 0.0_wp !! of reports on the elastic linkage in motion
@@ -52,17 +54,21 @@ contains
   !! it, a missing or unreadable value, fewer than two `points=`, an `accuracy=` out of range, a
   !! motion whose end or step is not above 0, whose step exceeds its end, or which has more than a
   !! million steps.
-  pure subroutine read_report(card, reports, system, diagnostics, report)
+  pure subroutine read_report(card, reports, system, diagnostics, report, by_length)
     type(card_t), intent(in) :: card                  !! the REPORT card
     type(report_kind_t), intent(in) :: reports(:)     !! (kinds) all that exist
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(report_t), intent(out) :: report             !! as read
+    logical, intent(in), optional :: by_length        !! positions are those of a slider or a ram;
+                                                      !! absent: they are angles
 
     character(len=:), allocatable :: pattern
     integer :: number
-    logical :: fine, known_keys
+    logical :: fine, known_keys, lengths
 
+    lengths = .false.
+    if (present(by_length)) lengths = by_length
     report%keyword = card%keyword
     report%crank = empty_list()
     report%speed = empty_list()
@@ -90,9 +96,9 @@ contains
     if (report%kind%response) call read_response(card, system, diagnostics, report)
     select case (report%kind%name)
     case ("shapes")
-      call read_shapes(card, system, diagnostics, report)
+      call read_shapes(card, lengths, system, diagnostics, report)
     case ("geometry")
-      call read_geometry(card, known_keys, system, diagnostics, report)
+      call read_geometry(card, known_keys, lengths, system, diagnostics, report)
     case ("motion")
       call read_motion(card, known_keys, system, diagnostics, report)
     case ("intervals")
@@ -144,8 +150,9 @@ contains
   end subroutine read_intervals
 
   !> Reads `REPORT shapes [crank=a,b,...] [speed=...] [points=]`.
-  pure subroutine read_shapes(card, system, diagnostics, report)
+  pure subroutine read_shapes(card, by_length, system, diagnostics, report)
     type(card_t), intent(in) :: card
+    logical, intent(in) :: by_length !! positions are lengths
     type(unit_system_t), intent(in) :: system
     type(diagnostics_t), intent(inout) :: diagnostics
     type(report_t), intent(inout) :: report
@@ -153,17 +160,20 @@ contains
     integer :: points
     logical :: fine
 
-    call read_entry_list(card, "crank", dimension_angle, system, diagnostics, report%crank)
-    call read_entry_list(card, "speed", dimension_rate, system, diagnostics, report%speed)
+    call read_entry_list(card, "crank", merge(dimension_length, dimension_angle, by_length), &
+      system, diagnostics, report%crank)
+    call read_entry_list(card, "speed", merge(dimension_velocity, dimension_rate, by_length), &
+      system, diagnostics, report%speed)
     call read_entry_count(card, "points", 2, diagnostics, points, fine)
     report%points = nint(default_number(report%kind, "points"))
     if (fine) report%points = points
   end subroutine read_shapes
 
   !> Reads `REPORT geometry crank=a,b,...`.
-  pure subroutine read_geometry(card, known_keys, system, diagnostics, report)
+  pure subroutine read_geometry(card, known_keys, by_length, system, diagnostics, report)
     type(card_t), intent(in) :: card
     logical, intent(in) :: known_keys !! no key is unknown: a missing one is an error
+    logical, intent(in) :: by_length  !! positions are lengths
     type(unit_system_t), intent(in) :: system
     type(diagnostics_t), intent(inout) :: diagnostics
     type(report_t), intent(inout) :: report
@@ -172,7 +182,8 @@ contains
       call add_error(diagnostics, card%keyword, &
         "'crank=' is missing; expected the angles at which the linkage is to be drawn")
     end if
-    call read_entry_list(card, "crank", dimension_angle, system, diagnostics, report%crank)
+    call read_entry_list(card, "crank", merge(dimension_length, dimension_angle, by_length), &
+      system, diagnostics, report%crank)
   end subroutine read_geometry
 
   !> Reads `REPORT motion crank= [speed=0] end= step=`.

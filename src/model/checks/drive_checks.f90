@@ -9,7 +9,7 @@ module drive_checks
   use name_checks, only: pin_names
   use name_index, only: find_name, name_index_t, new_name_index
   use spelling, only: suggestion
-  use text, only: append_string, same_word, string_t
+  use text, only: same_word, string_t
   use tokens, only: token_t, token_texts
   implicit none (type, external)
   private
@@ -91,9 +91,8 @@ contains
     type(name_index_t), intent(in) :: links, pins
     type(drive_t), intent(inout) :: drive
 
-    type(string_t), allocatable :: names(:)
     integer :: i
-    logical :: known, known_guide
+    logical :: known, known_way
 
     if (find_name(links, drive%subject%text) > 0 .and. find_name(pins, drive%subject%text) == 0) &
       then
@@ -102,28 +101,44 @@ contains
       return
     end if
     call seek_pin(drive%subject, pins, links, diagnostics, known)
-    allocate (names(0))
-    known_guide = .false.
+    known_way = .false.
     do i = 1, size(model%sliders)
-      call append_string(names, model%sliders(i)%on%text)
-      known_guide = known_guide .or. same_word(model%sliders(i)%on%text, drive%against%text)
+      known_way = known_way .or. same_word(model%sliders(i)%on%text, drive%against%text)
       if (.not. same_word(model%sliders(i)%pin%text, drive%subject%text)) cycle
       if (same_word(model%sliders(i)%on%text, drive%against%text)) drive%slider = i
     end do
     if (drive%slider > 0 .or. .not. known) return
     do i = 1, size(model%guides)
-      call append_string(names, model%guides(i)%name%text)
-      known_guide = known_guide .or. same_word(model%guides(i)%name%text, drive%against%text)
+      known_way = known_way .or. same_word(model%guides(i)%name%text, drive%against%text)
     end do
-    call append_string(names, "free")
-    if (known_guide) then
+    if (known_way) then
       call add_error(diagnostics, drive%against, "no SLIDER card lets pin '"// &
         drive%subject%text//"' slide along '"//drive%against%text//"'")
     else
       call add_error(diagnostics, drive%against, "unknown guide '"//drive%against%text//"'"// &
-        suggestion(drive%against%text, names))
+        suggestion(drive%against%text, words_in_place_of_guides(model)))
     end if
   end subroutine find_driven_slider
+
+  !> What may follow the first word of a DRIVE card: guides, links with blocks on them, other words.
+  pure function words_in_place_of_guides(model) result(words)
+    type(model_t), intent(in) :: model
+    type(string_t), allocatable :: words(:)
+
+    integer :: i, guides
+
+    guides = size(model%guides)
+    allocate (words(guides + size(model%sliders) + 3))
+    do i = 1, guides
+      words(i)%text = model%guides(i)%name%text
+    end do
+    do i = 1, size(model%sliders)
+      words(guides + i)%text = model%sliders(i)%on%text
+    end do
+    words(size(words) - 2)%text = "against"
+    words(size(words) - 1)%text = "free"
+    words(size(words))%text = "length"
+  end function words_in_place_of_guides
 
   !> One thing has one drive.
   pure subroutine refuse_same_drives(diagnostics, model)

@@ -34,7 +34,7 @@ contains
     guides = new_name_index(token_texts(model%guides%name))
     pins = new_name_index(token_texts(pin_names(model)))
     grounds = new_name_index(token_texts(model%grounds%pin))
-    call check_drawing(diagnostics, model, pins, grounds)
+    call check_drawing(diagnostics, model, links, pins, grounds)
     do i = 1, size(model%welds)
       weld = model%welds(i)
       call find_weld(diagnostics, model, links, pins, grounds, weld)
@@ -88,12 +88,13 @@ contains
   end subroutine seek_pin
 
   !> PIN cards are about moving pins.
-  pure subroutine check_drawing(diagnostics, model, pins, grounds)
+  pure subroutine check_drawing(diagnostics, model, links, pins, grounds)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
-    type(name_index_t), intent(in) :: pins, grounds
+    type(name_index_t), intent(in) :: links, pins, grounds
 
-    integer :: i, ground, number
+    integer :: i, ground
+    logical :: known
 
     do i = 1, size(model%drawn_pins)
       associate (pin => model%drawn_pins(i)%pin)
@@ -103,7 +104,7 @@ contains
           call add_error(diagnostics, pin, "'"//pin%text//"' is a ground pivot and has its "// &
             "place already", model%grounds(ground)%pin, "it is fixed here")
         else
-          call look_up(pin, pins, "pin", diagnostics, number)
+          call seek_pin(pin, pins, links, diagnostics, known)
         end if
       end associate
     end do
@@ -140,19 +141,25 @@ contains
       end associate
     end do
     if (.not. known .or. any(weld%link == 0)) return
-    call refuse_weld_of_all(diagnostics, model, grounds, weld)
-    call require_drawn_weld(diagnostics, model, weld)
+    if (leaves_joint(model, grounds, weld)) then
+      call require_drawn_weld(diagnostics, model, weld)
+    else
+      call add_error(diagnostics, weld%pin, "weld of all links at pin '"//weld%pin%text// &
+        "' leaves no joint; one LINK that names the pins of all says the same")
+    end if
   end subroutine find_weld
 
-  !> Where nothing else turns at the pin, the welded links are one.
-  pure subroutine refuse_weld_of_all(diagnostics, model, grounds, weld)
-    type(diagnostics_t), intent(inout) :: diagnostics
+  !> Whether anything else turns at the pin of a weld: the ground, a block, another link. Else the
+  !! welded links are one.
+  pure function leaves_joint(model, grounds, weld) result(leaves)
     type(model_t), intent(in) :: model
     type(name_index_t), intent(in) :: grounds
-    type(weld_t), intent(in) :: weld
+    type(weld_t), intent(in) :: weld !! whose links are known
+    logical :: leaves
 
     integer :: i
 
+    leaves = .true.
     if (find_name(grounds, weld%pin%text) > 0) return
     do i = 1, size(model%sliders)
       if (same_word(model%sliders(i)%pin%text, weld%pin%text)) return
@@ -163,9 +170,8 @@ contains
       if (size(model%links(i)%pins) == 0) return
       if (joins(model, i, weld%pin%text)) return
     end do
-    call add_error(diagnostics, weld%pin, "weld of all links at pin '"//weld%pin%text// &
-      "' leaves no joint; one LINK that names the pins of all says the same")
-  end subroutine refuse_weld_of_all
+    leaves = .false.
+  end function leaves_joint
 
   !> The angle between welded links is that of the drawing.
   pure subroutine require_drawn_weld(diagnostics, model, weld)
@@ -268,12 +274,12 @@ contains
         "the guide is here")
       slider%link = 0
     else if (slider%guide == 0 .and. slider%link == 0) then
-      allocate (names(0))
+      allocate (names(size(guides%name) + size(links%name)))
       do i = 1, size(guides%name)
-        call append_string(names, guides%name(i)%text)
+        names(i)%text = guides%name(i)%text
       end do
       do i = 1, size(links%name)
-        call append_string(names, links%name(i)%text)
+        names(size(guides%name) + i)%text = links%name(i)%text
       end do
       call add_error(diagnostics, slider%on, "unknown guide or link '"//slider%on%text//"'"// &
         suggestion(slider%on%text, names))

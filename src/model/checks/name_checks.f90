@@ -287,7 +287,7 @@ contains
   end subroutine take
 
   !> Names that a misspelt pin may stand for: all pins and ground pivots but itself. Empty for a
-  !! deck with more than 100 link ends.
+  !! deck with more than 100 of both.
   pure function other_names(ends, grounds, name, numbered) result(list)
     type(name_index_t), intent(in) :: ends, grounds
     character(len=*), intent(in) :: name
@@ -299,7 +299,7 @@ contains
     integer :: n
 
     allocate (list(0))
-    if (size(ends%name) > most_names) return
+    if (size(ends%name) + size(grounds%name) > most_names) return
     do n = 1, size(ends%name)
       if (same_word(ends%name(n)%text, name)) cycle
       if (numbered .and. differ_in_digits(ends%name(n)%text, name)) cycle
