@@ -1,9 +1,12 @@
 """Writes the tables of a deck as the program does, from the independent solver: for tests of the checks themselves.
 
-    reference.py DECK --out FOLDER
+    reference.py DECK --out FOLDER [--doubles]
+
+With --doubles everything is computed in doubles: how far off is rounding?
 """
 import os
 import sys
+from decimal import Decimal
 
 from decks import Deck
 from solver import Failure, exact_state, positions
@@ -18,7 +21,7 @@ def _number(value):
     return f"{float(value): .16E}"
 
 
-def tables_of(deck):
+def tables_of(deck, in_doubles=False):
     """{table: (columns, rows)} in the units of results."""
     units = deck.units.results
     model, found = positions(deck)
@@ -29,8 +32,12 @@ def tables_of(deck):
         rate = speed * deck.speed_factor()
         shown = rate / (units["rate"] if deck.drives[0]["linear"] else units["speed"])
         for crank, q in zip(deck.cranks, found):
-            exact, state = exact_state(deck, q, crank * deck.crank_factor(), rate, deck.alpha(), exact)
-            for table, row in rows_of(exact, state, units):
+            if in_doubles:
+                state = model.state(q, float(crank * deck.crank_factor()), float(rate), float(deck.alpha()))
+                model.add_forces(state)
+            else:
+                exact, state = exact_state(deck, q, crank * deck.crank_factor(), rate, deck.alpha(), exact)
+            for table, row in rows_of(model if in_doubles else exact, state, units):
                 tables[table][1].append([_number(shown), _number(crank)] + row)
     return tables
 
@@ -40,24 +47,26 @@ def rows_of(model, state, units):
     for name, body in model.bodies.items():
         if body.name:
             angle, rate, second = model.link_motion(state, name)
-            yield "kinematics", [name] + [_number(value) for value in (wrapped(angle / units["angle"]), rate / units["speed"], second)]
+            degrees = wrapped(Decimal(angle) / units["angle"])
+            yield "kinematics", [name, _number(degrees), _number(Decimal(rate) / units["speed"]), _number(second)]
     for pin in model.moving_pins:
-        yield "pins", [pin] + [_number(value / units[kind]) for pair, kind in
+        yield "pins", [pin] + [_number(Decimal(value) / units[kind]) for pair, kind in
                                zip(model.pin_motion(state, pin), ("length", "rate", "acceleration")) for value in pair]
     for (pin, link), (fx, fy, moment) in state.forces.items():
-        yield "reactions", [pin, link] + [_number(fx / units["force"]), _number(fy / units["force"]), _number(moment / units["moment"])]
+        values = zip((fx, fy, moment), ("force", "force", "moment"))
+        yield "reactions", [pin, link] + [_number(Decimal(value) / units[kind]) for value, kind in values]
     for row, force in zip((row for row in model.rows if row[0] == "drive"), state.drives):
         drive = row[1]
         place, rate = model.drive_value(drive, state.first), model.drive_ratio(drive) * state.rate
         kinds = ("length", "rate", "force") if drive["linear"] else ("angle", "speed", "torque")
-        yield "drive", [drive["name"]] + [_number(value / units[kind]) for value, kind in zip((place, rate, force), kinds)]
+        yield "drive", [drive["name"]] + [_number(Decimal(value) / units[kind]) for value, kind in zip((place, rate, force), kinds)]
 
 
 def main():
     path, folder = sys.argv[1], sys.argv[sys.argv.index("--out") + 1]
     try:
         with open(path, encoding="utf-8") as file:
-            tables = tables_of(Deck(file.read()))
+            tables = tables_of(Deck(file.read()), "--doubles" in sys.argv)
     except Failure as failure:
         print(f"{path}: {failure}", file=sys.stderr)
         return 2

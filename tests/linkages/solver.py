@@ -45,6 +45,8 @@ class Model:
         for name, (x, y, angle) in deck.guides.items():
             self.guides[name] = (number(x), number(y), field.cos(number(angle)), field.sin(number(angle)))
         self.bodies, self.count = {}, 0
+        for name, (link, along, offset) in deck.points.items():
+            self._draw_point(name, link, number(along), number(offset))
         rams = {drive["name"] for drive in deck.drives if [word.lower() for word in drive["words"]] == ["length"]}
         for name, card in deck.links.items():
             self._add_link(name, card, name in rams)
@@ -80,6 +82,15 @@ class Model:
             self.count += 1
         self.bodies[name] = body
         self._add_mass(body, card, closed)
+
+    def _draw_point(self, name, link, along, offset):
+        """A POINT is where the drawing of its link puts it."""
+        ends = self.deck.links[link]["pins"][:2]
+        if name not in self.drawn and all(pin in self.drawn for pin in ends):
+            (x0, y0), (x1, y1) = (self.drawn[pin] for pin in ends)
+            length = self.field.sqrt((x1 - x0)**2 + (y1 - y0)**2)
+            cosine, sine = (x1 - x0) / length, (y1 - y0) / length
+            self.drawn[name] = (x0 + along * cosine - offset * sine, y0 + along * sine + offset * cosine)
 
     def _shape(self, card, pins, closed):
         """Places of the pins of a link from its lengths and turns, or from the drawing."""
