@@ -66,10 +66,52 @@ def with_solver(deck, tables, loaded):
             place.kinematics()
             if loaded:
                 place.forces()
+                if not place.drives:
+                    continue
                 place.balance_powers()
                 if number % 6 == 0:
                     place.energies()
     return differences.largest
+
+
+class Rows:
+    """Rows as a table has them."""
+
+    def __init__(self, rows, failed):
+        self.rows, self.failed = rows, failed
+
+
+def long_tables(deck, tables):
+    """The tables of a four-bar as those of other linkages, as far as they go; others as they are."""
+    if "theta3" not in tables["kinematics"].names:
+        return tables
+    crank = deck.drives[0]["name"]
+    links = {name: card["pins"] for name, card in deck.links.items()}
+    a = next(pin for pin in links[crank] if pin not in deck.grounds)
+    coupler = next(name for name, pins in links.items() if name != crank and a in pins)
+    follower = next(name for name in links if name not in (crank, coupler))
+    b = next(pin for pin in links[coupler] if pin != a)
+    turn = 0.0 if links[coupler][0] == a else 180.0
+    kinematics, pins, reactions, drives = [], [], [], []
+    for row in tables["kinematics"].rows:
+        place = {"speed": row["speed"], "crank": row["crank"]}
+        for name, number, more in ((coupler, "3", turn), (follower, "4", 0.0)):
+            theta = row["theta" + number] + more
+            kinematics.append({**place, "link": name, "theta": theta - 360 if theta > 180 else theta,
+                               "omega": row["omega" + number], "alpha": row["alpha" + number]})
+        pins += [{**place, "pin": pin, "x": row[name + "x"], "y": row[name + "y"]} for pin, name in ((a, "A"), (b, "B"))]
+    failed = tables["kinematics"].failed
+    result = {"kinematics": Rows(kinematics, failed), "pins": Rows(pins, failed)}
+    if "reactions" in tables:
+        ends = {"O2": (next(pin for pin in links[crank] if pin != a), crank), "A2": (a, crank), "A3": (a, coupler),
+                "B3": (b, coupler), "B4": (b, follower), "O4": (next(pin for pin in links[follower] if pin != b), follower)}
+        for row in tables["reactions"].rows:
+            place = {"speed": row["speed"], "crank": row["crank"]}
+            reactions += [{**place, "pin": pin, "link": link, "fx": row[name + "x"], "fy": row[name + "y"], "moment": 0.0}
+                          for name, (pin, link) in ends.items()]
+            drives.append({**place, "drive": crank, "position": row["crank"], "rate": row["speed"], "force": row["torque"]})
+        result.update(reactions=Rows(reactions, tables["reactions"].failed), drive=Rows(drives, []))
+    return result
 
 
 class Place:
@@ -102,6 +144,8 @@ class Place:
             row = row_of(self.pins, self.key + (pin,), "pins.dat")
             for k, axis in enumerate("xy"):
                 self.add("position", row[axis], place[k] / units["length"], self.size, f"{axis} of {pin}")
+                if "vx" not in row:
+                    continue
                 self.add("velocity", row["v" + axis], rate[k] / units["rate"], velocity / per_second, f"v{axis} of {pin}")
                 self.add("acceleration", row["a" + axis], second[k] / units["acceleration"],
                          acceleration / float(units["acceleration"]), f"a{axis} of {pin}")
@@ -154,6 +198,8 @@ class Place:
             for column, value, scale, kind in zip(("fx", "fy", "moment"), triple, (force, force, moment), ("force", "force", "moment")):
                 self.add("force", row[column], value / units[kind], scale / float(units[kind]), f"{column} on {link} at {pin}")
         for row, value in zip((row for row in model.rows if row[0] == "drive"), state.drives):
+            if not self.drives:
+                break
             drive = row[1]
             table = row_of(self.drives, self.key + (drive["name"],), "drive.dat")
             kinds = ("length", "rate", "force") if drive["linear"] else ("angle", "speed", "torque")
@@ -187,8 +233,8 @@ class Place:
             if not body.name:
                 continue
             key = self.key + (name,)
-            if key not in self.links:
-                return
+            if key not in self.links or "vx" not in next(iter(self.pins.values())):
+                return                                     # a four-bar: its tables do not have the crank, nor velocities of pins
             row = self.links[key]
             rate, second = row["omega"] * units["speed"], row["alpha"]
             angle = math.radians(row["theta"]) - float(model.offsets[name])

@@ -1,6 +1,6 @@
 """Random linkages of 4 to 10 links: what the program computes against an independent solver with 40 digits.
 
-    random_linkages.py SEED COUNT [--program PATH] [--scratch FOLDER] [--keep] [--links N] [--only KIND]
+    random_linkages.py SEED COUNT [--program PATH] [--scratch FOLDER] [--keep] [--links N] [--only KIND] [--reports LIST]
 
 Compares positions, velocities, accelerations, forces and torques; closes loops and balances powers from the tables alone; asks for
 the same positions in steps of 1, 2 and 5.  A failing linkage is a line with its seed and reason, and its deck stays in the scratch
@@ -22,18 +22,23 @@ from tables import run
 
 SMALLEST, LARGEST = 4, 10
 WORST_CONDITION = 300.0
+REPORTS = ("kinematics", "pins", "reactions", "drive")
+KINEMATIC = ("kinematics", "pins")
 
 
 class Case:
     """A linkage with loads, and its range; text(step) is its deck."""
 
-    def __init__(self, seed, links=None):
-        self.seed = seed
+    def __init__(self, seed, links=None, reports=REPORTS):
+        self.seed, self.reports = seed, reports
         self.drawing = drawing = Drawing(seed, links or SMALLEST + seed % (LARGEST - SMALLEST + 1))
         self.scale = drawing.pick((1.0, 1.0, 0.1, 250.0))
         self.units = "mm kg s" if self.scale == 250.0 else "m kg s"
         self.linear = drawing.drives[0][1] not in ([],) and drawing.drives[0][1][0] != "against"
         self.loaded = drawing.chance(0.8)
+        # the program's own case: without a drawing, and with its tables
+        self.four_bar = drawing.kinds == ["crank", "rrr"] and not drawing.points and len(drawing.grounds) == 2 \
+            and all(len(pins) == 2 for pins in drawing.links.values())
         self.cards = self._cards()
         self.unit = Decimal("0.005") * Decimal(str(self.scale)) if self.linear else Decimal(1)
         self.pins = {pin: (x * self.scale, y * self.scale) for pin, (x, y) in drawing.places.items()}
@@ -53,9 +58,7 @@ class Case:
         for name, (x, y, angle) in drawing.guides.items():
             lines.append(f"GUIDE {name} {x * scale!r} {y * scale!r} angle={angle!r}")
         for name, pins in drawing.links.items():
-            length = ""
-            if len(pins) == 2 and any(pin in drawing.points for pin in pins):
-                length = f" length={math.dist(*(drawing.places[pin] for pin in pins)) * scale!r}"
+            length = f" length={math.dist(*(drawing.places[pin] for pin in pins)) * scale!r}" if self.four_bar else ""
             lines.append(f"LINK {name} " + " ".join(pins) + length + self._body(name, pins))
         for name, (link, along, offset) in drawing.points.items():
             lines.append(f"POINT {name} {link} along={along * scale!r} offset={offset * scale!r}")
@@ -87,6 +90,14 @@ class Case:
             body += f" center={self._number(-0.2, 0.8, self.scale)},{self._number(-0.3, 0.3, self.scale)}"
         return rigid + body
 
+    def _branch(self):
+        """Open, if B is to the left of the line from A to O4."""
+        places, crank = self.drawing.places, self.drawing.links[self.drawing.drives[0][0]]
+        second = next(pin for pin in self.drawing.grounds if pin not in crank)
+        (ax, ay), (ox, oy) = places[next(pin for pin in crank if pin not in self.drawing.grounds)], places[second]
+        bx, by = places[next(pin for pin in self.drawing.moving_pins() if pin not in crank)]
+        return "open" if (ox - ax) * (by - ay) > (oy - ay) * (bx - ax) else "crossed"
+
     def _loads(self):
         drawing, scale, lines = self.drawing, self.scale, ["INERTIA distributed"]
         pins = [pin for pin in drawing.moving_pins() if pin not in drawing.points]
@@ -109,7 +120,7 @@ class Case:
     def find_range(self):
         """Follows the motion both ways while it is far from dead points; sets the pins at the first position."""
         first = Decimal(repr(self.drawing.angle)) * (Decimal(str(self.scale)) if self.linear else 1)
-        deck = Deck(self._deck(first, 0, 1))
+        deck = Deck(self._deck(first, 0, 1, True))
         model = Model(deck)
         factor = float(deck.crank_factor())
         q = model.newton(model.drawing(), float(first) * factor)
@@ -154,14 +165,17 @@ class Case:
                 return False
         return True
 
-    def _deck(self, first, span, step):
+    def _deck(self, first, span, step, drawn=False):
         lines = list(self.cards)
         for pin, (x, y) in self.pins.items():
-            if pin not in self.drawing.grounds and pin not in self.drawing.points:
+            if pin not in self.drawing.grounds and (drawn or not self.four_bar):
                 lines.append(f"PIN {pin} {x!r} {y!r}")
         last = first + span * self.unit
         lines.append(f"CRANK {first:f} to {last:f} step {step * self.unit:f}" if span else f"CRANK {first:f}")
-        lines += ["REPORT kinematics", "REPORT pins"] + (["REPORT reactions", "REPORT drive"] if self.loaded else [])
+        if self.four_bar:
+            lines.append("BRANCH " + self._branch())
+        lines += ["REPORT " + report for report in self.reports
+                  if (self.loaded or report in KINEMATIC) and not (self.four_bar and report in ("pins", "drive"))]
         return "\n".join(lines) + "\n"
 
     def text(self, step):
@@ -178,16 +192,18 @@ def check(case, program, folder):
             file.write(case.text(step))
         results[step] = run(program, path, os.path.join(folder, "tables"))
     deck = Deck(case.text(5))
+    for step in results:
+        results[step] = compare.long_tables(deck, results[step])
     largest = compare.with_solver(deck, results[5], case.loaded)
     for step in (1, 2):
         compare.same_positions(results[5], results[step], largest)
     return largest
 
 
-def make(seed, links=None):
+def make(seed, links=None, reports=REPORTS):
     """The first linkage of a seed and its successors that has a range."""
     for attempt in range(100):
-        case = Case(seed + 1000003 * attempt, links or SMALLEST + seed % (LARGEST - SMALLEST + 1))
+        case = Case(seed + 1000003 * attempt, links or SMALLEST + seed % (LARGEST - SMALLEST + 1), reports)
         case.seed = seed
         try:
             case.find_range()
@@ -206,6 +222,7 @@ def main():
     parser.add_argument("--keep", action="store_true", help="keep the decks of all linkages")
     parser.add_argument("--links", type=int, help="number of links, the ground among them")
     parser.add_argument("--only", help="linkages with this kind of part only")
+    parser.add_argument("--reports", default=",".join(REPORTS), help="the reports that decks ask for")
     options = parser.parse_args()
     program = options.program.split()              # `reference.py --doubles` measures rounding
     if program[0].endswith(".py"):
@@ -213,7 +230,7 @@ def main():
     os.makedirs(options.scratch, exist_ok=True)
     largest, failures, kinds, done = {}, 0, {}, 0
     for seed in range(options.seed, options.seed + options.count):
-        case = make(seed, options.links)
+        case = make(seed, options.links, options.reports.split(","))
         if options.only and options.only not in case.drawing.kinds:
             continue
         done += 1

@@ -63,7 +63,8 @@ def rows_of(model, state, units):
 
 
 def main():
-    path, folder = sys.argv[1], sys.argv[sys.argv.index("--out") + 1]
+    words = [word for word in sys.argv[1:] if word != "--doubles"]
+    path, folder = words[0], words[words.index("--out") + 1]
     try:
         with open(path, encoding="utf-8") as file:
             tables = tables_of(Deck(file.read()), "--doubles" in sys.argv)

@@ -5,6 +5,7 @@ pins that no link has.  Rows are: coincidence of pins, a pin on a fixed guide, a
 links (welds, blocks that do not turn), and the drives.  Velocities, accelerations and the multipliers (all forces) are solved from
 the same square Jacobian.  Numbers are of a field (fields.py), so that all of it can be repeated with 40 digits.
 """
+import math
 import random
 
 import dense
@@ -296,9 +297,9 @@ class Model:
             elif row[0] == "turn":
                 _, one, other, angle, _ = row
                 if other:
-                    add(q[one.angle] - q[other.angle] - angle, (one.angle, 1), (other.angle, -1))
+                    add(self._reduced(q[one.angle] - q[other.angle] - angle), (one.angle, 1), (other.angle, -1))
                 else:
-                    add(q[one.angle] - angle, (one.angle, 1))
+                    add(self._reduced(q[one.angle] - angle), (one.angle, 1))
             else:
                 add(*self._drive_row(q, row, first))
         return residuals, jacobian
@@ -319,7 +320,13 @@ class Model:
 
     def _drive_row(self, q, row, first):
         value, gradient = self.drive_place(q, row)
-        return [value - self.drive_value(row[1], first)] + gradient
+        difference = value - self.drive_value(row[1], first)
+        return [self._reduced(difference) if row[2] == "angle" else difference] + gradient
+
+    def _reduced(self, angle):
+        """Without whole turns."""
+        turns = round(float(angle) / (2 * math.pi))
+        return angle - turns * 2 * self.field.pi if turns else angle
 
     def quadratic(self, q, v):
         """The part of the second derivatives of the residuals without accelerations of unknowns (drives standing)."""

@@ -37,7 +37,7 @@ def run(program, deck, folder):
     command = [program] if isinstance(program, str) else list(program)
     result = subprocess.run(command + [deck, "--out", folder], capture_output=True, text=True, timeout=600)
     place = os.path.join(folder, os.path.splitext(os.path.basename(deck))[0])
-    if result.returncode not in (0, 1):
+    if result.returncode not in (0, 1) or not os.path.isdir(place):
         message = (result.stderr or result.stdout).strip().splitlines()
         raise RuntimeError(f"exit {result.returncode}: " + (" | ".join(message[:3]) if message else "nothing said"))
     return {name[:-4]: Table(os.path.join(place, name)) for name in sorted(os.listdir(place)) if name.endswith(".dat")}
