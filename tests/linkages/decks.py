@@ -9,7 +9,8 @@ from decimal import Decimal
 from fields import Digits
 from units import Units, unit_factor
 
-IGNORED = {"TITLE", "MESH", "REPORT", "INERTIA", "EFFECTS", "END", "MODES", "SOLVER", "MOTOR", "LOAD", "GAUGE", "DAMPING", "SPRING", "DAMPER"}
+IGNORED = {"TITLE", "MESH", "REPORT", "INERTIA", "EFFECTS", "END", "MODES", "SOLVER",
+           "MOTOR", "LOAD", "GAUGE", "DAMPING", "SPRING", "DAMPER"}
 
 
 class Deck:

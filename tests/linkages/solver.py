@@ -525,7 +525,8 @@ class Model:
         """A, B and the follower's ground pivot."""
         crank = self.deck.drives[0]["name"]
         a = next(pin for pin in self.bodies[crank].pins if pin not in self.ground)
-        follower = next(body for name, body in self.bodies.items() if name != crank and any(pin in self.ground for pin in body.pins))
+        follower = next(body for name, body in self.bodies.items()
+                        if name != crank and any(pin in self.ground for pin in body.pins))
         b = next(pin for pin in follower.pins if pin not in self.ground)
         return a, b, next(pin for pin in follower.pins if pin in self.ground)
 
