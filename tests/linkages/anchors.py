@@ -73,9 +73,9 @@ class Anchor:
         """(crank in radians, {names: row}) for every position of the deck."""
         found = {}
         for row in self.tables[table].rows:
-            found.setdefault(f"{row['crank']:.9g}", {})[tuple(row[name] for name in names)] = row
+            found.setdefault(f"{row['crank'] + 0.0:.9g}", {})[tuple(row[name] for name in names)] = row
         for crank in self.deck.cranks:
-            yield crank * Digits.pi / 180, found[f"{float(crank):.9g}"]
+            yield crank * Digits.pi / 180, found[f"{float(crank) + 0.0:.9g}"]
 
     def add(self, kind, value, expected, scale, tolerance, where):
         difference = float(abs(D(value) - expected) / D(scale))
@@ -284,6 +284,27 @@ def squeezer(options):
     return anchor.report()
 
 
+def squeezer_force(options, name, tolerance, force=()):
+    """The motor's torque, 0.033 N m, from the published motion of all seven bodies and the spring's force on K3."""
+    anchor = Anchor(name, options)
+    for _, rows in anchor.rows("drive", "drive"):
+        anchor.add("torque", rows[("K1",)]["force"], D("0.033"), D("0.033"), tolerance, "torque of the motor")
+    for _, rows in anchor.rows("reactions", "pin", "link"):
+        for axis, value in zip("xy", force):
+            anchor.add("force", rows[("E", "K3")]["f" + axis], value, 98, tolerance, f"f{axis} on K3 at E")
+    return anchor.report()
+
+
+def squeezer_start(options):
+    """Published to 18 digits, with the force in the joint of K2 and K3 (the first two multipliers)."""
+    return squeezer_force(options, "squeezer_start", 1e-13, (D("98.5668703962410896"), D("-6.12268834425566265")))
+
+
+def squeezer_end(options):
+    """At 0.03 s; the published angle is right to 7e-11 only, and its acceleration less."""
+    return squeezer_force(options, "squeezer_end", 1e-6)
+
+
 # the two-link pendulum
 
 PENDULUM = {"lengths": (D(1), D("0.8")), "masses": (D(2), D("1.5")), "centers": (D("0.5"), D("0.35")),
@@ -364,7 +385,8 @@ def main():
     if options.program[0].endswith(".py"):
         options.program = [sys.executable, "-B"] + options.program
     passed = True
-    for anchor in (engine, quick_return, pumping_unit, jansen_drawn, crank_slider_drawn, squeezer):
+    for anchor in (engine, quick_return, pumping_unit, jansen_drawn, crank_slider_drawn, squeezer,
+                   squeezer_start, squeezer_end):
         try:
             passed = anchor(options) and passed
         except (RuntimeError, ValueError, KeyError, OSError) as failure:

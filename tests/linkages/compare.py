@@ -26,7 +26,8 @@ def merge(largest, more):
 
 def index(table, *names):
     """Rows by speed, crank and the names in text columns."""
-    return {(f"{row['speed']:.9g}", f"{row['crank']:.9g}") + tuple(row[name] for name in names): row for row in table.rows}
+    return {(f"{row['speed'] + 0.0:.9g}", f"{row['crank'] + 0.0:.9g}") + tuple(row[name] for name in names): row
+            for row in table.rows}
 
 
 class Differences:
@@ -62,7 +63,7 @@ def with_solver(deck, tables, loaded):
         shown = rate / deck.units.results["rate" if deck.drives[0]["linear"] else "speed"]
         for number, (crank, q) in enumerate(zip(cranks, found)):
             model, state = exact_state(deck, q, crank * deck.crank_factor(), rate, deck.alpha(), model)
-            place = Place(deck, model, state, tables, differences, (f"{float(shown):.9g}", f"{float(crank):.9g}"))
+            place = Place(deck, model, state, tables, differences, (f"{float(shown) + 0.0:.9g}", f"{float(crank) + 0.0:.9g}"))
             place.kinematics()
             if loaded:
                 place.forces()

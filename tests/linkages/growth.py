@@ -271,10 +271,10 @@ class Drawing:
         self._dyad_on(pin, self.new_ground(self.places[pin]))
 
     def weld(self):
-        """A link welded to another one."""
+        """A link welded to another one at a joint with a third."""
         link = self.pick(name for name in self.links if name != self.driven_length)
         pin = self.pick(self.links[link])
-        if pin in self.grounds:
+        if pin in self.grounds or len(self.holders(pin)) < 2 or any(pin == welded for welded, _ in self.welds):
             raise Retry
         end, _ = self._new_end(pin)
         self.welds.append((pin, [link, self.new_link(pin, end)]))
