@@ -1,0 +1,43 @@
+"""Runs the program and reads its tables."""
+import os
+import subprocess
+
+
+class Table:
+    """Rows as dictionaries; text columns stay texts, failed rows are in `failed`."""
+
+    def __init__(self, path):
+        self.rows, self.failed, head = [], [], []
+        with open(path, encoding="utf-8") as file:
+            lines = [line.rstrip("\n") for line in file]
+        for line in lines:
+            if line.startswith("# failed"):
+                self.failed.append(line)
+            elif line.startswith("#"):
+                head.append(line[1:].split())
+        names, units = (head[-2], head[-1]) if len(head) > 1 and len(head[-2]) == len(head[-1]) else (head[-1], [])
+        self.names, self.units = names, dict(zip(names, units))
+        for line in lines:
+            words = line.split()
+            if words and not line.startswith("#"):
+                if len(words) != len(names):
+                    raise ValueError(f"{path}: {len(words)} columns, {len(names)} names")
+                self.rows.append({name: _value(word) for name, word in zip(names, words)})
+
+
+def _value(word):
+    try:
+        return float(word)
+    except ValueError:
+        return word
+
+
+def run(program, deck, folder):
+    """Tables of a deck by their names; raises RuntimeError with what the program says if there are none."""
+    command = [program] if isinstance(program, str) else list(program)
+    result = subprocess.run(command + [deck, "--out", folder], capture_output=True, text=True, timeout=600)
+    place = os.path.join(folder, os.path.splitext(os.path.basename(deck))[0])
+    if result.returncode not in (0, 1) or not os.path.isdir(place):
+        message = (result.stderr or result.stdout).strip().splitlines()
+        raise RuntimeError(f"exit {result.returncode}: " + (" | ".join(message[:3]) if message else "nothing said"))
+    return {name[:-4]: Table(os.path.join(place, name)) for name in sorted(os.listdir(place)) if name.endswith(".dat")}
