@@ -42,10 +42,11 @@ contains
     real(wp) :: axis(2)
 
     select case (equation%kind)
-    case (demands_length, demands_angle)
+    case (demands_length)
+      call along_way(linkage, pose, equation%body, equation%pin, gradient)
+    case (demands_angle)
       axis = turned(equation%place, pose%direction(:, equation%body))
-      axis = axis/norm2(axis)
-      if (equation%kind == demands_angle) axis = normal_to(axis)
+      axis = normal_to(axis/norm2(axis))
       call along_body(linkage, pose, equation%body, equation%pin, axis, gradient)
     case (demands_line)
       call on_line(linkage, pose, equation%number, .true., gradient)
@@ -62,12 +63,27 @@ contains
         case (drives_slider)
           call on_line(linkage, pose, drive%slider, .false., gradient)
         case (drives_length)
-          call along_body(linkage, pose, drive%body, linkage%bodies(drive%body)%last_pin, &
-            pose%direction(:, drive%body), gradient)
+          call along_way(linkage, pose, drive%body, linkage%bodies(drive%body)%last_pin, gradient)
         end select
       end associate
     end select
   end subroutine find_gradient
+
+  !> The distance |u| of a pin of a body from its first one: the angle of the body does not matter.
+  pure subroutine along_way(linkage, pose, body, pin, gradient)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    integer, intent(in) :: body !! number
+    integer, intent(in) :: pin  !! at the end of u
+    type(gradient_t), intent(inout) :: gradient
+
+    real(wp) :: u(2)
+
+    u = pose%pin(:, pin) - pose%pin(:, linkage%bodies(body)%first_pin)
+    u = u/max(norm2(u), tiny(1.0_wp))
+    call along_body(linkage, pose, body, pin, u, gradient)
+    gradient%by_angle(1) = 0.0_wp
+  end subroutine along_way
 
   !> `e·u` with e turning with a body, and u from its first pin to another one.
   pure subroutine along_body(linkage, pose, body, pin, e, gradient)
@@ -122,15 +138,13 @@ contains
 
     misfit = 0.0_wp
     select case (equation%kind)
-    case (demands_length, demands_angle)
+    case (demands_length)
+      u = pose%pin(:, equation%pin) - pose%pin(:, linkage%bodies(equation%body)%first_pin)
+      misfit = norm2(u) - norm2(equation%place)
+    case (demands_angle)
       axis = turned(equation%place, pose%direction(:, equation%body))
       u = pose%pin(:, equation%pin) - pose%pin(:, linkage%bodies(equation%body)%first_pin)
-      if (equation%kind == demands_angle) then
-        misfit = cross(axis, u)/norm2(axis)
-      else
-        ! From the difference of the vectors: nothing is lost where they are equal.
-        misfit = dot_product(axis, u - axis)/norm2(axis)
-      end if
+      misfit = cross(axis, u)/norm2(axis)
     case (demands_line)
       call world_line(linkage, pose, equation%number, origin, axis, u)
       misfit = cross(axis, pose%pin(:, linkage%sliders(equation%number)%pin) - u)
@@ -155,7 +169,7 @@ contains
         case (drives_length)
           u = pose%pin(:, linkage%bodies(drive%body)%last_pin) - pose%pin(:, &
             linkage%bodies(drive%body)%first_pin)
-          misfit = dot_product(pose%direction(:, drive%body), u) - drive_value(drive, crank)
+          misfit = norm2(u) - drive_value(drive, crank)
         end select
       end associate
     end select
@@ -176,14 +190,28 @@ contains
 
     curvature = 0.0_wp
     call find_gradient(linkage, equation, pose, gradient)
-    ! Only those along or across the axis of a body that turns.
+    ! Only distances, and those along or across the axis of a body that turns.
     if (gradient%pin(1) == 0 .or. gradient%body(1) == 0) return
     e = gradient%by_pin(:, 1)
     h = turn(gradient%body(1))
     u = pose%pin(:, gradient%pin(1)) - pose%pin(:, gradient%pin(2))
     w = pin_rate(:, gradient%pin(1)) - pin_rate(:, gradient%pin(2))
+    if (is_distance(linkage, equation)) then
+      curvature = cross(e, w)**2/norm2(u)
+      return
+    end if
     curvature = 2.0_wp*h*dot_product(normal_to(e), w) - h**2*dot_product(e, u)
   end function curvature_of
+
+  !> Whether an equation is about the distance of two pins of a body.
+  pure function is_distance(linkage, equation) result(is)
+    type(linkage_t), intent(in) :: linkage
+    type(equation_t), intent(in) :: equation
+    logical :: is
+
+    is = equation%kind == demands_length
+    if (equation%kind == demands_drive) is = linkage%drives(equation%number)%kind == drives_length
+  end function is_distance
 
   !> Coordinate of a drive [deg] or [m].
   pure function drive_value(drive, crank) result(value)
