@@ -244,7 +244,9 @@ contains
     link%length_word = card%entries(entry_number(card, "lengths"))%value
     if (size(link%pins) == 0) return
     if (size(link%pins) == 2) then
-      call add_error(diagnostics, card%entries(entry_number(card, "lengths"))%key, &
+      ! Beside `length=` this key has been refused.
+      if (.not. link%has_length) call add_error(diagnostics, card%entries(entry_number(card, &
+        "lengths"))%key, &
         "link '"//link%name%text//"' has two pins: expected 'length='")
     else if (size(words) /= segment_count(link)) then
       call add_error(diagnostics, words(min(size(words), segment_count(link) + 1)), &
