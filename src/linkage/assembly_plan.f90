@@ -670,7 +670,9 @@ contains
     call open_equations(linkage, done, equations)
     call find_dependence(linkage, equations, unknown_pins, unknown_bodies, has)
     matching = match_unknowns(has)
-    part = source_component(has, matching, [([i, i], i=1, np), (np + i, i=1, size(unknown_bodies))])
+    part = source_component(has, matching, [([i, i], i=1, np), (np + i, i=1, &
+      size(unknown_bodies))], [(0, i=1, np), (findloc(unknown_pins, linkage%bodies( &
+      unknown_bodies(i))%first_pin, dim=1), i=1, size(unknown_bodies))])
     has_found = size(part) > 0
     if (.not. has_found) then
       allocate (problem)

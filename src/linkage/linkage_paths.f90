@@ -122,6 +122,11 @@ contains
     end if
     call march(linkage, start, pose, -1.0_wp, span, down)
     call join(down, up, linkage%path)
+    ! Within less than a turn an angle is the same with and without whole turns.
+    associate (path => linkage%path)
+      if (linkage%drives(1)%kind == drives_angle .and. path%crank(size(path%crank)) - &
+        path%crank(1) < 360.0_wp) path%period = 360.0_wp
+    end associate
   end subroutine follow_path
 
   !> The largest extent of a linkage [m].

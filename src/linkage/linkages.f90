@@ -74,6 +74,8 @@ module linkages
     real(wp) :: point(2) = 0.0_wp                !! of the line: in global axes, or from the first
                                                  !! pin in the axes of the body [m]
     real(wp) :: direction(2) = [1.0_wp, 0.0_wp]  !! unit vector, likewise
+    real(wp) :: inertia = 0.0_wp                 !! of the block, which turns with the body; among
+                                                 !! the lumps of the body [kg m²]
   end type slider_t
 
   !> Two bodies that turn together, or a body that does not turn.
