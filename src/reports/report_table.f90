@@ -28,6 +28,8 @@ module report_table
   use lagrange_report, only: add_lagrange, lagrange_notes
   use lagrange_study, only: find_lagrange_terms
   use link_cards, only: has_own_mass
+  use linkage_motion_report, only: add_linkage_motion, linkage_motion_columns, &
+    linkage_motion_count, linkage_motion_notes
   use linkage_report, only: add_linkage, linkage_remarks, linkage_words
   use linkage_study, only: find_linkage
   use links_report, only: add_links, add_pins, links_notes, pin_names, pins_notes, shown_crank
@@ -214,6 +216,11 @@ module report_table
       "axial_strain,bending_strain:- moment:moment axial_force:force stress:stress error:-")]), &
     report_kind_t(name="motion", help="the motion under motor and loads", &
       pattern="REPORT motion crank= [speed=0] end= step=", default="speed=0", &
+      studies="motion", masses=.true., linkages=other_linkages, tables=[ &
+      table_kind_t("motion", "time:time position*:deg rate*:rate torque:moment "// &
+      "kinetic,potential,work,energy_error:energy"), no_table]), &
+    report_kind_t(name="motion", help="the motion under motor and loads", &
+      pattern="REPORT motion crank= [speed=0] end= step=", default="speed=0", &
       studies="motion", masses=.true., linkages=four_bars, tables=[ &
       table_kind_t("motion", "time:time crank,theta3,theta4:deg omega2,omega3,omega4:rate "// &
       "torque:moment kinetic,potential,work,energy_error:energy closure:length branch:name"), &
@@ -323,6 +330,7 @@ contains
       plan%items = 1
     case ("motion")
       names(1) = motion_words()
+      count = linkage_motion_count(variant%model)
       plan%items = 1
     case ("transient")
       names(1) = response_point_names(variant)
@@ -375,6 +383,9 @@ contains
         return
       case ("reactions")
         call joints_notes(variant, notes)
+        return
+      case ("motion")
+        call linkage_motion_notes(variant, notes)
         return
       case ("drive", "shaking")
         call drives_notes(variant, notes)
@@ -454,7 +465,11 @@ contains
     case ("harmonics")
       call add_harmonics(variant, plan%layout, rows)
     case ("motion")
-      call add_motion(variant, plan%layout, rows)
+      if (variant%mechanism%is_four_bar) then
+        call add_motion(variant, plan%layout, rows)
+      else
+        call add_linkage_motion(variant, plan%layout, rows)
+      end if
     case ("transient", "gauges")
       if (number > 1) call add_gap(rows, 2)
       call add_transient(plan%name, variant, plan%layout, number, rows)
@@ -598,6 +613,8 @@ contains
 
     fitted = table
     if (table%name == "drive" .and. .not. is_four_bar(model)) fitted%columns = drive_columns(model)
+    if (table%name == "motion" .and. .not. is_four_bar(model)) fitted%columns = &
+      linkage_motion_columns(model)
     if (.not. drives_length(model)) return
     at = index(fitted%columns, "crank:deg")
     if (at > 0) fitted%columns = fitted%columns(:at - 1)//"crank:length"// &

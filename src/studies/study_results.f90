@@ -9,6 +9,7 @@ module study_results
   use joint_study, only: joints_result_t
   use kinematics_study, only: kinematics_result_t
   use lagrange, only: lagrange_t
+  use linkage_motion_study, only: linkage_motion_result_t
   use linkage_study, only: linkage_class_t, linkage_result_t
   use loci_study, only: loci_t
   use motion_study, only: motion_result_t
@@ -36,7 +37,8 @@ module study_results
     type(balance_result_t) :: balance
     type(harmonics_result_t) :: harmonics
     type(linkage_result_t) :: linkage
-    type(motion_result_t) :: motion
+    type(motion_result_t) :: motion                         !! of a four-bar
+    type(linkage_motion_result_t) :: linkage_motion         !! of any other linkage
     type(sweep_t) :: sweep
     type(loci_t) :: loci
     type(response_t) :: response
