@@ -7,9 +7,9 @@
 !! on several threads at a time; therefore nothing that `add_item_rows` calls has a result of
 !! deferred length, for which gfortran 12 has one place for all threads.
 module report_table
-  use balance_report, only: add_balance, add_harmonics, balance_notes, harmonics_notes, &
+  use balance_report, only: add_balance, add_harmonics, append_harmonics_notes, balance_notes, harmonics_notes, &
     harmonics_words
-  use balance_study, only: find_balance
+  use balance_study, only: find_balance, find_centres
   use campbell_report, only: add_campbell, add_critical, campbell_notes, campbell_words, &
     critical_notes
   use drive_report, only: add_drive, drive_notes
@@ -21,8 +21,11 @@ module report_table
   use inertia_study, only: find_inertia_loads
   use intervals_report, only: add_intervals, interval_words, intervals_notes
   use joint_study, only: find_joints
-  use joints_report, only: add_drives, add_joints, add_shaking, drive_columns, drive_names, &
+  use joints_report, only: add_centres, add_drives, add_joints, add_shaking, drive_columns, drive_names, &
     drives_notes, joint_owners, joints_notes
+  use kinds, only: wp
+  use limits_report, only: add_limits, limits_notes, limits_words
+  use limits_study, only: find_limits
   use kinematics_report, only: add_kinematics, kinematics_notes
   use kinematics_study, only: find_kinematics
   use lagrange_report, only: add_lagrange, lagrange_notes
@@ -70,8 +73,8 @@ module report_table
 
   !> All studies in the order in which they are made: some use the results of others. The last
   !! are made by `variant_runs`, some of them block by block or step by step.
-  character(len=*), parameter :: study_names(18) = [character(len=12) :: "kinematics", "geometry", &
-    "inertia", "points", "reactions", "joints", "lagrange", "balance", "harmonics", "linkage", "response", &
+  character(len=*), parameter :: study_names(19) = [character(len=12) :: "kinematics", "geometry", &
+    "inertia", "points", "reactions", "joints", "lagrange", "balance", "harmonics", "linkage", "limits", "response", &
     "stability", "intervals", "campbell", "transient", "motion", "frequencies", "loci"]
 
   !> Tables of the elastic response with rows for every position.
@@ -79,8 +82,8 @@ module report_table
     "drive"]
 
   !> Tables of linkages that are no four-bars, with rows of their own for every position.
-  character(len=*), parameter :: general_tables(4) = [character(len=10) :: "kinematics", &
-    "reactions", "drive", "shaking"]
+  character(len=*), parameter :: general_tables(5) = [character(len=10) :: "kinematics", &
+    "reactions", "drive", "shaking", "balance"]
 
   !> Where a report has one table only.
   type(table_kind_t), parameter :: no_table = table_kind_t()
@@ -146,6 +149,17 @@ module report_table
       studies="linkage", linkages=four_bars, tables=[ &
       table_kind_t("linkage", "branch,event:name crank,theta3,theta4,transmission_angle:deg"), &
       no_table]), &
+    report_kind_t(name="linkage", help="ranges of the drive, swings, strokes, time ratios", &
+      studies="limits", linkages=other_linkages, tables=[ &
+      table_kind_t("linkage", "part,quantity:name crank:deg value:see_unit unit:name"), &
+      no_table]), &
+    report_kind_t(name="balance", help="shaking force and its harmonics", &
+      studies="joints balance harmonics", positions=.true., masses=.true., &
+      linkages=other_linkages, tables=[ &
+      table_kind_t("balance", "speed:speed crank:deg xG,yG:length shaking_x,shaking_y:force "// &
+      "shaking_moment,torque:moment"), &
+      table_kind_t("harmonics", "speed:speed linkage,quantity:name largest,rms,mean:- h*:- "// &
+      "phase*:deg")]), &
     report_kind_t(name="balance", help="shaking force, counterweights, harmonics", &
       studies="reactions balance harmonics", positions=.true., masses=.true., numbers=98, &
       linkages=four_bars, tables=[ &
@@ -260,15 +274,30 @@ contains
       case ("lagrange")
         call find_lagrange_terms(linkage, elements, found%positions, threads, found%lagrange)
       case ("balance")
-        call find_balance(linkage, elements, found%positions, threads, found%balance)
+        if (variant%mechanism%is_four_bar) then
+          call find_balance(linkage, elements, found%positions, threads, found%balance)
+        else
+          call find_centres(linkage, elements, found%positions, threads, found%balance)
+        end if
       case ("harmonics")
         call find_harmonics(linkage, elements, model%speed%value, model%acceleration, threads, &
           found%harmonics)
       case ("linkage")
         call find_linkage(linkage, found%linkage)
+      case ("limits")
+        call find_limits(linkage, crank_of_deck(model), found%limits)
       end select
     end associate
   end subroutine find_study
+
+  !> A position of the first drive that the deck names; 0 without any.
+  pure function crank_of_deck(model) result(crank)
+    type(model_t), intent(in) :: model
+    real(wp) :: crank
+
+    crank = 0.0_wp
+    if (size(model%crank%value) > 0) crank = model%crank%value(1)
+  end function crank_of_deck
 
   !> Columns and items of a table.
   subroutine plan_table(table, variant, plan)
@@ -323,6 +352,7 @@ contains
       plan%items = size(variant%found%geometry%crank)
     case ("linkage")
       names(:2) = linkage_words()
+      if (.not. variant%mechanism%is_four_bar) names = limits_words(variant)
       plan%items = 1
     case ("harmonics")
       names(:2) = harmonics_words()
@@ -387,8 +417,12 @@ contains
       case ("motion")
         call linkage_motion_notes(variant, notes)
         return
-      case ("drive", "shaking")
+      case ("linkage")
+        call limits_notes(variant, notes)
+        return
+      case ("drive", "shaking", "balance", "harmonics")
         call drives_notes(variant, notes)
+        if (table == "harmonics") call append_harmonics_notes(variant, notes)
         return
       end select
     end if
@@ -461,7 +495,11 @@ contains
     case ("geometry")
       call add_geometry(variant, plan%layout, number, rows)
     case ("linkage")
-      call add_linkage(variant, plan%layout, rows)
+      if (variant%mechanism%is_four_bar) then
+        call add_linkage(variant, plan%layout, rows)
+      else
+        call add_limits(variant, plan%layout, rows)
+      end if
     case ("harmonics")
       call add_harmonics(variant, plan%layout, rows)
     case ("motion")
@@ -600,6 +638,8 @@ contains
       call add_drives(variant, layout, position, speed, rows)
     case ("shaking")
       call add_shaking(variant, layout, position, speed, rows)
+    case ("balance")
+      call add_centres(variant, layout, position, speed, rows)
     end select
   end subroutine add_general
 
@@ -616,6 +656,11 @@ contains
     if (table%name == "motion" .and. .not. is_four_bar(model)) fitted%columns = &
       linkage_motion_columns(model)
     if (.not. drives_length(model)) return
+    ! What turns a crank is a force on a slider, and its inertia a mass.
+    if (table%name == "lagrange") fitted%columns = "speed:speed crank:deg M:mass "// &
+      "dM:mass_per_length V,gravity,load,torque:force kinetic,potential:energy"
+    if (table%name == "balance") fitted%columns = "speed:speed crank:deg xG,yG:length "// &
+      "shaking_x,shaking_y:force shaking_moment:moment torque:force"
     at = index(fitted%columns, "crank:deg")
     if (at > 0) fitted%columns = fitted%columns(:at - 1)//"crank:length"// &
       trim(fitted%columns(at + 9:))
