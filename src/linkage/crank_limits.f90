@@ -129,6 +129,20 @@ contains
     is = .not. allocated(error)
   end function is_closed
 
+  !> Whether the linkage closes, and no group is at its limit but for rounding.
+  pure function is_inside(linkage, crank) result(is)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), intent(in) :: crank
+    logical :: is
+
+    type(pose_t) :: pose
+    type(error_t), allocatable :: error
+
+    call place_links(linkage, crank, pose, error)
+    is = .not. allocated(error)
+    if (is) is = all(abs(pose%sine) > 0.0_wp)
+  end function is_inside
+
   !> The last coordinate, in steps from one at which the linkage closes, at which it still does, by
   !! bisection; and the group that is nearest to its dead point there.
   pure subroutine find_end(linkage, inside, step, group, last)
@@ -153,7 +167,7 @@ contains
     do i = 1, most_halvings
       middle = 0.5_wp*(last + beyond)
       if (abs(beyond - last) <= 2.0_wp*spacing(max(abs(last), abs(step)))) exit
-      if (is_closed(linkage, middle)) then
+      if (is_inside(linkage, middle)) then
         last = middle
       else
         beyond = middle
