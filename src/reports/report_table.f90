@@ -96,7 +96,7 @@ module report_table
       tables=[ &
       table_kind_t("kinematics", "speed:speed crank,theta3,theta4:deg omega3,omega4:rate "// &
       "alpha3,alpha4:rad/s2 Ax,Ay,Bx,By:length transmission_angle:deg"), no_table]), &
-    report_kind_t(name="kinematics", help="how the links move", &
+    report_kind_t(name="kinematics", help="of other linkages: how the links move", &
       studies="kinematics", positions=.true., reserved=.true., linkages=other_linkages, tables=[ &
       table_kind_t("kinematics", "speed:speed crank:deg link:name theta:deg omega:rate "// &
       "alpha:rad/s2"), no_table]), &
@@ -133,7 +133,7 @@ module report_table
       table_kind_t("reactions", "speed:speed crank:deg "// &
       "O2x,O2y,A2x,A2y,A3x,A3y,B3x,B3y,B4x,B4y,O4x,O4y:force torque:moment "// &
       "shaking_x,shaking_y:force shaking_moment:moment"), no_table]), &
-    report_kind_t(name="reactions", help="forces in pins, of guides, moments of blocks and welds", &
+    report_kind_t(name="reactions", help="of other linkages: forces and moments in all joints", &
       studies="joints", positions=.true., masses=.true., linkages=other_linkages, tables=[ &
       table_kind_t("reactions", "speed:speed crank:deg pin,link:name fx,fy:force "// &
       "moment:moment"), no_table]), &
@@ -192,7 +192,7 @@ module report_table
       positions=.true., response=.true., linkages=four_bars, tables=[ &
       table_kind_t("drive", "speed:speed crank:deg rigid,linear,quadratic,total:moment "// &
       "power:power error:-"), no_table]), &
-    report_kind_t(name="drive", help="what every drive does, and shaking force and moment", &
+    report_kind_t(name="drive", help="of other linkages: the drives, shaking force and moment", &
       studies="joints", positions=.true., masses=.true., linkages=other_linkages, tables=[ &
       table_kind_t("drive", "speed:speed crank:deg drive:name position:deg rate:rate "// &
       "force:moment"), &
