@@ -16,15 +16,8 @@ pose_of(picture) = turning ? 1 + 3*(picture - 1) : 1 + int(120.5 - 120*cos(2*pi*
 caption(position) = drive_subject." at ".(turning ? sprintf("%d°", int(floor(position + 0.5) + 3600)%360) \
     : minus(sprintf("%.4g", position)).(is_angle ? "°" : " ".unit_crank))
 tail = 24
-ground_size = 0.055*span
-room = 0.07*span
+room = 0.05*span
 x0 = x_min - room; x1 = x_max + room; y0 = y_min - room; y1 = y_max + room
-do for [k=1:grounds] {
-    x0 = ground_x[k] - 1.4*ground_size < x0 ? ground_x[k] - 1.4*ground_size : x0
-    x1 = ground_x[k] + 1.4*ground_size > x1 ? ground_x[k] + 1.4*ground_size : x1
-    y0 = ground_y[k] - 1.7*ground_size < y0 ? ground_y[k] - 1.7*ground_size : y0
-    y1 = ground_y[k] + 1.7*ground_size > y1 ? ground_y[k] + 1.7*ground_size : y1
-}
 pixel = (x1 - x0)/(y1 - y0) > 1.4 ? 1080/(x1 - x0) : 770/(y1 - y0)
 headline = cut(deck_title, 60)
 deck_title = ""
@@ -34,11 +27,10 @@ wide = pixel*(x1 - x0) > 760 ? pixel*(x1 - x0) + 40 : 800
 foot_height = 60
 
 # A tail that grows thinner: of the last rows before this position.
-tail_rows(from, to) = sprintf("< awk 'NR >= %d && NR <= %d' %s", from, to, quoted(shapes."/paths"))
 tails(n, k) = k > paths ? "" : (path_ink[k] eq "" ? "" : tail_part(n, k, 1).tail_part(n, k, 2).tail_part(n, k, 3)).tails(n, k + 1)
 tail_from(n, part) = n - tail*(4 - part) < 1 ? 1 : n - tail*(4 - part)
-tail_part(n, k, part) = sprintf("shapes.'/paths' every ::%d::%d using %d:%d with lines lw %d dt solid lc rgb '%s' notitle, ", \
-    tail_from(n, part) - 1, n - 1, 2*k, 2*k + 1, 1 + 3*part, path_ink[k])
+tail_part(n, k, part) = sprintf("'%s/paths' every ::%d::%d using %d:%d with lines lw %d dt solid lc rgb '%s' notitle, ", \
+    shapes, tail_from(n, part) - 1, n - 1, 2*k, 2*k + 1, 1 + 3*part, path_ink[k])
 all_paths = ""
 do for [k=1:paths] {
     all_paths = all_paths.path_columns(k).sprintf(" with lines lw %g dt solid lc rgb '%s' notitle, ", path_ink[k] eq "" ? 1.5 : 3, \
@@ -59,12 +51,11 @@ do for [picture=1:pictures] {
         set bmargin at screen up(foot_height)
         set lmargin at screen 0.5 - across(0.5*pixel*(x1 - x0))
         set rmargin at screen 0.5 + across(0.5*pixel*(x1 - x0))
-        eval draw_grounds
     }
     now = pose_of(picture)
     set output sprintf("%s_%03d", out, picture)
     set label 905 caption(pose_crank[now]) at screen 0.5, up(foot_height - 30) center noenhanced font ",20"
-    eval "plot ".guides.all_paths.(turning || picture <= pictures/2 ? tails(now, 1) : "").body(now)."NaN notitle"
+    eval "plot ".fixed_parts.all_paths.bodies(now).(turning || picture <= pictures/2 ? tails(now, 1) : "").pins_of(now)."NaN notitle"
 }
 unset output
 call plots."gif.gp" out pictures 4

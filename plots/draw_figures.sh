@@ -423,6 +423,7 @@ esac
 
 : > "$new/plan"
 cycle=$(cycle_table)
+[ -z "$cycle" ] || settings="$settings; is_cycle = 1"
 if [ -n "$varied" ]; then
     [ $figures = figures ] || fail "$outdir has nothing to animate: its tables are those of a deck with VARY"
     [ -f frequencies.dat ] ||

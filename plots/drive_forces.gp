@@ -10,8 +10,7 @@ load keep("drives", table, sprintf("wide %.17g drive force", speed))
 drive_names = names_in(table, "drive")
 n_drives = words(drive_names)
 is_length = strstrt(unit_position." ", "deg") != 1
-named_force = unit_force eq "-" || unit_force eq "see_head" ? "torque or force of the drive" \
-    : is_length ? "force of the drive" : "torque of the drive"
+named_force = unit_force eq "see_head" ? "torque or force" : is_length ? "driving force" : "driving torque"
 unit_of_force = unit_force eq "see_head" ? "" : unit_force
 if (table_of_shaking ne "") { eval answer(table_of_shaking, "facts") }
 headline = numbered(figure, (is_length ? "Driving force" : "Driving torque").\

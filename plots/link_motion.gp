@@ -9,7 +9,7 @@ call plots."driven.gp"
 load keep("links", table, sprintf("wide %.17g link theta omega alpha", speed))
 link_names = names_in(table, "link")
 n_links = words(link_names)
-headline = numbered(figure, "Angles of the links, ".at_rate(speed))
+headline = numbered(figure, "Motion of the links, ".at_rate(speed))
 note = ""
 source_of(k) = "$links"
 picked = "1"

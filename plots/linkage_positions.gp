@@ -11,16 +11,12 @@ call plots."driven.gp"
 call plots."shapes.gp" 360 0.013
 
 # In full: near 60 degrees, or after a third of the way. The others evenly.
-shown = 1 + (turning ? int(60 - pose_low + 720.5)%360 : 120)
+shown = 1 + (turning ? int(floor(60.5 - pose_low) + 720)%360 : 120)
 others = turning ? 5 : 3
-other(k) = turning ? 1 + (shown - 1 + 60*k)%360 : (k == 1 ? 1 : k == 2 ? 241 : 361)
-ground_size = 0.05*span
-room = 0.07*span
+first_of = (shown - 1)%60
+other(k) = turning ? 1 + first_of + 60*(first_of + 60*(k - 1) < shown - 1 ? k - 1 : k) : k == 1 ? 1 : k == 2 ? 241 : 361
+room = 0.06*span
 x0 = x_min - room; x1 = x_max + room; y0 = y_min - room; y1 = y_max + room
-do for [k=1:grounds] {
-    x0 = lesser(x0, ground_x[k] - 1.4*ground_size); x1 = larger(x1, ground_x[k] + 1.4*ground_size)
-    y0 = lesser(y0, ground_y[k] - 1.7*ground_size); y1 = larger(y1, ground_y[k] + 1.7*ground_size)
-}
 
 headline = numbered(figure, "The linkage over its cycle, in full: ".at_drive(pose_crank[shown]))
 pale_positions = ""
@@ -34,19 +30,18 @@ do for [k=1:paths] {
 length_unit = system("awk ".quoted("!/^#/ { exit } { line = $0 } END { split(line, unit, \" \"); print unit[6] }")." ".\
     quoted(shapes."/drawn/geometry.dat"))
 load plots."frame.gp"
-eval draw_grounds
 
 # Names of pins keep clear of what is in full, of grounds and of each other.
 set print places
 print sprintf("page %g %g %g %g", box_left + 4, box_left + box_width - 4, box_bottom + 4, box_bottom + box_height - 4)
 do for [k=1:grounds] {
-    print sprintf("box %.6g %.6g %.6g %.6g", page_x(ground_x[k]), page_y(ground_y[k] - 0.7*ground_size*sin(ground_angle[k]*pi/180)), \
-        pixel*1.7*ground_size, pixel*1.3*ground_size)
+    print sprintf("box %.6g %.6g %.6g %.6g", page_x(ground_x[k]), page_y(ground_y[k] - 0.8*ground_size*ground_up[k]), \
+        pixel*1.9*ground_size, pixel*1.3*ground_size)
 }
 unset print
 system(sprintf("awk -v left=%.9g -v low=%.9g -v scale=%.9g -v x0=%.12g -v y0=%.12g ", box_left, box_bottom, pixel, x0, y0).\
     quoted("NF == 0 { print \"curve\"; next } { print \"curve\", left + scale*($1 - x0), low + scale*($2 - y0) }").\
-    " ".quoted(sprintf("%s/skeleton_%d", shapes, shown))." >> ".quoted(places))
+    " ".quoted(sprintf("%s/skeleton_%d", shapes, shown))." ".quoted(shapes."/guides")." >> ".quoted(places))
 set print places append
 row = system(sprintf("sed -n %dp ", shown).quoted(shapes."/paths"))
 print_name(x, y, name) = sprintf("label %.6g %.6g %.4g %.4g %.4g 45 %s", page_x(x), page_y(y), 0.8*pixel*bar + 4, text_width(name, 17), \
@@ -59,9 +54,9 @@ do for [k=1:grounds] { print print_name(ground_x[k], ground_y[k], word(ground_na
 unset print
 load labels_as("names")
 
-parts = guides
+parts = ""
 do for [k=1:others] { parts = parts.pale_body(other(k)) }
-parts = parts.thin_paths(1).drawn_paths(1).body(shown)
+parts = parts.fixed_parts.thin_paths(1).bodies(shown).drawn_paths(1).pins_of(shown)
 eval "plot ".parts."$names using ($5 == 1 ? unscaled_x($3) : NaN):(unscaled_y($4)):".\
     "(unscaled_x($7) - unscaled_x($3)):(unscaled_y($8) - unscaled_y($4)) ".\
     "with vectors nohead lw 1 dt solid lc rgb '#808080' notitle, ".\

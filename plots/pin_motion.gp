@@ -9,7 +9,7 @@ call plots."driven.gp"
 load keep("pins", table, sprintf("wide %.17g pin x y vx vy ax ay", speed))
 pin_names = names_in(table, "pin")
 n_pins = words(pin_names)
-headline = numbered(figure, "Pins, ".at_rate(speed))
+headline = numbered(figure, "Motion of the pins, ".at_rate(speed))
 note = "speed and acceleration: sizes of the vectors"
 source_of(k) = "$pins"
 picked = "1"

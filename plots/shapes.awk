@@ -3,12 +3,13 @@
 #   awk -v folder=FOLDER -v share=0.014 -f shapes.awk < geometry.dat
 # share is half the width of a bar, as a share of the larger side of what the linkage sweeps. Files:
 #   FOLDER/pose_1, pose_2 …   the polygons of a position; an index (two empty lines) has those of one colour, in the order in which they
-#                             are drawn: layers, layer_fill[k], layer_pale[k]
+#                             are drawn: layers, layer_fill[k], layer_pale[k]; bodies are the first body_layers, pins the others
 #   FOLDER/skeleton_1 …       the same as lines from pin to pin, for labels that keep clear of them
 #   FOLDER/paths              a position a line: the crank, then x and y of every moving pin and point
-#   FOLDER/guides             rails, and behind two empty lines their hatching
-# Facts: poses, pose_crank[k], link_names, link_ink[k], grounds, ground_x[k], ground_y[k], ground_angle[k], paths, path_names,
-# path_ink[k] (empty for a path of no interest), x_min, x_max, y_min, y_max, span, bar.
+#   FOLDER/guides             rails, and behind two empty lines their hatching; nothing without guides
+#   FOLDER/grounds            the triangles of ground pivots, behind two empty lines their ground and its hatching
+# Facts: poses, pose_crank[k], link_names, link_ink[k], grounds, ground_names, ground_x[k], ground_y[k], ground_up[k] (-1: hanging), paths,
+# path_names, path_ink[k] (empty for a path of no interest), x_min, x_max, y_min, y_max, span, bar, ground_size.
 
 BEGIN { pi = atan2(0, -1); wanted = 1 }
 
@@ -66,9 +67,11 @@ END {
     block_length = 3.0 * bar
     block_height = 1.9 * bar
     rim = 0.28 * bar
+    ground_size = 3.6 * bar
     for (n = 1; n <= poses; n++) draw_pose(n)
     draw_paths()
     draw_guides()
+    draw_grounds()
     print_facts()
 }
 
@@ -92,13 +95,20 @@ function draw_pose(n,    i, k, p, file) {
         draw_link(file, i, n, bar)
         draw_skeleton(i, n)
     }
-    close(folder "/skeleton_" n)
     for (i = 1; i <= sliders; i++) {
+        print "" > (folder "/skeleton_" n)
+        for (k = -1; k <= 1; k++) printf "%.7g %.7g\n%.7g %.7g\n\n", \
+            at_x[slider[i], n] + block_length * cos_of[i, n] - k * block_height * sin_of[i, n], \
+            at_y[slider[i], n] + block_length * sin_of[i, n] + k * block_height * cos_of[i, n], \
+            at_x[slider[i], n] - block_length * cos_of[i, n] - k * block_height * sin_of[i, n], \
+            at_y[slider[i], n] - block_length * sin_of[i, n] + k * block_height * cos_of[i, n] > (folder "/skeleton_" n)
         begin_layer(file, "#333333", "#B4B4B4")
         draw_block(file, i, n, block_length + rim, block_height + rim)
         begin_layer(file, "#D9D9D9", "#F2F2F2")
         draw_block(file, i, n, block_length, block_height)
     }
+    close(folder "/skeleton_" n)
+    body_layers = layer
     begin_layer(file, "#333333", "#B4B4B4")
     for (p in pin_known) disc(file, at_x[p, n], at_y[p, n], 0.75 * bar)
     for (p in slides) disc(file, at_x[p, n], at_y[p, n], 0.75 * bar)
@@ -150,9 +160,15 @@ function draw_link(file, i, n, r,    k) {
     for (k = 1; k <= hull + 1; k++) corner(file, hull_x[(k - 1) % hull + 1], hull_y[(k - 1) % hull + 1])
 }
 
-function draw_skeleton(i, n,    k) {
-    for (k = 1; k < hull + (hull > 2); k++) printf "%.7g %.7g\n%.7g %.7g\n\n", hull_x[k], hull_y[k], \
-        hull_x[k % hull + 1], hull_y[k % hull + 1] > (folder "/skeleton_" n)
+# Three lines a bar: its middle and both edges.
+function draw_skeleton(i, n,    k, m, x, y, way) {
+    for (k = 1; k < hull + (hull > 2); k++) {
+        x = hull_x[k % hull + 1] - hull_x[k]
+        y = hull_y[k % hull + 1] - hull_y[k]
+        way = sqrt(x * x + y * y)
+        for (m = -1; m <= 1; m++) printf "%.7g %.7g\n%.7g %.7g\n\n", hull_x[k] - m * bar * y / way, hull_y[k] + m * bar * x / way, \
+            hull_x[k] + x - m * bar * y / way, hull_y[k] + y + m * bar * x / way > (folder "/skeleton_" n)
+    }
 }
 
 # Counter-clockwise, from the lowest corner; places on an edge are left out.
@@ -247,6 +263,36 @@ function rail_point(file, k, along, below,    off, x, y) {
     printf "%.7g %.7g\n", x, y > file
 }
 
+# The usual triangle on hatched ground.
+function draw_grounds(    i, k, file, x, y, up) {
+    file = folder "/grounds"
+    printf "" > file
+    for (i = 1; i <= grounds; i++) {
+        ground_up[i] = hangs(ground[i]) ? -1 : 1
+        for (k = 0; k < 4; k++) ground_point(file, i, k % 3 == 0 ? 0 : k == 1 ? -0.52 : 0.52, k % 3 == 0 ? 0 : -1)
+        print "" > file
+    }
+    printf "\n" > file
+    for (i = 1; i <= grounds; i++) {
+        ground_point(file, i, -0.8, -1)
+        ground_point(file, i, 0.8, -1)
+        print "" > file
+        for (k = 0; k <= 5; k++) {
+            ground_point(file, i, -0.64 + 0.288 * k, -1)
+            ground_point(file, i, -0.96 + 0.288 * k, -1.4)
+            print "" > file
+        }
+    }
+    close(file)
+}
+
+function ground_point(file, i, across, above,    x, y) {
+    x = at_x[ground[i], 1] + ground_size * across
+    y = at_y[ground[i], 1] + ground_size * above * ground_up[i]
+    include(x, y)
+    printf "%.7g %.7g\n", x, y > file
+}
+
 # ---- Facts ----
 
 # The ends of links and points are what a linkage is for; where there are none, pins of links that no ground pivot holds.
@@ -285,11 +331,11 @@ function hangs(p,    i, k, n, m, found, total) {
 }
 
 function print_facts(    i, k, text) {
-    printf "poses = %d; bar = %.9g; layers = %d; paths = %d; grounds = %d; drawn_links = %d\n", poses, bar, layer, paths, grounds, links
+    printf "poses = %d; bar = %.9g; ground_size = %.9g; layers = %d; body_layers = %d; paths = %d; grounds = %d; drawn_links = %d\n", poses, bar, ground_size, layer, body_layers, paths, grounds, links
     printf "x_min = %.9g; x_max = %.9g; y_min = %.9g; y_max = %.9g; span = %.9g\n", x_min, x_max, y_min, y_max, span
     printf "array pose_crank[%d]; array layer_fill[%d]; array layer_pale[%d]; array path_ink[%d]; array link_ink[%d]\n", poses, layer, \
         layer, paths + 1, links
-    printf "array ground_x[%d]; array ground_y[%d]; array ground_angle[%d]\n", grounds + 1, grounds + 1, grounds + 1
+    printf "array ground_x[%d]; array ground_y[%d]; array ground_up[%d]\n", grounds + 1, grounds + 1, grounds + 1
     for (i = 1; i <= poses; i++) printf "pose_crank[%d] = %.12g\n", i, crank[i]
     for (i = 1; i <= layer; i++) printf "layer_fill[%d] = '%s'; layer_pale[%d] = '%s'\n", i, layer_fill[i], i, layer_pale[i]
     for (i = 1; i <= paths; i++) { printf "path_ink[%d] = '%s'\n", i, path_ink(i); text = text " \"" path[i] "\"" }
@@ -299,8 +345,7 @@ function print_facts(    i, k, text) {
     printf "link_names = %s\n", quoted(text)
     text = ""
     for (i = 1; i <= grounds; i++) {
-        printf "ground_x[%d] = %.9g; ground_y[%d] = %.9g; ground_angle[%d] = %d\n", i, at_x[ground[i], 1], i, at_y[ground[i], 1], i, \
-            hangs(ground[i]) ? -90 : 90
+        printf "ground_x[%d] = %.9g; ground_y[%d] = %.9g; ground_up[%d] = %d\n", i, at_x[ground[i], 1], i, at_y[ground[i], 1], i, ground_up[i]
         text = text " \"" ground[i] "\""
     }
     printf "ground_names = %s\n", quoted(text)
