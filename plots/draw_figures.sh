@@ -249,6 +249,37 @@ plan_modes() {
     done
 }
 
+# cycle_table: a table of a linkage that is no four-bar, for its positions; these have a row a link, a pin or a joint.
+cycle_table() {
+    for table in pins.dat:pin kinematics.dat:link drive.dat:drive reactions.dat:pin; do
+        if [ -f "${table%:*}" ] && ask facts "${table%:*}" | grep -q "; col_${table#*:} = "; then
+            echo "${table%:*}"
+            return
+        fi
+    done
+}
+
+# A linkage that is no four-bar.
+plan_cycle() {
+    if ! have "$cycle" || ! can_place; then return; fi
+    if several "$cycle"; then
+        add linkage_positions linkage_positions.gp "$cycle"
+        [ "${format:-png}" = png ] && can_animate && add linkage animate_cycle.gp "$cycle"
+    fi
+    have kinematics.dat && plan_speeds link_motion kinematics.dat
+    have pins.dat && plan_speeds pin_motion pins.dat
+    have points.dat && plan_speeds point_rates points.dat 'vx vy ax ay'
+    have reactions.dat && plan_speeds joint_forces reactions.dat 'fx fy'
+    shaking=
+    [ -f shaking.dat ] && shaking=shaking.dat
+    if have drive.dat; then
+        plan_speeds drive_forces drive.dat
+        [ -z "$shaking" ] || sed -i "/drive_forces.gp/s/$/|$shaking/" "$new/plan"
+    fi
+    have lagrange.dat && plan_speeds lagrange lagrange.dat
+    have motion.dat && add motion motion.gp motion.dat
+}
+
 # Angles always; what stands still has no curve worth drawing.
 plan_kinematics() {
     add kinematics_angles kinematics.gp kinematics.dat angles
@@ -352,6 +383,10 @@ plan_response() {
 plan_animations() {
     can_animate || fail 'this gnuplot lacks the terminal pngcairo or gif, which animations need'
     have shapes.dat && animate=animate_mode.gp plan_modes
+    if [ -n "$cycle" ]; then
+        if have "$cycle" && several "$cycle" && can_place; then add linkage animate_cycle.gp "$cycle"; fi
+        return
+    fi
     if have reactions.dat && [ "$(ask 'distinct crank' reactions.dat | wc -l)" -ge 12 ] && can_place; then
         plan_forces animate_forces.gp
     fi
@@ -387,6 +422,8 @@ case " $(terminals) " in
 esac
 
 : > "$new/plan"
+cycle=$(cycle_table)
+[ -z "$cycle" ] || settings="$settings; is_cycle = 1"
 if [ -n "$varied" ]; then
     [ $figures = figures ] || fail "$outdir has nothing to animate: its tables are those of a deck with VARY"
     [ -f frequencies.dat ] ||
@@ -404,9 +441,13 @@ else
     have frequencies.dat && plan_frequencies
     have branches.dat && plan_speeds branches branches.dat
     have shapes.dat && plan_modes
-    have kinematics.dat && plan_kinematics
-    plan_rigid_dynamics
-    plan_response
+    if [ -n "$cycle" ]; then
+        plan_cycle
+    else
+        have kinematics.dat && plan_kinematics
+        plan_rigid_dynamics
+        plan_response
+    fi
 fi
 if [ ! -s "$new/plan" ]; then
     ! ls ./*.csv > /dev/null 2>&1 || ls ./*.dat > /dev/null 2>&1 ||

@@ -68,7 +68,7 @@ do for [place=1:n_kept] {
             line_width(drawn_rows), of_curve, k, dot_size(drawn_rows))
         parts = parts.sprintf("source_of(%d) every %d::%d using (%s):(%s ? %s : NaN) with points lt %d notitle, ", \
             k, mark_step(drawn_rows), mark_first(k, n, drawn_rows), x, picked, word(curves_of[panel], k), k)
-        if (n > 1) { keys = keys.sprintf(", keyentry with linespoints lt %d title word(titles_of[%d], %d)", k, panel, k) }
+        if (n > 1 && (!legend_once || place == 1)) { keys = keys.sprintf(", keyentry with linespoints lt %d title word(titles_of[%d], %d)", k, panel, k) }
     }
     bare = place < n_kept
     eval x_axis

@@ -37,6 +37,11 @@
 #   want="displacements 20 8 A:crank B:coupler"    there, of these points: crank, then ux, uy and the rotation in radians of each
 #   want="branches 20"             the branches of branches.dat at speed 20, an index a branch, an empty line where rows
 #                                  have failed: crank, frequency, branch, 1 on its first row, 1 where a mark is drawn
+#   want="wide 20 link theta omega"     of a table with a row a link (or a pin, a drive …) at speed 20, a line a position: the crank, then
+#                                  theta and omega of every link; angles theta go on beyond 180 degrees
+#   want="joints 20"               of reactions.dat with a row a pin and link at speed 20, a line a position: the crank, then the size of
+#                                  the force at every joint; one for the two opposite forces at a pin of two links
+#   want="joint_names 20"          the names of these joints: A, or A:crank where the links feel different forces
 #   want="varied"                  the columns of varied parameters: those before the table's own
 #   want="poses"                   the positions of geometry.dat, a line each: the crank angle, then for every
 #                                  pin of a link the link's number (0 the ground), its name, x and y, for every point the
@@ -242,8 +247,25 @@ asked[1] == "masses" && same($at["crank"], asked[2]) && same($at["speed"], asked
     Fy[nodes] = $at["Fy"]
 }
 
+asked[1] == "wide" && same($at["speed"], asked[2]) || asked[1] ~ /^joint/ && same($at["speed"], asked[2]) {
+    if (!positions || $at["crank"] "" != crank[positions] "") {
+        crank[++positions] = $at["crank"] ""
+        broken[positions] = gap[rows]
+    }
+    key = asked[1] == "wide" ? $at[asked[3]] : $at["pin"] ":" $at["link"]
+    if (!(key in seen)) { seen[key] = 1; key_of[++keys] = key; if (asked[1] != "wide") links_at[$at["pin"]]++ }
+    if (asked[1] == "wide") for (i = 4; i <= n_asked; i++) value[positions, key, i] = $at[asked[i]]
+    else {
+        value[positions, key, 4] = sqrt($at["fx"]^2 + $at["fy"]^2)
+        if (value[positions, key, 4] > greatest) greatest = value[positions, key, 4]
+    }
+}
+
 END {
     if (header) name_columns()
+    if (asked[1] == "wide") { last_asked = n_asked; print_wide() }
+    if (asked[1] ~ /^joint/) { join_forces(); last_asked = 4; if (asked[1] == "joints") print_wide() }
+    if (asked[1] == "joint_names") for (i = 1; i <= keys; i++) print (name_of[i])
     if (asked[1] == "facts") print_facts()
     if (asked[1] == "unit") print unit[at[asked[2]]]
     if (asked[1] == "range") print pointed(sprintf("%.12g", least)), pointed(sprintf("%.12g", greatest))
@@ -283,6 +305,44 @@ function print_facts(    i) {
         }
     }
     print ""
+}
+
+function print_wide(    n, k, i, line, number) {
+    for (n = 1; n <= positions; n++) {
+        if (broken[n] && n > 1) print ""
+        line = pointed(sprintf("%.12g", crank[n]))
+        for (k = 1; k <= keys; k++) {
+            for (i = 4; i <= last_asked; i++) {
+                number = value[n, key_of[k], i]
+                if (asked[i] == "theta" && number != "") {
+                    if (n > 1 && !broken[n]) number += 360 * int((before[k] - number) / 360 + (before[k] > number ? 0.5 : -0.5))
+                    before[k] = number
+                }
+                line = line " " (number == "" ? "NaN" : pointed(sprintf("%.12g", number)))
+            }
+        }
+        print line
+    }
+}
+
+# Two links at a pin feel opposite forces, unless a mass or a load takes some of it.
+function join_forces(    k, m, n, pin, other, kept, alike) {
+    for (k = 1; k <= keys; k++) {
+        pin = substr(key_of[k], 1, index(key_of[k], ":") - 1)
+        other = 0
+        for (m = 1; m < k; m++) if (substr(key_of[m], 1, length(pin) + 1) == pin ":") other = m
+        alike = links_at[pin] <= 2
+        for (n = 1; other && n <= positions; n++)
+            if (absolute(value[n, key_of[k], 4] - value[n, key_of[other], 4]) > 1e-9 * greatest) alike = 0
+        single[k] = links_at[pin] == 1 || alike
+        if (other && alike) { single[other] = 1; dropped[k] = 1 } else if (other && links_at[pin] == 2) single[other] = 0
+    }
+    for (k = 1; k <= keys; k++) {
+        if (dropped[k]) continue
+        key_of[++kept] = key_of[k]
+        name_of[kept] = single[k] ? substr(key_of[k], 1, index(key_of[k], ":") - 1) : key_of[k]
+    }
+    keys = kept
 }
 
 function band(value,    k) {

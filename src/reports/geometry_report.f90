@@ -1,7 +1,9 @@
 !> `geometry.dat`: pins, links and points at any crank angles, for drawings.
 module geometry_report
+  use kinds, only: wp
   use linkage_notes, only: notes_on_linkage
   use points_report, only: point_names
+  use pose_types, only: pins_of_body
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: name_cell
@@ -25,6 +27,8 @@ contains
     notes = notes_on_linkage(variant)
     call append_string(notes, &
       "links one after the other, each from pin to pin, then its points; global axes")
+    if (size(variant%mechanism%linkage%sliders) > 0) call append_string(notes, &
+      "then the sliders on guides and links; ahead: 1 m from a slider in the sense of its line")
   end subroutine geometry_notes
 
   !> The names in the columns `link`, `part` and `place`.
@@ -38,9 +42,16 @@ contains
     lists(1)%column = "link"
     lists(1)%names = variant%mechanism%names
     call append_string(lists(1)%names, ground)
+    do i = 1, size(variant%model%guides)
+      call append_string(lists(1)%names, variant%model%guides(i)%name%text)
+    end do
     lists(2)%column = "part"
     call append_string(lists(2)%names, "pin")
     call append_string(lists(2)%names, "point")
+    if (size(variant%mechanism%linkage%sliders) > 0) then
+      call append_string(lists(2)%names, "slider")
+      call append_string(lists(2)%names, "ahead")
+    end if
     lists(3)%column = "place"
     lists(3)%names = variant%mechanism%pin_names
     points = point_names(variant)
@@ -50,59 +61,82 @@ contains
   end function geometry_words
 
   !> Appends the rows of a position, or one failed row. One empty line between links and between a
-  !! link and its points, two between positions.
+  !! link and its points, and before a slider; two between positions.
   subroutine add_geometry(variant, layout, position, rows)
     type(variant_results_t), intent(in) :: variant !! with its geometry computed
     type(table_layout_t), intent(in) :: layout     !! of this table
     integer, intent(in) :: position                !! number in the list of REPORT geometry
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
-    integer :: body, pin, point
+    integer, allocatable :: pins(:)
+    integer :: body, pin, point, slider, i
     logical :: is_first
 
     if (position > 1) call add_gap(rows, 2)
     associate (found => variant%found%geometry, linkage => variant%mechanism%linkage, &
-        points => variant%mechanism%points)
+        points => variant%mechanism%points, names => variant%mechanism%names, &
+        pin_names => variant%mechanism%pin_names)
       if (allocated(found%outcome(position)%error)) then
         call add_failed_row(rows, [found%crank(position)], found%outcome(position)%error%text)
         return
       end if
       do pin = 1, size(linkage%is_ground)
-        if (linkage%is_ground(pin)) call add_pin(variant, layout, position, 0, pin, rows)
+        if (linkage%is_ground(pin)) call add_place(layout, found%crank(position), ground, "pin", &
+          pin_names(pin)%text, found%pin(:, pin, position), rows)
       end do
       do body = 1, size(linkage%bodies)
         call add_gap(rows, 1)
-        call add_pin(variant, layout, position, body, linkage%bodies(body)%first_pin, rows)
-        call add_pin(variant, layout, position, body, linkage%bodies(body)%last_pin, rows)
+        pins = pins_of_body(linkage%bodies(body))
+        do i = 1, size(pins)
+          call add_place(layout, found%crank(position), names(body)%text, "pin", &
+            pin_names(pins(i))%text, found%pin(:, pins(i), position), rows)
+        end do
         is_first = .true.
         do point = 1, size(points)
           if (points(point)%body /= body) cycle
           if (is_first) call add_gap(rows, 1)
           is_first = .false.
-          call add_row(rows, cells(layout, 1, [found%crank(position)])// &
-            name_cell(variant%mechanism%names(body)%text, column_width(layout, 2))// &
-            name_cell("point", column_width(layout, 3))// &
-            name_cell(points(point)%name, column_width(layout, 4))// &
-            cells(layout, 5, found%point(:, point, position)))
+          call add_place(layout, found%crank(position), names(body)%text, "point", &
+            points(point)%name, found%point(:, point, position), rows)
         end do
+      end do
+      do slider = 1, size(linkage%sliders)
+        call add_gap(rows, 1)
+        pin = linkage%sliders(slider)%pin
+        call add_place(layout, found%crank(position), line_name(variant, slider), "slider", &
+          pin_names(pin)%text, found%pin(:, pin, position), rows)
+        call add_place(layout, found%crank(position), line_name(variant, slider), "ahead", &
+          pin_names(pin)%text, found%ahead(:, slider, position), rows)
       end do
     end associate
   end subroutine add_geometry
 
-  subroutine add_pin(variant, layout, position, body, pin, rows)
+  !> The guide or the link along which a slider slides.
+  pure function line_name(variant, slider) result(name)
     type(variant_results_t), intent(in) :: variant
+    integer, intent(in) :: slider !! number
+    character(len=:), allocatable :: name
+
+    associate (card => variant%model%sliders(slider), &
+        body => variant%mechanism%linkage%sliders(slider)%body)
+      if (body > 0) then
+        name = variant%mechanism%names(body)%text
+      else
+        name = variant%model%guides(card%guide)%name%text
+      end if
+    end associate
+  end function line_name
+
+  !> Appends a row.
+  subroutine add_place(layout, crank, link, part, place, x, rows)
     type(table_layout_t), intent(in) :: layout
-    integer, intent(in) :: position, body, pin !! numbers; body 0: the ground
+    real(wp), intent(in) :: crank, x(2)
+    character(len=*), intent(in) :: link, part, place
     type(rows_t), intent(inout) :: rows
 
-    character(len=:), allocatable :: link
-
-    link = ground
-    if (body > 0) link = variant%mechanism%names(body)%text
-    call add_row(rows, cells(layout, 1, [variant%found%geometry%crank(position)])// &
-      name_cell(link, column_width(layout, 2))//name_cell("pin", column_width(layout, 3))// &
-      name_cell(variant%mechanism%pin_names(pin)%text, column_width(layout, 4))// &
-      cells(layout, 5, variant%found%geometry%pin(:, pin, position)))
-  end subroutine add_pin
+    call add_row(rows, cells(layout, 1, [crank])//name_cell(link, column_width(layout, 2))// &
+      name_cell(part, column_width(layout, 3))//name_cell(place, column_width(layout, 4))// &
+      cells(layout, 5, x))
+  end subroutine add_place
 
 end module geometry_report
