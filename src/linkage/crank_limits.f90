@@ -99,7 +99,8 @@ contains
     end do
   end subroutine find_ranges
 
-  !> Whether the first drive turns a link fully and all positions repeat after a turn, without a dead
+  !> Whether the first drive turns a link fully and all positions repeat after a turn, without a
+  !! dead
   !! point on the way.
   pure function turns_fully(linkage) result(turns)
     type(linkage_t), intent(in) :: linkage !! of any kind, with its path
@@ -109,7 +110,8 @@ contains
     type(error_t), allocatable :: error
     integer :: i
 
-    turns = linkage%drives(1)%kind == drives_angle .and. abs(period_of(linkage) - 360.0_wp) <= 0.0_wp
+    turns = linkage%drives(1)%kind == drives_angle .and. &
+      abs(period_of(linkage) - 360.0_wp) <= 0.0_wp
     do i = 1, samples
       if (.not. turns) return
       call find_pose(linkage, 360.0_wp*i/samples, pose, error)

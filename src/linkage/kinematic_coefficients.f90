@@ -2,7 +2,8 @@
 !! acceleration of the crank.
 !!
 !! Without a crank, or with a driven slider, θ2 is the coordinate of the first drive, an angle in
-!! radians or a length. With `h = dθ/dθ2` and `h' = d²θ/dθ2²` every angular velocity is `h ω2` and every angular
+!! radians or a length. With `h = dθ/dθ2` and `h' = d²θ/dθ2²` every angular velocity is `h ω2` and
+!! every angular
 !! acceleration `h α2 + h' ω2²`; the same holds for points. Setting ω2 = 1 and α2 = 0 in (2.22)
 !! and (2.23), (2.35) to (2.38) of Ulker (2010) gives h and h'.
 module kinematic_coefficients
@@ -15,7 +16,8 @@ module kinematic_coefficients
   implicit none (type, external)
   private
 
-  public :: kinematic_coefficients_t, find_kinematic_coefficients, find_velocities, angular_velocity, &
+  public :: kinematic_coefficients_t, find_kinematic_coefficients, find_velocities, &
+    angular_velocity, &
     angular_acceleration
 
   !> First and second derivatives with respect to the crank angle θ2.
@@ -30,7 +32,8 @@ contains
 
   !> Kinematic coefficients of all bodies and pins, group by group.
   !!
-  !! With rates of its drives, which then need not follow the first one: velocities, and accelerations
+  !! With rates of its drives, which then need not follow the first one: velocities, and
+  !! accelerations
   !! without any of the drives.
   pure function find_kinematic_coefficients(linkage, pose, rates) result(coefficients)
     type(linkage_t), intent(in) :: linkage !! bodies, groups and what joins them
@@ -99,7 +102,8 @@ contains
     end do
   end subroutine find_coefficients
 
-  !> Pins of a body that moves already: x' = x_first' + h n and x'' = x_first'' + h' n − h² r, with r
+  !> Pins of a body that moves already: x' = x_first' + h n and x'' = x_first'' + h' n − h² r, with
+  !! r
   !! from its first pin and n the same vector turned by 90°.
   pure subroutine move_carried(linkage, group, pose, coefficients)
     type(linkage_t), intent(in) :: linkage

@@ -1,7 +1,9 @@
-!> A planar linkage in terms of mechanics: pins, bodies between them, sliders, drives, and the groups
+!> A planar linkage in terms of mechanics: pins, bodies between them, sliders, drives, and the
+!! groups
 !! in which it is placed, moved and solved.
 !!
-!! Everything but `new_four_bar` works for any linkage. The groups are found by `assembly_plan`. Most
+!! Everything but `new_four_bar` works for any linkage. The groups are found by `assembly_plan`.
+!! Most
 !! are dyads: two bodies that meet in a pin, each attached to a pin whose motion is already known.
 module linkages
   use kinds, only: wp
@@ -104,7 +106,8 @@ module linkages
     real(wp), allocatable :: pin(:, :)  !! (2, pins) in global axes [m]; zero where not drawn
   end type drawing_t
 
-  !> What bodies, sliders, turns and drives demand. A pin of a body demands two things: `demands_length`,
+  !> What bodies, sliders, turns and drives demand. A pin of a body demands two things:
+  !! `demands_length`,
   !! its distance from the first pin, and `demands_angle`, its direction from there.
   type :: equation_t
     integer :: kind = 0              !! one of the demands_… constants
@@ -232,7 +235,8 @@ contains
   end function mobility
 
   !> The place from which positions are counted while they are found, so that a far-off origin of
-  !! the drawing costs no digits: the crank's pivot; without a crank a ground pivot, or a fixed line.
+  !! the drawing costs no digits: the crank's pivot; without a crank a ground pivot, or a fixed
+  !! line.
   pure function reference_point(linkage) result(point)
     type(linkage_t), intent(in) :: linkage !! its pins and sliders
     real(wp) :: point(2)                   !! in global axes [m]

@@ -20,7 +20,8 @@ module balance_report
   implicit none (type, external)
   private
 
-  public :: append_harmonics_notes, balance_notes, add_balance, harmonics_notes, harmonics_words, add_harmonics
+  public :: append_harmonics_notes, balance_notes, add_balance, harmonics_notes, &
+    harmonics_words, add_harmonics
 
   character(len=*), parameter :: linkage_names(2) = [character(len=8) :: "given", "balanced"]
 
@@ -83,8 +84,10 @@ contains
           call append_string(list, "link "//name//" needs no counterweight")
           return
         end if
-        from = mechanism%pin_names(merge(body%first_pin, body%last_pin, body%heading(1) > 0.0_wp))%text
-        to = mechanism%pin_names(merge(body%last_pin, body%first_pin, body%heading(1) > 0.0_wp))%text
+        from = mechanism%pin_names(merge(body%first_pin, body%last_pin, &
+          body%heading(1) > 0.0_wp))%text
+        to = mechanism%pin_names(merge(body%last_pin, body%first_pin, &
+          body%heading(1) > 0.0_wp))%text
         call append_string(list, "counterweight of link "//name//": mass x radius "// &
           shortest_text(from_si(norm2(weight%first_moment), first_moment))//" "// &
           first_moment%name//", at "//shortest_text(atan2(weight%first_moment(2), &

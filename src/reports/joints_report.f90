@@ -2,7 +2,6 @@
 module joints_report
   use joint_study, only: drives_at_speed, joint_t, joints_at_speed
   use kinds, only: wp
-  use linkages, only: drives_angle
   use drive_cards, only: moves_along
   use load_notes, only: acceleration_note, append_load_notes
   use models, only: model_t
@@ -26,8 +25,8 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with its mechanism
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
-    call append_string(notes, "forces in global axes on the link at the pin; of a guide: by the "// &
-      "guide on the pin; of a block on a link: by the block on that link")
+    call append_string(notes, "forces in global axes on the link at the pin; of a guide: by "// &
+      "the guide on the pin; of a block on a link: by the block on that link")
     call append_string(notes, "moment: on the link, of a weld or of a block on which it cannot "// &
       "turn; counter-clockwise positive")
     call append_string(notes, acceleration_note(variant%model))
@@ -202,7 +201,7 @@ contains
       mixed = any(moves_along(model%drives%kind)) .and. .not. all(moves_along(model%drives%kind))
       do i = 1, size(values, 2)
         if (mixed) then
-          if (linkage%drives(i)%kind == drives_angle) then
+          if (.not. moves_along(model%drives(i)%kind)) then
             values(2, i) = from_si(values(2, i), model%outputs%rate)
             values(3, i) = from_si(values(3, i), table_factor("moment", model%outputs))
           else

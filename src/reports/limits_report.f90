@@ -1,11 +1,10 @@
 !> `linkage.dat` of linkages that are no four-bars: ranges of the first drive, swings, strokes, time
 !! ratios, transmission and pressure angles, a row each.
 module limits_report
-  use crank_limits, only: angle_of_body, place_of_slider, pressure_of_slider, quantity_t, &
-    transmission_of_dyad
   use drive_cards, only: moves_along
   use kinds, only: wp
-  use limits_study, only: time_ratio
+  use limits_study, only: angle_of_body, place_of_slider, quantity_t, time_ratio, &
+    transmission_of_dyad
   use linkage_notes, only: notes_on_linkage
   use links_report, only: shown_crank
   use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
@@ -20,7 +19,8 @@ module limits_report
 
   public :: limits_notes, limits_words, add_limits
 
-  character(len=*), parameter :: quantity_words(*) = [character(len=22) :: "range_from", "range_to", &
+  character(len=*), parameter :: quantity_words(*) = [character(len=22) :: "range_from", &
+    "range_to", &
     "turns", "least_angle", "greatest_angle", "swing", "least_place", "greatest_place", "stroke", &
     "time_ratio", "least_transmission", "greatest_transmission", "greatest_pressure"]
 
@@ -32,12 +32,14 @@ contains
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     notes = notes_on_linkage(variant)
-    call append_string(notes, "range_from, range_to: where the first drive can be, on this branch; "// &
-      "part: what stops it there")
-    call append_string(notes, "swing, stroke: greatest less least value; turns: whole turns of the "// &
-      "link a period; time_ratio: slower over quicker stroke at a constant rate of the drive")
-    call append_string(notes, "transmission: angle between the two links of a dyad at their pin, "// &
-      "best at 90 deg; pressure: between a rod and the guide of its pin, best at 0")
+    call append_string(notes, "range_from, range_to: where the first drive "// &
+      "can be, on this branch; part: what stops it there")
+    call append_string(notes, "swing, stroke: greatest less least value; turns: "// &
+      "whole turns of the link a period; time_ratio: slower over quicker stroke at a "// &
+      "constant rate of the drive")
+    call append_string(notes, "transmission: angle between the two links of "// &
+      "a dyad at their pin, best at 90 deg; pressure: between a rod and the guide of its pin, "// &
+      "best at 0")
   end subroutine limits_notes
 
   !> The words in the columns `part`, `quantity` and `unit`.

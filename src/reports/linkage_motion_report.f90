@@ -2,8 +2,7 @@
 module linkage_motion_report
   use drive_cards, only: moves_along
   use kinds, only: wp
-  use linkage_motion_study, only: linkage_motion_tolerance
-  use linkage_rates, only: free_drives
+  use linkage_motion_study, only: free_drives, linkage_motion_tolerance
   use models, only: model_t, report_number
   use table_columns, only: cells, table_factor, table_layout_t, table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
@@ -36,9 +35,9 @@ contains
       line = line//" "//to_string(k)//" drive "//variant%model%drives(free(k))%subject%text
     end do
     call append_string(notes, line//"; angles continue past whole turns")
-    call append_string(notes, "torque: of the motor on the first drive; potential: of GRAVITY and "// &
-      "FORCE, 0 at the global origin; work: of motor and TORQUE, less that taken by LOAD, since "// &
-      "the start; energy_error: kinetic + potential - work, less the initial energy")
+    call append_string(notes, "torque: of the motor on the first drive; potential: of GRAVITY "// &
+      "and FORCE, 0 at the global origin; work: of motor and TORQUE, less that taken "// &
+      "by LOAD, since the start; energy_error: kinetic + potential - work, less the initial energy")
     energy = table_unit("energy", variant%model%outputs)
     if (variant%found%linkage_motion%count > 0) call append_string(notes, "initial energy: "// &
       to_string(from_si(variant%found%linkage_motion%energy, energy))//" "//energy%name// &

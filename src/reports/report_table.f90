@@ -7,7 +7,8 @@
 !! on several threads at a time; therefore nothing that `add_item_rows` calls has a result of
 !! deferred length, for which gfortran 12 has one place for all threads.
 module report_table
-  use balance_report, only: add_balance, add_harmonics, append_harmonics_notes, balance_notes, harmonics_notes, &
+  use balance_report, only: add_balance, add_harmonics, append_harmonics_notes, balance_notes, &
+    harmonics_notes, &
     harmonics_words
   use balance_study, only: find_balance, find_centres
   use campbell_report, only: add_campbell, add_critical, campbell_notes, campbell_words, &
@@ -21,7 +22,8 @@ module report_table
   use inertia_study, only: find_inertia_loads
   use intervals_report, only: add_intervals, interval_words, intervals_notes
   use joint_study, only: find_joints
-  use joints_report, only: add_centres, add_drives, add_joints, add_shaking, drive_columns, drive_names, &
+  use joints_report, only: add_centres, add_drives, add_joints, add_shaking, drive_columns, &
+    drive_names, &
     drives_notes, joint_owners, joints_notes
   use kinds, only: wp
   use limits_report, only: add_limits, limits_notes, limits_words
@@ -59,7 +61,8 @@ module report_table
   implicit none (type, external)
   private
 
-  public :: table_plan_t, reports, study_names, find_study, plan_table, table_notes, add_item_rows, &
+  public :: table_plan_t, reports, study_names, find_study, plan_table, table_notes, &
+    add_item_rows, &
     table_in_units
 
   !> A table as it is to be written.
@@ -74,7 +77,8 @@ module report_table
   !> All studies in the order in which they are made: some use the results of others. The last
   !! are made by `variant_runs`, some of them block by block or step by step.
   character(len=*), parameter :: study_names(19) = [character(len=12) :: "kinematics", "geometry", &
-    "inertia", "points", "reactions", "joints", "lagrange", "balance", "harmonics", "linkage", "limits", "response", &
+    "inertia", "points", "reactions", "joints", "lagrange", "balance", "harmonics", "linkage", &
+    "limits", "response", &
     "stability", "intervals", "campbell", "transient", "motion", "frequencies", "loci"]
 
   !> Tables of the elastic response with rows for every position.
@@ -105,7 +109,8 @@ module report_table
       table_kind_t("pins", "speed:speed crank:deg pin:name x,y:length vx,vy:velocity "// &
       "ax,ay:acceleration"), no_table]), &
     report_kind_t(name="inertia", help="masses, their accelerations and inertia forces", &
-      studies="inertia", positions=.true., masses=.true., reserved=.true., numbers=46, linkages=four_bars, tables=[ &
+      studies="inertia", positions=.true., masses=.true., reserved=.true., numbers=46, &
+      linkages=four_bars, tables=[ &
       table_kind_t("inertia", "speed:speed crank:deg mass:# link:name x,y:length "// &
       "ax,ay:acceleration Fx,Fy:force m:mass moment?:moment"), no_table]), &
     report_kind_t(name="mesh", help="the finite element model", &
@@ -257,7 +262,8 @@ contains
         if (variant%mechanism%is_four_bar) call find_kinematics(linkage, found%positions, threads, &
           found%kinematics)
       case ("inertia")
-        call find_inertia_loads(linkage, elements, has_own_mass(model%links(variant%mechanism%links)), &
+        call find_inertia_loads(linkage, elements, &
+          has_own_mass(model%links(variant%mechanism%links)), &
           found%positions, threads, found%inertia)
       case ("points")
         call find_points(linkage, points%body, &
@@ -593,7 +599,8 @@ contains
         else if (allocated(state%error) .and. table == "mesh") then
           call add_failed_row(rows, [crank], state%error%text)
         else if (allocated(state%error)) then
-          call add_failed_row(rows, [variant%model%shown_speed(speed), shown_crank(variant, crank)], &
+          call add_failed_row(rows, [variant%model%shown_speed(speed), shown_crank(variant, &
+            crank)], &
             state%error%text)
         else if (.not. variant%mechanism%is_four_bar .and. any(table == general_tables)) then
           call add_general(table, variant, layout, position, speed, rows)

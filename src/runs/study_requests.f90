@@ -22,7 +22,8 @@ module study_requests
   private
 
   public :: mode_request_of, method_wanted, drawn_states, motion_request_of, &
-    linkage_motion_request_of, campbell_request_of, intervals_request_of, motion_instants_of, response_request_of, &
+    linkage_motion_request_of, campbell_request_of, intervals_request_of, motion_instants_of, &
+    response_request_of, &
     stability_request_of, transient_request_of
 
 contains

@@ -219,7 +219,8 @@ contains
     integer :: k
 
     associate (mechanism => run%results%mechanism, stability => run%results%found%stability)
-      call find_stability_of(mechanism%structure_t, stability_request_of(run%results%model, mechanism), &
+      call find_stability_of(mechanism%structure_t, stability_request_of(run%results%model, &
+        mechanism), &
         threads, store, stability)
       do k = 1, size(stability%at_speed)
         if (.not. allocated(stability%at_speed(k)%error)) cycle
@@ -237,7 +238,8 @@ contains
     integer :: k
 
     associate (mechanism => run%results%mechanism, intervals => run%results%found%intervals)
-      call find_intervals_of(mechanism%structure_t, intervals_request_of(run%results%model, mechanism), &
+      call find_intervals_of(mechanism%structure_t, intervals_request_of(run%results%model, &
+        mechanism), &
         threads, store, intervals)
       do k = 1, size(intervals%gap)
         call name_link(mechanism%names, intervals%gap(k)%error)
@@ -254,7 +256,8 @@ contains
     integer :: k
 
     associate (mechanism => run%results%mechanism, campbell => run%results%found%campbell)
-      call find_campbell_of(mechanism%structure_t, campbell_request_of(run%results%model, mechanism), &
+      call find_campbell_of(mechanism%structure_t, campbell_request_of(run%results%model, &
+        mechanism), &
         threads, store, campbell)
       do k = 1, size(campbell%at_speed)
         if (.not. allocated(campbell%at_speed(k)%error)) cycle

@@ -1,4 +1,5 @@
-!> What a linkage that is no four-bar can do: ranges of its first drive, swings of its links, strokes
+!> What a linkage that is no four-bar can do: ranges of its first drive, swings of its links,
+!! strokes
 !! of its sliders, time ratios, transmission and pressure angles.
 module limits_study
   use crank_limits, only: angle_of_body, crank_range_t, extremes_t, find_extremes, find_ranges, &
@@ -9,6 +10,7 @@ module limits_study
   private
 
   public :: limits_result_t, find_limits, time_ratio
+  public :: quantity_t, angle_of_body, place_of_slider, pressure_of_slider, transmission_of_dyad
 
   !> Ranges, and the extremes of every quantity over each.
   type :: limits_result_t

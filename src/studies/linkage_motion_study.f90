@@ -6,14 +6,16 @@ module linkage_motion_study
   use kinds, only: long, wp
   use linkage_motions, only: end_linkage_motion, linkage_motion_t, linkage_motion_tolerance, &
     linkage_sample_t, move_linkage_until, sample_linkage_motion, start_linkage_motion
-  use linkage_rates, only: no_stop, stop_dead_point, stop_many_steps, stop_no_inertia, stop_too_fast
+  use linkage_rates, only: free_drives, no_stop, stop_dead_point, stop_many_steps, &
+    stop_no_inertia, stop_too_fast
   use linkages, only: linkage_t
   use rigid_bodies, only: rigid_bodies_of
   implicit none (type, external)
   private
 
   public :: linkage_motion_request_t, linkage_motion_result_t, linkage_motion_under_way_t, &
-    begin_linkage_motion, continue_linkage_motion, finish_linkage_motion, linkage_motion_tolerance
+    begin_linkage_motion, continue_linkage_motion, finish_linkage_motion, &
+    linkage_motion_tolerance, free_drives
 
   type :: linkage_motion_request_t
     real(wp) :: start = 0.0_wp           !! of the first drive [deg] or [m]

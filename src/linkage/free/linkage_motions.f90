@@ -1,4 +1,5 @@
-!> Forward dynamics of any linkage: its motion under a drive, resistances, gravity and constant loads,
+!> Forward dynamics of any linkage: its motion under a drive, resistances, gravity and constant
+!! loads,
 !! in the coordinates of its free drives.
 !!
 !! The energy is never corrected, so that its balance measures the accuracy of the motion.
@@ -60,7 +61,8 @@ contains
   !! Errors: the start is out of reach or a dead point; no memory.
   subroutine start_linkage_motion(linkage, rigid, is_free, drive, taken, damping, crank, speed, &
     duration, motion, error)
-    type(linkage_t), intent(in) :: linkage           !! of any kind, with loads and a path if it needs
+    type(linkage_t), intent(in) :: linkage           !! of any kind, with loads and a path if it
+                                                     !! needs
                                                      !! one
     type(rigid_body_t), intent(in) :: rigid(:)       !! (bodies) of the linkage
     logical, intent(in) :: is_free(:)                !! (drives) marked; the first always is

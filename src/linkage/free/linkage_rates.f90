@@ -1,8 +1,10 @@
 !> Equations of motion of any linkage that moves by itself, in the coordinates of its free drives.
 !!
-!! The first drive is free, and so are those that the deck calls free; the others are held, or geared
+!! The first drive is free, and so are those that the deck calls free; the others are held, or
+!! geared
 !! to the first. With the velocities `h_k` of pins and bodies per rate of coordinate k,
-!! `Σ_l M_kl c̈_l = Q_k − Σ m h_k·b`, where M_kl is `Σ m h_k·h_l` over all masses, Q_k the loads along
+!! `Σ_l M_kl c̈_l = Q_k − Σ m h_k·b`, where M_kl is `Σ m h_k·h_l` over all masses, Q_k the loads
+!! along
 !! h_k, and b the accelerations with the present rates and no c̈.
 module linkage_rates
   use adaptive_integration, only: rate_system_t
@@ -46,7 +48,8 @@ module linkage_rates
     class(drive_t), allocatable :: drive        !! torque or force on the first drive
     real(wp), allocatable :: taken(:)           !! (bodies) resisting torques [N m]
     real(wp), allocatable :: damping(:)         !! (bodies) of their turning [N m s]
-    real(wp) :: turned = 0.0_wp                 !! whole turns of the first drive that its coordinate
+    real(wp) :: turned = 0.0_wp                 !! whole turns of the first drive that its
+                                                !! coordinate
                                                 !! does not contain [deg]
     real(wp) :: period = 0.0_wp                 !! of the positions [deg]; 0: none
     type(pose_t) :: pose                        !! the last one, from `reference_point`: a start for
@@ -238,7 +241,8 @@ contains
     end do
   end subroutine sum_up
 
-  !> Kinetic energy, and potential energy of gravity and constant forces, 0 at the global origin [J].
+  !> Kinetic energy, and potential energy of gravity and constant forces, 0 at the global origin
+  !! [J].
   subroutine energies_at(self, coordinates, rates, kinetic, potential, error)
     class(moving_linkage_t), intent(in) :: self
     real(wp), intent(in) :: coordinates(:)   !! (free drives) [rad] or [m]
