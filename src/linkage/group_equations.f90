@@ -2,17 +2,18 @@
 !! derivatives along the motion.
 !!
 !! The unknowns of a group are the positions of its pins and the angles of its bodies. With u from
-!! the first pin of a body to another one, a the unit vector there and n its normal, both turning
-!! with the body, the pin demands `a·u = r` and `n·u = 0`; a pin on the line of a body `m·u = c` with
-!! the normal m of the line. One matrix of gradients serves positions (Newton), velocities and
-!! accelerations, and, transposed, the forces.
+!! the first pin of a body to another one, and n the normal of the unit vector there, which turns
+!! with the body, the pin demands `|u| = r` and `n·u = 0`; a pin on the line of a body `m·u = c`
+!! with the normal m of the line. The distance does not depend on the angle: a group may place pins
+!! before the bodies between them are turned. One matrix of gradients serves positions (Newton),
+!! velocities and accelerations, and, transposed, the forces.
 module group_equations
   use constants, only: degree
   use dense_factor, only: dense_factor_t, factorize
   use kinds, only: wp
   use linkages, only: cross, demands_angle, demands_drive, demands_length, demands_line, &
-    demands_turn, drives_angle, drive_t, drives_length, drives_slider, equation_t, group_t, linkage_t, &
-    normal_to, turned
+    demands_turn, drives_angle, drive_t, drives_length, drives_slider, equation_t, group_t, &
+    linkage_t, normal_to, turned
   use pose_types, only: pose_t
   implicit none (type, external)
   private
@@ -42,10 +43,11 @@ contains
     real(wp) :: axis(2)
 
     select case (equation%kind)
-    case (demands_length, demands_angle)
+    case (demands_length)
+      call of_distance(linkage, pose, equation%body, equation%pin, gradient)
+    case (demands_angle)
       axis = turned(equation%place, pose%direction(:, equation%body))
-      axis = axis/norm2(axis)
-      if (equation%kind == demands_angle) axis = normal_to(axis)
+      axis = normal_to(axis/norm2(axis))
       call along_body(linkage, pose, equation%body, equation%pin, axis, gradient)
     case (demands_line)
       call on_line(linkage, pose, equation%number, .true., gradient)
@@ -62,12 +64,35 @@ contains
         case (drives_slider)
           call on_line(linkage, pose, drive%slider, .false., gradient)
         case (drives_length)
-          call along_body(linkage, pose, drive%body, linkage%bodies(drive%body)%last_pin, &
-            pose%direction(:, drive%body), gradient)
+          call of_distance(linkage, pose, drive%body, linkage%bodies(drive%body)%last_pin, &
+            gradient)
         end select
       end associate
     end select
   end subroutine find_gradient
+
+  !> `|u|` with u from the first pin of a body to another one.
+  pure subroutine of_distance(linkage, pose, body, pin, gradient)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    integer, intent(in) :: body !! number
+    integer, intent(in) :: pin  !! at the end of u
+    type(gradient_t), intent(inout) :: gradient
+
+    real(wp) :: u(2), distance
+
+    u = pose%pin(:, pin) - pose%pin(:, linkage%bodies(body)%first_pin)
+    distance = norm2(u)
+    if (distance > 0.0_wp) then
+      u = u/distance
+    else
+      u = pose%direction(:, body)
+    end if
+    gradient%pin = [pin, linkage%bodies(body)%first_pin]
+    gradient%by_pin(:, 1) = u
+    gradient%by_pin(:, 2) = -u
+    gradient%body(1) = body
+  end subroutine of_distance
 
   !> `e·u` with e turning with a body, and u from its first pin to another one.
   pure subroutine along_body(linkage, pose, body, pin, e, gradient)
@@ -122,15 +147,13 @@ contains
 
     misfit = 0.0_wp
     select case (equation%kind)
-    case (demands_length, demands_angle)
+    case (demands_length)
+      u = pose%pin(:, equation%pin) - pose%pin(:, linkage%bodies(equation%body)%first_pin)
+      misfit = norm2(u) - norm2(equation%place)
+    case (demands_angle)
       axis = turned(equation%place, pose%direction(:, equation%body))
       u = pose%pin(:, equation%pin) - pose%pin(:, linkage%bodies(equation%body)%first_pin)
-      if (equation%kind == demands_angle) then
-        misfit = cross(axis, u)/norm2(axis)
-      else
-        ! From the difference of the vectors: nothing is lost where they are equal.
-        misfit = dot_product(axis, u - axis)/norm2(axis)
-      end if
+      misfit = cross(axis, u)/norm2(axis)
     case (demands_line)
       call world_line(linkage, pose, equation%number, origin, axis, u)
       misfit = cross(axis, pose%pin(:, linkage%sliders(equation%number)%pin) - u)
@@ -155,7 +178,7 @@ contains
         case (drives_length)
           u = pose%pin(:, linkage%bodies(drive%body)%last_pin) - pose%pin(:, &
             linkage%bodies(drive%body)%first_pin)
-          misfit = dot_product(pose%direction(:, drive%body), u) - drive_value(drive, crank)
+          misfit = norm2(u) - drive_value(drive, crank)
         end select
       end associate
     end select
@@ -176,14 +199,28 @@ contains
 
     curvature = 0.0_wp
     call find_gradient(linkage, equation, pose, gradient)
-    ! Only those along or across the axis of a body that turns.
+    ! Only distances, and those along or across the axis of a body that turns.
     if (gradient%pin(1) == 0 .or. gradient%body(1) == 0) return
     e = gradient%by_pin(:, 1)
     h = turn(gradient%body(1))
     u = pose%pin(:, gradient%pin(1)) - pose%pin(:, gradient%pin(2))
     w = pin_rate(:, gradient%pin(1)) - pin_rate(:, gradient%pin(2))
+    if (is_distance(linkage, equation)) then
+      curvature = cross(e, w)**2/norm2(u)
+      return
+    end if
     curvature = 2.0_wp*h*dot_product(normal_to(e), w) - h**2*dot_product(e, u)
   end function curvature_of
+
+  !> Whether an equation is about a distance, whatever the angle of the body between its ends.
+  pure function is_distance(linkage, equation) result(is)
+    type(linkage_t), intent(in) :: linkage
+    type(equation_t), intent(in) :: equation
+    logical :: is
+
+    is = equation%kind == demands_length
+    if (equation%kind == demands_drive) is = linkage%drives(equation%number)%kind == drives_length
+  end function is_distance
 
   !> Coordinate of a drive [deg] or [m].
   pure function drive_value(drive, crank) result(value)
