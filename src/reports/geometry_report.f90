@@ -3,7 +3,6 @@ module geometry_report
   use kinds, only: wp
   use linkage_notes, only: notes_on_linkage
   use points_report, only: point_names
-  use pose_types, only: pins_of_body
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: name_cell
@@ -86,7 +85,8 @@ contains
       end do
       do body = 1, size(linkage%bodies)
         call add_gap(rows, 1)
-        pins = pins_of_body(linkage%bodies(body))
+        pins = [linkage%bodies(body)%first_pin, linkage%bodies(body)%last_pin, &
+          linkage%bodies(body)%further%pin]
         do i = 1, size(pins)
           call add_place(layout, found%crank(position), names(body)%text, "pin", &
             pin_names(pins(i))%text, found%pin(:, pins(i), position), rows)
