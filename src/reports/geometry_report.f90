@@ -86,7 +86,8 @@ contains
       end do
       do body = 1, size(linkage%bodies)
         call add_gap(rows, 1)
-        pins = pins_of_body(linkage%bodies(body))
+        pins = [linkage%bodies(body)%first_pin, linkage%bodies(body)%last_pin, &
+          linkage%bodies(body)%further%pin]
         do i = 1, size(pins)
           call add_place(layout, found%crank(position), names(body)%text, "pin", &
             pin_names(pins(i))%text, found%pin(:, pins(i), position), rows)

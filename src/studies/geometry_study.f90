@@ -16,8 +16,7 @@ module geometry_study
     real(wp), allocatable :: pin(:, :, :)      !! (2, pins, positions) in global axes [m]
     real(wp), allocatable :: point(:, :, :)    !! (2, points, positions) in global axes [m]
     real(wp), allocatable :: ahead(:, :, :)    !! (2, sliders, positions) 1 m ahead of each slider
-                                               !! on
-                                               !! its line, in global axes [m]
+                                               !! on its line, in global axes [m]
   end type geometry_result_t
 
 contains
