@@ -10,8 +10,10 @@
 module assembly_plan
   use kinds, only: wp
   use linkages, only: body_t, cross, demands_angle, demands_drive, demands_length, demands_line, &
-    demands_turn, drives_angle, drives_length, drives_slider, equation_t, group_t, groups_by_newton, &
-    groups_carried, groups_cross_slide, groups_dyad, groups_on_line, groups_placed, groups_spanned, &
+    demands_turn, drives_angle, drives_length, drives_slider, equation_t, group_t, &
+    groups_by_newton, &
+    groups_carried, groups_cross_slide, groups_dyad, groups_on_line, groups_placed, &
+    groups_spanned, &
     groups_through_pin, groups_turned, groups_two_lines, linkage_t, redundancy_t, turned
   use pose_types, only: pins_of_body, place_of_pin
   use unknown_matching, only: matching_t, match_unknowns, source_component
@@ -27,7 +29,8 @@ module assembly_plan
   !! names other pins than those that carry the dyad; a drive that moves nothing; pins that only a
   !! drawing can place.
   integer, parameter :: problem_too_free = 1, problem_not_driven = 2, problem_braced = 3, &
-    problem_coupler_driven = 4, problem_no_side = 5, problem_other_bases = 6, problem_drive_idle = 7, &
+    problem_coupler_driven = 4, problem_no_side = 5, problem_other_bases = 6, &
+    problem_drive_idle = 7, &
     problem_not_drawn = 8
 
   !> On which side a pin lies, of two ways to place it.
@@ -388,7 +391,8 @@ contains
       do b = 1, size(linkage%bodies)
         if (done%body(b)) cycle
         if (drive_of_length(linkage, b) > 0) cycle
-        if (known_pin(linkage, b, done) > 0 .and. has_pin(linkage%bodies(b), p)) bodies = [bodies, b]
+        if (known_pin(linkage, b, done) > 0 .and. has_pin(linkage%bodies(b), &
+          p)) bodies = [bodies, b]
       end do
       do s = 1, size(linkage%sliders)
         if (done%slider(s) .or. linkage%sliders(s)%pin /= p) cycle
@@ -670,7 +674,9 @@ contains
     call open_equations(linkage, done, equations)
     call find_dependence(linkage, equations, unknown_pins, unknown_bodies, has)
     matching = match_unknowns(has)
-    part = source_component(has, matching, [([i, i], i=1, np), (np + i, i=1, size(unknown_bodies))])
+    part = source_component(has, matching, [([i, i], i=1, np), (np + i, i=1, &
+      size(unknown_bodies))], [(0, i=1, np), (findloc(unknown_pins, linkage%bodies( &
+      unknown_bodies(i))%first_pin, dim=1), i=1, size(unknown_bodies))])
     has_found = size(part) > 0
     if (.not. has_found) then
       allocate (problem)
@@ -998,7 +1004,8 @@ contains
     components = turned(a, [axis(1), -axis(2)])
   end function turned_back
 
-  !> The pins in the order in which the bodies have them: first and last ones, further ones, those of
+  !> The pins in the order in which the bodies have them: first and last ones, further ones, those
+  !! of
   !! sliders alone.
   pure subroutine order_pins(linkage, body_order, pin_order)
     type(linkage_t), intent(in) :: linkage

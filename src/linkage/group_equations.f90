@@ -3,7 +3,8 @@
 !!
 !! The unknowns of a group are the positions of its pins and the angles of its bodies. With u from
 !! the first pin of a body to another one, a the unit vector there and n its normal, both turning
-!! with the body, the pin demands `a·u = r` and `n·u = 0`; a pin on the line of a body `m·u = c` with
+!! with the body, the pin demands `a·u = r` and `n·u = 0`; a pin on the line of a body `m·u = c`
+!! with
 !! the normal m of the line. One matrix of gradients serves positions (Newton), velocities and
 !! accelerations, and, transposed, the forces.
 module group_equations
@@ -11,7 +12,8 @@ module group_equations
   use dense_factor, only: dense_factor_t, factorize
   use kinds, only: wp
   use linkages, only: cross, demands_angle, demands_drive, demands_length, demands_line, &
-    demands_turn, drives_angle, drive_t, drives_length, drives_slider, equation_t, group_t, linkage_t, &
+    demands_turn, drives_angle, drive_t, drives_length, drives_slider, equation_t, group_t, &
+    linkage_t, &
     normal_to, turned
   use pose_types, only: pose_t
   implicit none (type, external)

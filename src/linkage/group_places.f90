@@ -1,4 +1,5 @@
-!> Places groups other than RRR dyads: in closed form, from circles and lines, or by Newton's method.
+!> Places groups other than RRR dyads: in closed form, from circles and lines, or by Newton's
+!! method.
 module group_places
   use dense_factor, only: dense_factor_t, solve
   use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error

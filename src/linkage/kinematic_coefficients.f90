@@ -2,7 +2,8 @@
 !! acceleration of the crank.
 !!
 !! Without a crank, or with a driven slider, θ2 is the coordinate of the first drive, an angle in
-!! radians or a length. With `h = dθ/dθ2` and `h' = d²θ/dθ2²` every angular velocity is `h ω2` and every angular
+!! radians or a length. With `h = dθ/dθ2` and `h' = d²θ/dθ2²` every angular velocity is `h ω2` and
+!! every angular
 !! acceleration `h α2 + h' ω2²`; the same holds for points. Setting ω2 = 1 and α2 = 0 in (2.22)
 !! and (2.23), (2.35) to (2.38) of Ulker (2010) gives h and h'.
 module kinematic_coefficients
@@ -15,7 +16,8 @@ module kinematic_coefficients
   implicit none (type, external)
   private
 
-  public :: kinematic_coefficients_t, find_kinematic_coefficients, angular_velocity, &
+  public :: kinematic_coefficients_t, find_kinematic_coefficients, find_velocities, &
+    angular_velocity, &
     angular_acceleration
 
   !> First and second derivatives with respect to the crank angle θ2.
@@ -29,10 +31,45 @@ module kinematic_coefficients
 contains
 
   !> Kinematic coefficients of all bodies and pins, group by group.
-  pure function find_kinematic_coefficients(linkage, pose) result(coefficients)
-    type(linkage_t), intent(in) :: linkage !! lengths and dyads
+  !!
+  !! With rates of its drives, which then need not follow the first one: velocities, and
+  !! accelerations
+  !! without any of the drives.
+  pure function find_kinematic_coefficients(linkage, pose, rates) result(coefficients)
+    type(linkage_t), intent(in) :: linkage !! bodies, groups and what joins them
     type(pose_t), intent(in) :: pose       !! away from dead points
+    real(wp), intent(in), optional :: rates(:) !! (drives) [rad/s] or [m/s]; absent: per rate of the
+                                               !! first
     type(kinematic_coefficients_t) :: coefficients
+
+    real(wp) :: drives(size(linkage%drives))
+    integer :: i
+
+    if (present(rates)) then
+      drives = rates
+    else
+      drives = [(drive_rate(linkage, i), i=1, size(drives))]
+    end if
+    call find_coefficients(linkage, pose, drives, .true., coefficients)
+  end function find_kinematic_coefficients
+
+  !> Velocities of pins and bodies alone, with rates of the drives.
+  pure subroutine find_velocities(linkage, pose, rates, coefficients)
+    type(linkage_t), intent(in) :: linkage !! bodies, groups and what joins them
+    type(pose_t), intent(in) :: pose       !! away from dead points
+    real(wp), intent(in) :: rates(:)       !! (drives) [rad/s] or [m/s]
+    type(kinematic_coefficients_t), intent(out) :: coefficients !! accelerations are 0, or of no use
+
+    call find_coefficients(linkage, pose, rates, .false., coefficients)
+  end subroutine find_velocities
+
+  !> Group by group.
+  pure subroutine find_coefficients(linkage, pose, rates, with_slopes, coefficients)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    real(wp), intent(in) :: rates(:)
+    logical, intent(in) :: with_slopes !! accelerations are wanted
+    type(kinematic_coefficients_t), intent(out) :: coefficients
 
     integer :: i
 
@@ -45,10 +82,12 @@ contains
     coefficients%pin = 0.0_wp
     coefficients%pin_slope = 0.0_wp
     if (linkage%has_crank) then
-      coefficients%turn(1) = 1.0_wp
+      coefficients%turn(1) = rates(1)
       associate (crank => linkage%bodies(1))
-        coefficients%pin(:, crank%last_pin) = crank%length*normal_to(pose%direction(:, 1))
-        coefficients%pin_slope(:, crank%last_pin) = -crank%length*pose%direction(:, 1)
+        coefficients%pin(:, crank%last_pin) = rates(1)*(crank%length*normal_to( &
+          pose%direction(:, 1)))
+        coefficients%pin_slope(:, crank%last_pin) = -rates(1)**2*(crank%length* &
+          pose%direction(:, 1))
       end associate
     end if
     do i = 1, size(linkage%groups)
@@ -58,12 +97,13 @@ contains
       case (groups_carried)
         call move_carried(linkage, linkage%groups(i), pose, coefficients)
       case default
-        call move_group(linkage, linkage%groups(i), pose, coefficients)
+        call move_group(linkage, linkage%groups(i), pose, rates, with_slopes, coefficients)
       end select
     end do
-  end function find_kinematic_coefficients
+  end subroutine find_coefficients
 
-  !> Pins of a body that moves already: x' = x_first' + h n and x'' = x_first'' + h' n − h² r, with r
+  !> Pins of a body that moves already: x' = x_first' + h n and x'' = x_first'' + h' n − h² r, with
+  !! r
   !! from its first pin and n the same vector turned by 90°.
   pure subroutine move_carried(linkage, group, pose, coefficients)
     type(linkage_t), intent(in) :: linkage
@@ -87,10 +127,12 @@ contains
 
   !> First and second derivatives of the unknowns of a group, from its equations: `J q' = c' − J₀
   !! q₀'` and `J q'' = −q'ᵀ ∇²C q' − J₀ q₀''`, where q₀ is placed before and c' the rate of drives.
-  pure subroutine move_group(linkage, group, pose, coefficients)
+  pure subroutine move_group(linkage, group, pose, rates, with_slopes, coefficients)
     type(linkage_t), intent(in) :: linkage
     type(group_t), intent(in) :: group
     type(pose_t), intent(in) :: pose
+    real(wp), intent(in) :: rates(:)
+    logical, intent(in) :: with_slopes
     type(kinematic_coefficients_t), intent(inout) :: coefficients
 
     type(dense_factor_t) :: factor
@@ -104,10 +146,11 @@ contains
     do i = 1, size(group%equations)
       call find_gradient(linkage, group%equations(i), pose, gradient)
       right(i) = -along(gradient, coefficients%pin, coefficients%turn)
-      if (group%equations(i)%kind == demands_drive) right(i) = right(i) + drive_rate(linkage, &
-        group%equations(i)%number)
+      if (group%equations(i)%kind == demands_drive) right(i) = right(i) + &
+        rates(group%equations(i)%number)
     end do
     call take(group, scales, solve(factor, right), coefficients%pin, coefficients%turn)
+    if (.not. with_slopes) return
     do i = 1, size(group%equations)
       call find_gradient(linkage, group%equations(i), pose, gradient)
       right(i) = -along(gradient, coefficients%pin_slope, coefficients%turn_slope) - &

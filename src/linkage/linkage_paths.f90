@@ -2,7 +2,8 @@
 !! whole turns of the first drive.
 !!
 !! From station to station Newton's method starts from the velocities and accelerations of the last
-!! one. A step is halved unless it converges, every determinant keeps its sign, and the correction is
+!! one. A step is halved unless it converges, every determinant keeps its sign, and the correction
+!! is
 !! small compared with the way: the linkage cannot leave its branch.
 module linkage_paths
   use errors, only: error_of_input, error_t, set_error
@@ -122,6 +123,11 @@ contains
     end if
     call march(linkage, start, pose, -1.0_wp, span, down)
     call join(down, up, linkage%path)
+    ! Within less than a turn an angle is the same with and without whole turns.
+    associate (path => linkage%path)
+      if (linkage%drives(1)%kind == drives_angle .and. path%crank(size(path%crank)) - &
+        path%crank(1) < 360.0_wp) path%period = 360.0_wp
+    end associate
   end subroutine follow_path
 
   !> The largest extent of a linkage [m].

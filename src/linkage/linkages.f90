@@ -1,7 +1,9 @@
-!> A planar linkage in terms of mechanics: pins, bodies between them, sliders, drives, and the groups
+!> A planar linkage in terms of mechanics: pins, bodies between them, sliders, drives, and the
+!! groups
 !! in which it is placed, moved and solved.
 !!
-!! Everything but `new_four_bar` works for any linkage. The groups are found by `assembly_plan`. Most
+!! Everything but `new_four_bar` works for any linkage. The groups are found by `assembly_plan`.
+!! Most
 !! are dyads: two bodies that meet in a pin, each attached to a pin whose motion is already known.
 module linkages
   use kinds, only: wp
@@ -74,6 +76,8 @@ module linkages
     real(wp) :: point(2) = 0.0_wp                !! of the line: in global axes, or from the first
                                                  !! pin in the axes of the body [m]
     real(wp) :: direction(2) = [1.0_wp, 0.0_wp]  !! unit vector, likewise
+    real(wp) :: inertia = 0.0_wp                 !! of the block, which turns with the body; among
+                                                 !! the lumps of the body [kg m²]
   end type slider_t
 
   !> Two bodies that turn together, or a body that does not turn.
@@ -102,7 +106,8 @@ module linkages
     real(wp), allocatable :: pin(:, :)  !! (2, pins) in global axes [m]; zero where not drawn
   end type drawing_t
 
-  !> What bodies, sliders, turns and drives demand. A pin of a body demands two things: `demands_length`,
+  !> What bodies, sliders, turns and drives demand. A pin of a body demands two things:
+  !! `demands_length`,
   !! its distance from the first pin, and `demands_angle`, its direction from there.
   type :: equation_t
     integer :: kind = 0              !! one of the demands_… constants
@@ -230,7 +235,8 @@ contains
   end function mobility
 
   !> The place from which positions are counted while they are found, so that a far-off origin of
-  !! the drawing costs no digits: the crank's pivot; without a crank a ground pivot, or a fixed line.
+  !! the drawing costs no digits: the crank's pivot; without a crank a ground pivot, or a fixed
+  !! line.
   pure function reference_point(linkage) result(point)
     type(linkage_t), intent(in) :: linkage !! its pins and sliders
     real(wp) :: point(2)                   !! in global axes [m]

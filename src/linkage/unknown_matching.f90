@@ -74,11 +74,13 @@ contains
 
   !> The smallest part of the unknowns that its own equations determine, nothing else being known;
   !! of several, that with the lowest number. Empty if every part has loose unknowns.
-  pure function source_component(has, matching, node) result(part)
+  pure function source_component(has, matching, node, companion) result(part)
     logical, intent(in) :: has(:, :)           !! (unknowns, equations)
     type(matching_t), intent(in) :: matching   !! of these
     integer, intent(in) :: node(:)             !! (unknowns) number of what they belong to: the two
                                                !! of a pin to one; ascending from 1
+    integer, intent(in) :: companion(:)        !! (nodes) another one without which it is of no use,
+                                               !! as a body is without its first pin; 0: none
     integer, allocatable :: part(:)            !! ascending numbers of these
 
     logical, allocatable :: needs(:, :), reached(:)
@@ -95,6 +97,9 @@ contains
       do k = 1, size(has, 1)
         if (has(k, matching%equation_of(u))) needs(node(k), node(u)) = .true.
       end do
+    end do
+    do i = 1, n
+      if (companion(i) > 0) needs(companion(i), i) = .true.
     end do
     do i = 1, n
       reached = needs(:, i)

@@ -8,7 +8,6 @@ module attached_parts
   use linkages, only: body_t, linkage_t, lump_t, turned
   use models, only: inertia_lumped, link_line_density, link_mass, model_t
   use name_index, only: find_name, name_index_t
-  use pose_types, only: place_of_pin
   use shear, only: link_rotary_inertia
   implicit none (type, external)
   private
@@ -56,9 +55,9 @@ contains
             model%masses(k)%place), model%masses(k)%inertia))
         end do
         do k = 1, size(model%sliders)
-          if (model%sliders(k)%turned_link /= links(i) .or. model%sliders(k)%inertia <= 0.0_wp) cycle
-          call append_lump(body, lump_t(0.0_wp, place_of_pin(body, find_name(pins, &
-            model%sliders(k)%pin%text)), model%sliders(k)%inertia))
+          ! A block turns with the link that it slides along.
+          if (model%sliders(k)%link /= links(i) .or. model%sliders(k)%inertia <= 0.0_wp) cycle
+          call append_lump(body, lump_t(0.0_wp, [0.0_wp, 0.0_wp], model%sliders(k)%inertia))
         end do
       end associate
     end do

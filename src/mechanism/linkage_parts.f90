@@ -110,6 +110,10 @@ contains
     do i = 1, size(model%forces)
       call add_pin(model%forces(i)%pin, pins)
     end do
+    if (is_four_bar(model)) return
+    do i = 1, size(model%drawn_pins)
+      call add_pin(model%drawn_pins(i)%pin, pins)
+    end do
   end subroutine list_pins
 
   !> Adds a pin to a list that does not have it.
@@ -190,6 +194,8 @@ contains
       body%first_pin = find_name(pins, link%pins(1)%text)
       body%last_pin = find_name(pins, link%pins(2)%text)
       body%length = places(1, 2)
+      ! The length of a ram is its drive's; here it only stands for a direction.
+      if (.not. body%length > 0.0_wp) body%length = 1.0_wp
       body%bends = .not. link%rigid
       allocate (body%lumps(0), body%further(size(link%pins) - 2 + size(points)))
       do i = 3, size(link%pins)
@@ -244,6 +250,7 @@ contains
           slider%direction = direction_at(model%guides(card%guide)%degrees)
         else
           slider%body = findloc(link, card%link, dim=1)
+          slider%inertia = card%inertia
         end if
       end associate
     end do

@@ -9,6 +9,7 @@ module mechanisms
   use linkages, only: is_dyad_linkage
   use models, only: inertia_lumped, is_four_bar, model_t
   use name_index, only: name_index_t, new_name_index
+  use pose_types, only: pins_of_body
   use response_parts, only: body_gauge_t, gauges_of, response_points_of
   use shear, only: link_shear_stiffness
   use structures, only: structure_t
@@ -18,7 +19,7 @@ module mechanisms
   implicit none (type, external)
   private
 
-  public :: mechanism_t, new_mechanism, mechanism_of
+  public :: mechanism_t, new_mechanism, mechanism_of, pins_of_body
 
   !> The structure of a deck, with the deck's names of its parts.
   type, extends(structure_t) :: mechanism_t

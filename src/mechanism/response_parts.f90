@@ -66,7 +66,8 @@ contains
       allocate (gauges(size(model%gauges)))
       do i = 1, size(gauges)
         associate (card => model%gauges(i))
-          gauges(i) = gauge_on(model, links, linkage, card%link, card%at, merge(-1, 1, card%side == side_left))
+          gauges(i) = gauge_on(model, links, linkage, card%link, card%at, merge(-1, 1, &
+            card%side == side_left))
           gauges(i)%name = card%name%text
         end associate
       end do

@@ -18,7 +18,8 @@ module model_reader
   use loop_finder, only: find_loop
   use materials, only: read_material
   use mesh_checks, only: check_meshes
-  use models, only: drives_length, is_four_bar, is_loaded, is_moving, model_t, needs_mesh, report_number
+  use models, only: drives_length, is_four_bar, is_loaded, is_moving, model_t, needs_mesh, &
+    report_number
   use motor_cards, only: read_motor, read_resistance
   use name_checks, only: check_names
   use output_units, only: new_output_units, output_units_t, table_name

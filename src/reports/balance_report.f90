@@ -20,7 +20,8 @@ module balance_report
   implicit none (type, external)
   private
 
-  public :: balance_notes, add_balance, harmonics_notes, harmonics_words, add_harmonics
+  public :: append_harmonics_notes, balance_notes, add_balance, harmonics_notes, &
+    harmonics_words, add_harmonics
 
   character(len=*), parameter :: linkage_names(2) = [character(len=8) :: "given", "balanced"]
 
@@ -83,8 +84,10 @@ contains
           call append_string(list, "link "//name//" needs no counterweight")
           return
         end if
-        from = mechanism%pin_names(merge(body%first_pin, body%last_pin, body%heading(1) > 0.0_wp))%text
-        to = mechanism%pin_names(merge(body%last_pin, body%first_pin, body%heading(1) > 0.0_wp))%text
+        from = mechanism%pin_names(merge(body%first_pin, body%last_pin, &
+          body%heading(1) > 0.0_wp))%text
+        to = mechanism%pin_names(merge(body%last_pin, body%first_pin, &
+          body%heading(1) > 0.0_wp))%text
         call append_string(list, "counterweight of link "//name//": mass x radius "// &
           shortest_text(from_si(norm2(weight%first_moment), first_moment))//" "// &
           first_moment%name//", at "//shortest_text(atan2(weight%first_moment(2), &
@@ -136,9 +139,17 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with its harmonics computed
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
+    notes = quantity_notes(variant)
+    call append_harmonics_notes(variant, notes)
+  end subroutine harmonics_notes
+
+  !> What harmonics are, and how many samples give them; or the reason why the table has no rows.
+  pure subroutine append_harmonics_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant         !! with its harmonics computed
+    type(string_t), allocatable, intent(inout) :: notes(:) !! to which lines are appended
+
     type(unit_t) :: force, moment
 
-    notes = quantity_notes(variant)
     force = table_unit("force", variant%model%outputs)
     moment = table_unit("moment", variant%model%outputs)
     associate (found => variant%found%harmonics)
@@ -157,7 +168,7 @@ contains
       if (found%change > unsettled) call append_string(notes, "harmonics have not converged: "// &
         "the crank passes close to a dead point, or the shaking force through zero")
     end associate
-  end subroutine harmonics_notes
+  end subroutine append_harmonics_notes
 
   !> The words in the columns `linkage` and `quantity`.
   pure function harmonics_words() result(lists)
@@ -184,7 +195,7 @@ contains
     if (.not. variant%found%harmonics%has_cycle) return
     do k = 1, size(variant%model%speed%value)
       if (k > 1) call add_gap(rows, 2)
-      do i = 1, size(linkage_names)
+      do i = 1, size(variant%found%harmonics%of, 2)
         do q = 1, quantity_count
           ! The unit depends on the quantity of the row, not on the column.
           unit_value = from_si(1.0_wp, table_factor(trim(merge("moment", "force ", is_moment(q))), &

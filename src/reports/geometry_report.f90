@@ -2,6 +2,7 @@
 module geometry_report
   use kinds, only: wp
   use linkage_notes, only: notes_on_linkage
+  use mechanisms, only: pins_of_body
   use points_report, only: point_names
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t

@@ -2,7 +2,6 @@
 module joints_report
   use joint_study, only: drives_at_speed, joint_t, joints_at_speed
   use kinds, only: wp
-  use linkages, only: drives_angle
   use drive_cards, only: moves_along
   use load_notes, only: acceleration_note, append_load_notes
   use models, only: model_t
@@ -17,7 +16,7 @@ module joints_report
   private
 
   public :: joints_notes, joint_owners, add_joints, drives_notes, drive_names, drive_columns, &
-    add_drives, add_shaking
+    add_drives, add_shaking, add_centres
 
 contains
 
@@ -26,8 +25,8 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with its mechanism
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
-    call append_string(notes, "forces in global axes on the link at the pin; of a guide: by the "// &
-      "guide on the pin; of a block on a link: by the block on that link")
+    call append_string(notes, "forces in global axes on the link at the pin; of a guide: by "// &
+      "the guide on the pin; of a block on a link: by the block on that link")
     call append_string(notes, "moment: on the link, of a weld or of a block on which it cannot "// &
       "turn; counter-clockwise positive")
     call append_string(notes, acceleration_note(variant%model))
@@ -202,7 +201,7 @@ contains
       mixed = any(moves_along(model%drives%kind)) .and. .not. all(moves_along(model%drives%kind))
       do i = 1, size(values, 2)
         if (mixed) then
-          if (linkage%drives(i)%kind == drives_angle) then
+          if (.not. moves_along(model%drives(i)%kind)) then
             values(2, i) = from_si(values(2, i), model%outputs%rate)
             values(3, i) = from_si(values(3, i), table_factor("moment", model%outputs))
           else
@@ -234,5 +233,27 @@ contains
       end associate
     end associate
   end subroutine add_shaking
+
+  !> Appends the row of a position and speed: mass centre, shaking force and moment, force of the
+  !! first drive.
+  subroutine add_centres(variant, layout, position, speed, rows)
+    type(variant_results_t), intent(in) :: variant !! with its joints and mass centres computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list, with a pose
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which it is appended
+
+    real(wp) :: factor(3)
+
+    associate (model => variant%model, positions => variant%found%positions, &
+        joints => variant%found%joints)
+      associate (state => positions%state(position), omega => model%speed%value(speed))
+        factor = [omega**2, model%acceleration, 1.0_wp]
+        call add_row(rows, cells(layout, 1, [model%shown_speed(speed), positions%crank(position), &
+          variant%found%balance%centre(:, state), factor(1)*joints%shaking(:, 1, state) + &
+          factor(2)*joints%shaking(:, 2, state), dot_product(factor, joints%drive(1, :, state))]))
+      end associate
+    end associate
+  end subroutine add_centres
 
 end module joints_report

@@ -1,10 +1,7 @@
 !> Notes on the linkage, for the heads of tables and the log.
 module linkage_notes
-  use kinds, only: wp
-  use linkages, only: group_t, groups_carried, groups_cross_slide, groups_dyad, groups_on_line, &
-    groups_placed, groups_spanned, groups_through_pin, groups_turned, groups_two_lines
-  use mechanisms, only: mechanism_t
-  use text, only: append_string, plural, string_t, to_string
+  use plan_words, only: plan_notes
+  use text, only: append_string, string_t, to_string
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -60,70 +57,5 @@ contains
         "; 4: link "//names(3)%text//", angle from "//pins(4)%text//" to "//pins(3)%text
     end associate
   end function angle_note
-
-  !> How a linkage is placed: its links, drives and groups in their order.
-  pure function plan_notes(mechanism) result(notes)
-    type(mechanism_t), intent(in) :: mechanism !! of any kind
-    type(string_t), allocatable :: notes(:)
-
-    integer :: i
-
-    associate (linkage => mechanism%linkage)
-      call append_string(notes, "linkage of "//to_string(size(linkage%bodies) + 1)// &
-        " links with the ground, and "//plural(size(linkage%drives), "drive"))
-      if (linkage%has_crank) call append_string(notes, "placed: "//mechanism%names(1)%text// &
-        " turns about "//mechanism%pin_names(linkage%bodies(1)%first_pin)%text)
-      do i = 1, size(linkage%groups)
-        if (linkage%groups(i)%kind == groups_carried) cycle
-        call append_string(notes, "placed: "//group_words(mechanism, linkage%groups(i)))
-      end do
-      if (size(linkage%redundancies) > 0) call append_string(notes, "redundant: "// &
-        plural(size(linkage%redundancies), "condition")// &
-        " more than needed; forces between links cannot be told apart")
-    end associate
-  end function plan_notes
-
-  !> `B by coupler and follower, left of A -> O4 (RRR)`
-  pure function group_words(mechanism, group) result(words)
-    type(mechanism_t), intent(in) :: mechanism
-    type(group_t), intent(in) :: group
-    character(len=:), allocatable :: words
-
-    character(len=:), allocatable :: side
-    integer :: i
-
-    side = trim(merge("forward ", "backward", group%side > 0.0_wp))
-    associate (names => mechanism%names, pins => mechanism%pin_names)
-      select case (group%kind)
-      case (groups_dyad)
-        words = pins(group%middle)%text//" by "//names(group%body(1))%text//" and "// &
-          names(group%body(2))%text//", "//trim(merge("left ", "right", group%side > 0.0_wp))// &
-          " of "//pins(group%base(1))%text//" -> "//pins(group%base(2))%text//" (RRR)"
-      case (groups_on_line)
-        words = pins(group%middle)%text//" by "//names(group%body(1))%text//" and a slider, "// &
-          side//" (RRP)"
-      case (groups_through_pin)
-        words = names(group%body(1))%text//" by a block at "//pins(group%middle)%text//" (RPR)"
-      case (groups_two_lines)
-        words = pins(group%pins(1))%text//" by two sliders (PRP)"
-      case (groups_cross_slide)
-        words = names(group%body(1))%text//" by two sliders (PPR)"
-      case (groups_turned)
-        words = names(group%body(1))%text//" by its angle"
-      case (groups_spanned)
-        words = names(group%body(1))%text//" between "//pins(group%base(1))%text//" and "// &
-          pins(group%middle)%text
-      case (groups_placed)
-        words = pins(group%pins(1))%text//" by its drive"
-      case default
-        words = ""
-        do i = 1, size(group%bodies)
-          if (i > 1) words = words//", "
-          words = words//names(group%bodies(i))%text
-        end do
-        words = words//" together, by iterations"
-      end select
-    end associate
-  end function group_words
 
 end module linkage_notes

@@ -1,13 +1,12 @@
 !> `kinematics.dat` of linkages that are no four-bars: angle, angular velocity and acceleration of
 !! every link, a row each; and `pins.dat`: paths, velocities and accelerations of the pins.
 module links_report
-  use constants, only: degree
   use kinds, only: wp
   use linkage_notes, only: notes_on_linkage
+  use links_study, only: link_at_speed, pin_at_speed
   use load_notes, only: acceleration_note
   use mechanisms, only: mechanism_t
   use models, only: drives_length
-  use poses, only: body_angle
   use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t
   use table_rows, only: add_row, rows_t
   use tables, only: name_cell
@@ -90,9 +89,8 @@ contains
         do b = 1, size(mechanism%names)
           call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed), &
             positions%crank(position)])//name_cell(mechanism%names(b)%text, column_width(layout, &
-            3))//cells(layout, 4, [body_angle(mechanism%linkage, state%pose, b)/degree, &
-            state%coefficients%turn(b)*omega, state%coefficients%turn(b)* &
-            variant%model%acceleration + state%coefficients%turn_slope(b)*omega**2]))
+            3))//cells(layout, 4, link_at_speed(mechanism%linkage, state, b, omega, &
+            variant%model%acceleration)))
         end do
       end associate
     end associate
@@ -132,9 +130,8 @@ contains
           if (mechanism%linkage%is_ground(p)) cycle
           call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed), &
             positions%crank(position)])//name_cell(mechanism%pin_names(p)%text, &
-            column_width(layout, 3))//cells(layout, 4, [state%pose%pin(:, p), &
-            state%coefficients%pin(:, p)*omega, state%coefficients%pin(:, p)* &
-            variant%model%acceleration + state%coefficients%pin_slope(:, p)*omega**2]))
+            column_width(layout, 3))//cells(layout, 4, pin_at_speed(state, p, omega, &
+            variant%model%acceleration)))
         end do
       end associate
     end associate

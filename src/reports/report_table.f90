@@ -7,9 +7,10 @@
 !! on several threads at a time; therefore nothing that `add_item_rows` calls has a result of
 !! deferred length, for which gfortran 12 has one place for all threads.
 module report_table
-  use balance_report, only: add_balance, add_harmonics, balance_notes, harmonics_notes, &
+  use balance_report, only: add_balance, add_harmonics, append_harmonics_notes, balance_notes, &
+    harmonics_notes, &
     harmonics_words
-  use balance_study, only: find_balance
+  use balance_study, only: find_balance, find_centres
   use campbell_report, only: add_campbell, add_critical, campbell_notes, campbell_words, &
     critical_notes
   use drive_report, only: add_drive, drive_notes
@@ -21,13 +22,19 @@ module report_table
   use inertia_study, only: find_inertia_loads
   use intervals_report, only: add_intervals, interval_words, intervals_notes
   use joint_study, only: find_joints
-  use joints_report, only: add_drives, add_joints, add_shaking, drive_columns, drive_names, &
+  use joints_report, only: add_centres, add_drives, add_joints, add_shaking, drive_columns, &
+    drive_names, &
     drives_notes, joint_owners, joints_notes
+  use kinds, only: wp
+  use limits_report, only: add_limits, limits_notes, limits_words
+  use limits_study, only: find_limits
   use kinematics_report, only: add_kinematics, kinematics_notes
   use kinematics_study, only: find_kinematics
   use lagrange_report, only: add_lagrange, lagrange_notes
   use lagrange_study, only: find_lagrange_terms
   use link_cards, only: has_own_mass
+  use linkage_motion_report, only: add_linkage_motion, linkage_motion_columns, &
+    linkage_motion_count, linkage_motion_notes
   use linkage_report, only: add_linkage, linkage_remarks, linkage_words
   use linkage_study, only: find_linkage
   use links_report, only: add_links, add_pins, links_notes, pin_names, pins_notes, shown_crank
@@ -54,7 +61,8 @@ module report_table
   implicit none (type, external)
   private
 
-  public :: table_plan_t, reports, study_names, find_study, plan_table, table_notes, add_item_rows, &
+  public :: table_plan_t, reports, study_names, find_study, plan_table, table_notes, &
+    add_item_rows, &
     table_in_units
 
   !> A table as it is to be written.
@@ -68,8 +76,9 @@ module report_table
 
   !> All studies in the order in which they are made: some use the results of others. The last
   !! are made by `variant_runs`, some of them block by block or step by step.
-  character(len=*), parameter :: study_names(18) = [character(len=12) :: "kinematics", "geometry", &
-    "inertia", "points", "reactions", "joints", "lagrange", "balance", "harmonics", "linkage", "response", &
+  character(len=*), parameter :: study_names(19) = [character(len=12) :: "kinematics", "geometry", &
+    "inertia", "points", "reactions", "joints", "lagrange", "balance", "harmonics", "linkage", &
+    "limits", "response", &
     "stability", "intervals", "campbell", "transient", "motion", "frequencies", "loci"]
 
   !> Tables of the elastic response with rows for every position.
@@ -77,8 +86,8 @@ module report_table
     "drive"]
 
   !> Tables of linkages that are no four-bars, with rows of their own for every position.
-  character(len=*), parameter :: general_tables(4) = [character(len=10) :: "kinematics", &
-    "reactions", "drive", "shaking"]
+  character(len=*), parameter :: general_tables(5) = [character(len=10) :: "kinematics", &
+    "reactions", "drive", "shaking", "balance"]
 
   !> Where a report has one table only.
   type(table_kind_t), parameter :: no_table = table_kind_t()
@@ -91,7 +100,7 @@ module report_table
       tables=[ &
       table_kind_t("kinematics", "speed:speed crank,theta3,theta4:deg omega3,omega4:rate "// &
       "alpha3,alpha4:rad/s2 Ax,Ay,Bx,By:length transmission_angle:deg"), no_table]), &
-    report_kind_t(name="kinematics", help="how the links move", &
+    report_kind_t(name="kinematics", help="of other linkages: how the links move", &
       studies="kinematics", positions=.true., reserved=.true., linkages=other_linkages, tables=[ &
       table_kind_t("kinematics", "speed:speed crank:deg link:name theta:deg omega:rate "// &
       "alpha:rad/s2"), no_table]), &
@@ -100,7 +109,8 @@ module report_table
       table_kind_t("pins", "speed:speed crank:deg pin:name x,y:length vx,vy:velocity "// &
       "ax,ay:acceleration"), no_table]), &
     report_kind_t(name="inertia", help="masses, their accelerations and inertia forces", &
-      studies="inertia", positions=.true., masses=.true., reserved=.true., numbers=46, linkages=four_bars, tables=[ &
+      studies="inertia", positions=.true., masses=.true., reserved=.true., numbers=46, &
+      linkages=four_bars, tables=[ &
       table_kind_t("inertia", "speed:speed crank:deg mass:# link:name x,y:length "// &
       "ax,ay:acceleration Fx,Fy:force m:mass moment?:moment"), no_table]), &
     report_kind_t(name="mesh", help="the finite element model", &
@@ -128,7 +138,7 @@ module report_table
       table_kind_t("reactions", "speed:speed crank:deg "// &
       "O2x,O2y,A2x,A2y,A3x,A3y,B3x,B3y,B4x,B4y,O4x,O4y:force torque:moment "// &
       "shaking_x,shaking_y:force shaking_moment:moment"), no_table]), &
-    report_kind_t(name="reactions", help="forces in pins, of guides, moments of blocks and welds", &
+    report_kind_t(name="reactions", help="of other linkages: forces and moments in all joints", &
       studies="joints", positions=.true., masses=.true., linkages=other_linkages, tables=[ &
       table_kind_t("reactions", "speed:speed crank:deg pin,link:name fx,fy:force "// &
       "moment:moment"), no_table]), &
@@ -144,6 +154,17 @@ module report_table
       studies="linkage", linkages=four_bars, tables=[ &
       table_kind_t("linkage", "branch,event:name crank,theta3,theta4,transmission_angle:deg"), &
       no_table]), &
+    report_kind_t(name="linkage", help="ranges of the drive, swings, strokes, time ratios", &
+      studies="limits", linkages=other_linkages, tables=[ &
+      table_kind_t("linkage", "part,quantity:name crank:deg value:see_unit unit:name"), &
+      no_table]), &
+    report_kind_t(name="balance", help="shaking force and its harmonics", &
+      studies="joints balance harmonics", positions=.true., masses=.true., &
+      linkages=other_linkages, tables=[ &
+      table_kind_t("balance", "speed:speed crank:deg xG,yG:length shaking_x,shaking_y:force "// &
+      "shaking_moment,torque:moment"), &
+      table_kind_t("harmonics", "speed:speed linkage,quantity:name largest,rms,mean:- h*:- "// &
+      "phase*:deg")]), &
     report_kind_t(name="balance", help="shaking force, counterweights, harmonics", &
       studies="reactions balance harmonics", positions=.true., masses=.true., numbers=98, &
       linkages=four_bars, tables=[ &
@@ -176,7 +197,7 @@ module report_table
       positions=.true., response=.true., linkages=four_bars, tables=[ &
       table_kind_t("drive", "speed:speed crank:deg rigid,linear,quadratic,total:moment "// &
       "power:power error:-"), no_table]), &
-    report_kind_t(name="drive", help="what every drive does, and shaking force and moment", &
+    report_kind_t(name="drive", help="of other linkages: the drives, shaking force and moment", &
       studies="joints", positions=.true., masses=.true., linkages=other_linkages, tables=[ &
       table_kind_t("drive", "speed:speed crank:deg drive:name position:deg rate:rate "// &
       "force:moment"), &
@@ -214,6 +235,11 @@ module report_table
       "axial_strain,bending_strain:- moment:moment axial_force:force stress:stress error:-")]), &
     report_kind_t(name="motion", help="the motion under motor and loads", &
       pattern="REPORT motion crank= [speed=0] end= step=", default="speed=0", &
+      studies="motion", masses=.true., linkages=other_linkages, tables=[ &
+      table_kind_t("motion", "time:time position*:deg rate*:rate torque:moment "// &
+      "kinetic,potential,work,energy_error:energy"), no_table]), &
+    report_kind_t(name="motion", help="the motion under motor and loads", &
+      pattern="REPORT motion crank= [speed=0] end= step=", default="speed=0", &
       studies="motion", masses=.true., linkages=four_bars, tables=[ &
       table_kind_t("motion", "time:time crank,theta3,theta4:deg omega2,omega3,omega4:rate "// &
       "torque:moment kinetic,potential,work,energy_error:energy closure:length branch:name"), &
@@ -236,7 +262,8 @@ contains
         if (variant%mechanism%is_four_bar) call find_kinematics(linkage, found%positions, threads, &
           found%kinematics)
       case ("inertia")
-        call find_inertia_loads(linkage, elements, has_own_mass(model%links(variant%mechanism%links)), &
+        call find_inertia_loads(linkage, elements, &
+          has_own_mass(model%links(variant%mechanism%links)), &
           found%positions, threads, found%inertia)
       case ("points")
         call find_points(linkage, points%body, &
@@ -253,15 +280,30 @@ contains
       case ("lagrange")
         call find_lagrange_terms(linkage, elements, found%positions, threads, found%lagrange)
       case ("balance")
-        call find_balance(linkage, elements, found%positions, threads, found%balance)
+        if (variant%mechanism%is_four_bar) then
+          call find_balance(linkage, elements, found%positions, threads, found%balance)
+        else
+          call find_centres(linkage, elements, found%positions, threads, found%balance)
+        end if
       case ("harmonics")
         call find_harmonics(linkage, elements, model%speed%value, model%acceleration, threads, &
           found%harmonics)
       case ("linkage")
         call find_linkage(linkage, found%linkage)
+      case ("limits")
+        call find_limits(linkage, crank_of_deck(model), found%limits)
       end select
     end associate
   end subroutine find_study
+
+  !> A position of the first drive that the deck names; 0 without any.
+  pure function crank_of_deck(model) result(crank)
+    type(model_t), intent(in) :: model
+    real(wp) :: crank
+
+    crank = 0.0_wp
+    if (size(model%crank%value) > 0) crank = model%crank%value(1)
+  end function crank_of_deck
 
   !> Columns and items of a table.
   subroutine plan_table(table, variant, plan)
@@ -316,6 +358,7 @@ contains
       plan%items = size(variant%found%geometry%crank)
     case ("linkage")
       names(:2) = linkage_words()
+      if (.not. variant%mechanism%is_four_bar) names = limits_words(variant)
       plan%items = 1
     case ("harmonics")
       names(:2) = harmonics_words()
@@ -323,6 +366,7 @@ contains
       plan%items = 1
     case ("motion")
       names(1) = motion_words()
+      count = linkage_motion_count(variant%model)
       plan%items = 1
     case ("transient")
       names(1) = response_point_names(variant)
@@ -376,8 +420,15 @@ contains
       case ("reactions")
         call joints_notes(variant, notes)
         return
-      case ("drive", "shaking")
+      case ("motion")
+        call linkage_motion_notes(variant, notes)
+        return
+      case ("linkage")
+        call limits_notes(variant, notes)
+        return
+      case ("drive", "shaking", "balance", "harmonics")
         call drives_notes(variant, notes)
+        if (table == "harmonics") call append_harmonics_notes(variant, notes)
         return
       end select
     end if
@@ -450,11 +501,19 @@ contains
     case ("geometry")
       call add_geometry(variant, plan%layout, number, rows)
     case ("linkage")
-      call add_linkage(variant, plan%layout, rows)
+      if (variant%mechanism%is_four_bar) then
+        call add_linkage(variant, plan%layout, rows)
+      else
+        call add_limits(variant, plan%layout, rows)
+      end if
     case ("harmonics")
       call add_harmonics(variant, plan%layout, rows)
     case ("motion")
-      call add_motion(variant, plan%layout, rows)
+      if (variant%mechanism%is_four_bar) then
+        call add_motion(variant, plan%layout, rows)
+      else
+        call add_linkage_motion(variant, plan%layout, rows)
+      end if
     case ("transient", "gauges")
       if (number > 1) call add_gap(rows, 2)
       call add_transient(plan%name, variant, plan%layout, number, rows)
@@ -540,7 +599,8 @@ contains
         else if (allocated(state%error) .and. table == "mesh") then
           call add_failed_row(rows, [crank], state%error%text)
         else if (allocated(state%error)) then
-          call add_failed_row(rows, [variant%model%shown_speed(speed), shown_crank(variant, crank)], &
+          call add_failed_row(rows, [variant%model%shown_speed(speed), shown_crank(variant, &
+            crank)], &
             state%error%text)
         else if (.not. variant%mechanism%is_four_bar .and. any(table == general_tables)) then
           call add_general(table, variant, layout, position, speed, rows)
@@ -585,6 +645,8 @@ contains
       call add_drives(variant, layout, position, speed, rows)
     case ("shaking")
       call add_shaking(variant, layout, position, speed, rows)
+    case ("balance")
+      call add_centres(variant, layout, position, speed, rows)
     end select
   end subroutine add_general
 
@@ -598,7 +660,14 @@ contains
 
     fitted = table
     if (table%name == "drive" .and. .not. is_four_bar(model)) fitted%columns = drive_columns(model)
+    if (table%name == "motion" .and. .not. is_four_bar(model)) fitted%columns = &
+      linkage_motion_columns(model)
     if (.not. drives_length(model)) return
+    ! What turns a crank is a force on a slider, and its inertia a mass.
+    if (table%name == "lagrange") fitted%columns = "speed:speed crank:deg M:mass "// &
+      "dM:mass_per_length V,gravity,load,torque:force kinetic,potential:energy"
+    if (table%name == "balance") fitted%columns = "speed:speed crank:deg xG,yG:length "// &
+      "shaking_x,shaking_y:force shaking_moment:moment torque:force"
     at = index(fitted%columns, "crank:deg")
     if (at > 0) fitted%columns = fitted%columns(:at - 1)//"crank:length"// &
       trim(fitted%columns(at + 9:))

@@ -190,6 +190,8 @@ contains
       dimension = dimension_acceleration
     case ("inertia")
       dimension = dimension_inertia
+    case ("mass_per_length")
+      dimension = dimension_mass - dimension_length
     case ("first_moment")
       dimension = dimension_mass + dimension_length
     case default

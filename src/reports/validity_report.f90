@@ -63,7 +63,8 @@ contains
     logical :: has
 
     associate (model => variant%model)
-      has = outer_distance(model%sections(model%links(variant%mechanism%links(body))%section)) > 0.0_wp
+      has = outer_distance(model%sections(model%links(variant%mechanism%links( &
+        body))%section)) > 0.0_wp
     end associate
   end function has_depth
 

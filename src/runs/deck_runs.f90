@@ -16,6 +16,7 @@ module deck_runs
   use link_store, only: link_store_t
   use linkage_notes, only: notes_on_linkage
   use models, only: model_t, solver_band
+  use linkage_motion_report, only: linkage_motion_log
   use motion_report, only: motion_log
   use program_version, only: version_number
   use progress, only: end_progress, progress_t, show_progress, start_progress
@@ -353,6 +354,7 @@ contains
     end do
     associate (found => variant%found)
       if (allocated(found%motion%samples)) text = text//motion_log(found%motion)
+      if (allocated(found%linkage_motion%samples)) text = text//linkage_motion_log(variant)
       if (allocated(found%response%at_speed)) text = text//response_log(variant)
       if (allocated(found%transient%at_speed)) text = text//transient_log(variant)
       if (allocated(found%sweep%results)) text = text//sweep_summary(found%sweep, &

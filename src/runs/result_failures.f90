@@ -10,6 +10,7 @@ module result_failures
   use text, only: to_string
   use units, only: from_si
   use variant_results, only: variant_results_t
+  use linkage_motion_study, only: linkage_motion_result_t
   implicit none (type, external)
   private
 
@@ -86,8 +87,20 @@ contains
       end if
       if (allocated(found%motion%error)) call note_failure(variant, in_motion, found%motion%error, &
         found%motion%last%angle(1), 0, found%motion%last%time, findings)
+      if (allocated(found%linkage_motion%error)) call note_failure(variant, in_motion, &
+        found%linkage_motion%error, last_crank(found%linkage_motion), 0, &
+        found%linkage_motion%last%time, findings)
     end associate
   end subroutine find_failures
+
+  !> Where the first drive was at last.
+  pure function last_crank(motion) result(crank)
+    type(linkage_motion_result_t), intent(in) :: motion
+    real(wp) :: crank
+
+    crank = 0.0_wp
+    if (allocated(motion%last%position)) crank = motion%last%position(1)
+  end function last_crank
 
   pure subroutine note_failure(variant, stage, error, crank, speed, time, findings)
     type(variant_results_t), intent(in) :: variant

@@ -59,7 +59,7 @@ contains
     associate (found => variant%found)
       totals%rows = size(found%positions%crank)
       totals%positions = size(found%positions%states)
-      totals%motion_steps = found%motion%steps
+      totals%motion_steps = found%motion%steps + found%linkage_motion%steps
       totals%kinematic_solutions = totals%positions + found%harmonics%solutions + &
         found%sweep%counts%kinematic_solutions + merge(1, 0, found%motion%has_begun)
       if (allocated(found%geometry%crank)) totals%kinematic_solutions = &

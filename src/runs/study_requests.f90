@@ -5,6 +5,7 @@ module study_requests
   use frequency_report, only: is_drawn
   use kinds, only: wp
   use load_cases, only: has_constant_loads
+  use linkage_motion_study, only: linkage_motion_request_t
   use mechanisms, only: mechanism_t
   use models, only: effects_static, inertia_lumped, model_t, needs_loads, needs_study, &
     report_number, accuracy_of_study, solver_band, solver_dense
@@ -21,7 +22,8 @@ module study_requests
   private
 
   public :: mode_request_of, method_wanted, drawn_states, motion_request_of, &
-    campbell_request_of, intervals_request_of, motion_instants_of, response_request_of, &
+    linkage_motion_request_of, campbell_request_of, intervals_request_of, motion_instants_of, &
+    response_request_of, &
     stability_request_of, transient_request_of
 
 contains
@@ -97,6 +99,32 @@ contains
     request%drive = drive_of(model)
     request%resistances = resistances_of(model, mechanism)
   end function motion_request_of
+
+  !> The requested motion of a linkage that is no four-bar.
+  pure function linkage_motion_request_of(model, mechanism) result(request)
+    type(model_t), intent(in) :: model         !! with REPORT motion
+    type(mechanism_t), intent(in) :: mechanism !! of the model
+    type(linkage_motion_request_t) :: request
+
+    integer :: i, body
+
+    associate (asked => model%reports(report_number(model, "motion")))
+      request%start = asked%start_angle
+      request%speed = asked%start_speed
+      request%end_time = asked%end_time
+      request%instants = asked%instants%value
+    end associate
+    request%is_free = model%drives%is_free
+    request%drive = drive_of(model)
+    allocate (request%taken(size(mechanism%links)), request%damping(size(mechanism%links)))
+    request%taken = 0.0_wp
+    request%damping = 0.0_wp
+    do i = 1, size(model%resistances)
+      body = findloc(mechanism%links, model%resistances(i)%link, dim=1)
+      request%taken(body) = model%resistances(i)%torque
+      request%damping(body) = model%resistances(i)%damping
+    end do
+  end function linkage_motion_request_of
 
   !> Number of rows of a motion that reaches its end; 0 without REPORT motion.
   pure function motion_instants_of(model) result(instants)

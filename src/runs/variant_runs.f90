@@ -7,6 +7,8 @@ module variant_runs
   use interruption, only: was_interrupted
   use kinds, only: wp
   use link_store, only: link_store_t
+  use linkage_motion_study, only: begin_linkage_motion, continue_linkage_motion, &
+    finish_linkage_motion, linkage_motion_under_way_t
   use linkage_study, only: class_of_other, classify_linkage
   use loci_study, only: follow_loci
   use mechanisms, only: new_mechanism
@@ -20,6 +22,7 @@ module variant_runs
   use response_study, only: find_response
   use stability_study, only: find_intervals_of, find_stability_of
   use study_requests, only: campbell_request_of, drawn_states, intervals_request_of, &
+    linkage_motion_request_of, &
     mode_request_of, &
     motion_request_of, response_request_of, stability_request_of, transient_request_of
   use sweep_bytes, only: get_result, put_result
@@ -99,7 +102,11 @@ contains
         if (was_interrupted()) return
         select case (study_names(i))
         case ("motion")
-          call compute_motion(run)
+          if (run%results%mechanism%is_four_bar) then
+            call compute_motion(run)
+          else
+            call compute_linkage_motion(run)
+          end if
         case ("response")
           call compute_response(run, threads, store)
         case ("stability")
@@ -168,6 +175,23 @@ contains
     end associate
   end subroutine compute_motion
 
+  !> Forward motion of a linkage that is no four-bar.
+  subroutine compute_linkage_motion(run)
+    type(variant_run_t), intent(inout) :: run
+
+    type(linkage_motion_under_way_t) :: under_way
+
+    associate (mechanism => run%results%mechanism, motion => run%results%found%linkage_motion)
+      call begin_linkage_motion(linkage_motion_request_of(run%results%model, mechanism), &
+        mechanism%linkage, mechanism%load_elements, under_way, motion)
+      do while (.not. under_way%is_over)
+        call continue_linkage_motion(under_way, instants_at_a_time, motion)
+        call show_progress(run%progress, motion%count, size(motion%samples))
+      end do
+      call finish_linkage_motion(under_way, motion)
+    end associate
+  end subroutine compute_linkage_motion
+
   !> The elastic response at all speeds.
   subroutine compute_response(run, threads, store)
     type(variant_run_t), intent(inout) :: run
@@ -195,7 +219,8 @@ contains
     integer :: k
 
     associate (mechanism => run%results%mechanism, stability => run%results%found%stability)
-      call find_stability_of(mechanism%structure_t, stability_request_of(run%results%model, mechanism), &
+      call find_stability_of(mechanism%structure_t, stability_request_of(run%results%model, &
+        mechanism), &
         threads, store, stability)
       do k = 1, size(stability%at_speed)
         if (.not. allocated(stability%at_speed(k)%error)) cycle
@@ -213,7 +238,8 @@ contains
     integer :: k
 
     associate (mechanism => run%results%mechanism, intervals => run%results%found%intervals)
-      call find_intervals_of(mechanism%structure_t, intervals_request_of(run%results%model, mechanism), &
+      call find_intervals_of(mechanism%structure_t, intervals_request_of(run%results%model, &
+        mechanism), &
         threads, store, intervals)
       do k = 1, size(intervals%gap)
         call name_link(mechanism%names, intervals%gap(k)%error)
@@ -230,7 +256,8 @@ contains
     integer :: k
 
     associate (mechanism => run%results%mechanism, campbell => run%results%found%campbell)
-      call find_campbell_of(mechanism%structure_t, campbell_request_of(run%results%model, mechanism), &
+      call find_campbell_of(mechanism%structure_t, campbell_request_of(run%results%model, &
+        mechanism), &
         threads, store, campbell)
       do k = 1, size(campbell%at_speed)
         if (.not. allocated(campbell%at_speed(k)%error)) cycle

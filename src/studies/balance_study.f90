@@ -11,7 +11,7 @@ module balance_study
   implicit none (type, external)
   private
 
-  public :: balance_result_t, find_balance
+  public :: balance_result_t, find_balance, find_centres
 
   type :: balance_result_t
     type(counterweight_t) :: weights(2)       !! on crank and follower
@@ -61,5 +61,29 @@ contains
     balanced = balanced_linkage(linkage, found%weights)
     call find_reactions(balanced, elements, positions, threads, found%balanced)
   end subroutine find_balance
+
+  !> The mass centre of any linkage at every position.
+  subroutine find_centres(linkage, elements, positions, threads, found)
+    type(linkage_t), intent(in) :: linkage       !! of any kind
+    integer, intent(in) :: elements(:)           !! (bodies) on whose nodes the masses are lumped;
+                                                 !! 0: distributed
+    type(positions_t), intent(in) :: positions   !! of the run
+    integer, intent(in) :: threads               !! number of OpenMP threads
+    type(balance_result_t), intent(out) :: found !! without counterweights
+
+    type(rigid_body_t) :: rigid(size(linkage%bodies))
+    integer :: i
+
+    rigid = rigid_bodies_of(linkage, elements)
+    found%mass = total_mass(linkage, rigid)
+    allocate (found%centre(2, size(positions%states)))
+    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i)
+    do i = 1, size(positions%states)
+      found%centre(:, i) = 0.0_wp
+      if (allocated(positions%states(i)%error)) cycle
+      found%centre(:, i) = linkage_mass_centre(linkage, rigid, positions%states(i)%pose)
+    end do
+    !$omp end parallel do
+  end subroutine find_centres
 
 end module balance_study

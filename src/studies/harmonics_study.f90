@@ -2,13 +2,14 @@
 !! whole turn of the crank, as given and with counterweights.
 module harmonics_study
   use constants, only: degree
+  use crank_limits, only: turns_fully
   use counterweights, only: balanced_linkage, find_counterweights
   use crank_cycle, only: cycle_t, cycle_values, drive_torque, find_largest_value, quantity_count, &
     quantity_names, shaking_moment, turns_freely, usual_values
   use harmonics, only: highest_harmonic, spectrum_of, spectrum_t
   use interruption, only: was_interrupted
   use kinds, only: wp
-  use linkages, only: linkage_t
+  use linkages, only: is_dyad_linkage, linkage_t
   use settled_cycles, only: find_settled_cycles, least_share
   implicit none (type, external)
   private
@@ -32,7 +33,8 @@ module harmonics_study
     integer :: solutions = 0       !! poses found, for samples and largest values
     real(wp) :: change = 0.0_wp    !! difference to the results from every second sample, relative
                                    !! to the largest value [-]
-    type(harmonic_t), allocatable :: of(:, :, :) !! (quantities; linkage as given, balanced; speeds)
+    type(harmonic_t), allocatable :: of(:, :, :) !! (quantities; as given and, of a four-bar,
+                                                 !! balanced; speeds)
   end type harmonics_result_t
 
   !> The phase of a harmonic below this share of the usual value is only rounding.
@@ -43,7 +45,7 @@ contains
   !> Harmonics at every speed. An interrupted run returns incomplete results: too few samples, or
   !! largest values of 0.
   subroutine find_harmonics(linkage, elements, speed, acceleration, threads, found)
-    type(linkage_t), intent(in) :: linkage !! a four-bar, without counterweights
+    type(linkage_t), intent(in) :: linkage !! of any kind; a four-bar without counterweights
     integer, intent(in) :: elements(:)     !! (bodies) on whose nodes the masses are lumped; 0:
                                            !! distributed
     real(wp), intent(in) :: speed(:)       !! (speeds) ω2, constant over the turn [rad/s]
@@ -51,25 +53,33 @@ contains
     integer, intent(in) :: threads         !! number of OpenMP threads
     type(harmonics_result_t), intent(out) :: found !! empty if the crank does not turn fully
 
-    type(linkage_t) :: linkages(2)
-    type(cycle_t) :: turns(2)
+    type(linkage_t), allocatable :: linkages(:)
+    type(cycle_t), allocatable :: turns(:)
     real(wp), allocatable :: largest(:, :, :) !! (quantities, linkages, speeds)
     integer :: solutions, i, k, q
 
-    found%has_cycle = turns_freely(linkage)
+    if (has_counterweights(linkage)) then
+      found%has_cycle = turns_freely(linkage)
+    else
+      found%has_cycle = turns_fully(linkage)
+    end if
     if (.not. found%has_cycle) return
+    allocate (linkages(merge(2, 1, has_counterweights(linkage))), turns(merge(2, 1, &
+      has_counterweights(linkage))))
     linkages(1) = linkage
-    linkages(2) = balanced_linkage(linkage, find_counterweights(linkage, elements))
+    if (size(linkages) > 1) linkages(2) = balanced_linkage(linkage, find_counterweights(linkage, &
+      elements))
     call find_settled_cycles(linkages, elements, speed, acceleration, threads, turns, found%change)
     found%samples = size(turns(1)%part, 3)
-    allocate (found%of(quantity_count, 2, size(speed)), largest(quantity_count, 2, size(speed)))
+    allocate (found%of(quantity_count, size(turns), size(speed)), largest(quantity_count, &
+      size(turns), size(speed)))
     largest = 0.0_wp
     ! Two more have shown that the crank turns.
     found%solutions = 2 + size(turns)*found%samples
     !$omp parallel do collapse(3) num_threads(threads) schedule(dynamic) default(shared) &
     !$omp   private(i, k, q, solutions)
     do k = 1, size(speed)
-      do i = 1, 2
+      do i = 1, size(linkages)
         do q = 1, quantity_count
           if (was_interrupted()) cycle
           call find_largest_value(linkages(i), elements, turns(i), q, speed(k), acceleration, &
@@ -83,7 +93,7 @@ contains
     !$omp parallel do collapse(2) num_threads(threads) schedule(dynamic) default(shared) &
     !$omp   private(i, k)
     do k = 1, size(speed)
-      do i = 1, 2
+      do i = 1, size(linkages)
         if (.not. was_interrupted()) &
           call find_spectra(turns(i), speed(k), acceleration, largest(:, i, k), &
             max(maxval(largest(:, :, k), dim=2), least_share*usual_values(linkages(1), &
@@ -92,6 +102,14 @@ contains
     end do
     !$omp end parallel do
   end subroutine find_harmonics
+
+  !> Whether counterweights in closed form balance a linkage: a four-bar.
+  pure function has_counterweights(linkage) result(has)
+    type(linkage_t), intent(in) :: linkage
+    logical :: has
+
+    has = is_dyad_linkage(linkage) .and. size(linkage%bodies) == 3
+  end function has_counterweights
 
   !> Harmonics of all quantities of a linkage at one speed.
   pure subroutine find_spectra(turn, speed, acceleration, largest, measure, found)

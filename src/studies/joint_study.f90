@@ -4,6 +4,7 @@ module joint_study
   use group_equations, only: drive_rate, drive_value
   use joint_forces, only: force_at_pin, joint_forces_t
   use kinds, only: wp
+  use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t
   use load_cases, only: case_count
   use pose_types, only: pins_of_body
@@ -68,6 +69,7 @@ contains
           end associate
         end do
         call turn_guides(linkage, found%joints, state%pose%direction, found%force(:, :, :, i))
+        call add_blocks(linkage, found%joints, state%coefficients, found%force(:, :, :, i))
       end associate
     end do
     !$omp end parallel do
@@ -159,7 +161,26 @@ contains
     end do
   end subroutine turn_guides
 
-  !> Force and moment of every joint at a speed: ω2² and α2 times those of the unit loads, plus those
+  !> The moments with which blocks that turn load the bodies of their lines: −I α.
+  pure subroutine add_blocks(linkage, joints, coefficients, force)
+    type(linkage_t), intent(in) :: linkage
+    type(joint_t), intent(in) :: joints(:)
+    type(kinematic_coefficients_t), intent(in) :: coefficients
+    real(wp), intent(inout) :: force(:, :, :) !! (3, joints, cases)
+
+    integer :: i
+
+    do i = 1, size(joints)
+      if (joints(i)%slider == 0 .or. joints(i)%body == 0) cycle
+      associate (inertia => linkage%sliders(joints(i)%slider)%inertia, body => joints(i)%body)
+        force(3, i, 1) = force(3, i, 1) - inertia*coefficients%turn_slope(body)
+        force(3, i, 2) = force(3, i, 2) - inertia*coefficients%turn(body)
+      end associate
+    end do
+  end subroutine add_blocks
+
+  !> Force and moment of every joint at a speed: ω2² and α2 times those of the unit loads, plus
+  !! those
   !! of the constant loads.
   pure function joints_at_speed(found, state, speed, acceleration) result(forces)
     type(joints_result_t), intent(in) :: found !! for all positions

@@ -10,7 +10,8 @@ module linkage_study
   implicit none (type, external)
   private
 
-  public :: linkage_class_t, linkage_result_t, branch_result_t, classify_linkage, find_linkage, class_of_other, &
+  public :: linkage_class_t, linkage_result_t, branch_result_t, classify_linkage, find_linkage, &
+    class_of_other, &
     event_names, special_position_t
 
   !> The two branches: open and crossed.

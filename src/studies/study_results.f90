@@ -9,6 +9,8 @@ module study_results
   use joint_study, only: joints_result_t
   use kinematics_study, only: kinematics_result_t
   use lagrange, only: lagrange_t
+  use limits_study, only: limits_result_t
+  use linkage_motion_study, only: linkage_motion_result_t
   use linkage_study, only: linkage_class_t, linkage_result_t
   use loci_study, only: loci_t
   use motion_study, only: motion_result_t
@@ -35,8 +37,10 @@ module study_results
     type(lagrange_t), allocatable :: lagrange(:)            !! (states)
     type(balance_result_t) :: balance
     type(harmonics_result_t) :: harmonics
-    type(linkage_result_t) :: linkage
-    type(motion_result_t) :: motion
+    type(linkage_result_t) :: linkage                       !! of a four-bar
+    type(limits_result_t) :: limits                         !! of any other linkage
+    type(motion_result_t) :: motion                         !! of a four-bar
+    type(linkage_motion_result_t) :: linkage_motion         !! of any other linkage
     type(sweep_t) :: sweep
     type(loci_t) :: loci
     type(response_t) :: response

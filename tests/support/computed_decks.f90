@@ -8,9 +8,9 @@ module computed_decks
   use file_system, only: remove_file
   use link_store, only: link_store_t
   use models, only: model_t
-  use report_kinds, only: table_kind_t
+  use report_kinds, only: any_linkage, four_bars, other_linkages, table_kind_t
   use report_rows, only: find_rows
-  use report_table, only: plan_table, reports, table_notes, table_plan_t
+  use report_table, only: plan_table, reports, table_in_units, table_notes, table_plan_t
   use table_rows, only: rows_t
   use tables, only: finish_table, open_table, publish_table, table_t, write_header, write_rows
   use task_journal, only: journal_t
@@ -91,19 +91,33 @@ contains
     found = run%results
   end subroutine compute_model
 
-  !> A table as the table of reports lists it; without a name if there is none of this name.
-  pure function table_named(name) result(table)
+  !> A table as the table of reports lists it, of a four-bar if nothing else is said; without a name
+  !! if there is none of this name.
+  pure function table_named(name, of_others) result(table)
     character(len=*), intent(in) :: name
+    logical, intent(in), optional :: of_others !! of linkages that are no four-bars
     type(table_kind_t) :: table
 
-    integer :: i, t
+    integer :: i, t, linkages
 
+    linkages = four_bars
+    if (present(of_others)) linkages = merge(other_linkages, four_bars, of_others)
     do i = 1, size(reports)
+      if (all(reports(i)%linkages /= [any_linkage, linkages])) cycle
       do t = 1, size(reports(i)%tables)
         if (reports(i)%tables(t)%name == name) table = reports(i)%tables(t)
       end do
     end do
   end function table_named
+
+  !> A table whose report the deck asks for, for its linkage and in its units.
+  pure function table_of(found, name) result(table)
+    type(variant_results_t), intent(in) :: found
+    character(len=*), intent(in) :: name
+    type(table_kind_t) :: table
+
+    table = table_in_units(table_named(name, .not. found%mechanism%is_four_bar), found%model)
+  end function table_of
 
   !> All rows of a table whose report the deck asks for.
   subroutine rows_of_table(found, name, threads, rows)
@@ -114,7 +128,7 @@ contains
 
     type(table_plan_t) :: plan
 
-    call plan_table(table_named(name), found, plan)
+    call plan_table(table_of(found, name), found, plan)
     call find_rows(plan, found, 1, plan%items, threads, rows)
   end subroutine rows_of_table
 
@@ -132,7 +146,7 @@ contains
     integer :: unit, length
 
     text = ""
-    call plan_table(table_named(name), found, plan)
+    call plan_table(table_of(found, name), found, plan)
     call table_notes(plan%name, found, notes)
     call rows_of_table(found, name, 1, rows)
     call open_table(".", scratch, .false., table, error)

@@ -4,7 +4,7 @@ module link_cards
     read_quantity, refuse_negative, require_positive, unit_apart
   use card_table, only: pattern_of
   use cards, only: card_t
-  use diagnostics, only: add_error, diagnostics_t
+  use diagnostics, only: add_error, diagnostics_t, error_count
   use kinds, only: wp
   use name_index, only: find_name, name_index_t, new_name_index
   use spelling, only: suggestion
@@ -162,12 +162,15 @@ contains
     type(link_t), intent(inout) :: link
 
     type(name_index_t) :: names
-    integer :: pins, i, first
+    integer :: pins, i, first, errors
 
     pins = size(words)
+    errors = error_count(diagnostics)
     do i = 1, pins
       call read_part_name(words(i), diagnostics)
     end do
+    ! What is no name may be no pin either: lengths are not counted against it.
+    if (error_count(diagnostics) > errors) return
     if (same_word(words(1)%text, words(pins)%text)) then
       if (pins <= 3) then
         call add_error(diagnostics, words(pins), "link '"//link%name%text// &
@@ -244,10 +247,9 @@ contains
     link%length_word = card%entries(entry_number(card, "lengths"))%value
     if (size(link%pins) == 0) return
     if (size(link%pins) == 2) then
-      ! Beside `length=` this key has been refused.
-      if (.not. link%has_length) call add_error(diagnostics, card%entries(entry_number(card, &
-        "lengths"))%key, &
-        "link '"//link%name%text//"' has two pins: expected 'length='")
+      ! Beside 'length=' that has been said.
+      if (.not. has_key(card, "length")) call add_error(diagnostics, card%entries(entry_number( &
+        card, "lengths"))%key, "link '"//link%name%text//"' has two pins: expected 'length='")
     else if (size(words) /= segment_count(link)) then
       call add_error(diagnostics, words(min(size(words), segment_count(link) + 1)), &
         "link '"//link%name%text//"' has "//to_string(segment_count(link))//" segments from "// &

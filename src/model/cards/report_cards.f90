@@ -100,7 +100,7 @@ contains
     case ("geometry")
       call read_geometry(card, known_keys, lengths, system, diagnostics, report)
     case ("motion")
-      call read_motion(card, known_keys, system, diagnostics, report)
+      call read_motion(card, known_keys, by_length, system, diagnostics, report)
     case ("intervals")
       call read_intervals(card, system, diagnostics, report)
     case ("transient")
@@ -187,9 +187,10 @@ contains
   end subroutine read_geometry
 
   !> Reads `REPORT motion crank= [speed=0] end= step=`.
-  pure subroutine read_motion(card, known_keys, system, diagnostics, report)
+  pure subroutine read_motion(card, known_keys, by_length, system, diagnostics, report)
     type(card_t), intent(in) :: card
     logical, intent(in) :: known_keys !! no key is unknown: missing ones are an error
+    logical, intent(in) :: by_length  !! a slider or a ram is driven
     type(unit_system_t), intent(in) :: system
     type(diagnostics_t), intent(inout) :: diagnostics
     type(report_t), intent(inout) :: report
@@ -201,7 +202,8 @@ contains
       call add_error(diagnostics, card%keyword, &
         "'crank=' is missing; expected the angle at which the motion starts")
     end if
-    call read_entry_list(card, "crank", dimension_angle, system, diagnostics, angle)
+    call read_entry_list(card, "crank", merge(dimension_length, dimension_angle, by_length), &
+      system, diagnostics, angle)
     if (size(angle%value) > 1) then
       call add_error(diagnostics, angle%words(2), &
         "a motion starts at one crank angle, not at several")
@@ -209,12 +211,12 @@ contains
       report%start_angle = angle%value(1)
       report%start_angle_word = angle%words(1)
     end if
-    call read_entry_quantity(card, "speed", dimension_rate, system, .false., diagnostics, &
-      report%start_speed, fine)
+    call read_entry_quantity(card, "speed", merge(dimension_velocity, dimension_rate, by_length), &
+      system, .false., diagnostics, report%start_speed, fine)
     if (fine) then
       report%start_speed_word = card%entries(entry_number(card, "speed"))%value
-      call read_values([report%start_speed_word], dimension_rate, system, "speed", diagnostics, &
-        report%speed)
+      call read_values([report%start_speed_word], merge(dimension_velocity, dimension_rate, &
+        by_length), system, "speed", diagnostics, report%speed)
     end if
     call read_entry_quantity(card, "end", dimension_time, system, known_keys, diagnostics, &
       report%end_time, ends)

@@ -56,7 +56,8 @@ contains
           call add_error(diagnostics, place, "link '"//place%text//"' joins the ground pivots "// &
             pins//" and cannot move")
         else
-          call add_error(diagnostics, place, "mobility 0: '"//place%text//"' joins two pins of '"// &
+          call add_error(diagnostics, place, &
+            "mobility 0: '"//place%text//"' joins two pins of '"// &
             model%links(assembly%link(problem%bodies(2)))%name%text//"'", &
             model%links(assembly%link(problem%bodies(2)))%name, "it is here")
         end if
@@ -99,7 +100,8 @@ contains
           call add_error(diagnostics, place, "pin '"//pin//"' has two places on its guide: "// &
             "expected "//card//", or PIN cards for '"//pin//"' and '"//from//"'")
         else
-          call add_error(diagnostics, place, "pin '"//pin//"' has two places, left or right of '"// &
+          call add_error(diagnostics, place, "pin '"//pin//"' has two "// &
+            "places, left or right of '"// &
             from//"' -> '"//to//"': expected "//card//", or PIN cards for the moving pins")
         end if
       else

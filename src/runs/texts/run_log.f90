@@ -40,7 +40,8 @@ contains
         text = text//"link "//link%name%text//": "//where_to//", length "// &
           to_string(from_si(link%length, length), 12)//" "//length%name
         if (link_mass(model, mechanism%links(i)) > 0.0_wp) then
-          text = text//", mass "//to_string(from_si(link_mass(model, mechanism%links(i)), mass), 12)// &
+          text = text//", mass "//to_string(from_si(link_mass(model, mechanism%links(i)), mass), &
+            12)// &
             " "//mass%name
         end if
         if (link%rigid) text = text//", rigid"

@@ -1,0 +1,140 @@
+!> `motion.dat` of linkages that are no four-bars, and its line in the log.
+module linkage_motion_report
+  use drive_cards, only: moves_along
+  use kinds, only: wp
+  use linkage_motion_study, only: free_drives, linkage_motion_tolerance
+  use models, only: model_t, report_number
+  use table_columns, only: cells, table_factor, table_layout_t, table_unit
+  use table_rows, only: add_failed_row, add_row, rows_t
+  use tables, only: real_cells
+  use text, only: append_string, plural, string_t, to_string
+  use units, only: from_si, unit_t
+  use variant_results, only: variant_results_t
+  implicit none (type, external)
+  private
+
+  public :: linkage_motion_notes, linkage_motion_columns, linkage_motion_count, &
+    add_linkage_motion, linkage_motion_log
+
+contains
+
+  !> The coordinates, the energies, the initial energy and the tolerance.
+  pure subroutine linkage_motion_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its motion computed
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    integer, allocatable :: free(:)
+    type(unit_t) :: energy
+    character(len=:), allocatable :: line
+    integer :: k
+
+    free = free_drives(variant%model%drives%is_free)
+    line = "coordinates:"
+    do k = 1, size(free)
+      if (k > 1) line = line//","
+      line = line//" "//to_string(k)//" drive "//variant%model%drives(free(k))%subject%text
+    end do
+    call append_string(notes, line//"; angles continue past whole turns")
+    call append_string(notes, "torque: of the motor on the first drive; potential: of GRAVITY "// &
+      "and FORCE, 0 at the global origin; work: of motor and TORQUE, less that taken "// &
+      "by LOAD, since the start; energy_error: kinetic + potential - work, less the initial energy")
+    energy = table_unit("energy", variant%model%outputs)
+    if (variant%found%linkage_motion%count > 0) call append_string(notes, "initial energy: "// &
+      to_string(from_si(variant%found%linkage_motion%energy, energy))//" "//energy%name// &
+      "; steps of order 8, each to "//to_string(linkage_motion_tolerance))
+  end subroutine linkage_motion_notes
+
+  !> Number of coordinates of the motion.
+  pure function linkage_motion_count(model) result(number)
+    type(model_t), intent(in) :: model !! with its drives
+    integer :: number
+
+    number = size(free_drives(model%drives%is_free))
+  end function linkage_motion_count
+
+  !> The columns of `motion.dat`, in the units of the coordinates; mixed ones in the units of the
+  !! deck, see its head.
+  pure function linkage_motion_columns(model) result(columns)
+    type(model_t), intent(in) :: model !! with its drives
+    character(len=:), allocatable :: columns
+
+    integer, allocatable :: free(:)
+
+    free = free_drives(model%drives%is_free)
+    if (all(moves_along(model%drives(free)%kind))) then
+      columns = "time:time position*:length rate*:velocity torque:force "
+    else if (any(moves_along(model%drives(free)%kind))) then
+      columns = "time:time position*,rate*,torque:see_head "
+    else
+      columns = "time:time position*:deg rate*:rate torque:moment "
+    end if
+    columns = columns//"kinetic,potential,work,energy_error:energy"
+  end function linkage_motion_columns
+
+  !> Appends one row per instant, and a failed row if the motion ends before its end time.
+  subroutine add_linkage_motion(variant, layout, rows)
+    type(variant_results_t), intent(in) :: variant !! with its motion computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
+
+    real(wp), allocatable :: position(:), rate(:)
+    real(wp) :: torque
+    integer, allocatable :: free(:)
+    logical :: mixed
+    integer :: i, k
+
+    free = free_drives(variant%model%drives%is_free)
+    associate (motion => variant%found%linkage_motion, model => variant%model)
+      mixed = any(moves_along(model%drives(free)%kind)) .and. .not. all(moves_along( &
+        model%drives(free)%kind))
+      do i = 1, motion%count
+        associate (sample => motion%samples(i))
+          position = sample%position
+          rate = sample%rate
+          torque = sample%torque
+          if (mixed) then
+            do k = 1, size(free)
+              if (moves_along(model%drives(free(k))%kind)) then
+                position(k) = from_si(position(k), table_factor("length", model%outputs))
+                rate(k) = from_si(rate(k), table_factor("velocity", model%outputs))
+              else
+                rate(k) = from_si(rate(k), model%outputs%rate)
+              end if
+            end do
+            if (moves_along(model%drives(1)%kind)) then
+              torque = from_si(torque, table_factor("force", model%outputs))
+            else
+              torque = from_si(torque, table_factor("moment", model%outputs))
+            end if
+          end if
+          call add_row(rows, real_cells([time_in_table(model, i)])//cells(layout, 2, [position, &
+            rate, torque, sample%kinetic, sample%potential, sample%work, sample%energy_error]))
+        end associate
+      end do
+      if (allocated(motion%error)) call add_failed_row(rows, [from_si(motion%last%time, &
+        table_factor("time", model%outputs))], motion%error%text)
+    end associate
+  end subroutine add_linkage_motion
+
+  !> Time of an instant in the unit of the table: the number that the deck has or would have.
+  pure function time_in_table(model, number) result(time)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: number !! of the instant, from 1
+    real(wp) :: time
+
+    associate (instants => model%reports(report_number(model, "motion"))%instants)
+      time = from_si(instants%value(number), table_factor("time", model%outputs))
+      if (instants%unit%name == model%units%time%name) time = instants%written(number)
+    end associate
+  end function time_in_table
+
+  !> Log line: the numbers of steps and rows.
+  pure function linkage_motion_log(variant) result(text)
+    type(variant_results_t), intent(in) :: variant !! with its motion
+    character(len=:), allocatable :: text
+
+    text = "motion: "//to_string(variant%found%linkage_motion%steps)//" steps, "// &
+      plural(variant%found%linkage_motion%count, "row")//achar(10)
+  end function linkage_motion_log
+
+end module linkage_motion_report

@@ -1,0 +1,133 @@
+!> Forward dynamics of linkages that are no four-bars, sampled at given instants.
+module linkage_motion_study
+  use drives, only: motor_drive_t
+  use errors, only: error_of_dead_point, error_of_numerics, error_t, set_error
+  use interruption, only: was_interrupted
+  use kinds, only: long, wp
+  use linkage_motions, only: end_linkage_motion, linkage_motion_t, linkage_motion_tolerance, &
+    linkage_sample_t, move_linkage_until, sample_linkage_motion, start_linkage_motion
+  use linkage_rates, only: free_drives, no_stop, stop_dead_point, stop_many_steps, &
+    stop_no_inertia, stop_too_fast
+  use linkages, only: linkage_t
+  use rigid_bodies, only: rigid_bodies_of
+  implicit none (type, external)
+  private
+
+  public :: linkage_motion_request_t, linkage_motion_result_t, linkage_motion_under_way_t, &
+    begin_linkage_motion, continue_linkage_motion, finish_linkage_motion, &
+    linkage_motion_tolerance, free_drives
+
+  type :: linkage_motion_request_t
+    real(wp) :: start = 0.0_wp           !! of the first drive [deg] or [m]
+    real(wp) :: speed = 0.0_wp           !! of the first drive [rad/s] or [m/s]
+    real(wp) :: end_time = 0.0_wp        !! [s]
+    real(wp), allocatable :: instants(:) !! of the samples, ascending from 0 to `end_time` [s]
+    logical, allocatable :: is_free(:)   !! (drives) marked in the deck
+    type(motor_drive_t) :: drive         !! motor on the first drive
+    real(wp), allocatable :: taken(:)    !! (bodies) resisting torques [N m]
+    real(wp), allocatable :: damping(:)  !! (bodies) of their turning [N m s]
+  end type linkage_motion_request_t
+
+  type :: linkage_motion_result_t
+    integer :: count = 0                               !! instants reached
+    type(linkage_sample_t), allocatable :: samples(:)  !! (all instants) the first `count` are set
+    type(linkage_sample_t) :: last                     !! last state reached
+    type(error_t), allocatable :: error                !! why it has not reached the end time
+    integer(long) :: steps = 0_long                    !! of the integration
+    real(wp) :: energy = 0.0_wp                        !! kinetic + potential, at the start [J]
+    logical :: has_begun = .false.                     !! the start was possible
+  end type linkage_motion_result_t
+
+  !> A motion that is being computed.
+  type :: linkage_motion_under_way_t
+    type(linkage_motion_request_t), private :: request
+    type(linkage_motion_t), private :: motion
+    integer, private :: next = 1  !! number of the next instant
+    logical :: is_over = .false.  !! at the end, stopped or interrupted
+  end type linkage_motion_under_way_t
+
+contains
+
+  !> Starts a motion. Errors, in `result%error`: those of `start_linkage_motion`.
+  subroutine begin_linkage_motion(request, linkage, elements, under_way, result)
+    type(linkage_motion_request_t), intent(in) :: request      !! start, end, motor and resistances
+    type(linkage_t), intent(in) :: linkage                     !! of any kind
+    integer, intent(in) :: elements(:)                         !! (bodies) on whose nodes the masses
+                                                               !! are lumped; 0: distributed
+    type(linkage_motion_under_way_t), intent(out) :: under_way !! over if the start is impossible
+    type(linkage_motion_result_t), intent(out) :: result       !! without samples yet
+
+    under_way%request = request
+    allocate (result%samples(size(request%instants)))
+    call start_linkage_motion(linkage, rigid_bodies_of(linkage, elements), request%is_free, &
+      request%drive, request%taken, request%damping, request%start, request%speed, &
+      request%end_time, under_way%motion, result%error)
+    result%has_begun = .not. allocated(result%error)
+    under_way%is_over = allocated(result%error)
+  end subroutine begin_linkage_motion
+
+  !> Continues a motion over the next instants, until it is over or the given number is reached.
+  subroutine continue_linkage_motion(under_way, instants, result)
+    type(linkage_motion_under_way_t), intent(inout) :: under_way !! begun
+    integer, intent(in) :: instants                              !! number, at most
+    type(linkage_motion_result_t), intent(inout) :: result       !! gets the samples
+
+    integer :: i
+
+    do i = under_way%next, min(under_way%next + instants - 1, size(result%samples))
+      if (under_way%is_over) return
+      call move_linkage_until(under_way%motion, under_way%request%instants(i))
+      under_way%is_over = was_interrupted()
+      if (under_way%is_over) return
+      call sample_linkage_motion(under_way%motion, result%last)
+      under_way%is_over = under_way%motion%stop /= no_stop
+      if (under_way%is_over) return
+      result%samples(i) = result%last
+      result%count = i
+    end do
+    under_way%next = i
+    under_way%is_over = under_way%next > size(result%samples)
+  end subroutine continue_linkage_motion
+
+  !> Ends a motion and completes its result.
+  !!
+  !! Errors, in `result%error`: the motion has stopped before its end.
+  subroutine finish_linkage_motion(under_way, result)
+    type(linkage_motion_under_way_t), intent(inout) :: under_way !! its memory is released
+    type(linkage_motion_result_t), intent(inout) :: result       !! gets steps and energy
+
+    if (.not. result%has_begun) return
+    associate (motion => under_way%motion)
+      result%steps = motion%integrator%steps
+      result%energy = motion%energy
+      call explain_stop(motion%stop, result%error)
+    end associate
+    call end_linkage_motion(under_way%motion)
+  end subroutine finish_linkage_motion
+
+  !> Turns the reason why a motion has stopped into an error; none for `no_stop`.
+  pure subroutine explain_stop(stop, error)
+    integer, intent(in) :: stop !! as in `linkage_rates`
+    type(error_t), allocatable, intent(inout) :: error
+
+    select case (stop)
+    case (no_stop)
+      return
+    case (stop_dead_point)
+      call set_error(error, error_of_dead_point, "the first drive reaches a limit position or "// &
+        "a dead point, and its coordinate does not describe the motion beyond")
+    case (stop_no_inertia)
+      call set_error(error, error_of_numerics, &
+        "nothing with a mass moves with a drive at this position: there is no inertia")
+    case (stop_too_fast)
+      call set_error(error, error_of_numerics, "the links move too fast to be integrated")
+    case (stop_many_steps)
+      call set_error(error, error_of_numerics, "a million steps of the integration do not "// &
+        "reach the next row: 'step=' or 'end=' is too long for a motion as fast as this, or "// &
+        "motor or damping too strong for the masses")
+    case default
+      call set_error(error, error_of_numerics, "the steps of the integration shrink to nothing")
+    end select
+  end subroutine explain_stop
+
+end module linkage_motion_study
