@@ -2,19 +2,18 @@
 !! derivatives along the motion.
 !!
 !! The unknowns of a group are the positions of its pins and the angles of its bodies. With u from
-!! the first pin of a body to another one, a the unit vector there and n its normal, both turning
-!! with the body, the pin demands `a·u = r` and `n·u = 0`; a pin on the line of a body `m·u = c`
-!! with
-!! the normal m of the line. One matrix of gradients serves positions (Newton), velocities and
-!! accelerations, and, transposed, the forces.
+!! the first pin of a body to another one, and n the normal of the unit vector there, which turns
+!! with the body, the pin demands `|u| = r` and `n·u = 0`; a pin on the line of a body `m·u = c`
+!! with the normal m of the line. The distance does not depend on the angle: a group may place pins
+!! before the bodies between them are turned. One matrix of gradients serves positions (Newton),
+!! velocities and accelerations, and, transposed, the forces.
 module group_equations
   use constants, only: degree
   use dense_factor, only: dense_factor_t, factorize
   use kinds, only: wp
   use linkages, only: cross, demands_angle, demands_drive, demands_length, demands_line, &
     demands_turn, drives_angle, drive_t, drives_length, drives_slider, equation_t, group_t, &
-    linkage_t, &
-    normal_to, turned
+    linkage_t, normal_to, turned
   use pose_types, only: pose_t
   implicit none (type, external)
   private
@@ -45,7 +44,7 @@ contains
 
     select case (equation%kind)
     case (demands_length)
-      call along_way(linkage, pose, equation%body, equation%pin, gradient)
+      call of_distance(linkage, pose, equation%body, equation%pin, gradient)
     case (demands_angle)
       axis = turned(equation%place, pose%direction(:, equation%body))
       axis = normal_to(axis/norm2(axis))
@@ -65,27 +64,35 @@ contains
         case (drives_slider)
           call on_line(linkage, pose, drive%slider, .false., gradient)
         case (drives_length)
-          call along_way(linkage, pose, drive%body, linkage%bodies(drive%body)%last_pin, gradient)
+          call of_distance(linkage, pose, drive%body, linkage%bodies(drive%body)%last_pin, &
+            gradient)
         end select
       end associate
     end select
   end subroutine find_gradient
 
-  !> The distance |u| of a pin of a body from its first one: the angle of the body does not matter.
-  pure subroutine along_way(linkage, pose, body, pin, gradient)
+  !> `|u|` with u from the first pin of a body to another one.
+  pure subroutine of_distance(linkage, pose, body, pin, gradient)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
     integer, intent(in) :: body !! number
     integer, intent(in) :: pin  !! at the end of u
     type(gradient_t), intent(inout) :: gradient
 
-    real(wp) :: u(2)
+    real(wp) :: u(2), distance
 
     u = pose%pin(:, pin) - pose%pin(:, linkage%bodies(body)%first_pin)
-    u = u/max(norm2(u), tiny(1.0_wp))
-    call along_body(linkage, pose, body, pin, u, gradient)
-    gradient%by_angle(1) = 0.0_wp
-  end subroutine along_way
+    distance = norm2(u)
+    if (distance > 0.0_wp) then
+      u = u/distance
+    else
+      u = pose%direction(:, body)
+    end if
+    gradient%pin = [pin, linkage%bodies(body)%first_pin]
+    gradient%by_pin(:, 1) = u
+    gradient%by_pin(:, 2) = -u
+    gradient%body(1) = body
+  end subroutine of_distance
 
   !> `e·u` with e turning with a body, and u from its first pin to another one.
   pure subroutine along_body(linkage, pose, body, pin, e, gradient)
@@ -205,7 +212,7 @@ contains
     curvature = 2.0_wp*h*dot_product(normal_to(e), w) - h**2*dot_product(e, u)
   end function curvature_of
 
-  !> Whether an equation is about the distance of two pins of a body.
+  !> Whether an equation is about a distance, whatever the angle of the body between its ends.
   pure function is_distance(linkage, equation) result(is)
     type(linkage_t), intent(in) :: linkage
     type(equation_t), intent(in) :: equation

@@ -265,7 +265,16 @@ contains
       last = size_of_step
     end do
     call set_error(error, error_of_numerics, "the position was not found by iterations", &
-      body=group%bodies(1))
+      body=body_of(group))
   end subroutine improve_group
+
+  !> A body that a group is about; 0 if its equations are about pins on lines only.
+  pure function body_of(group) result(body)
+    type(group_t), intent(in) :: group
+    integer :: body
+
+    body = maxval([0, group%equations%body])
+    if (size(group%bodies) > 0) body = group%bodies(1)
+  end function body_of
 
 end module group_places

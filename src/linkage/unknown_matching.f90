@@ -79,7 +79,7 @@ contains
     type(matching_t), intent(in) :: matching   !! of these
     integer, intent(in) :: node(:)             !! (unknowns) number of what they belong to: the two
                                                !! of a pin to one; ascending from 1
-    integer, intent(in) :: companion(:)        !! (nodes) another one without which it is of no use,
+    integer, intent(in), optional :: companion(:) !! (nodes) another one without which it is of no use,
                                                !! as a body is without its first pin; 0: none
     integer, allocatable :: part(:)            !! ascending numbers of these
 
@@ -98,9 +98,11 @@ contains
         if (has(k, matching%equation_of(u))) needs(node(k), node(u)) = .true.
       end do
     end do
-    do i = 1, n
-      if (companion(i) > 0) needs(companion(i), i) = .true.
-    end do
+    if (present(companion)) then
+      do i = 1, n
+        if (companion(i) > 0) needs(companion(i), i) = .true.
+      end do
+    end if
     do i = 1, n
       reached = needs(:, i)
       grows = .true.
