@@ -436,7 +436,7 @@ if [ -n "$varied" ]; then
 elif [ $figures = animations ]; then
     plan_animations
 else
-    have inertia.dat && plan_mechanism
+    [ -z "$cycle" ] && have inertia.dat && plan_mechanism
     have mesh.dat && add finite_element_model finite_element_model.gp mesh.dat "$(telling_crank mesh.dat)"
     have frequencies.dat && plan_frequencies
     have branches.dat && plan_speeds branches branches.dat

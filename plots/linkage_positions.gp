@@ -12,6 +12,7 @@ call plots."shapes.gp" 360 0.013
 
 # In full: near 60 degrees, or after a third of the way. The others evenly.
 shown = 1 + (turning ? int(floor(60.5 - pose_low) + 720)%360 : 120)
+do for [k=1:360] { if (pose_found[shown] == 0) { shown = 1 + shown%361 } }
 others = turning ? 5 : 3
 first_of = (shown - 1)%60
 other(k) = turning ? 1 + first_of + 60*(first_of + 60*(k - 1) < shown - 1 ? k - 1 : k) : k == 1 ? 1 : k == 2 ? 241 : 361
@@ -20,8 +21,12 @@ x0 = x_min - room; x1 = x_max + room; y0 = y_min - room; y1 = y_max + room
 
 headline = numbered(figure, "The linkage over its cycle, in full: ".at_drive(pose_crank[shown]))
 pale_positions = ""
-do for [k=1:others] { pale_positions = pale_positions.(k > 1 ? ", " : "").minus(sprintf("%.5g", pose_crank[other(k)])) }
-note = sprintf("pale: %s at %s%s", drive_subject, pale_positions, is_angle ? "°" : " ".unit_crank)
+do for [k=1:others] {
+    if (pose_found[other(k)]) {
+        pale_positions = pale_positions.(pale_positions eq "" ? "" : ", ").minus(sprintf("%.5g", pose_crank[other(k)]))
+    }
+}
+note = pale_positions eq "" ? "" : sprintf("pale: %s at %s%s", drive_subject, pale_positions, is_angle ? "°" : " ".unit_crank)
 load plots."legend.gp"
 do for [k=1:drawn_links] { eval entry_line(short_name(link_names, k), sprintf("lw 11 dt solid lc rgb '%s'", link_ink[k])) }
 do for [k=1:paths] {
@@ -44,13 +49,13 @@ system(sprintf("awk -v left=%.9g -v low=%.9g -v scale=%.9g -v x0=%.12g -v y0=%.1
     " ".quoted(sprintf("%s/skeleton_%d", shapes, shown))." ".quoted(shapes."/guides")." >> ".quoted(places))
 set print places append
 row = system(sprintf("sed -n %dp ", shown).quoted(shapes."/paths"))
-print_name(x, y, name) = sprintf("label %.6g %.6g %.4g %.4g %.4g 45 %s", page_x(x), page_y(y), 0.8*pixel*bar + 4, text_width(name, 17), \
-    text_height(17), name)
+print_name(x, y, away, name) = sprintf("label %.6g %.6g %.4g %.4g %.4g 45 %s", page_x(x), page_y(y), away*pixel*bar + 4, \
+    text_width(name, 17), text_height(17), name)
 print_pin(x, y) = sprintf("box %.6g %.6g %.4g %.4g", page_x(x), page_y(y), 2.4*pixel*bar, 2.4*pixel*bar)
 do for [k=1:paths] { print print_pin(word(row, 2*k) + 0, word(row, 2*k + 1) + 0) }
 do for [k=1:grounds] { print print_pin(ground_x[k], ground_y[k]) }
-do for [k=1:paths] { print print_name(word(row, 2*k) + 0, word(row, 2*k + 1) + 0, word(path_names, k)) }
-do for [k=1:grounds] { print print_name(ground_x[k], ground_y[k], word(ground_names, k)) }
+do for [k=1:paths] { print print_name(word(row, 2*k) + 0, word(row, 2*k + 1) + 0, path_slides[k] ? 2.3 : 0.8, word(path_names, k)) }
+do for [k=1:grounds] { print print_name(ground_x[k], ground_y[k], 0.8, word(ground_names, k)) }
 unset print
 load labels_as("names")
 

@@ -52,13 +52,27 @@ eval legend_page(125 + lower + n_kept*(full_height + panel_gap) - panel_gap, 1, 
 panel_height = (@panel_room - lower + panel_gap)/n_kept - panel_gap
 eval heading
 set multiplot
+if (legend_once) {                                   # beside all panels, which has room for more words than one of them
+    panel = int(word(kept, 1))
+    keys = ""
+    do for [k=1:words(curves_of[panel])] { keys = keys.sprintf(", keyentry with linespoints lt %d title word(titles_of[%d], %d)", k, panel, k) }
+    set bmargin at screen up(lower)
+    set tmargin at screen up(lower + n_kept*(panel_height + panel_gap) - panel_gap)
+    set key at screen across(key_left), up(lower + n_kept*(panel_height + panel_gap) - panel_gap)
+    unset border
+    unset tics
+    eval "plot [0:1][0:1] NaN notitle".keys
+    set border 31 lw 1.5
+    set xtics out nomirror
+    set ytics out nomirror
+}
 do for [place=1:n_kept] {
     panel = int(word(kept, place))
     base = lower + (n_kept - place)*(panel_height + panel_gap)
     set bmargin at screen up(base)
     set tmargin at screen up(base + panel_height)
     set key at screen across(key_left), up(base + panel_height)
-    if (place > 1) { do for [label=901:904] { unset label label } }
+    if (place > 1 || legend_once) { do for [label=901:904] { unset label label } }
     n = words(curves_of[panel])
     parts = ""
     keys = ""
@@ -68,7 +82,7 @@ do for [place=1:n_kept] {
             line_width(drawn_rows), of_curve, k, dot_size(drawn_rows))
         parts = parts.sprintf("source_of(%d) every %d::%d using (%s):(%s ? %s : NaN) with points lt %d notitle, ", \
             k, mark_step(drawn_rows), mark_first(k, n, drawn_rows), x, picked, word(curves_of[panel], k), k)
-        if (n > 1 && (!legend_once || place == 1)) { keys = keys.sprintf(", keyentry with linespoints lt %d title word(titles_of[%d], %d)", k, panel, k) }
+        if (n > 1 && !legend_once) { keys = keys.sprintf(", keyentry with linespoints lt %d title word(titles_of[%d], %d)", k, panel, k) }
     }
     bare = place < n_kept
     eval x_axis

@@ -8,18 +8,20 @@
 #   FOLDER/paths              a position a line: the crank, then x and y of every moving pin and point
 #   FOLDER/guides             rails, and behind two empty lines their hatching; nothing without guides
 #   FOLDER/grounds            the triangles of ground pivots, behind two empty lines their ground and its hatching
-# Facts: poses, pose_crank[k], link_names, link_ink[k], grounds, ground_names, ground_x[k], ground_y[k], ground_up[k] (-1: hanging), paths,
-# path_names, path_ink[k] (empty for a path of no interest), x_min, x_max, y_min, y_max, span, bar, ground_size.
+# Facts: poses, pose_crank[k], pose_found[k], link_names, link_ink[k], grounds, ground_names, ground_x[k], ground_y[k], ground_up[k] (-1: hanging), paths,
+# path_names, path_ink[k] (empty for a path of no interest), path_slides[k], x_min, x_max, y_min, y_max, span, bar, ground_size.
 
 BEGIN { pi = atan2(0, -1); wanted = 1 }
 
+# A position that the linkage cannot take has its number, and nothing to be drawn.
+/^# *failed crank=/ { sub(/^# *failed crank=/, ""); crank[++poses] = $1; next }
+
 /^#/ || NF == 0 { next }
 
-# A position begins with the ground, or with the first link where there is none.
-!begun || $1 != crank[poses] {
-    begun = 1
+!(poses in is_found) || $1 != crank[poses] {
     crank[++poses] = $1
-    last = ""
+    is_found[poses] = 1
+    if (!first) first = poses
 }
 
 {
@@ -32,10 +34,10 @@ BEGIN { pi = atan2(0, -1); wanted = 1 }
     }
 }
 
-$3 == "pin" && $2 == "(ground)" { if (poses == 1) { ground[++grounds] = $4; fixed[$4] = 1 }; next }
+$3 == "pin" && $2 == "(ground)" { if (poses == first) { ground[++grounds] = $4; fixed[$4] = 1 }; next }
 
 $3 == "pin" || $3 == "point" {
-    if (poses > 1) next
+    if (poses > first) next
     if (!($2 in link_number)) { link[++links] = $2; link_number[$2] = links }
     number = link_number[$2]
     place[number, ++places[number]] = $4
@@ -47,28 +49,30 @@ $3 == "pin" || $3 == "point" {
 }
 
 $3 == "slider" {
-    if (poses == 1) { slider[++sliders] = $4; on[sliders] = $2; slides[$4] = 1; if (!($4 in known) && !($4 in fixed)) { known[$4] = 1; path[++paths] = $4 } }
+    if (poses > first) next
+    slider[++sliders] = $4
+    on[sliders] = $2
+    slides[$4] = 1
+    if (!($4 in known) && !($4 in fixed)) { known[$4] = 1; path[++paths] = $4 }
     next
 }
 
 $3 == "ahead" {
-    if (poses == 1) ahead++
-    nth[poses]++
-    i = nth[poses]
+    i = ++nth[poses]
     way = sqrt((x - at_x[$4, poses])^2 + (y - at_y[$4, poses])^2)
     cos_of[i, poses] = (x - at_x[$4, poses]) / way
     sin_of[i, poses] = (y - at_y[$4, poses]) / way
 }
 
 END {
-    if (!poses) exit 1
+    if (!first) exit 1
     span = x_max - x_min > y_max - y_min ? x_max - x_min : y_max - y_min
     bar = share * span
     block_length = 3.0 * bar
     block_height = 1.9 * bar
     rim = 0.28 * bar
     ground_size = 3.6 * bar
-    for (n = 1; n <= poses; n++) draw_pose(n)
+    for (n = 1; n <= poses; n++) if (n in is_found) draw_pose(n)
     draw_paths()
     draw_guides()
     draw_grounds()
@@ -212,11 +216,13 @@ function draw_block(file, i, n, long, high,    k, x, y, c, s) {
 function draw_paths(    n, k) {
     for (n = 1; n <= poses; n++) {
         printf "%.10g", crank[n] > (folder "/paths")
-        for (k = 1; k <= paths; k++) printf " %.8g %.8g", at_x[path[k], n], at_y[path[k], n] > (folder "/paths")
+        for (k = 1; k <= paths; k++) printf " %s %s", coordinate(at_x, path[k], n), coordinate(at_y, path[k], n) > (folder "/paths")
         printf "\n" > (folder "/paths")
     }
     close(folder "/paths")
 }
+
+function coordinate(at, p, n) { return n in is_found ? sprintf("%.8g", at[p, n]) : "NaN" }
 
 # A rail beside the blocks, on the right of its direction, as long as they slide; all blocks of a guide have one.
 function draw_guides(    i, n, k, along, c, s, x, y, low, high, file, hatches, side) {
@@ -224,11 +230,16 @@ function draw_guides(    i, n, k, along, c, s, x, y, low, high, file, hatches, s
     printf "" > file
     for (i = 1; i <= sliders; i++) {
         if (on[i] in link_number) continue
-        c = cos_of[i, 1]; s = sin_of[i, 1]
-        x = at_x[slider[i], 1]; y = at_y[slider[i], 1]
-        if (!(on[i] in rail)) { rail[on[i]] = ++rails; rail_c[rails] = c; rail_s[rails] = s; rail_x[rails] = x; rail_y[rails] = y }
+        c = cos_of[i, first]; s = sin_of[i, first]
+        x = at_x[slider[i], first]; y = at_y[slider[i], first]
+        if (!(on[i] in rail)) {
+            rail[on[i]] = ++rails
+            rail_c[rails] = c; rail_s[rails] = s
+            rail_x[rails] = x; rail_y[rails] = y
+        }
         k = rail[on[i]]
         for (n = 1; n <= poses; n++) {
+            if (!(n in is_found)) continue
             along = (at_x[slider[i], n] - rail_x[k]) * c + (at_y[slider[i], n] - rail_y[k]) * s
             if (!(k in rail_low) || along < rail_low[k]) rail_low[k] = along
             if (!(k in rail_high) || along > rail_high[k]) rail_high[k] = along
@@ -287,8 +298,8 @@ function draw_grounds(    i, k, file, x, y, up) {
 }
 
 function ground_point(file, i, across, above,    x, y) {
-    x = at_x[ground[i], 1] + ground_size * across
-    y = at_y[ground[i], 1] + ground_size * above * ground_up[i]
+    x = at_x[ground[i], first] + ground_size * across
+    y = at_y[ground[i], first] + ground_size * above * ground_up[i]
     include(x, y)
     printf "%.7g %.7g\n", x, y > file
 }
@@ -296,12 +307,13 @@ function ground_point(file, i, across, above,    x, y) {
 # ---- Facts ----
 
 # The ends of links and points are what a linkage is for; where there are none, pins of links that no ground pivot holds.
-function path_ink(k,    i, n, count) {
+function path_ink(k,    i, n, p, count) {
     if (!inks_known++) {
         for (i = 1; i <= links; i++)
             for (n = 1; n <= places[i]; n++) {
-                if (joined[place[i, n]] == 1 && !(place[i, n] in slides) && !(place[i, n] in fixed)) { ends++; is_end[place[i, n]] = 1 }
-                if (pivoted[i]) bound[place[i, n]] = 1
+                p = place[i, n]
+                if (joined[p] == 1 && !(p in slides) && !(p in fixed)) { ends++; is_end[p] = 1 }
+                if (pivoted[i]) bound[p] = 1
             }
         for (i = 1; i <= sliders; i++) if (!(on[i] in link_number)) bound[slider[i]] = 1
         for (i = 1; i <= paths; i++)
@@ -318,7 +330,7 @@ function pale_of(i) { return word_of("#DCE8F4 #FFF3DC #E6F3E6 #F7E7ED #F9E8DD #E
 # A pivot stands on its ground, or hangs from it where its links hang.
 function hangs(p,    i, k, n, m, found, total) {
     for (n = 1; n <= poses; n++)
-        for (i = 1; i <= links; i++) {
+        for (i = 1; i <= links && n in is_found; i++) {
             found = 0
             for (k = 1; k <= places[i]; k++) if (place[i, k] == p) found = 1
             if (!found) continue
@@ -331,21 +343,23 @@ function hangs(p,    i, k, n, m, found, total) {
 }
 
 function print_facts(    i, k, text) {
-    printf "poses = %d; bar = %.9g; ground_size = %.9g; layers = %d; body_layers = %d; paths = %d; grounds = %d; drawn_links = %d\n", poses, bar, ground_size, layer, body_layers, paths, grounds, links
+    printf "poses = %d; bar = %.9g; ground_size = %.9g; layers = %d; body_layers = %d; ", poses, bar, ground_size, layer, body_layers
+    printf "paths = %d; grounds = %d; drawn_links = %d\n", paths, grounds, links
     printf "x_min = %.9g; x_max = %.9g; y_min = %.9g; y_max = %.9g; span = %.9g\n", x_min, x_max, y_min, y_max, span
-    printf "array pose_crank[%d]; array layer_fill[%d]; array layer_pale[%d]; array path_ink[%d]; array link_ink[%d]\n", poses, layer, \
-        layer, paths + 1, links
+    printf "array pose_crank[%d]; array pose_found[%d]; ", poses, poses
+    printf "array layer_fill[%d]; array layer_pale[%d]; array path_ink[%d]; array path_slides[%d]; array link_ink[%d]\n", \
+        layer, layer, paths + 1, paths + 1, links
     printf "array ground_x[%d]; array ground_y[%d]; array ground_up[%d]\n", grounds + 1, grounds + 1, grounds + 1
-    for (i = 1; i <= poses; i++) printf "pose_crank[%d] = %.12g\n", i, crank[i]
+    for (i = 1; i <= poses; i++) printf "pose_crank[%d] = %.12g; pose_found[%d] = %d\n", i, crank[i], i, i in is_found
     for (i = 1; i <= layer; i++) printf "layer_fill[%d] = '%s'; layer_pale[%d] = '%s'\n", i, layer_fill[i], i, layer_pale[i]
-    for (i = 1; i <= paths; i++) { printf "path_ink[%d] = '%s'\n", i, path_ink(i); text = text " \"" path[i] "\"" }
+    for (i = 1; i <= paths; i++) { printf "path_ink[%d] = '%s'; path_slides[%d] = %d\n", i, path_ink(i), i, path[i] in slides; text = text " \"" path[i] "\"" }
     printf "path_names = %s\n", quoted(text)
     text = ""
     for (i = 1; i <= links; i++) { printf "link_ink[%d] = '%s'\n", i, ink_of(i); text = text " \"" link[i] "\"" }
     printf "link_names = %s\n", quoted(text)
     text = ""
     for (i = 1; i <= grounds; i++) {
-        printf "ground_x[%d] = %.9g; ground_y[%d] = %.9g; ground_up[%d] = %d\n", i, at_x[ground[i], 1], i, at_y[ground[i], 1], i, ground_up[i]
+        printf "ground_x[%d] = %.9g; ground_y[%d] = %.9g; ground_up[%d] = %d\n", i, at_x[ground[i], first], i, at_y[ground[i], first], i, ground_up[i]
         text = text " \"" ground[i] "\""
     }
     printf "ground_names = %s\n", quoted(text)

@@ -13,10 +13,11 @@ polygons(n, k, colour) = sprintf("'%s' index %d with filledcurves closed fc rgb 
     shapes."/pose_".n, k - 1, colour)
 layers_from(n, k, last) = k > last ? "" : polygons(n, k, layer_fill[k]).layers_from(n, k + 1, last)
 pale_from(n, k) = k > layers ? "" : polygons(n, k, layer_pale[k]).pale_from(n, k + 1)
-bodies(n) = layers_from(n, 1, body_layers)
-pins_of(n) = layers_from(n, body_layers + 1, layers)
-pale_body(n) = pale_from(n, 1)
-grounds_part = grounds == 0 ? "" : sprintf("'%s/grounds' index 0 with filledcurves closed fc rgb 'white' fs solid 1 noborder notitle, ", shapes).\
+bodies(n) = pose_found[n] == 0 ? "" : layers_from(n, 1, body_layers)
+pins_of(n) = pose_found[n] == 0 ? "" : layers_from(n, body_layers + 1, layers)
+pale_body(n) = pose_found[n] == 0 ? "" : pale_from(n, 1)
+grounds_part = grounds == 0 ? "" : \
+    sprintf("'%s/grounds' index 0 with filledcurves closed fc rgb 'white' fs solid 1 noborder notitle, ", shapes).\
     sprintf("'%s/grounds' index 0 with lines lw 2 dt solid lc rgb ink notitle, ", shapes).\
     sprintf("'%s/grounds' index 1 with lines lw 1.5 dt solid lc rgb ink notitle, ", shapes)
 fixed_parts = grounds_part.(system("wc -c < ".quoted(shapes."/guides")) < 3 ? "" : \

@@ -269,7 +269,7 @@ escaped(text) = text eq "" ? "" : (text[1:1] eq "\n" ? "\\n" : text[1:1] eq "\\"
 is_logarithmic(panel) = 0
 also_shown(panel) = NaN
 before_panel(panel) = ""
-legend_once = 0                                     # all panels have the same curves: the first has the legend
+legend_once = 0                                     # all panels have the same curves, and one legend beside them
 
 # ---- Curves against the crank angle ---------------------------------------------------------------------------
 # The legend stands in columns of its own at the right, so it never meets a curve; what is beyond three columns is counted.

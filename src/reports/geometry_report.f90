@@ -86,8 +86,7 @@ contains
       end do
       do body = 1, size(linkage%bodies)
         call add_gap(rows, 1)
-        pins = [linkage%bodies(body)%first_pin, linkage%bodies(body)%last_pin, &
-          linkage%bodies(body)%further%pin]
+        pins = pins_of_body(linkage%bodies(body))
         do i = 1, size(pins)
           call add_place(layout, found%crank(position), names(body)%text, "pin", &
             pin_names(pins(i))%text, found%pin(:, pins(i), position), rows)

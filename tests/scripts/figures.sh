@@ -324,6 +324,27 @@ installed_plots() {
   silent && [ "$(wc -l <"$scratch/stdout")" -eq 3 ]
 }
 
+# Linkages that are no four-bars: a slider on a link and one on a guide; a driven slider, which goes to and fro; a row that fails.
+other_linkages() {
+  run 0 --quiet --out "$scratch/out" inputs/quick_return.deck inputs/toggle_press.deck inputs/klann.deck || return 1
+  all="drive_forces joint_forces link_motion linkage linkage_positions pin_motion"
+  drawn quick_return figures $all && gif quick_return/figures/linkage.gif 72 || return 1
+  drawn toggle_press figures $all && gif toggle_press/figures/linkage.gif 60 || return 1
+  drawn klann figures link_motion linkage linkage_positions pin_motion && drawn klann animations linkage || return 1
+  sed 's/^LINK     rod .*/LINK rod A B length=30 mass=1 inertia=1/; /^POINT/d; /^REPORT   points/d' inputs/engine.deck >"$scratch/short.deck"
+  run 1 --quiet --out "$scratch/out" "$scratch/short.deck" && drawn short figures $all lagrange
+}
+
+# Shapes of a position: two colours a link and a slider, two for pins; a plate has its corners' hull.
+drawn_shapes() {
+  (cd "$scratch/out/klann" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/shapes.sh" "$scratch/klann.shapes" 0 360 4 0.014) \
+    >"$scratch/told" || return 1
+  grep -q 'layers = 12; body_layers = 10; paths = 5; grounds = 3; drawn_links = 5' "$scratch/told" &&
+    grep -q "path_names = ' \"P29\" \"P27\" \"P35\" \"P37\" \"P33\"'" "$scratch/told" &&
+    [ "$(grep -c "^path_ink.*'#" "$scratch/told")" -eq 1 ] && [ "$(wc -l <"$scratch/klann.shapes/paths")" -eq 5 ] ||
+    { cat "$scratch/told"; return 1; }
+}
+
 root=$(pwd)
 
 check "figures of inputs/rigid.deck" rigid_figures
@@ -341,4 +362,6 @@ check "a linkage at its dead point" dead_point
 check "no drawing of a linkage without the program" without_program
 check "links with odd names are placed" odd_names
 check "pins that meet" meeting_pins
+check "figures of other linkages than four-bars" other_linkages
+check "shapes of other linkages" drawn_shapes
 check "installed scripts" installed_plots
