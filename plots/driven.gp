@@ -10,7 +10,7 @@ drive_quantity = driven_word(2) eq "against" ? "angle of ".drive_subject." again
     : is_angle ? (drive_subject eq "crank" ? "crank angle" : "angle of ".drive_subject) \
     : driven_word(2) eq "length" ? "length of ".drive_subject : "place of ".drive_subject." along ".driven_word(2)
 drive_title = drive_quantity.bracketed(typeset(unit_crank))
-at_drive(position) = drive_subject.sprintf(" at %s%s", minus(sprintf("%.6g", position)), is_angle ? "°" : " ".unit_crank)
+at_drive(position) = drive_subject.sprintf(" at %s%s", minus(sprintf("%.4g", position)), is_angle ? "°" : " ".unit_crank)
 at_rate(speed) = drive_subject.sprintf(" at %s %s", minus(sprintf("%.6g", speed)), typeset(unit_speed))
 positions = words(answer(table, "distinct crank"))
 turning = is_angle && positions > 2 && (high_crank - low_crank)*positions/(positions - 1.0) >= 360 - 1e-6

@@ -49,13 +49,13 @@ system(sprintf("awk -v left=%.9g -v low=%.9g -v scale=%.9g -v x0=%.12g -v y0=%.1
     " ".quoted(sprintf("%s/skeleton_%d", shapes, shown))." ".quoted(shapes."/guides")." >> ".quoted(places))
 set print places append
 row = system(sprintf("sed -n %dp ", shown).quoted(shapes."/paths"))
-print_name(x, y, name) = sprintf("label %.6g %.6g %.4g %.4g %.4g 45 %s", page_x(x), page_y(y), 0.8*pixel*bar + 4, text_width(name, 17), \
-    text_height(17), name)
+print_name(x, y, away, name) = sprintf("label %.6g %.6g %.4g %.4g %.4g 45 %s", page_x(x), page_y(y), away*pixel*bar + 4, \
+    text_width(name, 17), text_height(17), name)
 print_pin(x, y) = sprintf("box %.6g %.6g %.4g %.4g", page_x(x), page_y(y), 2.4*pixel*bar, 2.4*pixel*bar)
 do for [k=1:paths] { print print_pin(word(row, 2*k) + 0, word(row, 2*k + 1) + 0) }
 do for [k=1:grounds] { print print_pin(ground_x[k], ground_y[k]) }
-do for [k=1:paths] { print print_name(word(row, 2*k) + 0, word(row, 2*k + 1) + 0, word(path_names, k)) }
-do for [k=1:grounds] { print print_name(ground_x[k], ground_y[k], word(ground_names, k)) }
+do for [k=1:paths] { print print_name(word(row, 2*k) + 0, word(row, 2*k + 1) + 0, path_slides[k] ? 2.3 : 0.8, word(path_names, k)) }
+do for [k=1:grounds] { print print_name(ground_x[k], ground_y[k], 0.8, word(ground_names, k)) }
 unset print
 load labels_as("names")
 

@@ -9,7 +9,7 @@
 #   FOLDER/guides             rails, and behind two empty lines their hatching; nothing without guides
 #   FOLDER/grounds            the triangles of ground pivots, behind two empty lines their ground and its hatching
 # Facts: poses, pose_crank[k], pose_found[k], link_names, link_ink[k], grounds, ground_names, ground_x[k], ground_y[k], ground_up[k] (-1: hanging), paths,
-# path_names, path_ink[k] (empty for a path of no interest), x_min, x_max, y_min, y_max, span, bar, ground_size.
+# path_names, path_ink[k] (empty for a path of no interest), path_slides[k], x_min, x_max, y_min, y_max, span, bar, ground_size.
 
 BEGIN { pi = atan2(0, -1); wanted = 1 }
 
@@ -347,12 +347,12 @@ function print_facts(    i, k, text) {
     printf "paths = %d; grounds = %d; drawn_links = %d\n", paths, grounds, links
     printf "x_min = %.9g; x_max = %.9g; y_min = %.9g; y_max = %.9g; span = %.9g\n", x_min, x_max, y_min, y_max, span
     printf "array pose_crank[%d]; array pose_found[%d]; ", poses, poses
-    printf "array layer_fill[%d]; array layer_pale[%d]; array path_ink[%d]; array link_ink[%d]\n", layer, \
-        layer, paths + 1, links
+    printf "array layer_fill[%d]; array layer_pale[%d]; array path_ink[%d]; array path_slides[%d]; array link_ink[%d]\n", \
+        layer, layer, paths + 1, paths + 1, links
     printf "array ground_x[%d]; array ground_y[%d]; array ground_up[%d]\n", grounds + 1, grounds + 1, grounds + 1
     for (i = 1; i <= poses; i++) printf "pose_crank[%d] = %.12g; pose_found[%d] = %d\n", i, crank[i], i, i in is_found
     for (i = 1; i <= layer; i++) printf "layer_fill[%d] = '%s'; layer_pale[%d] = '%s'\n", i, layer_fill[i], i, layer_pale[i]
-    for (i = 1; i <= paths; i++) { printf "path_ink[%d] = '%s'\n", i, path_ink(i); text = text " \"" path[i] "\"" }
+    for (i = 1; i <= paths; i++) { printf "path_ink[%d] = '%s'; path_slides[%d] = %d\n", i, path_ink(i), i, path[i] in slides; text = text " \"" path[i] "\"" }
     printf "path_names = %s\n", quoted(text)
     text = ""
     for (i = 1; i <= links; i++) { printf "link_ink[%d] = '%s'\n", i, ink_of(i); text = text " \"" link[i] "\"" }
