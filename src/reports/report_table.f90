@@ -154,23 +154,23 @@ module report_table
       studies="linkage", linkages=four_bars, tables=[ &
       table_kind_t("linkage", "branch,event:name crank,theta3,theta4,transmission_angle:deg"), &
       no_table]), &
-    report_kind_t(name="linkage", help="ranges of the drive, swings, strokes, time ratios", &
+    report_kind_t(name="linkage", help="of other linkages: ranges, swings, strokes, time ratios", &
       studies="limits", linkages=other_linkages, tables=[ &
       table_kind_t("linkage", "part,quantity:name crank:deg value:see_unit unit:name"), &
       no_table]), &
-    report_kind_t(name="balance", help="shaking force and its harmonics", &
-      studies="joints balance harmonics", positions=.true., masses=.true., &
-      linkages=other_linkages, tables=[ &
-      table_kind_t("balance", "speed:speed crank:deg xG,yG:length shaking_x,shaking_y:force "// &
-      "shaking_moment,torque:moment"), &
-      table_kind_t("harmonics", "speed:speed linkage,quantity:name largest,rms,mean:- h*:- "// &
-      "phase*:deg")]), &
     report_kind_t(name="balance", help="shaking force, counterweights, harmonics", &
       studies="reactions balance harmonics", positions=.true., masses=.true., numbers=98, &
       linkages=four_bars, tables=[ &
       table_kind_t("balance", "speed:speed crank:deg xG,yG:length shaking_x,shaking_y:force "// &
       "shaking_moment,torque:moment balanced_x,balanced_y:force "// &
       "balanced_moment,balanced_torque:moment"), &
+      table_kind_t("harmonics", "speed:speed linkage,quantity:name largest,rms,mean:- h*:- "// &
+      "phase*:deg")]), &
+    report_kind_t(name="balance", help="of other linkages: shaking force and its harmonics", &
+      studies="joints balance harmonics", positions=.true., masses=.true., &
+      linkages=other_linkages, tables=[ &
+      table_kind_t("balance", "speed:speed crank:deg xG,yG:length shaking_x,shaking_y:force "// &
+      "shaking_moment,torque:moment"), &
       table_kind_t("harmonics", "speed:speed linkage,quantity:name largest,rms,mean:- h*:- "// &
       "phase*:deg")]), &
     report_kind_t(name="geometry", help="where pins, links and points are, for drawings", &
@@ -235,15 +235,15 @@ module report_table
       "axial_strain,bending_strain:- moment:moment axial_force:force stress:stress error:-")]), &
     report_kind_t(name="motion", help="the motion under motor and loads", &
       pattern="REPORT motion crank= [speed=0] end= step=", default="speed=0", &
-      studies="motion", masses=.true., linkages=other_linkages, tables=[ &
-      table_kind_t("motion", "time:time position*:deg rate*:rate torque:moment "// &
-      "kinetic,potential,work,energy_error:energy"), no_table]), &
-    report_kind_t(name="motion", help="the motion under motor and loads", &
-      pattern="REPORT motion crank= [speed=0] end= step=", default="speed=0", &
       studies="motion", masses=.true., linkages=four_bars, tables=[ &
       table_kind_t("motion", "time:time crank,theta3,theta4:deg omega2,omega3,omega4:rate "// &
       "torque:moment kinetic,potential,work,energy_error:energy closure:length branch:name"), &
-      no_table])]
+      no_table]), &
+    report_kind_t(name="motion", help="of other linkages: the motion under motor and loads", &
+      pattern="REPORT motion crank= [speed=0] end= step=", default="speed=0", &
+      studies="motion", masses=.true., linkages=other_linkages, tables=[ &
+      table_kind_t("motion", "time:time position*:deg rate*:rate torque:moment "// &
+      "kinetic,potential,work,energy_error:energy"), no_table])]
 
 contains
 

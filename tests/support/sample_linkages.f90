@@ -1,6 +1,7 @@
 !> Decks of linkages of every kind of group, and the linkages that they give.
 module sample_linkages
   use computed_decks, only: read_text
+  use kinds, only: wp
   use linkage_parts, only: assemble_linkage, assembly_t
   use linkages, only: linkage_t
   use models, only: model_t
@@ -8,7 +9,7 @@ module sample_linkages
   implicit none (type, external)
   private
 
-  public :: assemble, linkage_of, body_named, pin_named, sample_names, deck_named
+  public :: assemble, linkage_of, body_named, pin_named, sample_names, deck_named, sample_crank
 
   character(len=*), parameter :: nl = achar(10)
 
@@ -118,6 +119,19 @@ contains
       text = boom
     end select
   end function deck_named
+
+  !> The k-th of 24 coordinates of the first drive that a linkage reaches, away from dead points.
+  pure function sample_crank(name, k) result(crank)
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: k !! 1 to 24
+    real(wp) :: crank        !! [deg] or [m]
+
+    crank = 15.0_wp*real(k, wp) - 8.0_wp
+    if (name == "two_lines") crank = 20.0_wp + 5.0_wp*real(k, wp)
+    if (name == "parallelogram") crank = 10.0_wp + 6.5_wp*real(k, wp)
+    if (name == "boom") crank = 0.1_wp + 0.09_wp*real(k, wp)
+    if (name == "short_triad") crank = -29.0_wp + 2.3_wp*real(k, wp)
+  end function sample_crank
 
   !> The assembly of a deck without its last cards.
   subroutine assemble(text, assembly, complaint)

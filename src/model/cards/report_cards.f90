@@ -100,7 +100,7 @@ contains
     case ("geometry")
       call read_geometry(card, known_keys, lengths, system, diagnostics, report)
     case ("motion")
-      call read_motion(card, known_keys, by_length, system, diagnostics, report)
+      call read_motion(card, known_keys, lengths, system, diagnostics, report)
     case ("intervals")
       call read_intervals(card, system, diagnostics, report)
     case ("transient")
