@@ -130,4 +130,35 @@ def targets(_, texts):
                 yield f"{path}: there is no make {target}"
 
 
-CHECKS = (deck_of_readme, worked_deck, message_of_included_file, message_of_memory, commands_with_decks, commands_on_tables, targets)
+def tutorial(program, texts):
+    """Its deck without the cards that it forgets, and its commands one after the other, with what they print."""
+    text = texts["docs/tutorial.md"]
+    deck = block_with(text, "TITLE ")
+    for card, message in re.findall(r"(?:Without|With) `([^`]+)`[^`]*:\n\n((?:    .*\n)+)", text):
+        message = "\n".join(line[4:] for line in message.rstrip("\n").split("\n"))
+        changed = re.sub(r"(LINK +rod.*) length=\d+", rf"\1 {card}", deck) if "=" in card else deck.replace(card + "\n", "")
+        found = said(program, {"shaper.deck": changed + "\n"}, "shaper.deck")
+        if changed == deck or not found.startswith(message):
+            yield f"with {card!r} changed the message is now\n{found}"
+    with tempfile.TemporaryDirectory() as folder:
+        os.symlink(os.path.abspath("inputs"), os.path.join(folder, "inputs"))
+        with open(os.path.join(folder, "shaper.deck"), "w", encoding="utf-8") as file:
+            file.write(deck + "\n")
+        for block in blocks(text):
+            if not re.match(r"make |awk |grep |paste |\(sed ", block):
+                continue
+            command, _, printed = block.partition("\n\n")
+            runs = re.sub(r"make (?:figures|run) DECK=(\S+).*", rf"{program} --quiet \1", command)
+            done = subprocess.run(runs, shell=True, cwd=folder, capture_output=True, text=True, check=False)
+            if done.returncode or done.stdout.rstrip() != printed.rstrip():
+                yield f"{command}\nprints\n{done.stdout}{done.stderr}"
+
+
+def block_of_linkage(program, texts):
+    """The second deck of the README."""
+    run = Run(program, next(block for block in blocks(texts["README.md"]) if "GUIDE " in block))
+    if run.status != 0 or len(run.rows("kinematics")) != 3*73:
+        yield f"it ends with status {run.status}: {run.errors}"
+
+
+CHECKS = (tutorial, block_of_linkage, deck_of_readme, worked_deck, message_of_included_file, message_of_memory, commands_with_decks, commands_on_tables, targets)
