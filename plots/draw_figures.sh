@@ -276,6 +276,12 @@ plan_cycle() {
         plan_speeds drive_forces drive.dat
         [ -z "$shaking" ] || sed -i "/drive_forces.gp/s/$/|$shaking/" "$new/plan"
     fi
+    # Places of a slider have no directions.
+    if ask facts "$cycle" | grep -q "unit_crank = 'deg'"; then
+        [ -f balance.dat ] && shaking=balance.dat
+        [ -n "$shaking" ] && have "$shaking" && plan_speeds shaking_force "$shaking" 'shaking_x shaking_y'
+    fi
+    have harmonics.dat && plan_speeds harmonics harmonics.dat largest
     have lagrange.dat && plan_speeds lagrange lagrange.dat
     have motion.dat && add motion motion.gp motion.dat
 }

@@ -54,8 +54,9 @@ do for [k in kept] {
     lines = larger(lines, planned_lines(title_of[k + 0], full_height))
 }
 
-headline = numbered(figure, sprintf("Harmonics over a turn of the crank, %s", at_speed(speed, unit_speed)))
-note = "amplitudes of cos(k θ₂ + phase); the mean is not shown"
+headline = numbered(figure, sprintf("Harmonics over a turn%s, %s", of_cycle ? "" : " of the crank", \
+    at_speed(speed, unit_speed)))
+note = (of_cycle ? "amplitudes of harmonics k of the turn" : "amplitudes of cos(k θ₂ + phase)")."; the mean is not shown"
 gap = 35
 lower = foot(lines_of_notes(note, remark))
 eval legend_page(125 + lower + panels*(full_height + gap) - gap, 1, widest(linkages, 20), tick_room, lines)
@@ -77,8 +78,12 @@ do for [place=1:panels] {
     if (place < panels) { set format x "" } else { set format x "%h"; set xlabel "harmonic k" }
     eval value_axis(0, most[panel], panel_height)
     eval axis_title(title_of[panel], base, panel_height)
-    plot $bars index panel - 1 using ($1 - 0.19):2 with boxes lt 1 lw 1 fc rgb "#303030" title word(linkages, 1), \
-        $bars index panel - 1 using ($1 + 0.19):3 with boxes lt 1 lw 1 fc rgb "#8FB8DE" title word(linkages, 2)
+    if (words(linkages) == 1) {
+        plot $bars index panel - 1 using 1:2 with boxes lt 1 lw 1 fc rgb "#303030" notitle
+    } else {
+        plot $bars index panel - 1 using ($1 - 0.19):2 with boxes lt 1 lw 1 fc rgb "#303030" title word(linkages, 1), \
+            $bars index panel - 1 using ($1 + 0.19):3 with boxes lt 1 lw 1 fc rgb "#8FB8DE" title word(linkages, 2)
+    }
 }
 unset multiplot
 eval close

@@ -5,16 +5,15 @@ load ARG0[1 : strlen(ARG0) - strlen("joint_forces.gp")]."style.gp"
 table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
 
 eval answer(table, "facts")
-call plots."driven.gp"
 load keep("joints", table, sprintf("joints %.17g", speed))
 joint_names = words_in(table, sprintf("joint_names %.17g", speed))
 n_joints = words(joint_names)
-headline = numbered(figure, "Forces in the joints, ".at_rate(speed))
+headline = numbered(figure, "Forces in the joints, ".at_speed(speed, unit_speed))
 note = strstrt(joint_names, ":") > 0 ? "A:link: force on that link, or of that guide, at pin A; A: the same on both" : ""
 source_of(k) = "$joints"
 picked = "1"
 x = "$1"
-x_axis = drive_axis
+x_axis = "eval crank_axis(low_crank, high_crank)"
 
 # Six in a panel at most, as many in all.
 panels = int(ceil(n_joints/6.0))

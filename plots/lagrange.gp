@@ -5,15 +5,14 @@ load ARG0[1 : strlen(ARG0) - strlen("lagrange.gp")]."style.gp"
 table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
 
 eval answer(table, "facts")
-if (exists("is_cycle")) { call plots."driven.gp" }
-rate_text = exists("is_cycle") ? at_rate(speed) : at_speed(speed, unit_speed)
-headline = numbered(figure, sprintf("Lagrange's equation of the %s, %s", exists("is_cycle") ? "drive" : "crank against its angle", rate_text))
-note = exists("is_cycle") ? "torque = M α + V + gravity + load,  V = ½ M′ ω², with α and ω of the drive" \
+headline = numbered(figure, sprintf("Lagrange's equation of the %s, %s", \
+    of_cycle ? "drive" : "crank against its angle", at_speed(speed, unit_speed)))
+note = of_cycle ? "torque = M α + V + gravity + load,  V = ½ M′ ω², with α and ω of the drive" \
     : "torque = M α₂ + V + gravity + load,  V = ½ M′ ω₂²"
 source_of(k) = table
 picked = "same(field('speed'),speed)"
 x = "field('crank')"
-x_axis = exists("is_cycle") ? drive_axis : "eval crank_axis(low_crank, high_crank)"
+x_axis = "eval crank_axis(low_crank, high_crank)"
 
 # Terms that are zero throughout are left out.
 terms = ""

@@ -5,16 +5,15 @@ load ARG0[1 : strlen(ARG0) - strlen("link_motion.gp")]."style.gp"
 table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
 
 eval answer(table, "facts")
-call plots."driven.gp"
 load keep("links", table, sprintf("wide %.17g link theta omega alpha", speed))
 link_names = names_in(table, "link")
 n_links = words(link_names)
-headline = numbered(figure, "Motion of the links, ".at_rate(speed))
+headline = numbered(figure, "Motion of the links, ".at_speed(speed, unit_speed))
 note = ""
 source_of(k) = "$links"
 picked = "1"
 x = "$1"
-x_axis = drive_axis
+x_axis = "eval crank_axis(low_crank, high_crank)"
 legend_once = 1
 columns_from(k, first) = k > n_links ? "" : sprintf(" column(%d)", first + 3*(k - 1)).columns_from(k + 1, first)
 panels = 3

@@ -5,16 +5,15 @@ load ARG0[1 : strlen(ARG0) - strlen("pin_motion.gp")]."style.gp"
 table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
 
 eval answer(table, "facts")
-call plots."driven.gp"
 load keep("pins", table, sprintf("wide %.17g pin x y vx vy ax ay", speed))
 pin_names = names_in(table, "pin")
 n_pins = words(pin_names)
-headline = numbered(figure, "Motion of the pins, ".at_rate(speed))
+headline = numbered(figure, "Motion of the pins, ".at_speed(speed, unit_speed))
 note = "speed and acceleration: sizes of the vectors"
 source_of(k) = "$pins"
 picked = "1"
 x = "$1"
-x_axis = drive_axis
+x_axis = "eval crank_axis(low_crank, high_crank)"
 legend_once = 1
 columns_from(k, first) = k > n_pins ? "" : sprintf(" column(%d)", first + 6*(k - 1)).columns_from(k + 1, first)
 sizes_from(k, first) = k > n_pins ? "" : sprintf(" sqrt(column(%d)**2+column(%d)**2)", first + 6*(k - 1), first + 1 + 6*(k - 1)).\

@@ -5,14 +5,12 @@ load ARG0[1 : strlen(ARG0) - strlen("point_rates.gp")]."style.gp"
 table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
 
 eval answer(table, "facts")
-if (exists("is_cycle")) { call plots."driven.gp" }
-rate_text = exists("is_cycle") ? at_rate(speed) : at_speed(speed, unit_speed)
 names = names_in(table, "point")
-headline = numbered(figure, sprintf("Speed and acceleration of %s".(exists("is_cycle") ? "" : " against crank angle").", %s", \
-    words(names) == 1 ? "point ".short_name(names, 1) : "points", rate_text))
+headline = numbered(figure, sprintf("Speed and acceleration of %s".(of_cycle ? "" : " against crank angle").", %s", \
+    words(names) == 1 ? "point ".short_name(names, 1) : "points", at_speed(speed, unit_speed)))
 note = ""
 x = "field('crank')"
-x_axis = exists("is_cycle") ? drive_axis : "eval crank_axis(low_crank, high_crank)"
+x_axis = "eval crank_axis(low_crank, high_crank)"
 picked = "same(field('speed'),speed)"
 
 # Every point is a table of its own, with an empty line where rows have failed.

@@ -1,5 +1,5 @@
 # A polar plot of the shaking force of one speed: as given and, from balance.dat, with counterweights.
-#   gnuplot -c shaking_force.gp balance.dat|reactions.dat OUT SPEED [FIGURE [REMARK]]
+#   gnuplot -c shaking_force.gp balance.dat|reactions.dat|shaking.dat OUT SPEED [FIGURE [REMARK]]
 
 load ARG0[1 : strlen(ARG0) - strlen("shaking_force.gp")]."style.gp"
 table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
@@ -19,7 +19,7 @@ ring = nice((greatest > 0 ? greatest : 1.0)/5)
 radius = ring*ceil((greatest > 0 ? greatest : 1.0)/ring - 0.001)
 
 headline = numbered(figure, sprintf("Shaking force, %s", at_speed(speed, unit_speed)))
-note = "resultant of the inertia forces, from the centre to the curve; numbers: crank angle θ₂"
+note = "resultant of the inertia forces, from the centre to the curve; numbers: ".(of_cycle ? drive_quantity(unit_crank) : "crank angle θ₂")
 load plots."legend.gp"
 given_style = "lt 1 lw 4 dt solid"
 balanced_style = "lw 4 dt (16,7) lc rgb '#0060A8'"

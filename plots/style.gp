@@ -129,8 +129,18 @@ names_in(table, name) = words_in(table, "names ".name)
 ordinal(n) = n <= 10 ? word("first second third fourth fifth sixth seventh eighth ninth tenth", n) : sprintf("%dth", n)
 capital(text) = substr("ABCDEFGHIJKLMNOPQRSTUVWXYZ", strstrt("abcdefghijklmnopqrstuvwxyz", text[1:1]), \
     strstrt("abcdefghijklmnopqrstuvwxyz", text[1:1])).text[2:*]
-at_crank(crank) = sprintf("θ₂ = %.10g°", crank)
-at_speed(speed, unit) = sprintf("ω₂ = %.6g %s", speed, typeset(unit))
+at_crank(crank) = of_cycle ? drive_subject.sprintf(" at %.10g", crank).(unit_crank eq "deg" ? "°" : " ".unit_crank) : sprintf("θ₂ = %.10g°", crank)
+at_speed(speed, unit) = of_cycle ? drive_subject.sprintf(" at %.6g %s", speed, typeset(unit)) : sprintf("ω₂ = %.6g %s", speed, typeset(unit))
+
+# Of a linkage that is no four-bar (is_cycle, which draw_figures.sh hands over) axes and titles name what the first DRIVE moves.
+of_cycle = exists("is_cycle")
+driven = of_cycle ? system("sed -n 's/^DRIVE *//p' echo.deck 2> /dev/null | sed '1s/ *!.*//; 1q'") : ""
+driven_word(k) = words(driven) >= k ? word(driven, k) : ""
+drive_subject = driven eq "" ? "crank" : driven_word(1)
+drive_quantity(unit) = driven_word(2) eq "against" ? "angle of ".drive_subject." against ".driven_word(3) \
+    : unit eq "deg" ? (drive_subject eq "crank" ? "crank angle" : "angle of ".drive_subject) \
+    : driven_word(2) eq "length" ? "length of ".drive_subject : "place of ".drive_subject." along ".driven_word(2)
+crank_title(unit) = (of_cycle ? drive_quantity(unit) : "crank angle θ₂")." [".typeset(unit)."]"
 numbered(figure, text) = figure eq "" ? text : "Figure ".figure.".  ".text
 divergence = "below zero: −√(−ω²)/2π of a mode that has diverged (static instability)"
 cut(text, n) = strlen(text) <= n ? text : text[1 : n - 1]."…"
@@ -301,13 +311,13 @@ page_of_one(entries, longest, name, unit, low, high) = "lower = foot(lines_of_no
     sprintf("; eval value_axis(%.15g, %.15g, plot_height); eval axis_title(%s, lower, plot_height)", low, high, \
         quoted_twice(value_title(name, unit, low, high)))
 crank_step(lowest, highest) = highest - lowest > 150 ? (plot_width < 800 ? 60 : 30) : 15
-crank_axis(lowest, highest) = (lowest == highest \
+crank_axis(lowest, highest) = (unit_crank ne "deg" ? abscissa(lowest, highest) : lowest == highest \
     ? sprintf("set xrange [%g:%g]; set xtics 10; set mxtics 2", lowest - 30, highest + 30) \
     : highest - lowest > 150 \
     ? sprintf("set xrange [%d:%d]; set xtics %d; set mxtics 3", 30*floor(lowest/30.0), 30*ceil(highest/30.0), \
         crank_step(lowest, highest)) \
     : sprintf("set xrange [%.12g:%.12g]; set xtics %s; set mxtics 3", lowest, highest, highest - lowest > 60 ? "15" : "auto")).\
-    "; set xlabel 'crank angle θ₂'.unit('crank')"
+    "; set xlabel crank_title(unit_crank) noenhanced"
 
 # An abscissa between low and high.
 abscissa_high(low, high) = high > low ? 1.0*high : low + larger(1, 0.1*abs(low))

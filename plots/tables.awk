@@ -282,7 +282,7 @@ END {
     if (asked[1] == "change") print_change()
     if (asked[1] == "critical") print_critical()
     if (asked[1] == "displacements" || asked[1] == "positions") print_displacements()
-    if (asked[1] == "varied") for (i = 1; i <= n_columns && name[i] !~ /^(speed|crank|time|branch|from)$/; i++) print name[i]
+    if (asked[1] == "varied") for (i = 1; i <= n_columns && name[i] !~ /^(speed|crank|time|branch|from|part)$/; i++) print name[i]
     if (asked[1] == "poses" && pose) print pose
     if (asked[1] == "band") print_bands()
     if (asked[1] == "nodes" || asked[1] == "masses") print_nodes()

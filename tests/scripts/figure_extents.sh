@@ -82,6 +82,14 @@ sized() {
   done
 }
 
+# Names of many links beside panels that are low.
+other_linkages() {
+  run 0 --quiet --out "$scratch/others" inputs/jansen.deck inputs/toggle_press.deck inputs/squeezer.deck || return 1
+  for deck in jansen toggle_press squeezer; do
+    whole "$scratch/others/$deck" && whole "$scratch/others/$deck" --size 90x60mm || return 1
+  done
+}
+
 # The check sees what it is for.
 seen() {
   svg='<svg viewBox="0 0 200 100" xmlns="http://www.w3.org/2000/svg">'
@@ -103,4 +111,5 @@ check "extents of figures of millionths" multiplied 1e-6
 check "extents of figures of millions" multiplied 1e6
 check "extents of small figures" sized 90x60mm
 check "extents of wide figures" sized 1600x500
+check "extents of figures of other linkages" other_linkages
 check "extents of bare figures" sized 600x600 --no-titles
