@@ -21,7 +21,7 @@ unit_tests = $(if $(PFUNIT_DIR),pfunit,funit)/unit_tests
 
 ifndef kind
 # ---------------------------------------------------------------------------------------------- what a person types
-.PHONY: all debug quad thesis run figures animate check documents bench bench-pictures stress stress-responses stress-stability accuracies references fuzz memory golden \
+.PHONY: all debug quad thesis run figures animate check documents bench bench-pictures stress stress-responses stress-stability accuracies linkages references fuzz memory golden \
         install setup clean help
 
 all: setup
@@ -124,6 +124,12 @@ FREQUENCIES ?= 100000
 accuracies: all
 	@python3 -B tests/stress/compare_accuracies.py $(program) --frequencies $(FREQUENCIES) --seed $(SEED)
 
+# Decks with known values, and random linkages against an independent solver: linkage SEED and those after it.
+LINKAGES ?= 300
+linkages: all
+	@python3 -B tests/linkages/anchors.py --program $(program)
+	@python3 -B tests/linkages/random_linkages.py $(SEED) $(LINKAGES) --program $(program)
+
 # Quadruple precision for every case of `make stress`: some minutes.
 references: all quad
 	@python3 -B tests/stress/make_references.py $(program) build/quad/flexmech
@@ -174,6 +180,7 @@ help:
 	@echo "make stress-responses   the same of the elastic response of random mechanisms; CASES=210 FIRST=1 for fewer or others"
 	@echo "make stress-stability   verdicts on random mechanisms with several numbers of samples; CASES=20 SPEEDS=50 FIRST=1"
 	@echo "make accuracies         random decks at several accuracies, each against the finest; FREQUENCIES=5000 SEED=7"
+	@echo "make linkages           known linkages, and 300 random ones against an independent solver; LINKAGES=5000 SEED=7"
 	@echo "make references         regenerate the quadruple-precision values of make stress (hours)"
 	@echo "make quad               build build/quad/flexmech, the program in quadruple precision (slow)"
 	@echo "make golden CASE=NAME   regenerate tests/golden/NAME/ from inputs/NAME.deck"
