@@ -79,8 +79,8 @@ contains
     type(matching_t), intent(in) :: matching   !! of these
     integer, intent(in) :: node(:)             !! (unknowns) number of what they belong to: the two
                                                !! of a pin to one; ascending from 1
-    integer, intent(in), optional :: companion(:) !! (nodes) another one without which it is of no use,
-                                               !! as a body is without its first pin; 0: none
+    integer, intent(in), optional :: companion(:) !! (nodes) another one without which it is of no
+                                               !! use, as a body is without its first pin; 0: none
     integer, allocatable :: part(:)            !! ascending numbers of these
 
     logical, allocatable :: needs(:, :), reached(:)
