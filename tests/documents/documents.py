@@ -19,6 +19,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 
 import deck_tables
 import examples
+import linkage_tables
 import sentences
 import stress_tables
 from markdown import Sentence, tables
@@ -99,7 +100,7 @@ def main(program, options):
     if "--stress" in options:
         new = check(texts, makers([stress_tables.Tables(program)]), stress_tables.SENTENCES, "stress", write, report)
     else:
-        sources = [deck_tables.Tables(program), sentences.Numbers(program)]
+        sources = [deck_tables.Tables(program), linkage_tables.Tables(program), sentences.Numbers(program)]
         new = check(texts, makers(sources), sentences.SENTENCES, None, write, report)
         for example in examples.CHECKS:
             report.tell(example.__name__.replace("_", " "), example(program, new))
