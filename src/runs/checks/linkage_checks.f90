@@ -176,7 +176,9 @@ contains
       return
     end if
     if (size(mechanism%linkage%redundancies) > 0) then
-      call check_fit(model, mechanism, diagnostics)
+      ! Positions on a path have a start of their own there, and tell their misfit one by one.
+      if (.not. allocated(mechanism%linkage%path%crank)) call check_fit(model, mechanism, &
+        diagnostics)
       report = report_number(model, "reactions")
       if (report > 0) call add_error(diagnostics, model%reports(report)%keyword, &
         "the forces in '"//mechanism%names(max(1, body_of_redundancy(mechanism%linkage, &
