@@ -21,17 +21,16 @@ module assembly_plan
   private
 
   public :: side_t, plan_problem_t, plan_linkage, rebase
-  public :: problem_too_free, problem_not_driven, problem_braced, problem_coupler_driven, &
+  public :: problem_too_free, problem_braced, problem_coupler_driven, &
     problem_no_side, problem_other_bases, problem_drive_idle, problem_not_drawn
 
   !> What may be wrong: pins that nothing holds; a link that joins two pins of another one; a driven
   !! link that turns about no ground pivot; a dyad with neither a side nor a drawing; a side that
   !! names other pins than those that carry the dyad; a drive that moves nothing; pins that only a
   !! drawing can place.
-  integer, parameter :: problem_too_free = 1, problem_not_driven = 2, problem_braced = 3, &
-    problem_coupler_driven = 4, problem_no_side = 5, problem_other_bases = 6, &
-    problem_drive_idle = 7, &
-    problem_not_drawn = 8
+  integer, parameter :: problem_too_free = 1, problem_braced = 2, &
+    problem_coupler_driven = 3, problem_no_side = 4, problem_other_bases = 5, &
+    problem_drive_idle = 6, problem_not_drawn = 7
 
   !> On which side a pin lies, of two ways to place it.
   type :: side_t

@@ -128,6 +128,8 @@ contains
           call add_error(diagnostics, report%keyword, "REPORT "//trim(report%kind%name)// &
             " is made for four-bars only, so far: three links with two pins each, two ground "// &
             "pivots, and a driven link")
+          ! What it would need is not asked for.
+          report%kind = report_kind_t()
         end if
       end associate
     end do

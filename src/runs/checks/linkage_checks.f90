@@ -3,12 +3,12 @@
 module linkage_checks
   use assembly_plan, only: problem_braced, problem_coupler_driven, &
     problem_drive_idle, problem_no_side, problem_not_drawn, problem_other_bases, problem_too_free
-  use diagnostics, only: add_error, add_warning, diagnostics_t
+  use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use errors, only: error_of_reach, error_t
   use kinds, only: wp
   use linkage_parts, only: assembly_t
   use linkages, only: linkage_t, reference_point
-  use mechanisms, only: mechanism_t
+  use mechanisms, only: mechanism_t, pins_of_body
   use models, only: drives_length, model_t, report_number
   use pose_types, only: pose_t
   use poses, only: place_groups, place_links
@@ -176,7 +176,10 @@ contains
       return
     end if
     if (size(mechanism%linkage%redundancies) > 0) then
-      call check_fit(model, mechanism, diagnostics)
+      ! Positions on a path have a start of their own there, and tell their misfit one by one.
+      if (.not. allocated(mechanism%linkage%path%crank)) call check_fit(model, mechanism, &
+        diagnostics)
+      if (has_errors(diagnostics)) return
       report = report_number(model, "reactions")
       if (report > 0) call add_error(diagnostics, model%reports(report)%keyword, &
         "the forces in '"//mechanism%names(max(1, body_of_redundancy(mechanism%linkage, &
@@ -266,8 +269,8 @@ contains
       name = "'"//place%text//"'"
     end if
     if (abs(largest) > most_misfit*span) then
-      call add_error(diagnostics, place, "the links form a structure and cannot move: "//name// &
-        " is one too many, or the DRIVE moves nothing", kind=error_of_reach)
+      call add_error(diagnostics, place, "links "//neighbours_of(mechanism, body)//name// &
+        " form a structure and cannot move", kind=error_of_reach)
     else
       call add_error(diagnostics, place, name//" does not fit: "//in_deck(model, abs(first))// &
         " "//length_name(model)//" too "//trim(merge("short", "long ", first > 0.0_wp))// &
@@ -276,6 +279,29 @@ contains
         kind=error_of_reach)
     end if
   end subroutine check_fit
+
+  !> `'a', 'b', `: the links that share a moving pin with one.
+  pure function neighbours_of(mechanism, body) result(words)
+    type(mechanism_t), intent(in) :: mechanism
+    integer, intent(in) :: body !! number; 0: none
+    character(len=:), allocatable :: words
+
+    integer, allocatable :: pins(:)
+    integer :: b, i
+
+    words = ""
+    if (body == 0) return
+    pins = pins_of_body(mechanism%linkage%bodies(body))
+    do b = 1, size(mechanism%names)
+      if (b == body) cycle
+      do i = 1, size(pins)
+        if (mechanism%linkage%is_ground(pins(i))) cycle
+        if (.not. any(pins_of_body(mechanism%linkage%bodies(b)) == pins(i))) cycle
+        words = words//"'"//mechanism%names(b)%text//"', "
+        exit
+      end do
+    end do
+  end function neighbours_of
 
   pure subroutine clear(pose)
     type(pose_t), intent(out) :: pose
