@@ -14,10 +14,12 @@ form() {
     END { if (!failed && !rows) { print FILENAME ": no rows"; exit 1 } }' "$1"
 }
 
-# Where 0 and 360 degrees are both there: computed once, so their rows differ in nothing but the angle.
+# Where 0 and 360 degrees are both there: computed once, so their rows differ in nothing but the angle, which is
+# the position of a drive too.
 full_turn() {
-  awk '/^#/ || !NF { next }
-    { angle = $2; first = $1; $1 = $2 = ""; rest = $0 }
+  awk '/^#/ { for (i = 2; i <= NF; i++) if ($i == "position") position = i - 1 }
+    /^#/ || !NF { next }
+    { angle = $2; first = $1; $1 = $2 = ""; if (position) $position = ""; rest = $0 }
     angle == 0 { row[first] = row[first] rest "\n"; zeros++ }
     angle == 360 { again[first] = again[first] rest "\n"; turns++ }
     END { if (!turns) exit 0
