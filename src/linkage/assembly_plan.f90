@@ -381,36 +381,54 @@ contains
     logical, intent(out) :: has_found
 
     integer, allocatable :: bodies(:), lines(:)
-    integer :: p, b, s
+    integer :: p, last, best, least
 
-    has_found = .false.
+    ! What the deck lists first places pins; of links that would do as well, the last is redundant.
+    best = 0
+    least = huge(least)
     do p = 1, size(done%pin)
       if (done%pin(p)) cycle
-      allocate (bodies(0), lines(0))
-      do b = 1, size(linkage%bodies)
-        if (done%body(b)) cycle
-        if (drive_of_length(linkage, b) > 0) cycle
-        if (known_pin(linkage, b, done) > 0 .and. has_pin(linkage%bodies(b), &
-          p)) bodies = [bodies, b]
-      end do
-      do s = 1, size(linkage%sliders)
-        if (done%slider(s) .or. linkage%sliders(s)%pin /= p) cycle
-        if (line_is_known(linkage, s, done)) lines = [lines, s]
-      end do
-      has_found = size(bodies) + size(lines) >= 2
-      if (has_found) then
-        if (size(lines) >= 2) then
-          call place_on_two_lines(linkage, p, lines, done)
-        else if (size(lines) == 1) then
-          call place_on_line(linkage, sides, p, bodies(1), lines(1), done, body_order, problem)
-        else
-          call place_dyad(linkage, sides, p, bodies(:2), done, body_order, problem)
-        end if
-        return
-      end if
-      deallocate (bodies, lines)
+      call find_loci(linkage, done, p, bodies, lines)
+      if (size(bodies) + size(lines) < 2) cycle
+      last = 0
+      if (size(lines) < 2) last = bodies(2 - size(lines))
+      if (last >= least) cycle
+      best = p
+      least = last
     end do
+    has_found = best > 0
+    if (.not. has_found) return
+    call find_loci(linkage, done, best, bodies, lines)
+    if (size(lines) >= 2) then
+      call place_on_two_lines(linkage, best, lines, done)
+    else if (size(lines) == 1) then
+      call place_on_line(linkage, sides, best, bodies(1), lines(1), done, body_order, problem)
+    else
+      call place_dyad(linkage, sides, best, bodies(:2), done, body_order, problem)
+    end if
   end subroutine take_meeting
+
+  !> The bodies on known pins, and the known lines, on which a pin lies.
+  pure subroutine find_loci(linkage, done, pin, bodies, lines)
+    type(linkage_t), intent(in) :: linkage
+    type(progress_t), intent(in) :: done
+    integer, intent(in) :: pin
+    integer, allocatable, intent(out) :: bodies(:)
+    integer, allocatable, intent(out) :: lines(:)
+
+    integer :: b, s
+
+    allocate (bodies(0), lines(0))
+    do b = 1, size(linkage%bodies)
+      if (done%body(b)) cycle
+      if (drive_of_length(linkage, b) > 0) cycle
+      if (known_pin(linkage, b, done) > 0 .and. has_pin(linkage%bodies(b), pin)) bodies = [bodies, b]
+    end do
+    do s = 1, size(linkage%sliders)
+      if (done%slider(s) .or. linkage%sliders(s)%pin /= pin) cycle
+      if (line_is_known(linkage, s, done)) lines = [lines, s]
+    end do
+  end subroutine find_loci
 
   !> PRP: a pin on two lines.
   pure subroutine place_on_two_lines(linkage, pin, lines, done)

@@ -171,8 +171,36 @@ contains
     call take_turns(model, pins, assembly%link, linkage)
     call take_drives(model, assembly%link, linkage)
     call take_sides(model, pins, sides)
+    call draw_crank(model, linkage)
     assembly%linkage = linkage
   end subroutine take_parts
+
+  !> A drawing without the end of the crank shows the first position of CRANK.
+  pure subroutine draw_crank(model, linkage)
+    type(model_t), intent(in) :: model
+    type(linkage_t), intent(inout) :: linkage
+
+    real(wp) :: direction(2)
+    integer :: from, to
+
+    if (size(model%drawn_pins) == 0 .or. size(model%crank%value) == 0) return
+    associate (drive => linkage%drives(1))
+      if (drive%kind /= drives_angle .or. drive%against > 0) return
+      associate (body => linkage%bodies(drive%body))
+        from = body%first_pin
+        to = body%last_pin
+        if (size(body%further) > 0 .or. .not. any(linkage%is_ground([from, to]))) return
+        if (linkage%is_ground(to)) then
+          to = body%first_pin
+          from = body%last_pin
+        end if
+        if (linkage%drawing%is_drawn(to)) return
+        direction = direction_at(model%crank%value(1))
+        linkage%drawing%pin(:, to) = linkage%ground_position(:, from) + body%length*direction
+        linkage%drawing%is_drawn(to) = .true.
+      end associate
+    end associate
+  end subroutine draw_crank
 
   !> A body with the pins of its link: the first two of the card are its first and last.
   pure subroutine take_body(model, pins, number, is_ground, body)

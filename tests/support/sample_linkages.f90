@@ -76,7 +76,7 @@ module sample_linkages
   character(len=*), parameter, public :: parallelogram = head//"GROUND O 0 0"//nl//"GROUND P 1 0"//nl// &
     "GROUND Q 2 0"//nl//"LINK crank O A length=0.5"//nl//"LINK beam A B C lengths=1,1 turns=0"//nl// &
     "LINK other Q C length=0.5"//nl//"LINK third P B length=0.5"//nl//"DRIVE crank"//nl// &
-    "BRANCH B left A P"//nl
+    "BRANCH C left A Q"//nl
 
   !> A boom on a ram: the length of the ram is driven.
   character(len=*), parameter, public :: boom = head//"GROUND O 0 0"//nl//"GROUND Q 1 -0.5"//nl// &
