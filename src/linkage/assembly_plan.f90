@@ -422,7 +422,8 @@ contains
     do b = 1, size(linkage%bodies)
       if (done%body(b)) cycle
       if (drive_of_length(linkage, b) > 0) cycle
-      if (known_pin(linkage, b, done) > 0 .and. has_pin(linkage%bodies(b), pin)) bodies = [bodies, b]
+      if (known_pin(linkage, b, done) > 0 .and. has_pin(linkage%bodies(b), pin)) bodies = &
+        [bodies, b]
     end do
     do s = 1, size(linkage%sliders)
       if (done%slider(s) .or. linkage%sliders(s)%pin /= pin) cycle
