@@ -13,7 +13,7 @@ module linkage_motions
   use kinds, only: long, wp
   use linkage_paths, only: period_of
   use linkage_rates, only: energies_at, free_drives, moving_linkage_t, no_stop, pose_at, &
-    stop_many_steps, stop_steps
+    stop_dead_point, stop_many_steps, stop_steps
   use linkages, only: drives_angle, linkage_t, reference_point
   use pose_types, only: pose_t
   use poses, only: dead_point_sine, place_links
@@ -27,6 +27,12 @@ module linkage_motions
 
   !> Bound on the estimated error of a step: some forty roundings.
   real(wp), parameter :: linkage_motion_tolerance = 1.0e-14_wp
+
+  !> Near a dead point rates lose digits, and steps shrink to what rounding allows. This many steps
+  !! in turn, each shorter than this share of the time to the next instant, with a scaled determinant
+  !! below this, end the motion there.
+  integer, parameter :: most_tiny_steps = 200
+  real(wp), parameter :: tiny_step = 1.0e-5_wp, near_dead_point = 0.05_wp
 
   !> A motion in progress.
   type :: linkage_motion_t
@@ -163,7 +169,11 @@ contains
     type(error_t), allocatable :: error
     type(pose_t) :: pose
     integer(long) :: last_step
+    real(wp) :: before, span
+    integer :: tiny_steps
 
+    tiny_steps = 0
+    span = time - motion%time
     last_step = motion%integrator%steps + motion%most_steps
     do while (motion%time < time .and. motion%stop == no_stop)
       if (was_interrupted()) return
@@ -172,13 +182,23 @@ contains
         return
       end if
       motion%system%stop = no_stop
+      before = motion%time
       call advance(motion%integrator, motion%system, motion%time, time, motion%state, error)
       if (allocated(error)) then
         motion%stop = merge(motion%system%stop, stop_steps, motion%system%stop /= no_stop)
         return
       end if
       call pose_at(motion%system, motion%state(:size(motion%system%free)), pose, error)
-      if (.not. allocated(error)) motion%system%pose = pose
+      if (.not. allocated(error)) then
+        motion%system%pose = pose
+        if (motion%time - before < tiny_step*span .and. motion%time < time .and. any(abs( &
+          pose%sine) < near_dead_point)) then
+          tiny_steps = tiny_steps + 1
+        else
+          tiny_steps = 0
+        end if
+        if (tiny_steps > most_tiny_steps) motion%stop = stop_dead_point
+      end if
       call reduce(motion)
     end do
   end subroutine move_linkage_until
