@@ -72,6 +72,12 @@ contains
           if (i > 1) words = words//", "
           words = words//names(group%bodies(i))%text
         end do
+        if (size(group%bodies) == 0) then
+          do i = 1, size(group%pins)
+            if (i > 1) words = words//", "
+            words = words//pins(group%pins(i))%text
+          end do
+        end if
         words = words//" together, by iterations"
       end select
     end associate

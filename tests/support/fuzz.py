@@ -48,7 +48,8 @@ RUN_TIME = re.compile(r"Fortran runtime|Backtrace|SIG[A-Z]{3}|At line \d+ of fil
 NOT_A_NUMBER = re.compile(r"\b(?:NaN|[-+]?Inf(?:inity)?)\b|\*{4,}|is not a number$")
 REAL = re.compile(r"-?\d\.\d+E[-+]\d{3}$")
 PLACE = re.compile(r"(?P<deck>.*?):(?P<line>\d+):(?P<column>\d+): (?:error|warning|note): .")
-WORDS = {"link", "event", "point", "gauge", "linkage", "quantity", "kind", "modes", "verdict"}  # columns of words; and `branch`, but for branches.dat
+# Columns of words; and `branch`, but for branches.dat.
+WORDS = {"link", "event", "point", "gauge", "linkage", "quantity", "kind", "modes", "verdict", "pin", "drive", "part", "unit"}
 GAPS = {"quadratic", "out_of_plane"}  # of validity.dat: - where nothing is estimated
 OTHERS = {"echo.deck", "run.log", "summary.json"}
 # What a deck may include.

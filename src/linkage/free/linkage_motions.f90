@@ -29,8 +29,8 @@ module linkage_motions
   real(wp), parameter :: linkage_motion_tolerance = 1.0e-14_wp
 
   !> Near a dead point rates lose digits, and steps shrink to what rounding allows. This many steps
-  !! in turn, each shorter than this share of the time to the next instant, with a scaled determinant
-  !! below this, end the motion there.
+  !! in turn, each shorter than this share of the time to the next instant, with a scaled
+  !! determinant below this, end the motion there.
   integer, parameter :: most_tiny_steps = 200
   real(wp), parameter :: tiny_step = 1.0e-5_wp, near_dead_point = 0.05_wp
 

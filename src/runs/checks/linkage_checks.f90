@@ -186,6 +186,9 @@ contains
         1)))%text//"' and the links that hold the same pins cannot be told apart while all are "// &
         "rigid; REPORT drive and REPORT lagrange do not need them")
     end if
+    if (drives_length(model) .and. model%motor%keyword%line > 0) call add_error(diagnostics, &
+      model%motor%keyword, "a MOTOR turns a link, and the first DRIVE moves a slider or a ram; "// &
+      "a FORCE on its pin, or a DRIVE of a link, may serve")
     call check_reach(model, mechanism%linkage, diagnostics)
   end subroutine check_linkage
 
