@@ -8,13 +8,13 @@
 !! redundancies, to be checked at every position. The drives are used first, then parts in the order
 !! of the deck: of several that would do, the last is the redundant one.
 module assembly_plan
+  use group_equations, only: unknowns_of
   use kinds, only: wp
   use linkages, only: body_t, cross, demands_angle, demands_drive, demands_length, demands_line, &
     demands_turn, drives_angle, drives_length, drives_slider, equation_t, group_t, &
-    groups_by_newton, &
-    groups_carried, groups_cross_slide, groups_dyad, groups_on_line, groups_placed, &
-    groups_spanned, &
-    groups_through_pin, groups_turned, groups_two_lines, linkage_t, redundancy_t, turned
+    groups_by_newton, groups_carried, groups_cross_slide, groups_dyad, groups_on_line, &
+    groups_placed, groups_spanned, groups_through_pin, groups_turned, groups_two_lines, linkage_t, &
+    turned, turned_back
   use pose_types, only: pins_of_body, place_of_pin
   use unknown_matching, only: matching_t, match_unknowns, source_component
   implicit none (type, external)
@@ -172,7 +172,7 @@ contains
       done%pin(linkage%bodies(1)%last_pin) = .true.
       call carry_rest(linkage, crank, [linkage%bodies(1)%last_pin], done)
     else
-      call turn_by_drive(linkage, 1, crank, done)
+      call turn_body(linkage, crank, drive_equation(1), done)
     end if
   end subroutine take_crank
 
@@ -229,7 +229,8 @@ contains
           if (pin == 0) cycle
           call rebase(linkage, drive%body, pin, other_pin(linkage%bodies(drive%body), pin))
           body_order = [body_order, drive%body]
-          call turn_by_drive(linkage, d, drive%body, done)
+          call turn_body(linkage, drive%body, drive_equation(d), done)
+          done%drive(d) = .true.
           has_found = .true.
           return
         else if (drive%kind == drives_slider) then
@@ -254,10 +255,11 @@ contains
     end do
   end subroutine take_drives
 
-  !> A body that its drive turns about its first pin.
-  pure subroutine turn_by_drive(linkage, drive, body, done)
+  !> A body that a drive, or another body, turns about its first pin.
+  pure subroutine turn_body(linkage, body, equation, done)
     type(linkage_t), intent(inout) :: linkage
-    integer, intent(in) :: drive, body
+    integer, intent(in) :: body
+    type(equation_t), intent(in) :: equation !! that gives its angle
     type(progress_t), intent(inout) :: done
 
     type(group_t) :: group
@@ -268,12 +270,11 @@ contains
     allocate (group%pins(0), group%equations(1))
     group%bodies = [body]
     group%loaded = [body]
-    group%equations(1) = drive_equation(drive)
-    done%drive(drive) = .true.
+    group%equations(1) = equation
     done%body(body) = .true.
     call append(linkage, group)
     call carry_rest(linkage, body, [integer ::], done)
-  end subroutine turn_by_drive
+  end subroutine turn_body
 
   !> A body on a known pin that turns with a body that is placed, or does not turn.
   pure subroutine take_turns(linkage, done, body_order, has_found)
@@ -282,7 +283,6 @@ contains
     integer, allocatable, intent(inout) :: body_order(:)
     logical, intent(out) :: has_found
 
-    type(group_t) :: group
     integer :: t, body, pin
 
     has_found = .false.
@@ -294,17 +294,8 @@ contains
       if (pin == 0) cycle
       call rebase(linkage, body, pin, other_pin(linkage%bodies(body), pin))
       body_order = [body_order, body]
-      group%kind = groups_turned
-      group%base(1) = pin
-      group%body(1) = body
-      allocate (group%pins(0), group%equations(1))
-      group%bodies = [body]
-      group%loaded = [body]
-      group%equations(1) = turn_equation(t)
+      call turn_body(linkage, body, turn_equation(t), done)
       done%turn(t) = .true.
-      done%body(body) = .true.
-      call append(linkage, group)
-      call carry_rest(linkage, body, [integer ::], done)
       has_found = .true.
       return
     end do
@@ -336,7 +327,6 @@ contains
     logical, intent(out) :: has_found
 
     type(group_t) :: group
-    type(redundancy_t) :: redundancy
     integer, allocatable :: pins(:)
     integer :: b
 
@@ -358,10 +348,8 @@ contains
       group%equations(1) = pin_equation(linkage, demands_angle, b, pins(2))
       ! A ram has no length of its own: its drive is what is redundant.
       if (drive_of_length(linkage, b) == 0 .and. .not. is_used(linkage, demands_length, b, &
-        pins(2))) then
-        redundancy%equation = pin_equation(linkage, demands_length, b, pins(2))
-        call append_redundancy(linkage, redundancy)
-      end if
+        pins(2))) call append_equation(linkage%redundancies, pin_equation(linkage, &
+        demands_length, b, pins(2)))
       done%body(b) = .true.
       call append(linkage, group)
       call carry_rest(linkage, b, [pins(2)], done)
@@ -716,7 +704,7 @@ contains
       problem%bodies = group%bodies
       return
     end if
-    allocate (group%equations(2*size(group%pins) + size(group%bodies)))
+    allocate (group%equations(unknowns_of(group)))
     call take_equations(equations, matching, part, np, group)
     group%loaded = group%bodies
     do i = 1, size(group%equations)
@@ -884,7 +872,6 @@ contains
     type(progress_t), intent(in) :: done
     type(plan_problem_t), allocatable, intent(inout) :: problem
 
-    type(redundancy_t) :: redundancy
     integer :: i
 
     do i = 1, size(done%drive)
@@ -898,13 +885,11 @@ contains
     end do
     do i = 1, size(done%turn)
       if (done%turn(i)) cycle
-      redundancy%equation = turn_equation(i)
-      call append_redundancy(linkage, redundancy)
+      call append_equation(linkage%redundancies, turn_equation(i))
     end do
     do i = 1, size(done%slider)
       if (done%slider(i)) cycle
-      redundancy%equation = line_equation(i)
-      call append_redundancy(linkage, redundancy)
+      call append_equation(linkage%redundancies, line_equation(i))
     end do
   end subroutine collect_redundancies
 
@@ -917,19 +902,16 @@ contains
     type(progress_t), intent(inout) :: done
 
     type(group_t) :: group
-    type(redundancy_t) :: redundancy
     integer, allocatable :: pins(:)
     integer :: i
 
     pins = pins_of_body(linkage%bodies(body))
     do i = 2, size(pins)
       if (.not. done%pin(pins(i)) .or. any(used == pins(i))) cycle
-      redundancy%equation = pin_equation(linkage, demands_length, body, pins(i))
-      if (.not. is_used(linkage, demands_length, body, pins(i))) call append_redundancy(linkage, &
-        redundancy)
-      redundancy%equation = pin_equation(linkage, demands_angle, body, pins(i))
-      if (.not. is_used(linkage, demands_angle, body, pins(i))) call append_redundancy(linkage, &
-        redundancy)
+      if (.not. is_used(linkage, demands_length, body, pins(i))) call append_equation( &
+        linkage%redundancies, pin_equation(linkage, demands_length, body, pins(i)))
+      if (.not. is_used(linkage, demands_angle, body, pins(i))) call append_equation( &
+        linkage%redundancies, pin_equation(linkage, demands_angle, body, pins(i)))
     end do
     pins = pack(pins, .not. done%pin(pins))
     if (size(pins) == 0) return
@@ -1014,17 +996,8 @@ contains
     end do
   end subroutine rebase
 
-  !> Components of a vector along and across a unit vector.
-  pure function turned_back(a, axis) result(components)
-    real(wp), intent(in) :: a(2), axis(2)
-    real(wp) :: components(2)
-
-    components = turned(a, [axis(1), -axis(2)])
-  end function turned_back
-
   !> The pins in the order in which the bodies have them: first and last ones, further ones, those
-  !! of
-  !! sliders alone.
+  !! of sliders alone.
   pure subroutine order_pins(linkage, body_order, pin_order)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: body_order(:)
@@ -1180,17 +1153,5 @@ contains
     longer(size(longer)) = group
     call move_alloc(longer, linkage%groups)
   end subroutine append
-
-  pure subroutine append_redundancy(linkage, redundancy)
-    type(linkage_t), intent(inout) :: linkage
-    type(redundancy_t), intent(in) :: redundancy
-
-    type(redundancy_t), allocatable :: longer(:)
-
-    allocate (longer(size(linkage%redundancies) + 1))
-    longer(:size(linkage%redundancies)) = linkage%redundancies
-    longer(size(longer)) = redundancy
-    call move_alloc(longer, linkage%redundancies)
-  end subroutine append_redundancy
 
 end module assembly_plan

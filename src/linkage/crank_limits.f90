@@ -100,8 +100,7 @@ contains
   end subroutine find_ranges
 
   !> Whether the first drive turns a link fully and all positions repeat after a turn, without a
-  !! dead
-  !! point on the way.
+  !! dead point on the way.
   pure function turns_fully(linkage) result(turns)
     type(linkage_t), intent(in) :: linkage !! of any kind, with its path
     logical :: turns

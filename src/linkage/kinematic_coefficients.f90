@@ -3,9 +3,8 @@
 !!
 !! Without a crank, or with a driven slider, θ2 is the coordinate of the first drive, an angle in
 !! radians or a length. With `h = dθ/dθ2` and `h' = d²θ/dθ2²` every angular velocity is `h ω2` and
-!! every angular
-!! acceleration `h α2 + h' ω2²`; the same holds for points. Setting ω2 = 1 and α2 = 0 in (2.22)
-!! and (2.23), (2.35) to (2.38) of Ulker (2010) gives h and h'.
+!! every angular acceleration `h α2 + h' ω2²`; the same holds for points. Setting ω2 = 1 and α2 = 0
+!! in (2.22) and (2.23), (2.35) to (2.38) of Ulker (2010) gives h and h'.
 module kinematic_coefficients
   use dense_factor, only: dense_factor_t, solve
   use group_equations, only: curvature_of, drive_rate, factorize_group, find_gradient, gradient_t
@@ -33,8 +32,7 @@ contains
   !> Kinematic coefficients of all bodies and pins, group by group.
   !!
   !! With rates of its drives, which then need not follow the first one: velocities, and
-  !! accelerations
-  !! without any of the drives.
+  !! accelerations without any of the drives.
   pure function find_kinematic_coefficients(linkage, pose, rates) result(coefficients)
     type(linkage_t), intent(in) :: linkage !! bodies, groups and what joins them
     type(pose_t), intent(in) :: pose       !! away from dead points
@@ -103,8 +101,7 @@ contains
   end subroutine find_coefficients
 
   !> Pins of a body that moves already: x' = x_first' + h n and x'' = x_first'' + h' n − h² r, with
-  !! r
-  !! from its first pin and n the same vector turned by 90°.
+  !! r from its first pin and n the same vector turned by 90°.
   pure subroutine move_carried(linkage, group, pose, coefficients)
     type(linkage_t), intent(in) :: linkage
     type(group_t), intent(in) :: group
@@ -136,7 +133,7 @@ contains
     type(kinematic_coefficients_t), intent(inout) :: coefficients
 
     type(dense_factor_t) :: factor
-    type(gradient_t) :: gradient
+    type(gradient_t) :: gradient(size(group%equations))
     real(wp) :: scales(size(group%bodies)), right(size(group%equations))
     integer :: i
 
@@ -144,21 +141,19 @@ contains
     coefficients%turn(group%bodies) = 0.0_wp
     coefficients%pin(:, group%pins) = 0.0_wp
     do i = 1, size(group%equations)
-      call find_gradient(linkage, group%equations(i), pose, gradient)
-      right(i) = -along(gradient, coefficients%pin, coefficients%turn)
+      call find_gradient(linkage, group%equations(i), pose, gradient(i))
+      right(i) = -along(gradient(i), coefficients%pin, coefficients%turn)
       if (group%equations(i)%kind == demands_drive) right(i) = right(i) + &
         rates(group%equations(i)%number)
     end do
     call take(group, scales, solve(factor, right), coefficients%pin, coefficients%turn)
     if (.not. with_slopes) return
     do i = 1, size(group%equations)
-      call find_gradient(linkage, group%equations(i), pose, gradient)
-      right(i) = -along(gradient, coefficients%pin_slope, coefficients%turn_slope) - &
+      right(i) = -along(gradient(i), coefficients%pin_slope, coefficients%turn_slope) - &
         curvature_of(linkage, group%equations(i), pose, coefficients%turn, coefficients%pin)
     end do
     call take(group, scales, solve(factor, right), coefficients%pin_slope, &
       coefficients%turn_slope)
-
   end subroutine move_group
 
   !> Puts derivatives of the unknowns of a group in their places.

@@ -3,8 +3,7 @@
 !!
 !! From station to station Newton's method starts from the velocities and accelerations of the last
 !! one. A step is halved unless it converges, every determinant keeps its sign, and the correction
-!! is
-!! small compared with the way: the linkage cannot leave its branch.
+!! is small compared with the way: the linkage cannot leave its branch.
 module linkage_paths
   use errors, only: error_of_input, error_t, set_error
   use kinds, only: wp

@@ -1,18 +1,18 @@
 !> A planar linkage in terms of mechanics: pins, bodies between them, sliders, drives, and the
-!! groups
-!! in which it is placed, moved and solved.
+!! groups in which it is placed, moved and solved.
 !!
 !! Everything but `new_four_bar` works for any linkage. The groups are found by `assembly_plan`.
-!! Most
-!! are dyads: two bodies that meet in a pin, each attached to a pin whose motion is already known.
+!! Most are dyads: two bodies that meet in a pin, each attached to a pin whose motion is already
+!! known.
 module linkages
   use kinds, only: wp
   implicit none (type, external)
   private
 
   public :: linkage_t, body_t, body_pin_t, lump_t, slider_t, turn_t, drive_t, drawing_t, &
-    equation_t, group_t, redundancy_t, path_t
-  public :: new_four_bar, mobility, reference_point, is_dyad_linkage, cross, normal_to, turned
+    equation_t, group_t, path_t
+  public :: new_four_bar, mobility, reference_point, is_dyad_linkage, cross, normal_to, turned, &
+    turned_back
   public :: drives_angle, drives_slider, drives_length
   public :: demands_length, demands_angle, demands_line, demands_turn, demands_drive
   public :: groups_dyad, groups_carried, groups_on_line, groups_through_pin, groups_two_lines, &
@@ -107,8 +107,8 @@ module linkages
   end type drawing_t
 
   !> What bodies, sliders, turns and drives demand. A pin of a body demands two things:
-  !! `demands_length`,
-  !! its distance from the first pin, and `demands_angle`, its direction from there.
+  !! `demands_length`, its distance from the first pin, and `demands_angle`, its direction from
+  !! there.
   type :: equation_t
     integer :: kind = 0              !! one of the demands_… constants
     integer :: body = 0              !! of a pin of a body
@@ -134,11 +134,6 @@ module linkages
     type(equation_t), allocatable :: equations(:) !! as many as it has unknowns; none of
                                                   !! `groups_dyad` and `groups_carried`
   end type group_t
-
-  !> An equation that the others fulfil, or the linkage does not fit.
-  type :: redundancy_t
-    type(equation_t) :: equation
-  end type redundancy_t
 
   !> The way of a linkage with groups that only iterations place, from the drawing over whole turns.
   type :: path_t
@@ -168,7 +163,8 @@ module linkages
                                                    !! first pin, a ground pivot
     type(group_t), allocatable :: groups(:)        !! what is placed together, in this order; the
                                                    !! crank is placed before
-    type(redundancy_t), allocatable :: redundancies(:) !! equations that others fulfil
+    type(equation_t), allocatable :: redundancies(:) !! that the others fulfil, or the linkage does
+                                                   !! not fit
     type(path_t) :: path                           !! of groups without a closed form
   end type linkage_t
 
@@ -292,5 +288,14 @@ contains
 
     vector = a(1)*axis + a(2)*[-axis(2), axis(1)]
   end function turned
+
+  !> Components of a vector along a unit vector and to its left: the inverse of `turned`.
+  pure function turned_back(a, axis) result(components)
+    real(wp), intent(in) :: a(2)    !! vector
+    real(wp), intent(in) :: axis(2) !! unit vector
+    real(wp) :: components(2)
+
+    components = turned(a, [axis(1), -axis(2)])
+  end function turned_back
 
 end module linkages

@@ -31,7 +31,7 @@ contains
     misfit = 0.0_wp
     number = 0
     do i = 1, size(linkage%redundancies)
-      associate (equation => linkage%redundancies(i)%equation)
+      associate (equation => linkage%redundancies(i))
         this = misfit_of(linkage, equation, pose, origin, crank)
         if (equation%kind == demands_turn) this = this*linkage%bodies(linkage%turns( &
           equation%number)%body)%length
@@ -66,7 +66,7 @@ contains
     integer, intent(in) :: number          !! of one of them
     integer :: body
 
-    associate (equation => linkage%redundancies(number)%equation)
+    associate (equation => linkage%redundancies(number))
       select case (equation%kind)
       case (demands_length, demands_angle)
         body = equation%body

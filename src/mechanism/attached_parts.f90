@@ -5,7 +5,7 @@ module attached_parts
   use link_bodies, only: link_center, link_inertia
   use link_cards, only: has_own_mass, link_t
   use link_shapes, only: find_link_shape
-  use linkages, only: body_t, linkage_t, lump_t, turned
+  use linkages, only: body_t, linkage_t, lump_t, turned, turned_back
   use models, only: inertia_lumped, link_line_density, link_mass, model_t
   use name_index, only: find_name, name_index_t
   use shear, only: link_rotary_inertia
@@ -162,7 +162,7 @@ contains
     real(wp) :: turned_place(2)      !! from the first pin of the card: along the link, and to its
                                      !! left [m]
 
-    turned_place = turned(place - body%origin, [body%card_axis(1), -body%card_axis(2)])
+    turned_place = turned_back(place - body%origin, body%card_axis)
   end function place_on_card
 
   !> Whether a body runs from the second pin of its LINK card to the first.

@@ -55,9 +55,6 @@ contains
     do i = 1, size(variant%mechanism%pin_names)
       call append_string(lists(1)%names, variant%mechanism%pin_names(i)%text)
     end do
-    do i = 1, size(variant%model%drives)
-      call append_string(lists(1)%names, variant%model%drives(i)%subject%text)
-    end do
     lists(2)%column = "quantity"
     lists(2)%names = trimmed_list(quantity_words)
     length = table_unit("length", variant%model%outputs)

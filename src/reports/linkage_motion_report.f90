@@ -3,7 +3,8 @@ module linkage_motion_report
   use drive_cards, only: moves_along
   use kinds, only: wp
   use linkage_motion_study, only: free_drives, linkage_motion_tolerance
-  use models, only: model_t, report_number
+  use models, only: model_t
+  use motion_report, only: time_in_table
   use table_columns, only: cells, table_factor, table_layout_t, table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: real_cells
@@ -115,18 +116,6 @@ contains
         table_factor("time", model%outputs))], motion%error%text)
     end associate
   end subroutine add_linkage_motion
-
-  !> Time of an instant in the unit of the table: the number that the deck has or would have.
-  pure function time_in_table(model, number) result(time)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: number !! of the instant, from 1
-    real(wp) :: time
-
-    associate (instants => model%reports(report_number(model, "motion"))%instants)
-      time = from_si(instants%value(number), table_factor("time", model%outputs))
-      if (instants%unit%name == model%units%time%name) time = instants%written(number)
-    end associate
-  end function time_in_table
 
   !> Log line: the numbers of steps and rows.
   pure function linkage_motion_log(variant) result(text)

@@ -16,7 +16,7 @@ module motion_report
   implicit none (type, external)
   private
 
-  public :: motion_notes, motion_words, add_motion, motion_log
+  public :: motion_notes, motion_words, add_motion, motion_log, time_in_table
 
   character(len=*), parameter :: branch_names = "open crossed"
 
@@ -93,7 +93,7 @@ contains
 
   !> Time of an instant in the unit of the table: the number that the deck has or would have.
   pure function time_in_table(model, number) result(time)
-    type(model_t), intent(in) :: model
+    type(model_t), intent(in) :: model !! with REPORT motion
     integer, intent(in) :: number !! of the instant, from 1
     real(wp) :: time
 

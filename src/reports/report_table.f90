@@ -8,8 +8,7 @@
 !! deferred length, for which gfortran 12 has one place for all threads.
 module report_table
   use balance_report, only: add_balance, add_harmonics, append_harmonics_notes, balance_notes, &
-    harmonics_notes, &
-    harmonics_words
+    harmonics_notes, harmonics_words
   use balance_study, only: find_balance, find_centres
   use campbell_report, only: add_campbell, add_critical, campbell_notes, campbell_words, &
     critical_notes
@@ -23,8 +22,7 @@ module report_table
   use intervals_report, only: add_intervals, interval_words, intervals_notes
   use joint_study, only: find_joints
   use joints_report, only: add_centres, add_drives, add_joints, add_shaking, drive_columns, &
-    drive_names, &
-    drives_notes, joint_owners, joints_notes
+    drive_names, drives_notes, joint_owners, joints_notes
   use kinds, only: wp
   use limits_report, only: add_limits, limits_notes, limits_words
   use limits_study, only: find_limits

@@ -22,9 +22,8 @@ module variant_runs
   use response_study, only: find_response
   use stability_study, only: find_intervals_of, find_stability_of
   use study_requests, only: campbell_request_of, drawn_states, intervals_request_of, &
-    linkage_motion_request_of, &
-    mode_request_of, &
-    motion_request_of, response_request_of, stability_request_of, transient_request_of
+    linkage_motion_request_of, mode_request_of, motion_request_of, response_request_of, &
+    stability_request_of, transient_request_of
   use sweep_bytes, only: get_result, put_result
   use sweeps, only: sweep_t
   use task_journal, only: journal_t

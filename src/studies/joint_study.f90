@@ -180,8 +180,7 @@ contains
   end subroutine add_blocks
 
   !> Force and moment of every joint at a speed: ω2² and α2 times those of the unit loads, plus
-  !! those
-  !! of the constant loads.
+  !! those of the constant loads.
   pure function joints_at_speed(found, state, speed, acceleration) result(forces)
     type(joints_result_t), intent(in) :: found !! for all positions
     integer, intent(in) :: state               !! number; with a pose

@@ -1,6 +1,5 @@
 !> What a linkage that is no four-bar can do: ranges of its first drive, swings of its links,
-!! strokes
-!! of its sliders, time ratios, transmission and pressure angles.
+!! strokes of its sliders, time ratios, transmission and pressure angles.
 module limits_study
   use crank_limits, only: angle_of_body, crank_range_t, extremes_t, find_extremes, find_ranges, &
     place_of_slider, pressure_of_slider, quantity_t, transmission_of_dyad

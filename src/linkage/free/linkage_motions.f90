@@ -1,6 +1,5 @@
 !> Forward dynamics of any linkage: its motion under a drive, resistances, gravity and constant
-!! loads,
-!! in the coordinates of its free drives.
+!! loads, in the coordinates of its free drives.
 !!
 !! The energy is never corrected, so that its balance measures the accuracy of the motion.
 module linkage_motions
@@ -68,8 +67,7 @@ contains
   subroutine start_linkage_motion(linkage, rigid, is_free, drive, taken, damping, crank, speed, &
     duration, motion, error)
     type(linkage_t), intent(in) :: linkage           !! of any kind, with loads and a path if it
-                                                     !! needs
-                                                     !! one
+                                                     !! needs one
     type(rigid_body_t), intent(in) :: rigid(:)       !! (bodies) of the linkage
     logical, intent(in) :: is_free(:)                !! (drives) marked; the first always is
     class(drive_t), intent(in) :: drive              !! torque or force on the first drive

@@ -1,11 +1,9 @@
 !> Equations of motion of any linkage that moves by itself, in the coordinates of its free drives.
 !!
 !! The first drive is free, and so are those that the deck calls free; the others are held, or
-!! geared
-!! to the first. With the velocities `h_k` of pins and bodies per rate of coordinate k,
+!! geared to the first. With the velocities `h_k` of pins and bodies per rate of coordinate k,
 !! `Σ_l M_kl c̈_l = Q_k − Σ m h_k·b`, where M_kl is `Σ m h_k·h_l` over all masses, Q_k the loads
-!! along
-!! h_k, and b the accelerations with the present rates and no c̈.
+!! along h_k, and b the accelerations with the present rates and no c̈.
 module linkage_rates
   use adaptive_integration, only: rate_system_t
   use body_points, only: find_point_coefficients, point_coefficients_t
@@ -24,7 +22,7 @@ module linkage_rates
   implicit none (type, external)
   private
 
-  public :: moving_linkage_t, free_drives, pose_at, energies_at, rates_of_drives
+  public :: moving_linkage_t, free_drives, pose_at, energies_at
   public :: no_stop, stop_dead_point, stop_no_inertia, stop_too_fast, stop_steps, stop_many_steps
 
   !> Why a motion stops. For reasons 1 to 3 there are no rates.
@@ -49,8 +47,7 @@ module linkage_rates
     real(wp), allocatable :: taken(:)           !! (bodies) resisting torques [N m]
     real(wp), allocatable :: damping(:)         !! (bodies) of their turning [N m s]
     real(wp) :: turned = 0.0_wp                 !! whole turns of the first drive that its
-                                                !! coordinate
-                                                !! does not contain [deg]
+                                                !! coordinate does not contain [deg]
     real(wp) :: period = 0.0_wp                 !! of the positions [deg]; 0: none
     type(pose_t) :: pose                        !! the last one, from `reference_point`: a start for
                                                 !! iterations
@@ -157,7 +154,8 @@ contains
       self%stop = stop_dead_point
       return
     end if
-    call find_kinematic_coefficients_of(self, pose, state(f + 1:2*f), now)
+    ! Accelerations while the rates of the drives do not change.
+    now = find_kinematic_coefficients(self%linkage, pose, rates_of_drives(self, state(f + 1:2*f)))
     allocate (per(f))
     do k = 1, f
       direction = 0.0_wp
@@ -182,17 +180,6 @@ contains
     rates(f + 1:2*f) = solve(factor, right + driving)
     rates(2*f + 1) = dot_product(driving, state(f + 1:2*f))
   end subroutine rates_of_motion
-
-  !> Velocities of pins and bodies with the rates of the free drives, and their accelerations while
-  !! these rates do not change.
-  subroutine find_kinematic_coefficients_of(self, pose, rates, now)
-    class(moving_linkage_t), intent(in) :: self
-    type(pose_t), intent(in) :: pose
-    real(wp), intent(in) :: rates(:)
-    type(kinematic_coefficients_t), intent(out) :: now
-
-    now = find_kinematic_coefficients(self%linkage, pose, rates_of_drives(self, rates))
-  end subroutine find_kinematic_coefficients_of
 
   !> M, and the generalised forces of gravity, constant forces and inertia without c̈.
   pure subroutine sum_up(self, pose, now, per, inertia, right)

@@ -9,8 +9,7 @@ module deck_checks
   use linkage_checks, only: check_linkage, report_problem
   use linkage_parts, only: assemble_linkage, assembly_t
   use mechanisms, only: mechanism_of, mechanism_t
-  use models, only: model_t, needs_frequencies, report_number, solver_band, &
-    steady_state_report, &
+  use models, only: model_t, needs_frequencies, report_number, solver_band, steady_state_report, &
     solver_dense
   use motion_checks, only: check_motion
   use nodal_eigensolver, only: most_round_off
