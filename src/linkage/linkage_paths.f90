@@ -15,7 +15,7 @@ module linkage_paths
   implicit none (type, external)
   private
 
-  public :: follow_path, period_of, has_iterations
+  public :: follow_path, period_of, has_iterations, most_turns
 
   !> Largest step between stations: of an angle [deg]; of a length as a share of the linkage.
   real(wp), parameter :: angle_step = 2.0_wp, length_step = 0.005_wp

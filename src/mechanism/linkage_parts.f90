@@ -8,10 +8,10 @@ module linkage_parts
   use group_equations, only: direction_at, misfit_of
   use kinds, only: wp
   use link_shapes, only: find_drawn_link, find_drawn_pin, find_link_shape
-  use linkage_paths, only: follow_path
+  use linkage_paths, only: follow_path, most_turns
   use linkages, only: body_t, demands_drive, drives_angle, drives_length, drives_slider, &
     equation_t, linkage_t
-  use models, only: branch_crossed, is_four_bar, model_t
+  use models, only: is_four_bar, model_t
   use name_index, only: find_name, name_index_t, new_name_index
   use pose_types, only: pose_t
   use text, only: same_word, string_t
@@ -59,14 +59,19 @@ contains
       assembly%error)
   end subroutine assemble_linkage
 
-  !> The coordinate of the first drive in the drawing [deg] or [m]; 0 where it is not drawn.
+  !> The coordinate of the first drive in the drawing [deg] or [m]; 0 where it is not drawn. A
+  !! drawing shows no whole turns, but with drives geared to the first one they matter: those are
+  !! taken that bring these nearest to the drawing.
   pure function drawn_crank(linkage) result(crank)
     type(linkage_t), intent(in) :: linkage
     real(wp) :: crank
 
+    !> Turns are told apart where the misfits of drives differ by more than this [rad].
+    real(wp), parameter :: rounding = 1.0e-9_wp
     type(pose_t) :: pose
     type(equation_t) :: equation
-    integer :: b
+    real(wp) :: misfit, least
+    integer :: b, turns, nearest
 
     ! The drive is off by the coordinate that is sought.
     equation%kind = demands_drive
@@ -84,8 +89,39 @@ contains
       end associate
     end do
     crank = misfit_of(linkage, equation, pose, [0.0_wp, 0.0_wp], 0.0_wp)
-    if (linkage%drives(1)%kind == drives_angle) crank = crank/degree
+    if (linkage%drives(1)%kind /= drives_angle) return
+    crank = crank/degree
+    nearest = 0
+    least = huge(least)
+    do turns = 0, most_turns - 1
+      misfit = misfit_of_drives(linkage, pose, crank + 360.0_wp*turns)
+      if (misfit > least - rounding) cycle
+      least = misfit
+      nearest = turns
+    end do
+    crank = crank + 360.0_wp*nearest
   end function drawn_crank
+
+  !> How far the drives that are geared to the first one are from a drawing, in radians, and in
+  !! lengths of the largest body.
+  pure function misfit_of_drives(linkage, drawn, crank) result(misfit)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: drawn
+    real(wp), intent(in) :: crank !! [deg]
+    real(wp) :: misfit
+
+    real(wp) :: one
+    integer :: i
+
+    misfit = 0.0_wp
+    do i = 2, size(linkage%drives)
+      if (.not. abs(linkage%drives(i)%ratio) > 0.0_wp) cycle
+      one = abs(misfit_of(linkage, equation_t(demands_drive, number=i), drawn, [0.0_wp, 0.0_wp], &
+        crank))
+      if (linkage%drives(i)%kind /= drives_angle) one = one/maxval(linkage%bodies%length)
+      misfit = misfit + one
+    end do
+  end function misfit_of_drives
 
   !> The pins of all links in the order of the deck, points of links that other cards use as pins,
   !! and ground pivots that only sliders use.
@@ -393,7 +429,7 @@ contains
     end do
   end subroutine take_drives
 
-  !> The sides that BRANCH cards give, and that of a four-bar.
+  !> The sides that BRANCH cards give.
   pure subroutine take_sides(model, pins, sides)
     type(model_t), intent(in) :: model
     type(name_index_t), intent(in) :: pins
@@ -401,14 +437,6 @@ contains
 
     integer :: i
 
-    if (is_four_bar(model)) then
-      allocate (sides(1))
-      sides(1)%pin = find_name(pins, model%loop_pins(3)%text)
-      sides(1)%side = merge(-1.0_wp, 1.0_wp, model%branch == branch_crossed)
-      sides(1)%base = [find_name(pins, model%loop_pins(2)%text), find_name(pins, &
-        model%loop_pins(4)%text)]
-      return
-    end if
     allocate (sides(size(model%branches)))
     do i = 1, size(sides)
       associate (card => model%branches(i))

@@ -8,6 +8,7 @@ module model_reader
   use drive_cards, only: branch_t, kind_of_drive, moves_along, read_branch, read_drive
   use drive_checks, only: check_drives
   use effect_cards, only: effects_axial, effects_static, effects_t, read_effects
+  use four_bar_branches, only: find_four_bar_branch
   use joint_cards, only: read_guide, read_pin, read_slider, read_weld
   use joint_checks, only: check_joints
   use kinds, only: wp
@@ -15,7 +16,6 @@ module model_reader
   use link_checks, only: check_links
   use linkage_cards, only: read_ground, read_mesh, read_pin_mass, set_default_mesh
   use load_cards, only: read_force, read_gravity, read_torque
-  use loop_finder, only: find_loop
   use materials, only: read_material
   use mesh_checks, only: check_meshes
   use models, only: drives_length, is_four_bar, is_loaded, is_moving, model_t, needs_mesh, &
@@ -100,7 +100,7 @@ contains
     call check_drives(diagnostics, model)
     call find_dampings(diagnostics, model)
     call find_gauges(diagnostics, model)
-    call find_loop(diagnostics, model)
+    call find_four_bar_branch(diagnostics, model)
     call check_requests(cards, diagnostics, model)
     call check_shear(diagnostics, model)
     call check_meshes(cards, diagnostics, model)

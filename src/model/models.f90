@@ -62,17 +62,13 @@ module models
     type(torque_card_t), allocatable :: torques(:)
     type(motor_t) :: motor
     type(resistance_t), allocatable :: resistances(:)
-    integer, allocatable :: loop(:)             !! (3) of a four-bar: links round the loop from the
-                                                !! driven ground, numbers in `links`; of any other
-                                                !! linkage none
-    type(token_t), allocatable :: loop_pins(:)  !! (4) pins round the loop, from the driven ground
-                                                !! pivot to the other one; likewise
     type(drive_t), allocatable :: drives(:)     !! the first one's positions are those of CRANK
     type(token_t) :: drive                      !! first word of the first DRIVE card: the driven
                                                 !! link, or the pin of the driven slider
     integer :: branch = branch_open             !! of a four-bar: branch_open or branch_crossed
     type(token_t) :: branch_word                !! keyword of BRANCH open|crossed
-    type(branch_t), allocatable :: branches(:)  !! BRANCH cards about pins
+    type(branch_t), allocatable :: branches(:)  !! BRANCH cards about pins; of a four-bar
+                                                !! the one that says its branch
     type(value_list_t) :: crank                 !! positions of the first drive: angles [deg], of a
                                                 !! slider or a ram [m]
     type(value_list_t) :: speed                 !! ω2 [rad/s], of a slider or a ram [m/s]

@@ -205,8 +205,8 @@ contains
     do i = 1, size(model%links)
       model%links(i)%mesh = i
     end do
-    do i = 1, size(model%loop)
-      associate (mesh => model%meshes(model%loop(i)))
+    do i = 1, size(model%links)
+      associate (mesh => model%meshes(i))
         mesh%elements = this%elements(i)
         mesh%order = this%order(i)
         mesh%accuracy = 0.0_wp

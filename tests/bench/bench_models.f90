@@ -74,8 +74,8 @@ contains
     model%solver = solver_auto
     if (any(this%solver == [with_dsygv, with_dsygvx])) model%solver = solver_dense
     if (this%solver == with_band) model%solver = solver_band
-    do i = 1, size(model%loop)
-      associate (mesh => model%meshes(model%loop(i)))
+    do i = 1, size(model%links)
+      associate (mesh => model%meshes(i))
         mesh%elements = this%elements(i)
         mesh%order = this%order(i)
         mesh%accuracy = this%accuracy
