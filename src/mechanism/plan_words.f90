@@ -8,7 +8,7 @@ module plan_words
   implicit none (type, external)
   private
 
-  public :: plan_notes
+  public :: plan_notes, group_names
 
 contains
 
@@ -33,6 +33,41 @@ contains
         " more than needed; forces between links cannot be told apart")
     end associate
   end function plan_notes
+
+  !> The links of a group, or its pins if it has none: `coupler and follower`.
+  pure function group_names(mechanism, group) result(words)
+    type(mechanism_t), intent(in) :: mechanism
+    type(group_t), intent(in) :: group !! of its linkage
+    character(len=:), allocatable :: words
+
+    integer, allocatable :: bodies(:)
+    integer :: i
+
+    bodies = pack(group%body, group%body > 0)
+    if (allocated(group%bodies)) then
+      if (size(group%bodies) > 0) bodies = group%bodies
+    end if
+    words = ""
+    if (size(bodies) > 0) then
+      do i = 1, size(bodies)
+        words = words//separator(i, size(bodies))//mechanism%names(bodies(i))%text
+      end do
+    else
+      do i = 1, size(group%pins)
+        words = words//separator(i, size(group%pins))//mechanism%pin_names(group%pins(i))%text
+      end do
+    end if
+  end function group_names
+
+  !> What stands before the i-th of n words of a list.
+  pure function separator(i, n)
+    integer, intent(in) :: i, n
+    character(len=:), allocatable :: separator
+
+    separator = ", "
+    if (i == n) separator = " and "
+    if (i == 1) separator = ""
+  end function separator
 
   !> `B by coupler and follower, left of A -> O4 (RRR)`
   pure function group_words(mechanism, group) result(words)

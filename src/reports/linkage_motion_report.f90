@@ -3,12 +3,14 @@ module linkage_motion_report
   use drive_cards, only: moves_along
   use kinds, only: wp
   use linkage_motion_study, only: free_drives, linkage_motion_tolerance
-  use models, only: model_t
-  use motion_report, only: time_in_table
+  use models, only: drives_length, model_t
+  use motion_report, only: most_listed, time_in_table
+  use plan_words, only: group_names
   use table_columns, only: cells, table_factor, table_layout_t, table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: real_cells
   use text, only: append_string, plural, string_t, to_string
+  use text_buffer, only: append_text, buffer_text, text_buffer_t
   use units, only: from_si, unit_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -16,6 +18,8 @@ module linkage_motion_report
 
   public :: linkage_motion_notes, linkage_motion_columns, linkage_motion_count, &
     add_linkage_motion, linkage_motion_log
+
+  character(len=*), parameter :: line_feed = achar(10)
 
 contains
 
@@ -117,13 +121,37 @@ contains
     end associate
   end subroutine add_linkage_motion
 
-  !> Log line: the numbers of steps and rows.
+  !> Log lines: one for each dead point that was passed, then the numbers of steps and rows.
   pure function linkage_motion_log(variant) result(text)
     type(variant_results_t), intent(in) :: variant !! with its motion
     character(len=:), allocatable :: text
 
-    text = "motion: "//to_string(variant%found%linkage_motion%steps)//" steps, "// &
-      plural(variant%found%linkage_motion%count, "row")//achar(10)
+    type(text_buffer_t) :: buffer
+    type(unit_t) :: length
+    character(len=:), allocatable :: place
+    integer :: i
+
+    length = table_unit("length", variant%model%outputs)
+    associate (motion => variant%found%linkage_motion, mechanism => variant%mechanism)
+      if (allocated(motion%passages)) then
+        do i = 1, min(most_listed, size(motion%passages))
+          associate (passage => motion%passages(i))
+            place = to_string(passage%position, 12)//" deg"
+            if (drives_length(variant%model)) place = to_string(from_si(passage%position, &
+              length), 12)//" "//length%name
+            call append_text(buffer, "motion: at t="//to_string(passage%time, 12)// &
+              " s, the first drive at "//place//", the linkage passes a dead point of "// &
+              group_names(mechanism, mechanism%linkage%groups(passage%group))// &
+              " and goes on on its other branch"//line_feed)
+          end associate
+        end do
+        if (size(motion%passages) > most_listed) call append_text(buffer, "motion: "// &
+          to_string(size(motion%passages) - most_listed)//" more of these"//line_feed)
+      end if
+      call append_text(buffer, "motion: "//to_string(motion%steps)//" steps, "// &
+        plural(motion%count, "row")//line_feed)
+    end associate
+    text = buffer_text(buffer)
   end function linkage_motion_log
 
 end module linkage_motion_report

@@ -16,11 +16,12 @@ module motion_report
   implicit none (type, external)
   private
 
-  public :: motion_notes, motion_words, add_motion, motion_log, time_in_table
+  public :: motion_notes, motion_words, add_motion, motion_log, time_in_table, &
+    most_listed
 
   character(len=*), parameter :: branch_names = "open crossed"
 
-  !> Turning points that the log lists at most.
+  !> Turning points, or dead points passed, that the log lists at most.
   integer, parameter :: most_listed = 200
 
   character(len=*), parameter :: line_feed = achar(10)

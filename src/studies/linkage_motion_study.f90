@@ -1,13 +1,14 @@
 !> Forward dynamics of linkages that are no four-bars, sampled at given instants.
 module linkage_motion_study
   use drives, only: motor_drive_t
-  use errors, only: error_of_dead_point, error_of_numerics, error_t, set_error
+  use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error
   use interruption, only: was_interrupted
   use kinds, only: long, wp
-  use linkage_motions, only: end_linkage_motion, linkage_motion_t, linkage_motion_tolerance, &
-    linkage_sample_t, move_linkage_until, sample_linkage_motion, start_linkage_motion
-  use linkage_rates, only: free_drives, no_stop, stop_dead_point, stop_many_steps, &
-    stop_no_inertia, stop_too_fast
+  use linkage_motions, only: change_point_message, end_linkage_motion, linkage_motion_t, &
+    linkage_motion_tolerance, linkage_sample_t, move_linkage_until, passage_t, &
+    sample_linkage_motion, start_linkage_motion
+  use linkage_rates, only: free_drives, no_stop, stop_change_point, stop_energy, &
+    stop_many_steps, stop_misfit, stop_no_inertia, stop_too_fast
   use linkages, only: linkage_t
   use rigid_bodies, only: rigid_bodies_of
   implicit none (type, external)
@@ -35,6 +36,7 @@ module linkage_motion_study
     type(error_t), allocatable :: error                !! why it has not reached the end time
     integer(long) :: steps = 0_long                    !! of the integration
     real(wp) :: energy = 0.0_wp                        !! kinetic + potential, at the start [J]
+    type(passage_t), allocatable :: passages(:)        !! dead points that it has passed
     logical :: has_begun = .false.                     !! the start was possible
   end type linkage_motion_result_t
 
@@ -94,12 +96,13 @@ contains
   !! Errors, in `result%error`: the motion has stopped before its end.
   subroutine finish_linkage_motion(under_way, result)
     type(linkage_motion_under_way_t), intent(inout) :: under_way !! its memory is released
-    type(linkage_motion_result_t), intent(inout) :: result       !! gets steps and energy
+    type(linkage_motion_result_t), intent(inout) :: result       !! gets steps, energy, passages
 
     if (.not. result%has_begun) return
     associate (motion => under_way%motion)
       result%steps = motion%integrator%steps
       result%energy = motion%energy
+      result%passages = motion%passages(:motion%passage_count)
       call explain_stop(motion%stop, result%error)
     end associate
     call end_linkage_motion(under_way%motion)
@@ -113,12 +116,16 @@ contains
     select case (stop)
     case (no_stop)
       return
-    case (stop_dead_point)
-      call set_error(error, error_of_dead_point, "the first drive reaches a limit position or "// &
-        "a dead point, and its coordinate does not describe the motion beyond")
+    case (stop_change_point)
+      call set_error(error, error_of_dead_point, change_point_message)
+    case (stop_misfit)
+      call set_error(error, error_of_reach, "redundant links do not fit beyond this position")
+    case (stop_energy)
+      call set_error(error, error_of_numerics, "the energies do not balance: the motion has "// &
+        "lost its digits")
     case (stop_no_inertia)
       call set_error(error, error_of_numerics, &
-        "nothing with a mass moves with a drive at this position: there is no inertia")
+        "nothing with a mass moves at this position: there is no inertia")
     case (stop_too_fast)
       call set_error(error, error_of_numerics, "the links move too fast to be integrated")
     case (stop_many_steps)

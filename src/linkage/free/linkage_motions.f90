@@ -1,37 +1,73 @@
 !> Forward dynamics of any linkage: its motion under a drive, resistances, gravity and constant
-!! loads, in the coordinates of its free drives.
+!! loads, on the curve or surface of all its positions.
 !!
-!! The energy is never corrected, so that its balance measures the accuracy of the motion.
+!! Near dead points every step has a chart of its own, made where it begins: a drive may come to its
+!! limit and turn back while the linkage goes on, on its other branch. The energy is never
+!! corrected, so that its balance measures the accuracy of the motion.
 module linkage_motions
-  use adaptive_integration, only: advance, close_integrator, integrator_t, open_integrator
+  use adaptive_integration, only: advance, close_integrator, integrator_t, open_integrator, step_by
   use constants, only: degree, two_pi
   use drives, only: drive_t
   use errors, only: error_of_dead_point, error_t, set_error
+  use group_determinants, only: determinant_of, determinants_of
   use group_equations, only: drive_rate
   use interruption, only: was_interrupted
   use kinds, only: long, wp
-  use linkage_paths, only: period_of
-  use linkage_rates, only: energies_at, free_drives, moving_linkage_t, no_stop, pose_at, &
-    stop_dead_point, stop_many_steps, stop_steps
-  use linkages, only: drives_angle, linkage_t, reference_point
+  use kinematic_coefficients, only: kinematic_coefficients_t
+  use linkage_paths, only: has_iterations, period_of
+  use linkage_rates, only: find_rates_of_coordinates, find_state, free_drives, inertia_share, &
+    moving_linkage_t, no_stop, rate_of_drive, stop_change_point, stop_energy, stop_many_steps, &
+    stop_misfit, stop_no_inertia, stop_steps
+  use linkage_samples, only: linkage_sample_t, sample_state
+  use linkages, only: drives_angle, linkage_t
+  use motion_charts, only: is_same_side, motion_chart_t, new_chart
   use pose_types, only: pose_t
   use poses, only: dead_point_sine, place_links
+  use redundancies, only: refuse_misfit
   use rigid_bodies, only: rigid_body_t
+  use whole_systems, only: drive_position, new_whole_system, rate_along
   implicit none (type, external)
   private
 
-  public :: linkage_motion_t, linkage_sample_t, start_linkage_motion, move_linkage_until, &
-    sample_linkage_motion, end_linkage_motion
-  public :: linkage_motion_tolerance
+  public :: linkage_motion_t, linkage_sample_t, passage_t, start_linkage_motion, &
+    move_linkage_until, sample_linkage_motion, end_linkage_motion
+  public :: linkage_motion_tolerance, change_point_message
 
   !> Bound on the estimated error of a step: some forty roundings.
   real(wp), parameter :: linkage_motion_tolerance = 1.0e-14_wp
 
-  !> Near a dead point rates lose digits, and steps shrink to what rounding allows. This many steps
-  !! in turn, each shorter than this share of the time to the next instant, with a scaled
-  !! determinant below this, end the motion there.
+  !> With a determinant of a group below the first the coordinates are those of a chart; with all of
+  !! them above the second those of the drives again.
+  real(wp), parameter :: near_dead_point = 0.2_wp, far_from_dead_points = 0.3_wp
+
+  !> Equations less independent than the first are those of a change point; below the second, next
+  !! to one, rounding may be too much for any step.
+  real(wp), parameter :: least_independence = dead_point_sine, near_change_point = 1.0e-2_wp
+
+  !> If the inertia of a coordinate is below this share of all masses when steps shrink to nothing,
+  !! this is the cause.
+  real(wp), parameter :: little_inertia = 1.0e-10_wp
+
+  !> Determinants below this, next to a dead point, may be of either sign by rounding.
+  real(wp), parameter :: undecided_sine = 1.0e-12_wp
+
+  !> Next to a change point steps shrink to what rounding allows. This many in turn, each shorter
+  !! than this share of the time to the next instant, end the motion there.
   integer, parameter :: most_tiny_steps = 200
-  real(wp), parameter :: tiny_step = 1.0e-5_wp, near_dead_point = 0.05_wp
+  real(wp), parameter :: tiny_step = 1.0e-5_wp
+
+  !> A motion whose energies do not balance to this share of the largest is wrong.
+  real(wp), parameter :: lost_energy = 1.0e-6_wp
+
+  character(len=*), parameter :: change_point_message = &
+    "change point: links lie in one line, and the linkage may go on either way"
+
+  !> A dead point of a group that the linkage has passed: it is on its other branch.
+  type :: passage_t
+    real(wp) :: time = 0.0_wp     !! [s]
+    real(wp) :: position = 0.0_wp !! of the first drive, with all whole turns [deg] or [m]
+    integer :: group = 0          !! number in the linkage
+  end type passage_t
 
   !> A motion in progress.
   type :: linkage_motion_t
@@ -39,31 +75,24 @@ module linkage_motions
     real(wp) :: energy = 0.0_wp                   !! kinetic + potential, at the start [J]
     integer :: stop = no_stop                     !! why it does not continue
     integer(long) :: most_steps = 1000000_long    !! from one instant to the next
+    integer :: passage_count = 0                  !! so far
+    type(passage_t), allocatable :: passages(:)   !! (at least passage_count)
     type(integrator_t) :: integrator              !! to be closed by `end_linkage_motion`
     type(moving_linkage_t), private :: system     !! equations of motion
     real(wp), allocatable, private :: state(:)    !! coordinates, rates, work
+    real(wp), allocatable, private :: position(:) !! (free drives) with all whole turns [deg] or [m]
+    logical, allocatable, private :: is_left(:)   !! (groups) the determinant is positive
+    logical, private :: may_return = .true.       !! to the coordinates of the drives
+    real(wp), private :: most_energy = 0.0_wp     !! of all kinds, at the samples so far [J]
+    real(wp), private :: work_scale = 1.0_wp      !! against which the work may be small [J]
   end type linkage_motion_t
-
-  !> The linkage at an instant.
-  type :: linkage_sample_t
-    real(wp) :: time = 0.0_wp            !! [s]
-    real(wp), allocatable :: position(:) !! (free drives) with all whole turns [deg] or [m]
-    real(wp), allocatable :: rate(:)     !! (free drives) [rad/s] or [m/s]
-    real(wp) :: torque = 0.0_wp          !! of the drive [N m] or [N]
-    real(wp) :: kinetic = 0.0_wp         !! [J]
-    real(wp) :: potential = 0.0_wp       !! of gravity and constant forces [J]
-    real(wp) :: work = 0.0_wp            !! of drive, resistances and constant torques since the
-                                         !! start [J]
-    real(wp) :: energy_error = 0.0_wp    !! kinetic + potential − work, less its value at the start
-                                         !! [J]
-  end type linkage_sample_t
 
 contains
 
   !> Prepares a motion at its first instant. Free drives start where the deck's affine relation with
   !! the first one puts them, with the rates of this relation.
   !!
-  !! Errors: the start is out of reach or a dead point; no memory.
+  !! Errors: the start is out of reach, a change point, or a dead point with a speed; no memory.
   subroutine start_linkage_motion(linkage, rigid, is_free, drive, taken, damping, crank, speed, &
     duration, motion, error)
     type(linkage_t), intent(in) :: linkage           !! of any kind, with loads and a path if it
@@ -82,74 +111,103 @@ contains
     type(error_t), allocatable, intent(out) :: error !! why it cannot begin
 
     type(pose_t) :: pose
-    real(wp) :: unit, kinetic, potential
-    integer :: f, k
+    type(linkage_sample_t) :: first
+    real(wp), allocatable :: rates(:)
+    integer :: f, k, i
 
     associate (system => motion%system)
-      system%linkage = linkage
-      system%rigid = rigid
       system%free = free_drives(is_free)
+      system%whole = new_whole_system(linkage, system%free)
+      system%rigid = rigid
       allocate (system%drive, source=drive)
       system%taken = taken
       system%damping = damping
-      system%period = period_of(linkage)
       f = size(system%free)
-      allocate (motion%state(2*f + 1))
-      motion%state = 0.0_wp
-      do k = 1, f
-        associate (free => linkage%drives(system%free(k)))
-          unit = 1.0_wp
-          if (free%kind == drives_angle) unit = degree
-          motion%state(k) = unit*(free%ratio*crank + free%phase)
-        end associate
-      end do
-      do k = 1, f
-        motion%state(f + k) = speed*drive_rate(linkage, system%free(k))
-      end do
-      if (f > 1) then
-        ! A start for iterations.
-        call place_links(linkage, crank, system%pose, error)
-        if (allocated(error)) return
-        system%pose%pin = system%pose%pin - spread(reference_point(linkage), 2, &
-          size(system%pose%pin, 2))
-      end if
-      call reduce(motion)
-      call pose_at(system, motion%state(:f), pose, error)
+      call place_links(linkage, crank, pose, error)
       if (allocated(error)) return
-      if (any(abs(pose%sine) < dead_point_sine)) then
-        call set_error(error, error_of_dead_point, "dead point: a motion cannot start here")
+      if (any(abs(pose%sine) < dead_point_sine) .and. abs(speed) > 0.0_wp) then
+        call set_error(error, error_of_dead_point, "dead point: at a limit position the first "// &
+          "drive turns back and can have no speed; expected speed=0")
         return
       end if
+      pose%pin = pose%pin - spread(system%whole%origin, 2, size(pose%pin, 2))
+      system%period = period_of(linkage)
       system%pose = pose
-      call energies_at(system, motion%state(:f), motion%state(f + 1:2*f), kinetic, potential, error)
-      if (allocated(error)) return
-      motion%energy = kinetic + potential
-      call open_integrator(motion%integrator, [spread(span_of(linkage), 1, f), &
-        spread(max(abs(speed), 1.0_wp/duration), 1, f), max(kinetic, tiny(1.0_wp)**0.25_wp)], &
-        linkage_motion_tolerance, 0.01_wp*duration, error)
+      system%chart = new_chart(system%whole, pose, crank, f)
+      if (system%chart%independence < least_independence) then
+        call set_error(error, error_of_dead_point, change_point_message)
+        return
+      end if
+      motion%is_left = determinants_of(linkage, pose) > 0.0_wp
+      motion%position = [(linkage%drives(system%free(i))%ratio*crank + &
+        linkage%drives(system%free(i))%phase, i=1, f)]
+      allocate (motion%state(2*f + 1), motion%passages(0))
+      motion%state = 0.0_wp
+      system%by_drives = all(abs(determinants_of(linkage, pose)) > near_dead_point)
+      rates = [(speed*drive_rate(linkage, system%free(k)), k=1, f)]
+      if (system%by_drives) then
+        call take_drives(motion, rates)
+      else if (abs(speed) > 0.0_wp) then
+        call find_rates_of_coordinates(system, rates, motion%state)
+      end if
+      call sample_linkage_motion(motion, first)
+      motion%energy = first%kinetic + first%potential
+      motion%stop = no_stop
+      call open_steps(motion, max(first%kinetic, tiny(1.0_wp)**0.25_wp), 0.01_wp*duration, error)
     end associate
   end subroutine start_linkage_motion
 
-  !> Size of a coordinate: a radian, or the linkage.
+  !> Prepares the steps: coordinates that change little against the linkage, or a radian, and rates
+  !! small against the present ones, need no accuracy.
+  subroutine open_steps(motion, energy, first_step, error)
+    type(linkage_motion_t), intent(inout) :: motion
+    real(wp), intent(in) :: energy     !! against which the work may be small [J]
+    real(wp), intent(in) :: first_step !! [s]
+    type(error_t), allocatable, intent(inout) :: error
+
+    real(wp) :: span
+    integer :: f
+
+    motion%work_scale = energy
+    associate (system => motion%system)
+      f = size(system%free)
+      span = span_of(system%whole%linkage)
+      if (system%by_drives .and. system%whole%linkage%drives(1)%kind == drives_angle) span = 1.0_wp
+      call open_integrator(motion%integrator, [spread(span, 1, f), spread(max(maxval(abs( &
+        motion%state(f + 1:2*f))), span*0.01_wp/first_step), 1, f), energy], &
+        linkage_motion_tolerance, first_step, error)
+    end associate
+  end subroutine open_steps
+
+  !> The state in the coordinates of the drives, at their positions.
+  subroutine take_drives(motion, rates)
+    type(linkage_motion_t), intent(inout) :: motion
+    real(wp), intent(in) :: rates(:) !! (free drives) [rad/s] or [m/s]
+
+    integer :: f, k
+
+    f = size(rates)
+    associate (system => motion%system)
+      do k = 1, f
+        motion%state(k) = motion%position(k)
+        if (system%whole%linkage%drives(system%free(k))%kind /= drives_angle) cycle
+        ! Whole turns are taken away in degrees, where nothing is rounded.
+        if (k == 1) system%turned = 360.0_wp*anint(motion%position(k)/360.0_wp)
+        if (k == 1) motion%state(k) = motion%position(k) - system%turned
+        motion%state(k) = degree*motion%state(k)
+      end do
+      motion%state(f + 1:2*f) = rates
+      system%by_drives = .true.
+    end associate
+  end subroutine take_drives
+
+  !> Size of a linkage, and of its coordinates [m].
   pure function span_of(linkage) result(span)
     type(linkage_t), intent(in) :: linkage
     real(wp) :: span
 
-    span = 1.0_wp
-    if (linkage%drives(1)%kind /= drives_angle) span = maxval(linkage%bodies%length)
+    span = maxval(linkage%bodies%length)
   end function span_of
-
-  !> Keeps the first coordinate, an angle, within half a turn.
-  subroutine reduce(motion)
-    type(linkage_motion_t), intent(inout) :: motion
-
-    real(wp) :: turns
-
-    if (motion%system%linkage%drives(1)%kind /= drives_angle) return
-    turns = anint(motion%state(1)/two_pi)
-    motion%state(1) = motion%state(1) - turns*two_pi
-    motion%system%turned = motion%system%turned + 360.0_wp*turns
-  end subroutine reduce
 
   !> Frees the integrator of a motion.
   subroutine end_linkage_motion(motion)
@@ -165,9 +223,8 @@ contains
     real(wp), intent(in) :: time                    !! to be reached [s]
 
     type(error_t), allocatable :: error
-    type(pose_t) :: pose
+    real(wp) :: before(size(motion%state)), time_before, share, span
     integer(long) :: last_step
-    real(wp) :: before, span
     integer :: tiny_steps
 
     tiny_steps = 0
@@ -180,51 +237,246 @@ contains
         return
       end if
       motion%system%stop = no_stop
-      before = motion%time
+      before = motion%state
+      time_before = motion%time
       call advance(motion%integrator, motion%system, motion%time, time, motion%state, error)
       if (allocated(error)) then
         motion%stop = merge(motion%system%stop, stop_steps, motion%system%stop /= no_stop)
+        if (motion%stop /= stop_steps) return
+        call inertia_share(motion%system, motion%state, share)
+        if (share < little_inertia) then
+          motion%stop = stop_no_inertia
+        else if (is_near_change_point(motion)) then
+          motion%stop = stop_change_point
+        end if
         return
       end if
-      call pose_at(motion%system, motion%state(:size(motion%system%free)), pose, error)
-      if (.not. allocated(error)) then
-        motion%system%pose = pose
-        if (motion%time - before < tiny_step*span .and. motion%time < time .and. any(abs( &
-          pose%sine) < near_dead_point)) then
-          tiny_steps = tiny_steps + 1
-        else
-          tiny_steps = 0
-        end if
-        if (tiny_steps > most_tiny_steps) motion%stop = stop_dead_point
-      end if
-      call reduce(motion)
+      call go_on(motion, time_before, before)
+      tiny_steps = tiny_steps + 1
+      if (motion%time - time_before >= tiny_step*span .or. .not. is_near_change_point(motion)) &
+        tiny_steps = 0
+      if (tiny_steps > most_tiny_steps .and. motion%stop == no_stop) motion%stop = stop_change_point
     end do
   end subroutine move_linkage_until
 
-  !> Positions, rates, torque and energies at the present instant.
-  subroutine sample_linkage_motion(motion, sample)
-    type(linkage_motion_t), intent(in) :: motion  !! begun
-    type(linkage_sample_t), intent(out) :: sample !! of this instant
+  !> Whether the equations of the present chart depend on each other, nearly.
+  pure function is_near_change_point(motion) result(is)
+    type(linkage_motion_t), intent(in) :: motion
+    logical :: is
 
+    is = .not. motion%system%by_drives .and. motion%system%chart%independence < near_change_point
+  end function is_near_change_point
+
+  !> After a step: dead points that were passed, and the coordinates of the next one.
+  subroutine go_on(motion, time, before)
+    type(linkage_motion_t), intent(inout) :: motion
+    real(wp), intent(in) :: time      !! at the beginning of the step [s]
+    real(wp), intent(in) :: before(:) !! state at that time
+
+    type(pose_t) :: pose
+    type(kinematic_coefficients_t), allocatable :: per(:)
+    type(kinematic_coefficients_t) :: now
+    real(wp) :: determinants(size(motion%is_left)), rates(size(motion%position))
+    logical :: found
+    integer :: k
+
+    associate (system => motion%system)
+      call find_state(system, motion%state, pose, per, now, found)
+      determinants = determinants_of(system%whole%linkage, pose)
+      if (system%by_drives) then
+        call read_drives(motion)
+        system%pose = pose
+        if (all(abs(determinants) > near_dead_point)) return
+        system%chart = new_chart(system%whole, pose, motion%position(1), size(system%free))
+        call take_chart(motion, now)
+        return
+      end if
+      call note_passages(motion, determinants, time, before)
+      do k = 1, size(rates)
+        motion%position(k) = drive_position(system%whole, pose, system%free(k), motion%position(k))
+        rates(k) = rate_of_drive(system, pose, now, system%free(k))
+      end do
+      call renew_chart(motion, pose, now)
+      if (all(abs(determinants) > far_from_dead_points) .and. motion%may_return) then
+        system%pose = pose
+        system%pose%sine = determinants
+        call take_drives(motion, rates)
+        call reopen_steps(motion)
+      end if
+    end associate
+  end subroutine go_on
+
+  !> Positions of the drives from the state, whose first coordinate is kept within half a turn.
+  subroutine read_drives(motion)
+    type(linkage_motion_t), intent(inout) :: motion
+
+    real(wp) :: turns
+    integer :: k
+
+    associate (system => motion%system)
+      do k = 1, size(motion%position)
+        motion%position(k) = motion%state(k)
+        if (system%whole%linkage%drives(system%free(k))%kind /= drives_angle) cycle
+        motion%position(k) = motion%state(k)/degree
+        if (k > 1) cycle
+        motion%position(1) = motion%position(1) + system%turned
+        turns = anint(motion%state(1)/two_pi)
+        motion%state(1) = motion%state(1) - turns*two_pi
+        system%turned = system%turned + 360.0_wp*turns
+      end do
+    end associate
+  end subroutine read_drives
+
+  !> From the coordinates of the drives to those of the chart at the present pose.
+  subroutine take_chart(motion, now)
+    type(linkage_motion_t), intent(inout) :: motion
+    type(kinematic_coefficients_t), intent(in) :: now !! velocities
+
+    integer :: f, k
+
+    associate (system => motion%system)
+      f = size(system%free)
+      motion%state(:f) = 0.0_wp
+      motion%state(f + 1:2*f) = [(rate_along(system%whole, system%chart%direction(:, &
+        k), now%turn, now%pin), k=1, f)]
+      system%by_drives = .false.
+    end associate
+    call reopen_steps(motion)
+  end subroutine take_chart
+
+  !> Other coordinates have another size: the error of steps is measured anew.
+  subroutine reopen_steps(motion)
+    type(linkage_motion_t), intent(inout) :: motion
+
+    type(error_t), allocatable :: error
+    integer(long) :: steps, evaluations
+    real(wp) :: step
+
+    steps = motion%integrator%steps
+    evaluations = motion%integrator%evaluations
+    step = motion%integrator%step
+    call close_integrator(motion%integrator)
+    call open_steps(motion, motion%work_scale, step, error)
+    motion%integrator%steps = steps
+    motion%integrator%evaluations = evaluations
+    if (allocated(error)) motion%stop = stop_steps
+  end subroutine reopen_steps
+
+  !> The chart of the next step. The motion stops at change points, and where links that are
+  !! redundant do not fit.
+  subroutine renew_chart(motion, pose, now)
+    type(linkage_motion_t), intent(inout) :: motion
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: now !! velocities
+
+    type(motion_chart_t) :: chart
     type(error_t), allocatable :: error
     integer :: f, k
 
     associate (system => motion%system)
       f = size(system%free)
-      sample%time = motion%time
-      sample%position = motion%state(:f)
-      do k = 1, f
-        if (system%linkage%drives(system%free(k))%kind == drives_angle) sample%position(k) = &
-          motion%state(k)/degree
-      end do
-      sample%position(1) = sample%position(1) + system%turned
-      sample%rate = motion%state(f + 1:2*f)
-      sample%torque = system%drive%torque(motion%time, motion%state(1), sample%rate(1))
-      call energies_at(system, motion%state(:f), sample%rate, sample%kinetic, sample%potential, &
-        error)
-      sample%work = motion%state(2*f + 1)
-      sample%energy_error = sample%kinetic + sample%potential - sample%work - motion%energy
+      chart = new_chart(system%whole, pose, motion%position(1), f)
+      if (.not. is_same_side(system%whole, system%chart, chart) .or. chart%independence < &
+        least_independence) motion%stop = stop_change_point
+      call refuse_misfit(system%whole%linkage, pose, system%whole%origin, motion%position(1), error)
+      if (allocated(error)) motion%stop = stop_misfit
+      motion%state(f + 1:2*f) = [(rate_along(system%whole, chart%direction(:, k), &
+        now%turn, now%pin), k=1, f)]
+      motion%state(:f) = 0.0_wp
+      system%chart = chart
     end associate
+  end subroutine renew_chart
+
+  !> Records the dead points that were passed in the last step. Groups in closed form are then on
+  !! their other side; iterations have no path there.
+  subroutine note_passages(motion, determinants, time, before)
+    type(linkage_motion_t), intent(inout) :: motion
+    real(wp), intent(in) :: determinants(:) !! (groups) after the step
+    real(wp), intent(in) :: time      !! at the beginning of the step [s]
+    real(wp), intent(in) :: before(:) !! state at that time
+
+    integer :: i
+
+    do i = 1, size(determinants)
+      if (abs(determinants(i)) <= undecided_sine) cycle
+      if (determinants(i) > 0.0_wp .eqv. motion%is_left(i)) cycle
+      call note_passage(motion, i, time, before)
+      motion%is_left(i) = .not. motion%is_left(i)
+      associate (linkage => motion%system%whole%linkage)
+        linkage%groups(i)%side = -linkage%groups(i)%side
+        motion%may_return = .not. has_iterations(linkage)
+      end associate
+    end do
+  end subroutine note_passages
+
+  !> Records the instant in the last step at which the determinant of a group passed through zero,
+  !! by halving; each trial is a single step from the beginning of the last one.
+  subroutine note_passage(motion, group, time, before)
+    type(linkage_motion_t), intent(inout) :: motion
+    integer, intent(in) :: group
+    real(wp), intent(in) :: time      !! at the beginning of the step [s]
+    real(wp), intent(in) :: before(:) !! state at that time
+
+    type(error_t), allocatable :: error
+    type(pose_t) :: pose
+    type(kinematic_coefficients_t), allocatable :: per(:)
+    type(kinematic_coefficients_t) :: now
+    type(passage_t) :: passage
+    real(wp) :: state(size(before)), low, high, middle
+    logical :: found
+
+    associate (system => motion%system)
+      low = 0.0_wp
+      high = motion%time - time
+      passage = passage_t(motion%time, motion%position(1), group)
+      do while (high - low > 2.0_wp*epsilon(1.0_wp)*motion%time)
+        middle = 0.5_wp*(low + high)
+        if (middle <= low .or. middle >= high) exit
+        state = before
+        call step_by(motion%integrator, system, time, middle, state, error)
+        if (allocated(error)) exit
+        call find_state(system, state, pose, per, now, found)
+        if (.not. found) exit
+        passage%time = time + middle
+        passage%position = drive_position(system%whole, pose, 1, motion%position(1))
+        if (determinant_of(system%whole%linkage, pose, group) > 0.0_wp .eqv. &
+          motion%is_left(group)) then
+          low = middle
+        else
+          high = middle
+        end if
+      end do
+    end associate
+    call append_passage(motion, passage)
+  end subroutine note_passage
+
+  pure subroutine append_passage(motion, passage)
+    type(linkage_motion_t), intent(inout) :: motion
+    type(passage_t), intent(in) :: passage
+
+    type(passage_t), allocatable :: larger(:)
+
+    if (motion%passage_count == size(motion%passages)) then
+      allocate (larger(2*motion%passage_count + 8))
+      larger(:motion%passage_count) = motion%passages(:motion%passage_count)
+      call move_alloc(larger, motion%passages)
+    end if
+    motion%passage_count = motion%passage_count + 1
+    motion%passages(motion%passage_count) = passage
+  end subroutine append_passage
+
+  !> Positions, rates, torque and energies at the present instant. The motion stops where the
+  !! balance of energies shows that it has lost its digits.
+  subroutine sample_linkage_motion(motion, sample)
+    type(linkage_motion_t), intent(inout) :: motion !! begun
+    type(linkage_sample_t), intent(out) :: sample   !! of this instant
+
+    call sample_state(motion%system, motion%time, motion%state, motion%position, sample)
+    sample%energy_error = sample%kinetic + sample%potential - sample%work - motion%energy
+    motion%most_energy = max(motion%most_energy, sample%kinetic + abs(sample%potential) + &
+      abs(sample%work))
+    if (abs(sample%energy_error) > lost_energy*motion%most_energy .and. motion%stop == no_stop) &
+      motion%stop = stop_energy
   end subroutine sample_linkage_motion
 
 end module linkage_motions

@@ -1,9 +1,11 @@
-!> Equations of motion of any linkage that moves by itself, in the coordinates of its free drives.
+!> Equations of motion of any linkage that moves by itself.
 !!
 !! The first drive is free, and so are those that the deck calls free; the others are held, or
-!! geared to the first. With the velocities `h_k` of pins and bodies per rate of coordinate k,
-!! `Σ_l M_kl c̈_l = Q_k − Σ m h_k·b`, where M_kl is `Σ m h_k·h_l` over all masses, Q_k the loads
-!! along h_k, and b the accelerations with the present rates and no c̈.
+!! geared to the first. The coordinates are those of the free drives, for which groups have closed
+!! forms; near dead points, where drives turn back, those of a chart (`motion_charts`). With the
+!! velocities `h_k` of pins and bodies per rate of coordinate k,
+!! `Σ_l M_kl ü_l = Q_k − Σ m h_k·b`, where M_kl is `Σ m h_k·h_l` over all masses, Q_k the loads
+!! along h_k, and b the accelerations with the present rates and no ü.
 module linkage_rates
   use adaptive_integration, only: rate_system_t
   use body_points, only: find_point_coefficients, point_coefficients_t
@@ -15,19 +17,23 @@ module linkage_rates
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, find_velocities, &
     kinematic_coefficients_t
-  use linkages, only: drives_angle, linkage_t, reference_point
+  use linkages, only: drives_angle, linkage_t
+  use motion_charts, only: accelerations, find_on_chart, motion_chart_t, velocities
   use pose_types, only: pose_t
   use poses, only: dead_point_sine, place_groups, place_links
   use rigid_bodies, only: central_inertia, mass_centre, rigid_body_t
+  use whole_systems, only: drive_position, drive_row, rate_along, whole_system_t
   implicit none (type, external)
   private
 
-  public :: moving_linkage_t, free_drives, pose_at, energies_at
-  public :: no_stop, stop_dead_point, stop_no_inertia, stop_too_fast, stop_steps, stop_many_steps
+  public :: moving_linkage_t, free_drives, find_state, find_rates_of_coordinates, inertia_share, &
+    rate_of_drive
+  public :: no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps, &
+    stop_many_steps, stop_misfit, stop_energy
 
-  !> Why a motion stops. For reasons 1 to 3 there are no rates.
-  integer, parameter :: no_stop = 0, stop_dead_point = 1, stop_no_inertia = 2, stop_too_fast = 3, &
-    stop_steps = 4, stop_many_steps = 5
+  !> Why a motion stops. There are no rates without inertia, and where links move too fast.
+  integer, parameter :: no_stop = 0, stop_change_point = 1, stop_no_inertia = 2, &
+    stop_too_fast = 3, stop_steps = 4, stop_many_steps = 5, stop_misfit = 6, stop_energy = 7
 
   !> Steps begin with an angle of the first drive from −π to π: a trial step beyond `most_angle` is
   !! too long, whatever its estimated error [rad]. `most_rate` is beyond any mechanics, but short of
@@ -37,20 +43,22 @@ module linkage_rates
   !> There are no rates where the scaled determinant of M is below this.
   real(wp), parameter :: least_inertia = 1.0e-13_wp
 
-  !> A linkage in motion. Its state: coordinates of the free drives [rad] or [m], their rates, the
-  !! work done so far by drive and resistances [J].
+  !> A linkage in motion. Its state: coordinates of the free drives [rad] or [m], or of the chart
+  !! [m], their rates, the work done so far by drive and resistances [J].
   type, extends(rate_system_t) :: moving_linkage_t
-    type(linkage_t) :: linkage
+    type(whole_system_t) :: whole
     type(rigid_body_t), allocatable :: rigid(:) !! (bodies)
     integer, allocatable :: free(:)             !! numbers of the free drives; the first is 1
     class(drive_t), allocatable :: drive        !! torque or force on the first drive
     real(wp), allocatable :: taken(:)           !! (bodies) resisting torques [N m]
     real(wp), allocatable :: damping(:)         !! (bodies) of their turning [N m s]
+    logical :: by_drives = .true.               !! the state has the coordinates of the drives
     real(wp) :: turned = 0.0_wp                 !! whole turns of the first drive that its
-                                                !! coordinate does not contain [deg]
+                                                !! coordinate in the state does not contain [deg]
     real(wp) :: period = 0.0_wp                 !! of the positions [deg]; 0: none
     type(pose_t) :: pose                        !! the last one, from `reference_point`: a start for
                                                 !! iterations
+    type(motion_chart_t) :: chart               !! whose coordinates the state has else
     integer :: stop = no_stop                   !! why rates were last not found
   contains
     procedure :: find_rates => rates_of_motion
@@ -68,21 +76,56 @@ contains
     free = pack([(i, i=1, size(is_free))], [.true., is_free(2:)])
   end function free_drives
 
-  !> The pose at coordinates of the free drives, relative to `reference_point`.
-  !!
-  !! Errors: out of reach; near a dead point; iterations that do not converge.
-  subroutine pose_at(self, coordinates, pose, error)
+  !> Pose, velocities per rate of coordinate, velocities and accelerations without ü at a state.
+  subroutine find_state(self, state, pose, per, now, found)
     class(moving_linkage_t), intent(in) :: self
-    real(wp), intent(in) :: coordinates(:)   !! (free drives) [rad] or [m]
+    real(wp), intent(in) :: state(:)    !! coordinates, rates, work
+    type(pose_t), intent(out) :: pose   !! pins from `reference_point`
+    type(kinematic_coefficients_t), allocatable, intent(out) :: per(:) !! (coordinates)
+    type(kinematic_coefficients_t), intent(out) :: now                 !! per second
+    logical, intent(out) :: found       !! the coordinates reach so far
+
+    type(dense_factor_t) :: factor
+    real(wp) :: direction(size(self%free))
+    integer :: f, k
+
+    f = size(self%free)
+    if (.not. self%by_drives) then
+      call find_on_chart(self%whole, self%chart, state(:f), pose, factor, found)
+      if (.not. found) return
+      call velocities(self%whole, self%chart, factor, per)
+      call accelerations(self%whole, self%chart, factor, pose, per, state(f + 1:2*f), now)
+      return
+    end if
+    call place_by_drives(self, state(:f), pose, found)
+    if (.not. found) return
+    now = find_kinematic_coefficients(self%whole%linkage, pose, rates_of_drives(self, state(f + &
+      1:2*f)))
+    allocate (per(f))
+    do k = 1, f
+      direction = 0.0_wp
+      direction(k) = 1.0_wp
+      call find_velocities(self%whole%linkage, pose, rates_of_drives(self, direction), per(k))
+    end do
+  end subroutine find_state
+
+  !> The pose at coordinates of the free drives. Not found out of reach, at dead points, and where
+  !! iterations do not converge.
+  subroutine place_by_drives(self, coordinates, pose, found)
+    class(moving_linkage_t), intent(in) :: self
+    real(wp), intent(in) :: coordinates(:) !! (free drives) [rad] or [m]
     type(pose_t), intent(out) :: pose
-    type(error_t), allocatable, intent(out) :: error
+    logical, intent(out) :: found
 
     type(linkage_t) :: linkage
-    real(wp) :: crank, correction, origin(2)
+    type(error_t), allocatable :: error
+    real(wp) :: crank, correction
     integer :: i
 
     crank = coordinates(1)
-    if (self%linkage%drives(1)%kind == drives_angle) then
+    if (self%whole%linkage%drives(1)%kind == drives_angle) then
+      found = abs(crank) < most_angle
+      if (.not. found) return
       crank = crank/degree
       if (self%period > 0.0_wp) then
         crank = crank + modulo(self%turned, self%period)
@@ -91,38 +134,75 @@ contains
       end if
     end if
     if (size(self%free) == 1) then
-      call place_links(self%linkage, crank, pose, error)
-      if (allocated(error)) return
-      origin = reference_point(self%linkage)
-      pose%pin = pose%pin - spread(origin, 2, size(pose%pin, 2))
-      return
+      call place_links(self%whole%linkage, crank, pose, error)
+      if (.not. allocated(error)) pose%pin = pose%pin - spread(self%whole%origin, 2, &
+        size(pose%pin, 2))
+    else
+      linkage = self%whole%linkage
+      do i = 2, size(self%free)
+        associate (drive => linkage%drives(self%free(i)))
+          drive%ratio = 0.0_wp
+          drive%phase = coordinates(i)
+          if (drive%kind == drives_angle) drive%phase = coordinates(i)/degree
+        end associate
+      end do
+      pose = self%pose
+      call place_groups(linkage, crank, pose, correction, error)
     end if
-    linkage = self%linkage
-    do i = 2, size(self%free)
-      associate (drive => linkage%drives(self%free(i)))
-        drive%ratio = 0.0_wp
-        drive%phase = coordinates(i)
-        if (drive%kind == drives_angle) drive%phase = coordinates(i)/degree
-      end associate
-    end do
-    pose = self%pose
-    call place_groups(linkage, crank, pose, correction, error)
-  end subroutine pose_at
+    found = .not. allocated(error)
+    if (found) found = all(abs(pose%sine) > dead_point_sine)
+  end subroutine place_by_drives
 
   !> Rates of all drives from those of the free ones: the others are held or geared to the first.
   pure function rates_of_drives(self, rates) result(all_rates)
     class(moving_linkage_t), intent(in) :: self
     real(wp), intent(in) :: rates(:) !! (free drives)
-    real(wp) :: all_rates(size(self%linkage%drives))
+    real(wp) :: all_rates(size(self%whole%linkage%drives))
 
     integer :: i
 
-    all_rates = [(drive_rate(self%linkage, i)*rates(1), i=1, size(all_rates))]
+    all_rates = [(drive_rate(self%whole%linkage, i)*rates(1), i=1, size(all_rates))]
     all_rates(self%free) = rates
   end function rates_of_drives
 
-  !> Rates of the state. Not found near dead points, out of reach, and where nothing with a mass
-  !! moves; `stop` gives the reason.
+  !> Rate of a drive's coordinate [rad/s] or [m/s].
+  pure function rate_of_drive(self, pose, now, drive) result(rate)
+    class(moving_linkage_t), intent(in) :: self
+    type(pose_t), intent(in) :: pose                 !! of `find_state`
+    type(kinematic_coefficients_t), intent(in) :: now !! likewise
+    integer, intent(in) :: drive                     !! number, from 1
+    real(wp) :: rate
+
+    rate = rate_along(self%whole, drive_row(self%whole, pose, drive), now%turn, now%pin)
+  end function rate_of_drive
+
+  !> Rates of the coordinates at which the free drives have given rates.
+  subroutine find_rates_of_coordinates(self, rates, state)
+    class(moving_linkage_t), intent(in) :: self
+    real(wp), intent(in) :: rates(:)     !! (free drives) [rad/s] or [m/s]
+    real(wp), intent(inout) :: state(:)  !! coordinates 0; gets rates
+
+    type(pose_t) :: pose
+    type(kinematic_coefficients_t), allocatable :: per(:)
+    type(kinematic_coefficients_t) :: now
+    type(dense_factor_t) :: factor
+    real(wp) :: by(size(rates), size(rates))
+    logical :: found
+    integer :: f, k, l
+
+    f = size(rates)
+    call find_state(self, state, pose, per, now, found)
+    do k = 1, f
+      do l = 1, f
+        by(k, l) = rate_of_drive(self, pose, per(l), self%free(k))
+      end do
+    end do
+    call factorize(by, factor)
+    state(f + 1:2*f) = solve(factor, rates)
+  end subroutine find_rates_of_coordinates
+
+  !> Rates of the state. Not found beyond the chart, and where nothing with a mass moves; `stop`
+  !! gives the reason.
   subroutine rates_of_motion(self, time, state, rates, found)
     class(moving_linkage_t), intent(inout) :: self
     real(wp), intent(in) :: time      !! [s]
@@ -130,45 +210,38 @@ contains
     real(wp), intent(out) :: rates(:) !! of the state; defined only if found
     logical, intent(out) :: found     !! false: `stop` is set
 
-    type(error_t), allocatable :: error
     type(pose_t) :: pose
     type(kinematic_coefficients_t) :: now
     type(kinematic_coefficients_t), allocatable :: per(:)
     type(dense_factor_t) :: factor
     real(wp) :: inertia(size(self%free), size(self%free)), right(size(self%free)), &
-      driving(size(self%free)), direction(size(self%free)), torque
+      driving(size(self%free)), torque
     integer :: f, k
 
     f = size(self%free)
     rates = 0.0_wp
     found = maxval(abs(state)) < most_rate
-    if (self%linkage%drives(1)%kind == drives_angle) found = found .and. abs(state(1)) < most_angle
     if (.not. found) then
       self%stop = stop_too_fast
       return
     end if
-    call pose_at(self, state(:f), pose, error)
-    found = .not. allocated(error)
-    if (found) found = all(abs(pose%sine) > dead_point_sine)
+    call find_state(self, state, pose, per, now, found)
     if (.not. found) then
-      self%stop = stop_dead_point
+      self%stop = stop_steps
       return
     end if
-    ! Accelerations while the rates of the drives do not change.
-    now = find_kinematic_coefficients(self%linkage, pose, rates_of_drives(self, state(f + 1:2*f)))
-    allocate (per(f))
-    do k = 1, f
-      direction = 0.0_wp
-      direction(k) = 1.0_wp
-      call find_velocities(self%linkage, pose, rates_of_drives(self, direction), per(k))
-    end do
     call sum_up(self, pose, now, per, inertia, right)
     driving = 0.0_wp
-    torque = self%drive%torque(time, state(1), state(f + 1))
-    driving(1) = torque
+    if (self%by_drives) then
+      torque = self%drive%torque(time, state(1), state(f + 1))
+      driving(1) = torque
+    else
+      torque = self%drive%torque(time, coordinate_of(self, pose), rate_of_drive(self, pose, now, 1))
+      driving = torque*[(rate_of_drive(self, pose, per(k), 1), k=1, f)]
+    end if
     do k = 1, f
       driving(k) = driving(k) - dot_product(self%taken + self%damping*now%turn, per(k)%turn) + &
-        dot_product(self%linkage%couple, per(k)%turn)
+        dot_product(self%whole%linkage%couple, per(k)%turn)
     end do
     call factorize(inertia, factor)
     found = abs(factor%determinant) > least_inertia
@@ -181,7 +254,17 @@ contains
     rates(2*f + 1) = dot_product(driving, state(f + 1:2*f))
   end subroutine rates_of_motion
 
-  !> M, and the generalised forces of gravity, constant forces and inertia without c̈.
+  !> Coordinate of the first drive, with all whole turns [rad] or [m].
+  pure function coordinate_of(self, pose) result(coordinate)
+    class(moving_linkage_t), intent(in) :: self
+    type(pose_t), intent(in) :: pose
+    real(wp) :: coordinate
+
+    coordinate = drive_position(self%whole, pose, 1, self%chart%crank)
+    if (self%whole%linkage%drives(1)%kind == drives_angle) coordinate = coordinate*degree
+  end function coordinate_of
+
+  !> M, and the generalised forces of gravity, constant forces and inertia without ü.
   pure subroutine sum_up(self, pose, now, per, inertia, right)
     class(moving_linkage_t), intent(in) :: self
     type(pose_t), intent(in) :: pose
@@ -196,7 +279,7 @@ contains
 
     inertia = 0.0_wp
     right = 0.0_wp
-    associate (linkage => self%linkage, rigid => self%rigid)
+    associate (linkage => self%whole%linkage, rigid => self%rigid)
       do b = 1, size(rigid)
         point = find_point_coefficients(linkage, pose, now, b, mass_centre(rigid(b)))
         turning = central_inertia(rigid(b))
@@ -228,41 +311,26 @@ contains
     end do
   end subroutine sum_up
 
-  !> Kinetic energy, and potential energy of gravity and constant forces, 0 at the global origin
-  !! [J].
-  subroutine energies_at(self, coordinates, rates, kinetic, potential, error)
+  !> The least inertia of the coordinates, as a share of all masses [-].
+  subroutine inertia_share(self, state, share)
     class(moving_linkage_t), intent(in) :: self
-    real(wp), intent(in) :: coordinates(:)   !! (free drives) [rad] or [m]
-    real(wp), intent(in) :: rates(:)         !! (free drives) [rad/s] or [m/s]
-    real(wp), intent(out) :: kinetic
-    real(wp), intent(out) :: potential
-    type(error_t), allocatable, intent(out) :: error !! those of `pose_at`
+    real(wp), intent(in) :: state(:) !! coordinates, rates, work
+    real(wp), intent(out) :: share
 
     type(pose_t) :: pose
     type(kinematic_coefficients_t) :: now
-    type(point_coefficients_t) :: point
-    real(wp) :: origin(2)
-    integer :: b, p
+    type(kinematic_coefficients_t), allocatable :: per(:)
+    real(wp) :: inertia(size(self%free), size(self%free)), right(size(self%free)), all
+    logical :: found
+    integer :: k
 
-    kinetic = 0.0_wp
-    potential = 0.0_wp
-    call pose_at(self, coordinates, pose, error)
-    if (allocated(error)) return
-    call find_velocities(self%linkage, pose, rates_of_drives(self, rates), now)
-    origin = reference_point(self%linkage)
-    associate (linkage => self%linkage, rigid => self%rigid)
-      do b = 1, size(rigid)
-        point = find_point_coefficients(linkage, pose, now, b, mass_centre(rigid(b)))
-        kinetic = kinetic + 0.5_wp*(rigid(b)%mass*sum(point%rate**2) + &
-          central_inertia(rigid(b))*now%turn(b)**2)
-        potential = potential - rigid(b)%mass*dot_product(linkage%gravity, point%place + origin)
-      end do
-      do p = 1, size(linkage%is_ground)
-        kinetic = kinetic + 0.5_wp*linkage%pin_mass(p)*sum(now%pin(:, p)**2)
-        potential = potential - dot_product(linkage%pin_mass(p)*linkage%gravity + &
-          linkage%pin_force(:, p), pose%pin(:, p) + origin)
-      end do
-    end associate
-  end subroutine energies_at
+    share = 0.0_wp
+    all = sum(self%rigid%mass + self%rigid%inertia/self%whole%scale**2) + &
+      sum(self%whole%linkage%pin_mass)
+    call find_state(self, state, pose, per, now, found)
+    if (.not. found .or. .not. all > 0.0_wp) return
+    call sum_up(self, pose, now, per, inertia, right)
+    share = minval([(inertia(k, k), k=1, size(right))])/all
+  end subroutine inertia_share
 
 end module linkage_rates

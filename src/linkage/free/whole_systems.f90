@@ -1,0 +1,246 @@
+!> A linkage as one system of equations, without the free drives: what it demands wherever it moves,
+!! also where its groups cannot be placed one after the other.
+!!
+!! The unknowns are displacements of all moving pins and turns of all bodies, these times lengths,
+!! from a pose near by.
+module whole_systems
+  use constants, only: degree
+  use group_equations, only: curvature_of, drive_rate, find_gradient, gradient_t, misfit_of
+  use kinds, only: wp
+  use linkages, only: demands_angle, demands_drive, demands_length, demands_line, demands_turn, &
+    drives_angle, drives_length, equation_t, linkage_t, normal_to, reference_point
+  use pose_types, only: pins_of_body, place_of_pin, pose_t
+  implicit none (type, external)
+  private
+
+  public :: whole_system_t, new_whole_system, unknown_count, displaced, demands, misfits, &
+    curvatures, drive_row, drive_position, rate_along
+
+  type :: whole_system_t
+    type(linkage_t) :: linkage
+    integer, allocatable :: at_pin(:)             !! (pins) unknowns before its two; −1: it is fixed
+    integer, allocatable :: at_body(:)            !! (bodies) number of its unknown
+    real(wp), allocatable :: scale(:)             !! (bodies) length of its largest arm [m]
+    type(equation_t), allocatable :: equations(:) !! with those that are redundant
+    real(wp) :: origin(2) = 0.0_wp                !! `reference_point`
+  end type whole_system_t
+
+contains
+
+  !> The equations of a linkage, but those of its free drives.
+  pure function new_whole_system(linkage, free) result(system)
+    type(linkage_t), intent(in) :: linkage !! with its groups
+    integer, intent(in) :: free(:)         !! numbers of the drives that are free
+    type(whole_system_t) :: system
+
+    integer, allocatable :: pins(:)
+    integer :: i, k, unknowns
+
+    system%linkage = linkage
+    system%origin = reference_point(linkage)
+    allocate (system%at_pin(size(linkage%is_ground)), system%at_body(size(linkage%bodies)), &
+      system%scale(size(linkage%bodies)), system%equations(0))
+    unknowns = 0
+    do i = 1, size(linkage%is_ground)
+      system%at_pin(i) = merge(-1, unknowns, linkage%is_ground(i))
+      if (.not. linkage%is_ground(i)) unknowns = unknowns + 2
+    end do
+    do i = 1, size(linkage%bodies)
+      unknowns = unknowns + 1
+      system%at_body(i) = unknowns
+      pins = pins_of_body(linkage%bodies(i))
+      system%scale(i) = linkage%bodies(i)%length
+      do k = 2, size(pins)
+        system%scale(i) = max(system%scale(i), norm2(place_of_pin(linkage%bodies(i), pins(k))))
+        if (k > 2 .or. .not. any(linkage%drives%kind == drives_length .and. &
+          linkage%drives%body == i)) call append(system%equations, equation_t(demands_length, i, &
+          pins(k), place_of_pin(linkage%bodies(i), pins(k))))
+        call append(system%equations, equation_t(demands_angle, i, pins(k), &
+          place_of_pin(linkage%bodies(i), pins(k))))
+      end do
+    end do
+    do i = 1, size(linkage%sliders)
+      call append(system%equations, equation_t(demands_line, number=i))
+    end do
+    do i = 1, size(linkage%turns)
+      call append(system%equations, equation_t(demands_turn, number=i))
+    end do
+    do i = 1, size(linkage%drives)
+      if (.not. any(free == i)) call append(system%equations, equation_t(demands_drive, number=i))
+    end do
+  end function new_whole_system
+
+  pure subroutine append(list, equation)
+    type(equation_t), allocatable, intent(inout) :: list(:)
+    type(equation_t), intent(in) :: equation
+
+    type(equation_t), allocatable :: longer(:)
+
+    allocate (longer(size(list) + 1))
+    longer(:size(list)) = list
+    longer(size(longer)) = equation
+    call move_alloc(longer, list)
+  end subroutine append
+
+  !> Number of unknowns.
+  pure function unknown_count(system) result(number)
+    type(whole_system_t), intent(in) :: system !! its pins and bodies
+    integer :: number
+
+    number = 2*count(system%at_pin >= 0) + size(system%at_body)
+  end function unknown_count
+
+  !> A pose moved by the unknowns.
+  pure function displaced(system, pose, unknowns) result(moved)
+    type(whole_system_t), intent(in) :: system !! its pins and bodies
+    type(pose_t), intent(in) :: pose           !! pins from `reference_point`, and directions
+    real(wp), intent(in) :: unknowns(:)        !! displacements and turns times lengths [m]
+    type(pose_t) :: moved
+
+    real(wp) :: angle
+    integer :: i
+
+    allocate (moved%pin, source=pose%pin)
+    allocate (moved%direction, mold=pose%direction)
+    do i = 1, size(system%at_pin)
+      if (system%at_pin(i) >= 0) moved%pin(:, i) = pose%pin(:, i) + unknowns(system%at_pin(i) + &
+        1:system%at_pin(i) + 2)
+    end do
+    do i = 1, size(system%at_body)
+      angle = unknowns(system%at_body(i))/system%scale(i)
+      moved%direction(:, i) = cos(angle)*pose%direction(:, i) + sin(angle)*normal_to( &
+        pose%direction(:, i))
+      moved%direction(:, i) = moved%direction(:, i)/norm2(moved%direction(:, i))
+    end do
+  end function displaced
+
+  !> Gradients of all equations by the unknowns.
+  pure function demands(system, pose) result(rows)
+    type(whole_system_t), intent(in) :: system !! its equations
+    type(pose_t), intent(in) :: pose           !! pins and directions
+    real(wp), allocatable :: rows(:, :)        !! (equations, unknowns) [-], or [1/m] of angles
+
+    integer :: i
+
+    allocate (rows(size(system%equations), unknown_count(system)))
+    do i = 1, size(system%equations)
+      call set_row(system, system%equations(i), pose, rows(i, :))
+      associate (equation => system%equations(i))
+        if (equation%kind /= demands_drive) cycle
+        if (abs(system%linkage%drives(equation%number)%ratio) > 0.0_wp) rows(i, :) = &
+          rows(i, :) - drive_rate(system%linkage, equation%number)*drive_row(system, pose, 1)
+      end associate
+    end do
+  end function demands
+
+  !> Gradient of the coordinate of a drive by the unknowns.
+  pure function drive_row(system, pose, drive) result(row)
+    type(whole_system_t), intent(in) :: system !! its drives
+    type(pose_t), intent(in) :: pose           !! pins and directions
+    integer, intent(in) :: drive               !! number, from 1
+    real(wp), allocatable :: row(:)            !! (unknowns)
+
+    allocate (row(unknown_count(system)))
+    call set_row(system, equation_t(demands_drive, number=drive), pose, row)
+  end function drive_row
+
+  !> A row of the unknowns times velocities of pins and bodies.
+  pure function rate_along(system, row, turn, pin) result(rate)
+    type(whole_system_t), intent(in) :: system !! its pins and bodies
+    real(wp), intent(in) :: row(:)             !! (unknowns) a gradient or a direction
+    real(wp), intent(in) :: turn(:)            !! (bodies) angular velocities
+    real(wp), intent(in) :: pin(:, :)          !! (2, pins) velocities
+    real(wp) :: rate
+
+    integer :: i
+
+    rate = dot_product(row(system%at_body), turn*system%scale)
+    do i = 1, size(system%at_pin)
+      associate (at => system%at_pin(i))
+        if (at >= 0) rate = rate + dot_product(row(at + 1:at + 2), pin(:, i))
+      end associate
+    end do
+  end function rate_along
+
+  !> Gradient of one equation by the unknowns.
+  pure subroutine set_row(system, equation, pose, row)
+    type(whole_system_t), intent(in) :: system
+    type(equation_t), intent(in) :: equation
+    type(pose_t), intent(in) :: pose
+    real(wp), intent(out) :: row(:)
+
+    type(gradient_t) :: gradient
+    integer :: k, at
+
+    row = 0.0_wp
+    call find_gradient(system%linkage, equation, pose, gradient)
+    do k = 1, 2
+      if (gradient%pin(k) > 0) then
+        at = system%at_pin(gradient%pin(k))
+        if (at >= 0) row(at + 1:at + 2) = row(at + 1:at + 2) + gradient%by_pin(:, k)
+      end if
+      if (gradient%body(k) == 0) cycle
+      at = system%at_body(gradient%body(k))
+      row(at) = row(at) + gradient%by_angle(k)/system%scale(gradient%body(k))
+    end do
+  end subroutine set_row
+
+  !> By how much the equations are not fulfilled.
+  pure function misfits(system, pose, crank) result(misfit)
+    type(whole_system_t), intent(in) :: system !! its equations
+    type(pose_t), intent(in) :: pose           !! pins and directions
+    real(wp), intent(in) :: crank              !! of the first drive near by, with whole turns [deg]
+                                               !! or [m]
+    real(wp) :: misfit(size(system%equations)) !! [m], or [rad] of angles
+
+    real(wp) :: now
+    integer :: i
+
+    now = drive_position(system, pose, 1, crank)
+    do i = 1, size(misfit)
+      misfit(i) = misfit_of(system%linkage, system%equations(i), pose, system%origin, now)
+    end do
+  end function misfits
+
+  !> Second derivatives of all equations along velocities of pins and bodies: q'ᵀ ∇²C q'.
+  pure function curvatures(system, pose, turn, pin) result(curvature)
+    type(whole_system_t), intent(in) :: system !! its equations
+    type(pose_t), intent(in) :: pose           !! pins and directions
+    real(wp), intent(in) :: turn(:)            !! (bodies) angular velocities
+    real(wp), intent(in) :: pin(:, :)          !! (2, pins) velocities
+    real(wp) :: curvature(size(system%equations))
+
+    integer :: i
+
+    associate (linkage => system%linkage)
+      do i = 1, size(curvature)
+        curvature(i) = curvature_of(linkage, system%equations(i), pose, turn, pin)
+        associate (equation => system%equations(i))
+          if (equation%kind /= demands_drive) cycle
+          if (abs(linkage%drives(equation%number)%ratio) > 0.0_wp) curvature(i) = curvature(i) - &
+            drive_rate(linkage, equation%number)*curvature_of(linkage, equation_t( &
+            demands_drive, number=1), pose, turn, pin)
+        end associate
+      end do
+    end associate
+  end function curvatures
+
+  !> Coordinate of a drive at a pose: the one within half a turn of a value near by [deg] or [m].
+  pure function drive_position(system, pose, drive, near) result(position)
+    type(whole_system_t), intent(in) :: system !! its drives
+    type(pose_t), intent(in) :: pose           !! pins and directions
+    integer, intent(in) :: drive               !! number, from 1
+    real(wp), intent(in) :: near               !! [deg] or [m]
+    real(wp) :: position
+
+    ! The drive's misfit is what its coordinate is above its phase.
+    associate (it => system%linkage%drives(drive))
+      position = misfit_of(system%linkage, equation_t(demands_drive, number=drive), pose, &
+        system%origin, 0.0_wp)
+      if (it%kind == drives_angle) position = position/degree
+      position = position + it%phase
+      if (it%kind == drives_angle) position = position + 360.0_wp*anint((near - position)/360.0_wp)
+    end associate
+  end function drive_position
+
+end module whole_systems

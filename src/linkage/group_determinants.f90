@@ -1,0 +1,79 @@
+!> Scaled determinants of groups at any pose: zero at a dead point; their signs are the branches.
+module group_determinants
+  use dense_factor, only: dense_factor_t
+  use group_equations, only: factorize_group
+  use kinds, only: wp
+  use linkages, only: cross, groups_by_newton, groups_cross_slide, groups_dyad, groups_on_line, &
+    groups_through_pin, groups_two_lines, linkage_t, turned
+  use pose_types, only: pose_t
+  use poses, only: arm_to_middle
+  implicit none (type, external)
+  private
+
+  public :: determinants_of, determinant_of
+
+contains
+
+  !> The determinants of all groups, in [−1, 1].
+  pure function determinants_of(linkage, pose) result(determinants)
+    type(linkage_t), intent(in) :: linkage !! with its plan
+    type(pose_t), intent(in) :: pose       !! pins and directions
+    real(wp) :: determinants(size(linkage%groups))
+
+    integer :: i
+
+    do i = 1, size(determinants)
+      determinants(i) = determinant_of(linkage, pose, i)
+    end do
+  end function determinants_of
+
+  !> The determinant of a group: of two bodies, of a body and a line, and of two lines the sine or
+  !! cosine of the angle at which their loci meet; of groups by iterations that of their equations;
+  !! 1 of what has no dead point.
+  pure function determinant_of(linkage, pose, number) result(determinant)
+    type(linkage_t), intent(in) :: linkage !! with its plan
+    type(pose_t), intent(in) :: pose       !! pins and directions
+    integer, intent(in) :: number          !! of the group, from 1
+    real(wp) :: determinant
+
+    type(dense_factor_t) :: factor
+    real(wp), allocatable :: scales(:)
+    real(wp) :: way(2)
+
+    determinant = 1.0_wp
+    associate (group => linkage%groups(number))
+      select case (group%kind)
+      case (groups_dyad)
+        determinant = cross(arm_to_middle(linkage, group, pose, 1), arm_to_middle(linkage, group, &
+          pose, 2))
+      case (groups_on_line)
+        way = pose%pin(:, group%middle) - pose%pin(:, group%base(1))
+        determinant = dot_product(axis_of(linkage, pose, group%slider(1)), way)/norm2(way)
+      case (groups_through_pin)
+        way = pose%pin(:, group%middle) - pose%pin(:, group%base(1))
+        determinant = dot_product(axis_of(linkage, pose, group%slider(1)), way)/ &
+          max(linkage%bodies(group%body(1))%length, norm2(way))
+      case (groups_two_lines, groups_cross_slide)
+        determinant = cross(axis_of(linkage, pose, group%slider(1)), axis_of(linkage, pose, &
+          group%slider(2)))
+      case (groups_by_newton)
+        allocate (scales(size(group%bodies)))
+        call factorize_group(linkage, group, pose, factor, scales)
+        determinant = factor%determinant
+      end select
+    end associate
+  end function determinant_of
+
+  !> Direction of the line of a slider.
+  pure function axis_of(linkage, pose, slider) result(axis)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    integer, intent(in) :: slider
+    real(wp) :: axis(2)
+
+    axis = linkage%sliders(slider)%direction
+    if (linkage%sliders(slider)%body > 0) axis = turned(axis, pose%direction(:, &
+      linkage%sliders(slider)%body))
+  end function axis_of
+
+end module group_determinants
