@@ -15,8 +15,8 @@ module linkage_motions
   use kinds, only: long, wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkage_paths, only: has_iterations, period_of
-  use linkage_rates, only: find_rates_of_coordinates, find_state, free_drives, inertia_share, &
-    moving_linkage_t, no_stop, rate_of_drive, stop_change_point, stop_energy, stop_many_steps, &
+  use linkage_rates, only: find_rates_of_coordinates, find_state, free_drives, all_inertia, &
+    inertia_share, moving_linkage_t, no_stop, rate_of_drive, stop_change_point, stop_energy, stop_many_steps, &
     stop_misfit, stop_no_inertia, stop_steps
   use linkage_samples, only: linkage_sample_t, sample_state
   use linkages, only: drives_angle, linkage_t
@@ -33,8 +33,9 @@ module linkage_motions
     move_linkage_until, sample_linkage_motion, end_linkage_motion
   public :: linkage_motion_tolerance, change_point_message
 
-  !> Bound on the estimated error of a step: some forty roundings.
-  real(wp), parameter :: linkage_motion_tolerance = 1.0e-14_wp
+  !> Bound on the estimated error of a step: some forty roundings. Where equations nearly depend on
+  !! each other, rounding divided by the square of their independence.
+  real(wp), parameter :: linkage_motion_tolerance = 1.0e-14_wp, rounding = 1.0e-16_wp
 
   !> With a determinant of a group below the first the coordinates are those of a chart; with all of
   !! them above the second those of the drives again.
@@ -84,6 +85,7 @@ module linkage_motions
     logical, allocatable, private :: is_left(:)   !! (groups) the determinant is positive
     logical, private :: may_return = .true.       !! to the coordinates of the drives
     real(wp), private :: most_energy = 0.0_wp     !! of all kinds, at the samples so far [J]
+    real(wp), private :: tolerance = linkage_motion_tolerance !! of the present steps
     real(wp), private :: work_scale = 1.0_wp      !! against which the work may be small [J]
   end type linkage_motion_t
 
@@ -153,7 +155,9 @@ contains
       call sample_linkage_motion(motion, first)
       motion%energy = first%kinetic + first%potential
       motion%stop = no_stop
-      call open_steps(motion, max(first%kinetic, tiny(1.0_wp)**0.25_wp), 0.01_wp*duration, error)
+      ! Work that is small against the energy of one radian in the whole duration does not matter.
+      call open_steps(motion, first%kinetic + all_inertia(system)*(span_of(linkage)/duration)**2, &
+        0.01_wp*duration, error)
     end associate
   end subroutine start_linkage_motion
 
@@ -169,15 +173,26 @@ contains
     integer :: f
 
     motion%work_scale = energy
+    motion%tolerance = tolerance_of(motion)
     associate (system => motion%system)
       f = size(system%free)
       span = span_of(system%whole%linkage)
       if (system%by_drives .and. system%whole%linkage%drives(1)%kind == drives_angle) span = 1.0_wp
       call open_integrator(motion%integrator, [spread(span, 1, f), spread(max(maxval(abs( &
         motion%state(f + 1:2*f))), span*0.01_wp/first_step), 1, f), energy], &
-        linkage_motion_tolerance, first_step, error)
+        motion%tolerance, first_step, error)
     end associate
   end subroutine open_steps
+
+  !> The error that steps may have from the present position on.
+  pure function tolerance_of(motion) result(tolerance)
+    type(linkage_motion_t), intent(in) :: motion
+    real(wp) :: tolerance
+
+    tolerance = linkage_motion_tolerance
+    if (.not. motion%system%by_drives) tolerance = max(tolerance, &
+      rounding/max(motion%system%chart%independence, least_independence)**2)
+  end function tolerance_of
 
   !> The state in the coordinates of the drives, at their positions.
   subroutine take_drives(motion, rates)
@@ -384,6 +399,8 @@ contains
         now%turn, now%pin), k=1, f)]
       motion%state(:f) = 0.0_wp
       system%chart = chart
+      if (tolerance_of(motion) > 2.0_wp*motion%tolerance .or. tolerance_of(motion) < &
+        0.5_wp*motion%tolerance) call reopen_steps(motion)
     end associate
   end subroutine renew_chart
 

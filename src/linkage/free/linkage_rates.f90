@@ -26,8 +26,8 @@ module linkage_rates
   implicit none (type, external)
   private
 
-  public :: moving_linkage_t, free_drives, find_state, find_rates_of_coordinates, inertia_share, &
-    rate_of_drive
+  public :: moving_linkage_t, free_drives, find_state, find_rates_of_coordinates, all_inertia, &
+    inertia_share, rate_of_drive
   public :: no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps, &
     stop_many_steps, stop_misfit, stop_energy
 
@@ -320,17 +320,24 @@ contains
     type(pose_t) :: pose
     type(kinematic_coefficients_t) :: now
     type(kinematic_coefficients_t), allocatable :: per(:)
-    real(wp) :: inertia(size(self%free), size(self%free)), right(size(self%free)), all
+    real(wp) :: inertia(size(self%free), size(self%free)), right(size(self%free))
     logical :: found
     integer :: k
 
     share = 0.0_wp
+    call find_state(self, state, pose, per, now, found)
+    if (.not. found .or. .not. all_inertia(self) > 0.0_wp) return
+    call sum_up(self, pose, now, per, inertia, right)
+    share = minval([(inertia(k, k), k=1, size(right))])/all_inertia(self)
+  end subroutine inertia_share
+
+  !> All masses, and moments of inertia as masses at the length of their bodies [kg].
+  pure function all_inertia(self) result(all)
+    class(moving_linkage_t), intent(in) :: self
+    real(wp) :: all
+
     all = sum(self%rigid%mass + self%rigid%inertia/self%whole%scale**2) + &
       sum(self%whole%linkage%pin_mass)
-    call find_state(self, state, pose, per, now, found)
-    if (.not. found .or. .not. all > 0.0_wp) return
-    call sum_up(self, pose, now, per, inertia, right)
-    share = minval([(inertia(k, k), k=1, size(right))])/all
-  end subroutine inertia_share
+  end function all_inertia
 
 end module linkage_rates

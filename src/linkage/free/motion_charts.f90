@@ -28,7 +28,7 @@ module motion_charts
 
   !> Iterations end with a correction below this share of the linkage: the next would be below its
   !! square.
-  real(wp), parameter :: last_correction = 1.0e-8_wp
+  real(wp), parameter :: last_correction = 1.0e-11_wp
 
   integer, parameter :: most_iterations = 12
 
