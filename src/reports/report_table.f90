@@ -7,6 +7,7 @@
 !! on several threads at a time; therefore nothing that `add_item_rows` calls has a result of
 !! deferred length, for which gfortran 12 has one place for all threads.
 module report_table
+  use attached_parts, only: own_lumps_of
   use balance_report, only: add_balance, add_harmonics, add_hung_balance, append_balanced_notes, &
     append_harmonics_notes, append_hung_notes, balance_notes, harmonics_notes, harmonics_words
   use balance_study, only: find_balance, find_hung_balance
@@ -30,7 +31,6 @@ module report_table
   use kinematics_study, only: find_kinematics
   use lagrange_report, only: add_lagrange, lagrange_notes
   use lagrange_study, only: find_lagrange_terms
-  use link_cards, only: has_own_mass
   use linkage_motion_report, only: add_linkage_motion, linkage_motion_columns, &
     linkage_motion_count, linkage_motion_notes
   use linkage_report, only: add_linkage, linkage_remarks, linkage_words
@@ -111,6 +111,11 @@ module report_table
       linkages=four_bars, tables=[ &
       table_kind_t("inertia", "speed:speed crank:deg mass:# link:name x,y:length "// &
       "ax,ay:acceleration Fx,Fy:force m:mass moment?:moment"), no_table]), &
+    report_kind_t(name="inertia", help="of other linkages: masses and their inertia forces", &
+      studies="inertia", positions=.true., masses=.true., reserved=.true., &
+      linkages=other_linkages, tables=[ &
+      table_kind_t("inertia", "speed:speed crank:deg mass:# link:name x,y:length "// &
+      "ax,ay:acceleration Fx,Fy:force m:mass moment:moment"), no_table]), &
     report_kind_t(name="mesh", help="the finite element model", &
       positions=.true., beams=.true., reserved=.true., linkages=four_bars, tables=[ &
       table_kind_t("mesh", "crank:deg link:name element,node_a,node_b:# xa,ya,xb,yb:length "// &
@@ -262,8 +267,8 @@ contains
           found%kinematics)
       case ("inertia")
         call find_inertia_loads(linkage, elements, &
-          has_own_mass(model%links(variant%mechanism%links)), &
-          found%positions, threads, found%inertia)
+          own_lumps_of(model, variant%mechanism%links, linkage), found%positions, threads, &
+          found%inertia)
       case ("points")
         call find_points(linkage, points%body, &
           reshape([(points(i)%place, i=1, size(points))], [2, size(points)]), found%positions, &
