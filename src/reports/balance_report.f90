@@ -81,9 +81,9 @@ contains
       call append_string(notes, "total mass: "//to_string(from_si(balance%mass, mass), 12)//" "// &
         mass%name)
       do i = 1, size(balance%weights)
-        call append_counterweight(variant, i, "card, with the link's length for a radius (links "// &
-          "on which it hangs bear its mass: with another radius their counterweights change):", &
-          notes)
+        call append_counterweight(variant, i, "card, with the link's length for a radius "// &
+          "(links on which it hangs bear its mass: with another radius their counterweights "// &
+          "change):", notes)
       end do
     end associate
   end subroutine append_hung_notes

@@ -25,8 +25,9 @@ module report_table
   use joints_report, only: add_drives, add_joints, add_shaking, drive_columns, &
     drive_names, drives_notes, joint_owners, joints_notes
   use kinds, only: wp
-  use limits_report, only: add_limits, limits_notes, limits_words
+  use limits_report, only: add_limits
   use limits_study, only: find_limits
+  use limits_words, only: limits_names, limits_notes
   use kinematics_report, only: add_kinematics, kinematics_notes
   use kinematics_study, only: find_kinematics
   use lagrange_report, only: add_lagrange, lagrange_notes
@@ -362,7 +363,7 @@ contains
       plan%items = size(variant%found%geometry%crank)
     case ("linkage")
       names(:2) = linkage_words()
-      if (.not. variant%mechanism%is_four_bar) names = limits_words(variant)
+      if (.not. variant%mechanism%is_four_bar) names = limits_names(variant)
       plan%items = 1
     case ("balance")
       if (.not. variant%mechanism%is_four_bar) optional = size(variant%found%balance%weights) > 0
