@@ -47,12 +47,14 @@ contains
     type(quantity_t), intent(in) :: quantity      !! which
     type(extremes_t), intent(out) :: extremes     !! over the range
 
-    real(wp) :: c, value, rate, last_c, last_value, last_rate, low, high, low_rate, first
+    real(wp) :: c, value, rate, last_c, last_value, last_rate, low, high, low_rate, &
+      first, first_rate
     logical :: is_fine, has_last
     integer :: i, k
 
     has_last = .false.
     first = 0.0_wp
+    first_rate = 0.0_wp
     last_c = 0.0_wp
     last_value = 0.0_wp
     last_rate = 0.0_wp
@@ -97,7 +99,10 @@ contains
       has_last = .true.
       last_c = c
       last_rate = merge(rate, 0.0_wp, is_fine)
+      if (.not. abs(first_rate) > 0.0_wp) first_rate = last_rate
     end do
+    ! It may turn back where a turn begins.
+    if (range%turns .and. first_rate*last_rate < 0.0_wp) extremes%reversals = extremes%reversals + 1
     if (range%turns .and. quantity%kind == angle_of_body) extremes%turned = &
       360.0_wp*anint((last_value - first)/360.0_wp)
   end subroutine find_extremes
