@@ -4,7 +4,7 @@ module reactions
   use joint_forces, only: find_joint_forces, joint_forces_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
-  use linkages, only: cross, linkage_t
+  use linkages, only: cross, linkage_t, reference_point
   use load_cases, only: case_count, find_case_loads, find_unit_loads, unit_loads_t
   use poses, only: pose_t
   implicit none (type, external)
@@ -16,8 +16,9 @@ module reactions
     type(joint_forces_t) :: joints             !! forces on the bodies at their pins, torque of the
                                                !! drive
     real(wp) :: shaking_force(2) = 0.0_wp      !! `−Σ m a`, the resultant of the inertia forces [N]
-    real(wp) :: shaking_moment = 0.0_wp        !! of these and of all −I α, about the ground pivot
-                                               !! of the driven body [N m]
+    real(wp) :: shaking_moment = 0.0_wp        !! of these and of all −I α, about
+                                               !! `reference_point`, the ground pivot of a crank
+                                               !! [N m]
   end type reactions_t
 
   !> Reactions to the three unit load cases that make up all loads: ω2² = 1, α2 = 1, and the
@@ -51,7 +52,8 @@ contains
     end do
   end subroutine find_unit_reactions
 
-  !> Resultant of loads, and their moment about the ground pivot of the driven body.
+  !> Resultant of loads, and their moment about the ground pivot of the driven body; without a crank
+  !! about the first ground pivot or, without one, the point of the first guide.
   pure subroutine add_up(linkage, pose, body_loads, pin_loads, total)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
@@ -62,7 +64,7 @@ contains
     real(wp) :: pivot(2)
     integer :: i
 
-    pivot = pose%pin(:, linkage%bodies(1)%first_pin)
+    pivot = reference_point(linkage)
     do i = 1, size(body_loads)
       total%shaking_force = total%shaking_force + body_loads(i)%force
       total%shaking_moment = total%shaking_moment + body_loads(i)%moment + &

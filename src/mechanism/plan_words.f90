@@ -8,7 +8,7 @@ module plan_words
   implicit none (type, external)
   private
 
-  public :: plan_notes, group_names
+  public :: plan_notes, group_names, group_words
 
 contains
 
@@ -71,8 +71,8 @@ contains
 
   !> `B by coupler and follower, left of A -> O4 (RRR)`
   pure function group_words(mechanism, group) result(words)
-    type(mechanism_t), intent(in) :: mechanism
-    type(group_t), intent(in) :: group
+    type(mechanism_t), intent(in) :: mechanism !! of any kind
+    type(group_t), intent(in) :: group         !! of its linkage
     character(len=:), allocatable :: words
 
     character(len=:), allocatable :: side

@@ -2,9 +2,11 @@
 !! linkage, as given and with counterweights.
 module balance_report
   use attached_parts, only: place_on_card
+  use balance_study, only: obstacle_link, obstacle_none, obstacle_pin, obstacle_ram
   use constants, only: degree
   use harmonics_study, only: is_moment, quantity_count, quantity_names
   use kinds, only: wp
+  use joint_study, only: joints_result_t
   use load_notes, only: acceleration_note
   use numbers, only: shortest_text
   use position_rows, only: add_position_row
@@ -20,8 +22,8 @@ module balance_report
   implicit none (type, external)
   private
 
-  public :: append_harmonics_notes, balance_notes, add_balance, harmonics_notes, &
-    harmonics_words, add_harmonics
+  public :: append_balanced_notes, append_harmonics_notes, append_hung_notes, balance_notes, &
+    add_balance, add_hung_balance, harmonics_notes, harmonics_words, add_harmonics
 
   character(len=*), parameter :: linkage_names(2) = [character(len=8) :: "given", "balanced"]
 
@@ -45,9 +47,67 @@ contains
     call append_string(notes, "total mass: "// &
       to_string(from_si(variant%found%balance%mass, mass), 12)//" "//mass%name)
     do i = 1, size(variant%found%balance%weights)
-      call append_counterweight(variant, i, notes)
+      call append_counterweight(variant, i, "card, with the link's length for a radius (the "// &
+        "shaking force depends on mass x radius only, moment and torque on the radius too):", &
+        notes)
     end do
   end subroutine balance_notes
+
+  !> Of linkages that are no four-bars, for both tables: what is balanced, or why nothing is.
+  pure subroutine append_balanced_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant         !! with its balance computed
+    type(string_t), allocatable, intent(inout) :: notes(:) !! to which a line is appended
+
+    if (variant%found%balance%obstacle%kind == obstacle_none) then
+      call append_string(notes, "balanced: with the counterweights of balance.dat, each as far "// &
+        "from the pin about which it balances as its link is long")
+    else
+      call append_string(notes, "no counterweights: "//obstacle_words(variant))
+    end if
+  end subroutine append_balanced_notes
+
+  !> Of linkages that are no four-bars: what is balanced, total mass, counterweights.
+  pure subroutine append_hung_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant         !! with its balance computed
+    type(string_t), allocatable, intent(inout) :: notes(:) !! to which lines are appended
+
+    type(unit_t) :: mass
+    integer :: i
+
+    mass = table_unit("mass", variant%model%outputs)
+    call append_balanced_notes(variant, notes)
+    associate (balance => variant%found%balance)
+      call append_string(notes, "G: mass centre of the moving masses, without counterweights")
+      call append_string(notes, "total mass: "//to_string(from_si(balance%mass, mass), 12)//" "// &
+        mass%name)
+      do i = 1, size(balance%weights)
+        call append_counterweight(variant, i, "card, with the link's length for a radius "// &
+          "(links on which it hangs bear its mass: with another radius their counterweights "// &
+          "change):", notes)
+      end do
+    end associate
+  end subroutine append_hung_notes
+
+  !> Why there are no counterweights.
+  pure function obstacle_words(variant) result(words)
+    type(variant_results_t), intent(in) :: variant
+    character(len=:), allocatable :: words
+
+    associate (obstacle => variant%found%balance%obstacle, mechanism => variant%mechanism)
+      select case (obstacle%kind)
+      case (obstacle_link)
+        words = "no way of pins leads from link "//mechanism%names(obstacle%number)%text// &
+          " to the ground, so that none can balance its mass"
+      case (obstacle_pin)
+        words = "pin "//mechanism%pin_names(obstacle%number)%text//" has a mass and is on no link"
+      case (obstacle_ram)
+        words = "link "//mechanism%names(obstacle%number)%text//" changes its length"
+      case default
+        words = "links form a loop of pins; closed forms are for four-bars, and for "// &
+          "slider-cranks and all others without such a loop"
+      end select
+    end associate
+  end function obstacle_words
 
   !> Definition of the quantities, for both tables.
   pure function quantity_notes(variant) result(list)
@@ -65,38 +125,33 @@ contains
   end function quantity_notes
 
   !> Mass × radius and angle of a counterweight, and the MASS card for it.
-  pure subroutine append_counterweight(variant, number, list)
+  pure subroutine append_counterweight(variant, number, heading, list)
     type(variant_results_t), intent(in) :: variant
-    integer, intent(in) :: number !! of the counterweight
+    integer, intent(in) :: number           !! of the counterweight
+    character(len=*), intent(in) :: heading !! of the card
     type(string_t), allocatable, intent(inout) :: list(:)
 
     type(unit_t) :: mass, first_moment
     real(wp) :: place(2)
-    character(len=:), allocatable :: from, to
 
     mass = table_unit("mass", variant%model%outputs)
     first_moment = table_unit("first_moment", variant%model%outputs)
     associate (weight => variant%found%balance%weights(number), &
         lump => variant%found%balance%lumps(number), mechanism => variant%mechanism)
-      associate (body => mechanism%linkage%bodies(weight%body), &
-          name => mechanism%names(weight%body)%text)
+      associate (name => mechanism%names(weight%body)%text)
         if (.not. weight%needed) then
           call append_string(list, "link "//name//" needs no counterweight")
           return
         end if
-        from = mechanism%pin_names(merge(body%first_pin, body%last_pin, &
-          body%heading(1) > 0.0_wp))%text
-        to = mechanism%pin_names(merge(body%last_pin, body%first_pin, &
-          body%heading(1) > 0.0_wp))%text
         call append_string(list, "counterweight of link "//name//": mass x radius "// &
           shortest_text(from_si(norm2(weight%first_moment), first_moment))//" "// &
           first_moment%name//", at "//shortest_text(atan2(weight%first_moment(2), &
-          weight%first_moment(1))/degree)//" deg from "//from//" -> "//to)
+          weight%first_moment(1))/degree)//" deg from "//mechanism%pin_names(weight%pin)%text// &
+          " -> "//mechanism%pin_names(weight%towards)%text)
         ! `place_on_card` is its own inverse: here it goes from the body to the card.
         place = from_si(place_on_card(variant%mechanism%linkage%bodies(weight%body), lump%place), &
           table_unit("length", variant%model%outputs)) + 0.0_wp
-        call append_string(list, "card, with the link's length for a radius (the shaking force "// &
-          "depends on mass x radius only, moment and torque on the radius too):")
+        call append_string(list, heading)
         call append_string(list, "MASS "//name//" at="//shortest_text(place(1))//" offset="// &
           shortest_text(place(2))//" "//shortest_text(from_si(lump%mass, mass))//mass%name)
       end associate
@@ -132,6 +187,44 @@ contains
     end function row_quantities
 
   end subroutine add_balance
+
+  !> Appends the row of a position and speed of a linkage that is no four-bar: mass centre, shaking
+  !! force and moment, force of the first drive; the last three with counterweights too, if there
+  !! are any.
+  subroutine add_hung_balance(variant, layout, position, speed, rows)
+    type(variant_results_t), intent(in) :: variant !! with its joints and balance computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list, with a pose
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which it is appended
+
+    real(wp) :: values(10)
+    integer :: state, count
+
+    state = variant%found%positions%state(position)
+    associate (balance => variant%found%balance)
+      count = merge(10, 6, size(balance%weights) > 0)
+      values(:2) = balance%centre(:, state)
+      values(3:6) = row_quantities(variant%found%joints)
+      if (count > 6) values(7:) = row_quantities(balance%balanced_joints)
+      call add_position_row(variant, layout, position, speed, values(:count), rows)
+    end associate
+
+  contains
+
+    !> Shaking force and moment, and force of the first drive [N, N m].
+    pure function row_quantities(joints) result(quantities)
+      type(joints_result_t), intent(in) :: joints
+      real(wp) :: quantities(4)
+
+      real(wp) :: factor(3)
+
+      factor = [variant%model%speed%value(speed)**2, variant%model%acceleration, 1.0_wp]
+      quantities = [factor(1)*joints%shaking(:, 1, state) + factor(2)*joints%shaking(:, 2, &
+        state), dot_product(factor, joints%drive(1, :, state))]
+    end function row_quantities
+
+  end subroutine add_hung_balance
 
   !> Meaning of the columns, and the number of samples with the change that halving it makes; or
   !! the reason why the table has no rows.

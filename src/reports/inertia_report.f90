@@ -1,6 +1,6 @@
 !> `inertia.dat`: masses, their accelerations and inertia forces.
 module inertia_report
-  use inertia_study, only: at_pin, loads_at_speed, mass_load_t, mass_t, of_body, on_link
+  use inertia_study, only: at_pin, loads_at_speed, mass_load_t, mass_t, of_block, of_body, on_link
   use kinds, only: wp
   use load_notes, only: acceleration_note
   use mechanisms, only: mechanism_t
@@ -14,8 +14,9 @@ module inertia_report
 
   public :: inertia_notes, inertia_owners, has_moments, add_inertia
 
-  !> Prefixes of the names of pins with masses, and of links to which masses are fixed.
-  character(len=*), parameter :: pin_mark = "pin:", mass_mark = "mass:"
+  !> Prefixes of the names of pins with masses, of links to which masses are fixed, and of the pins
+  !! of blocks.
+  character(len=*), parameter :: pin_mark = "pin:", mass_mark = "mass:", block_mark = "block:"
 
 contains
 
@@ -33,12 +34,33 @@ contains
         trim(merge(", with rotary inertia", "                     ", variant%model%rotary)))
       if (any(masses%kind == of_body)) call append_string(notes, "links with a mass of their "// &
         "own: one row per link at its mass centre, F = -m a, moment = -I alpha about it")
+      if (has_segments(masses)) call append_string(notes, "links of several segments: one row "// &
+        "per segment, likewise")
       if (any(masses%kind == on_link)) call append_string(notes, &
         "masses fixed to links in rows of their own, "//mass_mark//"LINK")
     end associate
-    call append_string(notes, "masses at pins in rows of their own")
+    if (variant%mechanism%is_four_bar) then
+      call append_string(notes, "masses at pins in rows of their own")
+    else
+      call append_string(notes, "masses at pins, with those of sliders, in rows of their own; "// &
+        block_mark//"PIN, the moment of a block that turns with a link")
+    end if
     call append_string(notes, acceleration_note(variant%model))
   end subroutine inertia_notes
+
+  !> Whether a link is several masses.
+  pure function has_segments(masses) result(has)
+    type(mass_t), intent(in) :: masses(:)
+    logical :: has
+
+    integer :: i
+
+    has = .false.
+    do i = 2, size(masses)
+      has = has .or. (all(masses(i - 1:i)%kind == of_body) .and. masses(i - 1)%number == &
+        masses(i)%number)
+    end do
+  end function has_segments
 
   !> Which links have mass distributed along them (bodies).
   pure function is_spread(mechanism) result(is)
@@ -48,7 +70,7 @@ contains
     is = mechanism%load_elements == 0 .and. mechanism%linkage%bodies%line_density > 0.0_wp
   end function is_spread
 
-  !> Whether the table has a column of moments: not if all masses are point masses.
+  !> Whether the table of a four-bar has a column of moments: not if all masses are point masses.
   pure function has_moments(variant) result(has)
     type(variant_results_t), intent(in) :: variant !! with its inertia loads computed
     logical :: has
@@ -56,8 +78,8 @@ contains
     has = any(variant%found%inertia%masses%kind == of_body) .or. any(is_spread(variant%mechanism))
   end function has_moments
 
-  !> Names in the column `link`: of links, of pins, and of links to which masses are fixed, the
-  !! last two with their prefixes.
+  !> Names in the column `link`: of links, of pins, of links to which masses are fixed, and of pins
+  !! of blocks, the last three with their prefixes.
   pure function inertia_owners(variant) result(list)
     type(variant_results_t), intent(in) :: variant !! with its mechanism
     type(name_list_t) :: list
@@ -76,6 +98,10 @@ contains
         if (size(mechanism%linkage%bodies(i)%lumps) > 0) call append_string(list%names, &
           mass_mark//mechanism%names(i)%text)
       end do
+      do i = 1, size(mechanism%linkage%sliders)
+        if (mechanism%linkage%sliders(i)%inertia > 0.0_wp) call append_string(list%names, &
+          block_mark//mechanism%pin_names(mechanism%linkage%sliders(i)%pin)%text)
+      end do
     end associate
   end function inertia_owners
 
@@ -88,7 +114,8 @@ contains
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
     type(mass_load_t) :: loads(size(variant%found%inertia%masses))
-    real(wp) :: place(2), moment(merge(1, 0, has_moments(variant)))
+    real(wp) :: place(2), moment(merge(1, 0, has_moments(variant) .or. .not. &
+      variant%mechanism%is_four_bar))
     integer :: i, state
 
     state = variant%found%positions%state(position)
@@ -117,6 +144,9 @@ contains
     select case (mass%kind)
     case (at_pin)
       cell = name_cell(pin_mark//mechanism%pin_names(mass%number)%text, width)
+    case (of_block)
+      cell = name_cell(block_mark//mechanism%pin_names(mechanism%linkage%sliders(mass%number)% &
+        pin)%text, width)
     case (on_link)
       cell = name_cell(mass_mark//mechanism%names(mass%number)%text, width)
     case default

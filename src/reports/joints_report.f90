@@ -16,7 +16,7 @@ module joints_report
   private
 
   public :: joints_notes, joint_owners, add_joints, drives_notes, drive_names, drive_columns, &
-    add_drives, add_shaking, add_centres
+    add_drives, add_shaking
 
 contains
 
@@ -147,7 +147,9 @@ contains
       if (i > 0) then
         words = "pin "//variant%mechanism%pin_names(i)%text
       else
-        words = "the point of guide "//variant%model%guides(1)%name%text
+        i = findloc(linkage%sliders%body, 0, dim=1)
+        words = "the point of guide "//variant%model%guides(variant%model%sliders(i)%guide)%name% &
+          text
       end if
     end associate
   end function reference_words
@@ -233,27 +235,5 @@ contains
       end associate
     end associate
   end subroutine add_shaking
-
-  !> Appends the row of a position and speed: mass centre, shaking force and moment, force of the
-  !! first drive.
-  subroutine add_centres(variant, layout, position, speed, rows)
-    type(variant_results_t), intent(in) :: variant !! with its joints and mass centres computed
-    type(table_layout_t), intent(in) :: layout     !! of this table
-    integer, intent(in) :: position                !! number in the deck's list, with a pose
-    integer, intent(in) :: speed                   !! number in the deck's list
-    type(rows_t), intent(inout) :: rows            !! to which it is appended
-
-    real(wp) :: factor(3)
-
-    associate (model => variant%model, positions => variant%found%positions, &
-        joints => variant%found%joints)
-      associate (state => positions%state(position), omega => model%speed%value(speed))
-        factor = [omega**2, model%acceleration, 1.0_wp]
-        call add_row(rows, cells(layout, 1, [model%shown_speed(speed), positions%crank(position), &
-          variant%found%balance%centre(:, state), factor(1)*joints%shaking(:, 1, state) + &
-          factor(2)*joints%shaking(:, 2, state), dot_product(factor, joints%drive(1, :, state))]))
-      end associate
-    end associate
-  end subroutine add_centres
 
 end module joints_report

@@ -1,69 +1,22 @@
-!> `linkage.dat` of linkages that are no four-bars: ranges of the first drive, swings, strokes, time
-!! ratios, transmission and pressure angles, a row each.
+!> `linkage.dat` of linkages that are no four-bars: ranges of the drives, dead points, swings,
+!! strokes, time ratios, transmission and pressure angles, a row each.
 module limits_report
   use drive_cards, only: moves_along
   use kinds, only: wp
-  use limits_study, only: angle_of_body, place_of_slider, quantity_t, time_ratio, &
-    transmission_of_dyad
-  use linkage_notes, only: notes_on_linkage
+  use limits_study, only: angle_of_body, drive_range_t, place_of_slider, quantity_t, time_ratio, &
+    transmission_of_dyad, transmission_of_lines
   use links_report, only: shown_crank
-  use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
-    table_unit
+  use table_columns, only: cells, column_width, table_factor, table_layout_t, table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: name_cell
-  use text, only: append_string, string_t, trimmed_list
   use units, only: from_si, unit_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
 
-  public :: limits_notes, limits_words, add_limits
-
-  character(len=*), parameter :: quantity_words(*) = [character(len=22) :: "range_from", &
-    "range_to", &
-    "turns", "least_angle", "greatest_angle", "swing", "least_place", "greatest_place", "stroke", &
-    "time_ratio", "least_transmission", "greatest_transmission", "greatest_pressure"]
+  public :: add_limits
 
 contains
-
-  !> How the linkage is placed, and what the words mean.
-  pure subroutine limits_notes(variant, notes)
-    type(variant_results_t), intent(in) :: variant       !! with its limits found
-    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
-
-    notes = notes_on_linkage(variant)
-    call append_string(notes, "range_from, range_to: where the first drive "// &
-      "can be, on this branch; part: what stops it there")
-    call append_string(notes, "swing, stroke: greatest less least value; turns: "// &
-      "whole turns of the link a period; time_ratio: slower over quicker stroke at a "// &
-      "constant rate of the drive")
-    call append_string(notes, "transmission: angle between the two links of "// &
-      "a dyad at their pin, best at 90 deg; pressure: between a rod and the guide of its pin, "// &
-      "best at 0")
-  end subroutine limits_notes
-
-  !> The words in the columns `part`, `quantity` and `unit`.
-  pure function limits_words(variant) result(lists)
-    type(variant_results_t), intent(in) :: variant !! with its mechanism
-    type(name_list_t) :: lists(3)
-
-    type(unit_t) :: length
-    integer :: i
-
-    lists(1)%column = "part"
-    lists(1)%names = variant%mechanism%names
-    do i = 1, size(variant%mechanism%pin_names)
-      call append_string(lists(1)%names, variant%mechanism%pin_names(i)%text)
-    end do
-    lists(2)%column = "quantity"
-    lists(2)%names = trimmed_list(quantity_words)
-    length = table_unit("length", variant%model%outputs)
-    lists(3)%column = "unit"
-    allocate (lists(3)%names(3))
-    lists(3)%names(1)%text = "deg"
-    lists(3)%names(2)%text = length%name
-    lists(3)%names(3)%text = "1"
-  end function limits_words
 
   !> Appends all rows.
   subroutine add_limits(variant, layout, rows)
@@ -86,12 +39,60 @@ contains
             "range_to", found%ranges(r)%to, shown_crank(variant, found%ranges(r)%to), &
             of_drive=.true.)
         end if
+        call add_low_points(variant, layout, r, rows)
         do q = 1, size(found%quantities)
           call add_quantity(variant, layout, r, q, rows)
         end do
       end do
+      do r = 1, size(found%further)
+        call add_further(variant, layout, found%further(r), rows)
+      end do
     end associate
   end subroutine add_limits
+
+  !> Dead points inside a range, and how near to one groups come that iterations place.
+  subroutine add_low_points(variant, layout, r, rows)
+    type(variant_results_t), intent(in) :: variant
+    type(table_layout_t), intent(in) :: layout
+    integer, intent(in) :: r !! number of the range
+    type(rows_t), intent(inout) :: rows
+
+    integer :: i
+
+    do i = 1, size(variant%found%limits%low(r)%at)
+      associate (point => variant%found%limits%low(r)%at(i))
+        if (point%is_dead) then
+          call put(variant, layout, rows, part_of_group(variant, point%group), "dead_point", &
+            point%crank, shown_crank(variant, point%crank), of_drive=.true.)
+        else
+          call put(variant, layout, rows, part_of_group(variant, point%group), &
+            "least_determinant", point%crank, point%sine, pure_number=.true.)
+        end if
+      end associate
+    end do
+  end subroutine add_low_points
+
+  !> The range of a further drive, in its own unit.
+  subroutine add_further(variant, layout, further, rows)
+    type(variant_results_t), intent(in) :: variant
+    type(table_layout_t), intent(in) :: layout
+    type(drive_range_t), intent(in) :: further
+    type(rows_t), intent(inout) :: rows
+
+    real(wp) :: ends(2)
+    integer :: part
+    logical :: along
+
+    along = moves_along(variant%model%drives(further%drive)%kind)
+    ends = [further%range%from, further%range%to]
+    if (along) ends = from_si(ends, table_factor("length", variant%model%outputs))
+    associate (linkage => variant%mechanism%linkage)
+      part = linkage%drives(further%drive)%body
+      if (part == 0) part = -linkage%sliders(linkage%drives(further%drive)%slider)%pin
+    end associate
+    call put(variant, layout, rows, part, "drive_from", further%crank(1), ends(1), is_place=along)
+    call put(variant, layout, rows, part, "drive_to", further%crank(2), ends(2), is_place=along)
+  end subroutine add_further
 
   !> The rows of a quantity over a range.
   subroutine add_quantity(variant, layout, r, q, rows)
@@ -124,22 +125,32 @@ contains
         greatest = "greatest_place"
         swing = "stroke"
         ratio = time_ratio(found%ranges(r), x)
-      case (transmission_of_dyad)
+      case (transmission_of_dyad, transmission_of_lines)
         least = "least_transmission"
         greatest = "greatest_transmission"
       case default
         greatest = "greatest_pressure"
       end select
-      if (least /= "") call put(variant, layout, rows, part_of(variant, quantity), trim(least), &
-        x%at_least, shown(variant, quantity, x%least), is_place=quantity%kind == place_of_slider)
-      call put(variant, layout, rows, part_of(variant, quantity), trim(greatest), x%at_greatest, &
-        shown(variant, quantity, x%greatest), is_place=quantity%kind == place_of_slider)
-      if (swing /= "") call put(variant, layout, rows, part_of(variant, quantity), trim(swing), &
-        x%at_greatest, shown(variant, quantity, x%greatest - x%least), &
-        is_place=quantity%kind == place_of_slider)
+      if (least /= "") call put_value(trim(least), x%at_least, x%least)
+      call put_value(trim(greatest), x%at_greatest, x%greatest)
+      if (swing /= "") call put_value(trim(swing), x%at_greatest, x%greatest - x%least)
       if (ratio > 0.0_wp) call put(variant, layout, rows, part_of(variant, quantity), &
-        "time_ratio", x%at_greatest, ratio, pure_number=.true.)
+        "time_ratio", x%at_greatest, ratio, pure_number=.true., along=line_of(variant, quantity))
     end associate
+
+  contains
+
+    subroutine put_value(word, crank, value)
+      character(len=*), intent(in) :: word
+      real(wp), intent(in) :: crank, value
+
+      associate (quantity => variant%found%limits%quantities(q))
+        call put(variant, layout, rows, part_of(variant, quantity), word, crank, shown(variant, &
+          quantity, value), is_place=quantity%kind == place_of_slider, &
+          along=line_of(variant, quantity))
+      end associate
+    end subroutine put_value
+
   end subroutine add_quantity
 
   !> A value in the unit of the table.
@@ -165,10 +176,23 @@ contains
       number = quantity%number
     case (place_of_slider)
       number = -variant%mechanism%linkage%sliders(quantity%number)%pin
+    case (transmission_of_lines)
+      number = -variant%mechanism%linkage%groups(quantity%number)%pins(1)
     case default
       number = -variant%mechanism%linkage%groups(quantity%number)%middle
     end select
   end function part_of
+
+  !> The link along which a slider has its place; 0 of a guide, and of all other quantities.
+  pure function line_of(variant, quantity) result(body)
+    type(variant_results_t), intent(in) :: variant
+    type(quantity_t), intent(in) :: quantity
+    integer :: body
+
+    body = 0
+    if (quantity%kind == place_of_slider) body = variant%mechanism%linkage%sliders( &
+      quantity%number)%body
+  end function line_of
 
   !> The pin of a dyad, or a link of another group, that ends a range; the first link without one.
   pure function part_of_group(variant, group) result(number)
@@ -191,7 +215,7 @@ contains
 
   !> Appends a row.
   subroutine put(variant, layout, rows, part, quantity, crank, value, is_place, pure_number, &
-    of_drive)
+    of_drive, along)
     type(variant_results_t), intent(in) :: variant
     type(table_layout_t), intent(in) :: layout
     type(rows_t), intent(inout) :: rows
@@ -199,6 +223,7 @@ contains
     character(len=*), intent(in) :: quantity
     real(wp), intent(in) :: crank, value
     logical, intent(in), optional :: is_place, pure_number, of_drive
+    integer, intent(in), optional :: along !! link along which the pin slides: part of the name
 
     character(len=column_width(layout, 1)) :: part_cell
     character(len=column_width(layout, 5)) :: unit_cell
@@ -209,6 +234,10 @@ contains
       part_cell = name_cell(variant%mechanism%names(part)%text, column_width(layout, 1))
     else
       part_cell = name_cell(variant%mechanism%pin_names(-part)%text, column_width(layout, 1))
+    end if
+    if (present(along)) then
+      if (along > 0) part_cell = name_cell(variant%mechanism%pin_names(-part)%text//":"// &
+        variant%mechanism%names(along)%text, column_width(layout, 1))
     end if
     in_length = .false.
     if (present(is_place)) in_length = is_place

@@ -7,9 +7,10 @@
 !! on several threads at a time; therefore nothing that `add_item_rows` calls has a result of
 !! deferred length, for which gfortran 12 has one place for all threads.
 module report_table
-  use balance_report, only: add_balance, add_harmonics, append_harmonics_notes, balance_notes, &
-    harmonics_notes, harmonics_words
-  use balance_study, only: find_balance, find_centres
+  use attached_parts, only: own_lumps_of
+  use balance_report, only: add_balance, add_harmonics, add_hung_balance, append_balanced_notes, &
+    append_harmonics_notes, append_hung_notes, balance_notes, harmonics_notes, harmonics_words
+  use balance_study, only: find_balance, find_hung_balance
   use campbell_report, only: add_campbell, add_critical, campbell_notes, campbell_words, &
     critical_notes
   use drive_report, only: add_drive, drive_notes
@@ -21,16 +22,16 @@ module report_table
   use inertia_study, only: find_inertia_loads
   use intervals_report, only: add_intervals, interval_words, intervals_notes
   use joint_study, only: find_joints
-  use joints_report, only: add_centres, add_drives, add_joints, add_shaking, drive_columns, &
+  use joints_report, only: add_drives, add_joints, add_shaking, drive_columns, &
     drive_names, drives_notes, joint_owners, joints_notes
   use kinds, only: wp
-  use limits_report, only: add_limits, limits_notes, limits_words
+  use limits_report, only: add_limits
   use limits_study, only: find_limits
+  use limits_words, only: limits_names, limits_notes
   use kinematics_report, only: add_kinematics, kinematics_notes
   use kinematics_study, only: find_kinematics
   use lagrange_report, only: add_lagrange, lagrange_notes
   use lagrange_study, only: find_lagrange_terms
-  use link_cards, only: has_own_mass
   use linkage_motion_report, only: add_linkage_motion, linkage_motion_columns, &
     linkage_motion_count, linkage_motion_notes
   use linkage_report, only: add_linkage, linkage_remarks, linkage_words
@@ -111,6 +112,11 @@ module report_table
       linkages=four_bars, tables=[ &
       table_kind_t("inertia", "speed:speed crank:deg mass:# link:name x,y:length "// &
       "ax,ay:acceleration Fx,Fy:force m:mass moment?:moment"), no_table]), &
+    report_kind_t(name="inertia", help="of other linkages: masses and their inertia forces", &
+      studies="inertia", positions=.true., masses=.true., reserved=.true., &
+      linkages=other_linkages, tables=[ &
+      table_kind_t("inertia", "speed:speed crank:deg mass:# link:name x,y:length "// &
+      "ax,ay:acceleration Fx,Fy:force m:mass moment:moment"), no_table]), &
     report_kind_t(name="mesh", help="the finite element model", &
       positions=.true., beams=.true., reserved=.true., linkages=four_bars, tables=[ &
       table_kind_t("mesh", "crank:deg link:name element,node_a,node_b:# xa,ya,xb,yb:length "// &
@@ -164,11 +170,12 @@ module report_table
       "balanced_moment,balanced_torque:moment"), &
       table_kind_t("harmonics", "speed:speed linkage,quantity:name largest,rms,mean:- h*:- "// &
       "phase*:deg")]), &
-    report_kind_t(name="balance", help="of other linkages: shaking force and its harmonics", &
+    report_kind_t(name="balance", help="of other linkages: shaking force, counterweights", &
       studies="joints balance harmonics", positions=.true., masses=.true., &
       linkages=other_linkages, tables=[ &
       table_kind_t("balance", "speed:speed crank:deg xG,yG:length shaking_x,shaking_y:force "// &
-      "shaking_moment,torque:moment"), &
+      "shaking_moment,torque:moment balanced_x?,balanced_y?:force "// &
+      "balanced_moment?,balanced_torque?:moment"), &
       table_kind_t("harmonics", "speed:speed linkage,quantity:name largest,rms,mean:- h*:- "// &
       "phase*:deg")]), &
     report_kind_t(name="geometry", help="where pins, links and points are, for drawings", &
@@ -261,8 +268,8 @@ contains
           found%kinematics)
       case ("inertia")
         call find_inertia_loads(linkage, elements, &
-          has_own_mass(model%links(variant%mechanism%links)), &
-          found%positions, threads, found%inertia)
+          own_lumps_of(model, variant%mechanism%links, linkage), found%positions, threads, &
+          found%inertia)
       case ("points")
         call find_points(linkage, points%body, &
           reshape([(points(i)%place, i=1, size(points))], [2, size(points)]), found%positions, &
@@ -281,7 +288,7 @@ contains
         if (variant%mechanism%is_four_bar) then
           call find_balance(linkage, elements, found%positions, threads, found%balance)
         else
-          call find_centres(linkage, elements, found%positions, threads, found%balance)
+          call find_hung_balance(linkage, elements, found%positions, threads, found%balance)
         end if
       case ("harmonics")
         call find_harmonics(linkage, elements, model%speed%value, model%acceleration, threads, &
@@ -356,8 +363,10 @@ contains
       plan%items = size(variant%found%geometry%crank)
     case ("linkage")
       names(:2) = linkage_words()
-      if (.not. variant%mechanism%is_four_bar) names = limits_words(variant)
+      if (.not. variant%mechanism%is_four_bar) names = limits_names(variant)
       plan%items = 1
+    case ("balance")
+      if (.not. variant%mechanism%is_four_bar) optional = size(variant%found%balance%weights) > 0
     case ("harmonics")
       names(:2) = harmonics_words()
       count = highest_harmonic
@@ -426,7 +435,10 @@ contains
         return
       case ("drive", "shaking", "balance", "harmonics")
         call drives_notes(variant, notes)
-        if (table == "harmonics") call append_harmonics_notes(variant, notes)
+        if (table == "balance") call append_hung_notes(variant, notes)
+        if (table /= "harmonics") return
+        call append_balanced_notes(variant, notes)
+        call append_harmonics_notes(variant, notes)
         return
       end select
     end if
@@ -644,7 +656,7 @@ contains
     case ("shaking")
       call add_shaking(variant, layout, position, speed, rows)
     case ("balance")
-      call add_centres(variant, layout, position, speed, rows)
+      call add_hung_balance(variant, layout, position, speed, rows)
     end select
   end subroutine add_general
 
@@ -665,7 +677,8 @@ contains
     if (table%name == "lagrange") fitted%columns = "speed:speed crank:deg M:mass "// &
       "dM:mass_per_length V,gravity,load,torque:force kinetic,potential:energy"
     if (table%name == "balance") fitted%columns = "speed:speed crank:deg xG,yG:length "// &
-      "shaking_x,shaking_y:force shaking_moment:moment torque:force"
+      "shaking_x,shaking_y:force shaking_moment:moment torque:force "// &
+      "balanced_x?,balanced_y?:force balanced_moment?:moment balanced_torque?:force"
     at = index(fitted%columns, "crank:deg")
     if (at > 0) fitted%columns = fitted%columns(:at - 1)//"crank:length"// &
       trim(fitted%columns(at + 9:))

@@ -1,12 +1,14 @@
-!> Harmonics of the shaking force, the shaking moment and the driving torque of a four-bar over a
-!! whole turn of the crank, as given and with counterweights.
+!> Harmonics of the shaking force, the shaking moment and the driving torque of a linkage over a
+!! whole turn of the crank, as given and, where there are any, with counterweights.
 module harmonics_study
+  use balanced_linkages, only: balanced_linkage, counterweight_t
   use constants, only: degree
+  use counterweights, only: find_counterweights
   use crank_limits, only: turns_fully
-  use counterweights, only: balanced_linkage, find_counterweights
   use crank_cycle, only: cycle_t, cycle_values, drive_torque, find_largest_value, quantity_count, &
     quantity_names, shaking_moment, turns_freely, usual_values
   use harmonics, only: highest_harmonic, spectrum_of, spectrum_t
+  use hung_counterweights, only: find_hung_counterweights, obstacle_t
   use interruption, only: was_interrupted
   use kinds, only: wp
   use linkages, only: is_dyad_linkage, linkage_t
@@ -33,8 +35,8 @@ module harmonics_study
     integer :: solutions = 0       !! poses found, for samples and largest values
     real(wp) :: change = 0.0_wp    !! difference to the results from every second sample, relative
                                    !! to the largest value [-]
-    type(harmonic_t), allocatable :: of(:, :, :) !! (quantities; as given and, of a four-bar,
-                                                 !! balanced; speeds)
+    type(harmonic_t), allocatable :: of(:, :, :) !! (quantities; as given and, where there are
+                                                 !! counterweights, balanced; speeds)
   end type harmonics_result_t
 
   !> The phase of a harmonic below this share of the usual value is only rounding.
@@ -45,7 +47,7 @@ contains
   !> Harmonics at every speed. An interrupted run returns incomplete results: too few samples, or
   !! largest values of 0.
   subroutine find_harmonics(linkage, elements, speed, acceleration, threads, found)
-    type(linkage_t), intent(in) :: linkage !! of any kind; a four-bar without counterweights
+    type(linkage_t), intent(in) :: linkage !! of any kind, without counterweights
     integer, intent(in) :: elements(:)     !! (bodies) on whose nodes the masses are lumped; 0:
                                            !! distributed
     real(wp), intent(in) :: speed(:)       !! (speeds) ω2, constant over the turn [rad/s]
@@ -58,17 +60,14 @@ contains
     real(wp), allocatable :: largest(:, :, :) !! (quantities, linkages, speeds)
     integer :: solutions, i, k, q
 
-    if (has_counterweights(linkage)) then
+    if (is_four_bar(linkage)) then
       found%has_cycle = turns_freely(linkage)
     else
       found%has_cycle = turns_fully(linkage)
     end if
     if (.not. found%has_cycle) return
-    allocate (linkages(merge(2, 1, has_counterweights(linkage))), turns(merge(2, 1, &
-      has_counterweights(linkage))))
-    linkages(1) = linkage
-    if (size(linkages) > 1) linkages(2) = balanced_linkage(linkage, find_counterweights(linkage, &
-      elements))
+    call balance_linkage(linkage, elements, linkages)
+    allocate (turns(size(linkages)))
     call find_settled_cycles(linkages, elements, speed, acceleration, threads, turns, found%change)
     found%samples = size(turns(1)%part, 3)
     allocate (found%of(quantity_count, size(turns), size(speed)), largest(quantity_count, &
@@ -103,13 +102,34 @@ contains
     !$omp end parallel do
   end subroutine find_harmonics
 
-  !> Whether counterweights in closed form balance a linkage: a four-bar.
-  pure function has_counterweights(linkage) result(has)
+  !> The linkage as given and, where there are counterweights in closed form, balanced.
+  pure subroutine balance_linkage(linkage, elements, linkages)
     type(linkage_t), intent(in) :: linkage
-    logical :: has
+    integer, intent(in) :: elements(:)
+    type(linkage_t), allocatable, intent(out) :: linkages(:)
 
-    has = is_dyad_linkage(linkage) .and. size(linkage%bodies) == 3
-  end function has_counterweights
+    type(counterweight_t), allocatable :: weights(:)
+    type(obstacle_t) :: obstacle
+
+    if (is_four_bar(linkage)) then
+      weights = find_counterweights(linkage, elements)
+    else
+      call find_hung_counterweights(linkage, elements, weights, obstacle)
+    end if
+    allocate (linkages(merge(2, 1, size(weights) > 0)))
+    linkages(1) = linkage
+    if (size(linkages) > 1) linkages(2) = balanced_linkage(linkage, weights)
+  end subroutine balance_linkage
+
+  !> Whether a linkage is a four-bar, without pins beside those of its loop.
+  pure function is_four_bar(linkage) result(is)
+    type(linkage_t), intent(in) :: linkage
+    logical :: is
+
+    is = is_dyad_linkage(linkage) .and. size(linkage%bodies) == 3 .and. &
+      size(linkage%is_ground) == 4 .and. count(linkage%is_ground) == 2 .and. &
+      size(linkage%turns) == 0
+  end function is_four_bar
 
   !> Harmonics of all quantities of a linkage at one speed.
   pure subroutine find_spectra(turn, speed, acceleration, largest, measure, found)

@@ -9,15 +9,16 @@ module inertia_study
   private
 
   public :: mass_t, inertia_result_t, mass_load_t, find_inertia_loads, loads_at_speed
-  public :: of_link, of_body, on_link, at_pin
+  public :: of_link, of_body, on_link, at_pin, of_block
 
   !> Kinds of masses: the uniform mass of a beam, or a part of it on a node; the mass given for a
-  !! link as a whole; a mass fixed to a link; a mass at a pin.
-  integer, parameter :: of_link = 1, of_body = 2, on_link = 3, at_pin = 4
+  !! link as a whole, or that of a segment of it; a mass fixed to a link; a mass at a pin; a block
+  !! that turns with the link along which it slides, without its mass, which is at its pin.
+  integer, parameter :: of_link = 1, of_body = 2, on_link = 3, at_pin = 4, of_block = 5
 
   type :: mass_t
     integer :: kind = 0               !! one of the above
-    integer :: number = 0             !! of the body or pin
+    integer :: number = 0             !! of the body, pin or slider
     real(wp) :: mass = 0.0_wp         !! [kg]
     real(wp) :: place(2) = 0.0_wp     !! on a body: from its first pin, in the body's axes [m]
     real(wp) :: inertia = 0.0_wp      !! moment of inertia about its own mass centre [kg m²]
@@ -45,19 +46,19 @@ contains
 
   !> Masses and unit accelerations, once for all speeds: Ulker 2010 (2.39) to (2.46), and (3.1) to
   !! (3.18) for lumped masses.
-  subroutine find_inertia_loads(linkage, elements, has_own_mass, positions, threads, found)
-    type(linkage_t), intent(in) :: linkage       !! with masses
+  subroutine find_inertia_loads(linkage, elements, own_lumps, positions, threads, found)
+    type(linkage_t), intent(in) :: linkage       !! of any kind, with masses
     integer, intent(in) :: elements(:)           !! (bodies) on whose nodes the masses are lumped;
                                                  !! 0: distributed
-    logical, intent(in) :: has_own_mass(:)       !! (bodies) whether the first lump is the link
-                                                 !! itself
+    integer, intent(in) :: own_lumps(:)          !! (bodies) how many lumps are the link itself, the
+                                                 !! first ones
     type(positions_t), intent(in) :: positions   !! of the run
     integer, intent(in) :: threads               !! number of OpenMP threads
     type(inertia_result_t), intent(out) :: found !! for all positions and speeds
 
     integer :: i
 
-    found%masses = masses_of(linkage, elements, has_own_mass)
+    found%masses = masses_of(linkage, elements, own_lumps)
     found%pins = size(linkage%is_ground)
     found%bodies = size(linkage%bodies)
     allocate (found%unit(2*found%pins + 5*found%bodies, 2, size(positions%states)))
@@ -70,11 +71,11 @@ contains
     !$omp end parallel do
   end subroutine find_inertia_loads
 
-  !> All masses: body after body its uniform mass and its lumps, then the pin masses.
-  pure function masses_of(linkage, elements, has_own_mass) result(masses)
+  !> All masses: body after body its uniform mass and its lumps, then the pin masses and blocks. The
+  !! last lumps of a body are the blocks that slide along it.
+  pure function masses_of(linkage, elements, own_lumps) result(masses)
     type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: elements(:)
-    logical, intent(in) :: has_own_mass(:)
+    integer, intent(in) :: elements(:), own_lumps(:)
     type(mass_t), allocatable :: masses(:)
 
     integer :: b, i, pin
@@ -83,9 +84,10 @@ contains
     do b = 1, size(linkage%bodies)
       associate (body => linkage%bodies(b))
         if (body%line_density > 0.0_wp) masses = [masses, uniform_masses(body, b, elements(b))]
-        do i = 1, size(body%lumps)
+        do i = 1, size(body%lumps) - count(linkage%sliders%body == b .and. &
+          linkage%sliders%inertia > 0.0_wp)
           associate (lump => body%lumps(i))
-            masses = [masses, mass_t(merge(of_body, on_link, i == 1 .and. has_own_mass(b)), b, &
+            masses = [masses, mass_t(merge(of_body, on_link, i <= own_lumps(b)), b, &
               lump%mass, lump%place, lump%inertia)]
           end associate
         end do
@@ -94,6 +96,10 @@ contains
     do pin = 1, size(linkage%pin_mass)
       if (linkage%pin_mass(pin) <= 0.0_wp) cycle
       masses = [masses, mass_t(at_pin, pin, linkage%pin_mass(pin))]
+    end do
+    do i = 1, size(linkage%sliders)
+      if (linkage%sliders(i)%inertia > 0.0_wp) masses = [masses, mass_t(of_block, i, &
+        inertia=linkage%sliders(i)%inertia)]
     end do
   end function masses_of
 
@@ -146,35 +152,65 @@ contains
     real(wp), intent(in) :: acceleration        !! α2 [rad/s²]
     type(mass_load_t), intent(out) :: loads(:) !! (masses)
 
-    real(wp) :: field(size(found%unit, 1)), slope(2), angular
-    integer :: i, first, along, turning
+    real(wp) :: field(size(found%unit, 1))
+    integer :: i
 
     field = speed**2*found%unit(:, 1, number) + acceleration*found%unit(:, 2, number)
     do i = 1, size(found%masses)
-      associate (mass => found%masses(i), load => loads(i))
-        if (mass%kind == at_pin) then
-          load%place = state%pose%pin(:, mass%number)
-          load%acceleration = field(2*mass%number - 1:2*mass%number)
-          load%force = -mass%mass*load%acceleration
-          cycle
-        end if
-        first = 2*found%pins + 2*mass%number - 1
-        along = first + 2*found%bodies
-        turning = 2*found%pins + 4*found%bodies + mass%number
-        slope = field(along:along + 1)
-        angular = field(turning)
-        associate (axis => state%pose%direction(:, mass%number), &
-          body => linkage%bodies(mass%number))
-          load%place = state%pose%pin(:, body%first_pin) + mass%place(1)*axis + &
-            mass%place(2)*normal_to(axis)
-        end associate
-        load%acceleration = field(first:first + 1) + mass%place(1)*slope + &
-          mass%place(2)*normal_to(slope)
-        load%force = -mass%mass*load%acceleration
-        load%moment = -mass%inertia*angular
-        if (mass%rotary_inertia > 0.0_wp) load%moment = load%moment - mass%rotary_inertia*angular
+      associate (mass => found%masses(i))
+        select case (mass%kind)
+        case (at_pin)
+          call load_at_pin(mass%number, mass%mass, state, field, loads(i))
+        case (of_block)
+          associate (slider => linkage%sliders(mass%number))
+            call load_at_pin(slider%pin, 0.0_wp, state, field, loads(i))
+            loads(i)%moment = -slider%inertia*field(2*found%pins + 4*found%bodies + slider%body)
+          end associate
+        case default
+          call load_on_body(linkage, found, mass, state, field, loads(i))
+        end select
       end associate
     end do
   end subroutine loads_at_speed
+
+  !> The load of a mass at a pin.
+  pure subroutine load_at_pin(pin, mass, state, field, load)
+    integer, intent(in) :: pin
+    real(wp), intent(in) :: mass
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: field(:) !! values, as in `unit_numbers`
+    type(mass_load_t), intent(out) :: load
+
+    load%place = state%pose%pin(:, pin)
+    load%acceleration = field(2*pin - 1:2*pin)
+    load%force = -mass*load%acceleration
+  end subroutine load_at_pin
+
+  !> The load of a mass on a body.
+  pure subroutine load_on_body(linkage, found, mass, state, field, load)
+    type(linkage_t), intent(in) :: linkage
+    type(inertia_result_t), intent(in) :: found
+    type(mass_t), intent(in) :: mass
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: field(:) !! values, as in `unit_numbers`
+    type(mass_load_t), intent(out) :: load
+
+    real(wp) :: slope(2), angular
+    integer :: first, along
+
+    first = 2*found%pins + 2*mass%number - 1
+    along = first + 2*found%bodies
+    slope = field(along:along + 1)
+    angular = field(2*found%pins + 4*found%bodies + mass%number)
+    associate (axis => state%pose%direction(:, mass%number), body => linkage%bodies(mass%number))
+      load%place = state%pose%pin(:, body%first_pin) + mass%place(1)*axis + &
+        mass%place(2)*normal_to(axis)
+    end associate
+    load%acceleration = field(first:first + 1) + mass%place(1)*slope + &
+      mass%place(2)*normal_to(slope)
+    load%force = -mass%mass*load%acceleration
+    load%moment = -mass%inertia*angular
+    if (mass%rotary_inertia > 0.0_wp) load%moment = load%moment - mass%rotary_inertia*angular
+  end subroutine load_on_body
 
 end module inertia_study

@@ -1,19 +1,39 @@
-!> What a linkage that is no four-bar can do: ranges of its first drive, swings of its links,
-!! strokes of its sliders, time ratios, transmission and pressure angles.
+!> What a linkage that is no four-bar can do: ranges of its drives, dead points, swings of its
+!! links, strokes of its sliders, time ratios, transmission and pressure angles.
 module limits_study
-  use crank_limits, only: angle_of_body, crank_range_t, extremes_t, find_extremes, find_ranges, &
-    place_of_slider, pressure_of_slider, quantity_t, transmission_of_dyad
+  use crank_extremes, only: angle_of_body, extremes_t, find_extremes, place_of_slider, &
+    pressure_of_lever, pressure_of_slider, quantity_t, transmission_of_dyad, transmission_of_lines
+  use crank_limits, only: crank_range_t, find_ranges
+  use dead_points, only: find_low_points, low_point_t
+  use group_equations, only: drive_value, line_offset
   use kinds, only: wp
-  use linkages, only: groups_dyad, groups_on_line, linkage_t
+  use linkages, only: drives_angle, groups_by_newton, groups_cross_slide, groups_dyad, &
+    groups_on_line, groups_through_pin, groups_two_lines, linkage_t
   implicit none (type, external)
   private
 
-  public :: limits_result_t, find_limits, time_ratio
-  public :: quantity_t, angle_of_body, place_of_slider, pressure_of_slider, transmission_of_dyad
+  public :: limits_result_t, drive_range_t, low_points_t, find_limits, time_ratio
+  public :: quantity_t, angle_of_body, place_of_slider, pressure_of_lever, pressure_of_slider, &
+    transmission_of_dyad, transmission_of_lines
+
+  !> What a range has inside.
+  type :: low_points_t
+    type(low_point_t), allocatable :: at(:) !! dead points, and where iterated groups come nearest
+  end type low_points_t
+
+  !> Where a further drive can be: one that goes with the first, over its range; one that is held,
+  !! if it alone moves.
+  type :: drive_range_t
+    integer :: drive = 0          !! number, from 2
+    type(crank_range_t) :: range  !! of its own coordinate
+    real(wp) :: crank(2) = 0.0_wp !! coordinates of the first drive there [deg] or [m]
+  end type drive_range_t
 
   !> Ranges, and the extremes of every quantity over each.
   type :: limits_result_t
     type(crank_range_t), allocatable :: ranges(:)
+    type(low_points_t), allocatable :: low(:)       !! (ranges)
+    type(drive_range_t), allocatable :: further(:)  !! of further drives that do not turn fully
     type(quantity_t), allocatable :: quantities(:)
     type(extremes_t), allocatable :: extremes(:, :) !! (quantities, ranges)
   end type limits_result_t
@@ -30,15 +50,91 @@ contains
 
     call find_ranges(linkage, inside, found%ranges)
     call list_quantities(linkage, found%quantities)
-    allocate (found%extremes(size(found%quantities), size(found%ranges)))
+    call find_further_ranges(linkage, inside, found)
+    allocate (found%extremes(size(found%quantities), size(found%ranges)), &
+      found%low(size(found%ranges)))
     do r = 1, size(found%ranges)
+      call find_low_points(linkage, found%ranges(r), linkage%groups%kind == groups_by_newton, &
+        found%low(r)%at)
       do q = 1, size(found%quantities)
         call find_extremes(linkage, found%ranges(r), found%quantities(q), found%extremes(q, r))
       end do
     end do
   end subroutine find_limits
 
-  !> Angles of all bodies but the crank, places on fixed guides, angles of dyads.
+  !> Ranges of further drives.
+  pure subroutine find_further_ranges(linkage, inside, found)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), intent(in) :: inside                 !! where the first drive is meanwhile
+    type(limits_result_t), intent(inout) :: found  !! with the ranges of the first one
+
+    type(drive_range_t) :: mine
+    integer :: d, r
+
+    allocate (found%further(0))
+    do d = 2, size(linkage%drives)
+      associate (drive => linkage%drives(d))
+        mine%drive = d
+        if (.not. abs(drive%ratio) > 0.0_wp) then
+          call find_held_range(linkage, d, inside, mine)
+          if (mine%drive > 0) found%further = [found%further, mine]
+          cycle
+        end if
+        do r = 1, size(found%ranges)
+          associate (range => found%ranges(r))
+            if (range%turns) cycle
+            mine%crank = [range%from, range%to]
+            mine%range%blocked_by = range%blocked_by
+            if (drive%ratio < 0.0_wp) then
+              mine%crank = [range%to, range%from]
+              mine%range%blocked_by = range%blocked_by([2, 1])
+            end if
+            mine%range%from = drive_value(drive, mine%crank(1))
+            mine%range%to = drive_value(drive, mine%crank(2))
+            found%further = [found%further, mine]
+          end associate
+        end do
+      end associate
+    end do
+  end subroutine find_further_ranges
+
+  !> Where a drive that is held can be while all others stand still. None if it turns fully, and
+  !! none with groups that iterations place, which are followed for the first drive only.
+  pure subroutine find_held_range(linkage, number, inside, found)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: number             !! of the drive
+    real(wp), intent(in) :: inside            !! where the first drive stands
+    type(drive_range_t), intent(inout) :: found !! its drive is 0 if there is none
+
+    type(linkage_t) :: alone
+    type(crank_range_t), allocatable :: ranges(:)
+    real(wp) :: value, ahead
+    integer :: d, r
+
+    found = drive_range_t(crank=[inside, inside])
+    if (allocated(linkage%path%crank)) return
+    alone = linkage
+    do d = 1, size(alone%drives)
+      alone%drives(d)%phase = drive_value(linkage%drives(d), inside)
+      alone%drives(d)%ratio = 0.0_wp
+    end do
+    value = alone%drives(number)%phase
+    alone%drives(number)%phase = 0.0_wp
+    alone%drives(number)%ratio = 1.0_wp
+    call find_ranges(alone, value, ranges, number)
+    do r = 1, size(ranges)
+      ahead = value - ranges(r)%from
+      if (linkage%drives(number)%kind == drives_angle) ahead = modulo(ahead, 360.0_wp)
+      if (ranges(r)%turns .or. ahead > ranges(r)%to - ranges(r)%from) cycle
+      found%drive = number
+      found%range = ranges(r)
+      ! The turn of the deck.
+      found%range%from = value - ahead
+      found%range%to = found%range%from + (ranges(r)%to - ranges(r)%from)
+    end do
+  end subroutine find_held_range
+
+  !> Angles of all bodies but the crank, places along guides and links, angles of dyads.
   pure subroutine list_quantities(linkage, quantities)
     type(linkage_t), intent(in) :: linkage
     type(quantity_t), allocatable, intent(out) :: quantities(:)
@@ -53,18 +149,30 @@ contains
       room(filled) = quantity_t(angle_of_body, i)
     end do
     do i = 1, size(linkage%sliders)
-      if (linkage%sliders(i)%body > 0) cycle
+      ! A ground pivot in which a link slides has a place along that link.
       filled = filled + 1
       room(filled) = quantity_t(place_of_slider, i)
     end do
     do i = 1, size(linkage%groups)
-      if (linkage%groups(i)%kind == groups_dyad) then
-        filled = filled + 1
-        room(filled) = quantity_t(transmission_of_dyad, i)
-      else if (linkage%groups(i)%kind == groups_on_line) then
-        filled = filled + 1
-        room(filled) = quantity_t(pressure_of_slider, i)
-      end if
+      associate (group => linkage%groups(i))
+        select case (group%kind)
+        case (groups_dyad)
+          filled = filled + 1
+          room(filled) = quantity_t(transmission_of_dyad, i)
+        case (groups_on_line)
+          filled = filled + 1
+          room(filled) = quantity_t(pressure_of_slider, i)
+        case (groups_two_lines, groups_cross_slide)
+          filled = filled + 1
+          room(filled) = quantity_t(transmission_of_lines, i)
+        case (groups_through_pin)
+          ! A line through its pivot leaves no angle.
+          if (abs(line_offset(linkage, group%slider(1))) <= 1.0e-12_wp*linkage%bodies( &
+            group%body(1))%length) cycle
+          filled = filled + 1
+          room(filled) = quantity_t(pressure_of_lever, i)
+        end select
+      end associate
     end do
     allocate (quantities(filled))
     quantities = room(:filled)

@@ -6,25 +6,18 @@
 !! the other links. If the coefficients of these in the first moment of the linkage vanish, its mass
 !! centre stands still.
 module counterweights
+  use balanced_linkages, only: counterweight_t
   use kinds, only: wp
-  use linkages, only: body_t, linkage_t, lump_t
+  use linkages, only: linkage_t
   use rigid_bodies, only: rigid_bodies_of, rigid_body_t
   implicit none (type, external)
   private
 
-  public :: counterweight_t, find_counterweights, counterweight_lump, balanced_linkage
-
-  !> A counterweight on a link that turns about a ground pivot.
-  type :: counterweight_t
-    integer :: body = 0                  !! number in the linkage
-    real(wp) :: first_moment(2) = 0.0_wp !! mass × position from the ground pivot: along the link to
-                                         !! its moving pin, and to the left [kg m]
-    logical :: needed = .false.          !! false if only rounding is left
-  end type counterweight_t
+  public :: find_counterweights
 
 contains
 
-  !> The counterweights of crank and follower.
+  !> The counterweights of crank and follower, about their ground pivots.
   !!
   !! Their first moments are `−[m2 z2 + m3 r2 (1 − z3/r3) + m_A r2]` and
   !! `−[m4 z4 + m3 r4 z3/r3 + m_B r4]`, where m z are the first moments of the links in complex
@@ -60,39 +53,13 @@ contains
         parts(:, 3) = rigid(2)%first_moment*(r4/r3)
         parts(:, 4) = [linkage%pin_mass(3)*r4, 0.0_wp]
       end if
+      associate (body => linkage%bodies(weights(i)%body))
+        weights(i)%pin = merge(body%first_pin, body%last_pin, body%heading(1) > 0.0_wp)
+        weights(i)%towards = merge(body%last_pin, body%first_pin, body%heading(1) > 0.0_wp)
+      end associate
       weights(i)%first_moment = -sum(parts, dim=2)
       weights(i)%needed = norm2(weights(i)%first_moment) > rounding*sum(norm2(parts, dim=1))
     end do
   end function find_counterweights
-
-  !> A counterweight as a point mass at a distance from the ground pivot, in the axes of its body.
-  pure function counterweight_lump(weight, body, radius) result(lump)
-    type(counterweight_t), intent(in) :: weight !! one that is needed
-    type(body_t), intent(in) :: body            !! that carries it
-    real(wp), intent(in) :: radius              !! from the ground pivot [m]
-    type(lump_t) :: lump
-
-    lump%mass = norm2(weight%first_moment)/radius
-    lump%place = weight%first_moment*(radius/norm2(weight%first_moment))
-    if (body%heading(1) < 0.0_wp) lump%place = [body%length, 0.0_wp] - lump%place
-  end function counterweight_lump
-
-  !> The linkage with its counterweights, each at a distance from its pivot equal to the length of
-  !! its link.
-  pure function balanced_linkage(linkage, weights) result(balanced)
-    type(linkage_t), intent(in) :: linkage          !! a four-bar
-    type(counterweight_t), intent(in) :: weights(:) !! of `find_counterweights`
-    type(linkage_t) :: balanced
-
-    integer :: i
-
-    balanced = linkage
-    do i = 1, size(weights)
-      if (.not. weights(i)%needed) cycle
-      associate (body => balanced%bodies(weights(i)%body))
-        body%lumps = [body%lumps, counterweight_lump(weights(i), body, body%length)]
-      end associate
-    end do
-  end function balanced_linkage
 
 end module counterweights

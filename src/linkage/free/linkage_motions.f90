@@ -15,9 +15,9 @@ module linkage_motions
   use kinds, only: long, wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkage_paths, only: has_iterations, period_of
-  use linkage_rates, only: find_rates_of_coordinates, find_state, free_drives, all_inertia, &
-    inertia_share, moving_linkage_t, no_stop, rate_of_drive, stop_change_point, stop_energy, stop_many_steps, &
-    stop_misfit, stop_no_inertia, stop_steps
+  use linkage_rates, only: all_inertia, find_rates_of_coordinates, find_state, free_drives, &
+    inertia_share, moving_linkage_t, no_stop, rate_of_drive, stop_change_point, stop_energy, &
+    stop_many_steps, stop_misfit, stop_no_inertia, stop_steps
   use linkage_samples, only: linkage_sample_t, sample_state
   use linkages, only: drives_angle, linkage_t
   use motion_charts, only: is_same_side, motion_chart_t, new_chart
@@ -282,13 +282,15 @@ contains
     is = .not. motion%system%by_drives .and. motion%system%chart%independence < near_change_point
   end function is_near_change_point
 
-  !> After a step: dead points that were passed, and the coordinates of the next one.
+  !> After a step: dead points that were passed, and the coordinates of the next one. A step past a
+  !! change point is taken back.
   subroutine go_on(motion, time, before)
     type(linkage_motion_t), intent(inout) :: motion
     real(wp), intent(in) :: time      !! at the beginning of the step [s]
     real(wp), intent(in) :: before(:) !! state at that time
 
     type(pose_t) :: pose
+    type(motion_chart_t) :: chart
     type(kinematic_coefficients_t), allocatable :: per(:)
     type(kinematic_coefficients_t) :: now
     real(wp) :: determinants(size(motion%is_left)), rates(size(motion%position))
@@ -306,12 +308,21 @@ contains
         call take_chart(motion, now)
         return
       end if
+      chart = new_chart(system%whole, pose, drive_position(system%whole, pose, 1, &
+        motion%position(1)), size(system%free))
+      if (.not. is_same_side(system%whole, system%chart, chart) .or. chart%independence < &
+        least_independence) then
+        motion%stop = stop_change_point
+        motion%time = time
+        motion%state = before
+        return
+      end if
       call note_passages(motion, determinants, time, before)
       do k = 1, size(rates)
         motion%position(k) = drive_position(system%whole, pose, system%free(k), motion%position(k))
         rates(k) = rate_of_drive(system, pose, now, system%free(k))
       end do
-      call renew_chart(motion, pose, now)
+      call take_next_chart(motion, chart, now)
       if (all(abs(determinants) > far_from_dead_points) .and. motion%may_return) then
         system%pose = pose
         system%pose%sine = determinants
@@ -347,15 +358,8 @@ contains
     type(linkage_motion_t), intent(inout) :: motion
     type(kinematic_coefficients_t), intent(in) :: now !! velocities
 
-    integer :: f, k
-
-    associate (system => motion%system)
-      f = size(system%free)
-      motion%state(:f) = 0.0_wp
-      motion%state(f + 1:2*f) = [(rate_along(system%whole, system%chart%direction(:, &
-        k), now%turn, now%pin), k=1, f)]
-      system%by_drives = .false.
-    end associate
+    motion%system%by_drives = .false.
+    call set_rates(motion, now)
     call reopen_steps(motion)
   end subroutine take_chart
 
@@ -377,32 +381,39 @@ contains
     if (allocated(error)) motion%stop = stop_steps
   end subroutine reopen_steps
 
-  !> The chart of the next step. The motion stops at change points, and where links that are
-  !! redundant do not fit.
-  subroutine renew_chart(motion, pose, now)
+  !> The state on the chart of the next step. The motion stops where links that are redundant do not
+  !! fit.
+  subroutine take_next_chart(motion, chart, now)
     type(linkage_motion_t), intent(inout) :: motion
-    type(pose_t), intent(in) :: pose
+    type(motion_chart_t), intent(in) :: chart         !! at the present pose
     type(kinematic_coefficients_t), intent(in) :: now !! velocities
 
-    type(motion_chart_t) :: chart
     type(error_t), allocatable :: error
+
+    associate (system => motion%system)
+      system%chart = chart
+      call refuse_misfit(system%whole%linkage, chart%pose, system%whole%origin, chart%crank, error)
+      if (allocated(error)) motion%stop = stop_misfit
+      call set_rates(motion, now)
+      if (tolerance_of(motion) > 2.0_wp*motion%tolerance .or. tolerance_of(motion) < &
+        0.5_wp*motion%tolerance) call reopen_steps(motion)
+    end associate
+  end subroutine take_next_chart
+
+  !> The state where a chart is made: its coordinates are 0, their rates those of given velocities.
+  subroutine set_rates(motion, now)
+    type(linkage_motion_t), intent(inout) :: motion
+    type(kinematic_coefficients_t), intent(in) :: now
+
     integer :: f, k
 
     associate (system => motion%system)
       f = size(system%free)
-      chart = new_chart(system%whole, pose, motion%position(1), f)
-      if (.not. is_same_side(system%whole, system%chart, chart) .or. chart%independence < &
-        least_independence) motion%stop = stop_change_point
-      call refuse_misfit(system%whole%linkage, pose, system%whole%origin, motion%position(1), error)
-      if (allocated(error)) motion%stop = stop_misfit
-      motion%state(f + 1:2*f) = [(rate_along(system%whole, chart%direction(:, k), &
-        now%turn, now%pin), k=1, f)]
       motion%state(:f) = 0.0_wp
-      system%chart = chart
-      if (tolerance_of(motion) > 2.0_wp*motion%tolerance .or. tolerance_of(motion) < &
-        0.5_wp*motion%tolerance) call reopen_steps(motion)
+      motion%state(f + 1:2*f) = [(rate_along(system%whole, system%chart%direction(:, k), &
+        now%turn, now%pin), k=1, f)]
     end associate
-  end subroutine renew_chart
+  end subroutine set_rates
 
   !> Records the dead points that were passed in the last step. Groups in closed form are then on
   !! their other side; iterations have no path there.

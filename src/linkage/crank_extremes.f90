@@ -1,0 +1,244 @@
+!> The least and the greatest value, over a range of the first drive, of quantities of a linkage.
+module crank_extremes
+  use constants, only: degree
+  use crank_limits, only: crank_range_t, samples
+  use errors, only: error_t
+  use group_equations, only: line_offset, world_line
+  use kinds, only: wp
+  use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
+  use linkages, only: cross, linkage_t, normal_to
+  use pose_types, only: pose_t
+  use poses, only: body_angle, dead_point_sine, place_links, transmission_angle
+  implicit none (type, external)
+  private
+
+  public :: quantity_t, extremes_t, find_extremes
+  public :: angle_of_body, place_of_slider, transmission_of_dyad, pressure_of_slider, &
+    transmission_of_lines, pressure_of_lever
+
+  !> Kinds of quantities: the angle of a body; the place of a slider along its line; the angle of
+  !! the two links of RRR, of the two lines of PRP and PPR; the angle between the force on a link
+  !! and the motion of where it acts, of RRP and RPR.
+  integer, parameter :: angle_of_body = 1, place_of_slider = 2, transmission_of_dyad = 3, &
+    pressure_of_slider = 4, transmission_of_lines = 5, pressure_of_lever = 6
+
+  !> A quantity that changes with the first drive.
+  type :: quantity_t
+    integer :: kind = angle_of_body
+    integer :: number = 0 !! of the body, slider or group
+  end type quantity_t
+
+  !> Least and greatest value of a quantity, with the coordinates of the first drive there.
+  type :: extremes_t
+    real(wp) :: least = 0.0_wp, greatest = 0.0_wp !! [deg] or [m]
+    real(wp) :: at_least = 0.0_wp, at_greatest = 0.0_wp
+    real(wp) :: turned = 0.0_wp !! net change over a period [deg]; 0 if it returns
+    integer :: reversals = 0    !! sign changes of its rate
+  end type extremes_t
+
+  integer, parameter :: most_halvings = 80
+
+contains
+
+  !> Least and greatest values of a quantity over a range.
+  pure subroutine find_extremes(linkage, range, quantity, extremes)
+    type(linkage_t), intent(in) :: linkage        !! of any kind, with its path
+    type(crank_range_t), intent(in) :: range      !! one of `find_ranges`
+    type(quantity_t), intent(in) :: quantity      !! which
+    type(extremes_t), intent(out) :: extremes     !! over the range
+
+    real(wp) :: c, value, rate, last_c, last_value, last_rate, low, high, low_rate, &
+      first, first_rate
+    logical :: is_fine, has_last
+    integer :: i, k
+
+    has_last = .false.
+    first = 0.0_wp
+    first_rate = 0.0_wp
+    last_c = 0.0_wp
+    last_value = 0.0_wp
+    last_rate = 0.0_wp
+    do i = 0, samples
+      c = range%from + (range%to - range%from)*i/samples
+      call evaluate(linkage, quantity, c, value, rate, is_fine)
+      if (.not. is_fine .and. .not. (i == 0 .or. i == samples)) cycle
+      if (has_last) value = unwrapped(quantity, value, last_value)
+      if (.not. has_last) then
+        first = value
+        extremes%least = value
+        extremes%greatest = value
+        extremes%at_least = c
+        extremes%at_greatest = c
+      end if
+      call take(extremes, c, value)
+      if (has_last .and. is_fine .and. rate*last_rate < 0.0_wp) then
+        extremes%reversals = extremes%reversals + 1
+        low = last_c
+        high = c
+        low_rate = last_rate
+        do k = 1, most_halvings
+          c = 0.5_wp*(low + high)
+          if (abs(high - low) <= 2.0_wp*spacing(abs(c))) exit
+          call evaluate(linkage, quantity, c, value, rate, is_fine)
+          if (.not. is_fine) exit
+          if (rate*low_rate > 0.0_wp) then
+            low = c
+          else
+            high = c
+          end if
+        end do
+        value = unwrapped(quantity, value, last_value)
+        call take(extremes, c, value)
+        c = range%from + (range%to - range%from)*i/samples
+        call evaluate(linkage, quantity, c, value, rate, is_fine)
+        value = unwrapped(quantity, value, last_value)
+      end if
+      last_value = value
+      ! A rate of zero has no sign to compare with: the next one is compared with the last that has.
+      if (has_last .and. is_fine .and. abs(rate) <= 0.0_wp) cycle
+      has_last = .true.
+      last_c = c
+      last_rate = merge(rate, 0.0_wp, is_fine)
+      if (.not. abs(first_rate) > 0.0_wp) first_rate = last_rate
+    end do
+    ! It may turn back where a turn begins.
+    if (range%turns .and. first_rate*last_rate < 0.0_wp) extremes%reversals = extremes%reversals + 1
+    if (range%turns .and. quantity%kind == angle_of_body) extremes%turned = &
+      360.0_wp*anint((last_value - first)/360.0_wp)
+  end subroutine find_extremes
+
+  pure subroutine take(extremes, c, value)
+    type(extremes_t), intent(inout) :: extremes
+    real(wp), intent(in) :: c, value
+
+    if (value < extremes%least) then
+      extremes%least = value
+      extremes%at_least = c
+    end if
+    if (value > extremes%greatest) then
+      extremes%greatest = value
+      extremes%at_greatest = c
+    end if
+  end subroutine take
+
+  !> Angles of bodies go on past half turns.
+  pure function unwrapped(quantity, value, last) result(near)
+    type(quantity_t), intent(in) :: quantity
+    real(wp), intent(in) :: value, last
+    real(wp) :: near
+
+    near = value
+    if (quantity%kind == angle_of_body) near = value - 360.0_wp*anint((value - last)/360.0_wp)
+  end function unwrapped
+
+  !> A quantity and its rate, up to a positive factor, at a coordinate. Not fine near dead points,
+  !! where there is no rate, and out of reach, where there is no value.
+  pure subroutine evaluate(linkage, quantity, c, value, rate, is_fine)
+    type(linkage_t), intent(in) :: linkage
+    type(quantity_t), intent(in) :: quantity
+    real(wp), intent(in) :: c
+    real(wp), intent(out) :: value, rate
+    logical, intent(out) :: is_fine
+
+    type(pose_t) :: pose
+    type(kinematic_coefficients_t) :: coefficients
+    type(error_t), allocatable :: error
+
+    value = 0.0_wp
+    rate = 0.0_wp
+    call place_links(linkage, c, pose, error)
+    is_fine = .not. allocated(error)
+    if (.not. is_fine) return
+    is_fine = all(abs(pose%sine) > dead_point_sine)
+    if (is_fine) then
+      coefficients = find_kinematic_coefficients(linkage, pose)
+    else
+      ! The rates are of no use, but they are asked for.
+      allocate (coefficients%turn(size(linkage%bodies)), &
+        coefficients%pin(2, size(linkage%is_ground)), source=0.0_wp)
+    end if
+    select case (quantity%kind)
+    case (angle_of_body)
+      value = body_angle(linkage, pose, quantity%number)/degree
+      rate = coefficients%turn(quantity%number)
+    case (place_of_slider)
+      call evaluate_place(linkage, quantity%number, pose, coefficients, value, rate)
+    case default
+      call evaluate_group(linkage, quantity, pose, coefficients, value, rate)
+    end select
+  end subroutine evaluate
+
+  !> The place of a slider along its line, which may turn, and its rate:
+  !! `e·(p − q)` and `h n·(p − q) + e·(p' − q')`, n the normal of e.
+  pure subroutine evaluate_place(linkage, number, pose, coefficients, value, rate)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: number !! of the slider
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: coefficients
+    real(wp), intent(out) :: value, rate
+
+    real(wp) :: axis(2), point(2), way(2), velocity(2)
+
+    associate (slider => linkage%sliders(number))
+      call world_line(linkage, pose, number, [0.0_wp, 0.0_wp], axis, point)
+      way = pose%pin(:, slider%pin) - point
+      value = dot_product(axis, way)
+      rate = dot_product(axis, coefficients%pin(:, slider%pin))
+      if (slider%body == 0) return
+      associate (first => linkage%bodies(slider%body)%first_pin, &
+          h => coefficients%turn(slider%body))
+        velocity = coefficients%pin(:, first) + h*normal_to(point - pose%pin(:, first))
+        rate = rate - dot_product(axis, velocity) + h*dot_product(normal_to(axis), way)
+      end associate
+    end associate
+  end subroutine evaluate_place
+
+  !> The transmission or pressure angle of a group, and its rate up to a positive factor.
+  pure subroutine evaluate_group(linkage, quantity, pose, coefficients, value, rate)
+    type(linkage_t), intent(in) :: linkage
+    type(quantity_t), intent(in) :: quantity
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: coefficients
+    real(wp), intent(out) :: value, rate
+
+    real(wp) :: axis(2), other(2), point(2), distance
+
+    associate (group => linkage%groups(quantity%number), h => coefficients%turn, &
+        sine => pose%sine(quantity%number))
+      select case (quantity%kind)
+      case (transmission_of_dyad)
+        value = transmission_angle(linkage, pose, quantity%number)/degree
+        rate = (h(group%body(2)) - h(group%body(1)))*sign(1.0_wp, sine)
+      case (pressure_of_slider)
+        value = acos(min(1.0_wp, abs(sine)))/degree
+        rate = h(group%body(1)) - turn_of_line(group%slider(1))
+      case (transmission_of_lines)
+        call world_line(linkage, pose, group%slider(1), [0.0_wp, 0.0_wp], axis, point)
+        call world_line(linkage, pose, group%slider(2), [0.0_wp, 0.0_wp], other, point)
+        value = atan2(abs(cross(axis, other)), abs(dot_product(axis, other)))/degree
+        rate = (turn_of_line(group%slider(2)) - turn_of_line(group%slider(1)))* &
+          sign(1.0_wp, cross(axis, other))*sign(1.0_wp, dot_product(axis, other))
+      case default
+        ! The force is across the line, the motion across the way from the pivot to the block.
+        point = pose%pin(:, group%middle) - pose%pin(:, group%base(1))
+        distance = norm2(point)
+        value = asin(min(1.0_wp, abs(line_offset(linkage, group%slider(1)))/distance))/degree
+        rate = -dot_product(point, coefficients%pin(:, group%middle) - &
+          coefficients%pin(:, group%base(1)))
+      end select
+    end associate
+
+  contains
+
+    !> Turn of the line of a slider; 0 of a fixed one.
+    pure function turn_of_line(number) result(turn)
+      integer, intent(in) :: number !! of the slider
+      real(wp) :: turn
+
+      turn = 0.0_wp
+      if (linkage%sliders(number)%body > 0) turn = coefficients%turn(linkage%sliders(number)%body)
+    end function turn_of_line
+
+  end subroutine evaluate_group
+
+end module crank_extremes

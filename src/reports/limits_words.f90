@@ -1,0 +1,115 @@
+!> Words and remarks of `linkage.dat` of linkages that are no four-bars.
+module limits_words
+  use drive_cards, only: moves_along
+  use kinds, only: wp
+  use linkage_notes, only: notes_on_linkage
+  use links_report, only: shown_crank
+  use plan_words, only: group_words
+  use table_columns, only: name_list_t, table_unit
+  use text, only: append_string, string_t, to_string, trimmed_list
+  use units, only: unit_t
+  use variant_results, only: variant_results_t
+  implicit none (type, external)
+  private
+
+  public :: limits_notes, limits_names
+
+  character(len=*), parameter :: quantity_words(*) = [character(len=22) :: "range_from", &
+    "range_to", "drive_from", "drive_to", "dead_point", "least_determinant", &
+    "turns", "least_angle", "greatest_angle", "swing", "least_place", "greatest_place", "stroke", &
+    "time_ratio", "least_transmission", "greatest_transmission", "greatest_pressure"]
+
+contains
+
+  !> How the linkage is placed, and what the words mean.
+  pure subroutine limits_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its limits found
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    notes = notes_on_linkage(variant)
+    call append_string(notes, "range_from, range_to: where the first drive "// &
+      "can be, on this branch; part: what stops it there")
+    if (size(variant%model%drives) > 1) call append_string(notes, "drive_from, drive_to: the "// &
+      "same of further drives: of those that go with the first one over its range, of the "// &
+      "others while all but they stand still")
+    call append_ends(variant, notes)
+    call append_string(notes, "swing, stroke: greatest less least value; turns: "// &
+      "whole turns of the link a period; time_ratio: slower over quicker stroke at a "// &
+      "constant rate of the drive")
+    call append_string(notes, "transmission: angle between the two links of "// &
+      "a dyad at their pin, best at 90 deg, or between two lines that place a pin; pressure: "// &
+      "between a rod and the guide of its pin, or between force and motion of a lever at its "// &
+      "block, best at 0")
+  end subroutine limits_notes
+
+  !> Where the first drive ends, and at dead points inside its range, the group that ends it there.
+  pure subroutine append_ends(variant, notes)
+    type(variant_results_t), intent(in) :: variant
+    type(string_t), allocatable, intent(inout) :: notes(:)
+
+    integer :: r, i
+
+    associate (found => variant%found%limits)
+      do r = 1, size(found%ranges)
+        if (.not. found%ranges(r)%turns) then
+          call append_end(variant, found%ranges(r)%from, found%ranges(r)%blocked_by(1), notes)
+          call append_end(variant, found%ranges(r)%to, found%ranges(r)%blocked_by(2), notes)
+        end if
+        do i = 1, size(found%low(r)%at)
+          associate (point => found%low(r)%at(i))
+            if (point%is_dead) call append_end(variant, point%crank, point%group, notes)
+          end associate
+        end do
+      end do
+    end associate
+  end subroutine append_ends
+
+  !> `dead point at 216.87 deg: B by rod and a slider, forward (RRP)`
+  pure subroutine append_end(variant, crank, group, notes)
+    type(variant_results_t), intent(in) :: variant
+    real(wp), intent(in) :: crank
+    integer, intent(in) :: group !! number; 0: none, where the linkage has been followed no farther
+    type(string_t), allocatable, intent(inout) :: notes(:)
+
+    type(unit_t) :: length
+    character(len=:), allocatable :: unit
+
+    if (group == 0) return
+    unit = "deg"
+    length = table_unit("length", variant%model%outputs)
+    if (moves_along(variant%model%drives(1)%kind)) unit = length%name
+    call append_string(notes, "dead point at "//to_string(shown_crank(variant, crank), 9)//" "// &
+      unit//": "//group_words(variant%mechanism, variant%mechanism%linkage%groups(group)))
+  end subroutine append_end
+
+  !> The words in the columns `part`, `quantity` and `unit`.
+  pure function limits_names(variant) result(lists)
+    type(variant_results_t), intent(in) :: variant !! with its mechanism
+    type(name_list_t) :: lists(3)
+
+    type(unit_t) :: length
+    integer :: i
+
+    lists(1)%column = "part"
+    lists(1)%names = variant%mechanism%names
+    do i = 1, size(variant%mechanism%pin_names)
+      call append_string(lists(1)%names, variant%mechanism%pin_names(i)%text)
+    end do
+    associate (sliders => variant%mechanism%linkage%sliders)
+      do i = 1, size(sliders)
+        if (sliders(i)%body > 0) call append_string(lists(1)%names, &
+          variant%mechanism%pin_names(sliders(i)%pin)%text//":"//variant%mechanism%names( &
+          sliders(i)%body)%text)
+      end do
+    end associate
+    lists(2)%column = "quantity"
+    lists(2)%names = trimmed_list(quantity_words)
+    length = table_unit("length", variant%model%outputs)
+    lists(3)%column = "unit"
+    allocate (lists(3)%names(3))
+    lists(3)%names(1)%text = "deg"
+    lists(3)%names(2)%text = length%name
+    lists(3)%names(3)%text = "1"
+  end function limits_names
+
+end module limits_words
