@@ -56,6 +56,7 @@ module linkage_motions
                                          !! start [J]
     real(wp) :: energy_error = 0.0_wp    !! kinetic + potential − work, less its value at the start
                                          !! [J]
+    real(wp), allocatable :: pin(:, :)   !! (2, pins) in global axes [m]
   end type linkage_sample_t
 
 contains
@@ -207,6 +208,7 @@ contains
     type(linkage_sample_t), intent(out) :: sample !! of this instant
 
     type(error_t), allocatable :: error
+    type(pose_t) :: pose
     integer :: f, k
 
     associate (system => motion%system)
@@ -224,6 +226,9 @@ contains
         error)
       sample%work = motion%state(2*f + 1)
       sample%energy_error = sample%kinetic + sample%potential - sample%work - motion%energy
+      call pose_at(system, motion%state(:f), pose, error)
+      if (allocated(error)) pose = system%pose
+      sample%pin = pose%pin + spread(reference_point(system%linkage), 2, size(pose%pin, 2))
     end associate
   end subroutine sample_linkage_motion
 
