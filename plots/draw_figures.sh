@@ -291,6 +291,7 @@ plan_cycle() {
     fi
     have harmonics.dat && plan_speeds harmonics harmonics.dat largest
     have lagrange.dat && plan_speeds lagrange lagrange.dat
+    have linkage.dat && add limits limits.gp linkage.dat
     have motion.dat time && add motion motion.gp motion.dat
 }
 
