@@ -9,16 +9,7 @@ call plots."linkage.gp" table_of_points
 eval middle_of_coupler
 eval answer(table, "facts")
 
-# Pictures are rows of the table, of equal steps, 25 in a second or fewer.
-second = unit_time eq "ms" ? 1000.0 : 1.0           # of the deck's unit of time
-length = (high_time - low_time)/second
-slower = length < 1.5 && length > 0 ? nice(2/length) : 1
-step = rows > 1 ? slower*length/(rows - 1) : 1
-every_row = step < 0.04 ? floor(0.04/step + 0.001) : 1
-pictures = (rows - 1)/every_row + 1
-if (pictures > 150) { pictures = 150 }
-hundredths = every_row*step*100
-delay = hundredths < 2 ? 2 : floor(hundredths + 0.5)
+call plots."motion_pictures.gp"
 
 shown = (pictures - 1)*every_row + 1
 array crank[shown]

@@ -249,11 +249,20 @@ plan_modes() {
     done
 }
 
-# cycle_table: a table of a linkage that is no four-bar, for its positions; these have a row a link, a pin or a joint.
+# no_four_bar: the log says how the program places such a linkage; without a log, some tables are those of its links or drives.
+no_four_bar() {
+    grep -q '^placed: ' run.log 2> /dev/null && return 0
+    for table in kinematics.dat:link drive.dat:drive reactions.dat:pin linkage.dat:part motion.dat:position1; do
+        [ -f "${table%:*}" ] && ask facts "${table%:*}" | grep -q "; col_${table#*:} = " && return 0
+    done
+    return 1
+}
+
+# cycle_table: a table of such a linkage with its positions.
 cycle_table() {
-    for table in pins.dat:pin kinematics.dat:link drive.dat:drive reactions.dat:pin; do
-        if [ -f "${table%:*}" ] && ask facts "${table%:*}" | grep -q "; col_${table#*:} = "; then
-            echo "${table%:*}"
+    for table in pins.dat kinematics.dat drive.dat reactions.dat points.dat lagrange.dat balance.dat; do
+        if [ -f $table ]; then
+            echo $table
             return
         fi
     done
@@ -261,8 +270,7 @@ cycle_table() {
 
 # A linkage that is no four-bar.
 plan_cycle() {
-    if ! have "$cycle" || ! can_place; then return; fi
-    if several "$cycle"; then
+    if [ -n "$cycle" ] && have "$cycle" && several "$cycle" && can_place; then
         add linkage_positions linkage_positions.gp "$cycle"
         [ "${format:-png}" = png ] && can_animate && add linkage animate_cycle.gp "$cycle"
     fi
@@ -277,13 +285,14 @@ plan_cycle() {
         [ -z "$shaking" ] || sed -i "/drive_forces.gp/s/$/|$shaking/" "$new/plan"
     fi
     # Places of a slider have no directions.
-    if ask facts "$cycle" | grep -q "unit_crank = 'deg'"; then
+    if [ -n "$cycle" ] && ask facts "$cycle" | grep -q "unit_crank = 'deg'"; then
         [ -f balance.dat ] && shaking=balance.dat
         [ -n "$shaking" ] && have "$shaking" && plan_speeds shaking_force "$shaking" 'shaking_x shaking_y'
     fi
     have harmonics.dat && plan_speeds harmonics harmonics.dat largest
     have lagrange.dat && plan_speeds lagrange lagrange.dat
-    have motion.dat && add motion motion.gp motion.dat
+    have linkage.dat && add limits limits.gp linkage.dat
+    have motion.dat time && add motion motion.gp motion.dat
 }
 
 # Angles always; what stands still has no curve worth drawing.
@@ -344,6 +353,7 @@ plan_rigid_dynamics() {
     have harmonics.dat && plan_speeds harmonics harmonics.dat largest
     have lagrange.dat && plan_speeds lagrange lagrange.dat
     have motion.dat && add motion motion.gp motion.dat
+    have pins.dat && plan_speeds pin_motion pins.dat
 }
 
 # The elastic response. Its strains at a gauge are drawn of all speeds too, if these are few; what is drawn against the speed needs
@@ -389,8 +399,9 @@ plan_response() {
 plan_animations() {
     can_animate || fail 'this gnuplot lacks the terminal pngcairo or gif, which animations need'
     have shapes.dat && animate=animate_mode.gp plan_modes
-    if [ -n "$cycle" ]; then
-        if have "$cycle" && several "$cycle" && can_place; then add linkage animate_cycle.gp "$cycle"; fi
+    if [ $other = yes ]; then
+        if [ -n "$cycle" ] && have "$cycle" && several "$cycle" && can_place; then add linkage animate_cycle.gp "$cycle"; fi
+        if have motion.dat time && several motion.dat time && can_place; then add motion animate_linkage_motion.gp motion.dat; fi
         return
     fi
     if have reactions.dat && [ "$(ask 'distinct crank' reactions.dat | wc -l)" -ge 12 ] && can_place; then
@@ -428,8 +439,13 @@ case " $(terminals) " in
 esac
 
 : > "$new/plan"
-cycle=$(cycle_table)
-[ -z "$cycle" ] || settings="$settings; is_cycle = 1"
+other=no
+cycle=
+if no_four_bar; then
+    other=yes
+    cycle=$(cycle_table)
+    settings="$settings; is_cycle = 1"
+fi
 if [ -n "$varied" ]; then
     [ $figures = figures ] || fail "$outdir has nothing to animate: its tables are those of a deck with VARY"
     [ -f frequencies.dat ] ||
@@ -442,12 +458,12 @@ if [ -n "$varied" ]; then
 elif [ $figures = animations ]; then
     plan_animations
 else
-    [ -z "$cycle" ] && have inertia.dat && plan_mechanism
+    [ $other = no ] && have inertia.dat && plan_mechanism
     have mesh.dat && add finite_element_model finite_element_model.gp mesh.dat "$(telling_crank mesh.dat)"
     have frequencies.dat && plan_frequencies
     have branches.dat && plan_speeds branches branches.dat
     have shapes.dat && plan_modes
-    if [ -n "$cycle" ]; then
+    if [ $other = yes ]; then
         plan_cycle
     else
         have kinematics.dat && plan_kinematics
@@ -459,7 +475,7 @@ if [ ! -s "$new/plan" ]; then
     ! ls ./*.csv > /dev/null 2>&1 || ls ./*.dat > /dev/null 2>&1 ||
         fail "$outdir has tables as comma-separated values only; figures are drawn from plain ones (without --format csv-only)"
     [ $figures = figures ] ||
-        fail "$outdir has nothing to animate: animations need REPORT kinematics or shapes"
+        fail "$outdir has nothing to animate: animations need REPORT kinematics, motion or shapes"
     fail "$outdir has no table that a figure can be drawn from"
 fi
 

@@ -26,7 +26,8 @@ set tmargin at screen up(box_bottom + box_height)
 set xrange [x0:x1]
 set yrange [y0:y1]
 set size ratio -1
-eval "set xtics (".ticks_between(x0, x1, step, power_drawn)."); set ytics (".ticks_between(y0, y1, step, power_drawn).")"
+x_step = tick_width(x0, x1, step, power_drawn) + 16 > pixel*step ? 2*step : step
+eval "set xtics (".ticks_between(x0, x1, x_step, power_drawn)."); set ytics (".ticks_between(y0, y1, step, power_drawn).")"
 axis_unit(name, unit) = name.bracketed(unit_and_power(unit, power_drawn))
 set label 905 axis_unit("y", length_unit) at screen across(box_left - tick_room - 56), up(box_bottom + 0.5*box_height) \
     center rotate by 90 noenhanced

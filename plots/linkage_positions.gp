@@ -59,11 +59,13 @@ do for [k=1:grounds] { print print_name(ground_x[k], ground_y[k], 0.8, word(grou
 unset print
 load labels_as("names")
 
+# A line to a name begins at the rim of its pin.
+rim_share(x, y, to_x, to_y) = lesser(1, 0.75*bar*pixel/larger(0.01, sqrt((to_x - x)**2 + (to_y - y)**2)))
 parts = ""
 do for [k=1:others] { parts = parts.pale_body(other(k)) }
 parts = parts.fixed_parts.thin_paths(1).bodies(shown).drawn_paths(1).pins_of(shown)
-eval "plot ".parts."$names using ($5 == 1 ? unscaled_x($3) : NaN):(unscaled_y($4)):".\
-    "(unscaled_x($7) - unscaled_x($3)):(unscaled_y($8) - unscaled_y($4)) ".\
+eval "plot ".parts."$names using (rim = rim_share($3, $4, $7, $8), $5 == 1 ? unscaled_x($3 + rim*($7 - $3)) : NaN):(unscaled_y($4 + rim*($8 - $4))):".\
+    "((1 - rim)*($7 - $3)/pixel):((1 - rim)*($8 - $4)/pixel) ".\
     "with vectors nohead lw 1 dt solid lc rgb '#808080' notitle, ".\
     "$names using (unscaled_x($1)):(unscaled_y($2)):(strcol(6)) with labels noenhanced font point_size(17) notitle"
 eval close

@@ -1,4 +1,5 @@
-# A motion from its start: angular velocities, torque of the motor and energies against time.
+# A motion from its start: angular velocities, torque of the motor and energies against time; of a linkage that is no four-bar,
+# positions too, unless all there is to see is that the drive turns.
 #   gnuplot -c motion.gp motion.dat OUT [FIGURE [REMARK]]
 
 load ARG0[1 : strlen(ARG0) - strlen("motion.gp")]."style.gp"
@@ -12,15 +13,51 @@ picked = "1"
 x = "field('time')"
 x_axis = "eval abscissa(low_time, high_time); set xlabel abscissa_title('time', unit_time, low_time, high_time)"
 
-# Of a linkage that is no four-bar: position1, rate1 and so on, of coordinates that a remark names.
-coordinates = !of_cycle ? "" : system("sed -n 's/^# *coordinates: \\([^;]*\\).*/\\1/p' ".quoted(table)." | tr ',' '\n' | ".\
-    "sed 's/^ *[0-9]* drive *//; s/^ *[0-9]* *//; s/.*/\"&\"/'")
-rates_from(k) = k > words(coordinates) || !exists(sprintf("col_rate%d", k)) ? "" : sprintf(" field('rate%d')", k).rates_from(k + 1)
-panels = 3
-array axis_of[3] = [!of_cycle ? "angular velocity" : words(coordinates) == 1 ? "rate of ".word(coordinates, 1) : "rate", "motor torque", "energy"]
-array unit_of[3] = [of_cycle ? unit_rate1 : unit_omega2, unit_torque, unit_kinetic]
-array curves_of[3] = [of_cycle ? rates_from(1) : "field('omega2') field('omega4')", "field('torque')", \
-    "field('kinetic') field('potential') field('work')"]
-array titles_of[3] = [of_cycle ? short_names(coordinates, 1) : "'crank ω₂' 'follower ω₄'", "motor", "kinetic potential work"]
+# Of a linkage that is no four-bar: position1, rate1 and so on, of coordinates that a remark names, with their units if some are angles
+# and others lengths: `1 drive arm in deg and rad/s`.
+coordinate_words(cut) = !of_cycle ? "" : system("sed -n 's/^# *coordinates: \\([^;]*\\).*/\\1/p' ".quoted(table)." | tr ',' '\n' | ".\
+    "sed 's/^ *[0-9]* drive *//; ".cut."; s/.*/\"&\"/'")
+coordinates = coordinate_words("s/ in [^ ]* and [^ ]*$//")
+mixed = of_cycle && unit_rate1 eq "see_head"
+units_of(kind) = kind eq "position" ? coordinate_words("s/.* in \\([^ ]*\\) and [^ ]*$/\\1/") : coordinate_words("s/.* and //")
+own_unit(kind, k) = mixed ? word(units_of(kind), k) : value("unit_".kind."1")
+fields_of(kind, unit, k) = k > words(coordinates) ? "" : (own_unit(kind, k) ne unit ? "" : sprintf(" field('%s%d')", kind, k)).\
+    fields_of(kind, unit, k + 1)
+titles_by(kind, unit, k) = k > words(coordinates) ? "" : (own_unit(kind, k) ne unit ? "" : " \"".short_name(coordinates, k)."\"").\
+    titles_by(kind, unit, k + 1)
+
+panels = 0
+array axis_of[6]
+array unit_of[6]
+array curves_of[6]
+array titles_of[6]
+add_panel(name, unit, curves, titles) = (panels = panels + 1, axis_of[panels] = name, unit_of[panels] = unit, \
+    curves_of[panels] = curves, titles_of[panels] = titles, panels)
+if (of_cycle) {
+    of_one = words(coordinates) == 1
+    do for [kind in "position rate"] {
+        done = ""
+        turns_on = of_one && kind eq "position" && unit_position1 eq "deg" && high_position1 - low_position1 > 360
+        do for [k=1:words(coordinates)] {
+            unit_of_k = own_unit(kind, k)
+            if (!turns_on && strstrt(done, " ".unit_of_k." ") == 0) {
+                done = done." ".unit_of_k." "
+                titles = titles_by(kind, unit_of_k, 1)
+                title = kind eq "rate" ? "rate" : unit_of_k eq "deg" ? "angle" : "place"
+                if (words(titles) == 1) {
+                    title = kind ne "rate" && of_one && unit_of_k ne "deg" ? drive_quantity(unit_of_k) : title." of ".word(titles, 1)
+                }
+                panel = add_panel(title, unit_of_k, fields_of(kind, unit_of_k, 1), titles)
+            }
+        }
+    }
+    unit_of_torque = !mixed ? unit_torque : \
+        system("sed -n 's/^# *torque: of the motor on the first drive in \\([^;]*\\);.*/\\1/p' ".quoted(table))
+    panel = add_panel(own_unit("position", 1) eq "deg" ? "motor torque" : "motor force", unit_of_torque, "field('torque')", "motor")
+} else {
+    panel = add_panel("angular velocity", unit_omega2, "field('omega2') field('omega4')", "'crank ω₂' 'follower ω₄'")
+    panel = add_panel("motor torque", unit_torque, "field('torque')", "motor")
+}
+panel = add_panel("energy", unit_kinetic, "field('kinetic') field('potential') field('work')", "kinetic potential work")
 call plots."panels.gp"
 eval close

@@ -95,7 +95,7 @@ eval arrow(A + 2.9*I*way, A + 4.9*way + 2.9*I*way, heads.measure).blue_text(A + 
 eval arrow(A + 0.3*I*way, A + 3.1*I*way, "nohead ".thin).arrow(P, P + 0.8*I*way, "nohead ".thin)
 eval arrow(A + 4.9*way, P, heads.measure).blue_text(A + 4.9*way + 1.4*I*way, "offset", "offset 3.4,0.2 center")
 eval arrow(A, A + 3.4, "nohead ".thin).arc_head(A, 2.5, 27).blue_text(A + 3.1*exp(I*6*degree), "θ", "offset 0,0.2 center")
-eval text(A, "A, first pin", "offset 0.5,-1.7 center").text(B, "B", "offset 1.4,0.8 center").text(P, "POINT P rod", "offset 1.2,1.3 center")
+eval text(A, "A, first pin", "offset 0.5,-1.7 center").text(B, "B", "offset 1.4,0.8 center").text(P, "POINT P rod", "offset 1.6,0.6 left")
 eval text(C, "mass centre:", "offset 1.6,-0.2 left").text(C, "an offset below 0", "offset 1.6,-1.4 left")
 eval arrow(A + 3.9*way, C, "nohead ".thin)
 eval "plot ".arc(A, 2.5, 0, 25).link(A, B, yellow).capsule(A + 4.9*way, P, 0.02, "#909090").pin(A).pin(B).\

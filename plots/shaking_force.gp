@@ -94,7 +94,7 @@ is_marked(row) = words(row) == 4 && word(row, 4) == 1 && at_30(word(row, 3) + 0.
     && word(row, 3) < first_angle + 360 - 1e-9
 do for [k=1:|$given|] {
     if (is_marked($given[k])) {
-        text = sprintf("%g°", word($given[k], 3) + 0)
+        text = minus(sprintf("%g°", word($given[k], 3) + 0))
         print sprintf("label %.6g %.6g 13 %.4g %.4g %.4g %s", page_x(word($given[k], 1) + 0), page_y(word($given[k], 2) + 0), \
             text_width(text, 16), text_height(16), \
             180/pi*arg(word($given[k], 1) + 0.0 - middle_x + {0, 1}*(word($given[k], 2) - middle_y)), text)

@@ -1,32 +1,11 @@
 # The linkage of echo.deck as bodies, over the positions of a table: after style.gp and driven.gp, and with `eval answer(table, "facts")`,
 #   call "shapes.gp" COUNT SHARE
 # places it at COUNT positions and one more, from the first of the table to its last or over a turn (see shapes.awk), in the folder
-# out.".shapes". bodies(n), pins_of(n) and pale_body(n) are parts of a plot command that draw position n, each with a
-# comma behind it.
+# out.".shapes", to be drawn with the parts of shape_parts.gp.
 
 pose_low = 1.0*low_crank
 pose_high = turning ? pose_low + 360 : 1.0*high_crank
 shapes = out.".shapes"
 load "< sh ".quoted(plots."shapes.sh")." ".quoted(shapes).sprintf(" %.17g %.17g %d %.6g", pose_low, pose_high, ARG1 + 0, ARG2 + 0)
 
-polygons(n, k, colour) = sprintf("'%s' index %d with filledcurves closed fc rgb '%s' fs solid 1 noborder notitle, ", \
-    shapes."/pose_".n, k - 1, colour)
-layers_from(n, k, last) = k > last ? "" : polygons(n, k, layer_fill[k]).layers_from(n, k + 1, last)
-pale_from(n, k) = k > layers ? "" : polygons(n, k, layer_pale[k]).pale_from(n, k + 1)
-bodies(n) = pose_found[n] == 0 ? "" : layers_from(n, 1, body_layers)
-pins_of(n) = pose_found[n] == 0 ? "" : layers_from(n, body_layers + 1, layers)
-pale_body(n) = pose_found[n] == 0 ? "" : pale_from(n, 1)
-grounds_part = grounds == 0 ? "" : \
-    sprintf("'%s/grounds' index 0 with filledcurves closed fc rgb 'white' fs solid 1 noborder notitle, ", shapes).\
-    sprintf("'%s/grounds' index 0 with lines lw 2 dt solid lc rgb ink notitle, ", shapes).\
-    sprintf("'%s/grounds' index 1 with lines lw 1.5 dt solid lc rgb ink notitle, ", shapes)
-fixed_parts = grounds_part.(system("wc -c < ".quoted(shapes."/guides")) < 3 ? "" : \
-    sprintf("'%s/guides' index 0 with lines lw 3 dt solid lc rgb ink notitle, ", shapes).\
-    sprintf("'%s/guides' index 1 with lines lw 1.5 dt solid lc rgb ink notitle, ", shapes))
-
-# Paths: of interest in colour, others thin.
-path_columns(k) = sprintf("'%s/paths' using %d:%d", shapes, 2*k, 2*k + 1)
-thin_paths(k) = k > paths ? "" : (path_ink[k] ne "" ? "" : \
-    path_columns(k)." with lines lw 1.5 dt solid lc rgb '#A8A8A8' notitle, ").thin_paths(k + 1)
-drawn_paths(k) = k > paths ? "" : (path_ink[k] eq "" ? "" : path_columns(k)." with lines lw 7 dt solid lc rgb 'white' notitle, ".\
-    path_columns(k).sprintf(" with lines lw 4 dt solid lc rgb '%s' notitle, ", path_ink[k])).drawn_paths(k + 1)
+load plots."shape_parts.gp"

@@ -42,6 +42,11 @@
 #   want="joints 20"               of reactions.dat with a row a pin and link at speed 20, a line a position: the crank, then the size of
 #                                  the force at every joint; one for the two opposite forces at a pin of two links
 #   want="joint_names 20"          the names of these joints: A, or A:crank where the links feel different forces
+#   want="limits"                  of linkage.dat of a linkage that is no four-bar: a line a range of the first drive (1), a link that swings
+#                                  (2), a slider (3), a transmission angle (4) and a pressure angle (5): that number, the name, the least and
+#                                  the greatest value, where the drive is then, swing or stroke and time ratio (0: none), the name of what stops the
+#                                  drive at its greatest value
+#   want="turning"                 of the same table: the links that turn fully
 #   want="varied"                  the columns of varied parameters: those before the table's own
 #   want="poses"                   the positions of geometry.dat, a line each: the crank angle, then for every
 #                                  pin of a link the link's number (0 the ground), its name, x and y, for every point the
@@ -247,6 +252,23 @@ asked[1] == "masses" && same($at["crank"], asked[2]) && same($at["speed"], asked
     Fy[nodes] = $at["Fy"]
 }
 
+asked[1] == "turning" && $at["quantity"] == "turns" { print $at["part"] }
+
+asked[1] == "limits" && $at["quantity"] ~ /_(from|angle|place|transmission|pressure)$/ {
+    kind = $at["quantity"] ~ /^range/ ? 1 : $at["quantity"] ~ /angle$/ ? 2 : $at["quantity"] ~ /place$/ ? 3 : $at["quantity"] ~ /mission$/ ? 4 : 5
+    is_least = $at["quantity"] ~ /^(least|range)/
+    if (is_least || kind == 5) {
+        key_of[++shapes] = kind; link_at[shapes] = $at["part"]
+        value[1, shapes] = value[2, shapes] = is_least ? $at["value"] : 0
+        value[3, shapes] = value[4, shapes] = $at["crank"]
+    }
+    if (!is_least) { value[2, shapes] = $at["value"]; value[4, shapes] = $at["crank"] }
+}
+
+asked[1] == "limits" && $at["quantity"] == "range_to" { value[2, shapes] = value[4, shapes] = $at["value"]; stops[shapes] = $at["part"] }
+
+asked[1] == "limits" && $at["quantity"] ~ /^(swing|stroke|time_ratio)$/ { value[$at["quantity"] == "time_ratio" ? 6 : 5, shapes] = $at["value"] }
+
 asked[1] == "wide" && same($at["speed"], asked[2]) || asked[1] ~ /^joint/ && same($at["speed"], asked[2]) {
     if (!positions || $at["crank"] "" != crank[positions] "") {
         crank[++positions] = $at["crank"] ""
@@ -267,6 +289,7 @@ END {
     if (asked[1] ~ /^joint/) { join_forces(); last_asked = 4; if (asked[1] == "joints") print_wide() }
     if (asked[1] == "joint_names") for (i = 1; i <= keys; i++) print (name_of[i])
     if (asked[1] == "facts") print_facts()
+    if (asked[1] == "limits") print_limits()
     if (asked[1] == "unit") print unit[at[asked[2]]]
     if (asked[1] == "range") print pointed(sprintf("%.12g", least)), pointed(sprintf("%.12g", greatest))
     if (asked[1] == "positive" && least != "") print pointed(sprintf("%.12g", least)), pointed(sprintf("%.12g", greatest))
@@ -343,6 +366,16 @@ function join_forces(    k, m, n, pin, other, kept, alike) {
         name_of[kept] = single[k] ? substr(key_of[k], 1, index(key_of[k], ":") - 1) : key_of[k]
     }
     keys = kept
+}
+
+function print_limits(    kind, i, k, line) {
+    for (kind = 1; kind <= 5; kind++)
+        for (i = 1; i <= shapes; i++) {
+            if (key_of[i] != kind) continue
+            line = kind " " link_at[i]
+            for (k = 1; k <= 6; k++) line = line " " pointed(sprintf("%.12g", value[k, i]))
+            print line, (kind == 1 ? stops[i] : "-")
+        }
 }
 
 function band(value,    k) {

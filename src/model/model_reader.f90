@@ -24,7 +24,7 @@ module model_reader
   use name_checks, only: check_names
   use output_units, only: new_output_units, output_units_t, table_name
   use report_cards, only: read_report
-  use report_kinds, only: kind_of_linkage, report_kind_t
+  use report_kinds, only: kind_of_linkage, report_kind_t, table_kind_t
   use request_cards, only: read_crank, read_modes, read_option, read_speed, read_title
   use request_checks, only: check_requests, check_required
   use response_cards, only: is_response_form, read_damping, read_gauge, read_omitted_terms, &
@@ -124,6 +124,8 @@ contains
         number = kind_of_linkage(reports, trim(report%kind%name), four_bar)
         if (number > 0) then
           report%kind = reports(number)
+          if (report%kind%name == "motion" .and. .not. report%with_pins) report%kind%tables(2) = &
+            table_kind_t()
         else
           call add_error(diagnostics, report%keyword, "REPORT "//trim(report%kind%name)// &
             " is made for four-bars only, so far: three links with two pins each, two ground "// &

@@ -23,31 +23,68 @@ module linkage_motion_report
 
 contains
 
-  !> The coordinates, the energies, the initial energy and the tolerance.
+  !> The coordinates, with their units if these differ, the energies, the initial energy and the
+  !! tolerance.
   pure subroutine linkage_motion_notes(variant, notes)
     type(variant_results_t), intent(in) :: variant       !! with its motion computed
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     integer, allocatable :: free(:)
-    type(unit_t) :: energy
+    type(unit_t) :: energy, of_motor
     character(len=:), allocatable :: line
+    logical :: mixed
     integer :: k
 
     free = free_drives(variant%model%drives%is_free)
+    mixed = are_mixed(variant%model, free)
     line = "coordinates:"
     do k = 1, size(free)
       if (k > 1) line = line//","
       line = line//" "//to_string(k)//" drive "//variant%model%drives(free(k))%subject%text
+      if (mixed) line = line//unit_words(variant%model, free(k))
     end do
     call append_string(notes, line//"; angles continue past whole turns")
-    call append_string(notes, "torque: of the motor on the first drive; potential: of GRAVITY "// &
-      "and FORCE, 0 at the global origin; work: of motor and TORQUE, less that taken "// &
-      "by LOAD, since the start; energy_error: kinetic + potential - work, less the initial energy")
+    line = ""
+    if (mixed) then
+      of_motor = table_unit("moment", variant%model%outputs)
+      if (moves_along(variant%model%drives(1)%kind)) of_motor = table_unit("force", &
+        variant%model%outputs)
+      line = " in "//of_motor%name
+    end if
+    call append_string(notes, "torque: of the motor on the first drive"//line// &
+      "; potential: of GRAVITY and FORCE, 0 at the global origin; work: of motor and "// &
+      "TORQUE, less that taken by LOAD, since the start; energy_error: kinetic + potential - "// &
+      "work, less the initial energy")
     energy = table_unit("energy", variant%model%outputs)
     if (variant%found%linkage_motion%count > 0) call append_string(notes, "initial energy: "// &
       to_string(from_si(variant%found%linkage_motion%energy, energy))//" "//energy%name// &
       "; steps of order 8, each to "//to_string(linkage_motion_tolerance))
   end subroutine linkage_motion_notes
+
+  !> Whether some coordinates are angles and others lengths.
+  pure function are_mixed(model, free) result(mixed)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: free(:) !! numbers of the free drives
+    logical :: mixed
+
+    mixed = any(moves_along(model%drives(free)%kind)) .and. .not. all(moves_along(model%drives( &
+      free)%kind))
+  end function are_mixed
+
+  !> ` in deg and rad/s`: the units of the position and the rate of a drive.
+  pure function unit_words(model, drive) result(words)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: drive !! number
+    character(len=:), allocatable :: words
+
+    type(unit_t) :: length, velocity
+
+    words = " in deg and "//model%outputs%rate%name
+    if (.not. moves_along(model%drives(drive)%kind)) return
+    length = table_unit("length", model%outputs)
+    velocity = table_unit("velocity", model%outputs)
+    words = " in "//length%name//" and "//velocity%name
+  end function unit_words
 
   !> Number of coordinates of the motion.
   pure function linkage_motion_count(model) result(number)
@@ -90,8 +127,7 @@ contains
 
     free = free_drives(variant%model%drives%is_free)
     associate (motion => variant%found%linkage_motion, model => variant%model)
-      mixed = any(moves_along(model%drives(free)%kind)) .and. .not. all(moves_along( &
-        model%drives(free)%kind))
+      mixed = are_mixed(model, free)
       do i = 1, motion%count
         associate (sample => motion%samples(i))
           position = sample%position

@@ -40,6 +40,7 @@ module report_table
   use loci_report, only: add_loci, loci_notes, locus_words
   use mesh_report, only: add_mesh, mesh_notes
   use models, only: drives_length, is_four_bar, model_t, report_number
+  use motion_pins_report, only: add_motion_pins, motion_pins_notes
   use motion_report, only: add_motion, motion_notes, motion_words
   use peaks_report, only: add_peaks, peaks_notes
   use points_report, only: add_points, point_names, points_notes
@@ -90,6 +91,10 @@ module report_table
 
   !> Where a report has one table only.
   type(table_kind_t), parameter :: no_table = table_kind_t()
+
+  !> Beside `motion.dat` where the card asks for it.
+  type(table_kind_t), parameter :: motion_pins = table_kind_t("motion_pins", &
+    "time:time pin:name x,y:length")
 
   !> A record has name, pattern and default of its card, one line of help, studies, what it needs,
   !! tables with their columns.
@@ -239,16 +244,18 @@ module report_table
       table_kind_t("gauges", "speed:speed time:time crank:deg gauge:name "// &
       "axial_strain,bending_strain:- moment:moment axial_force:force stress:stress error:-")]), &
     report_kind_t(name="motion", help="the motion under motor and loads", &
-      pattern="REPORT motion crank= [speed=0] end= step=", default="speed=0", &
-      studies="motion", masses=.true., linkages=four_bars, tables=[ &
+      pattern="REPORT motion crank= [speed=0] end= step= [pins=no|yes]", &
+      default="speed=0 pins=no", studies="motion", masses=.true., &
+      linkages=four_bars, tables=[ &
       table_kind_t("motion", "time:time crank,theta3,theta4:deg omega2,omega3,omega4:rate "// &
       "torque:moment kinetic,potential,work,energy_error:energy closure:length branch:name"), &
-      no_table]), &
+      motion_pins]), &
     report_kind_t(name="motion", help="of other linkages: the motion under motor and loads", &
-      pattern="REPORT motion crank= [speed=0] end= step=", default="speed=0", &
-      studies="motion", masses=.true., linkages=other_linkages, tables=[ &
+      pattern="REPORT motion crank= [speed=0] end= step= [pins=no|yes]", &
+      default="speed=0 pins=no", studies="motion", masses=.true., &
+      linkages=other_linkages, tables=[ &
       table_kind_t("motion", "time:time position*:deg rate*:rate torque:moment "// &
-      "kinetic,potential,work,energy_error:energy"), no_table])]
+      "kinetic,potential,work,energy_error:energy"), motion_pins])]
 
 contains
 
@@ -375,6 +382,9 @@ contains
       names(1) = motion_words()
       count = linkage_motion_count(variant%model)
       plan%items = 1
+    case ("motion_pins")
+      names(1) = pin_names(variant)
+      plan%items = 1
     case ("transient")
       names(1) = response_point_names(variant)
       plan%items = plan%speeds
@@ -473,6 +483,8 @@ contains
       call harmonics_notes(variant, notes)
     case ("motion")
       call motion_notes(variant, notes)
+    case ("motion_pins")
+      call motion_pins_notes(notes)
     case ("transient")
       call transient_notes(variant, notes)
     case ("gauges")
@@ -524,6 +536,8 @@ contains
       else
         call add_linkage_motion(variant, plan%layout, rows)
       end if
+    case ("motion_pins")
+      call add_motion_pins(variant, plan%layout, rows)
     case ("transient", "gauges")
       if (number > 1) call add_gap(rows, 2)
       call add_transient(plan%name, variant, plan%layout, number, rows)

@@ -102,9 +102,11 @@ contains
     do t = 1, size(reports(1)%tables)
       do i = 1, size(reports)
         number = report_number(model, reports(i)%name)
-        if (reports(i)%tables(t)%name == "" .or. number == 0) cycle
-        if (model%reports(number)%kind%linkages /= reports(i)%linkages) cycle
-        list = [list, table_in_units(reports(i)%tables(t), model)]
+        if (number == 0) cycle
+        associate (kind => model%reports(number)%kind)
+          if (kind%tables(t)%name == "" .or. kind%linkages /= reports(i)%linkages) cycle
+          list = [list, table_in_units(kind%tables(t), model)]
+        end associate
       end do
     end do
   end function tables_of

@@ -154,8 +154,11 @@ contains
 
     type(diagnostic_t), allocatable :: of_deck(:)
     type(string_t), allocatable :: of_run(:)
-    character(len=:), allocatable :: warning
+    character(len=:), allocatable :: warning, drawing
 
+    ! Of variants only frequencies are drawn.
+    drawing = command
+    if (session%totals%variants > 1 .and. .not. session%totals%has_frequencies) drawing = ""
     warning = ""
     of_run = warnings_of_grade(session%findings, grade_meaningless)
     if (size(of_run) > 0) warning = of_run(1)%text
@@ -167,7 +170,7 @@ contains
     associate (tables => session%outputs%tables)
       text = text_of_success(deck%base, session%outputs%folder, size(tables), &
         sum(tables%failed_rows), session%totals, deck%model%modes, deck%model%outputs, warning, &
-        command)
+        drawing)
     end associate
   end function success_of
 

@@ -95,6 +95,7 @@ contains
       request%start_speed = asked%start_speed
       request%end_time = asked%end_time
       request%instants = asked%instants%value
+      request%with_pins = asked%with_pins
     end associate
     request%drive = drive_of(model)
     request%resistances = resistances_of(model, mechanism)
@@ -113,6 +114,7 @@ contains
       request%speed = asked%start_speed
       request%end_time = asked%end_time
       request%instants = asked%instants%value
+      request%with_pins = asked%with_pins
     end associate
     request%is_free = model%drives%is_free
     request%drive = drive_of(model)

@@ -27,6 +27,7 @@ module linkage_motion_study
     type(motor_drive_t) :: drive         !! motor on the first drive
     real(wp), allocatable :: taken(:)    !! (bodies) resisting torques [N m]
     real(wp), allocatable :: damping(:)  !! (bodies) of their turning [N m s]
+    logical :: with_pins = .false.       !! the places of all pins are wanted
   end type linkage_motion_request_t
 
   type :: linkage_motion_result_t
@@ -82,6 +83,7 @@ contains
       under_way%is_over = was_interrupted()
       if (under_way%is_over) return
       call sample_linkage_motion(under_way%motion, result%last)
+      if (.not. under_way%request%with_pins) deallocate (result%last%pin)
       under_way%is_over = under_way%motion%stop /= no_stop
       if (under_way%is_over) return
       result%samples(i) = result%last

@@ -1,5 +1,6 @@
 !> Forward dynamics: the motion of a four-bar under given loads, sampled at equal time steps.
 module motion_study
+  use constants, only: degree
   use drives, only: motor_drive_t, resistances_t
   use errors, only: error_of_dead_point, error_of_numerics, error_t, set_error
   use forward_motions, only: end_motion, forward_motion_t, motion_sample_t, motion_tolerance, &
@@ -8,8 +9,9 @@ module motion_study
     stop_too_fast
   use interruption, only: was_interrupted
   use kinds, only: long, wp
-  use linkages, only: linkage_t
+  use linkages, only: linkage_t, turned
   use loop_curves, only: change_point_message
+  use pose_types, only: pins_of_body, place_of_pin
   use rigid_bodies, only: rigid_bodies_of
   implicit none (type, external)
   private
@@ -25,6 +27,7 @@ module motion_study
     real(wp), allocatable :: instants(:) !! of the samples, ascending from 0 to `end_time` [s]
     type(motor_drive_t) :: drive     !! motor on the crank
     type(resistances_t) :: resistances !! on all links
+    logical :: with_pins = .false.   !! the places of all pins are wanted
   end type motion_request_t
 
   type :: motion_result_t
@@ -36,12 +39,15 @@ module motion_study
     logical :: has_begun = .false.                     !! the start was possible
     integer(long) :: steps = 0_long                    !! of the integration
     real(wp) :: energy = 0.0_wp                        !! kinetic + potential, at the start [J]
+    real(wp), allocatable :: pin(:, :, :)              !! (2, pins, instants) in global axes, where
+                                                       !! they are wanted [m]
   end type motion_result_t
 
   !> A motion that is being computed.
   type :: motion_under_way_t
     type(motion_request_t), private :: request
     type(forward_motion_t), private :: motion
+    type(linkage_t), private :: linkage
     integer, private :: next = 1        !! number of the next instant
     logical :: is_over = .false.        !! at the end, stopped or interrupted
   end type motion_under_way_t
@@ -62,6 +68,10 @@ contains
 
     under_way%request = request
     allocate (result%samples(size(request%instants)), result%turnings(0))
+    if (request%with_pins) then
+      under_way%linkage = linkage
+      allocate (result%pin(2, size(linkage%is_ground), size(request%instants)))
+    end if
     result%last%angle(1) = request%start_angle
     call start_motion(linkage, rigid_bodies_of(linkage, elements), request%drive, &
       request%resistances, request%start_angle, request%start_speed, request%end_time, &
@@ -87,11 +97,37 @@ contains
       under_way%is_over = under_way%motion%stop /= no_stop
       if (under_way%is_over) return
       result%samples(i) = result%last
+      if (under_way%request%with_pins) result%pin(:, :, i) = pins_at(under_way%linkage, &
+        result%last%angle)
       result%count = i
     end do
     under_way%next = i
     under_way%is_over = under_way%next > size(result%samples)
   end subroutine continue_motion
+
+  !> Places of the pins of a four-bar whose links are at some angles.
+  pure function pins_at(linkage, angle) result(pin)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), intent(in) :: angle(:) !! (bodies) [deg]
+    real(wp) :: pin(2, size(linkage%is_ground))
+
+    integer, allocatable :: pins(:)
+    real(wp) :: direction(2)
+    integer :: b, i
+
+    pin = linkage%ground_position
+    do b = 1, size(linkage%bodies)
+      associate (body => linkage%bodies(b))
+        ! The angle is that of its heading.
+        direction = turned([cos(angle(b)*degree), sin(angle(b)*degree)], [body%heading(1), &
+          -body%heading(2)])
+        pins = pins_of_body(body)
+        do i = 2, size(pins)
+          pin(:, pins(i)) = pin(:, body%first_pin) + turned(place_of_pin(body, pins(i)), direction)
+        end do
+      end associate
+    end do
+  end function pins_at
 
   !> Ends a motion and completes its result.
   !!

@@ -335,6 +335,48 @@ other_linkages() {
   run 1 --quiet --out "$scratch/out" "$scratch/short.deck" && drawn short figures $all lagrange shaking_force
 }
 
+# A motion alone, of one coordinate and of angles and lengths; ranges alone; pins of a four-bar beside its other tables.
+moving_linkages() {
+  { sed '/^FORCE/d; /^REPORT/d; /^END/d; /^CRANK/d' inputs/quick_return.deck && echo 'POINT p lever along=100 offset=40' &&
+    echo 'MOTOR torque=20N*m' && echo 'REPORT motion crank=30 end=0.3 step=0.01'; } >"$scratch/driven.deck"
+  cat >"$scratch/falling.deck" <<'END_OF_DECK'
+TITLE A load that slides down a swinging arm
+UNITS m kg s
+GROUND O 0 0
+LINK arm O A length=2 mass=3 inertia=1
+LINK load B C length=0.3 mass=2 inertia=0.05
+SLIDER B arm
+DRIVE arm
+DRIVE B arm free ratio=0 phase=0.5
+DRIVE load against arm free ratio=0 phase=90
+GRAVITY 0 -9.81
+REPORT motion crank=-30 end=0.5 step=0.02 pins=yes
+END_OF_DECK
+  { sed '/^REPORT/d; /^END/d' inputs/toggle_press.deck && echo 'REPORT linkage'; } >"$scratch/ranges.deck"
+  { sed '/^END/d' inputs/kinematics.deck && echo 'REPORT pins'; } >"$scratch/pins.deck"
+  run 0 --quiet --out "$scratch/out" "$scratch/driven.deck" "$scratch/falling.deck" "$scratch/ranges.deck" "$scratch/pins.deck" || return 1
+  drawn driven figures motion && drawn driven animations motion && gif driven/animations/motion.gif 31 || return 1
+  drawn falling figures motion && drawn falling animations motion && gif falling/animations/motion.gif 26 || return 1
+  drawn ranges figures limits || return 1
+  drawn pins figures kinematics_accelerations kinematics_angles kinematics_velocities pin_motion
+}
+
+# What moves in an animation of a motion is where the program places it at the same position of the crank.
+moving_places() {
+  sed 's/step=0.01/& pins=yes/' "$scratch/driven.deck" >"$scratch/paced.deck"
+  run 0 --quiet --out "$scratch/out" "$scratch/paced.deck" || return 1
+  cranks=$(awk '!/^#/ && (NR - 1) % 10 == 6 { printf "%s%.17g", (n++ ? "," : ""), $2 }' "$scratch/out/paced/motion.dat")
+  for crank in 30 "$cranks"; do
+    { sed '/^REPORT/d' "$scratch/driven.deck" && echo "REPORT geometry crank=$crank"; } >"$scratch/there.deck"
+    run 0 --quiet --out "$scratch/out" "$scratch/there.deck" || return 1
+    cp "$scratch/out/there/geometry.dat" "$scratch/geometry.${crank%%,*}"
+  done
+  awk -v stride=10 -v count=4 -f plots/motion_places.awk "$scratch/geometry.30" "$scratch/out/paced/motion_pins.dat" >"$scratch/moved"
+  grep -v -e '^#' -e '^ *$' "$scratch/out/there/geometry.dat" | paste -d' ' "$scratch/moved" - | awk '
+    $2 != $8 || $3 != $9 || $4 != $10 || ($5 - $11)^2 > 1e-12 || ($6 - $12)^2 > 1e-12 { print; exit 1 }
+    END { if (NR != 4*13) { print NR, "places"; exit 1 } }'
+}
+
 # Shapes of a position: two colours a link and a slider, two for pins; a plate has its corners' hull.
 drawn_shapes() {
   (cd "$scratch/out/klann" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/shapes.sh" "$scratch/klann.shapes" 0 360 4 0.014) \
@@ -363,5 +405,7 @@ check "no drawing of a linkage without the program" without_program
 check "links with odd names are placed" odd_names
 check "pins that meet" meeting_pins
 check "figures of other linkages than four-bars" other_linkages
+check "figures and animations of motions, ranges and pins" moving_linkages
+check "what is fixed to a link moves with it" moving_places
 check "shapes of other linkages" drawn_shapes
 check "installed scripts" installed_plots

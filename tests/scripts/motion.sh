@@ -26,10 +26,10 @@ parallelogram() {
   swinging "$@" | sed -e 's/O4 2 0.3/O4 2 0/' -e 's/length=1.7/length=1/' -e 's/length=0.8/length=2/' -e 's/length=1.9/length=1/'
 }
 
-# column NAME FILE: its numbers.
+# column NAME FILE: its numbers. Remarks before the names of the columns may have the word too.
 column() {
-  awk -v name="$1" '/^#/ && !n { for (i = 1; i <= NF; i++) if ($i == name) n = i - ($1 == "#"); next }
-    /^[^#]/ && n { print $n }' "$2"
+  awk -v name="$1" '/^#/ && !begun { for (i = 1; i <= NF; i++) if ($i == name) n = i - ($1 == "#"); next }
+    /^[^#]/ && n { begun = 1; print $n }' "$2"
 }
 
 # Rows at 0, 0.1, ..., 1; energy and closure as the columns tell; a branch as in the log.
@@ -67,6 +67,23 @@ other_units() {
   done
 }
 check "other units, the same motion" other_units
+
+# Where the pins are: links keep their lengths; a crank angle is that of its pin. Without pins=yes there is no such table.
+pins() {
+  sed 's/end=1 step=0.1/& pins=yes/' "$scratch/swing.deck" >"$scratch/placed.deck"
+  run 0 --out "$out" "$scratch/placed.deck" && silent && cmp "$out/swing/motion.dat" "$out/placed/motion.dat" || return 1
+  [ ! -e "$out/swing/motion_pins.dat" ] || { echo "a table that was not asked for"; return 1; }
+  column x "$out/placed/motion_pins.dat" >"$scratch/a"
+  column y "$out/placed/motion_pins.dat" >"$scratch/b"
+  column crank "$out/swing/motion.dat" | awk '{ print; print }' | paste "$scratch/a" "$scratch/b" - | awk '
+    function off(a, b) { return a - b > 1e-13 || b - a > 1e-13 }
+    NR % 2 { x = $1; y = $2; t = atan2(0, -1)*$3/180; if (off(x, 1.7*cos(t)) || off(y, 1.7*sin(t))) { print "A is off at row", NR; exit 1 } }
+    NR % 2 == 0 && (off(sqrt(($1 - x)^2 + ($2 - y)^2), 0.8) || off(sqrt(($1 - 2)^2 + ($2 - 0.3)^2), 1.9)) { print "B is off at row", NR; exit 1 }
+    END { if (NR != 22) { print NR, "rows"; exit 1 } }' || return 1
+  sed 's/step=0.1/& pins=maybe/' "$scratch/swing.deck" >"$scratch/maybe.deck"
+  run 1 --out "$out" "$scratch/maybe.deck"; says "maybe"
+}
+check "the places of the pins" pins
 
 # A motion that ends too soon is a failed row; what comes before it is written, and other tables are.
 parallelogram "CRANK 10 20" "REPORT kinematics" "REPORT motion crank=60 speed=7 end=1 step=0.05" >"$scratch/line.deck"

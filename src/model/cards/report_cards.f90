@@ -40,6 +40,7 @@ module report_cards
     real(wp) :: end_time = 0.0_wp    !! [s]
     real(wp) :: time_step = 0.0_wp   !! between rows [s]
     type(value_list_t) :: instants   !! of the rows [s]
+    logical :: with_pins = .false.   !! with a table of the places of the pins
     type(token_t) :: start_angle_word, start_speed_word, end_time_word, time_step_word
     type(transient_card_t) :: transient !! REPORT transient
   end type report_t
@@ -186,7 +187,7 @@ contains
       system, diagnostics, report%crank)
   end subroutine read_geometry
 
-  !> Reads `REPORT motion crank= [speed=0] end= step=`.
+  !> Reads `REPORT motion crank= [speed=0] end= step= [pins=no|yes]`.
   pure subroutine read_motion(card, known_keys, by_length, system, diagnostics, report)
     type(card_t), intent(in) :: card
     logical, intent(in) :: known_keys !! no key is unknown: missing ones are an error
@@ -197,6 +198,7 @@ contains
 
     type(value_list_t) :: angle
     logical :: fine, ends, steps
+    integer :: i, choice
 
     if (known_keys .and. .not. has_key(card, "crank")) then
       call add_error(diagnostics, card%keyword, &
@@ -217,6 +219,11 @@ contains
       report%start_speed_word = card%entries(entry_number(card, "speed"))%value
       call read_values([report%start_speed_word], merge(dimension_velocity, dimension_rate, &
         by_length), system, "speed", diagnostics, report%speed)
+    end if
+    i = entry_number(card, "pins")
+    if (i > 0) then
+      call read_choice(card%entries(i)%value, "no yes", diagnostics, choice)
+      report%with_pins = choice == 2
     end if
     call read_entry_quantity(card, "end", dimension_time, system, known_keys, diagnostics, &
       report%end_time, ends)

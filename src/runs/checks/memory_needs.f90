@@ -100,13 +100,16 @@ contains
     type(memory_need_t), intent(inout) :: need
 
     integer, parameter :: numbers = 16 !! of a sample, rounded up
-    integer :: report
+    integer :: report, pins, i
 
     report = report_number(model, "motion")
     if (report == 0) return
+    pins = 0
+    if (model%reports(report)%with_pins) pins = sum([(size(model%links(i)%pins), &
+      i=1, size(model%links))])
     need%place = model%reports(report)%keyword
     need%what = "the "//plural(motion_instants_of(model), "instant")//" of the motion"
-    need%bytes = numbers*number*motion_instants_of(model)
+    need%bytes = (numbers + 2*pins)*number*motion_instants_of(model)
   end subroutine add_needs_of_motion
 
   !> The terms of the equations at the crank angles of a turn, for several orders; vectors of the

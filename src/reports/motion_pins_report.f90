@@ -1,0 +1,78 @@
+!> `motion_pins.dat`: where the pins are while the linkage moves under its motor and loads.
+module motion_pins_report
+  use errors, only: error_t
+  use kinds, only: wp
+  use motion_report, only: time_in_table
+  use table_columns, only: cells, column_width, table_factor, table_layout_t
+  use table_rows, only: add_failed_row, add_row, rows_t
+  use tables, only: name_cell, real_cells
+  use text, only: append_string, string_t
+  use units, only: from_si
+  use variant_results, only: variant_results_t
+  implicit none (type, external)
+  private
+
+  public :: motion_pins_notes, add_motion_pins
+
+contains
+
+  !> The axes.
+  pure subroutine motion_pins_notes(notes)
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    call append_string(notes, "global axes; instants of motion.dat")
+  end subroutine motion_pins_notes
+
+  !> Appends, for every instant, a row per moving pin, and a failed row if the motion ends before
+  !! its end time.
+  subroutine add_motion_pins(variant, layout, rows)
+    type(variant_results_t), intent(in) :: variant !! with its motion and the pins of it
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
+
+    integer :: i
+
+    if (variant%mechanism%is_four_bar) then
+      associate (motion => variant%found%motion)
+        do i = 1, motion%count
+          call add_instant(i, motion%pin(:, :, i))
+        end do
+        if (allocated(motion%error)) call add_end(motion%last%time, motion%error)
+      end associate
+    else
+      associate (motion => variant%found%linkage_motion)
+        do i = 1, motion%count
+          call add_instant(i, motion%samples(i)%pin)
+        end do
+        if (allocated(motion%error)) call add_end(motion%last%time, motion%error)
+      end associate
+    end if
+
+  contains
+
+    subroutine add_instant(instant, pin)
+      integer, intent(in) :: instant !! number
+      real(wp), intent(in) :: pin(:, :)
+
+      integer :: p
+
+      associate (mechanism => variant%mechanism)
+        do p = 1, size(mechanism%pin_names)
+          if (mechanism%linkage%is_ground(p)) cycle
+          call add_row(rows, real_cells([time_in_table(variant%model, instant)])//name_cell( &
+            mechanism%pin_names(p)%text, column_width(layout, 2))//cells(layout, 3, pin(:, p)))
+        end do
+      end associate
+    end subroutine add_instant
+
+    subroutine add_end(time, error)
+      real(wp), intent(in) :: time !! [s]
+      type(error_t), intent(in) :: error
+
+      call add_failed_row(rows, [from_si(time, table_factor("time", variant%model%outputs))], &
+        error%text)
+    end subroutine add_end
+
+  end subroutine add_motion_pins
+
+end module motion_pins_report
