@@ -1,6 +1,6 @@
 !> Model → linkage: pins, bodies, sliders, welds and drives by number, and the plan of its groups.
 module linkage_parts
-  use assembly_plan, only: plan_linkage, plan_problem_t, side_t
+  use assembly_plan, only: plan_linkage
   use constants, only: degree
   use drive_cards, only: branch_backward, branch_left, branch_right, drive_ram, &
     drive_slider, moves_along
@@ -13,6 +13,8 @@ module linkage_parts
     equation_t, linkage_t
   use models, only: is_four_bar, model_t
   use name_index, only: find_name, name_index_t, new_name_index
+  use plan_problems, only: plan_problem_t
+  use plan_sides, only: side_t
   use pose_types, only: pose_t
   use text, only: same_word, string_t
   use tokens, only: token_t

@@ -1,8 +1,6 @@
 !> Checks of linkages that are no four-bars: whether they have a plan, assemble near the drawing,
 !! fit, and reach the positions of the deck.
 module linkage_checks
-  use assembly_plan, only: problem_braced, problem_coupler_driven, &
-    problem_drive_idle, problem_no_side, problem_not_drawn, problem_other_bases, problem_too_free
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use errors, only: error_of_reach, error_t
   use kinds, only: wp
@@ -10,6 +8,8 @@ module linkage_checks
   use linkages, only: linkage_t, reference_point
   use mechanisms, only: mechanism_t, pins_of_body
   use models, only: drives_length, model_t, report_number
+  use plan_problems, only: problem_braced, problem_coupler_driven, problem_drive_idle, &
+    problem_no_side, problem_not_drawn, problem_other_bases, problem_too_free
   use pose_types, only: pose_t
   use poses, only: place_groups, place_links
   use redundancies, only: body_of_redundancy, largest_misfit
