@@ -13,7 +13,7 @@ module assembly_plan
   use plan_iterations, only: take_rest
   use plan_problems, only: check_plain_faults, new_problem, plan_problem_t, problem_drive_idle
   use plan_progress, only: new_progress, progress_t
-  use plan_sides, only: side_t
+  use plan_sides, only: check_sides, side_t
   use plan_sliding_bodies, only: take_cross_slide, take_through_pin
   use plan_turned_bodies, only: take_crank, take_drives, take_spanned, take_turns
   use pose_types, only: pins_of_body
@@ -58,6 +58,9 @@ contains
       if (allocated(problem)) return
     end do
     call collect_redundancies(linkage, done, problem)
+    ! Of links more than needed, others than those that a card is about may place its pin.
+    if (.not. allocated(problem) .and. size(linkage%redundancies) == 0) call check_sides(linkage, &
+      sides, problem)
     body_order = done%order
     pin_order = pins_in_order(linkage, body_order)
   end subroutine plan_linkage
@@ -74,7 +77,7 @@ contains
     if (.not. has_found) call take_turns(linkage, done, has_found)
     if (.not. has_found) call take_spanned(linkage, done, has_found)
     if (.not. has_found) call take_meeting(linkage, sides, done, problem, has_found)
-    if (.not. has_found) call take_through_pin(linkage, sides, done, has_found)
+    if (.not. has_found) call take_through_pin(linkage, sides, done, problem, has_found)
     if (.not. has_found) call take_cross_slide(linkage, done, has_found)
   end subroutine place_next
 

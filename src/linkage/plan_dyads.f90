@@ -1,13 +1,12 @@
 !> Dyads that place a pin: two loci, circles about known pins or known lines.
 module plan_dyads
   use body_axes, only: has_pin, rebase
-  use kinds, only: wp
-  use linkages, only: cross, demands_angle, demands_length, group_t, groups_dyad, groups_on_line, &
+  use linkages, only: demands_angle, group_t, groups_driven_dyad, groups_dyad, groups_on_line, &
     groups_two_lines, linkage_t
-  use plan_equations, only: drive_of_length, line_equation, pin_equation
-  use plan_problems, only: plan_problem_t, problem_no_side, problem_other_bases
+  use plan_equations, only: drive_of_length, length_equation, line_equation, pin_equation
+  use plan_problems, only: plan_problem_t
   use plan_progress, only: append_group, carry_rest, known_pin, line_is_known, progress_t
-  use plan_sides, only: drawn_line, report_side, side_t
+  use plan_sides, only: choose_side, side_t
   implicit none (type, external)
   private
 
@@ -18,11 +17,11 @@ contains
   !> A pin with two loci: bodies on known pins, known lines. The first such pin in the order of the
   !! bodies, or of the sliders.
   pure subroutine take_meeting(linkage, sides, done, problem, has_found)
-    type(linkage_t), intent(inout) :: linkage
-    type(side_t), intent(in) :: sides(:)
-    type(progress_t), intent(inout) :: done
-    type(plan_problem_t), allocatable, intent(inout) :: problem
-    logical, intent(out) :: has_found
+    type(linkage_t), intent(inout) :: linkage !! to whose groups the first such is added
+    type(side_t), intent(in) :: sides(:)      !! of its pins
+    type(progress_t), intent(inout) :: done   !! what is placed
+    type(plan_problem_t), allocatable, intent(inout) :: problem !! why it has no side
+    logical, intent(out) :: has_found         !! whether there is any
 
     integer, allocatable :: bodies(:), lines(:)
     integer :: p, last, best, least
@@ -35,7 +34,7 @@ contains
       call find_loci(linkage, done, p, bodies, lines)
       if (size(bodies) + size(lines) < 2) cycle
       last = 0
-      if (size(lines) < 2) last = bodies(2 - size(lines))
+      if (size(lines) < 2) last = deck_order(linkage, bodies(2 - size(lines)))
       if (last >= least) cycle
       best = p
       least = last
@@ -52,7 +51,18 @@ contains
     end if
   end subroutine take_meeting
 
-  !> The bodies on known pins, and the known lines, on which a pin lies.
+  !> The place of a body in the order of the deck, rams behind all others.
+  pure function deck_order(linkage, body)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: body
+    integer :: deck_order
+
+    deck_order = body
+    if (drive_of_length(linkage, body) > 0) deck_order = body + size(linkage%bodies)
+  end function deck_order
+
+  !> The bodies on known pins, and the known lines, on which a pin lies. Rams come last: a drive
+  !! that moves nothing is told, and no link blamed for it.
   pure subroutine find_loci(linkage, done, pin, bodies, lines)
     type(linkage_t), intent(in) :: linkage
     type(progress_t), intent(in) :: done
@@ -60,15 +70,20 @@ contains
     integer, allocatable, intent(out) :: bodies(:)
     integer, allocatable, intent(out) :: lines(:)
 
+    integer, allocatable :: rams(:)
     integer :: b, s
 
-    allocate (bodies(0), lines(0))
+    allocate (bodies(0), rams(0), lines(0))
     do b = 1, size(linkage%bodies)
-      if (done%body(b)) cycle
-      if (drive_of_length(linkage, b) > 0) cycle
-      if (known_pin(linkage, b, done) > 0 .and. has_pin(linkage%bodies(b), pin)) bodies = &
-        [bodies, b]
+      if (done%body(b) .or. .not. has_pin(linkage%bodies(b), pin)) cycle
+      if (known_pin(linkage, b, done) == 0) cycle
+      if (drive_of_length(linkage, b) > 0) then
+        rams = [rams, b]
+      else
+        bodies = [bodies, b]
+      end if
     end do
+    bodies = [bodies, rams]
     do s = 1, size(linkage%sliders)
       if (done%slider(s) .or. linkage%sliders(s)%pin /= pin) cycle
       if (line_is_known(linkage, s, done)) lines = [lines, s]
@@ -104,44 +119,24 @@ contains
     type(plan_problem_t), allocatable, intent(inout) :: problem
 
     type(group_t) :: group
-    real(wp) :: direction(2)
-    logical :: is_known
-    integer :: base, number
 
-    base = known_pin(linkage, body, done)
-    call rebase(linkage, body, base, pin)
-    done%order = [done%order, body]
     group%kind = groups_on_line
-    group%base(1) = base
+    group%base(1) = known_pin(linkage, body, done)
     group%middle = pin
     group%body(1) = body
     group%slider(1) = line
     group%pins = [pin]
     group%bodies = [body]
     group%loaded = [body]
+    call rebase(linkage, body, group%base(1), pin)
     allocate (group%equations(3))
-    group%equations(1) = pin_equation(linkage, demands_length, body, pin)
+    group%equations(1) = length_equation(linkage, body, pin)
     group%equations(2) = pin_equation(linkage, demands_angle, body, pin)
     group%equations(3) = line_equation(line)
-    number = findloc(sides%pin, pin, dim=1)
-    is_known = .false.
-    if (number > 0) then
-      if (any(sides(number)%base > 0)) then
-        call report_side(problem, problem_other_bases, pin, [base, pin], number, .true.)
-        return
-      end if
-      group%side = sides(number)%side
-      is_known = .true.
-    else if (all(linkage%drawing%is_drawn([base, pin]))) then
-      call drawn_line(linkage, line, direction, is_known)
-      if (is_known) group%side = sign(1.0_wp, dot_product(direction, linkage%drawing%pin(:, pin) - &
-        linkage%drawing%pin(:, base)))
-    end if
-    if (.not. is_known) call report_side(problem, problem_no_side, pin, [base, pin], 0, .true.)
+    call choose_side(linkage, sides, group, problem)
+    if (allocated(problem)) return
     done%slider(line) = .true.
-    done%pin(pin) = .true.
-    done%body(body) = .true.
-    call append_group(linkage, group)
+    call settle(linkage, group, done)
     call carry_rest(linkage, body, [pin], done)
   end subroutine place_on_line
 
@@ -155,7 +150,7 @@ contains
     type(plan_problem_t), allocatable, intent(inout) :: problem
 
     type(group_t) :: group
-    integer :: k, number
+    integer :: k
 
     group%kind = groups_dyad
     group%middle = pin
@@ -166,35 +161,56 @@ contains
       group%body = group%body([2, 1])
       group%base = group%base([2, 1])
     end if
+    call choose_side(linkage, sides, group, problem)
+    if (allocated(problem)) return
     call rebase(linkage, group%body(1), group%base(1), pin)
-    call rebase(linkage, group%body(2), pin, group%base(2))
-    done%order = [done%order, group%body]
-    number = findloc(sides%pin, pin, dim=1)
-    if (number > 0) then
-      associate (side => sides(number))
-        if (all(side%base == group%base)) then
-          group%side = side%side
-        else if (all(side%base == group%base([2, 1]))) then
-          group%side = -side%side
-        else
-          call report_side(problem, problem_other_bases, pin, group%base, number, .false.)
-          return
-        end if
-      end associate
-    else if (all(linkage%drawing%is_drawn([group%base, pin]))) then
-      associate (at => linkage%drawing%pin)
-        group%side = sign(1.0_wp, cross(at(:, group%base(2)) - at(:, group%base(1)), at(:, pin) - &
-          at(:, group%base(1))))
-      end associate
+    if (any([(drive_of_length(linkage, bodies(k)) > 0, k=1, 2)])) then
+      call rebase(linkage, group%body(2), group%base(2), pin)
+      call write_driven_dyad(linkage, group)
     else
-      call report_side(problem, problem_no_side, pin, group%base, 0, .false.)
-      return
+      call rebase(linkage, group%body(2), pin, group%base(2))
     end if
-    done%pin(pin) = .true.
-    done%body(group%body) = .true.
-    call append_group(linkage, group)
+    call settle(linkage, group, done)
     call carry_rest(linkage, group%body(1), [pin], done)
-    call carry_rest(linkage, group%body(2), [group%base(2)], done)
+    call carry_rest(linkage, group%body(2), [pin, group%base(2)], done)
   end subroutine place_dyad
+
+  !> The pins, bodies and equations of a dyad with driven lengths: each body runs from its base.
+  pure subroutine write_driven_dyad(linkage, group)
+    type(linkage_t), intent(in) :: linkage
+    type(group_t), intent(inout) :: group
+
+    integer :: k
+
+    group%kind = groups_driven_dyad
+    group%pins = [group%middle]
+    group%bodies = group%body
+    group%loaded = group%body
+    allocate (group%equations(4))
+    do k = 1, 2
+      group%equations(2*k - 1) = length_equation(linkage, group%body(k), group%middle)
+      group%equations(2*k) = pin_equation(linkage, demands_angle, group%body(k), group%middle)
+    end do
+  end subroutine write_driven_dyad
+
+  !> The middle and the bodies of a dyad are placed, and its drives used.
+  pure subroutine settle(linkage, group, done)
+    type(linkage_t), intent(inout) :: linkage
+    type(group_t), intent(in) :: group
+    type(progress_t), intent(inout) :: done
+
+    integer, allocatable :: bodies(:)
+    integer :: k, drive
+
+    bodies = pack(group%body, group%body > 0)
+    done%pin(group%middle) = .true.
+    done%body(bodies) = .true.
+    done%order = [done%order, bodies]
+    do k = 1, size(bodies)
+      drive = drive_of_length(linkage, bodies(k))
+      if (drive > 0) done%drive(drive) = .true.
+    end do
+    call append_group(linkage, group)
+  end subroutine settle
 
 end module plan_dyads

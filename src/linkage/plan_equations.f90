@@ -1,13 +1,13 @@
 !> The equations of a plan, and which of them its groups have used.
 module plan_equations
-  use linkages, only: demands_drive, demands_line, demands_turn, drives_length, equation_t, &
-    linkage_t
+  use linkages, only: demands_drive, demands_length, demands_line, demands_turn, drives_length, &
+    equation_t, linkage_t
   use pose_types, only: place_of_pin
   implicit none (type, external)
   private
 
-  public :: pin_equation, line_equation, turn_equation, drive_equation, append_equation, is_used, &
-    drive_of_length
+  public :: pin_equation, length_equation, line_equation, turn_equation, drive_equation, &
+    append_equation, is_used, drive_of_length
 
 contains
 
@@ -21,6 +21,22 @@ contains
     equation%pin = pin
     equation%place = place_of_pin(linkage%bodies(body), pin)
   end function pin_equation
+
+  !> The distance of a pin of a body from its first one: its own, or that of its drive.
+  pure function length_equation(linkage, body, pin) result(equation)
+    type(linkage_t), intent(in) :: linkage !! bodies and drives
+    integer, intent(in) :: body, pin       !! numbers, from 1
+    type(equation_t) :: equation
+
+    integer :: drive
+
+    drive = drive_of_length(linkage, body)
+    if (drive > 0) then
+      equation = drive_equation(drive)
+    else
+      equation = pin_equation(linkage, demands_length, body, pin)
+    end if
+  end function length_equation
 
   pure function line_equation(slider) result(equation)
     integer, intent(in) :: slider

@@ -7,15 +7,16 @@ module plan_problems
 
   public :: plan_problem_t, new_problem, check_plain_faults
   public :: problem_too_free, problem_braced, problem_coupler_driven, &
-    problem_no_side, problem_other_bases, problem_drive_idle, problem_not_drawn
+    problem_no_side, problem_other_bases, problem_drive_idle, problem_not_drawn, &
+    problem_side_idle
 
   !> What may be wrong: pins that nothing holds; a link that joins two pins of another one; a driven
   !! link that turns about no ground pivot; a dyad with neither a side nor a drawing; a side that
-  !! names other pins than those that carry the dyad; a drive that moves nothing; pins that only a
-  !! drawing can place.
+  !! names other pins than those that carry the dyad, or is of the other form; a drive that moves
+  !! nothing; pins that only a drawing can place; a side of a pin that has one place only.
   integer, parameter :: problem_too_free = 1, problem_braced = 2, &
     problem_coupler_driven = 3, problem_no_side = 4, problem_other_bases = 5, &
-    problem_drive_idle = 6, problem_not_drawn = 7
+    problem_drive_idle = 6, problem_not_drawn = 7, problem_side_idle = 8
 
   !> Why there is no plan.
   type :: plan_problem_t

@@ -5,8 +5,9 @@ module plan_sliding_bodies
   use kinds, only: wp
   use linkages, only: group_t, groups_cross_slide, groups_through_pin, linkage_t
   use plan_equations, only: line_equation, turn_equation
+  use plan_problems, only: plan_problem_t
   use plan_progress, only: append_group, carry_rest, known_pin, line_is_known, progress_t, turned_by
-  use plan_sides, only: side_t
+  use plan_sides, only: choose_side, side_t
   implicit none (type, external)
   private
 
@@ -15,14 +16,15 @@ module plan_sliding_bodies
 contains
 
   !> RPR: a body on a known pin whose line passes through another known pin.
-  pure subroutine take_through_pin(linkage, sides, done, has_found)
-    type(linkage_t), intent(inout) :: linkage
-    type(side_t), intent(in) :: sides(:)
-    type(progress_t), intent(inout) :: done
-    logical, intent(out) :: has_found
+  pure subroutine take_through_pin(linkage, sides, done, problem, has_found)
+    type(linkage_t), intent(inout) :: linkage !! to whose groups the first such is added
+    type(side_t), intent(in) :: sides(:)      !! of its pins
+    type(progress_t), intent(inout) :: done   !! what is placed
+    type(plan_problem_t), allocatable, intent(inout) :: problem !! why it has no side
+    logical, intent(out) :: has_found         !! whether there is any
 
     type(group_t) :: group
-    integer :: s, base, body, other, number
+    integer :: s, base, body, other
 
     has_found = .false.
     do s = 1, size(linkage%sliders)
@@ -46,10 +48,7 @@ contains
       group%equations(1) = line_equation(s)
       ! A block lies between the pins of its link, if nothing else is said.
       group%side = sign(1.0_wp, linkage%sliders(s)%direction(1))
-      number = findloc(sides%pin, linkage%sliders(s)%pin, dim=1)
-      if (number > 0) then
-        if (all(sides(number)%base == 0)) group%side = sides(number)%side
-      end if
+      call choose_side(linkage, sides, group, problem)
       done%slider(s) = .true.
       done%body(body) = .true.
       call append_group(linkage, group)
@@ -62,9 +61,9 @@ contains
   !> PPR: a body whose angle is known, with a pin on a known line, and its own line through a known
   !! pin.
   pure subroutine take_cross_slide(linkage, done, has_found)
-    type(linkage_t), intent(inout) :: linkage
-    type(progress_t), intent(inout) :: done
-    logical, intent(out) :: has_found
+    type(linkage_t), intent(inout) :: linkage !! to whose groups the first such is added
+    type(progress_t), intent(inout) :: done   !! what is placed
+    logical, intent(out) :: has_found         !! whether there is any
 
     type(group_t) :: group
     integer :: t, s, k, body

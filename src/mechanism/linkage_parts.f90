@@ -444,8 +444,9 @@ contains
       associate (card => model%branches(i))
         sides(i)%pin = find_name(pins, card%pin%text)
         if (any(card%which == [branch_right, branch_backward])) sides(i)%side = -1.0_wp
-        if (any(card%which == [branch_left, branch_right])) sides(i)%base = [find_name(pins, &
-          card%from%text), find_name(pins, card%to%text)]
+        sides(i)%on_line = .not. any(card%which == [branch_left, branch_right])
+        if (.not. sides(i)%on_line) sides(i)%base = [find_name(pins, card%from%text), &
+          find_name(pins, card%to%text)]
       end associate
     end do
   end subroutine take_sides

@@ -4,7 +4,7 @@ module limits_study
   use crank_limits, only: angle_of_body, crank_range_t, extremes_t, find_extremes, find_ranges, &
     place_of_slider, pressure_of_slider, quantity_t, transmission_of_dyad
   use kinds, only: wp
-  use linkages, only: groups_dyad, groups_on_line, linkage_t
+  use linkages, only: groups_driven_dyad, groups_dyad, groups_on_line, linkage_t
   implicit none (type, external)
   private
 
@@ -58,7 +58,7 @@ contains
       room(filled) = quantity_t(place_of_slider, i)
     end do
     do i = 1, size(linkage%groups)
-      if (linkage%groups(i)%kind == groups_dyad) then
+      if (any(linkage%groups(i)%kind == [groups_dyad, groups_driven_dyad])) then
         filled = filled + 1
         room(filled) = quantity_t(transmission_of_dyad, i)
       else if (linkage%groups(i)%kind == groups_on_line) then

@@ -83,8 +83,18 @@ module sample_linkages
     "LINK boom O A B lengths=1.2,1.5 turns=20"//nl//"LINK ram Q A"//nl//"DRIVE ram length"//nl// &
     "PIN A 0.9 0.8"//nl
 
-  character(len=*), parameter :: sample_names(10) = [character(len=14) :: "engine", "quick_return", &
-    "scotch_yoke", "two_lines", "jansen", "triad", "geared_triad", "five_bar", "parallelogram", "boom"]
+  !> A ram on a guide: RRP with a driven length.
+  character(len=*), parameter, public :: jack = head//"GROUND Q 0.2 -0.1"//nl//"GUIDE bed 0 0.3 angle=-10"//nl// &
+    "LINK ram Q A"//nl//"SLIDER A bed"//nl//"DRIVE ram length"//nl//"BRANCH A forward"//nl
+
+  !> A ram between two links of a four-bar, of which no other is driven: with coupler and follower it forms a triangle.
+  character(len=*), parameter, public :: levers = head//"GROUND O 0 0"//nl//"GROUND Q 2 0"//nl//"PIN A 1.1875 1.6093"//nl// &
+    "PIN B 2.49275 0.87017"//nl//"PIN T 2.1971 0.34807"//nl//"LINK left O A length=2"//nl//"LINK coupler A B length=1.5"//nl// &
+    "LINK right B T Q lengths=0.6,0.4 turns=0"//nl//"LINK ram A T"//nl//"DRIVE ram length"//nl
+
+  character(len=*), parameter :: sample_names(12) = [character(len=14) :: "engine", "quick_return", &
+    "scotch_yoke", "two_lines", "jansen", "triad", "geared_triad", "five_bar", "parallelogram", "boom", &
+    "jack", "levers"]
 
 contains
 
@@ -117,6 +127,10 @@ contains
       text = parallelogram
     case ("boom")
       text = boom
+    case ("jack")
+      text = jack
+    case ("levers")
+      text = levers
     end select
   end function deck_named
 
@@ -130,6 +144,8 @@ contains
     if (name == "two_lines") crank = 20.0_wp + 5.0_wp*real(k, wp)
     if (name == "parallelogram") crank = 10.0_wp + 6.5_wp*real(k, wp)
     if (name == "boom") crank = 0.1_wp + 0.09_wp*real(k, wp)
+    if (name == "jack") crank = 0.5_wp + 0.09_wp*real(k, wp)
+    if (name == "levers") crank = 0.95_wp + 0.045_wp*real(k, wp)
     if (name == "short_triad") crank = -29.0_wp + 2.3_wp*real(k, wp)
   end function sample_crank
 

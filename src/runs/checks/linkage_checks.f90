@@ -1,4 +1,4 @@
-!> Checks of linkages that are no four-bars: whether they have a plan, assemble near the drawing,
+!> Checks of linkages that are no four-bars and have a plan: whether they assemble near the drawing,
 !! fit, and reach the positions of the deck.
 module linkage_checks
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
@@ -8,18 +8,16 @@ module linkage_checks
   use linkages, only: linkage_t, reference_point
   use mechanisms, only: mechanism_t, pins_of_body
   use models, only: drives_length, model_t, report_number
-  use plan_problems, only: problem_braced, problem_coupler_driven, problem_drive_idle, &
-    problem_no_side, problem_not_drawn, problem_other_bases, problem_too_free
   use pose_types, only: pose_t
   use poses, only: place_groups, place_links
   use redundancies, only: body_of_redundancy, largest_misfit
-  use text, only: plural, same_word, to_string
+  use text, only: plural, to_string
   use tokens, only: token_t
   use units, only: coherent_unit, dimension_length, from_si, unit_t
   implicit none (type, external)
   private
 
-  public :: report_problem, check_linkage
+  public :: check_linkage
 
   !> Positions at which the fit of redundant links and the reach are tried, at most.
   integer, parameter :: most_samples = 2000
@@ -31,136 +29,6 @@ module linkage_checks
   real(wp), parameter :: fit = 1.0e-9_wp
 
 contains
-
-  !> Why a linkage has no plan, at the part of the deck that it is about.
-  pure subroutine report_problem(model, assembly, diagnostics)
-    type(model_t), intent(in) :: model                !! without errors so far
-    type(assembly_t), intent(in) :: assembly          !! with a problem
-    type(diagnostics_t), intent(inout) :: diagnostics !! to which the error is added
-
-    type(token_t) :: place
-    character(len=:), allocatable :: pins
-
-    associate (problem => assembly%problem)
-      place = model%links(1)%name
-      if (size(problem%bodies) > 0) place = model%links(assembly%link(problem%bodies(1)))%name
-      pins = names_of_pins(assembly, problem%pins)
-      select case (problem%kind)
-      case (problem_too_free)
-        if (size(problem%pins) > 0) place = token_of_pin(model, assembly, problem%pins(1))
-        call add_error(diagnostics, place, "the linkage has mobility "// &
-          to_string(problem%mobility)//" and "//plural(size(model%drives), "DRIVE")//": "// &
-          what_is_free(assembly)//" (add a DRIVE, or parts that hold it)")
-      case (problem_braced)
-        if (size(problem%bodies) == 1) then
-          call add_error(diagnostics, place, "link '"//place%text//"' joins the ground pivots "// &
-            pins//" and cannot move")
-        else
-          call add_error(diagnostics, place, &
-            "mobility 0: '"//place%text//"' joins two pins of '"// &
-            model%links(assembly%link(problem%bodies(2)))%name%text//"'", &
-            model%links(assembly%link(problem%bodies(2)))%name, "it is here")
-        end if
-      case (problem_coupler_driven)
-        call add_error(diagnostics, model%drives(problem%number)%subject, "'"// &
-          model%drives(problem%number)%subject%text//"' turns about no ground pivot; drive it "// &
-          "against a link: DRIVE "//model%drives(problem%number)%subject%text//" against link")
-      case (problem_drive_idle)
-        call add_error(diagnostics, model%drives(problem%number)%subject, "this DRIVE has "// &
-          "nothing to move: the linkage has "//plural(size(model%drives), "DRIVE card")// &
-          ", and the others leave it no freedom")
-      case (problem_no_side, problem_other_bases)
-        call report_side(model, assembly, diagnostics)
-      case (problem_not_drawn)
-        place = token_of_pin(model, assembly, problem%pins(1))
-        call add_error(diagnostics, place, "several links have to be placed together here, and "// &
-          "only a drawing tells how: PIN cards for "//pins//" are missing")
-      end select
-    end associate
-  end subroutine report_problem
-
-  !> A dyad without a side, or with one between other pins.
-  pure subroutine report_side(model, assembly, diagnostics)
-    type(model_t), intent(in) :: model
-    type(assembly_t), intent(in) :: assembly
-    type(diagnostics_t), intent(inout) :: diagnostics
-
-    character(len=:), allocatable :: pin, from, to, card
-    type(token_t) :: place
-
-    associate (problem => assembly%problem)
-      pin = assembly%pins(problem%pins(1))%text
-      from = assembly%pins(problem%pins(2))%text
-      to = assembly%pins(problem%pins(3))%text
-      card = "BRANCH "//pin//" left|right "//from//" "//to
-      if (problem%on_line) card = "BRANCH "//pin//" forward|backward"
-      if (problem%kind == problem_no_side) then
-        place = token_of_pin(model, assembly, problem%pins(1))
-        if (problem%on_line) then
-          call add_error(diagnostics, place, "pin '"//pin//"' has two places on its guide: "// &
-            "expected "//card//", or PIN cards for '"//pin//"' and '"//from//"'")
-        else
-          call add_error(diagnostics, place, "pin '"//pin//"' has two "// &
-            "places, left or right of '"// &
-            from//"' -> '"//to//"': expected "//card//", or PIN cards for the moving pins")
-        end if
-      else
-        call add_error(diagnostics, model%branches(problem%number)%pin, "pin '"//pin// &
-          "' does not hang on these pins; expected "//card)
-      end if
-    end associate
-  end subroutine report_side
-
-  !> `nothing holds pins 'E', 'F'`
-  pure function what_is_free(assembly) result(words)
-    type(assembly_t), intent(in) :: assembly
-    character(len=:), allocatable :: words
-
-    associate (problem => assembly%problem)
-      if (size(problem%pins) > 0) then
-        words = "nothing holds "//names_of_pins(assembly, problem%pins)
-        return
-      end if
-      words = "nothing turns "//plural(size(problem%bodies), "link")
-    end associate
-  end function what_is_free
-
-  !> `pins 'E', 'F'`, or `pin 'E'`
-  pure function names_of_pins(assembly, pins) result(words)
-    type(assembly_t), intent(in) :: assembly
-    integer, intent(in) :: pins(:)
-    character(len=:), allocatable :: words
-
-    integer :: i
-
-    words = trim(merge("pin ", "pins", size(pins) == 1))
-    do i = 1, size(pins)
-      if (i > 1) words = words//","
-      words = words//" '"//assembly%pins(pins(i))%text//"'"
-    end do
-  end function names_of_pins
-
-  !> Where a pin first stands in the deck, on a LINK card or a SLIDER card.
-  pure function token_of_pin(model, assembly, pin) result(place)
-    type(model_t), intent(in) :: model
-    type(assembly_t), intent(in) :: assembly
-    integer, intent(in) :: pin
-    type(token_t) :: place
-
-    integer :: i, k
-
-    do i = 1, size(model%links)
-      do k = 1, size(model%links(i)%pins)
-        place = model%links(i)%pins(k)
-        if (same_word(place%text, assembly%pins(pin)%text)) return
-      end do
-    end do
-    do i = 1, size(model%sliders)
-      place = model%sliders(i)%pin
-      if (same_word(place%text, assembly%pins(pin)%text)) return
-    end do
-    place = model%links(1)%name
-  end function token_of_pin
 
   !> Whether a planned linkage assembles near its drawing, fits, and reaches the positions.
   pure subroutine check_linkage(model, assembly, mechanism, diagnostics)
