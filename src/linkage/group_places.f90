@@ -1,5 +1,5 @@
-!> Places groups other than RRR dyads of given lengths: in closed form, from circles and lines, or by
-!! Newton's method.
+!> Places groups other than RRR dyads of given lengths: in closed form, from circles and lines, or
+!! by Newton's method.
 module group_places
   use dense_factor, only: dense_factor_t, solve
   use dyad_places, only: place_dyad

@@ -13,7 +13,7 @@ module poses
   implicit none (type, external)
   private
 
-  public :: pose_t, find_pose, place_links, place_groups, arm_to_middle, arm_to_place, body_angle, &
+  public :: pose_t, find_pose, place_links, place_parts, place_groups, arm_to_middle, arm_to_place, body_angle, &
     transmission_angle, dead_point_sine
 
   !> Where |sin(θ4 − θ3)| is below this, near a dead point, the motion is not computed: velocities
@@ -76,9 +76,26 @@ contains
     type(pose_t), intent(out) :: pose                !! incomplete after an error
     type(error_t), allocatable, intent(out) :: error !! why there is no pose
 
-    real(wp) :: origin(2), correction, allowed
+    real(wp) :: origin(2)
 
     origin = reference_point(linkage)
+    call place_parts(linkage, crank, pose, error)
+    if (allocated(error)) return
+    call refuse_misfit(linkage, pose, origin, crank, error)
+    pose%pin = pose%pin + spread(origin, 2, size(pose%pin, 2))
+  end subroutine place_links
+
+  !> Places every pin relative to `reference_point`, whether redundant links fit there or not.
+  !!
+  !! Errors: those of `place_links` but for redundant links.
+  pure subroutine place_parts(linkage, crank, pose, error)
+    type(linkage_t), intent(in) :: linkage           !! bodies, groups and what joins them
+    real(wp), intent(in) :: crank                    !! coordinate of the first drive [deg] or [m]
+    type(pose_t), intent(out) :: pose                !! incomplete after an error
+    type(error_t), allocatable, intent(out) :: error !! why there is no pose
+
+    real(wp) :: correction, allowed
+
     if (.not. allocated(linkage%path%crank)) then
       call place_groups(linkage, crank, pose, correction, error)
     else
@@ -89,10 +106,7 @@ contains
       if (correction > allowed) call set_error(error, error_of_numerics, &
         "the position was not found by iterations: they left the path")
     end if
-    if (allocated(error)) return
-    call refuse_misfit(linkage, pose, origin, crank, error)
-    pose%pin = pose%pin + spread(origin, 2, size(pose%pin, 2))
-  end subroutine place_links
+  end subroutine place_parts
 
   !> Places the crank, and group after group. Positions are relative to `reference_point`, so that a
   !! far-off origin of the drawing costs no digits.

@@ -9,7 +9,7 @@ module linkage_checks
   use mechanisms, only: mechanism_t, pins_of_body
   use models, only: drives_length, model_t, report_number
   use pose_types, only: pose_t
-  use poses, only: place_groups, place_links
+  use poses, only: place_links, place_parts
   use redundancies, only: body_of_redundancy, largest_misfit
   use text, only: plural, to_string
   use tokens, only: token_t
@@ -28,6 +28,16 @@ module linkage_checks
   !> Rounding in the misfit of redundant links, as a share of the linkage.
   real(wp), parameter :: fit = 1.0e-9_wp
 
+  !> By how much redundant links do not fit.
+  type :: misfit_t
+    integer :: number = 0             !! of the redundancy with the first misfit; 0: all fit
+    real(wp) :: first = 0.0_wp        !! the misfit there [m]
+    real(wp) :: at_first = 0.0_wp     !! coordinate of the first drive [deg] or [m]
+    real(wp) :: largest = 0.0_wp      !! of all positions [m]
+    real(wp) :: at_largest = 0.0_wp   !! its coordinate
+    real(wp) :: span = 0.0_wp         !! of the linkage [m]
+  end type misfit_t
+
 contains
 
   !> Whether a planned linkage assembles near its drawing, fits, and reaches the positions.
@@ -44,9 +54,7 @@ contains
       return
     end if
     if (size(mechanism%linkage%redundancies) > 0) then
-      ! Positions on a path have a start of their own there, and tell their misfit one by one.
-      if (.not. allocated(mechanism%linkage%path%crank)) call check_fit(model, mechanism, &
-        diagnostics)
+      call check_fit(model, mechanism, diagnostics)
       if (has_errors(diagnostics)) return
       report = report_number(model, "reactions")
       if (report > 0) call add_error(diagnostics, model%reports(report)%keyword, &
@@ -102,54 +110,68 @@ contains
     type(mechanism_t), intent(in) :: mechanism
     type(diagnostics_t), intent(inout) :: diagnostics
 
-    type(error_t), allocatable :: error
-    type(pose_t) :: pose
+    type(misfit_t) :: found
     type(token_t) :: place
-    real(wp) :: misfit, correction, largest, first, span, at_largest, at_first
     character(len=:), allocatable :: name
-    integer :: i, number, worst, step, body
+    integer :: body
 
-    largest = 0.0_wp
-    first = 0.0_wp
-    worst = 0
-    span = 0.0_wp
-    step = 1 + size(model%crank%value)/most_samples
-    do i = 1, size(model%crank%value), step
-      call clear(pose)
-      if (allocated(error)) deallocate (error)
-      call place_groups(mechanism%linkage, model%crank%value(i), pose, correction, error)
-      if (allocated(error)) cycle
-      span = max(span, maxval(abs(pose%pin)), maxval(mechanism%linkage%bodies%length))
-      call largest_misfit(mechanism%linkage, pose, reference_point(mechanism%linkage), &
-        model%crank%value(i), misfit, number)
-      if (worst == 0 .and. abs(misfit) > fit*span) then
-        first = misfit
-        at_first = model%crank%value(i)
-        worst = number
-      end if
-      if (abs(misfit) <= abs(largest)) cycle
-      largest = misfit
-      at_largest = model%crank%value(i)
-    end do
-    if (worst == 0) return
-    body = body_of_redundancy(mechanism%linkage, worst)
+    found = misfit_over(mechanism%linkage, model%crank%value)
+    if (found%number == 0) return
+    body = body_of_redundancy(mechanism%linkage, found%number)
     place = model%links(1)%name
     name = "a slider"
     if (body > 0) then
       place = model%links(mechanism%links(body))%name
       name = "'"//place%text//"'"
     end if
-    if (abs(largest) > most_misfit*span) then
+    if (abs(found%largest) > most_misfit*found%span) then
       call add_error(diagnostics, place, "links "//neighbours_of(mechanism, body)//name// &
         " form a structure and cannot move", kind=error_of_reach)
     else
-      call add_error(diagnostics, place, name//" does not fit: "//in_deck(model, abs(first))// &
-        " "//length_name(model)//" too "//trim(merge("short", "long ", first > 0.0_wp))// &
-        " at crank "//to_string(at_first, 10)//"; largest misfit "//in_deck(model, &
-        abs(largest))//" "//length_name(model)//" at "//to_string(at_largest, 10), &
-        kind=error_of_reach)
+      call add_error(diagnostics, place, name//" does not fit: "//in_deck(model, &
+        abs(found%first))//" "//length_name(model)//" too "//trim(merge("short", "long ", &
+        found%first > 0.0_wp))//" at crank "//to_string(shown_crank(model, found%at_first), 10)// &
+        "; largest misfit "//in_deck(model, abs(found%largest))//" "//length_name(model)//" at "// &
+        to_string(shown_crank(model, found%at_largest), 10), kind=error_of_reach)
     end if
   end subroutine check_fit
+
+  !> The first misfit of a redundant link over the positions of a deck, and the largest.
+  pure function misfit_over(linkage, cranks) result(found)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), intent(in) :: cranks(:) !! coordinates of the first drive [deg] or [m]
+    type(misfit_t) :: found
+
+    type(error_t), allocatable :: error
+    type(pose_t) :: pose
+    real(wp) :: misfit
+    integer :: i, number
+
+    do i = 1, size(cranks), 1 + size(cranks)/most_samples
+      call place_parts(linkage, cranks(i), pose, error)
+      if (allocated(error)) cycle
+      found%span = max(found%span, maxval(abs(pose%pin)), maxval(linkage%bodies%length))
+      call largest_misfit(linkage, pose, reference_point(linkage), cranks(i), misfit, number)
+      if (found%number == 0 .and. abs(misfit) > fit*found%span) then
+        found%first = misfit
+        found%at_first = cranks(i)
+        found%number = number
+      end if
+      if (abs(misfit) <= abs(found%largest)) cycle
+      found%largest = misfit
+      found%at_largest = cranks(i)
+    end do
+  end function misfit_over
+
+  !> A position in the units of the deck: degrees, or its length.
+  pure function shown_crank(model, crank) result(shown)
+    type(model_t), intent(in) :: model
+    real(wp), intent(in) :: crank !! [deg] or [m]
+    real(wp) :: shown
+
+    shown = crank
+    if (drives_length(model)) shown = from_si(crank, coherent_unit(model%units, dimension_length))
+  end function shown_crank
 
   !> `'a', 'b', `: the links that share a moving pin with one.
   pure function neighbours_of(mechanism, body) result(words)
@@ -173,10 +195,6 @@ contains
       end do
     end do
   end function neighbours_of
-
-  pure subroutine clear(pose)
-    type(pose_t), intent(out) :: pose
-  end subroutine clear
 
   pure function length_name(model) result(name)
     type(model_t), intent(in) :: model
@@ -209,8 +227,7 @@ contains
       if (first == 0) first = i
     end do
     if (out_of_reach == 0) return
-    shown = model%crank%value(first)
-    if (drives_length(model)) shown = from_si(shown, coherent_unit(model%units, dimension_length))
+    shown = shown_crank(model, model%crank%value(first))
     if (out_of_reach == size(model%crank%value)) then
       call add_error(diagnostics, model%crank%words(model%crank%word(first)), &
         "the linkage closes at none of these positions", kind=error_of_reach)
