@@ -13,8 +13,8 @@ module poses
   implicit none (type, external)
   private
 
-  public :: pose_t, find_pose, place_links, place_parts, place_groups, arm_to_middle, arm_to_place, body_angle, &
-    transmission_angle, dead_point_sine
+  public :: pose_t, find_pose, place_links, place_parts, place_groups, arm_to_middle, &
+    arm_to_place, body_angle, transmission_angle, dead_point_sine
 
   !> Where |sin(θ4 − θ3)| is below this, near a dead point, the motion is not computed: velocities
   !! grow like 1/sin(θ4 − θ3).
