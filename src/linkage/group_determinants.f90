@@ -3,8 +3,8 @@ module group_determinants
   use dense_factor, only: dense_factor_t
   use group_equations, only: factorize_group
   use kinds, only: wp
-  use linkages, only: cross, groups_by_newton, groups_cross_slide, groups_dyad, groups_on_line, &
-    groups_through_pin, groups_two_lines, linkage_t, turned
+  use linkages, only: cross, groups_by_newton, groups_cross_slide, groups_driven_dyad, &
+    groups_dyad, groups_on_line, groups_through_pin, groups_two_lines, linkage_t, turned
   use pose_types, only: pose_t
   use poses, only: arm_to_middle
   implicit none (type, external)
@@ -43,7 +43,7 @@ contains
     determinant = 1.0_wp
     associate (group => linkage%groups(number))
       select case (group%kind)
-      case (groups_dyad)
+      case (groups_dyad, groups_driven_dyad)
         determinant = cross(arm_to_middle(linkage, group, pose, 1), arm_to_middle(linkage, group, &
           pose, 2))
       case (groups_on_line)

@@ -1,14 +1,15 @@
-!> Places groups other than RRR dyads: in closed form, from circles and lines, or by Newton's
-!! method.
+!> Places groups other than RRR dyads of given lengths: in closed form, from circles and lines, or
+!! by Newton's method.
 module group_places
   use dense_factor, only: dense_factor_t, solve
+  use dyad_places, only: place_dyad
   use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error
   use group_equations, only: drive_direction, drive_value, factorize_group, &
     line_offset, misfit_of, world_line
   use kinds, only: wp
-  use linkages, only: cross, demands_drive, group_t, groups_carried, groups_cross_slide, &
-    groups_on_line, groups_placed, groups_spanned, groups_through_pin, groups_turned, &
-    groups_two_lines, linkage_t, normal_to, turned
+  use linkages, only: cross, demands_drive, equation_t, group_t, groups_carried, &
+    groups_cross_slide, groups_driven_dyad, groups_on_line, groups_placed, groups_spanned, &
+    groups_through_pin, groups_turned, groups_two_lines, linkage_t, normal_to, turned
   use pose_types, only: arm_to_pin, place_of_pin, pose_t
   implicit none (type, external)
   private
@@ -23,8 +24,8 @@ module group_places
 
 contains
 
-  !> Places the pins of a group and turns its bodies. The group is none of RRR, and none that only
-  !! iterations place.
+  !> Places the pins of a group and turns its bodies. The group is no RRR dyad of given lengths, and
+  !! none that only iterations place.
   !!
   !! Errors: the position is out of reach; a dead point that leaves the group undetermined.
   pure subroutine place_group(linkage, group, origin, crank, pose, sine, error)
@@ -46,8 +47,10 @@ contains
         pose%pin(:, group%pins(i)) = pose%pin(:, group%base(1)) + arm_to_pin(linkage, pose, &
           group%body(1), group%pins(i))
       end do
+    case (groups_driven_dyad)
+      call place_driven_dyad(linkage, group, crank, pose, sine, error)
     case (groups_on_line)
-      call place_on_line(linkage, group, origin, pose, sine, error)
+      call place_on_line(linkage, group, origin, crank, pose, sine, error)
     case (groups_through_pin)
       call place_through_pin(linkage, group, pose, sine, error)
     case (groups_two_lines)
@@ -120,14 +123,53 @@ contains
     end associate
   end function direction_of_turn
 
+  !> RRR with driven lengths.
+  pure subroutine place_driven_dyad(linkage, group, crank, pose, sine, error)
+    type(linkage_t), intent(in) :: linkage
+    type(group_t), intent(in) :: group
+    real(wp), intent(in) :: crank
+    type(pose_t), intent(inout) :: pose
+    real(wp), intent(out) :: sine
+    type(error_t), allocatable, intent(inout) :: error
+
+    real(wp) :: r(2)
+    integer :: k
+
+    sine = 0.0_wp
+    do k = 1, 2
+      call find_length(linkage, group%equations(2*k - 1), group%body(k), crank, r(k), error)
+    end do
+    if (.not. allocated(error)) call place_dyad(linkage, group, r, pose, sine, error)
+  end subroutine place_driven_dyad
+
+  !> The distance between two pins of a body, which may be driven.
+  pure subroutine find_length(linkage, equation, body, crank, length, error)
+    type(linkage_t), intent(in) :: linkage
+    type(equation_t), intent(in) :: equation !! that gives it
+    integer, intent(in) :: body              !! number
+    real(wp), intent(in) :: crank
+    real(wp), intent(out) :: length
+    type(error_t), allocatable, intent(inout) :: error
+
+    if (equation%kind /= demands_drive) then
+      length = norm2(equation%place)
+      return
+    end if
+    length = drive_value(linkage%drives(equation%number), crank)
+    if (length > 0.0_wp) return
+    call set_error(error, error_of_reach, "the position is out of reach: a ram has a length "// &
+      "above 0", body=body)
+  end subroutine find_length
+
   !> RRP: the circle of a body about its base meets the line of a slider.
   !!
   !! With h the distance of the base from the line, the pin lies `√((r − h)(r + h))` from the foot
   !! of the perpendicular.
-  pure subroutine place_on_line(linkage, group, origin, pose, sine, error)
+  pure subroutine place_on_line(linkage, group, origin, crank, pose, sine, error)
     type(linkage_t), intent(in) :: linkage
     type(group_t), intent(in) :: group
     real(wp), intent(in) :: origin(2)
+    real(wp), intent(in) :: crank
     type(pose_t), intent(inout) :: pose
     real(wp), intent(out) :: sine
     type(error_t), allocatable, intent(inout) :: error
@@ -136,11 +178,12 @@ contains
 
     call world_line(linkage, pose, group%slider(1), origin, axis, point)
     place = place_of_pin(linkage%bodies(group%body(1)), group%middle)
-    r = norm2(place)
+    sine = 0.0_wp
+    call find_length(linkage, group%equations(1), group%body(1), crank, r, error)
+    if (allocated(error)) return
     way = pose%pin(:, group%base(1)) - point
     h = cross(axis, way)
     squared = (r - h)*(r + h)
-    sine = 0.0_wp
     if (squared < -limit_slack*max(r, abs(h))**2) then
       call set_error(error, error_of_reach, "the position is out of reach", body=group%body(1))
       return

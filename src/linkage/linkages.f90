@@ -16,7 +16,8 @@ module linkages
   public :: drives_angle, drives_slider, drives_length
   public :: demands_length, demands_angle, demands_line, demands_turn, demands_drive
   public :: groups_dyad, groups_carried, groups_on_line, groups_through_pin, groups_two_lines, &
-    groups_cross_slide, groups_turned, groups_spanned, groups_placed, groups_by_newton
+    groups_cross_slide, groups_turned, groups_spanned, groups_placed, groups_by_newton, &
+    groups_driven_dyad
 
   !> What a drive gives: the angle of a body, the place of a slider along its line, the length of a
   !! body.
@@ -29,10 +30,11 @@ module linkages
   !> How a group is placed: RRR; pins of a body that is placed; a body with its end on a line (RRP);
   !! a body whose line passes through a pin (RPR); a pin on two lines (PRP); a body that does not
   !! turn, with a pin on a line and its own line through a pin (PPR); a body whose angle is given; a
-  !! body between two pins; a pin whose place on a line is given; by iterations.
+  !! body between two pins; a pin whose place on a line is given; by iterations; RRR with driven
+  !! lengths.
   integer, parameter :: groups_dyad = 1, groups_carried = 2, groups_on_line = 3, &
     groups_through_pin = 4, groups_two_lines = 5, groups_cross_slide = 6, groups_turned = 7, &
-    groups_spanned = 8, groups_placed = 9, groups_by_newton = 10
+    groups_spanned = 8, groups_placed = 9, groups_by_newton = 10, groups_driven_dyad = 11
 
   !> A mass fixed to a body. In the axes of the body x is along it and y to the left, looking from
   !! its first pin to its last.

@@ -1,10 +1,11 @@
 !> Positions of the links at a crank angle.
 module poses
+  use dyad_places, only: place_dyad
   use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error
   use group_equations, only: drive_direction
   use group_places, only: improve_group, place_group
   use kinds, only: wp
-  use linkages, only: cross, group_t, groups_by_newton, groups_dyad, is_dyad_linkage, linkage_t, &
+  use linkages, only: group_t, groups_by_newton, groups_dyad, is_dyad_linkage, linkage_t, &
     normal_to, path_t, reference_point, turned
   use pose_types, only: pose_t
   use redundancies, only: refuse_misfit
@@ -12,16 +13,12 @@ module poses
   implicit none (type, external)
   private
 
-  public :: pose_t, find_pose, place_links, place_groups, arm_to_middle, arm_to_place, body_angle, &
-    transmission_angle, dead_point_sine
+  public :: pose_t, find_pose, place_links, place_parts, place_groups, arm_to_middle, &
+    arm_to_place, body_angle, transmission_angle, dead_point_sine
 
   !> Where |sin(θ4 − θ3)| is below this, near a dead point, the motion is not computed: velocities
   !! grow like 1/sin(θ4 − θ3).
   real(wp), parameter :: dead_point_sine = 1.0e-6_wp
-
-  !> Relative slack for the area of the dyad's triangle: a limit position missed by rounding is a
-  !! dead point, not out of reach.
-  real(wp), parameter :: limit_slack = 1.0e-11_wp
 
 contains
 
@@ -79,9 +76,26 @@ contains
     type(pose_t), intent(out) :: pose                !! incomplete after an error
     type(error_t), allocatable, intent(out) :: error !! why there is no pose
 
-    real(wp) :: origin(2), correction, allowed
+    real(wp) :: origin(2)
 
     origin = reference_point(linkage)
+    call place_parts(linkage, crank, pose, error)
+    if (allocated(error)) return
+    call refuse_misfit(linkage, pose, origin, crank, error)
+    pose%pin = pose%pin + spread(origin, 2, size(pose%pin, 2))
+  end subroutine place_links
+
+  !> Places every pin relative to `reference_point`, whether redundant links fit there or not.
+  !!
+  !! Errors: those of `place_links` but for redundant links.
+  pure subroutine place_parts(linkage, crank, pose, error)
+    type(linkage_t), intent(in) :: linkage           !! bodies, groups and what joins them
+    real(wp), intent(in) :: crank                    !! coordinate of the first drive [deg] or [m]
+    type(pose_t), intent(out) :: pose                !! incomplete after an error
+    type(error_t), allocatable, intent(out) :: error !! why there is no pose
+
+    real(wp) :: correction, allowed
+
     if (.not. allocated(linkage%path%crank)) then
       call place_groups(linkage, crank, pose, correction, error)
     else
@@ -92,10 +106,7 @@ contains
       if (correction > allowed) call set_error(error, error_of_numerics, &
         "the position was not found by iterations: they left the path")
     end if
-    if (allocated(error)) return
-    call refuse_misfit(linkage, pose, origin, crank, error)
-    pose%pin = pose%pin + spread(origin, 2, size(pose%pin, 2))
-  end subroutine place_links
+  end subroutine place_parts
 
   !> Places the crank, and group after group. Positions are relative to `reference_point`, so that a
   !! far-off origin of the drawing costs no digits.
@@ -131,7 +142,8 @@ contains
     do i = 1, size(linkage%groups)
       associate (group => linkage%groups(i))
         if (group%kind == groups_dyad) then
-          call place_dyad(linkage, group, pose, pose%sine(i), error)
+          call place_dyad(linkage, group, linkage%bodies(group%body)%length, pose, pose%sine(i), &
+            error)
         else if (group%kind == groups_by_newton) then
           call improve_group(linkage, group, origin, crank, pose, pose%sine(i), largest, &
             iterations, error)
@@ -210,51 +222,6 @@ contains
       end if
     end do
   end function station_before
-
-  !> Intersects the circles about the two bases of a dyad.
-  !!
-  !! The height of the triangle over the line of the bases comes from its area by Heron's formula,
-  !! whose factors vanish exactly where the dyad is stretched or folded.
-  pure subroutine place_dyad(linkage, dyad, pose, sine, error)
-    type(linkage_t), intent(in) :: linkage
-    type(group_t), intent(in) :: dyad
-    type(pose_t), intent(inout) :: pose
-    real(wp), intent(out) :: sine
-    type(error_t), allocatable, intent(inout) :: error
-
-    real(wp) :: base(2), unit(2), distance, r(2), along, four_areas_squared, height, arm(2, 2)
-    integer :: k
-
-    r = linkage%bodies(dyad%body)%length
-    base = pose%pin(:, dyad%base(2)) - pose%pin(:, dyad%base(1))
-    distance = norm2(base)
-    sine = 0.0_wp
-    four_areas_squared = (r(1) + r(2) + distance)*(r(1) + r(2) - distance)*(distance + r(1) - &
-      r(2))*(distance - r(1) + r(2))
-    if (four_areas_squared < -limit_slack*maxval([r, distance])**4) then
-      call set_error(error, error_of_reach, "the position is out of reach")
-      return
-    end if
-    ! With both bases at one place, a dead point, the direction of the dyad is undetermined.
-    if (distance <= 0.0_wp) then
-      call set_error(error, error_of_dead_point, &
-        "dead point: the pins that carry the dyad coincide")
-      return
-    end if
-    unit = base/distance
-    along = 0.5_wp*(distance + (r(1) - r(2))*(r(1) + r(2))/distance)
-    height = 0.5_wp*sqrt(max(four_areas_squared, 0.0_wp))/distance
-    pose%pin(:, dyad%middle) = pose%pin(:, dyad%base(1)) + along*unit + &
-      dyad%side*height*normal_to(unit)
-
-    do k = 1, 2
-      arm(:, k) = pose%pin(:, dyad%middle) - pose%pin(:, dyad%base(k))
-      arm(:, k) = arm(:, k)/norm2(arm(:, k))
-      pose%direction(:, dyad%body(k)) = merge(1.0_wp, -1.0_wp, &
-        linkage%bodies(dyad%body(k))%last_pin == dyad%middle)*arm(:, k)
-    end do
-    sine = cross(arm(:, 1), arm(:, 2))
-  end subroutine place_dyad
 
   !> Angle of a body from the global x axis, in (−π, π] [rad].
   pure function body_angle(linkage, pose, body) result(angle)

@@ -1,6 +1,6 @@
 !> Model → linkage: pins, bodies, sliders, welds and drives by number, and the plan of its groups.
 module linkage_parts
-  use assembly_plan, only: plan_linkage, plan_problem_t, side_t
+  use assembly_plan, only: plan_linkage
   use constants, only: degree
   use drive_cards, only: branch_backward, branch_left, branch_right, drive_ram, &
     drive_slider, moves_along
@@ -13,6 +13,8 @@ module linkage_parts
     equation_t, linkage_t
   use models, only: is_four_bar, model_t
   use name_index, only: find_name, name_index_t, new_name_index
+  use plan_problems, only: plan_problem_t
+  use plan_sides, only: side_t
   use pose_types, only: pose_t
   use text, only: same_word, string_t
   use tokens, only: token_t
@@ -442,8 +444,9 @@ contains
       associate (card => model%branches(i))
         sides(i)%pin = find_name(pins, card%pin%text)
         if (any(card%which == [branch_right, branch_backward])) sides(i)%side = -1.0_wp
-        if (any(card%which == [branch_left, branch_right])) sides(i)%base = [find_name(pins, &
-          card%from%text), find_name(pins, card%to%text)]
+        sides(i)%on_line = .not. any(card%which == [branch_left, branch_right])
+        if (.not. sides(i)%on_line) sides(i)%base = [find_name(pins, card%from%text), &
+          find_name(pins, card%to%text)]
       end associate
     end do
   end subroutine take_sides

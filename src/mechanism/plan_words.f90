@@ -1,8 +1,9 @@
 !> The plan of a linkage in words: how it is placed, group by group.
 module plan_words
   use kinds, only: wp
-  use linkages, only: group_t, groups_carried, groups_cross_slide, groups_dyad, groups_on_line, &
-    groups_placed, groups_spanned, groups_through_pin, groups_turned, groups_two_lines
+  use linkages, only: group_t, groups_carried, groups_cross_slide, groups_driven_dyad, &
+    groups_dyad, groups_on_line, groups_placed, groups_spanned, groups_through_pin, &
+    groups_turned, groups_two_lines
   use mechanisms, only: mechanism_t
   use text, only: append_string, plural, string_t, to_string
   implicit none (type, external)
@@ -81,7 +82,7 @@ contains
     side = trim(merge("forward ", "backward", group%side > 0.0_wp))
     associate (names => mechanism%names, pins => mechanism%pin_names)
       select case (group%kind)
-      case (groups_dyad)
+      case (groups_dyad, groups_driven_dyad)
         words = pins(group%middle)%text//" by "//names(group%body(1))%text//" and "// &
           names(group%body(2))%text//", "//trim(merge("left ", "right", group%side > 0.0_wp))// &
           " of "//pins(group%base(1))%text//" -> "//pins(group%base(2))%text//" (RRR)"

@@ -7,8 +7,8 @@ module limits_study
   use dead_points, only: find_low_points, low_point_t
   use group_equations, only: drive_value, line_offset
   use kinds, only: wp
-  use linkages, only: drives_angle, groups_by_newton, groups_cross_slide, groups_dyad, &
-    groups_on_line, groups_through_pin, groups_two_lines, linkage_t
+  use linkages, only: drives_angle, groups_by_newton, groups_cross_slide, groups_driven_dyad, &
+    groups_dyad, groups_on_line, groups_through_pin, groups_two_lines, linkage_t
   implicit none (type, external)
   private
 
@@ -156,7 +156,7 @@ contains
     do i = 1, size(linkage%groups)
       associate (group => linkage%groups(i))
         select case (group%kind)
-        case (groups_dyad)
+        case (groups_dyad, groups_driven_dyad)
           filled = filled + 1
           room(filled) = quantity_t(transmission_of_dyad, i)
         case (groups_on_line)

@@ -9,7 +9,8 @@ module sample_linkages
   implicit none (type, external)
   private
 
-  public :: assemble, linkage_of, body_named, pin_named, sample_names, deck_named, sample_crank
+  public :: assemble, linkage_of, body_named, pin_named, sample_names, deck_named, sample_crank, &
+    with_light_links
 
   character(len=*), parameter :: nl = achar(10)
 
@@ -83,8 +84,18 @@ module sample_linkages
     "LINK boom O A B lengths=1.2,1.5 turns=20"//nl//"LINK ram Q A"//nl//"DRIVE ram length"//nl// &
     "PIN A 0.9 0.8"//nl
 
-  character(len=*), parameter :: sample_names(10) = [character(len=14) :: "engine", "quick_return", &
-    "scotch_yoke", "two_lines", "jansen", "triad", "geared_triad", "five_bar", "parallelogram", "boom"]
+  !> A ram on a guide: RRP with a driven length.
+  character(len=*), parameter, public :: jack = head//"GROUND Q 0.2 -0.1"//nl//"GUIDE bed 0 0.3 angle=-10"//nl// &
+    "LINK ram Q A"//nl//"SLIDER A bed"//nl//"DRIVE ram length"//nl//"BRANCH A forward"//nl
+
+  !> A ram between two links of a four-bar, of which no other is driven: with coupler and follower it forms a triangle.
+  character(len=*), parameter, public :: levers = head//"GROUND O 0 0"//nl//"GROUND Q 2 0"//nl//"PIN A 1.1875 1.6093"//nl// &
+    "PIN B 2.49275 0.87017"//nl//"PIN T 2.1971 0.34807"//nl//"LINK left O A length=2"//nl//"LINK coupler A B length=1.5"//nl// &
+    "LINK right B T Q lengths=0.6,0.4 turns=0"//nl//"LINK ram A T"//nl//"DRIVE ram length"//nl
+
+  character(len=*), parameter :: sample_names(12) = [character(len=14) :: "engine", "quick_return", &
+    "scotch_yoke", "two_lines", "jansen", "triad", "geared_triad", "five_bar", "parallelogram", "boom", &
+    "jack", "levers"]
 
 contains
 
@@ -117,8 +128,33 @@ contains
       text = parallelogram
     case ("boom")
       text = boom
+    case ("jack")
+      text = jack
+    case ("levers")
+      text = levers
     end select
   end function deck_named
+
+  !> A deck whose links have masses that matter nowhere, where they have none: for reports that need
+  !! them. Pins alone, lumps and loads then tell the forces.
+  pure function with_light_links(text) result(light)
+    character(len=*), intent(in) :: text
+    character(len=:), allocatable :: light
+
+    character(len=:), allocatable :: line
+    integer :: start, length
+
+    light = ""
+    start = 1
+    do while (start <= len(text))
+      length = index(text(start:)//nl, nl) - 1
+      line = text(start:start + length - 1)
+      if (index(line, "LINK ") == 1 .and. index(line, " mass=") == 0) line = line// &
+        " mass=1e-13 inertia=1e-15 center=0,0"
+      light = light//line//nl
+      start = start + length + 1
+    end do
+  end function with_light_links
 
   !> The k-th of 24 coordinates of the first drive that a linkage reaches, away from dead points.
   pure function sample_crank(name, k) result(crank)
@@ -130,6 +166,8 @@ contains
     if (name == "two_lines") crank = 20.0_wp + 5.0_wp*real(k, wp)
     if (name == "parallelogram") crank = 10.0_wp + 6.5_wp*real(k, wp)
     if (name == "boom") crank = 0.1_wp + 0.09_wp*real(k, wp)
+    if (name == "jack") crank = 0.5_wp + 0.09_wp*real(k, wp)
+    if (name == "levers") crank = 0.95_wp + 0.045_wp*real(k, wp)
     if (name == "short_triad") crank = -29.0_wp + 2.3_wp*real(k, wp)
   end function sample_crank
 

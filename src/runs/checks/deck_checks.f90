@@ -6,13 +6,14 @@ module deck_checks
   use errors, only: error_of_reach
   use four_bar_limits, only: can_reach, crank_reach, reach_t
   use kinds, only: wp
-  use linkage_checks, only: check_linkage, report_problem
+  use linkage_checks, only: check_linkage
   use linkage_parts, only: assemble_linkage, assembly_t
   use mechanisms, only: mechanism_of, mechanism_t
   use models, only: model_t, needs_frequencies, report_number, solver_band, steady_state_report, &
     solver_dense
   use motion_checks, only: check_motion
   use nodal_eigensolver, only: most_round_off
+  use plan_faults, only: report_problem
   use reach_texts, only: longest_link, open_linkage_text, reachable_intervals, reachable_text
   use rest_eigenvalues, only: lowest_rest_eigenvalues
   use round_off, only: round_off_error

@@ -1,8 +1,6 @@
-!> Checks of linkages that are no four-bars: whether they have a plan, assemble near the drawing,
+!> Checks of linkages that are no four-bars and have a plan: whether they assemble near the drawing,
 !! fit, and reach the positions of the deck.
 module linkage_checks
-  use assembly_plan, only: problem_braced, problem_coupler_driven, &
-    problem_drive_idle, problem_no_side, problem_not_drawn, problem_other_bases, problem_too_free
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use errors, only: error_of_reach, error_t
   use kinds, only: wp
@@ -11,15 +9,15 @@ module linkage_checks
   use mechanisms, only: mechanism_t, pins_of_body
   use models, only: drives_length, model_t, report_number
   use pose_types, only: pose_t
-  use poses, only: place_groups, place_links
+  use poses, only: place_links, place_parts
   use redundancies, only: body_of_redundancy, largest_misfit
-  use text, only: plural, same_word, to_string
+  use text, only: plural, to_string
   use tokens, only: token_t
   use units, only: coherent_unit, dimension_length, from_si, unit_t
   implicit none (type, external)
   private
 
-  public :: report_problem, check_linkage
+  public :: check_linkage
 
   !> Positions at which the fit of redundant links and the reach are tried, at most.
   integer, parameter :: most_samples = 2000
@@ -30,137 +28,17 @@ module linkage_checks
   !> Rounding in the misfit of redundant links, as a share of the linkage.
   real(wp), parameter :: fit = 1.0e-9_wp
 
+  !> By how much redundant links do not fit.
+  type :: misfit_t
+    integer :: number = 0             !! of the redundancy with the first misfit; 0: all fit
+    real(wp) :: first = 0.0_wp        !! the misfit there [m]
+    real(wp) :: at_first = 0.0_wp     !! coordinate of the first drive [deg] or [m]
+    real(wp) :: largest = 0.0_wp      !! of all positions [m]
+    real(wp) :: at_largest = 0.0_wp   !! its coordinate
+    real(wp) :: span = 0.0_wp         !! of the linkage [m]
+  end type misfit_t
+
 contains
-
-  !> Why a linkage has no plan, at the part of the deck that it is about.
-  pure subroutine report_problem(model, assembly, diagnostics)
-    type(model_t), intent(in) :: model                !! without errors so far
-    type(assembly_t), intent(in) :: assembly          !! with a problem
-    type(diagnostics_t), intent(inout) :: diagnostics !! to which the error is added
-
-    type(token_t) :: place
-    character(len=:), allocatable :: pins
-
-    associate (problem => assembly%problem)
-      place = model%links(1)%name
-      if (size(problem%bodies) > 0) place = model%links(assembly%link(problem%bodies(1)))%name
-      pins = names_of_pins(assembly, problem%pins)
-      select case (problem%kind)
-      case (problem_too_free)
-        if (size(problem%pins) > 0) place = token_of_pin(model, assembly, problem%pins(1))
-        call add_error(diagnostics, place, "the linkage has mobility "// &
-          to_string(problem%mobility)//" and "//plural(size(model%drives), "DRIVE")//": "// &
-          what_is_free(assembly)//" (add a DRIVE, or parts that hold it)")
-      case (problem_braced)
-        if (size(problem%bodies) == 1) then
-          call add_error(diagnostics, place, "link '"//place%text//"' joins the ground pivots "// &
-            pins//" and cannot move")
-        else
-          call add_error(diagnostics, place, &
-            "mobility 0: '"//place%text//"' joins two pins of '"// &
-            model%links(assembly%link(problem%bodies(2)))%name%text//"'", &
-            model%links(assembly%link(problem%bodies(2)))%name, "it is here")
-        end if
-      case (problem_coupler_driven)
-        call add_error(diagnostics, model%drives(problem%number)%subject, "'"// &
-          model%drives(problem%number)%subject%text//"' turns about no ground pivot; drive it "// &
-          "against a link: DRIVE "//model%drives(problem%number)%subject%text//" against link")
-      case (problem_drive_idle)
-        call add_error(diagnostics, model%drives(problem%number)%subject, "this DRIVE has "// &
-          "nothing to move: the linkage has "//plural(size(model%drives), "DRIVE card")// &
-          ", and the others leave it no freedom")
-      case (problem_no_side, problem_other_bases)
-        call report_side(model, assembly, diagnostics)
-      case (problem_not_drawn)
-        place = token_of_pin(model, assembly, problem%pins(1))
-        call add_error(diagnostics, place, "several links have to be placed together here, and "// &
-          "only a drawing tells how: PIN cards for "//pins//" are missing")
-      end select
-    end associate
-  end subroutine report_problem
-
-  !> A dyad without a side, or with one between other pins.
-  pure subroutine report_side(model, assembly, diagnostics)
-    type(model_t), intent(in) :: model
-    type(assembly_t), intent(in) :: assembly
-    type(diagnostics_t), intent(inout) :: diagnostics
-
-    character(len=:), allocatable :: pin, from, to, card
-    type(token_t) :: place
-
-    associate (problem => assembly%problem)
-      pin = assembly%pins(problem%pins(1))%text
-      from = assembly%pins(problem%pins(2))%text
-      to = assembly%pins(problem%pins(3))%text
-      card = "BRANCH "//pin//" left|right "//from//" "//to
-      if (problem%on_line) card = "BRANCH "//pin//" forward|backward"
-      if (problem%kind == problem_no_side) then
-        place = token_of_pin(model, assembly, problem%pins(1))
-        if (problem%on_line) then
-          call add_error(diagnostics, place, "pin '"//pin//"' has two places on its guide: "// &
-            "expected "//card//", or PIN cards for '"//pin//"' and '"//from//"'")
-        else
-          call add_error(diagnostics, place, "pin '"//pin//"' has two "// &
-            "places, left or right of '"// &
-            from//"' -> '"//to//"': expected "//card//", or PIN cards for the moving pins")
-        end if
-      else
-        call add_error(diagnostics, model%branches(problem%number)%pin, "pin '"//pin// &
-          "' does not hang on these pins; expected "//card)
-      end if
-    end associate
-  end subroutine report_side
-
-  !> `nothing holds pins 'E', 'F'`
-  pure function what_is_free(assembly) result(words)
-    type(assembly_t), intent(in) :: assembly
-    character(len=:), allocatable :: words
-
-    associate (problem => assembly%problem)
-      if (size(problem%pins) > 0) then
-        words = "nothing holds "//names_of_pins(assembly, problem%pins)
-        return
-      end if
-      words = "nothing turns "//plural(size(problem%bodies), "link")
-    end associate
-  end function what_is_free
-
-  !> `pins 'E', 'F'`, or `pin 'E'`
-  pure function names_of_pins(assembly, pins) result(words)
-    type(assembly_t), intent(in) :: assembly
-    integer, intent(in) :: pins(:)
-    character(len=:), allocatable :: words
-
-    integer :: i
-
-    words = trim(merge("pin ", "pins", size(pins) == 1))
-    do i = 1, size(pins)
-      if (i > 1) words = words//","
-      words = words//" '"//assembly%pins(pins(i))%text//"'"
-    end do
-  end function names_of_pins
-
-  !> Where a pin first stands in the deck, on a LINK card or a SLIDER card.
-  pure function token_of_pin(model, assembly, pin) result(place)
-    type(model_t), intent(in) :: model
-    type(assembly_t), intent(in) :: assembly
-    integer, intent(in) :: pin
-    type(token_t) :: place
-
-    integer :: i, k
-
-    do i = 1, size(model%links)
-      do k = 1, size(model%links(i)%pins)
-        place = model%links(i)%pins(k)
-        if (same_word(place%text, assembly%pins(pin)%text)) return
-      end do
-    end do
-    do i = 1, size(model%sliders)
-      place = model%sliders(i)%pin
-      if (same_word(place%text, assembly%pins(pin)%text)) return
-    end do
-    place = model%links(1)%name
-  end function token_of_pin
 
   !> Whether a planned linkage assembles near its drawing, fits, and reaches the positions.
   pure subroutine check_linkage(model, assembly, mechanism, diagnostics)
@@ -176,9 +54,7 @@ contains
       return
     end if
     if (size(mechanism%linkage%redundancies) > 0) then
-      ! Positions on a path have a start of their own there, and tell their misfit one by one.
-      if (.not. allocated(mechanism%linkage%path%crank)) call check_fit(model, mechanism, &
-        diagnostics)
+      call check_fit(model, mechanism, diagnostics)
       if (has_errors(diagnostics)) return
       report = report_number(model, "reactions")
       if (report > 0) call add_error(diagnostics, model%reports(report)%keyword, &
@@ -234,54 +110,68 @@ contains
     type(mechanism_t), intent(in) :: mechanism
     type(diagnostics_t), intent(inout) :: diagnostics
 
-    type(error_t), allocatable :: error
-    type(pose_t) :: pose
+    type(misfit_t) :: found
     type(token_t) :: place
-    real(wp) :: misfit, correction, largest, first, span, at_largest, at_first
     character(len=:), allocatable :: name
-    integer :: i, number, worst, step, body
+    integer :: body
 
-    largest = 0.0_wp
-    first = 0.0_wp
-    worst = 0
-    span = 0.0_wp
-    step = 1 + size(model%crank%value)/most_samples
-    do i = 1, size(model%crank%value), step
-      call clear(pose)
-      if (allocated(error)) deallocate (error)
-      call place_groups(mechanism%linkage, model%crank%value(i), pose, correction, error)
-      if (allocated(error)) cycle
-      span = max(span, maxval(abs(pose%pin)), maxval(mechanism%linkage%bodies%length))
-      call largest_misfit(mechanism%linkage, pose, reference_point(mechanism%linkage), &
-        model%crank%value(i), misfit, number)
-      if (worst == 0 .and. abs(misfit) > fit*span) then
-        first = misfit
-        at_first = model%crank%value(i)
-        worst = number
-      end if
-      if (abs(misfit) <= abs(largest)) cycle
-      largest = misfit
-      at_largest = model%crank%value(i)
-    end do
-    if (worst == 0) return
-    body = body_of_redundancy(mechanism%linkage, worst)
+    found = misfit_over(mechanism%linkage, model%crank%value)
+    if (found%number == 0) return
+    body = body_of_redundancy(mechanism%linkage, found%number)
     place = model%links(1)%name
     name = "a slider"
     if (body > 0) then
       place = model%links(mechanism%links(body))%name
       name = "'"//place%text//"'"
     end if
-    if (abs(largest) > most_misfit*span) then
+    if (abs(found%largest) > most_misfit*found%span) then
       call add_error(diagnostics, place, "links "//neighbours_of(mechanism, body)//name// &
         " form a structure and cannot move", kind=error_of_reach)
     else
-      call add_error(diagnostics, place, name//" does not fit: "//in_deck(model, abs(first))// &
-        " "//length_name(model)//" too "//trim(merge("short", "long ", first > 0.0_wp))// &
-        " at crank "//to_string(at_first, 10)//"; largest misfit "//in_deck(model, &
-        abs(largest))//" "//length_name(model)//" at "//to_string(at_largest, 10), &
-        kind=error_of_reach)
+      call add_error(diagnostics, place, name//" does not fit: "//in_deck(model, &
+        abs(found%first))//" "//length_name(model)//" too "//trim(merge("short", "long ", &
+        found%first > 0.0_wp))//" at crank "//to_string(shown_crank(model, found%at_first), 10)// &
+        "; largest misfit "//in_deck(model, abs(found%largest))//" "//length_name(model)//" at "// &
+        to_string(shown_crank(model, found%at_largest), 10), kind=error_of_reach)
     end if
   end subroutine check_fit
+
+  !> The first misfit of a redundant link over the positions of a deck, and the largest.
+  pure function misfit_over(linkage, cranks) result(found)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), intent(in) :: cranks(:) !! coordinates of the first drive [deg] or [m]
+    type(misfit_t) :: found
+
+    type(error_t), allocatable :: error
+    type(pose_t) :: pose
+    real(wp) :: misfit
+    integer :: i, number
+
+    do i = 1, size(cranks), 1 + size(cranks)/most_samples
+      call place_parts(linkage, cranks(i), pose, error)
+      if (allocated(error)) cycle
+      found%span = max(found%span, maxval(abs(pose%pin)), maxval(linkage%bodies%length))
+      call largest_misfit(linkage, pose, reference_point(linkage), cranks(i), misfit, number)
+      if (found%number == 0 .and. abs(misfit) > fit*found%span) then
+        found%first = misfit
+        found%at_first = cranks(i)
+        found%number = number
+      end if
+      if (abs(misfit) <= abs(found%largest)) cycle
+      found%largest = misfit
+      found%at_largest = cranks(i)
+    end do
+  end function misfit_over
+
+  !> A position in the units of the deck: degrees, or its length.
+  pure function shown_crank(model, crank) result(shown)
+    type(model_t), intent(in) :: model
+    real(wp), intent(in) :: crank !! [deg] or [m]
+    real(wp) :: shown
+
+    shown = crank
+    if (drives_length(model)) shown = from_si(crank, coherent_unit(model%units, dimension_length))
+  end function shown_crank
 
   !> `'a', 'b', `: the links that share a moving pin with one.
   pure function neighbours_of(mechanism, body) result(words)
@@ -305,10 +195,6 @@ contains
       end do
     end do
   end function neighbours_of
-
-  pure subroutine clear(pose)
-    type(pose_t), intent(out) :: pose
-  end subroutine clear
 
   pure function length_name(model) result(name)
     type(model_t), intent(in) :: model
@@ -341,8 +227,7 @@ contains
       if (first == 0) first = i
     end do
     if (out_of_reach == 0) return
-    shown = model%crank%value(first)
-    if (drives_length(model)) shown = from_si(shown, coherent_unit(model%units, dimension_length))
+    shown = shown_crank(model, model%crank%value(first))
     if (out_of_reach == size(model%crank%value)) then
       call add_error(diagnostics, model%crank%words(model%crank%word(first)), &
         "the linkage closes at none of these positions", kind=error_of_reach)

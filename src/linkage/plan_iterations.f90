@@ -1,0 +1,249 @@
+!> Groups for iterations, from what no dyad places: equations are matched with unknowns, and the
+!! strongly connected part that depends on nothing else is one. What cannot be matched tells which
+!! pins nothing holds.
+module plan_iterations
+  use body_axes, only: other_pin, rebase
+  use group_equations, only: unknowns_of
+  use linkages, only: demands_angle, demands_drive, demands_length, demands_line, demands_turn, &
+    drives_angle, drives_length, drives_slider, equation_t, group_t, groups_by_newton, linkage_t
+  use plan_equations, only: append_equation, drive_equation, drive_of_length, is_used, &
+    line_equation, pin_equation, turn_equation
+  use plan_problems, only: new_problem, plan_problem_t, problem_not_drawn, problem_too_free
+  use plan_progress, only: append_group, carry_rest, known_pin, progress_t
+  use pose_types, only: pins_of_body
+  use unknown_matching, only: matching_t, match_unknowns, source_component
+  implicit none (type, external)
+  private
+
+  public :: take_rest
+
+contains
+
+  !> A group for iterations, from what no dyad places. Without one, the pins that nothing holds are
+  !! the problem.
+  pure subroutine take_rest(linkage, done, problem, has_found)
+    type(linkage_t), intent(inout) :: linkage !! to whose groups it is added
+    type(progress_t), intent(inout) :: done   !! with pins or bodies that are not placed
+    type(plan_problem_t), allocatable, intent(inout) :: problem !! why there is none
+    logical, intent(out) :: has_found         !! whether anything can be placed
+
+    type(group_t) :: group
+    type(equation_t), allocatable :: equations(:)
+    type(matching_t) :: matching
+    logical, allocatable :: has(:, :)
+    integer, allocatable :: pins(:), bodies(:), part(:)
+    integer :: i, np
+
+    call rebase_to_known_pins(linkage, done)
+    pins = pack([(i, i=1, size(done%pin))], .not. done%pin)
+    bodies = pack([(i, i=1, size(done%body))], .not. done%body)
+    np = size(pins)
+    call open_equations(linkage, done, equations)
+    call find_dependence(linkage, equations, pins, bodies, has)
+    matching = match_unknowns(has)
+    part = source_component(has, matching, [([i, i], i=1, np), (np + i, i=1, size(bodies))], &
+      [(0, i=1, np), (findloc(pins, linkage%bodies(bodies(i))%first_pin, dim=1), i=1, &
+      size(bodies))])
+    has_found = size(part) > 0
+    if (.not. has_found) then
+      problem = what_is_free(linkage, matching, pins, bodies)
+      return
+    end if
+    group%kind = groups_by_newton
+    group%pins = pins(pack(part, part <= np))
+    group%bodies = bodies(pack(part, part > np) - np)
+    group%loaded = group%bodies
+    if (.not. all(linkage%drawing%is_drawn(group%pins))) then
+      problem = new_problem(problem_not_drawn, pack(group%pins, .not. &
+        linkage%drawing%is_drawn(group%pins)), group%bodies)
+      return
+    end if
+    allocate (group%equations(unknowns_of(group)))
+    call take_equations(equations, matching, part, np, group)
+    call settle(linkage, done, group)
+  end subroutine take_rest
+
+  !> Bodies with a pin that is placed are measured from it.
+  pure subroutine rebase_to_known_pins(linkage, done)
+    type(linkage_t), intent(inout) :: linkage
+    type(progress_t), intent(in) :: done
+
+    integer :: b, pin
+
+    do b = 1, size(linkage%bodies)
+      if (done%body(b)) cycle
+      pin = known_pin(linkage, b, done)
+      if (pin > 0) call rebase(linkage, b, pin, other_pin(linkage%bodies(b), pin))
+    end do
+  end subroutine rebase_to_known_pins
+
+  !> Pins and bodies whose unknowns no equation is left for, or could be left without one.
+  pure function what_is_free(linkage, matching, pins, bodies) result(problem)
+    type(linkage_t), intent(in) :: linkage
+    type(matching_t), intent(in) :: matching
+    integer, intent(in) :: pins(:), bodies(:) !! unknown
+    type(plan_problem_t) :: problem
+
+    integer :: i, np
+
+    np = size(pins)
+    problem = new_problem(problem_too_free, pack(pins, [(matching%is_loose(2*i - 1) .or. &
+      matching%is_loose(2*i), i=1, np)]), pack(bodies, matching%is_loose(2*np + 1:)))
+    problem%mobility = count(matching%equation_of == 0) + size(linkage%drives)
+  end function what_is_free
+
+  !> The equations matched with the unknowns of a part.
+  pure subroutine take_equations(equations, matching, part, np, group)
+    type(equation_t), intent(in) :: equations(:)
+    type(matching_t), intent(in) :: matching
+    integer, intent(in) :: part(:)
+    integer, intent(in) :: np
+    type(group_t), intent(inout) :: group
+
+    integer :: i, filled
+
+    filled = 0
+    do i = 1, size(part)
+      if (part(i) <= np) then
+        group%equations(filled + 1) = equations(matching%equation_of(2*part(i) - 1))
+        group%equations(filled + 2) = equations(matching%equation_of(2*part(i)))
+        filled = filled + 2
+      else
+        group%equations(filled + 1) = equations(matching%equation_of(np + part(i)))
+        filled = filled + 1
+      end if
+    end do
+  end subroutine take_equations
+
+  !> What a group for iterations uses and places. The further pins of its bodies are carried, and
+  !! equations of pins that it has not used are redundancies.
+  pure subroutine settle(linkage, done, group)
+    type(linkage_t), intent(inout) :: linkage
+    type(progress_t), intent(inout) :: done
+    type(group_t), intent(in) :: group
+
+    integer :: i
+
+    do i = 1, size(group%equations)
+      select case (group%equations(i)%kind)
+      case (demands_line)
+        done%slider(group%equations(i)%number) = .true.
+      case (demands_turn)
+        done%turn(group%equations(i)%number) = .true.
+      case (demands_drive)
+        done%drive(group%equations(i)%number) = .true.
+      end select
+    end do
+    done%pin(group%pins) = .true.
+    done%body(group%bodies) = .true.
+    done%order = [done%order, group%bodies]
+    call append_group(linkage, group)
+    do i = 1, size(group%bodies)
+      call carry_rest(linkage, group%bodies(i), [integer ::], done)
+    end do
+  end subroutine settle
+
+  !> All equations not used yet that have unknowns.
+  pure subroutine open_equations(linkage, done, equations)
+    type(linkage_t), intent(in) :: linkage
+    type(progress_t), intent(in) :: done
+    type(equation_t), allocatable, intent(out) :: equations(:)
+
+    integer, allocatable :: pins(:)
+    integer :: i, k
+
+    allocate (equations(0))
+    do i = 1, size(linkage%drives)
+      if (.not. done%drive(i)) call append_equation(equations, drive_equation(i))
+    end do
+    do i = 1, size(linkage%bodies)
+      if (done%body(i)) cycle
+      pins = pins_of_body(linkage%bodies(i))
+      do k = 2, size(pins)
+        if (.not. is_used(linkage, demands_length, i, pins(k)) .and. (k > 2 .or. &
+          drive_of_length(linkage, i) == 0)) call append_equation(equations, pin_equation( &
+          linkage, demands_length, i, pins(k)))
+        if (.not. is_used(linkage, demands_angle, i, pins(k))) call append_equation(equations, &
+          pin_equation(linkage, demands_angle, i, pins(k)))
+      end do
+    end do
+    do i = 1, size(linkage%turns)
+      if (.not. done%turn(i)) call append_equation(equations, turn_equation(i))
+    end do
+    do i = 1, size(linkage%sliders)
+      if (.not. done%slider(i)) call append_equation(equations, line_equation(i))
+    end do
+  end subroutine open_equations
+
+  !> On which unknowns equations depend: two of each pin, then one of each body.
+  pure subroutine find_dependence(linkage, equations, pins, bodies, has)
+    type(linkage_t), intent(in) :: linkage
+    type(equation_t), intent(in) :: equations(:)
+    integer, intent(in) :: pins(:), bodies(:) !! unknown
+    logical, allocatable, intent(out) :: has(:, :) !! (unknowns, equations)
+
+    integer :: i
+
+    allocate (has(2*size(pins) + size(bodies), size(equations)))
+    has = .false.
+    do i = 1, size(equations)
+      associate (equation => equations(i))
+        select case (equation%kind)
+        case (demands_length)
+          call mark(pins, equation%pin, 2, 0, has(:, i))
+          call mark(pins, linkage%bodies(equation%body)%first_pin, 2, 0, has(:, i))
+        case (demands_angle)
+          call mark(pins, equation%pin, 2, 0, has(:, i))
+          call mark(pins, linkage%bodies(equation%body)%first_pin, 2, 0, has(:, i))
+          call mark(bodies, equation%body, 1, 2*size(pins), has(:, i))
+        case (demands_line)
+          call mark_line(equation%number, has(:, i))
+        case (demands_turn)
+          call mark(bodies, linkage%turns(equation%number)%body, 1, 2*size(pins), has(:, i))
+          call mark(bodies, linkage%turns(equation%number)%against, 1, 2*size(pins), has(:, i))
+        case (demands_drive)
+          associate (drive => linkage%drives(equation%number))
+            select case (drive%kind)
+            case (drives_angle)
+              call mark(bodies, drive%body, 1, 2*size(pins), has(:, i))
+              call mark(bodies, drive%against, 1, 2*size(pins), has(:, i))
+            case (drives_slider)
+              call mark_line(drive%slider, has(:, i))
+            case (drives_length)
+              call mark(pins, linkage%bodies(drive%body)%first_pin, 2, 0, has(:, i))
+              call mark(pins, linkage%bodies(drive%body)%last_pin, 2, 0, has(:, i))
+            end select
+          end associate
+        end select
+      end associate
+    end do
+
+  contains
+
+    pure subroutine mark_line(number, row)
+      integer, intent(in) :: number !! of the slider
+      logical, intent(inout) :: row(:)
+
+      call mark(pins, linkage%sliders(number)%pin, 2, 0, row)
+      if (linkage%sliders(number)%body == 0) return
+      call mark(pins, linkage%bodies(linkage%sliders(number)%body)%first_pin, 2, 0, row)
+      call mark(bodies, linkage%sliders(number)%body, 1, 2*size(pins), row)
+    end subroutine mark_line
+
+  end subroutine find_dependence
+
+  !> Marks the unknowns of a pin or a body, if it is one of those listed.
+  pure subroutine mark(list, number, each, before, row)
+    integer, intent(in) :: list(:)
+    integer, intent(in) :: number
+    integer, intent(in) :: each   !! unknowns of each in the list
+    integer, intent(in) :: before !! unknowns before the first
+    logical, intent(inout) :: row(:)
+
+    integer :: at
+
+    at = findloc(list, number, dim=1)
+    if (at > 0) row(before + each*(at - 1) + 1:before + each*at) = .true.
+  end subroutine mark
+
+end module plan_iterations

@@ -1,0 +1,193 @@
+!> Why a linkage has no plan, in words, at the part of the deck that it is about.
+module plan_faults
+  use diagnostics, only: add_error, diagnostics_t
+  use drive_cards, only: branch_backward, branch_forward
+  use linkage_parts, only: assembly_t
+  use models, only: model_t
+  use plan_problems, only: problem_braced, problem_coupler_driven, problem_drive_idle, &
+    problem_no_side, problem_not_drawn, problem_other_bases, problem_side_idle, problem_too_free
+  use text, only: plural, same_word, to_string
+  use tokens, only: token_t
+  implicit none (type, external)
+  private
+
+  public :: report_problem
+
+contains
+
+  !> Why a linkage has no plan, at the part of the deck that it is about.
+  pure subroutine report_problem(model, assembly, diagnostics)
+    type(model_t), intent(in) :: model                !! without errors so far
+    type(assembly_t), intent(in) :: assembly          !! with a problem
+    type(diagnostics_t), intent(inout) :: diagnostics !! to which the error is added
+
+    type(token_t) :: place
+    character(len=:), allocatable :: pins
+
+    associate (problem => assembly%problem)
+      place = model%links(1)%name
+      if (size(problem%bodies) > 0) place = model%links(assembly%link(problem%bodies(1)))%name
+      pins = names_of_pins(assembly, problem%pins)
+      select case (problem%kind)
+      case (problem_too_free)
+        if (size(problem%pins) > 0) place = token_of_pin(model, assembly, problem%pins(1))
+        call add_error(diagnostics, place, "the linkage has mobility "// &
+          to_string(problem%mobility)//" and "//plural(size(model%drives), "DRIVE")//": "// &
+          what_is_free(assembly)//" (add a DRIVE, or parts that hold it)")
+      case (problem_braced)
+        if (size(problem%bodies) == 1) then
+          call add_error(diagnostics, place, "link '"//place%text//"' joins the ground pivots "// &
+            pins//" and cannot move")
+        else
+          call add_error(diagnostics, place, &
+            "mobility 0: '"//place%text//"' joins two pins of '"// &
+            model%links(assembly%link(problem%bodies(2)))%name%text//"'", &
+            model%links(assembly%link(problem%bodies(2)))%name, "it is here")
+        end if
+      case (problem_coupler_driven)
+        call add_error(diagnostics, model%drives(problem%number)%subject, "'"// &
+          model%drives(problem%number)%subject%text//"' turns about no ground pivot; drive it "// &
+          "against a link: DRIVE "//model%drives(problem%number)%subject%text//" against link")
+      case (problem_drive_idle)
+        call add_error(diagnostics, model%drives(problem%number)%subject, "this DRIVE has "// &
+          "nothing to move: the linkage has "//plural(size(model%drives), "DRIVE card")// &
+          ", and the others leave it no freedom")
+      case (problem_no_side, problem_other_bases)
+        call report_side(model, assembly, diagnostics)
+      case (problem_side_idle)
+        call report_idle_side(model, assembly, diagnostics)
+      case (problem_not_drawn)
+        place = token_of_pin(model, assembly, problem%pins(1))
+        call add_error(diagnostics, place, "several links have to be placed together here, and "// &
+          "only a drawing tells how: PIN cards for "//pins//" are missing")
+      end select
+    end associate
+  end subroutine report_problem
+
+  !> A dyad without a side, or with a card that does not fit it.
+  pure subroutine report_side(model, assembly, diagnostics)
+    type(model_t), intent(in) :: model
+    type(assembly_t), intent(in) :: assembly
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=:), allocatable :: pin, way, card
+
+    associate (problem => assembly%problem)
+      pin = "pin '"//assembly%pins(problem%pins(1))%text//"'"
+      card = card_of_side(assembly)
+      if (problem%kind == problem_other_bases) then
+        associate (branch => model%branches(problem%number))
+          call add_error(diagnostics, branch%pin, pin//what_does_not_fit(branch%which, &
+            problem%on_line)//"; expected "//card)
+        end associate
+        return
+      end if
+      way = " has two places on its guide: expected "//card//", or PIN cards for '"// &
+        assembly%pins(problem%pins(1))%text//"' and '"//assembly%pins(problem%pins(2))%text//"'"
+      if (.not. problem%on_line) way = " has two places, left or right of '"// &
+        assembly%pins(problem%pins(2))%text//"' -> '"//assembly%pins(problem%pins(3))%text// &
+        "': expected "//card//", or PIN cards for the moving pins"
+      call add_error(diagnostics, token_of_pin(model, assembly, problem%pins(1)), pin//way)
+    end associate
+  end subroutine report_side
+
+  !> The BRANCH card that a dyad without one needs.
+  pure function card_of_side(assembly) result(card)
+    type(assembly_t), intent(in) :: assembly
+    character(len=:), allocatable :: card
+
+    associate (problem => assembly%problem)
+      card = "BRANCH "//assembly%pins(problem%pins(1))%text//" forward|backward"
+      if (.not. problem%on_line) card = "BRANCH "//assembly%pins(problem%pins(1))%text// &
+        " left|right "//assembly%pins(problem%pins(2))%text//" "// &
+        assembly%pins(problem%pins(3))%text
+    end associate
+  end function card_of_side
+
+  !> Why a card is not about the dyad of its pin.
+  pure function what_does_not_fit(which, on_line) result(words)
+    integer, intent(in) :: which    !! of the card, one of the branch_… constants
+    logical, intent(in) :: on_line  !! the dyad has a place forward and one backward
+    character(len=:), allocatable :: words
+
+    logical :: is_along
+
+    is_along = any(which == [branch_forward, branch_backward])
+    words = " does not hang on these pins"
+    if (on_line .and. .not. is_along) words = " has its two places along a guide or a link"
+    if (is_along .and. .not. on_line) words = " has its two places beside the way between two pins"
+  end function what_does_not_fit
+
+  !> A card about a pin that has one place.
+  pure subroutine report_idle_side(model, assembly, diagnostics)
+    type(model_t), intent(in) :: model
+    type(assembly_t), intent(in) :: assembly
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=:), allocatable :: pin
+
+    associate (problem => assembly%problem)
+      pin = "pin '"//assembly%pins(problem%pins(1))%text//"'"
+      if (size(problem%bodies) > 0) then
+        call add_error(diagnostics, model%branches(problem%number)%pin, pin// &
+          " is placed together with others, as the drawing shows: a BRANCH card cannot choose "// &
+          "its place, its PIN card does")
+      else
+        call add_error(diagnostics, model%branches(problem%number)%pin, pin// &
+          " has one place only: this BRANCH card has nothing to choose")
+      end if
+    end associate
+  end subroutine report_idle_side
+
+  !> `nothing holds pins 'E', 'F'`
+  pure function what_is_free(assembly) result(words)
+    type(assembly_t), intent(in) :: assembly
+    character(len=:), allocatable :: words
+
+    associate (problem => assembly%problem)
+      if (size(problem%pins) > 0) then
+        words = "nothing holds "//names_of_pins(assembly, problem%pins)
+        return
+      end if
+      words = "nothing turns "//plural(size(problem%bodies), "link")
+    end associate
+  end function what_is_free
+
+  !> `pins 'E', 'F'`, or `pin 'E'`
+  pure function names_of_pins(assembly, pins) result(words)
+    type(assembly_t), intent(in) :: assembly
+    integer, intent(in) :: pins(:)
+    character(len=:), allocatable :: words
+
+    integer :: i
+
+    words = trim(merge("pin ", "pins", size(pins) == 1))
+    do i = 1, size(pins)
+      if (i > 1) words = words//","
+      words = words//" '"//assembly%pins(pins(i))%text//"'"
+    end do
+  end function names_of_pins
+
+  !> Where a pin first stands in the deck, on a LINK card or a SLIDER card.
+  pure function token_of_pin(model, assembly, pin) result(place)
+    type(model_t), intent(in) :: model
+    type(assembly_t), intent(in) :: assembly
+    integer, intent(in) :: pin
+    type(token_t) :: place
+
+    integer :: i, k
+
+    do i = 1, size(model%links)
+      do k = 1, size(model%links(i)%pins)
+        place = model%links(i)%pins(k)
+        if (same_word(place%text, assembly%pins(pin)%text)) return
+      end do
+    end do
+    do i = 1, size(model%sliders)
+      place = model%sliders(i)%pin
+      if (same_word(place%text, assembly%pins(pin)%text)) return
+    end do
+    place = model%links(1)%name
+  end function token_of_pin
+
+end module plan_faults
