@@ -129,6 +129,7 @@ LINKAGES ?= 300
 linkages: all
 	@python3 -B tests/linkages/anchors.py --program $(program)
 	@python3 -B tests/linkages/random_linkages.py $(SEED) $(LINKAGES) --program $(program)
+	@python3 -B tests/linkages/random_motions.py $(SEED) $(LINKAGES) --program $(program)
 
 # Quadruple precision for every case of `make stress`: some minutes.
 references: all quad
@@ -180,7 +181,7 @@ help:
 	@echo "make stress-responses   the same of the elastic response of random mechanisms; CASES=210 FIRST=1 for fewer or others"
 	@echo "make stress-stability   verdicts on random mechanisms with several numbers of samples; CASES=20 SPEEDS=50 FIRST=1"
 	@echo "make accuracies         random decks at several accuracies, each against the finest; FREQUENCIES=5000 SEED=7"
-	@echo "make linkages           known linkages, and 300 random ones against an independent solver; LINKAGES=5000 SEED=7"
+	@echo "make linkages           known linkages, 300 random ones against an independent solver, and in motion; LINKAGES=5000 SEED=7"
 	@echo "make references         regenerate the quadruple-precision values of make stress (hours)"
 	@echo "make quad               build build/quad/flexmech, the program in quadruple precision (slow)"
 	@echo "make golden CASE=NAME   regenerate tests/golden/NAME/ from inputs/NAME.deck"

@@ -2,6 +2,7 @@
 
 import math
 import os
+import re
 import subprocess
 import sys
 
@@ -13,6 +14,8 @@ SCRIPT = os.path.join("tests", "linkages", "anchors.py")
 COLUMNS = (("position", "angle"), ("velocity", "omega", "rate"), ("acceleration", "alpha"), ("force", "torque"), ("published",))
 # Rounding grows over the three seconds of the pendulum, differently on different machines.
 SWING_ROUNDING = 1e-11
+# Likewise the energy over 1,000 turns, and through hundreds of dead points.
+FREE_ROUNDING = 1e-11
 
 
 def answer(*options):
@@ -47,3 +50,18 @@ class Tables:
             yield [Number(time, ".1f"), fixed(angles[0], 10), fixed(angles[1], 10),
                    rounding(math.radians(max(abs(angles[0] - one), abs(angles[1] - two))), SWING_ROUNDING),
                    rounding(max(abs(rates[0] - rate), abs(rates[1] - rate2)), SWING_ROUNDING)]
+
+    def free_motions(self):
+        """Turns, dead points passed, steps and the error of the energy of motions without losses."""
+        for name in ("engine_free", "watt_free", "lever_free", "triad_free"):
+            with open(os.path.join("tests", "linkages", "decks", name + ".deck"), encoding="utf-8") as file:
+                run = Run(self._program, file.read())
+            rows = run.rows("motion")
+            most = max(row["kinetic"] + abs(row["potential"]) for row in rows)
+            passed = run.log.count("passes a dead point")
+            more = re.search(r"motion: (\d+) more of these", run.log)
+            # Steps follow the rounding of many turns: the same on machines of a kind only.
+            steps = int(re.search(r"motion: (\d+) steps", run.log)[1])
+            yield [Word(f"`{name}`"), Number(math.floor(abs(rows[-1]["position1"] - rows[0]["position1"])/360), ",.0f"),
+                   Number(passed + (int(more[1]) if more else 0), ",.0f", 1.01), Number(steps, ",.0f", 1.05),
+                   rounding(max(abs(row["energy_error"]) for row in rows)/most, FREE_ROUNDING)]
