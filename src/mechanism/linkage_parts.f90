@@ -4,13 +4,13 @@ module linkage_parts
   use constants, only: degree
   use drive_cards, only: branch_backward, branch_left, branch_right, drive_ram, &
     drive_slider, moves_along
+  use drawn_cranks, only: drawn_crank
   use errors, only: error_t
-  use group_equations, only: direction_at, misfit_of
+  use group_equations, only: direction_at
   use kinds, only: wp
   use link_shapes, only: find_drawn_link, find_drawn_pin, find_link_shape
-  use linkage_paths, only: follow_path, most_turns
-  use linkages, only: body_t, demands_drive, drives_angle, drives_length, drives_slider, &
-    equation_t, linkage_t
+  use linkage_paths, only: follow_path
+  use linkages, only: body_t, drives_angle, drives_length, drives_slider, linkage_t
   use models, only: is_four_bar, model_t
   use name_index, only: find_name, name_index_t, new_name_index
   use plan_problems, only: plan_problem_t
@@ -57,73 +57,9 @@ contains
     call plan_linkage(assembly%linkage, sides, assembly%problem, body_order, pin_order)
     if (is_four_bar(model)) assembly%linkage%bodies(2)%heading = [1.0_wp, 0.0_wp]
     if (allocated(assembly%problem)) return
-    call follow_path(assembly%linkage, drawn_crank(assembly%linkage), assembly%nearest, &
+    call follow_path(assembly%linkage, drawn_crank(model, assembly%linkage), assembly%nearest, &
       assembly%error)
   end subroutine assemble_linkage
-
-  !> The coordinate of the first drive in the drawing [deg] or [m]; 0 where it is not drawn. A
-  !! drawing shows no whole turns, but with drives geared to the first one they matter: those are
-  !! taken that bring these nearest to the drawing.
-  pure function drawn_crank(linkage) result(crank)
-    type(linkage_t), intent(in) :: linkage
-    real(wp) :: crank
-
-    !> Turns are told apart where the misfits of drives differ by more than this [rad].
-    real(wp), parameter :: rounding = 1.0e-9_wp
-    type(pose_t) :: pose
-    type(equation_t) :: equation
-    real(wp) :: misfit, least
-    integer :: b, turns, nearest
-
-    ! The drive is off by the coordinate that is sought.
-    equation%kind = demands_drive
-    equation%number = 1
-    pose%pin = linkage%drawing%pin
-    allocate (pose%direction(2, size(linkage%bodies)))
-    do b = 1, size(linkage%bodies)
-      associate (body => linkage%bodies(b))
-        pose%direction(:, b) = pose%pin(:, body%last_pin) - pose%pin(:, body%first_pin)
-        if (norm2(pose%direction(:, b)) > 0.0_wp) then
-          pose%direction(:, b) = pose%direction(:, b)/norm2(pose%direction(:, b))
-        else
-          pose%direction(:, b) = [1.0_wp, 0.0_wp]
-        end if
-      end associate
-    end do
-    crank = misfit_of(linkage, equation, pose, [0.0_wp, 0.0_wp], 0.0_wp)
-    if (linkage%drives(1)%kind /= drives_angle) return
-    crank = crank/degree
-    nearest = 0
-    least = huge(least)
-    do turns = 0, most_turns - 1
-      misfit = misfit_of_drives(linkage, pose, crank + 360.0_wp*turns)
-      if (misfit > least - rounding) cycle
-      least = misfit
-      nearest = turns
-    end do
-    crank = crank + 360.0_wp*nearest
-  end function drawn_crank
-
-  !> How far the drives that are geared to the first one are from a drawing, in radians, and in
-  !! lengths of the largest body.
-  pure function misfit_of_drives(linkage, drawn, crank) result(misfit)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: drawn
-    real(wp), intent(in) :: crank !! [deg]
-    real(wp) :: misfit
-
-    real(wp) :: one
-    integer :: i
-
-    misfit = 0.0_wp
-    do i = 2, size(linkage%drives)
-      if (.not. abs(linkage%drives(i)%ratio) > 0.0_wp) cycle
-      one = abs(misfit_of(linkage, equation_t(demands_drive, number=i), drawn, [0.0_wp, 0.0_wp], &
-        crank))
-      if (linkage%drives(i)%kind /= drives_angle) one = one/maxval(linkage%bodies%length)
-      misfit = misfit + one
-    end do
-  end function misfit_of_drives
 
   !> The pins of all links in the order of the deck, points of links that other cards use as pins,
   !! and ground pivots that only sliders use.

@@ -241,7 +241,7 @@ def main():
             kinds[kind] = kinds.get(kind, 0) + 1
         try:
             compare.merge(largest, check(case, program, folder))
-        except (compare.Wrong, RuntimeError, ValueError, KeyError, OSError) as failure:
+        except (compare.Wrong, Failure, RuntimeError, ValueError, KeyError, OSError) as failure:
             failures += 1
             print(f"seed {seed}: {failure or repr(failure)} ({' '.join(case.drawing.kinds)}; {folder})", flush=True)
             continue

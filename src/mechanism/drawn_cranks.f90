@@ -1,0 +1,112 @@
+!> Where the first drive is in the drawing of a linkage.
+module drawn_cranks
+  use constants, only: degree
+  use group_equations, only: misfit_of
+  use kinds, only: wp
+  use linkage_paths, only: most_turns, period_of
+  use linkages, only: demands_drive, drives_angle, equation_t, linkage_t
+  use models, only: model_t, report_number
+  use pose_types, only: pose_t
+  implicit none (type, external)
+  private
+
+  public :: drawn_crank
+
+contains
+
+  !> The coordinate of the first drive in the drawing [deg] or [m]; 0 where it is not drawn. A
+  !! drawing shows no whole turns, but with drives geared to the first one they matter: those are
+  !! taken that bring these nearest to the drawing. Beyond that, those are taken with which the
+  !! drawing is nearest to the positions of the deck: a path that does not close has an end.
+  pure function drawn_crank(model, linkage) result(crank)
+    type(model_t), intent(in) :: model     !! its positions
+    type(linkage_t), intent(in) :: linkage !! with its drives, planned
+    real(wp) :: crank
+
+    !> Turns are told apart where the misfits of drives differ by more than this [rad].
+    real(wp), parameter :: rounding = 1.0e-9_wp
+    type(pose_t) :: pose
+    type(equation_t) :: equation
+    real(wp) :: misfit, least
+    integer :: b, turns, nearest
+
+    ! The drive is off by the coordinate that is sought.
+    equation%kind = demands_drive
+    equation%number = 1
+    pose%pin = linkage%drawing%pin
+    allocate (pose%direction(2, size(linkage%bodies)))
+    do b = 1, size(linkage%bodies)
+      associate (body => linkage%bodies(b))
+        pose%direction(:, b) = pose%pin(:, body%last_pin) - pose%pin(:, body%first_pin)
+        if (norm2(pose%direction(:, b)) > 0.0_wp) then
+          pose%direction(:, b) = pose%direction(:, b)/norm2(pose%direction(:, b))
+        else
+          pose%direction(:, b) = [1.0_wp, 0.0_wp]
+        end if
+      end associate
+    end do
+    crank = misfit_of(linkage, equation, pose, [0.0_wp, 0.0_wp], 0.0_wp)
+    if (linkage%drives(1)%kind /= drives_angle) return
+    crank = crank/degree
+    nearest = 0
+    least = huge(least)
+    do turns = 0, most_turns - 1
+      misfit = misfit_of_drives(linkage, pose, crank + 360.0_wp*turns)
+      if (misfit > least - rounding) cycle
+      least = misfit
+      nearest = turns
+    end do
+    crank = near_positions(model, crank + 360.0_wp*nearest, period_of(linkage))
+  end function drawn_crank
+
+  !> A crank angle that is moved by whole periods to the positions of the deck, the first of those
+  !! of CRANK and of REPORT motion that are there; to the nearest end of their range, or into it by
+  !! as few periods as do.
+  pure function near_positions(model, crank, period) result(near)
+    type(model_t), intent(in) :: model
+    real(wp), intent(in) :: crank, period !! [deg]; period 0: there is none
+    real(wp) :: near
+
+    real(wp) :: lowest, highest
+    integer :: report
+
+    near = crank
+    if (.not. period > 0.0_wp) return
+    report = report_number(model, "motion")
+    if (size(model%crank%value) > 0) then
+      lowest = minval(model%crank%value)
+      highest = maxval(model%crank%value)
+    else if (report > 0) then
+      lowest = model%reports(report)%start_angle
+      highest = lowest
+    else
+      return
+    end if
+    if (crank < lowest) near = crank + period*floor((lowest - crank)/period + 0.5_wp)
+    if (near < lowest .and. near + period <= highest) near = near + period
+    if (crank > highest) near = crank - period*floor((crank - highest)/period + 0.5_wp)
+    if (near > highest .and. near - period >= lowest) near = near - period
+  end function near_positions
+
+  !> How far the drives that are geared to the first one are from a drawing, in radians, and in
+  !! lengths of the largest body.
+  pure function misfit_of_drives(linkage, drawn, crank) result(misfit)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: drawn
+    real(wp), intent(in) :: crank !! [deg]
+    real(wp) :: misfit
+
+    real(wp) :: one
+    integer :: i
+
+    misfit = 0.0_wp
+    do i = 2, size(linkage%drives)
+      if (.not. abs(linkage%drives(i)%ratio) > 0.0_wp) cycle
+      one = abs(misfit_of(linkage, equation_t(demands_drive, number=i), drawn, [0.0_wp, 0.0_wp], &
+        crank))
+      if (linkage%drives(i)%kind /= drives_angle) one = one/maxval(linkage%bodies%length)
+      misfit = misfit + one
+    end do
+  end function misfit_of_drives
+
+end module drawn_cranks
