@@ -3,7 +3,7 @@
 module limits_report
   use drive_cards, only: moves_along
   use kinds, only: wp
-  use limits_study, only: angle_of_body, place_of_slider, quantity_t, time_ratio, &
+  use limits_study, only: angle_of_body, crank_range_t, place_of_slider, quantity_t, time_ratio, &
     transmission_of_dyad
   use linkage_notes, only: notes_on_linkage
   use links_report, only: shown_crank
@@ -79,10 +79,10 @@ contains
         "the linkage closes nowhere")
       do r = 1, size(found%ranges)
         if (.not. found%ranges(r)%turns) then
-          call put(variant, layout, rows, part_of_group(variant, found%ranges(r)%blocked_by(1)), &
+          call put(variant, layout, rows, part_at_end(variant, found%ranges(r), 1), &
             "range_from", found%ranges(r)%from, shown_crank(variant, found%ranges(r)%from), &
             of_drive=.true.)
-          call put(variant, layout, rows, part_of_group(variant, found%ranges(r)%blocked_by(2)), &
+          call put(variant, layout, rows, part_at_end(variant, found%ranges(r), 2), &
             "range_to", found%ranges(r)%to, shown_crank(variant, found%ranges(r)%to), &
             of_drive=.true.)
         end if
@@ -170,13 +170,20 @@ contains
     end select
   end function part_of
 
-  !> The pin of a dyad, or a link of another group, that ends a range; the first link without one.
-  pure function part_of_group(variant, group) result(number)
+  !> The pin of a dyad or a block, or a link of another group, that ends a range; the first link
+  !! without one.
+  pure function part_at_end(variant, range, end) result(number)
     type(variant_results_t), intent(in) :: variant
-    integer, intent(in) :: group
-    integer :: number !! of the link, or minus that of the pin
+    type(crank_range_t), intent(in) :: range
+    integer, intent(in) :: end !! 1: from, 2: to
+    integer :: number          !! of the link, or minus that of the pin
 
+    integer :: group
+
+    number = -range%left_at(end)
+    if (number < 0) return
     number = 1
+    group = range%blocked_by(end)
     if (group == 0) return
     associate (it => variant%mechanism%linkage%groups(group))
       if (it%middle > 0) then
@@ -187,7 +194,7 @@ contains
         if (size(it%bodies) > 0) number = it%bodies(1)
       end if
     end associate
-  end function part_of_group
+  end function part_at_end
 
   !> Appends a row.
   subroutine put(variant, layout, rows, part, quantity, crank, value, is_place, pure_number, &

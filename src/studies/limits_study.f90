@@ -9,6 +9,7 @@ module limits_study
   private
 
   public :: limits_result_t, find_limits, time_ratio
+  public :: crank_range_t
   public :: quantity_t, angle_of_body, place_of_slider, pressure_of_slider, transmission_of_dyad
 
   !> Ranges, and the extremes of every quantity over each.

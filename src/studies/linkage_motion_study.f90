@@ -100,7 +100,11 @@ contains
     associate (motion => under_way%motion)
       result%steps = motion%integrator%steps
       result%energy = motion%energy
-      call explain_stop(motion%stop, result%error)
+      if (allocated(motion%left)) then
+        result%error = motion%left
+      else
+        call explain_stop(motion%stop, result%error)
+      end if
     end associate
     call end_linkage_motion(under_way%motion)
   end subroutine finish_linkage_motion

@@ -12,7 +12,7 @@ module linkage_motions
   use kinds, only: long, wp
   use linkage_paths, only: period_of
   use linkage_rates, only: energies_at, free_drives, moving_linkage_t, no_stop, pose_at, &
-    stop_dead_point, stop_many_steps, stop_steps
+    stop_at_end, stop_dead_point, stop_many_steps, stop_steps
   use linkages, only: drives_angle, linkage_t, reference_point
   use pose_types, only: pose_t
   use poses, only: dead_point_sine, place_links
@@ -38,6 +38,7 @@ module linkage_motions
     real(wp) :: time = 0.0_wp                     !! [s]
     real(wp) :: energy = 0.0_wp                   !! kinetic + potential, at the start [J]
     integer :: stop = no_stop                     !! why it does not continue
+    type(error_t), allocatable :: left            !! of a block that then leaves its link
     integer(long) :: most_steps = 1000000_long    !! from one instant to the next
     type(integrator_t) :: integrator              !! to be closed by `end_linkage_motion`
     type(moving_linkage_t), private :: system     !! equations of motion
@@ -184,6 +185,7 @@ contains
       call advance(motion%integrator, motion%system, motion%time, time, motion%state, error)
       if (allocated(error)) then
         motion%stop = merge(motion%system%stop, stop_steps, motion%system%stop /= no_stop)
+        if (motion%stop == stop_at_end) motion%left = motion%system%left
         return
       end if
       call pose_at(motion%system, motion%state(:size(motion%system%free)), pose, error)

@@ -6,6 +6,7 @@
 !! along h_k, and b the accelerations with the present rates and no c̈.
 module linkage_rates
   use adaptive_integration, only: rate_system_t
+  use block_ends, only: refuse_leaving_block
   use body_points, only: find_point_coefficients, point_coefficients_t
   use constants, only: degree
   use dense_factor, only: dense_factor_t, factorize, solve
@@ -23,11 +24,13 @@ module linkage_rates
   private
 
   public :: moving_linkage_t, free_drives, pose_at, energies_at
-  public :: no_stop, stop_dead_point, stop_no_inertia, stop_too_fast, stop_steps, stop_many_steps
+  public :: no_stop, stop_dead_point, stop_no_inertia, stop_too_fast, stop_steps, &
+    stop_many_steps, stop_at_end
 
-  !> Why a motion stops. For reasons 1 to 3 there are no rates.
+  !> Why a motion stops; at last because a block leaves its link. For reasons 1 to 3 and 6 there
+  !! are no rates.
   integer, parameter :: no_stop = 0, stop_dead_point = 1, stop_no_inertia = 2, stop_too_fast = 3, &
-    stop_steps = 4, stop_many_steps = 5
+    stop_steps = 4, stop_many_steps = 5, stop_at_end = 6
 
   !> Steps begin with an angle of the first drive from −π to π: a trial step beyond `most_angle` is
   !! too long, whatever its estimated error [rad]. `most_rate` is beyond any mechanics, but short of
@@ -52,6 +55,7 @@ module linkage_rates
     type(pose_t) :: pose                        !! the last one, from `reference_point`: a start for
                                                 !! iterations
     integer :: stop = no_stop                   !! why rates were last not found
+    type(error_t), allocatable :: left          !! block that then left its link
   contains
     procedure :: find_rates => rates_of_motion
   end type moving_linkage_t
@@ -70,7 +74,8 @@ contains
 
   !> The pose at coordinates of the free drives, relative to `reference_point`.
   !!
-  !! Errors: out of reach; near a dead point; iterations that do not converge.
+  !! Errors: out of reach; near a dead point; iterations that do not converge; a block that leaves
+  !! its link.
   subroutine pose_at(self, coordinates, pose, error)
     class(moving_linkage_t), intent(in) :: self
     real(wp), intent(in) :: coordinates(:)   !! (free drives) [rad] or [m]
@@ -107,6 +112,7 @@ contains
     end do
     pose = self%pose
     call place_groups(linkage, crank, pose, correction, error)
+    if (.not. allocated(error)) call refuse_leaving_block(linkage, pose, error)
   end subroutine pose_at
 
   !> Rates of all drives from those of the free ones: the others are held or geared to the first.
@@ -149,6 +155,13 @@ contains
     end if
     call pose_at(self, state(:f), pose, error)
     found = .not. allocated(error)
+    if (allocated(error)) then
+      if (error%place%pin > 0) then
+        self%stop = stop_at_end
+        self%left = error
+        return
+      end if
+    end if
     if (found) found = all(abs(pose%sine) > dead_point_sine)
     if (.not. found) then
       self%stop = stop_dead_point

@@ -3,6 +3,7 @@
 module linkage_checks
   use assembly_plan, only: problem_braced, problem_coupler_driven, &
     problem_drive_idle, problem_no_side, problem_not_drawn, problem_other_bases, problem_too_free
+  use block_checks, only: check_blocks
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use errors, only: error_of_reach, error_t
   use kinds, only: wp
@@ -190,6 +191,7 @@ contains
       model%motor%keyword, "a MOTOR turns a link, and the first DRIVE moves a slider or a ram; "// &
       "a FORCE on its pin, or a DRIVE of a link, may serve")
     call check_reach(model, mechanism%linkage, diagnostics)
+    call check_blocks(model, mechanism, diagnostics)
   end subroutine check_linkage
 
   !> The drawing does not assemble: the nearest assembly as PIN cards, if there is one.
@@ -320,7 +322,8 @@ contains
     name = measure%name
   end function length_name
 
-  !> Positions out of reach: an error if there is any, with the first and their number.
+  !> Positions out of reach: an error if none is in reach, else a warning with the first and their
+  !! number. Blocks that leave their links have messages of their own.
   pure subroutine check_reach(model, linkage, diagnostics)
     type(model_t), intent(in) :: model
     type(linkage_t), intent(in) :: linkage
@@ -328,22 +331,27 @@ contains
 
     type(error_t), allocatable :: error
     type(pose_t) :: pose
-    integer :: i, out_of_reach, first
+    integer :: i, out_of_reach, leaving, first
     real(wp) :: shown
 
     out_of_reach = 0
+    leaving = 0
     first = 0
     do i = 1, size(model%crank%value)
       call place_links(linkage, model%crank%value(i), pose, error)
       if (.not. allocated(error)) cycle
       if (error%kind /= error_of_reach) cycle
+      if (error%place%pin > 0) then
+        leaving = leaving + 1
+        cycle
+      end if
       out_of_reach = out_of_reach + 1
       if (first == 0) first = i
     end do
     if (out_of_reach == 0) return
     shown = model%crank%value(first)
     if (drives_length(model)) shown = from_si(shown, coherent_unit(model%units, dimension_length))
-    if (out_of_reach == size(model%crank%value)) then
+    if (out_of_reach + leaving == size(model%crank%value)) then
       call add_error(diagnostics, model%crank%words(model%crank%word(first)), &
         "the linkage closes at none of these positions", kind=error_of_reach)
     else
