@@ -51,7 +51,8 @@ contains
           mechanism%names(slider%body)%text//"'"
         if (all(excess > 0.0_wp)) then
           call add_error(diagnostics, model%sliders(number)%on, words// &
-            " at all these positions, by "//length_text(model, minval(excess))//" or more"//remedy, kind=error_of_reach)
+            " at all these positions, by "//length_text(model, minval(excess))//" or more"// &
+            remedy, kind=error_of_reach)
         else
           call add_warning(diagnostics, model%sliders(number)%on, words//" between crank "// &
             intervals(model, mechanism%linkage, number, crank, excess)//", by up to "// &

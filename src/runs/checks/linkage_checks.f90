@@ -8,7 +8,7 @@ module linkage_checks
   use errors, only: error_of_reach, error_t
   use kinds, only: wp
   use linkage_parts, only: assembly_t
-  use linkages, only: linkage_t, reference_point
+  use linkages, only: reference_point
   use mechanisms, only: mechanism_t, pins_of_body
   use models, only: drives_length, model_t, report_number
   use pose_types, only: pose_t
@@ -54,8 +54,8 @@ contains
           what_is_free(assembly)//" (add a DRIVE, or parts that hold it)")
       case (problem_braced)
         if (size(problem%bodies) == 1) then
-          call add_error(diagnostics, place, "link '"//place%text//"' joins the ground pivots "// &
-            pins//" and cannot move")
+          call add_error(diagnostics, place, "link '"//place%text//"' joins the ground "// &
+            "pivots "//pins(index(pins, "'"):)//" and cannot move")
         else
           call add_error(diagnostics, place, &
             "mobility 0: '"//place%text//"' joins two pins of '"// &
@@ -190,7 +190,7 @@ contains
     if (drives_length(model) .and. model%motor%keyword%line > 0) call add_error(diagnostics, &
       model%motor%keyword, "a MOTOR turns a link, and the first DRIVE moves a slider or a ram; "// &
       "a FORCE on its pin, or a DRIVE of a link, may serve")
-    call check_reach(model, mechanism%linkage, diagnostics)
+    call check_reach(model, mechanism, diagnostics)
     call check_blocks(model, mechanism, diagnostics)
   end subroutine check_linkage
 
@@ -275,7 +275,7 @@ contains
     end if
     if (abs(largest) > most_misfit*span) then
       call add_error(diagnostics, place, "links "//neighbours_of(mechanism, body)//name// &
-        " form a structure and cannot move", kind=error_of_reach)
+        " form a structure and cannot move"//while_driven(model), kind=error_of_reach)
     else
       call add_error(diagnostics, place, name//" does not fit: "//in_deck(model, abs(first))// &
         " "//length_name(model)//" too "//trim(merge("short", "long ", first > 0.0_wp))// &
@@ -284,6 +284,16 @@ contains
         kind=error_of_reach)
     end if
   end subroutine check_fit
+
+  !> Several drives may be one too many.
+  pure function while_driven(model) result(words)
+    type(model_t), intent(in) :: model
+    character(len=:), allocatable :: words
+
+    words = ""
+    if (size(model%drives) > 1) words = " while "//plural(size(model%drives), "DRIVE card")// &
+      " give their positions"
+  end function while_driven
 
   !> `'a', 'b', `: the links that share a moving pin with one.
   pure function neighbours_of(mechanism, body) result(words)
@@ -324,13 +334,14 @@ contains
 
   !> Positions out of reach: an error if none is in reach, else a warning with the first and their
   !! number. Blocks that leave their links have messages of their own.
-  pure subroutine check_reach(model, linkage, diagnostics)
+  pure subroutine check_reach(model, mechanism, diagnostics)
     type(model_t), intent(in) :: model
-    type(linkage_t), intent(in) :: linkage
+    type(mechanism_t), intent(in) :: mechanism
     type(diagnostics_t), intent(inout) :: diagnostics
 
     type(error_t), allocatable :: error
     type(pose_t) :: pose
+    character(len=:), allocatable :: why
     integer :: i, out_of_reach, leaving, first
     real(wp) :: shown
 
@@ -338,7 +349,7 @@ contains
     leaving = 0
     first = 0
     do i = 1, size(model%crank%value)
-      call place_links(linkage, model%crank%value(i), pose, error)
+      call place_links(mechanism%linkage, model%crank%value(i), pose, error)
       if (.not. allocated(error)) cycle
       if (error%kind /= error_of_reach) cycle
       if (error%place%pin > 0) then
@@ -346,18 +357,22 @@ contains
         cycle
       end if
       out_of_reach = out_of_reach + 1
-      if (first == 0) first = i
+      if (first > 0) cycle
+      first = i
+      why = ""
+      if (error%place%body > 0) why = ": '"//mechanism%names(error%place%body)%text// &
+        "' does not "//trim(merge("fit  ", "reach", index(error%text, "redundant") > 0))
     end do
     if (out_of_reach == 0) return
     shown = model%crank%value(first)
     if (drives_length(model)) shown = from_si(shown, coherent_unit(model%units, dimension_length))
     if (out_of_reach + leaving == size(model%crank%value)) then
       call add_error(diagnostics, model%crank%words(model%crank%word(first)), &
-        "the linkage closes at none of these positions", kind=error_of_reach)
+        "the linkage closes at none of these positions"//why, kind=error_of_reach)
     else
       call add_warning(diagnostics, model%crank%words(model%crank%word(first)), &
         plural(out_of_reach, "position")//" of "//to_string(size(model%crank%value))// &
-        " out of reach, the first at "//to_string(shown, 10))
+        " out of reach, the first at "//to_string(shown, 10)//why)
     end if
   end subroutine check_reach
 
