@@ -5,7 +5,7 @@ module linkage_checks
     problem_drive_idle, problem_no_side, problem_not_drawn, problem_other_bases, problem_too_free
   use block_checks, only: check_blocks
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
-  use errors, only: error_of_reach, error_t
+  use errors, only: error_of_dead_point, error_of_reach, error_t
   use kinds, only: wp
   use linkage_parts, only: assembly_t
   use linkages, only: reference_point
@@ -206,6 +206,11 @@ contains
 
     place = model%links(1)%name
     if (size(model%drawn_pins) > 0) place = model%drawn_pins(1)%pin
+    if (assembly%error%kind == error_of_dead_point) then
+      call add_error(diagnostics, place, "this drawing shows a dead point, or nearly so, where "// &
+        "the drive cannot move the links; draw another position")
+      return
+    end if
     if (.not. allocated(assembly%nearest)) then
       call add_error(diagnostics, place, "the linkage does not assemble from this drawing: "// &
         assembly%error%text)
