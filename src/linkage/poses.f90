@@ -252,6 +252,12 @@ contains
 
     do k = 1, 2
       arm(:, k) = pose%pin(:, dyad%middle) - pose%pin(:, dyad%base(k))
+      ! Far from the reference point a short link is less than the rounding of its ends.
+      if (.not. norm2(arm(:, k)) > 0.0_wp) then
+        call set_error(error, error_of_numerics, "a link is lost in the rounding of coordinates", &
+          body=dyad%body(k))
+        return
+      end if
       arm(:, k) = arm(:, k)/norm2(arm(:, k))
       pose%direction(:, dyad%body(k)) = merge(1.0_wp, -1.0_wp, &
         linkage%bodies(dyad%body(k))%last_pin == dyad%middle)*arm(:, k)
