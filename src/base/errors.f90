@@ -19,6 +19,7 @@ module errors
     integer :: line = 0, column = 0 !! from 1; 0: the file, or the line, as a whole
     integer :: body = 0             !! number of the link it is about, to be named where names are
                                     !! known; 0: none
+    integer :: pin = 0              !! number of the pin at which a block leaves this link; 0: none
   end type place_t
 
   type :: error_t
@@ -35,13 +36,14 @@ module errors
 contains
 
   !> Makes an error; it replaces an earlier one.
-  pure subroutine set_error(error, kind, text, file, line, column, body)
+  pure subroutine set_error(error, kind, text, file, line, column, body, pin)
     type(error_t), allocatable, intent(inout) :: error !! allocated on return
     integer, intent(in) :: kind                    !! one of the error_of_… numbers
     character(len=*), intent(in) :: text           !! without the place
     character(len=*), intent(in), optional :: file !! path
     integer, intent(in), optional :: line, column  !! from 1, in the file
     integer, intent(in), optional :: body          !! number of the link it is about
+    integer, intent(in), optional :: pin           !! number of the pin of a block on this link
 
     if (allocated(error)) deallocate (error)
     allocate (error)
@@ -51,6 +53,7 @@ contains
     if (present(line)) error%place%line = line
     if (present(column)) error%place%column = column
     if (present(body)) error%place%body = body
+    if (present(pin)) error%place%pin = pin
   end subroutine set_error
 
   !> Makes outcomes those of tasks that have not failed.

@@ -69,9 +69,9 @@ contains
     call add_diagnostic(diagnostics%errors, new)
   end subroutine add_error
 
-  !> Adds a warning at a word of the deck. Warnings of several variants are joined if they are at
-  !! the same word and of the same kind and grade.
-  pure subroutine add_warning(diagnostics, place, message, kind, grade, amount)
+  !> Adds a warning at a word of the deck, optionally with a second word that explains it. Warnings
+  !! of several variants are joined if they are at the same word and of the same kind and grade.
+  pure subroutine add_warning(diagnostics, place, message, kind, grade, amount, second_place, note)
     type(diagnostics_t), intent(inout) :: diagnostics !! of the deck
     type(token_t), intent(in) :: place                !! the word; without a line: something is
                                                       !! missing
@@ -81,6 +81,8 @@ contains
     integer, intent(in), optional :: grade            !! one of the grades of `warnings`;
                                                       !! grade_doubt if not present
     real(wp), intent(in), optional :: amount          !! the larger, the worse; 0 if not present
+    type(token_t), intent(in), optional :: second_place !! shown with `note`
+    character(len=*), intent(in), optional :: note    !! about the second place
 
     type(diagnostic_t) :: new
 
@@ -89,6 +91,8 @@ contains
     new%note = ""
     new%warning%text = message
     new%warning%variant = ""
+    if (present(second_place)) new%second_place = second_place
+    if (present(note)) new%note = note
     if (present(kind)) new%warning%kind = kind
     if (present(grade)) new%warning%grade = grade
     if (present(amount)) new%warning%amount = amount

@@ -16,6 +16,7 @@ module crank_limits
     real(wp) :: from = 0.0_wp, to = 0.0_wp !! [deg] or [m]
     logical :: turns = .false.             !! a whole period, without limits
     integer :: blocked_by(2) = 0           !! groups that end it; 0: none
+    integer :: left_at(2) = 0              !! pins of blocks that there leave their links; 0: none
   end type crank_range_t
 
   !> Samples of a range; extremes between them are found to rounding where the rate changes its sign
@@ -53,8 +54,8 @@ contains
       if (.not. is_closed(linkage, inside)) return
       step = 360.0_wp/samples
       if (.not. is_angle) step = maxval(linkage%bodies%length)/samples
-      call find_end(linkage, inside, -step, range%blocked_by(1), range%from)
-      call find_end(linkage, inside, step, range%blocked_by(2), range%to)
+      call find_end(linkage, inside, -step, range%blocked_by(1), range%left_at(1), range%from)
+      call find_end(linkage, inside, step, range%blocked_by(2), range%left_at(2), range%to)
       ranges = [range]
       return
     end if
@@ -78,8 +79,8 @@ contains
         i = i + 1
         cycle
       end if
-      call find_end(linkage, c, -step, range%blocked_by(1), range%from)
-      call find_end(linkage, c, step, range%blocked_by(2), range%to)
+      call find_end(linkage, c, -step, range%blocked_by(1), range%left_at(1), range%from)
+      call find_end(linkage, c, step, range%blocked_by(2), range%left_at(2), range%to)
       ranges = [ranges, range]
       i = max(i + 1, 1 + floor((range%to - first)/step))
     end do
@@ -131,12 +132,14 @@ contains
   end function is_inside
 
   !> The last coordinate, in steps from one at which the linkage closes, at which it still does, by
-  !! bisection; and the group that is nearest to its dead point there.
-  pure subroutine find_end(linkage, inside, step, group, last)
+  !! bisection; the group that is nearest to its dead point there, and the block that leaves its
+  !! link.
+  pure subroutine find_end(linkage, inside, step, group, pin, last)
     type(linkage_t), intent(in) :: linkage
     real(wp), intent(in) :: inside
     real(wp), intent(in) :: step !! with its sign
     integer, intent(out) :: group
+    integer, intent(out) :: pin !! of the block; 0: none
     real(wp), intent(out) :: last
 
     type(pose_t) :: pose
@@ -146,6 +149,7 @@ contains
 
     last = inside
     group = 0
+    pin = 0
     do i = 1, 20*samples
       beyond = last + step
       if (.not. is_closed(linkage, beyond)) exit
@@ -160,6 +164,8 @@ contains
         beyond = middle
       end if
     end do
+    call place_links(linkage, beyond, pose, error)
+    if (allocated(error)) pin = error%place%pin
     call place_links(linkage, last, pose, error)
     if (.not. allocated(error)) then
       if (size(pose%sine) > 0) group = minloc(abs(pose%sine), dim=1)

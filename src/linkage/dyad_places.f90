@@ -1,6 +1,6 @@
 !> Places of RRR dyads: two circles meet.
 module dyad_places
-  use errors, only: error_of_dead_point, error_of_reach, error_t, set_error
+  use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error
   use kinds, only: wp
   use linkages, only: cross, group_t, linkage_t, normal_to
   use pose_types, only: pose_t
@@ -21,7 +21,7 @@ contains
   !! whose factors vanish exactly where the dyad is stretched or folded.
   !!
   !! Errors: the position is out of reach; the two bases coincide, which leaves the direction of the
-  !! dyad undetermined.
+  !! dyad undetermined; a link is shorter than the rounding of coordinates.
   pure subroutine place_dyad(linkage, dyad, r, pose, sine, error)
     type(linkage_t), intent(in) :: linkage !! last pins of the two bodies
     type(group_t), intent(in) :: dyad      !! of this linkage
@@ -56,6 +56,12 @@ contains
 
     do k = 1, 2
       arm(:, k) = pose%pin(:, dyad%middle) - pose%pin(:, dyad%base(k))
+      ! Far from the reference point a short link is less than the rounding of its ends.
+      if (.not. norm2(arm(:, k)) > 0.0_wp) then
+        call set_error(error, error_of_numerics, "a link is lost in the rounding of coordinates", &
+          body=dyad%body(k))
+        return
+      end if
       arm(:, k) = arm(:, k)/norm2(arm(:, k))
       pose%direction(:, dyad%body(k)) = merge(1.0_wp, -1.0_wp, &
         linkage%bodies(dyad%body(k))%last_pin == dyad%middle)*arm(:, k)

@@ -5,7 +5,7 @@
 !! one. A step is halved unless it converges, every determinant keeps its sign, and the correction
 !! is small compared with the way: the linkage cannot leave its branch.
 module linkage_paths
-  use errors, only: error_of_input, error_t, set_error
+  use errors, only: error_of_dead_point, error_of_input, error_t, set_error
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use linkages, only: drives_angle, groups_by_newton, linkage_t, normal_to, path_t, reference_point
@@ -75,7 +75,7 @@ contains
   !> Finds the stations of the path. A linkage of dyads alone has none.
   !!
   !! Errors: the linkage does not assemble near the drawing; the pose found is then that of the
-  !! iterations, if they converged.
+  !! iterations, if they converged. It is at a dead point there.
   pure subroutine follow_path(linkage, start, nearest, error)
     type(linkage_t), intent(inout) :: linkage !! with groups and drawing; its path is set
     real(wp), intent(in) :: start             !! coordinate of the first drive in the drawing [deg]
@@ -121,6 +121,11 @@ contains
       return
     end if
     call march(linkage, start, pose, -1.0_wp, span, down)
+    if (size(down%crank) + size(up%crank) <= 2) then
+      call set_error(error, error_of_dead_point, "dead point: the linkage cannot be followed "// &
+        "from the drawing")
+      return
+    end if
     call join(down, up, linkage%path)
     ! Within less than a turn an angle is the same with and without whole turns.
     associate (path => linkage%path)

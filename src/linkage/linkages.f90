@@ -78,6 +78,8 @@ module linkages
     real(wp) :: point(2) = 0.0_wp                !! of the line: in global axes, or from the first
                                                  !! pin in the axes of the body [m]
     real(wp) :: direction(2) = [1.0_wp, 0.0_wp]  !! unit vector, likewise
+    logical :: has_ends = .false.                !! the line is no longer than `ends`
+    real(wp) :: ends(2) = 0.0_wp                 !! along `direction` from `point` [m]
     real(wp) :: inertia = 0.0_wp                 !! of the block, which turns with the body; among
                                                  !! the lumps of the body [kg m²]
   end type slider_t

@@ -1,5 +1,6 @@
 !> Positions of the links at a crank angle.
 module poses
+  use block_ends, only: refuse_leaving_block
   use dyad_places, only: place_dyad
   use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error
   use group_equations, only: drive_direction
@@ -67,7 +68,8 @@ contains
   !! intersecting circles, and other groups of bodies.
   !!
   !! Errors: the position is out of reach; the two bases of a dyad coincide, which leaves its
-  !! direction undetermined; iterations that do not converge; redundant links that do not fit.
+  !! direction undetermined; iterations that do not converge; redundant links that do not fit; a
+  !! block beyond the ends of its link.
   pure subroutine place_links(linkage, crank, pose, error)
     type(linkage_t), intent(in) :: linkage           !! bodies, groups and what joins them
     real(wp), intent(in) :: crank                    !! angle of the driven body from the global x
@@ -82,6 +84,7 @@ contains
     call place_parts(linkage, crank, pose, error)
     if (allocated(error)) return
     call refuse_misfit(linkage, pose, origin, crank, error)
+    if (.not. allocated(error)) call refuse_leaving_block(linkage, pose, error)
     pose%pin = pose%pin + spread(origin, 2, size(pose%pin, 2))
   end subroutine place_links
 

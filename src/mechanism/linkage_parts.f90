@@ -253,10 +253,46 @@ contains
         else
           slider%body = findloc(link, card%link, dim=1)
           slider%inertia = card%inertia
+          call find_ends(model, card%link, slider%has_ends, slider%ends)
         end if
       end associate
     end do
   end subroutine take_sliders
+
+  !> A block lies between the outermost pins and points of its link that are on the line. A link
+  !! whose length is driven has no other end than that.
+  pure subroutine find_ends(model, number, has_ends, ends)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: number       !! of the link in the model
+    logical, intent(out) :: has_ends
+    real(wp), intent(out) :: ends(2)    !! from the first pin towards the second [m]
+
+    real(wp), parameter :: on_line = 1.0e-6_wp !! distance from the line, as a share of the link
+    real(wp), allocatable :: places(:, :)
+    real(wp) :: near
+    integer :: i
+
+    ends = 0.0_wp
+    has_ends = .not. any(model%drives%kind == drive_ram .and. model%drives%link == number)
+    if (.not. has_ends) return
+    call find_link_shape(model, model%links(number), places, has_ends)
+    near = on_line*maxval(abs(places))
+    do i = 1, size(places, 2)
+      call reach(places(:, i), near, ends)
+    end do
+    do i = 1, size(model%points)
+      if (model%points(i)%link == number) call reach(model%points(i)%place, near, ends)
+    end do
+  end subroutine find_ends
+
+  !> Moves the ends of a line out to a place, if it is on the line.
+  pure subroutine reach(place, near, ends)
+    real(wp), intent(in) :: place(2)    !! [m]
+    real(wp), intent(in) :: near        !! farthest from the line [m]
+    real(wp), intent(inout) :: ends(2)  !! [m]
+
+    if (abs(place(2)) <= near) ends = [min(ends(1), place(1)), max(ends(2), place(1))]
+  end subroutine reach
 
   !> Links that cannot turn on a block, and welds: at the angle of the drawing. Without a drawing a
   !! link lies along the line of its block.

@@ -3,8 +3,8 @@
 module limits_report
   use drive_cards, only: moves_along
   use kinds, only: wp
-  use limits_study, only: angle_of_body, drive_range_t, place_of_slider, quantity_t, time_ratio, &
-    transmission_of_dyad, transmission_of_lines
+  use limits_study, only: angle_of_body, crank_range_t, drive_range_t, place_of_slider, &
+    quantity_t, time_ratio, transmission_of_dyad, transmission_of_lines
   use links_report, only: shown_crank
   use table_columns, only: cells, column_width, table_factor, table_layout_t, table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
@@ -32,10 +32,10 @@ contains
         "the linkage closes nowhere")
       do r = 1, size(found%ranges)
         if (.not. found%ranges(r)%turns) then
-          call put(variant, layout, rows, part_of_group(variant, found%ranges(r)%blocked_by(1)), &
+          call put(variant, layout, rows, part_at_end(variant, found%ranges(r), 1), &
             "range_from", found%ranges(r)%from, shown_crank(variant, found%ranges(r)%from), &
             of_drive=.true.)
-          call put(variant, layout, rows, part_of_group(variant, found%ranges(r)%blocked_by(2)), &
+          call put(variant, layout, rows, part_at_end(variant, found%ranges(r), 2), &
             "range_to", found%ranges(r)%to, shown_crank(variant, found%ranges(r)%to), &
             of_drive=.true.)
         end if
@@ -194,7 +194,18 @@ contains
       quantity%number)%body
   end function line_of
 
-  !> The pin of a dyad, or a link of another group, that ends a range; the first link without one.
+  !> What ends a range: the pin of a block that leaves its link, or a part of a group.
+  pure function part_at_end(variant, range, end) result(number)
+    type(variant_results_t), intent(in) :: variant
+    type(crank_range_t), intent(in) :: range
+    integer, intent(in) :: end !! 1: from, 2: to
+    integer :: number          !! of the link, or minus that of the pin
+
+    number = -range%left_at(end)
+    if (number == 0) number = part_of_group(variant, range%blocked_by(end))
+  end function part_at_end
+
+  !> The pin of a dyad, or a link of another group; the first link without one.
   pure function part_of_group(variant, group) result(number)
     type(variant_results_t), intent(in) :: variant
     integer, intent(in) :: group

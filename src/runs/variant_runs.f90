@@ -11,7 +11,7 @@ module variant_runs
     finish_linkage_motion, linkage_motion_under_way_t
   use linkage_study, only: class_of_other, classify_linkage
   use loci_study, only: follow_loci
-  use mechanisms, only: new_mechanism
+  use mechanisms, only: mechanism_t, new_mechanism
   use models, only: model_t, needs_positions, needs_study
   use motion_study, only: begin_motion, continue_motion, finish_motion, motion_under_way_t
   use position_study, only: find_all_positions
@@ -28,7 +28,6 @@ module variant_runs
   use sweeps, only: sweep_t
   use task_journal, only: journal_t
   use tasks, only: job_t, run_tasks
-  use text, only: string_t
   use text_buffer, only: text_buffer_t
   use variant_results, only: variant_results_t
   use transient_responses, only: find_transients
@@ -89,6 +88,7 @@ contains
       else
         call find_all_positions(linkage, none, threads, found%positions)
       end if
+      call name_positions(run%results)
       if (run%results%mechanism%is_four_bar) then
         call classify_linkage(linkage, found%class)
         call explain_positions(run%results)
@@ -125,8 +125,25 @@ contains
           call find_study(study_names(i), threads, run%results)
         end select
       end do
+      if (allocated(found%geometry%outcome)) then
+        do i = 1, size(found%geometry%outcome)
+          call name_parts(run%results%mechanism, found%geometry%outcome(i)%error)
+        end do
+      end if
+      call name_parts(run%results%mechanism, found%linkage_motion%error)
     end associate
   end subroutine compute_variant
+
+  !> Puts names into the errors of positions.
+  pure subroutine name_positions(variant)
+    type(variant_results_t), intent(inout) :: variant !! with positions
+
+    integer :: i
+
+    do i = 1, size(variant%found%positions%states)
+      call name_parts(variant%mechanism, variant%found%positions%states(i)%error)
+    end do
+  end subroutine name_positions
 
   !> Says why positions are out of reach, and which ones the linkage reaches. There are such
   !! positions in decks with VARY only.
@@ -204,7 +221,7 @@ contains
         threads, store, response)
       do k = 1, size(response%at_speed)
         if (.not. allocated(response%at_speed(k)%error)) cycle
-        call name_link(mechanism%names, response%at_speed(k)%error)
+        call name_parts(mechanism, response%at_speed(k)%error)
       end do
     end associate
   end subroutine compute_response
@@ -223,7 +240,7 @@ contains
         threads, store, stability)
       do k = 1, size(stability%at_speed)
         if (.not. allocated(stability%at_speed(k)%error)) cycle
-        call name_link(mechanism%names, stability%at_speed(k)%error)
+        call name_parts(mechanism, stability%at_speed(k)%error)
       end do
     end associate
   end subroutine compute_stability
@@ -241,7 +258,7 @@ contains
         mechanism), &
         threads, store, intervals)
       do k = 1, size(intervals%gap)
-        call name_link(mechanism%names, intervals%gap(k)%error)
+        call name_part(mechanism, intervals%gap(k)%error)
       end do
     end associate
   end subroutine compute_intervals
@@ -260,7 +277,7 @@ contains
         threads, store, campbell)
       do k = 1, size(campbell%at_speed)
         if (.not. allocated(campbell%at_speed(k)%error)) cycle
-        call name_link(mechanism%names, campbell%at_speed(k)%error)
+        call name_parts(mechanism, campbell%at_speed(k)%error)
       end do
     end associate
   end subroutine compute_campbell
@@ -277,7 +294,7 @@ contains
         mechanism), store, transient)
       do k = 1, size(transient%at_speed)
         if (.not. allocated(transient%at_speed(k)%error)) cycle
-        call name_link(mechanism%names, transient%at_speed(k)%error)
+        call name_parts(mechanism, transient%at_speed(k)%error)
       end do
     end associate
   end subroutine compute_transient
@@ -317,13 +334,13 @@ contains
       end do
       sweep%counts%link_models = store%made - made
       call finish_sweep(sweep)
-      call name_links(mechanism%names, sweep)
+      call name_links(mechanism, sweep)
     end associate
   end subroutine compute_sweep
 
   !> Puts the name of the link before every error that is about one: a sweep knows its number only.
-  pure subroutine name_links(names, sweep)
-    type(string_t), intent(in) :: names(:) !! (bodies) of the links
+  pure subroutine name_links(mechanism, sweep)
+    type(mechanism_t), intent(in) :: mechanism !! with names
     type(sweep_t), intent(inout) :: sweep
 
     integer :: i, k
@@ -331,19 +348,32 @@ contains
     do i = 1, size(sweep%results)
       if (.not. allocated(sweep%results(i)%outcome)) cycle
       do k = 1, size(sweep%results(i)%outcome)
-        if (.not. allocated(sweep%results(i)%outcome(k)%error)) cycle
-        call name_link(names, sweep%results(i)%outcome(k)%error)
+        call name_parts(mechanism, sweep%results(i)%outcome(k)%error)
       end do
     end do
   end subroutine name_links
 
-  !> Puts the name of the link before an error that is about one.
-  pure subroutine name_link(names, error)
-    type(string_t), intent(in) :: names(:) !! (bodies) of the links
+  !> Puts names into an error if there is one.
+  pure subroutine name_parts(mechanism, error)
+    type(mechanism_t), intent(in) :: mechanism         !! with names
+    type(error_t), allocatable, intent(inout) :: error !! may be unallocated: no error
+
+    if (allocated(error)) call name_part(mechanism, error)
+  end subroutine name_parts
+
+  !> Puts the name of the link before an error that is about one; of a block that leaves its link,
+  !! both names.
+  pure subroutine name_part(mechanism, error)
+    type(mechanism_t), intent(in) :: mechanism !! with names
     type(error_t), intent(inout) :: error
 
-    if (error%place%body > 0) error%text = "link '"//names(error%place%body)%text//"': "//error%text
-  end subroutine name_link
+    if (error%place%pin > 0) then
+      error%text = "the block at "//mechanism%pin_names(error%place%pin)%text//" leaves '"// &
+        mechanism%names(error%place%body)%text//"'"
+    else if (error%place%body > 0) then
+      error%text = "link '"//mechanism%names(error%place%body)%text//"': "//error%text
+    end if
+  end subroutine name_part
 
   !> Solves a block of the sweep.
   subroutine run_block(self, number)

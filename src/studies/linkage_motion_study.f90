@@ -105,7 +105,11 @@ contains
       result%steps = motion%integrator%steps
       result%energy = motion%energy
       result%passages = motion%passages(:motion%passage_count)
-      call explain_stop(motion%stop, result%error)
+      if (allocated(motion%left)) then
+        result%error = motion%left
+      else
+        call explain_stop(motion%stop, result%error)
+      end if
     end associate
     call end_linkage_motion(under_way%motion)
   end subroutine finish_linkage_motion

@@ -421,16 +421,20 @@ class Model:
         a = self.accelerations(q, v, self.zero, factors)
         h = end - start
         guess = [q[i] + h * v[i] + h * h / 2 * a[i] for i in range(self.count)]
-        result = self.newton(guess, end, 8)
-        weights = self._weights()
-        moved = max(abs(result[i] - q[i]) / weights[i] for i in range(self.count))
-        corrected = max(abs(result[i] - guess[i]) / weights[i] for i in range(self.count))
-        if corrected > 0.1 * moved + 1e-12 or moved > 0.2:
-            if abs(h) < 1e-9 * (1 + abs(start)):
-                raise Failure("dead point")
-            middle = start + h / 2
-            return self.step(self.step(q, start, middle), middle, end)
-        return result
+        try:
+            result = self.newton(guess, end, 8)
+        except Failure:
+            result = None
+        if result:
+            weights = self._weights()
+            moved = max(abs(result[i] - q[i]) / weights[i] for i in range(self.count))
+            corrected = max(abs(result[i] - guess[i]) / weights[i] for i in range(self.count))
+            if corrected <= 0.1 * moved + 1e-12 and moved <= 0.2:
+                return result
+        if abs(h) < 1e-9 * (1 + abs(start)):
+            raise Failure("dead point")
+        middle = start + h / 2
+        return self.step(self.step(q, start, middle), middle, end)
 
     def longest_step(self):
         """A quarter of a degree, or as much of the size."""

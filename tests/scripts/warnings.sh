@@ -75,6 +75,17 @@ idle_response() {
     warned other_mesh "'elements=' does not apply to REPORT peaks" <"$scratch/other.deck"
 }
 
+# A rough drawing is a remark in the log, one that is off by more than a tenth a warning; of variants one, with the worst.
+drawing() {
+  printf '%s\n' "UNITS mm kg s" "GROUND O 0 0" "GROUND Q 254 0" "LINK crank O A length=100" "LINK rod A B length=280" \
+    "LINK arm Q B length=267" "PIN A 0 100" "PIN B 250 230" "DRIVE crank" "CRANK 0" "REPORT kinematics" >"$scratch/rough.deck"
+  warned drawn "the drawing has 230.035 mm for 'arm' from Q to B; its length of 267 mm counts" <"$scratch/rough.deck" || return 1
+  grep -q "^drawing: the drawing has 281.78 mm for 'rod' from A to B; its length of 280 mm counts" "$scratch/out/drawn/run.log" ||
+    { echo "the log has no remark"; return 1; }
+  { sed 's/length=100/length=$L/' "$scratch/rough.deck"; echo "VARY L 80 90 95 105 115"; } |
+    warned varied "in 3 of 5 variants, the worst with L=80: the drawing has 100 mm for 'crank' from O to A"
+}
+
 divergence() {
   beam_deck "CRANK 0 to 350 step 10" "SPEED 0 200" "REPORT frequencies" |
     warned divergence "static divergence at speed 200 rad/s, crank" || return 1
@@ -90,4 +101,5 @@ check "loads that make the frequencies meaningless" meaningless_deflection
 check "static frequencies and speeds" static_speeds
 check "a mass at a ground pivot" mass_at_ground
 check "static divergence" divergence
+check "a drawing that contradicts a length" drawing
 check "cards of the elastic response" idle_response

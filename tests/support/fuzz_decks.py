@@ -4,6 +4,7 @@ All choices come from `Dice`, which uses nothing of Python's generator but rando
 stay the same on any machine and in any later version.
 """
 
+import itertools
 import os
 import random
 import re
@@ -12,6 +13,9 @@ from glob import glob
 from deck_language import language
 
 NUMBER = re.compile(rb"(?<![A-Za-z_0-9.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?")
+REFUSED = os.path.join("tests", "decks")
+# Cards that only linkages have that are no four-bars.
+OTHER_LINKAGE = re.compile(rb"^ *(?:GUIDE|SLIDER|WELD|PIN|DRIVE +\S+ +[a-z]\w*|LINK +\S+(?: +[A-Z]\w*){3}) ", re.MULTILINE)
 WORD = re.compile(rb"[A-Za-z][A-Za-z_0-9.'*-]*")
 RANGE = re.compile(rb"([-+0-9.eEdD]+)[a-z/]*(\s+to\s+)([-+0-9.eEdD]+)[a-z/]*(\s+step\s+)([-+0-9.eEdD]+)", re.IGNORECASE)
 
@@ -407,23 +411,29 @@ def tame(text):
 def sources():
     """The decks of the repository, in the order of their names."""
     found = []
-    for path in sorted(glob(os.path.join("inputs", "*.deck"))) + sorted(glob(os.path.join("tests", "decks", "*.deck"))):
+    folders = ("inputs", REFUSED, os.path.join("tests", "linkages", "decks"))
+    for path in itertools.chain(*(sorted(glob(os.path.join(folder, "*.deck"))) for folder in folders)):
         with open(path, "rb") as deck:
             found.append((os.path.dirname(path), deck.read()))
     return found
 
 
 def made_deck(dice, decks):
-    """One deck and what kind it is: sound, or a mutation of a sound one, of one in inputs/, of one that is refused."""
+    """One deck and what kind it is: sound, or a mutation of a sound one, of one in inputs/, of a linkage that is no four-bar, of one
+    that is refused."""
     inputs = [text for folder, text in decks if folder == "inputs"]
-    refused = [text for folder, text in decks if folder != "inputs"]
+    refused = [text for folder, text in decks if folder == REFUSED]
+    linkages = [text for folder, text in decks if OTHER_LINKAGE.search(text) and folder != REFUSED]
     kind, share = "sound", dice.random()
     if share < 0.4:
         text = sound_deck(dice)
     elif share < 0.7:
         kind, text = "sound, mutated", mutated(dice, sound_deck(dice), dice.choice(inputs))
-    elif share < 0.9:
+    elif share < 0.8:
         kind, text = "inputs, mutated", mutated(dice, dice.choice(inputs), sound_deck(dice))
+    elif share < 0.9:
+        # Cards of another linkage are nearer to sense than those of a four-bar.
+        kind, text = "linkages, mutated", mutated(dice, dice.choice(linkages), dice.choice(linkages))
     else:
         kind, text = "refused, mutated", mutated(dice, dice.choice(refused), dice.choice(inputs))
     return kind, tame(text)

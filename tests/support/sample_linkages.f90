@@ -37,7 +37,7 @@ module sample_linkages
 
   !> PRP: a block on a lever and on a guide at once, with a rod and a second lever behind it.
   character(len=*), parameter, public :: two_lines = head//"GROUND O 0 0"//nl//"GROUND Q 1 0.8"//nl// &
-    "GUIDE bed 0 0.3 angle=10"//nl//"LINK lever O A length=1"//nl//"LINK rod B C length=0.9"//nl// &
+    "GUIDE bed 0 0.3 angle=10"//nl//"LINK lever O A length=3"//nl//"LINK rod B C length=0.9"//nl// &
     "LINK rocker Q C length=0.7"//nl//"SLIDER B bed"//nl//"SLIDER B lever"//nl//"DRIVE lever"//nl// &
     "BRANCH C right B Q"//nl
 

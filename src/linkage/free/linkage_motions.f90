@@ -16,8 +16,8 @@ module linkage_motions
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkage_paths, only: has_iterations, period_of
   use linkage_rates, only: all_inertia, find_rates_of_coordinates, find_state, free_drives, &
-    inertia_share, moving_linkage_t, no_stop, rate_of_drive, stop_change_point, stop_energy, &
-    stop_many_steps, stop_misfit, stop_no_inertia, stop_steps
+    inertia_share, moving_linkage_t, no_stop, rate_of_drive, stop_at_end, stop_change_point, &
+    stop_energy, stop_many_steps, stop_misfit, stop_no_inertia, stop_steps
   use linkage_samples, only: linkage_sample_t, sample_state
   use linkages, only: drives_angle, linkage_t
   use motion_charts, only: is_same_side, motion_chart_t, new_chart
@@ -55,7 +55,7 @@ module linkage_motions
   !> Next to a change point steps shrink to what rounding allows. This many in turn, each shorter
   !! than this share of the time to the next instant, end the motion there.
   integer, parameter :: most_tiny_steps = 200
-  real(wp), parameter :: tiny_step = 1.0e-5_wp
+  real(wp), parameter :: tiny_step = 1.0e-5_wp, end_step = 1.0e-12_wp
 
   !> A motion whose energies do not balance to this share of the largest is wrong.
   real(wp), parameter :: lost_energy = 1.0e-6_wp
@@ -75,6 +75,7 @@ module linkage_motions
     real(wp) :: time = 0.0_wp                     !! [s]
     real(wp) :: energy = 0.0_wp                   !! kinetic + potential, at the start [J]
     integer :: stop = no_stop                     !! why it does not continue
+    type(error_t), allocatable :: left            !! the block that then leaves its link
     integer(long) :: most_steps = 1000000_long    !! from one instant to the next
     integer :: passage_count = 0                  !! so far
     type(passage_t), allocatable :: passages(:)   !! (at least passage_count)
@@ -257,6 +258,7 @@ contains
       call advance(motion%integrator, motion%system, motion%time, time, motion%state, error)
       if (allocated(error)) then
         motion%stop = merge(motion%system%stop, stop_steps, motion%system%stop /= no_stop)
+        if (motion%stop == stop_at_end) motion%left = motion%system%left
         if (motion%stop /= stop_steps) return
         call inertia_share(motion%system, motion%state, share)
         if (share < little_inertia) then
@@ -267,6 +269,11 @@ contains
         return
       end if
       call go_on(motion, time_before, before)
+      ! A block comes to the end of its link by steps of which each is a half of the last.
+      if (motion%system%stop == stop_at_end .and. motion%time - time_before < end_step*span) then
+        motion%stop = stop_at_end
+        motion%left = motion%system%left
+      end if
       tiny_steps = tiny_steps + 1
       if (motion%time - time_before >= tiny_step*span .or. .not. is_near_change_point(motion)) &
         tiny_steps = 0

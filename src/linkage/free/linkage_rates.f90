@@ -8,11 +8,12 @@
 !! along h_k, and b the accelerations with the present rates and no ü.
 module linkage_rates
   use adaptive_integration, only: rate_system_t
+  use block_ends, only: refuse_leaving_block
   use body_points, only: find_point_coefficients, point_coefficients_t
   use constants, only: degree
   use dense_factor, only: dense_factor_t, factorize, solve
   use drives, only: drive_t
-  use errors, only: error_t
+  use errors, only: error_of_dead_point, error_of_reach, error_t, set_error
   use group_equations, only: drive_rate
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, find_velocities, &
@@ -29,11 +30,13 @@ module linkage_rates
   public :: moving_linkage_t, free_drives, find_state, find_rates_of_coordinates, all_inertia, &
     inertia_share, rate_of_drive
   public :: no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps, &
-    stop_many_steps, stop_misfit, stop_energy
+    stop_many_steps, stop_misfit, stop_energy, stop_at_end
 
-  !> Why a motion stops. There are no rates without inertia, and where links move too fast.
+  !> Why a motion stops; at last because a block leaves its link. There are no rates then, without
+  !! inertia, and where links move too fast.
   integer, parameter :: no_stop = 0, stop_change_point = 1, stop_no_inertia = 2, &
-    stop_too_fast = 3, stop_steps = 4, stop_many_steps = 5, stop_misfit = 6, stop_energy = 7
+    stop_too_fast = 3, stop_steps = 4, stop_many_steps = 5, stop_misfit = 6, stop_energy = 7, &
+    stop_at_end = 8
 
   !> Steps begin with an angle of the first drive from −π to π: a trial step beyond `most_angle` is
   !! too long, whatever its estimated error [rad]. `most_rate` is beyond any mechanics, but short of
@@ -60,6 +63,7 @@ module linkage_rates
                                                 !! iterations
     type(motion_chart_t) :: chart               !! whose coordinates the state has else
     integer :: stop = no_stop                   !! why rates were last not found
+    type(error_t), allocatable :: left          !! the block that left its link, when `stop` says so
   contains
     procedure :: find_rates => rates_of_motion
   end type moving_linkage_t
@@ -77,15 +81,17 @@ contains
   end function free_drives
 
   !> Pose, velocities per rate of coordinate, velocities and accelerations without ü at a state.
-  subroutine find_state(self, state, pose, per, now, found)
+  subroutine find_state(self, state, pose, per, now, found, left)
     class(moving_linkage_t), intent(in) :: self
     real(wp), intent(in) :: state(:)    !! coordinates, rates, work
     type(pose_t), intent(out) :: pose   !! pins from `reference_point`
     type(kinematic_coefficients_t), allocatable, intent(out) :: per(:) !! (coordinates)
     type(kinematic_coefficients_t), intent(out) :: now                 !! per second
     logical, intent(out) :: found       !! the coordinates reach so far
+    type(error_t), allocatable, intent(out), optional :: left !! else the block that leaves its link
 
     type(dense_factor_t) :: factor
+    type(error_t), allocatable :: error
     real(wp) :: direction(size(self%free))
     integer :: f, k
 
@@ -93,11 +99,19 @@ contains
     if (.not. self%by_drives) then
       call find_on_chart(self%whole, self%chart, state(:f), pose, factor, found)
       if (.not. found) return
+      call refuse_leaving_block(self%whole%linkage, pose, error)
+      found = .not. allocated(error)
+      if (present(left)) call move_alloc(error, left)
+      if (.not. found) return
       call velocities(self%whole, self%chart, factor, per)
       call accelerations(self%whole, self%chart, factor, pose, per, state(f + 1:2*f), now)
       return
     end if
-    call place_by_drives(self, state(:f), pose, found)
+    call place_by_drives(self, state(:f), pose, error)
+    found = .not. allocated(error)
+    if (present(left) .and. .not. found) then
+      if (error%place%pin > 0) call move_alloc(error, left)
+    end if
     if (.not. found) return
     now = find_kinematic_coefficients(self%whole%linkage, pose, rates_of_drives(self, state(f + &
       1:2*f)))
@@ -109,23 +123,25 @@ contains
     end do
   end subroutine find_state
 
-  !> The pose at coordinates of the free drives. Not found out of reach, at dead points, and where
-  !! iterations do not converge.
-  subroutine place_by_drives(self, coordinates, pose, found)
+  !> The pose at coordinates of the free drives.
+  !!
+  !! Errors: out of reach; dead points; iterations that do not converge; a block leaves its link.
+  subroutine place_by_drives(self, coordinates, pose, error)
     class(moving_linkage_t), intent(in) :: self
     real(wp), intent(in) :: coordinates(:) !! (free drives) [rad] or [m]
     type(pose_t), intent(out) :: pose
-    logical, intent(out) :: found
+    type(error_t), allocatable, intent(out) :: error
 
     type(linkage_t) :: linkage
-    type(error_t), allocatable :: error
     real(wp) :: crank, correction
     integer :: i
 
     crank = coordinates(1)
     if (self%whole%linkage%drives(1)%kind == drives_angle) then
-      found = abs(crank) < most_angle
-      if (.not. found) return
+      if (.not. abs(crank) < most_angle) then
+        call set_error(error, error_of_reach, "the step is too long")
+        return
+      end if
       crank = crank/degree
       if (self%period > 0.0_wp) then
         crank = crank + modulo(self%turned, self%period)
@@ -148,9 +164,11 @@ contains
       end do
       pose = self%pose
       call place_groups(linkage, crank, pose, correction, error)
+      if (.not. allocated(error)) call refuse_leaving_block(linkage, pose, error)
     end if
-    found = .not. allocated(error)
-    if (found) found = all(abs(pose%sine) > dead_point_sine)
+    if (allocated(error)) return
+    if (.not. all(abs(pose%sine) > dead_point_sine)) call set_error(error, error_of_dead_point, &
+      "dead point")
   end subroutine place_by_drives
 
   !> Rates of all drives from those of the free ones: the others are held or geared to the first.
@@ -210,6 +228,7 @@ contains
     real(wp), intent(out) :: rates(:) !! of the state; defined only if found
     logical, intent(out) :: found     !! false: `stop` is set
 
+    type(error_t), allocatable :: left
     type(pose_t) :: pose
     type(kinematic_coefficients_t) :: now
     type(kinematic_coefficients_t), allocatable :: per(:)
@@ -225,9 +244,10 @@ contains
       self%stop = stop_too_fast
       return
     end if
-    call find_state(self, state, pose, per, now, found)
+    call find_state(self, state, pose, per, now, found, left)
     if (.not. found) then
-      self%stop = stop_steps
+      self%stop = merge(stop_at_end, stop_steps, allocated(left))
+      if (allocated(left)) call move_alloc(left, self%left)
       return
     end if
     call sum_up(self, pose, now, per, inertia, right)

@@ -3,6 +3,7 @@ module deck_checks
   use beam_mesh, only: moving_unknowns
   use crank_cycle, only: turns_freely
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
+  use drawing_checks, only: check_drawing
   use errors, only: error_of_reach
   use four_bar_limits, only: can_reach, crank_reach, reach_t
   use kinds, only: wp
@@ -46,6 +47,7 @@ contains
     type(reach_t) :: reach
     type(assembly_t) :: assembly
 
+    call check_drawing(model, diagnostics)
     call assemble_linkage(model, assembly)
     if (allocated(assembly%problem)) then
       call report_problem(model, assembly, diagnostics)

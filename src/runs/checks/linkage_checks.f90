@@ -1,8 +1,9 @@
 !> Checks of linkages that are no four-bars and have a plan: whether they assemble near the drawing,
 !! fit, and reach the positions of the deck.
 module linkage_checks
+  use block_checks, only: check_blocks
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
-  use errors, only: error_of_reach, error_t
+  use errors, only: error_of_dead_point, error_of_reach, error_t
   use kinds, only: wp
   use linkage_parts, only: assembly_t
   use linkages, only: linkage_t, reference_point
@@ -65,7 +66,8 @@ contains
     if (drives_length(model) .and. model%motor%keyword%line > 0) call add_error(diagnostics, &
       model%motor%keyword, "a MOTOR turns a link, and the first DRIVE moves a slider or a ram; "// &
       "a FORCE on its pin, or a DRIVE of a link, may serve")
-    call check_reach(model, mechanism%linkage, diagnostics)
+    call check_reach(model, mechanism, diagnostics)
+    call check_blocks(model, mechanism, diagnostics)
   end subroutine check_linkage
 
   !> The drawing does not assemble: the nearest assembly as PIN cards, if there is one.
@@ -80,6 +82,11 @@ contains
 
     place = model%links(1)%name
     if (size(model%drawn_pins) > 0) place = model%drawn_pins(1)%pin
+    if (assembly%error%kind == error_of_dead_point) then
+      call add_error(diagnostics, place, "this drawing shows a dead point, or nearly so, where "// &
+        "the drive cannot move the links; draw another position")
+      return
+    end if
     if (.not. allocated(assembly%nearest)) then
       call add_error(diagnostics, place, "the linkage does not assemble from this drawing: "// &
         assembly%error%text)
@@ -126,7 +133,7 @@ contains
     end if
     if (abs(found%largest) > most_misfit*found%span) then
       call add_error(diagnostics, place, "links "//neighbours_of(mechanism, body)//name// &
-        " form a structure and cannot move", kind=error_of_reach)
+        " form a structure and cannot move"//while_driven(model), kind=error_of_reach)
     else
       call add_error(diagnostics, place, name//" does not fit: "//in_deck(model, &
         abs(found%first))//" "//length_name(model)//" too "//trim(merge("short", "long ", &
@@ -172,6 +179,15 @@ contains
     shown = crank
     if (drives_length(model)) shown = from_si(crank, coherent_unit(model%units, dimension_length))
   end function shown_crank
+  !> Several drives may be one too many.
+  pure function while_driven(model) result(words)
+    type(model_t), intent(in) :: model
+    character(len=:), allocatable :: words
+
+    words = ""
+    if (size(model%drives) > 1) words = " while "//plural(size(model%drives), "DRIVE card")// &
+      " give their positions"
+  end function while_driven
 
   !> `'a', 'b', `: the links that share a moving pin with one.
   pure function neighbours_of(mechanism, body) result(words)
@@ -206,35 +222,46 @@ contains
     name = measure%name
   end function length_name
 
-  !> Positions out of reach: an error if there is any, with the first and their number.
-  pure subroutine check_reach(model, linkage, diagnostics)
+  !> Positions out of reach: an error if none is in reach, else a warning with the first and their
+  !! number. Blocks that leave their links have messages of their own.
+  pure subroutine check_reach(model, mechanism, diagnostics)
     type(model_t), intent(in) :: model
-    type(linkage_t), intent(in) :: linkage
+    type(mechanism_t), intent(in) :: mechanism
     type(diagnostics_t), intent(inout) :: diagnostics
 
     type(error_t), allocatable :: error
     type(pose_t) :: pose
-    integer :: i, out_of_reach, first
+    character(len=:), allocatable :: why
+    integer :: i, out_of_reach, leaving, first
     real(wp) :: shown
 
     out_of_reach = 0
+    leaving = 0
     first = 0
     do i = 1, size(model%crank%value)
-      call place_links(linkage, model%crank%value(i), pose, error)
+      call place_links(mechanism%linkage, model%crank%value(i), pose, error)
       if (.not. allocated(error)) cycle
       if (error%kind /= error_of_reach) cycle
+      if (error%place%pin > 0) then
+        leaving = leaving + 1
+        cycle
+      end if
       out_of_reach = out_of_reach + 1
-      if (first == 0) first = i
+      if (first > 0) cycle
+      first = i
+      why = ""
+      if (error%place%body > 0) why = ": '"//mechanism%names(error%place%body)%text// &
+        "' does not "//trim(merge("fit  ", "reach", index(error%text, "redundant") > 0))
     end do
     if (out_of_reach == 0) return
     shown = shown_crank(model, model%crank%value(first))
-    if (out_of_reach == size(model%crank%value)) then
+    if (out_of_reach + leaving == size(model%crank%value)) then
       call add_error(diagnostics, model%crank%words(model%crank%word(first)), &
-        "the linkage closes at none of these positions", kind=error_of_reach)
+        "the linkage closes at none of these positions"//why, kind=error_of_reach)
     else
       call add_warning(diagnostics, model%crank%words(model%crank%word(first)), &
         plural(out_of_reach, "position")//" of "//to_string(size(model%crank%value))// &
-        " out of reach, the first at "//to_string(shown, 10))
+        " out of reach, the first at "//to_string(shown, 10)//why)
     end if
   end subroutine check_reach
 

@@ -36,8 +36,8 @@ contains
           what_is_free(assembly)//" (add a DRIVE, or parts that hold it)")
       case (problem_braced)
         if (size(problem%bodies) == 1) then
-          call add_error(diagnostics, place, "link '"//place%text//"' joins the ground pivots "// &
-            pins//" and cannot move")
+          call add_error(diagnostics, place, "link '"//place%text//"' joins the ground "// &
+            "pivots "//pins(index(pins, "'"):)//" and cannot move")
         else
           call add_error(diagnostics, place, &
             "mobility 0: '"//place%text//"' joins two pins of '"// &

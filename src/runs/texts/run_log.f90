@@ -1,6 +1,7 @@
 !> The first part of `run.log`: what the deck describes.
 module run_log
   use body_lines, only: body_line, mass_line
+  use drawing_checks, only: drawing_remarks
   use effect_cards, only: effect_words
   use kinds, only: wp
   use link_cards, only: has_own_mass
@@ -8,7 +9,7 @@ module run_log
   use models, only: branch_crossed, inertia_distributed, inertia_lumped, link_mass, model_t, &
     needs_frequencies
   use pose_types, only: pins_of_body
-  use text, only: plural, to_string
+  use text, only: plural, string_t, to_string
   use units, only: coherent_unit, dimension_acceleration, dimension_damping, dimension_length, &
     dimension_mass, from_si, unit_t
   implicit none (type, external)
@@ -27,6 +28,7 @@ contains
     character(len=:), allocatable :: text
 
     character(len=:), allocatable :: where_to
+    type(string_t), allocatable :: remarks(:)
     type(unit_t) :: length, mass
     integer :: i
 
@@ -48,6 +50,10 @@ contains
         text = text//line_feed
         if (has_own_mass(link)) text = text//body_line(model, mechanism%links(i))//line_feed
       end associate
+    end do
+    remarks = drawing_remarks(model)
+    do i = 1, size(remarks)
+      text = text//remarks(i)%text//line_feed
     end do
     do i = 1, size(model%pin_masses)
       text = text//"mass at pin "//model%pin_masses(i)%pin%text//": "// &
