@@ -30,7 +30,7 @@ do for [k=1:n_rows] {
 }
 unit_of(p) = p == 1 ? unit_crank : p == 3 ? length_of_list : "deg"
 row_name(k) = word($limits[k], 1) eq "1" ? drive_subject : inside(word($limits[k], 2), name_length)
-title_of(p) = p == 1 ? drive_quantity(unit_crank) : p == 2 ? "angle of the link" : p == 3 ? "place on the guide" \
+title_of(p) = p == 1 ? drive_quantity(unit_crank) : p == 2 ? "angle of the link" : p == 3 ? "place on the line" \
     : only_of(4) ? "transmission angle, best at 90°" : only_of(5) ? "pressure angle, best at 0" : "transmission angle, best at 90°; pressure angle, best at 0"
 only_of(kind) = (others = 0, sum [i_of=1:n_rows] (others = others + (panel_of($limits[i_of]) == 4 && word($limits[i_of], 1) + 0 != kind), 0), others == 0)
 

@@ -37,6 +37,7 @@ module linkage_checks
     real(wp) :: largest = 0.0_wp      !! of all positions [m]
     real(wp) :: at_largest = 0.0_wp   !! its coordinate
     real(wp) :: span = 0.0_wp         !! of the linkage [m]
+    integer :: fitting = 0            !! positions where all fit
   end type misfit_t
 
 contains
@@ -131,7 +132,7 @@ contains
       place = model%links(mechanism%links(body))%name
       name = "'"//place%text//"'"
     end if
-    if (abs(found%largest) > most_misfit*found%span) then
+    if (abs(found%largest) > most_misfit*found%span .and. found%fitting == 0) then
       call add_error(diagnostics, place, "links "//neighbours_of(mechanism, body)//name// &
         " form a structure and cannot move"//while_driven(model), kind=error_of_reach)
     else
@@ -159,6 +160,7 @@ contains
       if (allocated(error)) cycle
       found%span = max(found%span, maxval(abs(pose%pin)), maxval(linkage%bodies%length))
       call largest_misfit(linkage, pose, reference_point(linkage), cranks(i), misfit, number)
+      if (abs(misfit) <= fit*found%span) found%fitting = found%fitting + 1
       if (found%number == 0 .and. abs(misfit) > fit*found%span) then
         found%first = misfit
         found%at_first = cranks(i)
