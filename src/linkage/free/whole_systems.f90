@@ -7,8 +7,10 @@ module whole_systems
   use constants, only: degree
   use group_equations, only: curvature_of, drive_rate, find_gradient, gradient_t, misfit_of
   use kinds, only: wp
-  use linkages, only: demands_angle, demands_drive, demands_length, demands_line, demands_turn, &
-    drives_angle, drives_length, equation_t, linkage_t, normal_to, reference_point
+  use linkages, only: demands_angle, demands_drive, demands_length, drives_angle, equation_t, &
+    linkage_t, normal_to, reference_point
+  use plan_equations, only: append_equation, drive_equation, drive_of_length, line_equation, &
+    pin_equation, turn_equation
   use pose_types, only: pins_of_body, place_of_pin, pose_t
   implicit none (type, external)
   private
@@ -52,35 +54,21 @@ contains
       system%scale(i) = linkage%bodies(i)%length
       do k = 2, size(pins)
         system%scale(i) = max(system%scale(i), norm2(place_of_pin(linkage%bodies(i), pins(k))))
-        if (k > 2 .or. .not. any(linkage%drives%kind == drives_length .and. &
-          linkage%drives%body == i)) call append(system%equations, equation_t(demands_length, i, &
-          pins(k), place_of_pin(linkage%bodies(i), pins(k))))
-        call append(system%equations, equation_t(demands_angle, i, pins(k), &
-          place_of_pin(linkage%bodies(i), pins(k))))
+        if (k > 2 .or. drive_of_length(linkage, i) == 0) call append_equation(system%equations, &
+          pin_equation(linkage, demands_length, i, pins(k)))
+        call append_equation(system%equations, pin_equation(linkage, demands_angle, i, pins(k)))
       end do
     end do
     do i = 1, size(linkage%sliders)
-      call append(system%equations, equation_t(demands_line, number=i))
+      call append_equation(system%equations, line_equation(i))
     end do
     do i = 1, size(linkage%turns)
-      call append(system%equations, equation_t(demands_turn, number=i))
+      call append_equation(system%equations, turn_equation(i))
     end do
     do i = 1, size(linkage%drives)
-      if (.not. any(free == i)) call append(system%equations, equation_t(demands_drive, number=i))
+      if (.not. any(free == i)) call append_equation(system%equations, drive_equation(i))
     end do
   end function new_whole_system
-
-  pure subroutine append(list, equation)
-    type(equation_t), allocatable, intent(inout) :: list(:)
-    type(equation_t), intent(in) :: equation
-
-    type(equation_t), allocatable :: longer(:)
-
-    allocate (longer(size(list) + 1))
-    longer(:size(list)) = list
-    longer(size(longer)) = equation
-    call move_alloc(longer, list)
-  end subroutine append
 
   !> Number of unknowns.
   pure function unknown_count(system) result(number)
@@ -141,7 +129,7 @@ contains
     real(wp), allocatable :: row(:)            !! (unknowns)
 
     allocate (row(unknown_count(system)))
-    call set_row(system, equation_t(demands_drive, number=drive), pose, row)
+    call set_row(system, drive_equation(drive), pose, row)
   end function drive_row
 
   !> A row of the unknowns times velocities of pins and bodies.
@@ -218,8 +206,8 @@ contains
         associate (equation => system%equations(i))
           if (equation%kind /= demands_drive) cycle
           if (abs(linkage%drives(equation%number)%ratio) > 0.0_wp) curvature(i) = curvature(i) - &
-            drive_rate(linkage, equation%number)*curvature_of(linkage, equation_t( &
-            demands_drive, number=1), pose, turn, pin)
+            drive_rate(linkage, equation%number)*curvature_of(linkage, drive_equation(1), pose, &
+            turn, pin)
         end associate
       end do
     end associate
@@ -235,7 +223,7 @@ contains
 
     ! The drive's misfit is what its coordinate is above its phase.
     associate (it => system%linkage%drives(drive))
-      position = misfit_of(system%linkage, equation_t(demands_drive, number=drive), pose, &
+      position = misfit_of(system%linkage, drive_equation(drive), pose, &
         system%origin, 0.0_wp)
       if (it%kind == drives_angle) position = position/degree
       position = position + it%phase
