@@ -6,6 +6,7 @@ module crank_limits
   use linkages, only: drives_angle, linkage_t
   use pose_types, only: pose_t
   use poses, only: find_pose, place_links
+  use sorting, only: ascending_order
   implicit none (type, external)
   private
 
@@ -27,12 +28,12 @@ module crank_limits
 
 contains
 
-  !> The intervals in which the linkage closes; of a driven length, that around a given coordinate.
+  !> The intervals in which the linkage closes; of a driven length, those around given coordinates.
   !! They are those of the first drive, or of another one that alone moves: with the ratio 1, and 0
   !! of all others.
   pure subroutine find_ranges(linkage, inside, ranges, drive)
     type(linkage_t), intent(in) :: linkage                      !! of any kind, with its path
-    real(wp), intent(in) :: inside                              !! a coordinate of the deck [deg] or
+    real(wp), intent(in) :: inside(:)                           !! coordinates of the deck [deg] or
                                                                 !! [m]
     type(crank_range_t), allocatable, intent(out) :: ranges(:)  !! ascending; none if it closes
                                                                 !! nowhere
@@ -41,6 +42,7 @@ contains
     type(crank_range_t) :: range
     real(wp) :: step, c, period, first
     logical :: closes(0:samples), is_angle
+    integer, allocatable :: order(:)
     integer :: i, k
 
     allocate (ranges(0))
@@ -51,12 +53,19 @@ contains
       period = merge(360.0_wp, 0.0_wp, is_angle)
     end if
     if (period <= 0.0_wp) then
-      if (.not. is_closed(linkage, inside)) return
       step = 360.0_wp/samples
       if (.not. is_angle) step = maxval(linkage%bodies%length)/samples
-      call find_end(linkage, inside, -step, range%blocked_by(1), range%left_at(1), range%from)
-      call find_end(linkage, inside, step, range%blocked_by(2), range%left_at(2), range%to)
-      ranges = [range]
+      order = ascending_order(inside)
+      do i = 1, size(inside)
+        c = inside(order(i))
+        if (size(ranges) > 0) then
+          if (c <= ranges(size(ranges))%to + 1.0e-6_wp*step) cycle
+        end if
+        if (.not. is_closed(linkage, c)) cycle
+        call find_end(linkage, c, -step, range%blocked_by(1), range%left_at(1), range%from)
+        call find_end(linkage, c, step, range%blocked_by(2), range%left_at(2), range%to)
+        ranges = [ranges, range]
+      end do
       return
     end if
     do i = 0, samples

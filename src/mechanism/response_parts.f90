@@ -100,7 +100,8 @@ contains
     gauge%body = findloc(links, link, dim=1)
     gauge%is_reversed = runs_against(linkage%bodies(gauge%body))
     place = place_on_body(linkage%bodies(gauge%body), [at, 0.0_wp])
-    gauge%place = place(1)/model%links(link)%length
+    ! A ram has no length of its own, and does not bend.
+    if (model%links(link)%length > 0.0_wp) gauge%place = place(1)/model%links(link)%length
     gauge%side = side
   end function gauge_on
 

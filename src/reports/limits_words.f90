@@ -52,8 +52,11 @@ contains
     associate (found => variant%found%limits)
       do r = 1, size(found%ranges)
         if (.not. found%ranges(r)%turns) then
-          call append_end(variant, found%ranges(r)%from, found%ranges(r)%blocked_by(1), notes)
-          call append_end(variant, found%ranges(r)%to, found%ranges(r)%blocked_by(2), notes)
+          associate (range => found%ranges(r))
+            if (range%left_at(1) == 0) call append_end(variant, range%from, range%blocked_by(1), &
+              notes)
+            if (range%left_at(2) == 0) call append_end(variant, range%to, range%blocked_by(2), notes)
+          end associate
         end if
         do i = 1, size(found%low(r)%at)
           associate (point => found%low(r)%at(i))

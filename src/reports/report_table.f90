@@ -303,19 +303,22 @@ contains
       case ("linkage")
         call find_linkage(linkage, found%linkage)
       case ("limits")
-        call find_limits(linkage, crank_of_deck(model), found%limits)
+        call find_limits(linkage, positions_of_deck(model), found%limits)
       end select
     end associate
   end subroutine find_study
 
-  !> A position of the first drive that the deck names; 0 without any.
-  pure function crank_of_deck(model) result(crank)
+  !> Positions of the first drive that the deck names: on CRANK, or at the start of a motion.
+  pure function positions_of_deck(model) result(positions)
     type(model_t), intent(in) :: model
-    real(wp) :: crank
+    real(wp), allocatable :: positions(:) !! [deg] or [m]
 
-    crank = 0.0_wp
-    if (size(model%crank%value) > 0) crank = model%crank%value(1)
-  end function crank_of_deck
+    integer :: number
+
+    positions = model%crank%value
+    number = report_number(model, "motion")
+    if (number > 0) positions = [positions, model%reports(number)%start_angle]
+  end function positions_of_deck
 
   !> Columns and items of a table.
   subroutine plan_table(table, variant, plan)

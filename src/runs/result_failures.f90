@@ -3,14 +3,14 @@ module result_failures
   use errors, only: error_of_reach, error_t, set_error
   use frequency_study, only: has_result
   use kinds, only: wp
-  use models, only: needs_frequencies, speed_in_words
+  use models, only: drives_length, needs_frequencies, report_number, speed_in_words
   use run_findings, only: add_failure, at_frequencies, at_position, failure_t, findings_t, &
     in_campbell, in_intervals, in_motion, in_response, in_stability, in_transient, of_variant
   use stability_types, only: gap_t
+  use table_columns, only: table_unit
   use text, only: to_string
-  use units, only: from_si
+  use units, only: from_si, unit_t
   use variant_results, only: variant_results_t
-  use linkage_motion_study, only: linkage_motion_result_t
   implicit none (type, external)
   private
 
@@ -88,34 +88,41 @@ contains
       if (allocated(found%motion%error)) call note_failure(variant, in_motion, found%motion%error, &
         found%motion%last%angle(1), 0, found%motion%last%time, findings)
       if (allocated(found%linkage_motion%error)) call note_failure(variant, in_motion, &
-        found%linkage_motion%error, last_crank(found%linkage_motion), 0, &
+        found%linkage_motion%error, last_crank(variant), 0, &
         found%linkage_motion%last%time, findings)
     end associate
   end subroutine find_failures
 
-  !> Where the first drive was at last.
-  pure function last_crank(motion) result(crank)
-    type(linkage_motion_result_t), intent(in) :: motion
+  !> Where the first drive was at last: at the start, if the motion has not begun [deg] or [m].
+  pure function last_crank(variant) result(crank)
+    type(variant_results_t), intent(in) :: variant !! with a motion
     real(wp) :: crank
 
-    crank = 0.0_wp
-    if (allocated(motion%last%position)) crank = motion%last%position(1)
+    crank = variant%model%reports(report_number(variant%model, "motion"))%start_angle
+    associate (motion => variant%found%linkage_motion)
+      if (allocated(motion%last%position)) crank = motion%last%position(1)
+    end associate
   end function last_crank
 
   pure subroutine note_failure(variant, stage, error, crank, speed, time, findings)
     type(variant_results_t), intent(in) :: variant
     integer, intent(in) :: stage     !! one of those of `run_findings`
     type(error_t), intent(in) :: error
-    real(wp), intent(in) :: crank    !! [deg]
+    real(wp), intent(in) :: crank    !! [deg] or [m]
     integer, intent(in) :: speed     !! number in the list of the sweep, of a response in that of
                                      !! the deck; 0: none
     real(wp), intent(in) :: time     !! [s]
     type(findings_t), intent(inout) :: findings
 
     type(failure_t) :: failure
+    type(unit_t) :: unit
 
     failure%stage = stage
     failure%crank = crank
+    if (drives_length(variant%model)) then
+      unit = table_unit("length", variant%model%outputs)
+      failure%crank_words = to_string(from_si(crank, unit), 12)//" "//unit%name
+    end if
     failure%speed_words = ""
     if (speed > 0) then
       failure%speed = variant%model%speed%value(speed)

@@ -11,7 +11,7 @@ module run_findings
   private
 
   public :: findings_t, failure_t, add_failure, add_warning_of_run, add_findings, put_findings, &
-    get_findings, warnings_of_grade, place_in_words
+    get_findings, warnings_of_grade, place_in_words, place_of_failure
   public :: at_position, at_frequencies, in_motion, of_variant, in_response, in_stability, &
     in_intervals, in_transient, in_campbell
 
@@ -24,7 +24,10 @@ module run_findings
   !> A position, or an instant of a motion, without a result.
   type :: failure_t
     integer :: stage = at_position           !! one of the stages above
-    real(wp) :: crank = 0.0_wp               !! of a position or motion [deg]
+    real(wp) :: crank = 0.0_wp               !! of a position or motion [deg], of a slider or a ram
+                                             !! [m]
+    character(len=:), allocatable :: crank_words !! the same of a slider or a ram, in the unit of
+                                             !! results: `180 mm`; else empty
     real(wp) :: speed = 0.0_wp               !! of frequencies or a response [rad/s]
     character(len=:), allocatable :: speed_words !! the same in the unit of results: `300 rpm`
     real(wp) :: time = 0.0_wp                !! at which a motion ended [s]
@@ -144,6 +147,16 @@ contains
     if (present(speed)) place = "speed "//speed//", "//place
   end function place_in_words
 
+  !> `crank 45 deg`, or `crank 180 mm` of a slider or a ram.
+  pure function place_of_failure(failure) result(place)
+    type(failure_t), intent(in) :: failure !! at a position
+    character(len=:), allocatable :: place
+
+    place = place_in_words(failure%crank)
+    if (.not. allocated(failure%crank_words)) return
+    if (len(failure%crank_words) > 0) place = "crank "//failure%crank_words
+  end function place_of_failure
+
   !> Appends findings to a buffer as bytes.
   pure subroutine put_findings(buffer, findings)
     type(text_buffer_t), intent(inout) :: buffer !! bytes, to be read by `get_findings`
@@ -159,6 +172,11 @@ contains
         call put_error(buffer, failure%error)
         call put_string(buffer, failure%variant)
         call put_string(buffer, failure%speed_words)
+        if (allocated(failure%crank_words)) then
+          call put_string(buffer, failure%crank_words)
+        else
+          call put_string(buffer, "")
+        end if
       end associate
     end do
     do i = 1, findings%warning_count
@@ -236,6 +254,7 @@ contains
     call get_error(bytes, at, failure%error)
     call get_string(bytes, at, failure%variant)
     call get_string(bytes, at, failure%speed_words)
+    call get_string(bytes, at, failure%crank_words)
   end subroutine get_failure
 
 end module run_findings

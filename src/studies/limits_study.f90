@@ -41,16 +41,21 @@ module limits_study
 contains
 
   !> Finds all ranges, and the extremes in them.
-  pure subroutine find_limits(linkage, inside, found)
+  pure subroutine find_limits(linkage, positions, found)
     type(linkage_t), intent(in) :: linkage      !! of any kind, with its path
-    real(wp), intent(in) :: inside              !! a coordinate of the first drive [deg] or [m]
+    real(wp), intent(in) :: positions(:)        !! of the first drive in the deck [deg] or [m]; of a
+                                                !! driven length ranges are looked for from there,
+                                                !! without any everywhere
     type(limits_result_t), intent(out) :: found !! over all ranges
 
+    real(wp), allocatable :: inside(:)
     integer :: r, q
 
+    inside = positions
+    if (size(inside) == 0) inside = everywhere(linkage)
     call find_ranges(linkage, inside, found%ranges)
     call list_quantities(linkage, found%quantities)
-    call find_further_ranges(linkage, inside, found)
+    call find_further_ranges(linkage, inside(1), found)
     allocate (found%extremes(size(found%quantities), size(found%ranges)), &
       found%low(size(found%ranges)))
     do r = 1, size(found%ranges)
@@ -61,6 +66,22 @@ contains
       end do
     end do
   end subroutine find_limits
+
+  !> Coordinates of the first drive of a deck that names none: 0 of an angle, of a length as far as
+  !! all links together reach.
+  pure function everywhere(linkage) result(positions)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), allocatable :: positions(:) !! [deg] or [m]
+
+    integer, parameter :: steps = 720
+    real(wp) :: span
+    integer :: i
+
+    positions = [0.0_wp]
+    if (linkage%drives(1)%kind == drives_angle) return
+    span = 2.0_wp*sum(linkage%bodies%length) + maxval(norm2(linkage%ground_position, dim=1))
+    positions = [(span*i/steps, i=-steps, steps)]
+  end function everywhere
 
   !> Ranges of further drives.
   pure subroutine find_further_ranges(linkage, inside, found)
@@ -121,7 +142,7 @@ contains
     value = alone%drives(number)%phase
     alone%drives(number)%phase = 0.0_wp
     alone%drives(number)%ratio = 1.0_wp
-    call find_ranges(alone, value, ranges, number)
+    call find_ranges(alone, [value], ranges, number)
     do r = 1, size(ranges)
       ahead = value - ranges(r)%from
       if (linkage%drives(number)%kind == drives_angle) ahead = modulo(ahead, 360.0_wp)

@@ -138,3 +138,13 @@ leaving_block() {
   run 0 --out "$scratch/out" "$scratch/slot.deck" && silent
 }
 check "a block that leaves its link" leaving_block
+
+# Positions of a slider or a ram are lengths, a motion that cannot begin is at its start.
+lengths() {
+  printf '%s\n' "UNITS mm kg s" "GROUND O 0 0" "GUIDE g 0 0 angle=0" "LINK crank O A length=30 mass=1 inertia=10" \
+    "LINK rod A B length=100 mass=1 inertia=10" "SLIDER B g" "BRANCH A left O B" "DRIVE B g" \
+    "CRANK 120 150" "REPORT pins" "REPORT motion crank=160 end=1 step=0.1" >"$scratch/pump.deck"
+  run 1 --out "$scratch/out" "$scratch/pump.deck" && says "crank 150 mm: the position is out of reach" &&
+    says "motion, time 0 s, crank 160 mm: the position is out of reach"
+}
+check "positions of a slider are lengths" lengths

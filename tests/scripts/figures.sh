@@ -328,7 +328,7 @@ installed_plots() {
 other_linkages() {
   run 0 --quiet --out "$scratch/out" inputs/quick_return.deck inputs/toggle_press.deck inputs/klann.deck || return 1
   all="drive_forces joint_forces link_motion linkage linkage_positions pin_motion"
-  drawn quick_return figures $all shaking_force && gif quick_return/figures/linkage.gif 72 || return 1
+  drawn quick_return figures ${all%%link_motion*} limits ${all#*joint_forces } shaking_force && gif quick_return/figures/linkage.gif 72 || return 1
   drawn toggle_press figures $all && gif toggle_press/figures/linkage.gif 60 || return 1
   drawn klann figures link_motion linkage linkage_positions pin_motion && drawn klann animations linkage || return 1
   sed 's/^LINK     rod .*/LINK rod A B length=30 mass=1 inertia=1/; /^POINT/d; /^REPORT   points/d; /^REPORT   balance/d' inputs/engine.deck >"$scratch/short.deck"
@@ -369,7 +369,7 @@ moving_places() {
   for crank in 30 "$cranks"; do
     { sed '/^REPORT/d' "$scratch/driven.deck" && echo "REPORT geometry crank=$crank"; } >"$scratch/there.deck"
     run 0 --quiet --out "$scratch/out" "$scratch/there.deck" || return 1
-    cp "$scratch/out/there/geometry.dat" "$scratch/geometry.${crank%%,*}"
+    [ "$crank" != 30 ] || cp "$scratch/out/there/geometry.dat" "$scratch/geometry.30"
   done
   awk -v stride=10 -v count=4 -f plots/motion_places.awk "$scratch/geometry.30" "$scratch/out/paced/motion_pins.dat" >"$scratch/moved"
   grep -v -e '^#' -e '^ *$' "$scratch/out/there/geometry.dat" | paste -d' ' "$scratch/moved" - | awk '

@@ -142,6 +142,9 @@ contains
         return
       end if
       motion%is_left = determinants_of(linkage, pose) > 0.0_wp
+      ! At a dead point itself the branch is that of the deck: closed forms are on it.
+      where (abs(determinants_of(linkage, pose)) <= undecided_sine) motion%is_left = &
+        linkage%groups%side > 0.0_wp
       motion%position = [(linkage%drives(system%free(i))%ratio*crank + &
         linkage%drives(system%free(i))%phase, i=1, f)]
       allocate (motion%state(2*f + 1), motion%passages(0))

@@ -4,6 +4,7 @@ module findings_texts
   use diagnostics, only: diagnostics_t, warning_texts
   use run_findings, only: at_position, failure_t, findings_t, in_motion, in_response, &
     in_campbell, in_intervals, in_stability, in_transient, of_variant, place_in_words, &
+    place_of_failure, &
     warnings_of_grade
   use text, only: string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
@@ -28,9 +29,9 @@ contains
 
     select case (failure%stage)
     case (in_motion)
-      line = "motion, time "//to_string(failure%time, 12)//" s, "//place_in_words(failure%crank)
+      line = "motion, time "//to_string(failure%time, 12)//" s, "//place_of_failure(failure)
     case (at_position)
-      line = place_in_words(failure%crank)
+      line = place_of_failure(failure)
     case (in_response)
       line = "response, speed "//failure%speed_words
     case (in_stability)
