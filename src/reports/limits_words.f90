@@ -55,7 +55,8 @@ contains
           associate (range => found%ranges(r))
             if (range%left_at(1) == 0) call append_end(variant, range%from, range%blocked_by(1), &
               notes)
-            if (range%left_at(2) == 0) call append_end(variant, range%to, range%blocked_by(2), notes)
+            if (range%left_at(2) == 0) call append_end(variant, range%to, range%blocked_by(2), &
+              notes)
           end associate
         end if
         do i = 1, size(found%low(r)%at)
