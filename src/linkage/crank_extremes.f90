@@ -3,7 +3,7 @@ module crank_extremes
   use constants, only: degree
   use crank_limits, only: crank_range_t, samples
   use errors, only: error_t
-  use group_equations, only: line_offset, world_line
+  use group_equations, only: line_axis, line_offset, world_line
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use linkages, only: cross, linkage_t, normal_to
@@ -213,8 +213,8 @@ contains
         value = acos(min(1.0_wp, abs(sine)))/degree
         rate = h(group%body(1)) - turn_of_line(group%slider(1))
       case (transmission_of_lines)
-        call world_line(linkage, pose, group%slider(1), [0.0_wp, 0.0_wp], axis, point)
-        call world_line(linkage, pose, group%slider(2), [0.0_wp, 0.0_wp], other, point)
+        axis = line_axis(linkage, pose, group%slider(1))
+        other = line_axis(linkage, pose, group%slider(2))
         value = atan2(abs(cross(axis, other)), abs(dot_product(axis, other)))/degree
         rate = (turn_of_line(group%slider(2)) - turn_of_line(group%slider(1)))* &
           sign(1.0_wp, cross(axis, other))*sign(1.0_wp, dot_product(axis, other))

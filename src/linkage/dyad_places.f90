@@ -7,10 +7,10 @@ module dyad_places
   implicit none (type, external)
   private
 
-  public :: place_dyad
+  public :: place_dyad, limit_slack
 
-  !> Relative slack for the area of the dyad's triangle: a limit position missed by rounding is a
-  !! dead point, not out of reach.
+  !> Relative slack for the area of a dyad's triangle, or the square of a distance: a limit position
+  !! missed by rounding is a dead point, not out of reach.
   real(wp), parameter :: limit_slack = 1.0e-11_wp
 
 contains

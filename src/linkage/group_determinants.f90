@@ -1,10 +1,10 @@
 !> Scaled determinants of groups at any pose: zero at a dead point; their signs are the branches.
 module group_determinants
   use dense_factor, only: dense_factor_t
-  use group_equations, only: factorize_group
+  use group_equations, only: factorize_group, line_axis
   use kinds, only: wp
   use linkages, only: cross, groups_by_newton, groups_cross_slide, groups_driven_dyad, &
-    groups_dyad, groups_on_line, groups_through_pin, groups_two_lines, linkage_t, turned
+    groups_dyad, groups_on_line, groups_through_pin, groups_two_lines, linkage_t
   use pose_types, only: pose_t
   use poses, only: arm_to_middle
   implicit none (type, external)
@@ -48,13 +48,13 @@ contains
           pose, 2))
       case (groups_on_line)
         way = pose%pin(:, group%middle) - pose%pin(:, group%base(1))
-        determinant = dot_product(axis_of(linkage, pose, group%slider(1)), way)/norm2(way)
+        determinant = dot_product(line_axis(linkage, pose, group%slider(1)), way)/norm2(way)
       case (groups_through_pin)
         way = pose%pin(:, group%middle) - pose%pin(:, group%base(1))
-        determinant = dot_product(axis_of(linkage, pose, group%slider(1)), way)/ &
+        determinant = dot_product(line_axis(linkage, pose, group%slider(1)), way)/ &
           max(linkage%bodies(group%body(1))%length, norm2(way))
       case (groups_two_lines, groups_cross_slide)
-        determinant = cross(axis_of(linkage, pose, group%slider(1)), axis_of(linkage, pose, &
+        determinant = cross(line_axis(linkage, pose, group%slider(1)), line_axis(linkage, pose, &
           group%slider(2)))
       case (groups_by_newton)
         allocate (scales(size(group%bodies)))
@@ -63,17 +63,5 @@ contains
       end select
     end associate
   end function determinant_of
-
-  !> Direction of the line of a slider.
-  pure function axis_of(linkage, pose, slider) result(axis)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    integer, intent(in) :: slider
-    real(wp) :: axis(2)
-
-    axis = linkage%sliders(slider)%direction
-    if (linkage%sliders(slider)%body > 0) axis = turned(axis, pose%direction(:, &
-      linkage%sliders(slider)%body))
-  end function axis_of
 
 end module group_determinants

@@ -11,7 +11,7 @@ module group_equations
   use constants, only: degree
   use dense_factor, only: dense_factor_t, factorize
   use kinds, only: wp
-  use linkages, only: cross, demands_angle, demands_drive, demands_length, demands_line, &
+  use linkages, only: body_t, cross, demands_angle, demands_drive, demands_length, demands_line, &
     demands_turn, drives_angle, drive_t, drives_length, drives_slider, equation_t, group_t, &
     linkage_t, normal_to, turned
   use pose_types, only: pose_t
@@ -20,7 +20,7 @@ module group_equations
 
   public :: gradient_t, find_gradient, misfit_of, curvature_of, drive_rate, drive_value, &
     drive_direction, direction_at, unknowns_of, column_scales, group_matrix, factorize_group, &
-    world_line, line_offset
+    world_line, line_axis, line_offset, farthest_arm
 
   !> Derivatives of an equation by the positions of up to two pins and the angles of up to two
   !! bodies.
@@ -122,8 +122,7 @@ contains
     real(wp) :: e(2)
 
     associate (slider => linkage%sliders(number))
-      e = slider%direction
-      if (slider%body > 0) e = turned(e, pose%direction(:, slider%body))
+      e = line_axis(linkage, pose, number)
       if (is_across) e = normal_to(e)
       if (slider%body > 0) then
         call along_body(linkage, pose, slider%body, slider%pin, e, gradient)
@@ -293,17 +292,29 @@ contains
     real(wp), intent(out) :: direction(2)  !! unit vector, global axes
     real(wp), intent(out) :: point(2)      !! from the origin [m]
 
+    direction = line_axis(linkage, pose, number)
     associate (slider => linkage%sliders(number))
       if (slider%body > 0) then
-        direction = turned(slider%direction, pose%direction(:, slider%body))
         point = pose%pin(:, linkage%bodies(slider%body)%first_pin) + turned(slider%point, &
           pose%direction(:, slider%body))
       else
-        direction = slider%direction
         point = slider%point - origin
       end if
     end associate
   end subroutine world_line
+
+  !> Direction of the line of a slider, global axes.
+  pure function line_axis(linkage, pose, number) result(axis)
+    type(linkage_t), intent(in) :: linkage !! its sliders
+    type(pose_t), intent(in) :: pose       !! of the body that has the line
+    integer, intent(in) :: number          !! of the slider, from 1
+    real(wp) :: axis(2)
+
+    associate (slider => linkage%sliders(number))
+      axis = slider%direction
+      if (slider%body > 0) axis = turned(axis, pose%direction(:, slider%body))
+    end associate
+  end function line_axis
 
   !> Distance of the line of a body from its first pin, positive if the pin lies to its right [m].
   pure function line_offset(linkage, number) result(offset)
@@ -329,17 +340,25 @@ contains
     type(group_t), intent(in) :: group     !! of this linkage
     real(wp) :: scales(size(group%bodies))
 
-    integer :: b, i
+    integer :: b
 
     do b = 1, size(group%bodies)
-      associate (body => linkage%bodies(group%bodies(b)))
-        scales(b) = body%length
-        do i = 1, size(body%further)
-          scales(b) = max(scales(b), norm2(body%further(i)%place))
-        end do
-      end associate
+      scales(b) = farthest_arm(linkage%bodies(group%bodies(b)))
     end do
   end function column_scales
+
+  !> Distance of the farthest pin of a body from its first one [m].
+  pure function farthest_arm(body) result(arm)
+    type(body_t), intent(in) :: body !! with its pins
+    real(wp) :: arm
+
+    integer :: i
+
+    arm = body%length
+    do i = 1, size(body%further)
+      arm = max(arm, norm2(body%further(i)%place))
+    end do
+  end function farthest_arm
 
   !> Gradients of the equations of a group by its unknowns: pins first, then angles by lengths.
   pure function group_matrix(linkage, group, pose, scales) result(matrix)

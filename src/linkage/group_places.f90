@@ -2,10 +2,10 @@
 !! by Newton's method.
 module group_places
   use dense_factor, only: dense_factor_t, solve
-  use dyad_places, only: place_dyad
+  use dyad_places, only: limit_slack, place_dyad
   use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error
   use group_equations, only: drive_direction, drive_value, factorize_group, &
-    line_offset, misfit_of, world_line
+    line_axis, line_offset, misfit_of, world_line
   use kinds, only: wp
   use linkages, only: cross, demands_drive, equation_t, group_t, groups_carried, &
     groups_cross_slide, groups_driven_dyad, groups_on_line, groups_placed, groups_spanned, &
@@ -15,10 +15,6 @@ module group_places
   private
 
   public :: place_group, improve_group
-
-  !> Relative slack of circle and line: a limit position missed by rounding is a dead point, not out
-  !! of reach.
-  real(wp), parameter :: limit_slack = 1.0e-11_wp
 
   integer, parameter :: most_iterations = 30
 
@@ -60,8 +56,7 @@ contains
     case (groups_cross_slide)
       call turn_body(linkage, group, pose, crank)
       call world_line(linkage, pose, group%slider(1), origin, axis, point)
-      other_axis = turned(linkage%sliders(group%slider(2))%direction, pose%direction(:, &
-        group%body(1)))
+      other_axis = line_axis(linkage, pose, group%slider(2))
       ! The pin through which its own line passes, seen from the line through its first pin.
       other_point = pose%pin(:, group%middle) - line_offset(linkage, group%slider(2))*normal_to( &
         other_axis)

@@ -10,7 +10,7 @@ module linkage_paths
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use linkages, only: drives_angle, groups_by_newton, linkage_t, normal_to, path_t, reference_point
   use constants, only: degree
-  use pose_types, only: pose_t
+  use pose_types, only: drawn_pose, pose_t
   use poses, only: dead_point_sine, place_groups
   implicit none (type, external)
   private
@@ -87,20 +87,12 @@ contains
     type(pose_t) :: pose
     type(path_t) :: up, down
     real(wp) :: origin(2), correction, span, farthest
-    integer :: i, b
+    integer :: i
 
     if (allocated(linkage%path%crank)) deallocate (linkage%path%crank)
     if (.not. has_iterations(linkage)) return
     origin = reference_point(linkage)
-    pose%pin = linkage%drawing%pin - spread(origin, 2, size(linkage%is_ground))
-    allocate (pose%direction(2, size(linkage%bodies)))
-    do b = 1, size(linkage%bodies)
-      associate (body => linkage%bodies(b))
-        pose%direction(:, b) = pose%pin(:, body%last_pin) - pose%pin(:, body%first_pin)
-        if (.not. norm2(pose%direction(:, b)) > 0.0_wp) pose%direction(:, b) = [1.0_wp, 0.0_wp]
-        pose%direction(:, b) = pose%direction(:, b)/norm2(pose%direction(:, b))
-      end associate
-    end do
+    pose = drawn_pose(linkage, origin)
     call place_groups(linkage, start, pose, correction, error)
     if (allocated(error)) return
     span = linkage_span(linkage, pose)

@@ -70,7 +70,7 @@ contains
     type(progress_t), intent(inout) :: done
     logical, intent(inout) :: has_found
 
-    integer :: body, against, pin
+    integer :: body, against
 
     body = linkage%drives(number)%body
     against = linkage%drives(number)%against
@@ -78,14 +78,27 @@ contains
     if (against > 0) then
       if (.not. done%body(against)) return
     end if
+    call turn_on_known_pin(linkage, body, drive_equation(number), done, has_found)
+    if (has_found) done%drive(number) = .true.
+  end subroutine turn_driven_body
+
+  !> A body that an equation turns about one of its pins, if any of them is placed.
+  pure subroutine turn_on_known_pin(linkage, body, equation, done, has_found)
+    type(linkage_t), intent(inout) :: linkage
+    integer, intent(in) :: body
+    type(equation_t), intent(in) :: equation !! that gives its angle
+    type(progress_t), intent(inout) :: done
+    logical, intent(inout) :: has_found
+
+    integer :: pin
+
     pin = known_pin(linkage, body, done)
     if (pin == 0) return
     call rebase(linkage, body, pin, other_pin(linkage%bodies(body), pin))
     done%order = [done%order, body]
-    call turn_body(linkage, body, drive_equation(number), done)
-    done%drive(number) = .true.
+    call turn_body(linkage, body, equation, done)
     has_found = .true.
-  end subroutine turn_driven_body
+  end subroutine turn_on_known_pin
 
   !> The pin of a slider that is driven, if its line is known.
   pure subroutine place_driven_slider(linkage, number, done, has_found)
@@ -141,20 +154,16 @@ contains
     type(progress_t), intent(inout) :: done   !! what is placed
     logical, intent(out) :: has_found         !! whether there is any
 
-    integer :: t, body, pin
+    integer :: t, body
 
     has_found = .false.
     do t = 1, size(linkage%turns)
       if (done%turn(t)) cycle
       body = turned_by(linkage, t, done)
       if (body == 0) cycle
-      pin = known_pin(linkage, body, done)
-      if (pin == 0) cycle
-      call rebase(linkage, body, pin, other_pin(linkage%bodies(body), pin))
-      done%order = [done%order, body]
-      call turn_body(linkage, body, turn_equation(t), done)
+      call turn_on_known_pin(linkage, body, turn_equation(t), done, has_found)
+      if (.not. has_found) cycle
       done%turn(t) = .true.
-      has_found = .true.
       return
     end do
   end subroutine take_turns

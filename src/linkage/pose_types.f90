@@ -5,7 +5,7 @@ module pose_types
   implicit none (type, external)
   private
 
-  public :: pose_t, arm_to_pin, pins_of_body, place_of_pin
+  public :: pose_t, drawn_pose, arm_to_pin, pins_of_body, place_of_pin
 
   !> Positions of the pins and directions of the bodies.
   type :: pose_t
@@ -17,6 +17,25 @@ module pose_types
   end type pose_t
 
 contains
+
+  !> The drawing as a pose; bodies without a drawn direction lie along the global x axis.
+  pure function drawn_pose(linkage, origin) result(pose)
+    type(linkage_t), intent(in) :: linkage !! with its drawing
+    real(wp), intent(in) :: origin(2)      !! from which pins are counted [m]
+    type(pose_t) :: pose                   !! without `sine`
+
+    integer :: b
+
+    pose%pin = linkage%drawing%pin - spread(origin, 2, size(linkage%is_ground))
+    allocate (pose%direction(2, size(linkage%bodies)))
+    do b = 1, size(linkage%bodies)
+      associate (body => linkage%bodies(b), direction => pose%direction(:, b))
+        direction = pose%pin(:, body%last_pin) - pose%pin(:, body%first_pin)
+        if (.not. norm2(direction) > 0.0_wp) direction = [1.0_wp, 0.0_wp]
+        direction = direction/norm2(direction)
+      end associate
+    end do
+  end function drawn_pose
 
   !> Numbers of all pins of a body: first, last, further.
   pure function pins_of_body(body) result(pins)

@@ -6,7 +6,7 @@ module drawn_cranks
   use linkage_paths, only: most_turns, period_of
   use linkages, only: demands_drive, drives_angle, equation_t, linkage_t
   use models, only: model_t, report_number
-  use pose_types, only: pose_t
+  use pose_types, only: drawn_pose, pose_t
   implicit none (type, external)
   private
 
@@ -26,26 +26,12 @@ contains
     !> Turns are told apart where the misfits of drives differ by more than this [rad].
     real(wp), parameter :: rounding = 1.0e-9_wp
     type(pose_t) :: pose
-    type(equation_t) :: equation
     real(wp) :: misfit, least
-    integer :: b, turns, nearest
+    integer :: turns, nearest
 
     ! The drive is off by the coordinate that is sought.
-    equation%kind = demands_drive
-    equation%number = 1
-    pose%pin = linkage%drawing%pin
-    allocate (pose%direction(2, size(linkage%bodies)))
-    do b = 1, size(linkage%bodies)
-      associate (body => linkage%bodies(b))
-        pose%direction(:, b) = pose%pin(:, body%last_pin) - pose%pin(:, body%first_pin)
-        if (norm2(pose%direction(:, b)) > 0.0_wp) then
-          pose%direction(:, b) = pose%direction(:, b)/norm2(pose%direction(:, b))
-        else
-          pose%direction(:, b) = [1.0_wp, 0.0_wp]
-        end if
-      end associate
-    end do
-    crank = misfit_of(linkage, equation, pose, [0.0_wp, 0.0_wp], 0.0_wp)
+    pose = drawn_pose(linkage, [0.0_wp, 0.0_wp])
+    crank = misfit_of(linkage, equation_t(demands_drive, number=1), pose, [0.0_wp, 0.0_wp], 0.0_wp)
     if (linkage%drives(1)%kind /= drives_angle) return
     crank = crank/degree
     nearest = 0

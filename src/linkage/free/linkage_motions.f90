@@ -10,14 +10,14 @@ module linkage_motions
   use drives, only: drive_t
   use errors, only: error_of_dead_point, error_t, set_error
   use group_determinants, only: determinant_of, determinants_of
-  use group_equations, only: drive_rate
+  use group_equations, only: drive_rate, drive_value
   use interruption, only: was_interrupted
   use kinds, only: long, wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkage_paths, only: has_iterations, period_of
   use linkage_rates, only: all_inertia, find_rates_of_coordinates, find_state, free_drives, &
-    inertia_share, moving_linkage_t, no_stop, rate_of_drive, stop_at_end, stop_change_point, &
-    stop_energy, stop_many_steps, stop_misfit, stop_no_inertia, stop_steps
+    inertia_share, moving_linkage_t, no_stop, place_by_drives, rate_of_drive, stop_at_end, &
+    stop_change_point, stop_energy, stop_many_steps, stop_misfit, stop_no_inertia, stop_steps
   use linkage_samples, only: linkage_sample_t, sample_state
   use linkages, only: drives_angle, linkage_t
   use motion_charts, only: is_same_side, motion_chart_t, new_chart
@@ -84,7 +84,6 @@ module linkage_motions
     real(wp), allocatable, private :: state(:)    !! coordinates, rates, work
     real(wp), allocatable, private :: position(:) !! (free drives) with all whole turns [deg] or [m]
     logical, allocatable, private :: is_left(:)   !! (groups) the determinant is positive
-    logical, private :: may_return = .true.       !! to the coordinates of the drives
     real(wp), private :: most_energy = 0.0_wp     !! of all kinds, at the samples so far [J]
     real(wp), private :: tolerance = linkage_motion_tolerance !! of the present steps
     real(wp), private :: work_scale = 1.0_wp      !! against which the work may be small [J]
@@ -115,8 +114,8 @@ contains
 
     type(pose_t) :: pose
     type(linkage_sample_t) :: first
-    real(wp), allocatable :: rates(:)
-    integer :: f, k, i
+    real(wp), allocatable :: rates(:), determinants(:)
+    integer :: f, k
 
     associate (system => motion%system)
       system%free = free_drives(is_free)
@@ -141,15 +140,14 @@ contains
         call set_error(error, error_of_dead_point, change_point_message)
         return
       end if
-      motion%is_left = determinants_of(linkage, pose) > 0.0_wp
+      determinants = determinants_of(linkage, pose)
       ! At a dead point itself the branch is that of the deck: closed forms are on it.
-      where (abs(determinants_of(linkage, pose)) <= undecided_sine) motion%is_left = &
-        linkage%groups%side > 0.0_wp
-      motion%position = [(linkage%drives(system%free(i))%ratio*crank + &
-        linkage%drives(system%free(i))%phase, i=1, f)]
+      motion%is_left = merge(determinants > 0.0_wp, linkage%groups%side > 0.0_wp, &
+        abs(determinants) > undecided_sine)
+      motion%position = [(drive_value(linkage%drives(system%free(k)), crank), k=1, f)]
       allocate (motion%state(2*f + 1), motion%passages(0))
       motion%state = 0.0_wp
-      system%by_drives = all(abs(determinants_of(linkage, pose)) > near_dead_point)
+      system%by_drives = all(abs(determinants) > near_dead_point)
       rates = [(speed*drive_rate(linkage, system%free(k)), k=1, f)]
       if (system%by_drives) then
         call take_drives(motion, rates)
@@ -271,7 +269,11 @@ contains
         end if
         return
       end if
-      call go_on(motion, time_before, before)
+      if (motion%system%by_drives) then
+        call go_on_by_drives(motion)
+      else
+        call go_on_from_chart(motion, time_before, before)
+      end if
       ! A block comes to the end of its link by steps of which each is a half of the last.
       if (motion%system%stop == stop_at_end .and. motion%time - time_before < end_step*span) then
         motion%stop = stop_at_end
@@ -292,9 +294,36 @@ contains
     is = .not. motion%system%by_drives .and. motion%system%chart%independence < near_change_point
   end function is_near_change_point
 
-  !> After a step: dead points that were passed, and the coordinates of the next one. A step past a
-  !! change point is taken back.
-  subroutine go_on(motion, time, before)
+  !> After a step in the coordinates of the drives: near a dead point the next one is on a chart.
+  subroutine go_on_by_drives(motion)
+    type(linkage_motion_t), intent(inout) :: motion
+
+    type(pose_t) :: pose
+    type(kinematic_coefficients_t), allocatable :: per(:)
+    type(kinematic_coefficients_t) :: now
+    type(error_t), allocatable :: error
+    logical :: near, found
+
+    associate (system => motion%system)
+      call place_by_drives(system, motion%state(:size(system%free)), pose, error)
+      near = .false.
+      if (.not. allocated(error)) then
+        system%pose = pose
+        near = any(abs(pose%sine) <= near_dead_point)
+      end if
+      if (near) call find_state(system, motion%state, pose, per, now, found)
+      call read_drives(motion)
+      if (.not. near) return
+      system%chart = new_chart(system%whole, pose, motion%position(1), size(system%free))
+      system%by_drives = .false.
+    end associate
+    call set_rates(motion, now)
+    call reopen_steps(motion)
+  end subroutine go_on_by_drives
+
+  !> After a step on a chart: dead points that were passed, and the coordinates of the next one. A
+  !! step past a change point is taken back.
+  subroutine go_on_from_chart(motion, time, before)
     type(linkage_motion_t), intent(inout) :: motion
     real(wp), intent(in) :: time      !! at the beginning of the step [s]
     real(wp), intent(in) :: before(:) !! state at that time
@@ -309,15 +338,6 @@ contains
 
     associate (system => motion%system)
       call find_state(system, motion%state, pose, per, now, found)
-      determinants = determinants_of(system%whole%linkage, pose)
-      if (system%by_drives) then
-        call read_drives(motion)
-        system%pose = pose
-        if (all(abs(determinants) > near_dead_point)) return
-        system%chart = new_chart(system%whole, pose, motion%position(1), size(system%free))
-        call take_chart(motion, now)
-        return
-      end if
       chart = new_chart(system%whole, pose, drive_position(system%whole, pose, 1, &
         motion%position(1)), size(system%free))
       if (.not. is_same_side(system%whole, system%chart, chart) .or. chart%independence < &
@@ -327,20 +347,30 @@ contains
         motion%state = before
         return
       end if
+      determinants = determinants_of(system%whole%linkage, pose)
       call note_passages(motion, determinants, time, before)
       do k = 1, size(rates)
         motion%position(k) = drive_position(system%whole, pose, system%free(k), motion%position(k))
         rates(k) = rate_of_drive(system, pose, now, system%free(k))
       end do
       call take_next_chart(motion, chart, now)
-      if (all(abs(determinants) > far_from_dead_points) .and. motion%may_return) then
+      if (all(abs(determinants) > far_from_dead_points) .and. has_way_back(motion)) then
         system%pose = pose
         system%pose%sine = determinants
         call take_drives(motion, rates)
         call reopen_steps(motion)
       end if
     end associate
-  end subroutine go_on
+  end subroutine go_on_from_chart
+
+  !> Whether drives may be the coordinates again: groups that iterations place have a path on the
+  !! branch of the start only.
+  pure function has_way_back(motion) result(has)
+    type(linkage_motion_t), intent(in) :: motion
+    logical :: has
+
+    has = motion%passage_count == 0 .or. .not. has_iterations(motion%system%whole%linkage)
+  end function has_way_back
 
   !> Positions of the drives from the state, whose first coordinate is kept within half a turn.
   subroutine read_drives(motion)
@@ -362,16 +392,6 @@ contains
       end do
     end associate
   end subroutine read_drives
-
-  !> From the coordinates of the drives to those of the chart at the present pose.
-  subroutine take_chart(motion, now)
-    type(linkage_motion_t), intent(inout) :: motion
-    type(kinematic_coefficients_t), intent(in) :: now !! velocities
-
-    motion%system%by_drives = .false.
-    call set_rates(motion, now)
-    call reopen_steps(motion)
-  end subroutine take_chart
 
   !> Other coordinates have another size: the error of steps is measured anew.
   subroutine reopen_steps(motion)
@@ -440,9 +460,8 @@ contains
       if (determinants(i) > 0.0_wp .eqv. motion%is_left(i)) cycle
       call note_passage(motion, i, time, before)
       motion%is_left(i) = .not. motion%is_left(i)
-      associate (linkage => motion%system%whole%linkage)
-        linkage%groups(i)%side = -linkage%groups(i)%side
-        motion%may_return = .not. has_iterations(linkage)
+      associate (side => motion%system%whole%linkage%groups(i)%side)
+        side = -side
       end associate
     end do
   end subroutine note_passages

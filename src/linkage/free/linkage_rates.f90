@@ -27,8 +27,8 @@ module linkage_rates
   implicit none (type, external)
   private
 
-  public :: moving_linkage_t, free_drives, find_state, find_rates_of_coordinates, all_inertia, &
-    inertia_share, rate_of_drive
+  public :: moving_linkage_t, free_drives, find_state, place_by_drives, &
+    find_rates_of_coordinates, all_inertia, inertia_share, rate_of_drive
   public :: no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps, &
     stop_many_steps, stop_misfit, stop_energy, stop_at_end
 
@@ -129,8 +129,8 @@ contains
   subroutine place_by_drives(self, coordinates, pose, error)
     class(moving_linkage_t), intent(in) :: self
     real(wp), intent(in) :: coordinates(:) !! (free drives) [rad] or [m]
-    type(pose_t), intent(out) :: pose
-    type(error_t), allocatable, intent(out) :: error
+    type(pose_t), intent(out) :: pose      !! pins from `reference_point`
+    type(error_t), allocatable, intent(out) :: error !! why there is none
 
     type(linkage_t) :: linkage
     real(wp) :: crank, correction

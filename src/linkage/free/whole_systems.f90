@@ -5,13 +5,14 @@
 !! from a pose near by.
 module whole_systems
   use constants, only: degree
-  use group_equations, only: curvature_of, drive_rate, find_gradient, gradient_t, misfit_of
+  use group_equations, only: curvature_of, drive_rate, farthest_arm, find_gradient, &
+    gradient_t, misfit_of
   use kinds, only: wp
   use linkages, only: demands_angle, demands_drive, demands_length, drives_angle, equation_t, &
     linkage_t, normal_to, reference_point
   use plan_equations, only: append_equation, drive_equation, drive_of_length, line_equation, &
     pin_equation, turn_equation
-  use pose_types, only: pins_of_body, place_of_pin, pose_t
+  use pose_types, only: pins_of_body, pose_t
   implicit none (type, external)
   private
 
@@ -50,10 +51,9 @@ contains
     do i = 1, size(linkage%bodies)
       unknowns = unknowns + 1
       system%at_body(i) = unknowns
+      system%scale(i) = farthest_arm(linkage%bodies(i))
       pins = pins_of_body(linkage%bodies(i))
-      system%scale(i) = linkage%bodies(i)%length
       do k = 2, size(pins)
-        system%scale(i) = max(system%scale(i), norm2(place_of_pin(linkage%bodies(i), pins(k))))
         if (k > 2 .or. drive_of_length(linkage, i) == 0) call append_equation(system%equations, &
           pin_equation(linkage, demands_length, i, pins(k)))
         call append_equation(system%equations, pin_equation(linkage, demands_angle, i, pins(k)))
@@ -108,18 +108,27 @@ contains
     type(pose_t), intent(in) :: pose           !! pins and directions
     real(wp), allocatable :: rows(:, :)        !! (equations, unknowns) [-], or [1/m] of angles
 
+    real(wp) :: rate
     integer :: i
 
     allocate (rows(size(system%equations), unknown_count(system)))
     do i = 1, size(system%equations)
       call set_row(system, system%equations(i), pose, rows(i, :))
-      associate (equation => system%equations(i))
-        if (equation%kind /= demands_drive) cycle
-        if (abs(system%linkage%drives(equation%number)%ratio) > 0.0_wp) rows(i, :) = &
-          rows(i, :) - drive_rate(system%linkage, equation%number)*drive_row(system, pose, 1)
-      end associate
+      rate = rate_by_gears(system, system%equations(i))
+      if (abs(rate) > 0.0_wp) rows(i, :) = rows(i, :) - rate*drive_row(system, pose, 1)
     end do
   end function demands
+
+  !> Rate of a drive that is geared to the first one, per rate of that; 0 of one that is held, and
+  !! of other equations.
+  pure function rate_by_gears(system, equation) result(rate)
+    type(whole_system_t), intent(in) :: system
+    type(equation_t), intent(in) :: equation
+    real(wp) :: rate
+
+    rate = 0.0_wp
+    if (equation%kind == demands_drive) rate = drive_rate(system%linkage, equation%number)
+  end function rate_by_gears
 
   !> Gradient of the coordinate of a drive by the unknowns.
   pure function drive_row(system, pose, drive) result(row)
@@ -198,19 +207,15 @@ contains
     real(wp), intent(in) :: pin(:, :)          !! (2, pins) velocities
     real(wp) :: curvature(size(system%equations))
 
+    real(wp) :: rate
     integer :: i
 
-    associate (linkage => system%linkage)
-      do i = 1, size(curvature)
-        curvature(i) = curvature_of(linkage, system%equations(i), pose, turn, pin)
-        associate (equation => system%equations(i))
-          if (equation%kind /= demands_drive) cycle
-          if (abs(linkage%drives(equation%number)%ratio) > 0.0_wp) curvature(i) = curvature(i) - &
-            drive_rate(linkage, equation%number)*curvature_of(linkage, drive_equation(1), pose, &
-            turn, pin)
-        end associate
-      end do
-    end associate
+    do i = 1, size(curvature)
+      curvature(i) = curvature_of(system%linkage, system%equations(i), pose, turn, pin)
+      rate = rate_by_gears(system, system%equations(i))
+      if (abs(rate) > 0.0_wp) curvature(i) = curvature(i) - rate*curvature_of(system%linkage, &
+        drive_equation(1), pose, turn, pin)
+    end do
   end function curvatures
 
   !> Coordinate of a drive at a pose: the one within half a turn of a value near by [deg] or [m].

@@ -1,17 +1,17 @@
 !> Blocks that leave the links along which they slide: at which positions, told before the run.
 module block_checks
   use block_ends, only: block_place
+  use deck_lengths, only: crank_text, length_text
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use errors, only: error_of_reach, error_t
   use kinds, only: wp
   use linkages, only: linkage_t
   use mechanisms, only: mechanism_t
-  use models, only: drives_length, model_t
+  use models, only: model_t
   use pose_types, only: pose_t
   use poses, only: place_links
   use sorting, only: ascending_order
-  use text, only: plural, to_string
-  use units, only: coherent_unit, dimension_length, from_si, unit_t
+  use text, only: plural
   implicit none (type, external)
   private
 
@@ -51,13 +51,14 @@ contains
           mechanism%names(slider%body)%text//"'"
         if (all(excess > 0.0_wp)) then
           call add_error(diagnostics, model%sliders(number)%on, words// &
-            " at all these positions, by "//length_text(model, minval(excess))//" or more"// &
+            " at all these positions, by "//length_text(model, minval(excess), 4)//" or more"// &
             remedy, kind=error_of_reach)
         else
           call add_warning(diagnostics, model%sliders(number)%on, words//" between crank "// &
             intervals(model, mechanism%linkage, number, crank, excess)//", by up to "// &
-            length_text(model, maxval(excess))//": "//plural(count(excess > 0.0_wp), "position")// &
-            " will be marked as failed"//remedy, kind=warning_of_block, amount=maxval(excess)/way)
+            length_text(model, maxval(excess), 4)//": "//plural(count(excess > 0.0_wp), &
+            "position")//" will be marked as failed"//remedy, kind=warning_of_block, &
+            amount=maxval(excess)/way)
         end if
       end associate
     end do
@@ -117,7 +118,7 @@ contains
       if (first > 1) from = edge(linkage, number, crank(first), crank(first - 1))
       if (last < size(crank)) to = edge(linkage, number, crank(last), crank(last + 1))
       if (found > 1) words = words//", "
-      words = words//crank_text(model, from)//" and "//crank_text(model, to)
+      words = words//crank_text(model, from, 5)//" and "//crank_text(model, to, 5)
     end do
     if (found > most_named) words = words//" and in "//plural(found - most_named, "other interval")
   end function intervals
@@ -143,26 +144,5 @@ contains
       end if
     end do
   end function edge
-
-  pure function crank_text(model, crank) result(words)
-    type(model_t), intent(in) :: model
-    real(wp), intent(in) :: crank !! [deg] or [m]
-    character(len=:), allocatable :: words
-
-    words = to_string(crank, 5)
-    if (drives_length(model)) words = to_string(from_si(crank, coherent_unit(model%units, &
-      dimension_length)), 5)
-  end function crank_text
-
-  pure function length_text(model, length) result(words)
-    type(model_t), intent(in) :: model
-    real(wp), intent(in) :: length !! [m]
-    character(len=:), allocatable :: words
-
-    type(unit_t) :: measure
-
-    measure = coherent_unit(model%units, dimension_length)
-    words = to_string(from_si(length, measure), 4)//" "//measure%name
-  end function length_text
 
 end module block_checks

@@ -1,15 +1,15 @@
 !> A drawing may be rough: where it contradicts the lengths of links, these count, and the user is
 !! told both numbers.
 module drawing_checks
+  use deck_lengths, only: length_text
   use diagnostics, only: add_warning, diagnostics_t
   use drive_cards, only: drive_ram
   use kinds, only: wp
   use link_cards, only: link_t
   use link_shapes, only: compare_lengths
   use models, only: model_t
-  use text, only: append_string, same_word, string_t, to_string
+  use text, only: append_string, same_word, string_t
   use tokens, only: token_t
-  use units, only: coherent_unit, dimension_length, from_si, unit_t
   implicit none (type, external)
   private
 
@@ -91,13 +91,9 @@ contains
     real(wp), intent(in) :: given, drawn    !! [m]
     character(len=:), allocatable :: words
 
-    type(unit_t) :: measure
-
-    measure = coherent_unit(model%units, dimension_length)
-    words = "the drawing has "//to_string(from_si(drawn, measure), 6)//" "//measure%name// &
-      " for '"//link%name%text//"' from "//link%pins(segment)%text//" to "// &
-      link%pins(mod(segment, size(link%pins)) + 1)%text//"; its length of "// &
-      to_string(from_si(given, measure), 6)//" "//measure%name//" counts"
+    words = "the drawing has "//length_text(model, drawn, 6)//" for '"//link%name%text// &
+      "' from "//link%pins(segment)%text//" to "//link%pins(mod(segment, size(link%pins)) + &
+      1)%text//"; its length of "//length_text(model, given, 6)//" counts"
   end function contradiction
 
   !> The PIN card of an end of a segment.

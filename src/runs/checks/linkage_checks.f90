@@ -2,6 +2,7 @@
 !! fit, and reach the positions of the deck.
 module linkage_checks
   use block_checks, only: check_blocks
+  use deck_lengths, only: crank_text, in_deck, length_text
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use errors, only: error_of_dead_point, error_of_reach, error_t
   use kinds, only: wp
@@ -14,7 +15,6 @@ module linkage_checks
   use redundancies, only: body_of_redundancy, largest_misfit
   use text, only: plural, to_string
   use tokens, only: token_t
-  use units, only: coherent_unit, dimension_length, from_si, unit_t
   implicit none (type, external)
   private
 
@@ -49,7 +49,7 @@ contains
     type(mechanism_t), intent(in) :: mechanism        !! of the model
     type(diagnostics_t), intent(inout) :: diagnostics !! to which errors and warnings are added
 
-    integer :: report
+    integer :: report, leaving
 
     if (allocated(assembly%error)) then
       call report_assembly(model, assembly, diagnostics)
@@ -67,8 +67,8 @@ contains
     if (drives_length(model) .and. model%motor%keyword%line > 0) call add_error(diagnostics, &
       model%motor%keyword, "a MOTOR turns a link, and the first DRIVE moves a slider or a ram; "// &
       "a FORCE on its pin, or a DRIVE of a link, may serve")
-    call check_reach(model, mechanism, diagnostics)
-    call check_blocks(model, mechanism, diagnostics)
+    call check_reach(model, mechanism, leaving, diagnostics)
+    if (leaving > 0) call check_blocks(model, mechanism, diagnostics)
   end subroutine check_linkage
 
   !> The drawing does not assemble: the nearest assembly as PIN cards, if there is one.
@@ -96,21 +96,13 @@ contains
     cards = ""
     do i = 1, size(assembly%pins)
       if (assembly%linkage%is_ground(i)) cycle
-      cards = cards//"; PIN "//assembly%pins(i)%text//" "//in_deck(model, assembly%nearest%pin(1, &
-        i))//" "//in_deck(model, assembly%nearest%pin(2, i))
+      cards = cards//"; PIN "//assembly%pins(i)%text//" "//to_string(in_deck(model, &
+        assembly%nearest%pin(1, i)), 6)//" "//to_string(in_deck(model, assembly%nearest%pin(2, &
+        i)), 6)
     end do
     call add_error(diagnostics, place, "the linkage does not assemble near this drawing; the "// &
       "nearest assembly is: "//cards(3:))
   end subroutine report_assembly
-
-  !> A length in the unit of the deck, with six digits.
-  pure function in_deck(model, length) result(words)
-    type(model_t), intent(in) :: model
-    real(wp), intent(in) :: length !! [m]
-    character(len=:), allocatable :: words
-
-    words = to_string(from_si(length, coherent_unit(model%units, dimension_length)), 6)
-  end function in_deck
 
   !> Redundant links must fit at every position.
   pure subroutine check_fit(model, mechanism, diagnostics)
@@ -136,11 +128,11 @@ contains
       call add_error(diagnostics, place, "links "//neighbours_of(mechanism, body)//name// &
         " form a structure and cannot move"//while_driven(model), kind=error_of_reach)
     else
-      call add_error(diagnostics, place, name//" does not fit: "//in_deck(model, &
-        abs(found%first))//" "//length_name(model)//" too "//trim(merge("short", "long ", &
-        found%first > 0.0_wp))//" at crank "//to_string(shown_crank(model, found%at_first), 10)// &
-        "; largest misfit "//in_deck(model, abs(found%largest))//" "//length_name(model)//" at "// &
-        to_string(shown_crank(model, found%at_largest), 10), kind=error_of_reach)
+      call add_error(diagnostics, place, name//" does not fit: "//length_text(model, &
+        abs(found%first), 6)//" too "//trim(merge("short", "long ", found%first > 0.0_wp))// &
+        " at crank "//crank_text(model, found%at_first, 10)//"; largest misfit "// &
+        length_text(model, abs(found%largest), 6)//" at "//crank_text(model, found%at_largest, &
+        10), kind=error_of_reach)
     end if
   end subroutine check_fit
 
@@ -172,15 +164,6 @@ contains
     end do
   end function misfit_over
 
-  !> A position in the units of the deck: degrees, or its length.
-  pure function shown_crank(model, crank) result(shown)
-    type(model_t), intent(in) :: model
-    real(wp), intent(in) :: crank !! [deg] or [m]
-    real(wp) :: shown
-
-    shown = crank
-    if (drives_length(model)) shown = from_si(crank, coherent_unit(model%units, dimension_length))
-  end function shown_crank
   !> Several drives may be one too many.
   pure function while_driven(model) result(words)
     type(model_t), intent(in) :: model
@@ -214,28 +197,18 @@ contains
     end do
   end function neighbours_of
 
-  pure function length_name(model) result(name)
-    type(model_t), intent(in) :: model
-    character(len=:), allocatable :: name
-
-    type(unit_t) :: measure
-
-    measure = coherent_unit(model%units, dimension_length)
-    name = measure%name
-  end function length_name
-
   !> Positions out of reach: an error if none is in reach, else a warning with the first and their
   !! number. Blocks that leave their links have messages of their own.
-  pure subroutine check_reach(model, mechanism, diagnostics)
+  pure subroutine check_reach(model, mechanism, leaving, diagnostics)
     type(model_t), intent(in) :: model
     type(mechanism_t), intent(in) :: mechanism
+    integer, intent(out) :: leaving !! positions at which a block leaves its link
     type(diagnostics_t), intent(inout) :: diagnostics
 
     type(error_t), allocatable :: error
     type(pose_t) :: pose
     character(len=:), allocatable :: why
-    integer :: i, out_of_reach, leaving, first
-    real(wp) :: shown
+    integer :: i, out_of_reach, first
 
     out_of_reach = 0
     leaving = 0
@@ -256,14 +229,13 @@ contains
         "' does not "//trim(merge("fit  ", "reach", index(error%text, "redundant") > 0))
     end do
     if (out_of_reach == 0) return
-    shown = shown_crank(model, model%crank%value(first))
     if (out_of_reach + leaving == size(model%crank%value)) then
       call add_error(diagnostics, model%crank%words(model%crank%word(first)), &
         "the linkage closes at none of these positions"//why, kind=error_of_reach)
     else
       call add_warning(diagnostics, model%crank%words(model%crank%word(first)), &
         plural(out_of_reach, "position")//" of "//to_string(size(model%crank%value))// &
-        " out of reach, the first at "//to_string(shown, 10)//why)
+        " out of reach, the first at "//crank_text(model, model%crank%value(first), 10)//why)
     end if
   end subroutine check_reach
 

@@ -1,0 +1,50 @@
+!> Lengths and positions in the unit of a deck, as its messages have them.
+module deck_lengths
+  use kinds, only: wp
+  use models, only: drives_length, model_t
+  use text, only: to_string
+  use units, only: coherent_unit, dimension_length, from_si, unit_t
+  implicit none (type, external)
+  private
+
+  public :: in_deck, length_text, crank_text
+
+contains
+
+  !> A length in the unit of the deck.
+  pure function in_deck(model, length) result(value)
+    type(model_t), intent(in) :: model !! as read
+    real(wp), intent(in) :: length     !! [m]
+    real(wp) :: value
+
+    value = from_si(length, coherent_unit(model%units, dimension_length))
+  end function in_deck
+
+  !> `12.5 mm`
+  pure function length_text(model, length, digits) result(words)
+    type(model_t), intent(in) :: model !! as read
+    real(wp), intent(in) :: length     !! [m]
+    integer, intent(in) :: digits      !! at most
+    character(len=:), allocatable :: words
+
+    type(unit_t) :: measure
+
+    measure = coherent_unit(model%units, dimension_length)
+    words = to_string(in_deck(model, length), digits)//" "//measure%name
+  end function length_text
+
+  !> A position of the first drive: in degrees, of a slider or a ram in the unit of the deck.
+  pure function crank_text(model, crank, digits) result(words)
+    type(model_t), intent(in) :: model !! as read
+    real(wp), intent(in) :: crank      !! [deg] or [m]
+    integer, intent(in) :: digits      !! at most
+    character(len=:), allocatable :: words
+
+    if (drives_length(model)) then
+      words = to_string(in_deck(model, crank), digits)
+    else
+      words = to_string(crank, digits)
+    end if
+  end function crank_text
+
+end module deck_lengths
