@@ -3,7 +3,10 @@
 !!
 !! The torque required for a motion follows from energies alone, without any pin force.
 module lagrange
+  use applied_loads, only: add_conservative_loads, add_prescribed_loads, applied_potential, &
+    generalised_force, has_standing_loads
   use body_points, only: find_point_coefficients, point_coefficients_t
+  use inertia_loads, only: load_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t
@@ -20,10 +23,9 @@ module lagrange
                                        !! crank [kg m²]
     real(wp) :: inertia_slope = 0.0_wp !! M' = dM/dθ2 [kg m²]
     real(wp) :: gravity = 0.0_wp       !! dU/dθ2 of the weights [N m]
-    real(wp) :: load = 0.0_wp          !! minus the generalised force of the external forces and
-                                       !! torques [N m]
-    real(wp) :: potential = 0.0_wp     !! U of the weights and of the external forces on the pins;
-                                       !! zero with all at the global origin [N m]
+    real(wp) :: load = 0.0_wp          !! minus the generalised force of all other loads [N m]
+    real(wp) :: potential = 0.0_wp     !! U of the weights and constant forces, zero with all at the
+                                       !! global origin, and of springs, zero unloaded [N m]
   end type lagrange_t
 
 contains
@@ -61,7 +63,25 @@ contains
       terms%load = terms%load - dot_product(linkage%pin_force(:, p), point%rate)
       terms%potential = terms%potential - dot_product(linkage%pin_force(:, p), point%place)
     end do
+    if (has_standing_loads(linkage)) call add_standing_loads(linkage, pose, coefficients, terms)
   end function find_lagrange
+
+  !> Adds the loads of springs and processes that a pose determines.
+  pure subroutine add_standing_loads(linkage, pose, coefficients, terms)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: coefficients
+    type(lagrange_t), intent(inout) :: terms
+
+    type(load_t) :: body_load(size(linkage%bodies))
+    real(wp) :: pin_load(2, size(linkage%is_ground))
+
+    pin_load = 0.0_wp
+    call add_conservative_loads(linkage, pose, body_load, pin_load)
+    call add_prescribed_loads(linkage, pose, [0.0_wp, 0.0_wp], body_load, pin_load)
+    terms%load = terms%load - generalised_force(linkage, coefficients, body_load, pin_load)
+    terms%potential = terms%potential + applied_potential(linkage, pose, [0.0_wp, 0.0_wp])
+  end subroutine add_standing_loads
 
   !> Adds a mass that moves without rotating.
   pure subroutine add_mass(mass, gravity, point, terms)

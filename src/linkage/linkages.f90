@@ -5,6 +5,7 @@
 !! Most are dyads: two bodies that meet in a pin, each attached to a pin whose motion is already
 !! known.
 module linkages
+  use applied_load_types, only: applied_load_t
   use kinds, only: wp
   implicit none (type, external)
   private
@@ -149,7 +150,7 @@ module linkages
     real(wp) :: period = 0.0_wp                  !! after which it repeats [deg]; 0: it does not
   end type path_t
 
-  !> Pins, bodies, what joins and drives them, and constant loads.
+  !> Pins, bodies, what joins and drives them, and loads.
   type :: linkage_t
     logical, allocatable :: is_ground(:)           !! (pins) fixed to the ground
     real(wp), allocatable :: ground_position(:, :) !! (2, pins) [m]; zero for moving pins
@@ -158,6 +159,7 @@ module linkages
     real(wp), allocatable :: pin_force(:, :)       !! (2, pins) constant external forces on the
                                                    !! pins [N]
     real(wp), allocatable :: couple(:)             !! (bodies) constant external torques [N m]
+    type(applied_load_t), allocatable :: loads(:)  !! all others
     type(body_t), allocatable :: bodies(:)         !! in the order in which they are placed
     type(slider_t), allocatable :: sliders(:)      !! pins on lines
     type(turn_t), allocatable :: turns(:)          !! bodies that turn together
@@ -206,7 +208,7 @@ contains
       allocate (linkage%bodies(i)%lumps(0), linkage%bodies(i)%further(0))
     end do
     allocate (linkage%sliders(0), linkage%turns(0), linkage%drives(1), linkage%groups(1), &
-      linkage%redundancies(0))
+      linkage%redundancies(0), linkage%loads(0))
     linkage%drives(1)%body = 1
     linkage%groups(1)%base = [2, 4]
     linkage%groups(1)%body = [2, 3]

@@ -1,7 +1,9 @@
-!> The three load cases that make up every load of a moving linkage: constant loads, ω2² times the
-!! case of ω2² = 1, and α2 times the case of α2 = 1.
+!> The three load cases of which the loads of a moving linkage are made: loads that are there at
+!! rest, ω2² times the case of ω2² = 1, and α2 times the case of α2 = 1. What else depends on the
+!! speed is in `running_loads`.
 module load_cases
   use acceleration_fields, only: acceleration_field_t, find_unit_field
+  use applied_loads, only: add_conservative_loads, add_prescribed_loads, has_standing_loads
   use inertia_loads, only: distributed_load, load_t, lumped_load, pin_load
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
@@ -13,7 +15,7 @@ module load_cases
   public :: load_case_t, unit_loads_t, case_count, constant_case, find_unit_loads, &
     has_constant_loads, find_case_loads
 
-  !> Load cases: 1 for ω2² = 1, 2 for α2 = 1, 3 for gravity and the external forces and torques.
+  !> Load cases: 1 for ω2² = 1, 2 for α2 = 1, 3 for gravity and all else that a pose determines.
   integer, parameter :: case_count = 3, constant_case = 3
 
   !> The loads of one case. Inertia loads are those of an acceleration field; gravity g is the field
@@ -21,7 +23,10 @@ module load_cases
   type :: load_case_t
     type(acceleration_field_t) :: field      !! of the inertia loads
     real(wp), allocatable :: pin_force(:, :) !! (2, pins) external forces on the pins [N]
-    real(wp), allocatable :: couple(:)       !! (bodies) external torques [N m]
+    real(wp), allocatable :: couple(:)       !! (bodies) external torques, with the moments of
+                                             !! `body_force` about their first pins [N m]
+    real(wp), allocatable :: body_force(:, :) !! (2, bodies) external forces on bodies beside their
+                                             !! pins [N]; not allocated: none
   end type load_case_t
 
   !> The three cases at a pose, found once for all uses.
@@ -32,13 +37,13 @@ module load_cases
 
 contains
 
-  !> Whether gravity or external forces or torques load a linkage.
+  !> Whether gravity, external forces or torques, or springs load a linkage.
   pure function has_constant_loads(linkage) result(has)
     type(linkage_t), intent(in) :: linkage !! its gravity and external loads
     logical :: has
 
     has = any(abs(linkage%gravity) > 0.0_wp) .or. any(abs(linkage%pin_force) > 0.0_wp) .or. &
-      any(abs(linkage%couple) > 0.0_wp)
+      any(abs(linkage%couple) > 0.0_wp) .or. has_standing_loads(linkage)
   end function has_constant_loads
 
   !> The load cases at a pose, all three or only those that occur.
@@ -75,8 +80,27 @@ contains
       constant%field%angular = 0.0_wp
       constant%pin_force = linkage%pin_force
       constant%couple = linkage%couple
+      if (has_standing_loads(linkage)) call add_standing_loads(linkage, pose, constant)
     end associate
   end function find_unit_loads
+
+  !> Adds the loads of springs and processes that a pose determines.
+  pure subroutine add_standing_loads(linkage, pose, constant)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(load_case_t), intent(inout) :: constant
+
+    type(load_t) :: body_loads(size(linkage%bodies))
+    integer :: b
+
+    call add_conservative_loads(linkage, pose, body_loads, constant%pin_force)
+    call add_prescribed_loads(linkage, pose, [0.0_wp, 0.0_wp], body_loads, constant%pin_force)
+    constant%couple = constant%couple + body_loads%moment
+    allocate (constant%body_force(2, size(body_loads)))
+    do b = 1, size(body_loads)
+      constant%body_force(:, b) = body_loads(b)%force
+    end do
+  end subroutine add_standing_loads
 
   !> Loads on bodies and pins in one case.
   pure subroutine find_case_loads(linkage, elements, pose, case, body_loads, pin_loads)
@@ -97,6 +121,8 @@ contains
         body_loads(b) = distributed_load(linkage%bodies(b), b, pose, case%field)
       end if
       body_loads(b)%moment = body_loads(b)%moment + case%couple(b)
+      if (allocated(case%body_force)) body_loads(b)%force = body_loads(b)%force + &
+        case%body_force(:, b)
     end do
     pin_loads = pin_load(linkage, case%field) + case%pin_force
   end subroutine find_case_loads

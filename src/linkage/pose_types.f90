@@ -9,6 +9,8 @@ module pose_types
 
   !> Positions of the pins and directions of the bodies.
   type :: pose_t
+    real(wp) :: crank = 0.0_wp               !! coordinate of the first drive, with all whole turns
+                                             !! [deg] or [m]
     real(wp), allocatable :: pin(:, :)       !! (2, pins) positions [m]
     real(wp), allocatable :: direction(:, :) !! (2, bodies) unit vectors, first → last pin
     real(wp), allocatable :: sine(:)         !! (groups) of a dyad: of the angle from base 1 →

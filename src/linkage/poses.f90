@@ -128,6 +128,7 @@ contains
 
     origin = reference_point(linkage)
     correction = 0.0_wp
+    pose%crank = crank
     if (.not. allocated(pose%pin)) then
       allocate (pose%pin(2, size(linkage%is_ground)), pose%direction(2, size(linkage%bodies)))
       pose%pin = 0.0_wp

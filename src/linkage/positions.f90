@@ -1,5 +1,6 @@
 !> The crank positions of a run: each computed once, however often it is written.
 module positions
+  use applied_loads, only: load_period, refuse_beyond_tables
   use errors, only: error_t
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
@@ -41,7 +42,7 @@ contains
 
     integer :: i
 
-    call list_positions(crank, positions, period_of(linkage))
+    call list_positions(crank, positions, load_period(linkage, period_of(linkage)))
     do i = 1, size(positions%states)
       call find_state(linkage, positions%states(i))
     end do
@@ -87,13 +88,15 @@ contains
 
   !> Pose and kinematic coefficients at the crank angle of a state.
   !!
-  !! Errors, left in the state: those of `find_pose`.
+  !! Errors, left in the state: those of `find_pose`; a position beyond the ends of a table.
   pure subroutine find_state(linkage, state)
     type(linkage_t), intent(in) :: linkage !! lengths, pins and dyads
     type(state_t), intent(inout) :: state  !! with its crank angle
 
     allocate (state%pose, state%coefficients)
     call find_pose(linkage, state%crank, state%pose, state%error)
+    if (.not. allocated(state%error)) call refuse_beyond_tables(linkage, state%pose, &
+      [0.0_wp, 0.0_wp], state%error)
     if (.not. allocated(state%error)) state%coefficients = &
       find_kinematic_coefficients(linkage, state%pose)
   end subroutine find_state

@@ -122,7 +122,8 @@ contains
     n = size(assembly%pins)
     allocate (linkage%is_ground(n), linkage%ground_position(2, n), linkage%pin_mass(n), &
       linkage%pin_force(2, n), linkage%couple(size(assembly%link)), &
-      linkage%bodies(size(assembly%link)), linkage%drawing%is_drawn(n), linkage%drawing%pin(2, n))
+      linkage%bodies(size(assembly%link)), linkage%drawing%is_drawn(n), linkage%drawing%pin(2, n), &
+      linkage%loads(0))
     linkage%is_ground = .false.
     linkage%ground_position = 0.0_wp
     linkage%pin_mass = 0.0_wp

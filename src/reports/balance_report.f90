@@ -182,7 +182,7 @@ contains
       real(wp) :: every(reaction_values)
 
       every = reactions_at_speed(reactions, variant%found%positions%state(position), &
-        variant%model%speed%value(speed), variant%model%acceleration)
+        variant%model%speed%value(speed), variant%model%acceleration, speed)
       values = [every(shaking_values), every(torque_value)]
     end function row_quantities
 
@@ -222,6 +222,8 @@ contains
       factor = [variant%model%speed%value(speed)**2, variant%model%acceleration, 1.0_wp]
       quantities = [factor(1)*joints%shaking(:, 1, state) + factor(2)*joints%shaking(:, 2, &
         state), dot_product(factor, joints%drive(1, :, state))]
+      if (size(joints%running_drive, 2) > 0) quantities(4) = quantities(4) + &
+        joints%running_drive(1, speed, state)
     end function row_quantities
 
   end subroutine add_hung_balance

@@ -61,7 +61,7 @@ contains
     associate (positions => variant%found%positions, omega => variant%model%speed%value(speed), &
         mechanism => variant%mechanism, joints => variant%found%joints%joints)
       forces = joints_at_speed(variant%found%joints, positions%state(position), omega, &
-        variant%model%acceleration)
+        variant%model%acceleration, speed)
       do i = 1, size(joints)
         call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed), &
           positions%crank(position)])//name_cell(mechanism%pin_names(joints(i)%pin)%text, &
@@ -199,7 +199,7 @@ contains
     associate (model => variant%model, positions => variant%found%positions, &
         linkage => variant%mechanism%linkage)
       values = drives_at_speed(linkage, variant%found%joints, positions%state(position), &
-        positions%crank(position), model%speed%value(speed), model%acceleration)
+        positions%crank(position), model%speed%value(speed), model%acceleration, speed)
       mixed = any(moves_along(model%drives%kind)) .and. .not. all(moves_along(model%drives%kind))
       do i = 1, size(values, 2)
         if (mixed) then

@@ -1,7 +1,7 @@
 !> `lagrange.dat`: terms of Lagrange's equation, driving torque, energies.
 module lagrange_report
   use lagrange_study, only: lagrange_at_speed
-  use load_notes, only: append_load_notes, append_motion_notes
+  use load_notes, only: append_load_notes, append_motion_notes, potential_note
   use position_rows, only: add_position_row
   use table_columns, only: table_layout_t
   use table_rows, only: rows_t
@@ -24,9 +24,7 @@ contains
       "counter-clockwise positive")
     call append_string(notes, "M: inertia reduced to the crank; dM: dM/dtheta2; "// &
       "V = dM omega2^2/2; gravity: dU/dtheta2 of the weights; load: to balance the external loads")
-    call append_string(notes, "kinetic = M omega2^2/2; potential: of weights and external "// &
-      "forces, 0 with all masses and pins at the global origin; that of torques on links is "// &
-      "left out")
+    call append_string(notes, "kinetic = M omega2^2/2; "//potential_note)
     call append_load_notes(notes, variant%model, variant%mechanism)
   end subroutine lagrange_notes
 
@@ -41,8 +39,8 @@ contains
     associate (omega => variant%model%speed%value(speed), &
         state => variant%found%positions%state(position))
       call add_position_row(variant, layout, position, speed, &
-        lagrange_at_speed(variant%found%lagrange(state), omega, &
-        variant%model%acceleration), rows)
+        lagrange_at_speed(variant%found%lagrange, state, omega, variant%model%acceleration, &
+        speed), rows)
     end associate
   end subroutine add_lagrange
 

@@ -3,6 +3,7 @@ module linkage_motion_report
   use drive_cards, only: moves_along
   use kinds, only: wp
   use linkage_motion_study, only: free_drives, linkage_motion_tolerance
+  use load_notes, only: potential_note, work_note
   use models, only: drives_length, model_t
   use motion_report, only: most_listed, time_in_table
   use plan_words, only: group_names
@@ -52,9 +53,8 @@ contains
       line = " in "//of_motor%name
     end if
     call append_string(notes, "torque: of the motor on the first drive"//line// &
-      "; potential: of GRAVITY and FORCE, 0 at the global origin; work: of motor and "// &
-      "TORQUE, less that taken by LOAD, since the start; energy_error: kinetic + potential - "// &
-      "work, less the initial energy")
+      "; "//potential_note)
+    call append_string(notes, work_note)
     energy = table_unit("energy", variant%model%outputs)
     if (variant%found%linkage_motion%count > 0) call append_string(notes, "initial energy: "// &
       to_string(from_si(variant%found%linkage_motion%energy, energy))//" "//energy%name// &

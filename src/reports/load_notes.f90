@@ -10,6 +10,15 @@ module load_notes
   private
 
   public :: append_load_notes, append_motion_notes, acceleration_note
+  public :: potential_note, work_note
+
+  !> What `potential` is in every table.
+  character(len=*), parameter :: potential_note = "potential: of weights and constant forces, "// &
+    "0 with all masses and pins at the global origin, and of springs, 0 unloaded"
+
+  !> What `work` and `energy_error` of a motion are.
+  character(len=*), parameter :: work_note = "work: of the motor and of all loads without a "// &
+    "potential since the start; energy_error: kinetic + potential - work, less the initial energy"
 
 contains
 

@@ -2,6 +2,7 @@
 module motion_report
   use kinds, only: wp
   use linkage_notes, only: angle_note
+  use load_notes, only: potential_note, work_note
   use models, only: model_t, report_number
   use motion_study, only: motion_result_t, motion_tolerance
   use number_text, only: number_width
@@ -40,12 +41,8 @@ contains
       call append_string(notes, "crank, 2: link "//variant%mechanism%names(1)%text//"; "// &
         angle_note(variant)//"; angles continue past whole turns")
       call append_string(notes, &
-        "torque: of the motor; potential: of GRAVITY, FORCE and TORQUE, "// &
-        "of crank and coupler from the crank's ground pivot, of the follower from its own, "// &
-        "of torques from angle 0")
-      call append_string(notes, "work: of the motor, less that taken by LOAD, since the start; "// &
-        "energy_error: kinetic + potential - work, less the initial energy; "// &
-        "closure: the gap of the loop")
+        "torque: of the motor; "//potential_note)
+      call append_string(notes, work_note//"; closure: the gap of the loop")
       if (motion%count == 0) return
       call append_string(notes, "initial energy: "//to_string(from_si(motion%energy, energy))// &
         " "//energy%name//"; steps of order 8, each to "//to_string(motion_tolerance)// &

@@ -41,7 +41,7 @@ contains
         state => variant%found%positions%state(position))
       call add_position_row(variant, layout, position, speed, &
         reactions_at_speed(variant%found%reactions, state, omega, &
-        variant%model%acceleration), rows)
+        variant%model%acceleration, speed), rows)
     end associate
   end subroutine add_reactions
 

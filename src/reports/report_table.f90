@@ -265,10 +265,13 @@ contains
     integer, intent(in) :: threads       !! on which it is computed
     type(variant_results_t), intent(inout) :: variant !! that gets the result
 
+    real(wp), allocatable :: speeds(:, :)
     integer :: i
 
     associate (linkage => variant%mechanism%linkage, elements => variant%mechanism%load_elements, &
         model => variant%model, points => variant%mechanism%points, found => variant%found)
+      if (allocated(found%positions%states)) speeds = spread(model%speed%value, 2, &
+        size(found%positions%states))
       select case (study)
       case ("kinematics")
         if (variant%mechanism%is_four_bar) call find_kinematics(linkage, found%positions, threads, &
@@ -286,16 +289,21 @@ contains
           reshape([(points(i)%place, i=1, size(points))], [2, size(points)]), &
           model%reports(report_number(model, "geometry"))%crank%value, threads, found%geometry)
       case ("reactions")
-        call find_reactions(linkage, elements, found%positions, threads, found%reactions)
+        call find_reactions(linkage, elements, found%positions, threads, found%reactions, &
+          speeds)
       case ("joints")
-        call find_joints(linkage, elements, found%positions, threads, found%joints)
+        call find_joints(linkage, elements, found%positions, threads, found%joints, &
+          speeds)
       case ("lagrange")
-        call find_lagrange_terms(linkage, elements, found%positions, threads, found%lagrange)
+        call find_lagrange_terms(linkage, elements, found%positions, threads, found%lagrange, &
+          speeds)
       case ("balance")
         if (variant%mechanism%is_four_bar) then
-          call find_balance(linkage, elements, found%positions, threads, found%balance)
+          call find_balance(linkage, elements, found%positions, threads, found%balance, &
+            speeds)
         else
-          call find_hung_balance(linkage, elements, found%positions, threads, found%balance)
+          call find_hung_balance(linkage, elements, found%positions, threads, found%balance, &
+            speeds)
         end if
       case ("harmonics")
         call find_harmonics(linkage, elements, model%speed%value, model%acceleration, threads, &

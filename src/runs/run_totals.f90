@@ -123,7 +123,7 @@ contains
         if (allocated(found%positions%states(i)%error)) cycle
         do k = 1, size(variant%model%speed%value)
           values = reactions_at_speed(found%reactions, i, variant%model%speed%value(k), &
-            variant%model%acceleration)
+            variant%model%acceleration, k)
           call widen(range, values(torque_value))
         end do
       end do

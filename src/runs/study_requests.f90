@@ -1,6 +1,6 @@
 !> The requests of a model to the studies that are made step by step, in the terms of mechanics.
 module study_requests
-  use drives, only: motor_drive_t, resistances_t
+  use drives, only: motor_drive_t
   use elastic_equations, only: elastic_terms_t
   use frequency_report, only: is_drawn
   use kinds, only: wp
@@ -85,9 +85,8 @@ contains
   end function drawn_states
 
   !> The requested motion.
-  pure function motion_request_of(model, mechanism) result(request)
+  pure function motion_request_of(model) result(request)
     type(model_t), intent(in) :: model         !! with REPORT motion
-    type(mechanism_t), intent(in) :: mechanism !! of the model
     type(motion_request_t) :: request
 
     associate (asked => model%reports(report_number(model, "motion")))
@@ -98,16 +97,12 @@ contains
       request%with_pins = asked%with_pins
     end associate
     request%drive = drive_of(model)
-    request%resistances = resistances_of(model, mechanism)
   end function motion_request_of
 
   !> The requested motion of a linkage that is no four-bar.
-  pure function linkage_motion_request_of(model, mechanism) result(request)
+  pure function linkage_motion_request_of(model) result(request)
     type(model_t), intent(in) :: model         !! with REPORT motion
-    type(mechanism_t), intent(in) :: mechanism !! of the model
     type(linkage_motion_request_t) :: request
-
-    integer :: i, body
 
     associate (asked => model%reports(report_number(model, "motion")))
       request%start = asked%start_angle
@@ -118,14 +113,6 @@ contains
     end associate
     request%is_free = model%drives%is_free
     request%drive = drive_of(model)
-    allocate (request%taken(size(mechanism%links)), request%damping(size(mechanism%links)))
-    request%taken = 0.0_wp
-    request%damping = 0.0_wp
-    do i = 1, size(model%resistances)
-      body = findloc(mechanism%links, model%resistances(i)%link, dim=1)
-      request%taken(body) = model%resistances(i)%torque
-      request%damping(body) = model%resistances(i)%damping
-    end do
   end function linkage_motion_request_of
 
   !> Number of rows of a motion that reaches its end; 0 without REPORT motion.
@@ -304,22 +291,5 @@ contains
       if (motor%is_line) drive%slope = motor%stall/motor%noload
     end associate
   end function drive_of
-
-  !> Resisting torques of the LOAD cards, at most one per link, on the bodies.
-  pure function resistances_of(model, mechanism) result(resistances)
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
-    type(resistances_t) :: resistances
-
-    integer :: i, body
-
-    do i = 1, size(model%resistances)
-      associate (resistance => model%resistances(i))
-        body = findloc(mechanism%links, resistance%link, dim=1)
-        resistances%taken(body) = resistance%torque
-        resistances%damping(body) = resistance%damping
-      end associate
-    end do
-  end function resistances_of
 
 end module study_requests

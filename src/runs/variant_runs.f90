@@ -181,7 +181,7 @@ contains
     type(motion_under_way_t) :: under_way
 
     associate (mechanism => run%results%mechanism, motion => run%results%found%motion)
-      call begin_motion(motion_request_of(run%results%model, mechanism), mechanism%linkage, &
+      call begin_motion(motion_request_of(run%results%model), mechanism%linkage, &
         mechanism%load_elements, under_way, motion)
       do while (.not. under_way%is_over)
         call continue_motion(under_way, instants_at_a_time, motion)
@@ -198,7 +198,7 @@ contains
     type(linkage_motion_under_way_t) :: under_way
 
     associate (mechanism => run%results%mechanism, motion => run%results%found%linkage_motion)
-      call begin_linkage_motion(linkage_motion_request_of(run%results%model, mechanism), &
+      call begin_linkage_motion(linkage_motion_request_of(run%results%model), &
         mechanism%linkage, mechanism%load_elements, under_way, motion)
       do while (.not. under_way%is_over)
         call continue_linkage_motion(under_way, instants_at_a_time, motion)

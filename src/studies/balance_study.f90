@@ -34,36 +34,42 @@ contains
 
   !> Counterweights, mass centre, and the reactions of the balanced four-bar, once for all speeds.
   !! Berkof and Lowen 1969, see `counterweights`.
-  subroutine find_balance(linkage, elements, positions, threads, found)
+  subroutine find_balance(linkage, elements, positions, threads, found, speeds)
     type(linkage_t), intent(in) :: linkage       !! a four-bar, without counterweights
     integer, intent(in) :: elements(:)           !! (bodies) on whose nodes the masses are lumped;
                                                  !! 0: distributed
     type(positions_t), intent(in) :: positions   !! of the run
     integer, intent(in) :: threads               !! number of OpenMP threads
     type(balance_result_t), intent(out) :: found !! for all positions and speeds
+    real(wp), intent(in), optional :: speeds(:, :) !! (speeds, states) of the first drive, for loads
+                                                   !! that depend on it [rad/s] or [m/s]; absent:
+                                                   !! without these
 
     found%weights = find_counterweights(linkage, elements)
     call find_lumps(linkage, found)
     call find_centres(linkage, elements, positions, threads, found)
     call find_reactions(balanced_linkage(linkage, found%weights), elements, positions, threads, &
-      found%balanced)
+      found%balanced, speeds)
   end subroutine find_balance
 
   !> The same of any other linkage, with counterweights where links hang on each other without a
   !! loop, see `hung_counterweights`.
-  subroutine find_hung_balance(linkage, elements, positions, threads, found)
+  subroutine find_hung_balance(linkage, elements, positions, threads, found, speeds)
     type(linkage_t), intent(in) :: linkage       !! of any kind, without counterweights
     integer, intent(in) :: elements(:)           !! (bodies) on whose nodes the masses are lumped;
                                                  !! 0: distributed
     type(positions_t), intent(in) :: positions   !! of the run
     integer, intent(in) :: threads               !! number of OpenMP threads
     type(balance_result_t), intent(out) :: found !! for all positions and speeds
+    real(wp), intent(in), optional :: speeds(:, :) !! (speeds, states) of the first drive, for loads
+                                                   !! that depend on it [rad/s] or [m/s]; absent:
+                                                   !! without these
 
     call find_hung_counterweights(linkage, elements, found%weights, found%obstacle)
     call find_lumps(linkage, found)
     call find_centres(linkage, elements, positions, threads, found)
     if (size(found%weights) > 0) call find_joints(balanced_linkage(linkage, found%weights), &
-      elements, positions, threads, found%balanced_joints)
+      elements, positions, threads, found%balanced_joints, speeds)
   end subroutine find_hung_balance
 
   !> The counterweights as point masses, as far from their pins as their links are long.

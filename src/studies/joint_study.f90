@@ -10,6 +10,7 @@ module joint_study
   use pose_types, only: pins_of_body
   use positions, only: positions_t
   use reactions, only: find_unit_reactions, unit_reactions_t
+  use running_loads, only: depends_on_speed, find_running_loads, running_t
   implicit none (type, external)
   private
 
@@ -22,28 +23,35 @@ module joint_study
     integer :: slider = 0 !! whose force it is; 0: that of the pin
   end type joint_t
 
-  !> Forces of the three unit loads, of which those at any speed are composed; zeros where there is
-  !! no pose.
+  !> Forces of the three unit loads, of which those at any speed are composed, and what loads that
+  !! depend on the speed add to them; zeros where there is no pose.
   type :: joints_result_t
     type(joint_t), allocatable :: joints(:)    !! pins in their order, then sliders
     real(wp), allocatable :: force(:, :, :, :) !! (3, joints, cases, states) fx, fy, moment [N, N m]
     real(wp), allocatable :: drive(:, :, :)    !! (drives, cases, states) [N m] or [N]
     real(wp), allocatable :: shaking(:, :, :)  !! (3, cases, states) force and moment [N, N m]
+    real(wp), allocatable :: running_force(:, :, :, :) !! (3, joints, speeds, states) added at each
+                                               !! speed, as `force`; no speeds: nothing is
+    real(wp), allocatable :: running_drive(:, :, :)    !! (drives, speeds, states), as `drive`
   end type joints_result_t
 
 contains
 
   !> Forces at all positions, once for all speeds.
-  subroutine find_joints(linkage, elements, positions, threads, found)
+  subroutine find_joints(linkage, elements, positions, threads, found, speeds)
     type(linkage_t), intent(in) :: linkage      !! of any kind
     integer, intent(in) :: elements(:)          !! (bodies) on whose nodes the masses are lumped;
                                                 !! 0: distributed
     type(positions_t), intent(in) :: positions  !! of the run
     integer, intent(in) :: threads              !! number of OpenMP threads
     type(joints_result_t), intent(out) :: found !! for all positions and speeds
+    real(wp), intent(in), optional :: speeds(:, :) !! (speeds, states) of the first drive, for loads
+                                                   !! that depend on it [rad/s] or [m/s]; absent:
+                                                   !! without these
 
     type(unit_reactions_t) :: unit
-    integer :: i, k, n
+    type(running_t) :: running
+    integer :: i, k, n, running_speeds
 
     call list_joints(linkage, found%joints)
     n = size(positions%states)
@@ -52,7 +60,14 @@ contains
     found%force = 0.0_wp
     found%drive = 0.0_wp
     found%shaking = 0.0_wp
-    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i, k, unit)
+    running_speeds = 0
+    if (present(speeds) .and. depends_on_speed(linkage)) running_speeds = size(speeds, 1)
+    allocate (found%running_force(3, size(found%joints), running_speeds, n), &
+      found%running_drive(size(linkage%drives), running_speeds, n))
+    found%running_force = 0.0_wp
+    found%running_drive = 0.0_wp
+    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) &
+    !$omp   private(i, k, unit, running)
     do i = 1, n
       associate (state => positions%states(i))
         if (allocated(state%error)) cycle
@@ -60,20 +75,35 @@ contains
         do k = 1, case_count
           associate (part => unit%of_case(k))
             call take_forces(linkage, found%joints, part%joints, found%force(:, :, k, i))
-            if (allocated(part%joints%drive)) then
-              found%drive(:, k, i) = part%joints%drive
-            else
-              found%drive(1, k, i) = part%joints%torque
-            end if
+            found%drive(:, k, i) = drives_of(part%joints)
             found%shaking(:, k, i) = [part%shaking_force, part%shaking_moment]
           end associate
         end do
         call turn_guides(linkage, found%joints, state%pose%direction, found%force(:, :, :, i))
+        do k = 1, running_speeds
+          call find_running_loads(linkage, state%pose, state%coefficients, speeds(k, i), running)
+          call take_forces(linkage, found%joints, running%joints, found%running_force(:, :, k, i))
+          found%running_drive(:, k, i) = drives_of(running%joints)
+        end do
+        call turn_guides(linkage, found%joints, state%pose%direction, found%running_force(:, :, :, &
+          i))
         call add_blocks(linkage, found%joints, state%coefficients, found%force(:, :, :, i))
       end associate
     end do
     !$omp end parallel do
   end subroutine find_joints
+
+  !> Torques or forces of all drives [N m] or [N].
+  pure function drives_of(forces) result(drive)
+    type(joint_forces_t), intent(in) :: forces
+    real(wp), allocatable :: drive(:)
+
+    if (allocated(forces%drive)) then
+      drive = forces%drive
+    else
+      drive = [forces%torque]
+    end if
+  end function drives_of
 
   !> All joints: every body at every pin, then every slider.
   pure subroutine list_joints(linkage, joints)
@@ -180,12 +210,14 @@ contains
   end subroutine add_blocks
 
   !> Force and moment of every joint at a speed: ω2² and α2 times those of the unit loads, plus
-  !! those of the constant loads.
-  pure function joints_at_speed(found, state, speed, acceleration) result(forces)
+  !! those of the constant loads and of what the speed adds.
+  pure function joints_at_speed(found, state, speed, acceleration, number) result(forces)
     type(joints_result_t), intent(in) :: found !! for all positions
     integer, intent(in) :: state               !! number; with a pose
     real(wp), intent(in) :: speed              !! of the first drive [rad/s] or [m/s]
     real(wp), intent(in) :: acceleration       !! of the first drive [rad/s²] or [m/s²]
+    integer, intent(in), optional :: number              !! of the speed, for loads that depend on it; absent:
+                                               !! without these
     real(wp) :: forces(3, size(found%joints))  !! fx, fy, moment [N, N m]
 
     real(wp) :: factor(case_count)
@@ -196,16 +228,21 @@ contains
     do k = 1, case_count
       forces = forces + factor(k)*found%force(:, :, k, state)
     end do
+    if (.not. present(number)) return
+    if (size(found%running_force, 3) > 0) forces = forces + found%running_force(:, :, number, state)
   end function joints_at_speed
 
   !> Position, rate and force of every drive at a position and speed.
-  pure function drives_at_speed(linkage, found, state, crank, speed, acceleration) result(drives)
+  pure function drives_at_speed(linkage, found, state, crank, speed, acceleration, number) &
+    result(drives)
     type(linkage_t), intent(in) :: linkage     !! its drives
     type(joints_result_t), intent(in) :: found !! for all positions
     integer, intent(in) :: state               !! number; with a pose
     real(wp), intent(in) :: crank              !! coordinate of the first drive [deg] or [m]
     real(wp), intent(in) :: speed              !! of the first drive [rad/s] or [m/s]
     real(wp), intent(in) :: acceleration       !! of the first drive [rad/s²] or [m/s²]
+    integer, intent(in), optional :: number              !! of the speed, for loads that depend on it; absent:
+                                               !! without these
     real(wp) :: drives(3, size(linkage%drives)) !! [deg, rad/s, N m] or [m, m/s, N]
 
     integer :: d
@@ -216,6 +253,9 @@ contains
       drives(3, d) = speed**2*found%drive(d, 1, state) + acceleration*found%drive(d, 2, state) + &
         found%drive(d, 3, state)
     end do
+    if (.not. present(number)) return
+    if (size(found%running_drive, 2) > 0) drives(3, :) = drives(3, :) + found%running_drive(:, &
+      number, state)
   end function drives_at_speed
 
 end module joint_study

@@ -5,36 +5,56 @@ module lagrange_study
   use linkages, only: linkage_t
   use positions, only: positions_t
   use rigid_bodies, only: rigid_bodies_of, rigid_body_t
+  use running_loads, only: depends_on_speed, find_running_loads, running_t
   implicit none (type, external)
   private
 
-  public :: find_lagrange_terms, lagrange_at_speed
+  public :: lagrange_result_t, find_lagrange_terms, lagrange_at_speed
 
   !> Number of values of `lagrange_at_speed`.
   integer, parameter :: lagrange_values = 8
+
+  type :: lagrange_result_t
+    type(lagrange_t), allocatable :: terms(:)    !! (states) zeros where there is no pose
+    real(wp), allocatable :: running_load(:, :)  !! (speeds, states) added to `load` at each speed;
+                                                 !! no speeds: nothing is [N m]
+  end type lagrange_result_t
 
 contains
 
   !> Generalised inertia M, M' = dM/dθ2, generalised loads and potential at all positions, once for
   !! all speeds: Ulker 2010 (2.50) to (2.64).
-  subroutine find_lagrange_terms(linkage, elements, positions, threads, terms)
+  subroutine find_lagrange_terms(linkage, elements, positions, threads, found, speeds)
     type(linkage_t), intent(in) :: linkage     !! with masses
     integer, intent(in) :: elements(:)         !! (bodies) on whose nodes the masses are lumped; 0:
                                                !! distributed
     type(positions_t), intent(in) :: positions !! of the run
     integer, intent(in) :: threads             !! number of OpenMP threads
-    type(lagrange_t), allocatable, intent(out) :: terms(:) !! (states) zeros where there is no pose
+    type(lagrange_result_t), intent(out) :: found !! for all positions and speeds
+    real(wp), intent(in), optional :: speeds(:, :) !! (speeds, states) of the first drive, for loads
+                                                   !! that depend on it [rad/s] or [m/s]; absent:
+                                                   !! without these
 
     type(rigid_body_t) :: rigid(size(linkage%bodies))
-    integer :: i
+    type(running_t) :: running
+    integer :: i, k, running_speeds
 
     rigid = rigid_bodies_of(linkage, elements)
-    allocate (terms(size(positions%states)))
-    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i)
-    do i = 1, size(terms)
+    running_speeds = 0
+    if (present(speeds) .and. depends_on_speed(linkage)) running_speeds = size(speeds, 1)
+    allocate (found%terms(size(positions%states)), found%running_load(running_speeds, &
+      size(positions%states)))
+    found%running_load = 0.0_wp
+    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) &
+    !$omp   private(i, k, running)
+    do i = 1, size(found%terms)
       associate (state => positions%states(i))
-        if (.not. allocated(state%error)) terms(i) = &
-          find_lagrange(linkage, rigid, state%pose, state%coefficients)
+        if (allocated(state%error)) cycle
+        found%terms(i) = find_lagrange(linkage, rigid, state%pose, state%coefficients)
+        do k = 1, running_speeds
+          call find_running_loads(linkage, state%pose, state%coefficients, speeds(k, i), running)
+          found%running_load(k, i) = running%load
+        end do
       end associate
     end do
     !$omp end parallel do
@@ -42,12 +62,22 @@ contains
 
   !> Values at a speed: M, M' [kg m²], `½ M' ω2²`, gravity, load, torque, kinetic energy, potential
   !! [N m].
-  pure function lagrange_at_speed(terms, speed, acceleration) result(values)
-    type(lagrange_t), intent(in) :: terms !! at a position
-    real(wp), intent(in) :: speed         !! ω2 [rad/s]
-    real(wp), intent(in) :: acceleration  !! α2 [rad/s²]
+  pure function lagrange_at_speed(found, state, speed, acceleration, number) result(values)
+    type(lagrange_result_t), intent(in) :: found !! for all positions
+    integer, intent(in) :: state                 !! number; with a pose
+    real(wp), intent(in) :: speed                !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration         !! α2 [rad/s²]
+    integer, intent(in), optional :: number                !! of the speed, for loads that depend on it;
+                                                 !! absent: without these
     real(wp) :: values(lagrange_values)
 
+    type(lagrange_t) :: terms
+
+    terms = found%terms(state)
+    if (present(number)) then
+      if (size(found%running_load, 1) > 0) terms%load = terms%load + found%running_load(number, &
+        state)
+    end if
     values = [terms%inertia, terms%inertia_slope, velocity_term(terms, speed), terms%gravity, &
       terms%load, demanded_torque(terms, speed, acceleration), kinetic_energy(terms, speed), &
       terms%potential]

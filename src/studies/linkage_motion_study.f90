@@ -25,8 +25,6 @@ module linkage_motion_study
     real(wp), allocatable :: instants(:) !! of the samples, ascending from 0 to `end_time` [s]
     logical, allocatable :: is_free(:)   !! (drives) marked in the deck
     type(motor_drive_t) :: drive         !! motor on the first drive
-    real(wp), allocatable :: taken(:)    !! (bodies) resisting torques [N m]
-    real(wp), allocatable :: damping(:)  !! (bodies) of their turning [N m s]
     logical :: with_pins = .false.       !! the places of all pins are wanted
   end type linkage_motion_request_t
 
@@ -53,7 +51,7 @@ contains
 
   !> Starts a motion. Errors, in `result%error`: those of `start_linkage_motion`.
   subroutine begin_linkage_motion(request, linkage, elements, under_way, result)
-    type(linkage_motion_request_t), intent(in) :: request      !! start, end, motor and resistances
+    type(linkage_motion_request_t), intent(in) :: request      !! start, end and motor
     type(linkage_t), intent(in) :: linkage                     !! of any kind
     integer, intent(in) :: elements(:)                         !! (bodies) on whose nodes the masses
                                                                !! are lumped; 0: distributed
@@ -63,8 +61,7 @@ contains
     under_way%request = request
     allocate (result%samples(size(request%instants)))
     call start_linkage_motion(linkage, rigid_bodies_of(linkage, elements), request%is_free, &
-      request%drive, request%taken, request%damping, request%start, request%speed, &
-      request%end_time, under_way%motion, result%error)
+      request%drive, request%start, request%speed, request%end_time, under_way%motion, result%error)
     result%has_begun = .not. allocated(result%error)
     under_way%is_over = allocated(result%error)
   end subroutine begin_linkage_motion

@@ -1,7 +1,7 @@
 !> Forward dynamics: the motion of a four-bar under given loads, sampled at equal time steps.
 module motion_study
   use constants, only: degree
-  use drives, only: motor_drive_t, resistances_t
+  use drives, only: motor_drive_t
   use errors, only: error_of_dead_point, error_of_numerics, error_t, set_error
   use forward_motions, only: end_motion, forward_motion_t, motion_sample_t, motion_tolerance, &
     move_until, sample_motion, start_motion, turning_point_t
@@ -26,7 +26,6 @@ module motion_study
     real(wp) :: end_time = 0.0_wp    !! [s]
     real(wp), allocatable :: instants(:) !! of the samples, ascending from 0 to `end_time` [s]
     type(motor_drive_t) :: drive     !! motor on the crank
-    type(resistances_t) :: resistances !! on all links
     logical :: with_pins = .false.   !! the places of all pins are wanted
   end type motion_request_t
 
@@ -59,7 +58,7 @@ contains
   !! Errors, in `result%error`: the start position is out of reach, is a limit position and the
   !! start speed is not 0, or is a change point; no memory.
   subroutine begin_motion(request, linkage, elements, under_way, result)
-    type(motion_request_t), intent(in) :: request      !! start, end, motor and resistances
+    type(motion_request_t), intent(in) :: request      !! start, end and motor
     type(linkage_t), intent(in) :: linkage             !! a four-bar
     integer, intent(in) :: elements(:)                 !! (bodies) on whose nodes the masses are
                                                        !! lumped; 0: distributed
@@ -74,8 +73,7 @@ contains
     end if
     result%last%angle(1) = request%start_angle
     call start_motion(linkage, rigid_bodies_of(linkage, elements), request%drive, &
-      request%resistances, request%start_angle, request%start_speed, request%end_time, &
-      under_way%motion, result%error)
+      request%start_angle, request%start_speed, request%end_time, under_way%motion, result%error)
     result%has_begun = .not. allocated(result%error)
     under_way%is_over = allocated(result%error)
   end subroutine begin_motion
@@ -142,7 +140,11 @@ contains
       result%turnings = motion%turnings(:motion%turning_count)
       result%steps = motion%integrator%steps
       result%energy = motion%energy
-      call explain_stop(motion%stop, result%error)
+      if (allocated(motion%ended)) then
+        result%error = motion%ended
+      else
+        call explain_stop(motion%stop, result%error)
+      end if
     end associate
     call end_motion(under_way%motion)
   end subroutine finish_motion

@@ -1,5 +1,6 @@
 !> The positions of a run, computed in parallel.
 module position_study
+  use applied_loads, only: load_period
   use kinds, only: wp
   use linkages, only: linkage_t
   use positions, only: find_state, list_positions, positions_t
@@ -22,7 +23,7 @@ contains
 
     integer :: i
 
-    call list_positions(crank, positions, period_of(linkage))
+    call list_positions(crank, positions, load_period(linkage, period_of(linkage)))
     !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i)
     do i = 1, size(positions%states)
       call find_state(linkage, positions%states(i))

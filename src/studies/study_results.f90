@@ -8,7 +8,7 @@ module study_results
   use inertia_study, only: inertia_result_t
   use joint_study, only: joints_result_t
   use kinematics_study, only: kinematics_result_t
-  use lagrange, only: lagrange_t
+  use lagrange_study, only: lagrange_result_t
   use limits_study, only: limits_result_t
   use linkage_motion_study, only: linkage_motion_result_t
   use linkage_study, only: linkage_class_t, linkage_result_t
@@ -34,7 +34,7 @@ module study_results
     type(point_coefficients_t), allocatable :: points(:, :) !! (points, states)
     type(reactions_result_t) :: reactions
     type(joints_result_t) :: joints
-    type(lagrange_t), allocatable :: lagrange(:)            !! (states)
+    type(lagrange_result_t) :: lagrange
     type(balance_result_t) :: balance
     type(harmonics_result_t) :: harmonics
     type(linkage_result_t) :: linkage                       !! of a four-bar

@@ -17,13 +17,15 @@ module curve_dynamics
 
   !> Constants of a moving four-bar, in the order crank, coupler, follower. The kinetic energy is
   !! `½ Σ inertia ω²` plus `ω2 ω3 (c1 cos(θ3 − θ2) − c2 sin(θ3 − θ2))`, where c is `coupling`; the
-  !! potential energy is `U = −Σ weight·(cos θ, sin θ) − Σ couple θ`.
+  !! potential energy is `U = level − Σ weight·(cos θ, sin θ)`.
   type :: curve_dynamics_t
     real(wp) :: inertia(3) = 0.0_wp   !! about O2, A, O4, with what is carried at A or B [kg m²]
     real(wp) :: coupling(2) = 0.0_wp  !! r2 times the first moment of the coupler, along it and to
                                       !! its left [kg m²]
     real(wp) :: weight(2, 3) = 0.0_wp !! of gravity and constant forces, along x and y [N m]
-    real(wp) :: couple(3) = 0.0_wp    !! constant external torques [N m]
+    real(wp) :: level = 0.0_wp        !! of weights and constant forces at the ground pivots, 0 at
+                                      !! the global origin [J]
+    real(wp) :: couple(3) = 0.0_wp    !! constant external torques, which have no potential [N m]
   end type curve_dynamics_t
 
 contains
@@ -57,6 +59,9 @@ contains
         dynamics%weight(:, i) = turned(linkage%gravity, bodies(i)%first_moment) + &
           r(number(i))*(carried(i)*linkage%gravity + force(:, i))
       end do
+      dynamics%level = -dot_product((bodies(1)%mass + carried(1))*linkage%gravity + force(:, 1), &
+        linkage%ground_position(:, base(1))) - dot_product((bodies(3)%mass + carried(3))* &
+        linkage%gravity + force(:, 3), linkage%ground_position(:, base(3)))
       dynamics%coupling = r(1)*bodies(2)%first_moment
       dynamics%couple = linkage%couple(number)
     end associate
@@ -108,25 +113,23 @@ contains
     end associate
   end subroutine find_inertia
 
-  !> Torques on the angles θ2, θ3, θ4 from gravity and constant forces and torques: `−∂U/∂θ` [N m].
+  !> Torques on the angles θ2, θ3, θ4 from gravity and constant forces: `−∂U/∂θ` [N m].
   pure function conservative_torques(dynamics, point) result(torque)
     type(curve_dynamics_t), intent(in) :: dynamics !! constants of the four-bar
     type(curve_point_t), intent(in) :: point       !! its directions
     real(wp) :: torque(3)
 
-    torque = dynamics%couple + point%direction(1, :)*dynamics%weight(2, :) - point%direction(2, &
-      :)*dynamics%weight(1, :)
+    torque = point%direction(1, :)*dynamics%weight(2, :) - point%direction(2, :)* &
+      dynamics%weight(1, :)
   end function conservative_torques
 
-  !> Potential energy of gravity and constant forces and torques [J]. Zero levels: O2 for crank and
-  !! coupler, O4 for the follower and pin B, angle 0 for torques.
-  pure function potential_energy(dynamics, point, angle) result(energy)
+  !> Potential energy of gravity and constant forces, 0 with all at the global origin [J].
+  pure function potential_energy(dynamics, point) result(energy)
     type(curve_dynamics_t), intent(in) :: dynamics !! constants of the four-bar
     type(curve_point_t), intent(in) :: point       !! its directions
-    real(wp), intent(in) :: angle(3)               !! θ2, θ3, θ4 with all whole turns [rad]
     real(wp) :: energy
 
-    energy = -sum(dynamics%weight*point%direction) - sum(dynamics%couple*angle)
+    energy = dynamics%level - sum(dynamics%weight*point%direction)
   end function potential_energy
 
 end module curve_dynamics

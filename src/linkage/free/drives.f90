@@ -1,10 +1,10 @@
-!> Drive and resistances of a linkage that moves by itself.
+!> The drive of a linkage that moves by itself.
 module drives
   use kinds, only: wp
   implicit none (type, external)
   private
 
-  public :: drive_t, motor_drive_t, resistances_t
+  public :: drive_t, motor_drive_t
 
   !> A torque on the driven body.
   type, abstract :: drive_t
@@ -31,13 +31,6 @@ module drives
   contains
     procedure :: torque => motor_torque
   end type motor_drive_t
-
-  !> Resistances: the torque on each body is `−(taken + damping ω)`, counter-clockwise; in the order
-  !! crank, coupler, follower.
-  type :: resistances_t
-    real(wp) :: taken(3) = 0.0_wp   !! [N m]
-    real(wp) :: damping(3) = 0.0_wp !! [N m s]
-  end type resistances_t
 
 contains
 

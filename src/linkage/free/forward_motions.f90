@@ -1,23 +1,26 @@
-!> Forward dynamics: the motion of a four-bar under a drive, resistances, gravity and constant
-!! loads.
+!> Forward dynamics: the motion of a four-bar under a drive, gravity and all other loads.
 !!
 !! The state is a point of the loop-closure curve, the rate ṡ along it, and the work done so far by
-!! drive and resistances. It is integrated in steps of order 8. After each step the angles are
-!! projected back onto the curve. The energy is never corrected, so that its balance measures the
-!! accuracy of the motion.
+!! the drive and by loads without a potential. It is integrated in steps of order 8. After each step
+!! the angles are projected back onto the curve. The energy is never corrected, so that its balance
+!! measures the accuracy of the motion.
 module forward_motions
   use adaptive_integration, only: advance, close_integrator, integrator_t, open_integrator, step_by
+  use applied_loads, only: applied_potential
   use constants, only: degree, two_pi
   use curve_dynamics, only: find_inertia, new_curve_dynamics, potential_energy
-  use drives, only: drive_t, resistances_t
+  use drives, only: drive_t
   use errors, only: error_of_dead_point, error_t, set_error
-  use four_bar_rates, only: moving_four_bar_t, no_stop, rate_number, stop_many_steps, &
-    stop_no_inertia, stop_steps, unknown_count, work_number
+  use four_bar_poses, only: find_curve_pose
+  use four_bar_rates, only: moving_four_bar_t, no_stop, rate_number, stop_at_end, &
+    stop_many_steps, stop_no_inertia, stop_steps, unknown_count, work_number
   use interruption, only: was_interrupted
   use kinds, only: long, wp
+  use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t
   use loop_curves, only: closure_error, curve_point_t, find_point, find_start, new_loop_curve, &
     project, reduce
+  use pose_types, only: pose_t
   use poses, only: dead_point_sine
   use rigid_bodies, only: rigid_body_t
   implicit none (type, external)
@@ -52,6 +55,7 @@ module forward_motions
     real(wp) :: time = 0.0_wp                          !! [s]
     real(wp) :: energy = 0.0_wp                        !! kinetic + potential, at the start [J]
     integer :: stop = no_stop                          !! why it does not continue
+    type(error_t), allocatable :: ended                !! the table that then ends
     logical :: is_open = .true.                        !! on the open branch; else crossed
     integer(long) :: most_steps = 1000000_long         !! from one instant to the next: some 6,000
                                                        !! turns, and some seconds of computing
@@ -69,8 +73,9 @@ module forward_motions
     real(wp) :: speed(3) = 0.0_wp     !! [rad/s]
     real(wp) :: torque = 0.0_wp       !! of the drive [N m]
     real(wp) :: kinetic = 0.0_wp      !! [J]
-    real(wp) :: potential = 0.0_wp    !! of gravity and constant loads [J]
-    real(wp) :: work = 0.0_wp         !! of drive and resistances since the start [J]
+    real(wp) :: potential = 0.0_wp    !! of gravity and constant forces, 0 at the global origin, and
+                                      !! of springs, 0 unloaded [J]
+    real(wp) :: work = 0.0_wp         !! of the drive and of all other loads since the start [J]
     real(wp) :: energy_error = 0.0_wp !! kinetic + potential − work, less its value at the start [J]
     real(wp) :: closure = 0.0_wp      !! gap of the open loop [m]
     logical :: is_open = .true.       !! on the open branch; else crossed
@@ -83,12 +88,10 @@ contains
   !! Errors: those of `find_start` (out of reach, change point); a speed at a limit position, where
   !! the crank can only be at rest and its speed would not determine those of the other links; no
   !! memory. Other reasons why a motion cannot begin are found by `move_until`.
-  subroutine start_motion(linkage, rigid, drive, resistances, crank_degrees, speed, duration, &
-    motion, error)
+  subroutine start_motion(linkage, rigid, drive, crank_degrees, speed, duration, motion, error)
     type(linkage_t), intent(in) :: linkage           !! a four-bar
     type(rigid_body_t), intent(in) :: rigid(:)       !! (bodies) of the linkage
     class(drive_t), intent(in) :: drive              !! torque on the crank
-    type(resistances_t), intent(in) :: resistances   !! torques on all links
     real(wp), intent(in) :: crank_degrees            !! at the start [deg]
     real(wp), intent(in) :: speed                    !! of the crank at the start [rad/s]
     real(wp), intent(in) :: duration                 !! about how long it is to be followed, above
@@ -105,7 +108,7 @@ contains
     motion%system%curve = new_loop_curve(linkage)
     motion%system%dynamics = new_curve_dynamics(linkage, rigid)
     allocate (motion%system%drive, source=drive)
-    motion%system%resistances = resistances
+    motion%system%linkage = linkage
     allocate (motion%turnings(0))
     call find_start(linkage, crank_degrees, motion%state(1:3), error)
     if (allocated(error)) return
@@ -163,6 +166,7 @@ contains
       call advance(motion%integrator, motion%system, motion%time, time, motion%state, error)
       if (allocated(error)) then
         motion%stop = merge(motion%system%stop, stop_steps, motion%system%stop /= no_stop)
+        if (motion%stop == stop_at_end) call move_alloc(motion%system%ended, motion%ended)
         if (motion%stop == stop_steps) then
           if (inertia_of(motion) < little_inertia) motion%stop = stop_no_inertia
         end if
@@ -268,6 +272,8 @@ contains
     type(motion_sample_t) :: sample
 
     type(curve_point_t) :: point
+    type(pose_t) :: pose
+    type(kinematic_coefficients_t) :: per
     real(wp) :: inertia, slope
     logical :: is_smooth
 
@@ -280,7 +286,12 @@ contains
       sample%torque = system%drive%torque(motion%time, angle(1) + two_pi*system%turns(1), &
         sample%speed(1))
       sample%kinetic = 0.5_wp*inertia*motion%state(rate_number)**2
-      sample%potential = potential_energy(system%dynamics, point, angle + two_pi*system%turns)
+      sample%potential = potential_energy(system%dynamics, point)
+      if (size(system%linkage%loads) > 0) then
+        call find_curve_pose(system%linkage, point, angle(1) + two_pi*system%turns(1), pose, per)
+        sample%potential = sample%potential + applied_potential(system%linkage, pose, &
+          [0.0_wp, 0.0_wp])
+      end if
       sample%work = motion%state(work_number)
       sample%energy_error = sample%kinetic + sample%potential - sample%work - motion%energy
       sample%closure = closure_error(system%curve, angle)

@@ -1,5 +1,5 @@
-!> Forward dynamics of any linkage: its motion under a drive, resistances, gravity and constant
-!! loads, on the curve or surface of all its positions.
+!> Forward dynamics of any linkage: its motion under a drive, gravity and all other loads,
+!! on the curve or surface of all its positions.
 !!
 !! Near dead points every step has a chart of its own, made where it begins: a drive may come to its
 !! limit and turn back while the linkage goes on, on its other branch. The energy is never
@@ -95,15 +95,13 @@ contains
   !! the first one puts them, with the rates of this relation.
   !!
   !! Errors: the start is out of reach, a change point, or a dead point with a speed; no memory.
-  subroutine start_linkage_motion(linkage, rigid, is_free, drive, taken, damping, crank, speed, &
+  subroutine start_linkage_motion(linkage, rigid, is_free, drive, crank, speed, &
     duration, motion, error)
     type(linkage_t), intent(in) :: linkage           !! of any kind, with loads and a path if it
                                                      !! needs one
     type(rigid_body_t), intent(in) :: rigid(:)       !! (bodies) of the linkage
     logical, intent(in) :: is_free(:)                !! (drives) marked; the first always is
     class(drive_t), intent(in) :: drive              !! torque or force on the first drive
-    real(wp), intent(in) :: taken(:)                 !! (bodies) resisting torques [N m]
-    real(wp), intent(in) :: damping(:)               !! (bodies) of their turning [N m s]
     real(wp), intent(in) :: crank                    !! of the first drive at the start [deg] or [m]
     real(wp), intent(in) :: speed                    !! of the first drive at the start [rad/s] or
                                                      !! [m/s]
@@ -122,8 +120,6 @@ contains
       system%whole = new_whole_system(linkage, system%free)
       system%rigid = rigid
       allocate (system%drive, source=drive)
-      system%taken = taken
-      system%damping = damping
       f = size(system%free)
       call place_links(linkage, crank, pose, error)
       if (allocated(error)) return

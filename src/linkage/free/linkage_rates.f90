@@ -8,6 +8,8 @@
 !! along h_k, and b the accelerations with the present rates and no ü.
 module linkage_rates
   use adaptive_integration, only: rate_system_t
+  use applied_loads, only: add_conservative_loads, add_moving_loads, add_prescribed_loads, &
+    generalised_force, refuse_beyond_tables
   use block_ends, only: refuse_leaving_block
   use body_points, only: find_point_coefficients, point_coefficients_t
   use constants, only: degree
@@ -15,6 +17,7 @@ module linkage_rates
   use drives, only: drive_t
   use errors, only: error_of_dead_point, error_of_reach, error_t, set_error
   use group_equations, only: drive_rate
+  use inertia_loads, only: load_t
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, find_velocities, &
     kinematic_coefficients_t
@@ -32,7 +35,8 @@ module linkage_rates
   public :: no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps, &
     stop_many_steps, stop_misfit, stop_energy, stop_at_end
 
-  !> Why a motion stops; at last because a block leaves its link. There are no rates then, without
+  !> Why a motion stops; at last because a block leaves its link
+  !! or a table ends. There are no rates then, without
   !! inertia, and where links move too fast.
   integer, parameter :: no_stop = 0, stop_change_point = 1, stop_no_inertia = 2, &
     stop_too_fast = 3, stop_steps = 4, stop_many_steps = 5, stop_misfit = 6, stop_energy = 7, &
@@ -47,14 +51,12 @@ module linkage_rates
   real(wp), parameter :: least_inertia = 1.0e-13_wp
 
   !> A linkage in motion. Its state: coordinates of the free drives [rad] or [m], or of the chart
-  !! [m], their rates, the work done so far by drive and resistances [J].
+  !! [m], their rates, the work done so far by the drive and all loads without a potential [J].
   type, extends(rate_system_t) :: moving_linkage_t
     type(whole_system_t) :: whole
     type(rigid_body_t), allocatable :: rigid(:) !! (bodies)
     integer, allocatable :: free(:)             !! numbers of the free drives; the first is 1
     class(drive_t), allocatable :: drive        !! torque or force on the first drive
-    real(wp), allocatable :: taken(:)           !! (bodies) resisting torques [N m]
-    real(wp), allocatable :: damping(:)         !! (bodies) of their turning [N m s]
     logical :: by_drives = .true.               !! the state has the coordinates of the drives
     real(wp) :: turned = 0.0_wp                 !! whole turns of the first drive that its
                                                 !! coordinate in the state does not contain [deg]
@@ -63,7 +65,8 @@ module linkage_rates
                                                 !! iterations
     type(motion_chart_t) :: chart               !! whose coordinates the state has else
     integer :: stop = no_stop                   !! why rates were last not found
-    type(error_t), allocatable :: left          !! the block that left its link, when `stop` says so
+    type(error_t), allocatable :: left          !! the block that left its link, or the table
+                                                !! that ended, when `stop` says so
   contains
     procedure :: find_rates => rates_of_motion
   end type moving_linkage_t
@@ -88,7 +91,8 @@ contains
     type(kinematic_coefficients_t), allocatable, intent(out) :: per(:) !! (coordinates)
     type(kinematic_coefficients_t), intent(out) :: now                 !! per second
     logical, intent(out) :: found       !! the coordinates reach so far
-    type(error_t), allocatable, intent(out), optional :: left !! else the block that leaves its link
+    type(error_t), allocatable, intent(out), optional :: left !! else the block that leaves its link, or
+                                                              !! the table that ends
 
     type(dense_factor_t) :: factor
     type(error_t), allocatable :: error
@@ -99,7 +103,10 @@ contains
     if (.not. self%by_drives) then
       call find_on_chart(self%whole, self%chart, state(:f), pose, factor, found)
       if (.not. found) return
+      pose%crank = drive_position(self%whole, pose, 1, self%chart%crank)
       call refuse_leaving_block(self%whole%linkage, pose, error)
+      if (.not. allocated(error)) call refuse_beyond_tables(self%whole%linkage, pose, &
+        self%whole%origin, error)
       found = .not. allocated(error)
       if (present(left)) call move_alloc(error, left)
       if (.not. found) return
@@ -112,6 +119,13 @@ contains
     if (present(left) .and. .not. found) then
       if (error%place%pin > 0) call move_alloc(error, left)
     end if
+    if (.not. found) return
+    pose%crank = state(1)
+    if (self%whole%linkage%drives(1)%kind == drives_angle) pose%crank = state(1)/degree + &
+      self%turned
+    call refuse_beyond_tables(self%whole%linkage, pose, self%whole%origin, error)
+    found = .not. allocated(error)
+    if (present(left) .and. .not. found) call move_alloc(error, left)
     if (.not. found) return
     now = find_kinematic_coefficients(self%whole%linkage, pose, rates_of_drives(self, state(f + &
       1:2*f)))
@@ -259,10 +273,7 @@ contains
       torque = self%drive%torque(time, coordinate_of(self, pose), rate_of_drive(self, pose, now, 1))
       driving = torque*[(rate_of_drive(self, pose, per(k), 1), k=1, f)]
     end if
-    do k = 1, f
-      driving(k) = driving(k) - dot_product(self%taken + self%damping*now%turn, per(k)%turn) + &
-        dot_product(self%whole%linkage%couple, per(k)%turn)
-    end do
+    call add_loads(self, pose, now, per, right, driving)
     call factorize(inertia, factor)
     found = abs(factor%determinant) > least_inertia
     if (.not. found) then
@@ -273,6 +284,36 @@ contains
     rates(f + 1:2*f) = solve(factor, right + driving)
     rates(2*f + 1) = dot_product(driving, state(f + 1:2*f))
   end subroutine rates_of_motion
+
+  !> Adds the generalised forces of springs, dampers and processes: those with a potential to the
+  !! first sum, all others, with constant torques, to the second.
+  pure subroutine add_loads(self, pose, now, per, right, driving)
+    class(moving_linkage_t), intent(in) :: self
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: now
+    type(kinematic_coefficients_t), intent(in) :: per(:)
+    real(wp), intent(inout) :: right(:), driving(:) !! (coordinates)
+
+    type(load_t) :: body_load(size(self%rigid)), of_springs(size(self%rigid))
+    real(wp) :: pin_load(2, size(pose%pin, 2)), spring_force(2, size(pose%pin, 2))
+    integer :: k
+
+    associate (linkage => self%whole%linkage, origin => self%whole%origin)
+      do k = 1, size(per)
+        driving(k) = driving(k) + dot_product(linkage%couple, per(k)%turn)
+      end do
+      if (size(linkage%loads) == 0) return
+      spring_force = 0.0_wp
+      pin_load = 0.0_wp
+      call add_conservative_loads(linkage, pose, of_springs, spring_force)
+      call add_prescribed_loads(linkage, pose, origin, body_load, pin_load)
+      call add_moving_loads(linkage, pose, origin, now, body_load, pin_load)
+      do k = 1, size(per)
+        right(k) = right(k) + generalised_force(linkage, per(k), of_springs, spring_force)
+        driving(k) = driving(k) + generalised_force(linkage, per(k), body_load, pin_load)
+      end do
+    end associate
+  end subroutine add_loads
 
   !> Coordinate of the first drive, with all whole turns [rad] or [m].
   pure function coordinate_of(self, pose) result(coordinate)

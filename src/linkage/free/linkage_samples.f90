@@ -1,5 +1,6 @@
 !> A linkage in motion at an instant.
 module linkage_samples
+  use applied_loads, only: applied_potential
   use body_points, only: find_point_coefficients, point_coefficients_t
   use constants, only: degree
   use kinds, only: wp
@@ -20,10 +21,9 @@ module linkage_samples
     real(wp), allocatable :: pin(:, :)   !! (2, pins) in global axes [m]
     real(wp) :: torque = 0.0_wp          !! of the drive [N m] or [N]
     real(wp) :: kinetic = 0.0_wp         !! [J]
-    real(wp) :: potential = 0.0_wp       !! of gravity and constant forces, 0 at the global origin
-                                         !! [J]
-    real(wp) :: work = 0.0_wp            !! of drive, resistances and constant torques since the
-                                         !! start [J]
+    real(wp) :: potential = 0.0_wp       !! of gravity and constant forces, 0 at the global origin,
+                                         !! and of springs, 0 unloaded [J]
+    real(wp) :: work = 0.0_wp            !! of the drive and of all other loads since the start [J]
     real(wp) :: energy_error = 0.0_wp    !! kinetic + potential − work, less its value at the start
                                          !! [J]
   end type linkage_sample_t
@@ -69,6 +69,8 @@ contains
         sample%potential = sample%potential - dot_product(linkage%pin_mass(p)*linkage%gravity + &
           linkage%pin_force(:, p), sample%pin(:, p))
       end do
+      if (size(linkage%loads) > 0) sample%potential = sample%potential + applied_potential( &
+        linkage, pose, origin)
     end associate
   end subroutine sample_state
 

@@ -1,0 +1,67 @@
+!> Loads that depend on the speed of a running linkage otherwise than as its square: dampers,
+!! resistances, loads that act in one direction of the motion.
+module running_loads
+  use applied_loads, only: add_moving_loads, generalised_force, has_moving_loads
+  use inertia_loads, only: load_t
+  use joint_forces, only: find_joint_forces, joint_forces_t
+  use kinds, only: wp
+  use kinematic_coefficients, only: kinematic_coefficients_t
+  use linkages, only: linkage_t
+  use poses, only: pose_t
+  implicit none (type, external)
+  private
+
+  public :: running_t, depends_on_speed, find_running_loads
+
+  !> What the speed adds to the load cases.
+  type :: running_t
+    type(load_t), allocatable :: body_load(:)   !! (bodies) about their first pins
+    real(wp), allocatable :: pin_load(:, :)     !! (2, pins) [N]
+    type(joint_forces_t) :: joints              !! forces in the pins, and of the drives, that
+                                                !! balance them
+    real(wp) :: load = 0.0_wp                   !! minus their generalised force at the first drive
+                                                !! [N m] or [N]
+  end type running_t
+
+contains
+
+  !> Whether a linkage has such loads.
+  pure function depends_on_speed(linkage) result(depends)
+    type(linkage_t), intent(in) :: linkage !! its loads
+    logical :: depends
+
+    depends = has_moving_loads(linkage)
+  end function depends_on_speed
+
+  !> These loads at a pose and speed, and the forces that balance them.
+  pure subroutine find_running_loads(linkage, pose, coefficients, speed, running)
+    type(linkage_t), intent(in) :: linkage !! its loads
+    type(pose_t), intent(in) :: pose       !! away from dead points
+    type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
+    real(wp), intent(in) :: speed          !! of the first drive [rad/s] or [m/s]
+    type(running_t), intent(out) :: running
+
+    allocate (running%body_load(size(linkage%bodies)), running%pin_load(2, &
+      size(linkage%is_ground)))
+    running%pin_load = 0.0_wp
+    call add_moving_loads(linkage, pose, [0.0_wp, 0.0_wp], velocities_at(coefficients, speed), &
+      running%body_load, running%pin_load)
+    running%joints = find_joint_forces(linkage, pose, running%body_load, running%pin_load)
+    running%load = -generalised_force(linkage, coefficients, running%body_load, running%pin_load)
+  end subroutine find_running_loads
+
+  !> Velocities at a speed of the first drive; no accelerations.
+  pure function velocities_at(coefficients, speed) result(now)
+    type(kinematic_coefficients_t), intent(in) :: coefficients
+    real(wp), intent(in) :: speed
+    type(kinematic_coefficients_t) :: now
+
+    allocate (now%turn, source=speed*coefficients%turn)
+    allocate (now%pin, source=speed*coefficients%pin)
+    allocate (now%turn_slope, mold=coefficients%turn)
+    allocate (now%pin_slope, mold=coefficients%pin)
+    now%turn_slope = 0.0_wp
+    now%pin_slope = 0.0_wp
+  end function velocities_at
+
+end module running_loads
