@@ -3,7 +3,6 @@ module frame_report
   use joint_study, only: frame_at_speed
   use joints_report, only: reference_words
   use kinds, only: wp
-  use linkages, only: reference_point
   use load_notes, only: acceleration_note, append_load_notes
   use models, only: report_number
   use position_rows, only: add_position_row
@@ -24,9 +23,9 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with its mechanism
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
-    call append_string(notes, "shaking: resultant of the inertia forces -m a of all masses, and "// &
-      "moment of these and of -I alpha of all links (shaking force and moment of Berkof and "// &
-      "Lowen); weights and external loads are not included")
+    call append_string(notes, "shaking: resultant of the inertia forces -m a of all masses, "// &
+      "and moment of these and of -I alpha of all links (shaking force and moment of Berkof "// &
+      "and Lowen); weights and external loads are not included")
     call append_string(notes, "frame: resultant of all forces of the linkage on the frame, at "// &
       "ground pivots, guides and drives, with weights and external loads (shaking force of "// &
       "Norton, -(F12 + F14) of a four-bar), and their moment with the reaction of the drives")
@@ -56,23 +55,23 @@ contains
     end associate
   end function point_words
 
-  !> The point about which moments are, in global axes [m].
-  pure function moment_point(variant) result(point)
+  !> The point about which the card wants the moments.
+  pure subroutine find_point(variant, point)
     type(variant_results_t), intent(in) :: variant
-    real(wp) :: point(2)
+    real(wp), allocatable, intent(out) :: point(:) !! in global axes [m]; not allocated: the card
+                                                   !! has none
 
     integer :: i
 
     associate (report => variant%model%reports(report_number(variant%model, "frame")), &
         grounds => variant%model%grounds)
-      point = reference_point(variant%mechanism%linkage)
       if (report%has_about) point = report%about
       if (report%about_pin%line == 0) return
       do i = 1, size(grounds)
         if (same_word(grounds(i)%pin%text, report%about_pin%text)) point = grounds(i)%position
       end do
     end associate
-  end function moment_point
+  end subroutine find_point
 
   !> Appends the row of a position and speed.
   subroutine add_frame(variant, layout, position, speed, rows)
@@ -82,11 +81,14 @@ contains
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which it is appended
 
-    associate (model => variant%model)
+    real(wp), allocatable :: point(:)
+
+    call find_point(variant, point)
+    associate (model => variant%model, state => variant%found%positions%state(position))
+      ! A point that is not allocated is an argument that is absent.
       call add_position_row(variant, layout, position, speed, frame_at_speed( &
-        variant%mechanism%linkage, variant%found%joints, moment_point(variant), &
-        variant%found%positions%state(position), model%speed%value(speed), model%acceleration), &
-        rows)
+        variant%mechanism%linkage, variant%found%joints, state, model%speed%value(speed), &
+        model%acceleration, point), rows)
     end associate
   end subroutine add_frame
 

@@ -275,13 +275,14 @@ contains
   !! The former are the resultant of the inertia forces −Σ m a, and their moment with all −I α
   !! (Berkof and Lowen 1969); the latter are of all forces at the ground, loads and weights among
   !! them, and of the reactions of the drives (Norton, Design of Machinery, section 11.8).
-  pure function frame_at_speed(linkage, found, about, state, speed, acceleration) result(values)
+  pure function frame_at_speed(linkage, found, state, speed, acceleration, about) result(values)
     type(linkage_t), intent(in) :: linkage     !! its point of reference
     type(joints_result_t), intent(in) :: found !! for all positions
-    real(wp), intent(in) :: about(2)           !! point about which moments are, global axes [m]
     integer, intent(in) :: state               !! number; with a pose
     real(wp), intent(in) :: speed              !! of the first drive [rad/s] or [m/s]
     real(wp), intent(in) :: acceleration       !! of the first drive [rad/s²] or [m/s²]
+    real(wp), intent(in), optional :: about(2) !! point about which moments are, in global axes;
+                                               !! absent: `reference_point` [m]
     real(wp) :: values(6)                      !! fx, fy, moment, twice [N, N m]
 
     real(wp) :: factor(case_count), arm(2)
@@ -292,6 +293,7 @@ contains
     do k = 1, case_count
       values = values + factor(k)*[found%shaking(:, k, state), found%frame(:, k, state)]
     end do
+    if (.not. present(about)) return
     arm = reference_point(linkage) - about
     values(3) = values(3) + cross(arm, values(:2))
     values(6) = values(6) + cross(arm, values(4:5))

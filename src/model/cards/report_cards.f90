@@ -56,10 +56,10 @@ module report_cards
 contains
 
   !> Reads `REPORT kind`; shapes with `crank=`, `speed=` and `points=`, geometry with its crank
-  !! angles, motion with start, end and step, frame with its point. Errors: an unknown kind, words or keys that do not fit
-  !! it, a missing or unreadable value, fewer than two `points=`, an `accuracy=` out of range, a
-  !! motion whose end or step is not above 0, whose step exceeds its end, or which has more than a
-  !! million steps.
+  !! angles, motion with start, end and step, frame with its point. Errors: an unknown kind, words
+  !! or keys that do not fit it, a missing or unreadable value, fewer than two `points=`, an
+  !! `accuracy=` out of range, a motion whose end or step is not above 0, whose step exceeds its
+  !! end, or which has more than a million steps.
   pure subroutine read_report(card, reports, system, diagnostics, report, by_length)
     type(card_t), intent(in) :: card                  !! the REPORT card
     type(report_kind_t), intent(in) :: reports(:)     !! (kinds) all that exist
