@@ -177,14 +177,12 @@ contains
     end if
   end subroutine read_frame
 
-  !> Whether the value of an entry is one word that begins with a letter.
+  !> Whether the value of an entry is one word, and no list.
   pure function is_name(entry) result(is)
     type(entry_t), intent(in) :: entry
     logical :: is
 
-    is = .not. allocated(entry%items) .and. scan(entry%value%text, ",") == 0
-    if (is) is = len(entry%value%text) > 0
-    if (is) is = scan(lower_case(entry%value%text(1:1)), "abcdefghijklmnopqrstuvwxyz_") > 0
+    is = len(entry%value%text) > 0 .and. index(entry%value%text, ",") == 0
   end function is_name
 
   !> Reads `REPORT shapes [crank=a,b,...] [speed=...] [points=]`.

@@ -6,13 +6,13 @@ module request_checks
   use kinds, only: wp
   use models, only: effects_static, is_loaded, is_moving, model_t, needs_frequencies, &
     needs_positions, needs_response, needs_study, report_number
-  use name_checks, only: look_up, pin_names
+  use name_checks, only: pin_names
   use name_index, only: find_name, name_index_t, new_name_index
   use report_kinds, only: report_kind_t, report_names
   use report_needs, only: check_report_needs
   use response_cards, only: is_response_form
   use response_checks, only: check_response
-  use spelling, only: nearest_word
+  use spelling, only: nearest_word, suggestion
   use text, only: joined, same_word, string_t, to_string, upper_case, word_list
   use tokens, only: token_t, token_texts
   use value_lists, only: value_list_t, value_number
@@ -204,7 +204,8 @@ contains
           "are about a point that stands still; expected a GROUND pin, or its coordinates: "// &
           "about=x,y")
       else
-        call look_up(pin, grounds, "ground pivot", diagnostics, number)
+        call add_error(diagnostics, pin, "unknown ground pivot '"//pin%text//"'"// &
+          suggestion(pin%text, grounds%name)//"; expected a GROUND pin, or coordinates: about=x,y")
       end if
     end associate
   end subroutine check_about
