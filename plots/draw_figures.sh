@@ -260,7 +260,7 @@ no_four_bar() {
 
 # cycle_table: a table of such a linkage with its positions.
 cycle_table() {
-    for table in pins.dat kinematics.dat drive.dat reactions.dat points.dat lagrange.dat balance.dat; do
+    for table in pins.dat kinematics.dat drive.dat reactions.dat points.dat lagrange.dat balance.dat bearings.dat frame.dat; do
         if [ -f $table ]; then
             echo $table
             return
@@ -278,6 +278,7 @@ plan_cycle() {
     have pins.dat && plan_speeds pin_motion pins.dat
     have points.dat && plan_speeds point_rates points.dat 'vx vy ax ay'
     have reactions.dat && plan_speeds joint_forces reactions.dat 'fx fy'
+    plan_bearings
     shaking=
     [ -f shaking.dat ] && shaking=shaking.dat
     if have drive.dat; then
@@ -293,6 +294,15 @@ plan_cycle() {
     have lagrange.dat && plan_speeds lagrange lagrange.dat
     have linkage.dat && add limits limits.gp linkage.dat
     have motion.dat time && add motion motion.gp motion.dat
+}
+
+# Of any linkage: loci of the forces in its joints, and of that on the frame beside the shaking force. Places of a slider have no
+# directions.
+plan_bearings() {
+    have bearings.dat && several bearings.dat && plan_speeds bearings bearings.dat magnitude
+    if have frame.dat && several frame.dat && ask facts frame.dat | grep -q "unit_crank = 'deg'"; then
+        plan_speeds frame_force frame.dat 'frame_x frame_y' shaking_force.gp
+    fi
 }
 
 # Angles always; what stands still has no curve worth drawing.
@@ -350,6 +360,7 @@ plan_rigid_dynamics() {
         plan_speeds shaking_force balance.dat 'shaking_x shaking_y'
         plan_speeds balance balance.dat 'shaking_x shaking_y shaking_moment torque balanced_moment balanced_torque'
     fi
+    plan_bearings
     have harmonics.dat && plan_speeds harmonics harmonics.dat largest
     have lagrange.dat && plan_speeds lagrange lagrange.dat
     have motion.dat && add motion motion.gp motion.dat

@@ -1,14 +1,16 @@
-# A polar plot of the shaking force of one speed: as given and, from balance.dat, with counterweights.
-#   gnuplot -c shaking_force.gp balance.dat|reactions.dat|shaking.dat OUT SPEED [FIGURE [REMARK]]
+# A polar plot of the shaking force of one speed: as given and, from balance.dat, with counterweights; from frame.dat, beside the
+# force on the frame.
+#   gnuplot -c shaking_force.gp balance.dat|reactions.dat|shaking.dat|frame.dat OUT SPEED [FIGURE [REMARK]]
 
 load ARG0[1 : strlen(ARG0) - strlen("shaking_force.gp")]."style.gp"
 table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
 
 load plots."drawing.gp"
 eval answer(table, "facts")
-balanced = strstrt(" ".columns." ", " balanced_x ") > 0
+of_frame = strstrt(" ".columns." ", " frame_x ") > 0
+balanced = of_frame || strstrt(" ".columns." ", " balanced_x ") > 0
 load keep("given", table, "path ".ARG3." shaking_x shaking_y")          # columns: see tables.awk
-if (balanced) { load keep("balanced", table, "path ".ARG3." balanced_x balanced_y") }
+if (balanced) { load keep("balanced", table, "path ".ARG3.(of_frame ? " frame_x frame_y" : " balanced_x balanced_y")) }
 stats $given using (sqrt($1**2 + $2**2)) name "given" nooutput
 greatest = given_max
 if (balanced) {
@@ -18,14 +20,14 @@ if (balanced) {
 ring = nice((greatest > 0 ? greatest : 1.0)/5)
 radius = ring*ceil((greatest > 0 ? greatest : 1.0)/ring - 0.001)
 
-headline = numbered(figure, sprintf("Shaking force, %s", at_speed(speed, unit_speed)))
-note = "resultant of the inertia forces, from the centre to the curve; numbers: ".(of_cycle ? drive_quantity(unit_crank) : "crank angle θ₂")
+headline = numbered(figure, sprintf(of_frame ? "Force on the frame, %s" : "Shaking force, %s", at_speed(speed, unit_speed)))
+note = (of_frame ? "resultants" : "resultant of the inertia forces").", from the centre to the curve; numbers: ".(of_cycle ? drive_quantity(unit_crank) : "crank angle θ₂")
 load plots."legend.gp"
 given_style = "lt 1 lw 4 dt solid"
 balanced_style = "lw 4 dt (16,7) lc rgb '#0060A8'"
 if (balanced) {
-    eval entry_line("as given", given_style)
-    eval entry_line("with counterweights", balanced_style)
+    eval entry_line(of_frame ? "shaking force: of the inertia forces" : "as given", given_style)
+    eval entry_line(of_frame ? "force on the frame: with weights and loads" : "with counterweights", balanced_style)
 }
 
 # The greatest ring fills the page but for its names of axes.

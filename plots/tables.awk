@@ -26,6 +26,7 @@
 #                                  arrows on one line that would cover each other are drawn beside each other)
 #   want="path 20 xG yG"           these columns at speed 20 as a path that is smooth where rows are no farther apart than 15
 #                                  degrees of the crank: x, y, crank, 1 at a row of the table
+#   want="path 20 axial transverse A crank"     the same of the rows of pin A and link crank
 #   want="forces 20 8"             the forces of reactions.dat at speed 20, at eight positions at most (six, if these
 #                                  divide a turn better): crank, then x
 #                                  and y of those on the crank at O2, on the coupler at A and B, on the follower at O4, and the
@@ -82,7 +83,7 @@ header {
 }
 
 /^#/ || NF == 0 {
-    gap[rows + 1] = 1
+    gap[rows + 1] = path_broken = 1
     next
 }
 
@@ -219,8 +220,9 @@ asked[1] == "critical" {
     }
 }
 
-asked[1] == "path" && same($at["speed"], asked[2]) {
-    path_gap[++path_rows] = gap[rows]
+asked[1] == "path" && same($at["speed"], asked[2]) && (n_asked < 6 || $at["pin"] == asked[5] && $at["link"] == asked[6]) {
+    path_gap[++path_rows] = path_broken
+    path_broken = 0
     path_crank[path_rows] = $at["crank"] + 0
     path[1, path_rows] = $at[asked[3]] + 0
     path[2, path_rows] = $at[asked[4]] + 0

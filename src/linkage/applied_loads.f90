@@ -12,14 +12,15 @@ module applied_loads
   use inertia_loads, only: load_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
-  use linkages, only: cross, drives_angle, linkage_t, normal_to, turned
+  use linkages, only: cross, drives_angle, linkage_t, reference_point, turned
   use pose_types, only: pose_t
   use poses, only: arm_to_place, body_angle
   implicit none (type, external)
   private
 
   public :: add_conservative_loads, add_prescribed_loads, add_moving_loads, applied_potential, &
-    generalised_force, has_standing_loads, has_moving_loads, refuse_beyond_tables, load_period
+    generalised_force, has_standing_loads, has_moving_loads, refuse_beyond_tables, load_period, &
+    springs_on_ground, dampers_on_ground
 
   !> By how much rounding may put a coordinate beyond the ends of a table, of its length.
   real(wp), parameter :: slack = 1.0e-12_wp
@@ -204,6 +205,72 @@ contains
       end associate
     end do
   end function applied_potential
+
+  !> Force of springs on the ground, and its moment about `reference_point` [N, N m].
+  pure function springs_on_ground(linkage, pose) result(load)
+    type(linkage_t), intent(in) :: linkage !! its loads
+    type(pose_t), intent(in) :: pose       !! positions in global axes, and directions
+    real(wp) :: load(3)
+
+    integer :: i
+
+    load = 0.0_wp
+    if (.not. allocated(linkage%loads)) return
+    do i = 1, size(linkage%loads)
+      associate (spring => linkage%loads(i))
+        if (.not. is_conservative(spring) .or. spring%kind == applies_force) cycle
+        load = load + on_ground(linkage, pose, spring, spring%tension + spring%stiffness* &
+          deflection(linkage, pose, spring))
+      end associate
+    end do
+  end function springs_on_ground
+
+  !> Force of dampers on the ground, and its moment about `reference_point` [N, N m].
+  pure function dampers_on_ground(linkage, pose, now) result(load)
+    type(linkage_t), intent(in) :: linkage !! its loads
+    type(pose_t), intent(in) :: pose       !! positions in global axes, and directions
+    type(kinematic_coefficients_t), intent(in) :: now !! velocities [m/s], [rad/s]
+    real(wp) :: load(3)
+
+    real(wp) :: rate
+    integer :: i
+
+    load = 0.0_wp
+    if (.not. allocated(linkage%loads)) return
+    do i = 1, size(linkage%loads)
+      associate (damper => linkage%loads(i))
+        if (.not. is_moving(damper)) cycle
+        if (damper%kind /= applies_along .and. damper%kind /= applies_between) cycle
+        rate = rate_of(linkage, pose, now, damper)
+        load = load + on_ground(linkage, pose, damper, damper%damping*rate + resistance(damper, &
+          rate))
+      end associate
+    end do
+  end function dampers_on_ground
+
+  !> What the pull of a line or between two bodies puts on the ground.
+  pure function on_ground(linkage, pose, load, pull) result(total)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(applied_load_t), intent(in) :: load
+    real(wp), intent(in) :: pull
+    real(wp) :: total(3)
+
+    real(wp) :: force(2)
+    integer :: k
+
+    total = 0.0_wp
+    if (load%kind == applies_between) then
+      if (load%body(1) == 0) total(3) = pull
+      return
+    end if
+    do k = 1, 2
+      if (load%at(k)%pin == 0) cycle
+      if (.not. linkage%is_ground(load%at(k)%pin)) cycle
+      force = merge(pull, -pull, k == 1)*axis_of(linkage, pose, load)
+      total = total + [force, cross(pose%pin(:, load%at(k)%pin) - reference_point(linkage), force)]
+    end do
+  end function on_ground
 
   !> Generalised force of loads: their virtual work per change of the coordinate for which the
   !! coefficients stand [N m] or [N].

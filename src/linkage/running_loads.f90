@@ -1,7 +1,7 @@
 !> Loads that depend on the speed of a running linkage otherwise than as its square: dampers,
 !! resistances, loads that act in one direction of the motion.
 module running_loads
-  use applied_loads, only: add_moving_loads, generalised_force, has_moving_loads
+  use applied_loads, only: add_moving_loads, dampers_on_ground, generalised_force, has_moving_loads
   use inertia_loads, only: load_t
   use joint_forces, only: find_joint_forces, joint_forces_t
   use kinds, only: wp
@@ -19,6 +19,8 @@ module running_loads
     real(wp), allocatable :: pin_load(:, :)     !! (2, pins) [N]
     type(joint_forces_t) :: joints              !! forces in the pins, and of the drives, that
                                                 !! balance them
+    real(wp) :: on_ground(3) = 0.0_wp           !! force of dampers on the ground, and moment about
+                                                !! `reference_point` [N, N m]
     real(wp) :: load = 0.0_wp                   !! minus their generalised force at the first drive
                                                 !! [N m] or [N]
   end type running_t
@@ -41,11 +43,14 @@ contains
     real(wp), intent(in) :: speed          !! of the first drive [rad/s] or [m/s]
     type(running_t), intent(out) :: running
 
+    type(kinematic_coefficients_t) :: now
+
     allocate (running%body_load(size(linkage%bodies)), running%pin_load(2, &
       size(linkage%is_ground)))
     running%pin_load = 0.0_wp
-    call add_moving_loads(linkage, pose, [0.0_wp, 0.0_wp], velocities_at(coefficients, speed), &
-      running%body_load, running%pin_load)
+    now = velocities_at(coefficients, speed)
+    call add_moving_loads(linkage, pose, [0.0_wp, 0.0_wp], now, running%body_load, running%pin_load)
+    running%on_ground = dampers_on_ground(linkage, pose, now)
     running%joints = find_joint_forces(linkage, pose, running%body_load, running%pin_load)
     running%load = -generalised_force(linkage, coefficients, running%body_load, running%pin_load)
   end subroutine find_running_loads

@@ -68,34 +68,51 @@ contains
 
   !> Moment of inertia of a link about its mass centre [kg m²]: that of its card, else `ρA L³/12` of
   !! material and section, plus `ρI L` with EFFECTS rotary; 0 without either. Of several segments
-  !! their sum about the common mass centre, `ρA Σ L(L²/12 + d²) + ρI ΣL`.
+  !! their sum about the common mass centre, `ρA Σ L(L²/12 + d²) + ρI ΣL`. With a mass on the card
+  !! it is that of the uniform link with this mass, whatever its material: `m L²/12`, and with
+  !! EFFECTS rotary and a section `m (L²/12 + I/A)`.
   pure function link_inertia(model, link) result(inertia)
     type(model_t), intent(in) :: model !! whose links have their materials and sections
     integer, intent(in) :: link        !! number in the model, from 1
     real(wp) :: inertia
 
-    real(wp), allocatable :: middle(:, :), length(:)
-    real(wp) :: center(2), second_moment
-    integer :: i
+    real(wp) :: mass
 
     associate (this => model%links(link))
       if (this%has_inertia) then
         inertia = this%inertia
-      else
-        second_moment = this%length**3/12.0_wp
-        call find_segments(model, link, middle, length)
-        if (size(length) > 0) then
-          center = uniform_center(model, link)
-          second_moment = 0.0_wp
-          do i = 1, size(length)
-            second_moment = second_moment + length(i)*(length(i)**2/12.0_wp + &
-              sum((middle(:, i) - center)**2))
-          end do
-        end if
-        inertia = link_line_density(model, link)*second_moment + &
-          link_rotary_inertia(model, link)*this%length
+        return
+      end if
+      mass = link_line_density(model, link)*this%length
+      inertia = link_line_density(model, link)*uniform_moment(model, link) + &
+        link_rotary_inertia(model, link)*this%length
+      if (.not. this%has_mass) return
+      if (mass > 0.0_wp) then
+        inertia = this%mass*(inertia/mass)
+      else if (this%length > 0.0_wp) then
+        inertia = this%mass*(uniform_moment(model, link)/this%length)
       end if
     end associate
   end function link_inertia
+
+  !> Second moment of the way from pin to pin about its middle, or about that of all segments [m³].
+  pure function uniform_moment(model, link) result(moment)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: link
+    real(wp) :: moment
+
+    real(wp), allocatable :: middle(:, :), length(:)
+    real(wp) :: center(2)
+    integer :: i
+
+    moment = model%links(link)%length**3/12.0_wp
+    call find_segments(model, link, middle, length)
+    if (size(length) == 0) return
+    center = uniform_center(model, link)
+    moment = 0.0_wp
+    do i = 1, size(length)
+      moment = moment + length(i)*(length(i)**2/12.0_wp + sum((middle(:, i) - center)**2))
+    end do
+  end function uniform_moment
 
 end module link_bodies

@@ -4,7 +4,7 @@ module balance_report
   use attached_parts, only: place_on_card
   use balance_study, only: obstacle_link, obstacle_none, obstacle_pin, obstacle_ram
   use constants, only: degree
-  use harmonics_study, only: is_moment, quantity_count, quantity_names
+  use harmonics_study, only: has_settled, is_moment, quantity_count, quantity_names
   use kinds, only: wp
   use joint_study, only: joints_result_t
   use load_notes, only: acceleration_note
@@ -26,10 +26,6 @@ module balance_report
     add_balance, add_hung_balance, harmonics_notes, harmonics_words, add_harmonics
 
   character(len=*), parameter :: linkage_names(2) = [character(len=8) :: "given", "balanced"]
-
-  !> Harmonics have settled if doubling the number of samples changes them by no more than this:
-  !! rounding changes them by less [-].
-  real(wp), parameter :: unsettled = 1.0e-10_wp
 
 contains
 
@@ -260,7 +256,7 @@ contains
         moment%name//", phases in deg; a phase is 0 where its h is only round-off")
       call append_string(notes, "samples: "//to_string(found%samples)//"; every second one "// &
         "gives the same to "//to_string(found%change, 2)//" of the largest value")
-      if (found%change > unsettled) call append_string(notes, "harmonics have not converged: "// &
+      if (.not. has_settled(found)) call append_string(notes, "harmonics have not converged: "// &
         "the crank passes close to a dead point, or the shaking force through zero")
     end associate
   end subroutine append_harmonics_notes

@@ -32,7 +32,8 @@ contains
         place_words(link_center(model, link), length)//" from "//this%pins(1)%text// &
         source(this%has_center, "middle")//", moment of inertia "// &
         to_string(from_si(link_inertia(model, link), inertia), 12)//" "//inertia%name// &
-        source(this%has_inertia, "of the section")
+        source(this%has_inertia, trim(merge("uniform link of this mass", &
+        "of the section           ", this%has_mass)))
     end associate
   end function body_line
 

@@ -15,8 +15,8 @@ module joints_report
   implicit none (type, external)
   private
 
-  public :: joints_notes, joint_owners, add_joints, drives_notes, drive_names, drive_columns, &
-    add_drives, add_shaking
+  public :: joints_notes, joint_owners, owner_cell, add_joints, drives_notes, drive_names, &
+    drive_columns, add_drives, add_shaking, reference_words
 
 contains
 
@@ -73,9 +73,9 @@ contains
 
   !> The cell of the link or the guide of a joint.
   function owner_cell(variant, joint, width) result(cell)
-    type(variant_results_t), intent(in) :: variant
-    type(joint_t), intent(in) :: joint
-    integer, intent(in) :: width
+    type(variant_results_t), intent(in) :: variant !! with its mechanism
+    type(joint_t), intent(in) :: joint             !! of this linkage
+    integer, intent(in) :: width                   !! of the column
     character(len=width) :: cell
 
     if (joint%body > 0) then
@@ -134,9 +134,9 @@ contains
     name = measure%name
   end function unit_name
 
-  !> The point about which shaking moments are.
+  !> The point about which shaking moments are: `pin O2`.
   pure function reference_words(variant) result(words)
-    type(variant_results_t), intent(in) :: variant
+    type(variant_results_t), intent(in) :: variant !! with its mechanism
     character(len=:), allocatable :: words
 
     integer :: i

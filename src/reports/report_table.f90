@@ -11,9 +11,11 @@ module report_table
   use balance_report, only: add_balance, add_harmonics, add_hung_balance, append_balanced_notes, &
     append_harmonics_notes, append_hung_notes, balance_notes, harmonics_notes, harmonics_words
   use balance_study, only: find_balance, find_hung_balance
+  use bearings_report, only: add_bearings, bearings_notes
   use campbell_report, only: add_campbell, add_critical, campbell_notes, campbell_words, &
     critical_notes
   use drive_report, only: add_drive, drive_notes
+  use frame_report, only: add_frame, frame_notes
   use frequency_report, only: add_frequencies, add_shapes, drawn_rows, frequency_notes, shape_notes
   use geometry_report, only: add_geometry, geometry_notes, geometry_words
   use geometry_study, only: find_geometry
@@ -151,6 +153,15 @@ module report_table
       studies="joints", positions=.true., masses=.true., linkages=other_linkages, tables=[ &
       table_kind_t("reactions", "speed:speed crank:deg pin,link:name fx,fy:force "// &
       "moment:moment"), no_table]), &
+    report_kind_t(name="bearings", help="forces in the joints, in the axes of the links too", &
+      studies="joints", positions=.true., masses=.true., numbers=82, tables=[ &
+      table_kind_t("bearings", "speed:speed crank:deg pin,link:name "// &
+      "fx,fy,axial,transverse,magnitude:force angle:deg"), no_table]), &
+    report_kind_t(name="frame", help="shaking force, and force and moment on the frame", &
+      pattern="REPORT frame [about=x,y|pin]", studies="joints", positions=.true., &
+      masses=.true., numbers=82, tables=[ &
+      table_kind_t("frame", "speed:speed crank:deg shaking_x,shaking_y:force "// &
+      "shaking_moment:moment frame_x,frame_y:force frame_moment:moment"), no_table]), &
     report_kind_t(name="points", help="paths, velocities and accelerations of points", &
       studies="points", positions=.true., tables=[ &
       table_kind_t("points", "speed:speed crank:deg point:name x,y:length vx,vy:velocity "// &
@@ -373,7 +384,7 @@ contains
       plan%items = 1
     case ("points")
       names(1) = point_names(variant)
-    case ("reactions")
+    case ("reactions", "bearings")
       names(1) = pin_names(variant)
       names(2) = joint_owners(variant)
     case ("geometry")
@@ -480,6 +491,10 @@ contains
       call loci_notes(variant, notes)
     case ("reactions")
       call reactions_notes(variant, notes)
+    case ("bearings")
+      call bearings_notes(variant, notes)
+    case ("frame")
+      call frame_notes(variant, notes)
     case ("points")
       call points_notes(variant, notes)
     case ("lagrange")
@@ -651,6 +666,10 @@ contains
             call add_mesh(variant, layout, position, rows)
           case ("reactions")
             call add_reactions(variant, layout, position, speed, rows)
+          case ("bearings")
+            call add_bearings(variant, layout, position, speed, rows)
+          case ("frame")
+            call add_frame(variant, layout, position, speed, rows)
           case ("points")
             call add_points(variant, layout, position, speed, rows)
           case ("lagrange")

@@ -1,7 +1,8 @@
 !> Warnings about results of a variant: static divergence, large deflections, accuracy not reached,
-!! unstable steady states.
+!! unstable steady states, unsettled harmonics.
 module result_warnings
   use campbell_types, only: campbell_t
+  use harmonics_study, only: harmonics_result_t, has_settled
   use kinds, only: wp
   use mechanisms, only: mechanism_t
   use models, only: accuracy_of_study, model_t, needs_frequencies, needs_study, speed_in_words
@@ -23,15 +24,15 @@ module result_warnings
   public :: find_warnings
   public :: warning_of_divergence, warning_of_deflection, warning_of_accuracy, &
     warning_of_response_deflection, warning_of_response_accuracy, warning_of_instability, &
-    warning_of_no_damping, warning_of_gaps
+    warning_of_no_damping, warning_of_gaps, warning_of_harmonics
 
   !> Kinds of warnings: an eigenvalue is negative; the loads bend a link too much; the accuracy is
   !! not reached; the last two in the elastic response; its steady state is unstable; nothing
-  !! damps it; critical speeds may be missed.
+  !! damps it; critical speeds may be missed; harmonics have not settled.
   integer, parameter :: warning_of_divergence = 1, warning_of_deflection = 2, &
     warning_of_accuracy = 3, warning_of_response_deflection = 4, &
     warning_of_response_accuracy = 5, warning_of_instability = 6, warning_of_no_damping = 7, &
-    warning_of_gaps = 8
+    warning_of_gaps = 8, warning_of_harmonics = 9
 
   !> Largest static deflection without a warning, relative to the link's length: the axial
   !! frequencies assume that the loads bend the links little [-].
@@ -46,8 +47,8 @@ module result_warnings
 
 contains
 
-  !> Appends warnings about static divergence, large deflections, accuracy that is not reached, and
-  !! unstable steady states.
+  !> Appends warnings about static divergence, large deflections, accuracy that is not reached,
+  !! unstable steady states, and harmonics that have not settled.
   pure subroutine find_warnings(variant, findings)
     type(variant_results_t), intent(in) :: variant !! computed
     type(findings_t), intent(inout) :: findings    !! to which they are appended
@@ -70,6 +71,10 @@ contains
     end if
     if (needs_study(variant%model, "campbell")) then
       warning = missed_critical_speeds(variant%model, variant%found%campbell)
+      call add_if_any(findings, variant%model%variant, warning)
+    end if
+    if (needs_study(variant%model, "harmonics")) then
+      warning = unsettled_harmonics(variant%found%harmonics)
       call add_if_any(findings, variant%model%variant, warning)
     end if
     if (.not. needs_frequencies(variant%model)) return
@@ -330,6 +335,20 @@ contains
     warning%text = warning%text//" "//model%outputs%rate%name
     if (size(campbell%gap) > most_named) warning%text = warning%text//", and elsewhere"
   end function missed_critical_speeds
+
+  !> Harmonics that even the largest number of samples does not settle.
+  pure function unsettled_harmonics(harmonics) result(warning)
+    type(harmonics_result_t), intent(in) :: harmonics
+    type(warning_t) :: warning !! without a text if they have settled
+
+    warning%kind = warning_of_harmonics
+    if (has_settled(harmonics)) return
+    warning%amount = harmonics%change
+    warning%text = "harmonics have not converged: with every second one of "// &
+      to_string(harmonics%samples)//" samples they differ by "//to_string(harmonics%change, 2)// &
+      " of the largest value; the crank passes close to a dead point, or the shaking force "// &
+      "through zero"
+  end function unsettled_harmonics
 
   !> The speeds at which the response is less accurate than requested, and the worst of them.
   pure function missed_response_accuracy(model, response) result(warning)

@@ -17,7 +17,7 @@ module harmonics_study
   private
 
   public :: harmonics_result_t, harmonic_t, find_harmonics, quantity_count, quantity_names, &
-    highest_harmonic, is_moment
+    highest_harmonic, is_moment, has_settled
 
   !> A quantity over a turn: mean + Σ amplitude cos(k θ2 + phase), all in [N] or [N m] but phases.
   type :: harmonic_t
@@ -41,6 +41,10 @@ module harmonics_study
 
   !> The phase of a harmonic below this share of the usual value is only rounding.
   real(wp), parameter :: unknown_phase = 1.0e-12_wp
+
+  !> Harmonics have settled if doubling the number of samples changes them by no more than this:
+  !! rounding changes them by less [-].
+  real(wp), parameter :: unsettled = 1.0e-10_wp
 
 contains
 
@@ -156,6 +160,14 @@ contains
         atan2(aimag(spectrum%coefficient), real(spectrum%coefficient))/degree
     end do
   end subroutine find_spectra
+
+  !> Whether more samples would not change the harmonics; so it is without any.
+  pure function has_settled(found) result(has)
+    type(harmonics_result_t), intent(in) :: found !! of `find_harmonics`
+    logical :: has
+
+    has = .not. found%change > unsettled
+  end function has_settled
 
   !> Whether a quantity is a moment, not a force.
   elemental function is_moment(quantity) result(is)

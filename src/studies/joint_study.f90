@@ -1,20 +1,30 @@
 !> Forces in the joints of any linkage: on every link at every pin, of guides, blocks and welds, of
-!! the drives, and those that shake the ground.
+!! the drives, those that shake the ground, and all that it bears.
 module joint_study
+  use applied_loads, only: springs_on_ground
+  use constants, only: degree
+  use frame_forces, only: find_frame_load
   use group_equations, only: drive_rate, drive_value
   use joint_forces, only: force_at_pin, joint_forces_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
-  use linkages, only: linkage_t
-  use load_cases, only: case_count
-  use pose_types, only: pins_of_body
+  use linkages, only: cross, linkage_t, reference_point, turned, turned_back
+  use load_cases, only: case_count, constant_case
+  use pose_types, only: pins_of_body, pose_t
   use positions, only: positions_t
   use reactions, only: find_unit_reactions, unit_reactions_t
   use running_loads, only: depends_on_speed, find_running_loads, running_t
   implicit none (type, external)
   private
 
-  public :: joint_t, joints_result_t, find_joints, joints_at_speed, drives_at_speed
+  public :: joint_t, joints_result_t, find_joints, joints_at_speed, bearings_at_speed, &
+    drives_at_speed, frame_at_speed, bearing_values
+
+  !> Values of a joint in `bearings_at_speed`: fx, fy, axial, transverse, magnitude, angle.
+  integer, parameter :: bearing_values = 6
+
+  !> A force below this share of the largest one at its position has no direction: it is round-off.
+  real(wp), parameter :: round_off_share = 1.0e-12_wp
 
   !> A row of forces: of a pin on a body, or of a slider on its pin or on the body of its line.
   type :: joint_t
@@ -33,6 +43,9 @@ module joint_study
     real(wp), allocatable :: running_force(:, :, :, :) !! (3, joints, speeds, states) added at each
                                                !! speed, as `force`; no speeds: nothing is
     real(wp), allocatable :: running_drive(:, :, :)    !! (drives, speeds, states), as `drive`
+    real(wp), allocatable :: frame(:, :, :)    !! (3, cases, states) force on the frame, and moment
+                                               !! about `reference_point` [N, N m]
+    real(wp), allocatable :: running_frame(:, :, :)    !! (3, speeds, states), as `frame`
   end type joints_result_t
 
 contains
@@ -56,16 +69,20 @@ contains
     call list_joints(linkage, found%joints)
     n = size(positions%states)
     allocate (found%force(3, size(found%joints), case_count, n), &
-      found%drive(size(linkage%drives), case_count, n), found%shaking(3, case_count, n))
+      found%drive(size(linkage%drives), case_count, n), found%shaking(3, case_count, n), &
+      found%frame(3, case_count, n))
     found%force = 0.0_wp
     found%drive = 0.0_wp
     found%shaking = 0.0_wp
+    found%frame = 0.0_wp
     running_speeds = 0
     if (present(speeds) .and. depends_on_speed(linkage)) running_speeds = size(speeds, 1)
     allocate (found%running_force(3, size(found%joints), running_speeds, n), &
-      found%running_drive(size(linkage%drives), running_speeds, n))
+      found%running_drive(size(linkage%drives), running_speeds, n), &
+      found%running_frame(3, running_speeds, n))
     found%running_force = 0.0_wp
     found%running_drive = 0.0_wp
+    found%running_frame = 0.0_wp
     !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) &
     !$omp   private(i, k, unit, running)
     do i = 1, n
@@ -77,6 +94,7 @@ contains
             call take_forces(linkage, found%joints, part%joints, found%force(:, :, k, i))
             found%drive(:, k, i) = drives_of(part%joints)
             found%shaking(:, k, i) = [part%shaking_force, part%shaking_moment]
+            found%frame(:, k, i) = find_frame_load(linkage, state%pose, part%joints)
           end associate
         end do
         call turn_guides(linkage, found%joints, state%pose%direction, found%force(:, :, :, i))
@@ -84,7 +102,11 @@ contains
           call find_running_loads(linkage, state%pose, state%coefficients, speeds(k, i), running)
           call take_forces(linkage, found%joints, running%joints, found%running_force(:, :, k, i))
           found%running_drive(:, k, i) = drives_of(running%joints)
+          found%running_frame(:, k, i) = find_frame_load(linkage, state%pose, running%joints) + &
+            running%on_ground
         end do
+        found%frame(:, constant_case, i) = found%frame(:, constant_case, i) + &
+          springs_on_ground(linkage, state%pose)
         call turn_guides(linkage, found%joints, state%pose%direction, found%running_force(:, :, :, &
           i))
         call add_blocks(linkage, found%joints, state%coefficients, found%force(:, :, :, i))
@@ -231,6 +253,99 @@ contains
     if (.not. present(number)) return
     if (size(found%running_force, 3) > 0) forces = forces + found%running_force(:, :, number, state)
   end function joints_at_speed
+
+  !> The force in every joint in global axes and in those of the link on which it acts, as its LINK
+  !! card measures: along the way from the first pin of the card to the second, and to the left of
+  !! it; of a fixed guide, along the guide. The angle is that of the force in these axes.
+  pure function bearings_at_speed(linkage, found, pose, state, speed, acceleration, number) &
+    result(values)
+    type(linkage_t), intent(in) :: linkage      !! its bodies and sliders
+    type(joints_result_t), intent(in) :: found  !! for all positions
+    type(pose_t), intent(in) :: pose            !! of the state
+    integer, intent(in) :: state                !! number; with a pose
+    real(wp), intent(in) :: speed               !! of the first drive [rad/s] or [m/s]
+    real(wp), intent(in) :: acceleration        !! of the first drive [rad/s²] or [m/s²]
+    integer, intent(in) :: number               !! of the speed, for loads that depend on it
+    real(wp) :: values(bearing_values, size(found%joints)) !! [N]; the angle in (−180, 180] [deg],
+                                                !! 0 of a force that is round-off
+
+    real(wp) :: forces(3, size(found%joints)), largest
+    integer :: i
+
+    forces = joints_at_speed(found, state, speed, acceleration, number)
+    largest = 0.0_wp
+    do i = 1, size(found%joints)
+      largest = max(largest, norm2(forces(:2, i)))
+    end do
+    do i = 1, size(found%joints)
+      associate (local => turned_back(forces(:2, i), joint_axis(linkage, found%joints(i), pose)))
+        values(:, i) = [forces(:2, i), local, norm2(forces(:2, i)), &
+          angle_of(local, round_off_share*largest)]
+      end associate
+    end do
+  end function bearings_at_speed
+
+  !> The axis of the link, or of the guide, on which a joint acts: a unit vector in global axes.
+  pure function joint_axis(linkage, joint, pose) result(axis)
+    type(linkage_t), intent(in) :: linkage
+    type(joint_t), intent(in) :: joint
+    type(pose_t), intent(in) :: pose
+    real(wp) :: axis(2)
+
+    if (joint%body > 0) then
+      axis = turned(linkage%bodies(joint%body)%card_axis, pose%direction(:, joint%body))
+    else
+      axis = linkage%sliders(joint%slider)%direction
+    end if
+  end function joint_axis
+
+  !> Angle of a force, which round-off does not throw from 180° to −180° [deg].
+  pure function angle_of(force, round_off) result(angle)
+    real(wp), intent(in) :: force(2)
+    real(wp), intent(in) :: round_off !! of its components
+    real(wp) :: angle
+
+    angle = 0.0_wp
+    if (norm2(force) <= round_off) return
+    if (force(1) < 0.0_wp .and. abs(force(2)) <= round_off) then
+      angle = 180.0_wp
+    else
+      angle = atan2(force(2), force(1))/degree
+    end if
+  end function angle_of
+
+  !> Shaking force and moment, then force and moment on the frame, at a position and speed.
+  !!
+  !! The former are the resultant of the inertia forces −Σ m a, and their moment with all −I α
+  !! (Berkof and Lowen 1969); the latter are of all forces at the ground, loads and weights among
+  !! them, and of the reactions of the drives (Norton, Design of Machinery, section 11.8).
+  pure function frame_at_speed(linkage, found, state, speed, acceleration, number, about) &
+    result(values)
+    type(linkage_t), intent(in) :: linkage     !! its point of reference
+    type(joints_result_t), intent(in) :: found !! for all positions
+    integer, intent(in) :: state               !! number; with a pose
+    real(wp), intent(in) :: speed              !! of the first drive [rad/s] or [m/s]
+    real(wp), intent(in) :: acceleration       !! of the first drive [rad/s²] or [m/s²]
+    integer, intent(in) :: number              !! of the speed, for loads that depend on it
+    real(wp), intent(in), optional :: about(2) !! point about which moments are, in global axes;
+                                               !! absent: `reference_point` [m]
+    real(wp) :: values(6)                      !! fx, fy, moment, twice [N, N m]
+
+    real(wp) :: factor(case_count), arm(2)
+    integer :: k
+
+    factor = [speed**2, acceleration, 1.0_wp]
+    values = 0.0_wp
+    do k = 1, case_count
+      values = values + factor(k)*[found%shaking(:, k, state), found%frame(:, k, state)]
+    end do
+    if (size(found%running_frame, 2) > 0) values(4:) = values(4:) + found%running_frame(:, number, &
+      state)
+    if (.not. present(about)) return
+    arm = reference_point(linkage) - about
+    values(3) = values(3) + cross(arm, values(:2))
+    values(6) = values(6) + cross(arm, values(4:5))
+  end function frame_at_speed
 
   !> Position, rate and force of every drive at a position and speed.
   pure function drives_at_speed(linkage, found, state, crank, speed, acceleration, number) &

@@ -21,7 +21,7 @@ CARDS = {
     "INERTIA": "INERTIA distributed",
     "POINT": "POINT tip coupler along=100",
 }
-BEAMS, BODIES = " material=steel section=strip", " mass=1 inertia=1000"
+BEAMS, BODIES = " material=steel section=strip", " mass=1"
 KEYS = {"motion": " crank=30 end=1 step=0.1", "geometry": " crank=30", "transient": " turns=1"}
 
 
@@ -41,7 +41,7 @@ class Tables:
     def _links(self, report):
         if self._accepts(report, links=""):
             return UNUSED
-        return "yes, or `mass=` `inertia=`" if self._accepts(report, links=BODIES, without=["MESH"]) else NEEDED
+        return "yes, or `mass=`" if self._accepts(report, links=BODIES, without=["MESH"]) else NEEDED
 
     def _mesh(self, report):
         if self._accepts(report, links="", without=["MESH"]) or self._accepts(report, links=BODIES, without=["MESH"]):

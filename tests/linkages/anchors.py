@@ -305,6 +305,25 @@ def squeezer_end(options):
     return squeezer_force(options, "squeezer_end", 1e-6)
 
 
+def norton(options):
+    """Example 11-3 of Norton, Design of Machinery: angles, a force and the torque to the digits printed there."""
+    anchor = Anchor("norton", options)
+    printed = (("kinematics", "link", "coupler", "theta", "20.92"), ("kinematics", "link", "rocker", "theta", "104.41"),
+               ("bearings", "pin link", "O2 crank", "fx", "-117.65"), ("bearings", "pin link", "O2 crank", "fy", "-107.84"),
+               ("drive", "drive", "crank", "force", "243.23"))
+    for table, columns, names, column, value in printed:
+        for _, rows in anchor.rows(table, *columns.split()):
+            anchor.add("published", rows[tuple(names.split())][column], D(value), 1, 0.005, f"{column} of {names}")
+    # His shaking force is that on the frame: -(F12 + F14), and its moment -T12 + R14 x F41.
+    for _, rows in anchor.rows("bearings", "pin", "link"):
+        (force, other), (_, frame) = (rows[("O2", "crank")], rows[("O4", "rocker")]), next(anchor.rows("frame"))
+        (_, drive) = next(anchor.rows("drive", "drive"))
+        for axis in "xy":
+            anchor.add("force", frame[()]["frame_" + axis], -D(force["f" + axis]) - D(other["f" + axis]), 100, 1e-14, "frame_" + axis)
+        anchor.add("torque", frame[()]["frame_moment"], -D(drive[("crank",)]["force"]) - 19 * D(other["fy"]), 1000, 1e-14, "frame_moment")
+    return anchor.report()
+
+
 # the two-link pendulum
 
 PENDULUM = {"lengths": (D(1), D("0.8")), "masses": (D(2), D("1.5")), "centers": (D("0.5"), D("0.35")),
@@ -386,7 +405,7 @@ def main():
         options.program = [sys.executable, "-B"] + options.program
     passed = True
     for anchor in (engine, quick_return, pumping_unit, jansen_drawn, crank_slider_drawn, squeezer,
-                   squeezer_start, squeezer_end):
+                   squeezer_start, squeezer_end, norton):
         try:
             passed = anchor(options) and passed
         except (RuntimeError, ValueError, KeyError, OSError) as failure:

@@ -330,6 +330,8 @@ other_linkages() {
   all="drive_forces joint_forces link_motion linkage linkage_positions pin_motion"
   drawn quick_return figures ${all%%link_motion*} limits ${all#*joint_forces } shaking_force && gif quick_return/figures/linkage.gif 72 || return 1
   drawn toggle_press figures $all && gif toggle_press/figures/linkage.gif 60 || return 1
+  run 0 --quiet --out "$scratch/out" inputs/norton.deck || return 1
+  drawn norton figures bearings drive_forces frame_force link_motion linkage linkage_positions shaking_force || return 1
   drawn klann figures link_motion linkage linkage_positions pin_motion && drawn klann animations linkage || return 1
   sed 's/^LINK     rod .*/LINK rod A B length=30 mass=1 inertia=1/; /^POINT/d; /^REPORT   points/d; /^REPORT   balance/d' inputs/engine.deck >"$scratch/short.deck"
   run 1 --quiet --out "$scratch/out" "$scratch/short.deck" && drawn short figures $all lagrange shaking_force

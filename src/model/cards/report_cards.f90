@@ -3,7 +3,7 @@ module report_cards
   use card_reader, only: check_words, entry_number, has_key, read_choice, read_entry_accuracy, &
     read_entry_count, read_entry_quantity, require_positive
   use card_table, only: keys_in
-  use cards, only: card_t
+  use cards, only: card_t, entry_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: fineness, wp
   use report_kinds, only: default_number, kind_named, report_kind_t, report_names
@@ -12,7 +12,8 @@ module report_cards
   use transient_cards, only: read_transient, transient_card_t
   use units, only: dimension_angle, dimension_length, dimension_none, dimension_rate, &
     dimension_time, dimension_velocity, unit_system_t
-  use value_lists, only: empty_list, list_steps, read_entry_list, read_values, value_list_t
+  use value_lists, only: empty_list, list_steps, read_entry_list, read_entry_pair, read_values, &
+    value_list_t
   implicit none (type, external)
   private
 
@@ -43,6 +44,10 @@ module report_cards
     logical :: with_pins = .false.   !! with a table of the places of the pins
     type(token_t) :: start_angle_word, start_speed_word, end_time_word, time_step_word
     type(transient_card_t) :: transient !! REPORT transient
+    ! REPORT frame: about a place, about a pin, or without either about the point of reference.
+    logical :: has_about = .false.   !! `about=x,y` is given
+    real(wp) :: about(2) = 0.0_wp    !! in global axes [m]
+    type(token_t) :: about_pin       !! value of `about=pin`; without a line if it is not given
   end type report_t
 
   !> A motion with more rows than this is taken for a mistake.
@@ -51,10 +56,10 @@ module report_cards
 contains
 
   !> Reads `REPORT kind`; shapes with `crank=`, `speed=` and `points=`, geometry with its crank
-  !! angles, motion with start, end and step. Errors: an unknown kind, words or keys that do not fit
-  !! it, a missing or unreadable value, fewer than two `points=`, an `accuracy=` out of range, a
-  !! motion whose end or step is not above 0, whose step exceeds its end, or which has more than a
-  !! million steps.
+  !! angles, motion with start, end and step, frame with its point. Errors: an unknown kind, words
+  !! or keys that do not fit it, a missing or unreadable value, fewer than two `points=`, an
+  !! `accuracy=` out of range, a motion whose end or step is not above 0, whose step exceeds its
+  !! end, or which has more than a million steps.
   pure subroutine read_report(card, reports, system, diagnostics, report, by_length)
     type(card_t), intent(in) :: card                  !! the REPORT card
     type(report_kind_t), intent(in) :: reports(:)     !! (kinds) all that exist
@@ -78,6 +83,7 @@ contains
     report%start_speed_word = token_t("", 0, 0)
     report%end_time_word = token_t("", 0, 0)
     report%time_step_word = token_t("", 0, 0)
+    report%about_pin = token_t("", 0, 0)
     pattern = "REPORT "//joined(word_list(report_names(reports)), "|")
     number = 0
     if (size(card%words) > 0) then
@@ -106,6 +112,8 @@ contains
       call read_intervals(card, system, diagnostics, report)
     case ("transient")
       call read_transient(card, report%kind, known_keys, system, diagnostics, report%transient)
+    case ("frame")
+      call read_frame(card, system, diagnostics, report)
     end select
   end subroutine read_report
 
@@ -149,6 +157,33 @@ contains
       report%least_growth = growth
     end if
   end subroutine read_intervals
+
+  !> Reads `REPORT frame [about=x,y|pin]`: a name, or the coordinates of a place.
+  pure subroutine read_frame(card, system, diagnostics, report)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(report_t), intent(inout) :: report
+
+    integer :: i
+
+    i = entry_number(card, "about")
+    if (i == 0) return
+    if (is_name(card%entries(i))) then
+      report%about_pin = card%entries(i)%value
+    else
+      call read_entry_pair(card, "about", "x,y", dimension_length, system, diagnostics, &
+        report%about, report%has_about)
+    end if
+  end subroutine read_frame
+
+  !> Whether the value of an entry is one word, and no list.
+  pure function is_name(entry) result(is)
+    type(entry_t), intent(in) :: entry
+    logical :: is
+
+    is = len(entry%value%text) > 0 .and. index(entry%value%text, ",") == 0
+  end function is_name
 
   !> Reads `REPORT shapes [crank=a,b,...] [speed=...] [points=]`.
   pure subroutine read_shapes(card, by_length, system, diagnostics, report)

@@ -3,6 +3,7 @@
 module body_checks
   use diagnostics, only: add_error, diagnostics_t
   use link_cards, only: link_t
+  use link_checks, only: is_ram
   use models, only: model_t
   use name_checks, only: link_ends, look_up, pin_names
   use name_index, only: find_name, name_index_t, new_name_index
@@ -16,8 +17,8 @@ module body_checks
 contains
 
   !> Looks up the links of all these cards. Errors: an unknown link or pin, a point named like a
-  !! pin of its own link or a ground pivot, a force on a ground pivot, a link with a mass but
-  !! no moment of inertia.
+  !! pin of its own link or a ground pivot, a force on a ground pivot, a ram with a mass but no
+  !! moment of inertia.
   pure subroutine check_bodies(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(model_t), intent(inout) :: model             !! has its links with materials and sections;
@@ -44,7 +45,7 @@ contains
     call check_points(diagnostics, model)
     call check_forces(diagnostics, model)
     do i = 1, size(model%links)
-      call check_inertia(diagnostics, model%links(i))
+      call check_inertia(diagnostics, model, model%links(i))
     end do
   end subroutine check_bodies
 
@@ -125,16 +126,18 @@ contains
     end do
   end subroutine check_forces
 
-  !> A link with `mass=` also needs a moment of inertia: `inertia=`, or that of material and
-  !! section.
-  pure subroutine check_inertia(diagnostics, link)
+  !> A link with `mass=` has the moment of inertia of the uniform link, unless its card gives
+  !! another; one that changes its length has none, without material and section.
+  pure subroutine check_inertia(diagnostics, model, link)
     type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
     type(link_t), intent(in) :: link
 
     if (.not. link%has_mass .or. link%has_inertia) return
     if (link%material_name%line > 0 .and. link%section_name%line > 0) return
+    if (.not. is_ram(model, link)) return
     call add_error(diagnostics, link%body_word, "link '"//link%name%text// &
-      "' has a mass and no moment of inertia; expected "// &
+      "' has a mass, no moment of inertia, and no length of its own; expected "// &
       "'inertia=' about its mass centre, or material and section")
   end subroutine check_inertia
 

@@ -11,7 +11,7 @@ module link_checks
   implicit none (type, external)
   private
 
-  public :: check_links
+  public :: check_links, is_ram
 
   !> Misfit of a closed link given by more numbers than it needs, which have few digits: relative
   !! to its length, and of the turns of a triangle [rad].
@@ -73,8 +73,8 @@ contains
 
   !> Whether a DRIVE card gives the length of a link.
   pure function is_ram(model, link) result(is)
-    type(model_t), intent(in) :: model
-    type(link_t), intent(in) :: link
+    type(model_t), intent(in) :: model !! as read
+    type(link_t), intent(in) :: link   !! of the model
     logical :: is
 
     integer :: i

@@ -54,13 +54,13 @@ contains
         "expected 'rigid' on this card, or no '"//link%body_word%text//"='")
       return
     end if
-    ! A mass without moment of inertia has been reported by `check_bodies`.
+    ! Its moment of inertia is given, or follows from the mass; of rams see `check_bodies`.
     if (.not. beam) mass = mass .and. .not. link%has_mass
     lacking = ""
     if ((beam .or. mass) .and. link%material_name%line == 0) lacking = lacking//" material"
     if ((beam .or. mass) .and. link%section_name%line == 0) lacking = lacking//" section"
     way_out = ""
-    if (len(lacking) > 0 .and. .not. beam) way_out = ", or 'mass=' and 'inertia='"
+    if (len(lacking) > 0 .and. .not. beam) way_out = ", or 'mass='"
     if (mesh .and. link%mesh == 0) lacking = lacking//" mesh"
     if (len(lacking) == 0) return
     call add_error(diagnostics, link%name, "link '"//link%name%text//"' has no "// &

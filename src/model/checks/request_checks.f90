@@ -6,13 +6,15 @@ module request_checks
   use kinds, only: wp
   use models, only: effects_static, is_loaded, is_moving, model_t, needs_frequencies, &
     needs_positions, needs_response, needs_study, report_number
+  use name_checks, only: pin_names
+  use name_index, only: find_name, name_index_t, new_name_index
   use report_kinds, only: report_kind_t, report_names
   use report_needs, only: check_report_needs
   use response_cards, only: is_response_form
   use response_checks, only: check_response
-  use spelling, only: nearest_word
+  use spelling, only: nearest_word, suggestion
   use text, only: joined, same_word, string_t, to_string, upper_case, word_list
-  use tokens, only: token_t
+  use tokens, only: token_t, token_texts
   use value_lists, only: value_list_t, value_number
   use vibration_checks, only: check_vibrations
   implicit none (type, external)
@@ -122,6 +124,7 @@ contains
     call check_response(cards, diagnostics, model)
     call refuse_too_many_modes(diagnostics, model)
     call check_shapes(diagnostics, model)
+    call check_about(diagnostics, model)
     call warn_of_stocky_links(diagnostics, model)
     call warn_of_static_loads(cards, diagnostics, model)
     call warn_of_idle_motors(diagnostics, model)
@@ -180,6 +183,32 @@ contains
     end subroutine check_values
 
   end subroutine check_shapes
+
+  !> Moments on the frame are about a point that stands still.
+  pure subroutine check_about(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    type(name_index_t) :: grounds, pins
+    integer :: number
+
+    number = report_number(model, "frame")
+    if (number == 0) return
+    associate (pin => model%reports(number)%about_pin)
+      if (pin%line == 0) return
+      grounds = new_name_index(token_texts(model%grounds%pin))
+      if (find_name(grounds, pin%text) > 0) return
+      pins = new_name_index(token_texts(pin_names(model)))
+      if (find_name(pins, pin%text) > 0) then
+        call add_error(diagnostics, pin, "pin '"//pin%text//"' moves, and moments on the frame "// &
+          "are about a point that stands still; expected a GROUND pin, or its coordinates: "// &
+          "about=x,y")
+      else
+        call add_error(diagnostics, pin, "unknown ground pivot '"//pin%text//"'"// &
+          suggestion(pin%text, grounds%name)//"; expected a GROUND pin, or coordinates: about=x,y")
+      end if
+    end associate
+  end subroutine check_about
 
   pure subroutine warn_of_stocky_links(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics

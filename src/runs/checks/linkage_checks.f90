@@ -58,11 +58,11 @@ contains
     if (size(mechanism%linkage%redundancies) > 0) then
       call check_fit(model, mechanism, diagnostics)
       if (has_errors(diagnostics)) return
-      report = report_number(model, "reactions")
+      report = max(report_number(model, "reactions"), report_number(model, "bearings"))
       if (report > 0) call add_error(diagnostics, model%reports(report)%keyword, &
         "the forces in '"//mechanism%names(max(1, body_of_redundancy(mechanism%linkage, &
         1)))%text//"' and the links that hold the same pins cannot be told apart while all are "// &
-        "rigid; REPORT drive and REPORT lagrange do not need them")
+        "rigid; REPORT drive, frame and lagrange do not need them")
     end if
     if (drives_length(model) .and. model%motor%keyword%line > 0) call add_error(diagnostics, &
       model%motor%keyword, "a MOTOR turns a link, and the first DRIVE moves a slider or a ram; "// &

@@ -149,15 +149,19 @@ contains
     character(len=*), intent(in) :: derived !! beginning of the line
 
     type(unit_t) :: length, mass, inertia
+    character(len=:), allocatable :: origin
 
     length = coherent_unit(model%units, dimension_length)
     mass = coherent_unit(model%units, dimension_mass)
     inertia = coherent_unit(model%units, dimension_inertia)
+    origin = ""
+    if (model%links(link)%has_mass .and. .not. model%links(link)%has_inertia) origin = &
+      " (uniform link of this mass)"
     call append_text(buffer, derived//" link "//model%links(link)%name%text//": mass = "// &
       to_string(from_si(link_mass(model, link), mass), 15)//" "//mass%name// &
       ", moment of inertia = "//to_string(from_si(link_inertia(model, link), inertia), 15)//" "// &
-      inertia%name//" about its mass centre, "//place_words(link_center(model, link), length)// &
-      " from "//model%links(link)%pins(1)%text//achar(10))
+      inertia%name//origin//" about its mass centre, "//place_words(link_center(model, link), &
+      length)//" from "//model%links(link)%pins(1)%text//achar(10))
   end subroutine append_body
 
   !> Rotary inertia and shear stiffness of a link, if EFFECTS requests them.

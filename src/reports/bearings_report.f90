@@ -1,0 +1,62 @@
+!> `bearings.dat`: the force in every joint, in global axes and in those of the link on which it
+!! acts.
+module bearings_report
+  use joint_study, only: bearings_at_speed
+  use joints_report, only: owner_cell
+  use load_notes, only: acceleration_note, append_load_notes
+  use table_columns, only: cells, column_width, table_layout_t
+  use table_rows, only: add_row, rows_t
+  use tables, only: name_cell
+  use text, only: append_string, string_t
+  use variant_results, only: variant_results_t
+  implicit none (type, external)
+  private
+
+  public :: bearings_notes, add_bearings
+
+contains
+
+  !> On what the forces act, both axes, the angle, loads.
+  pure subroutine bearings_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its mechanism
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    call append_string(notes, "forces on the link at the pin; of a guide: by the guide on the "// &
+      "pin; of a block on a link: by the block on that link")
+    call append_string(notes, "fx, fy: in global axes; axial, transverse: in those of the "// &
+      "link, along the way from the first pin of its card to the second, and to the left of "// &
+      "it; of a guide, along it and to its left")
+    call append_string(notes, "angle: of the force in the axes of the link, counter-clockwise "// &
+      "from axial; 0 where a force is only round-off")
+    call append_string(notes, acceleration_note(variant%model))
+    call append_load_notes(notes, variant%model, variant%mechanism)
+  end subroutine bearings_notes
+
+  !> Appends the rows of a position and speed, one per joint.
+  subroutine add_bearings(variant, layout, position, speed, rows)
+    type(variant_results_t), intent(in) :: variant !! with its joints computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list, with a pose
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
+
+    integer :: i
+
+    associate (positions => variant%found%positions, model => variant%model, &
+        mechanism => variant%mechanism, found => variant%found%joints)
+      associate (state => positions%state(position))
+        associate (values => bearings_at_speed(mechanism%linkage, found, &
+            positions%states(state)%pose, state, model%speed%value(speed), &
+            model%acceleration, speed))
+          do i = 1, size(found%joints)
+            call add_row(rows, cells(layout, 1, [model%shown_speed(speed), &
+              positions%crank(position)])//name_cell(mechanism%pin_names(found%joints(i)%pin)% &
+              text, column_width(layout, 3))//owner_cell(variant, found%joints(i), &
+              column_width(layout, 4))//cells(layout, 5, values(:, i)))
+          end do
+        end associate
+      end associate
+    end associate
+  end subroutine add_bearings
+
+end module bearings_report
