@@ -36,6 +36,7 @@ module vector_least_squares
     integer :: n = 0                       !! vectors
     real(wp), allocatable :: r(:, :)       !! (3n + 1, 3n + 1) of [A, c, d]
     real(wp), allocatable :: jump(:), linear(:), square(:)
+    logical, allocatable :: carried(:)     !! (vectors) that are there; the others are zero
   end type reduced_t
 
   integer, parameter :: most_steps = 300
@@ -57,24 +58,34 @@ contains
 
     type(vector_minimum_t) :: other
     type(reduced_t) :: reduced
-    logical :: carried(size(problem%jump)), all_proved
+    real(wp) :: bound
+    logical :: all_proved
     integer :: mask, b, n
 
     n = size(problem%jump)
     reduced = reduced_problem(problem)
-    carried = .true.
-    call find_of_carried(reduced, carried, found)
-    ! A jump is a cost of a vector, however small: it may be better to do without the vector.
-    if (.not. any(problem%jump > 0.0_wp)) return
-    all_proved = found%is_least
-    do mask = 1, 2**n - 1
-      carried = [(.not. btest(mask, b - 1), b=1, n)]
-      if (any(.not. carried .and. .not. problem%jump > 0.0_wp)) cycle
-      call find_of_carried(reduced, carried, other)
+    if (.not. any(problem%jump > 0.0_wp)) then
+      call find_of_carried(reduced, found)
+      return
+    end if
+    ! A jump is a cost of a vector, however small: it may be better to do without the vector. One that
+    ! vanishes with its jump is no vector, and its sum of squares only a bound.
+    found%value = huge(bound)
+    bound = huge(bound)
+    all_proved = .true.
+    do mask = 0, 2**n - 1
+      reduced%carried = [(.not. btest(mask, b - 1), b=1, n)]
+      if (any(.not. reduced%carried .and. .not. problem%jump > 0.0_wp)) cycle
+      call find_of_carried(reduced, other)
       all_proved = all_proved .and. other%is_least
-      if (other%value < found%value) found = other
+      if (any(reduced%carried .and. problem%jump > 0.0_wp .and. norm2(other%vector, dim=1) <= &
+        0.0_wp)) then
+        bound = min(bound, other%value)
+      else if (other%value < found%value) then
+        found = other
+      end if
     end do
-    found%is_least = all_proved
+    found%is_least = all_proved .and. found%value <= bound
   end subroutine find_least_squares
 
   !> Whether columns are independent of those before, but for rounding.
@@ -117,6 +128,7 @@ contains
     reduced%jump = problem%jump
     reduced%linear = problem%linear
     reduced%square = problem%square
+    reduced%carried = spread(.true., 1, n)
     columns = 3*n + 1
     rows = max(size(problem%constant), columns)
     allocate (work(rows, columns), mirror(rows))
@@ -141,28 +153,27 @@ contains
   end function reduced_problem
 
   !> The smallest sum of squares with some of the vectors, the others being zero.
-  pure subroutine find_of_carried(reduced, carried, found)
+  pure subroutine find_of_carried(reduced, found)
     type(reduced_t), intent(in) :: reduced
-    logical, intent(in) :: carried(:) !! (vectors)
     type(vector_minimum_t), intent(out) :: found
 
     type(vector_minimum_t) :: other
     real(wp) :: start(2, reduced%n), angle, usual
     integer :: b, i, k
 
-    start = without_lengths(reduced, carried)
+    start = without_lengths(reduced)
     usual = norm2(start)
-    call descend(reduced, carried, start, found)
+    call descend(reduced, start, found)
     if (found%is_least .or. .not. usual > 0.0_wp) return
     do b = 1, reduced%n
-      if (.not. carried(b)) cycle
+      if (.not. reduced%carried(b)) cycle
       do k = 1, size(sizes)
         do i = 1, directions
           angle = i*2.0_wp*acos(-1.0_wp)/directions
           start = found%vector
           start(:, b) = sizes(k)*usual*[cos(angle), sin(angle)]
-          call descend(reduced, carried, start, other)
-          if (other%value < found%value*(1.0_wp - 1.0e-12_wp)) found = other
+          call descend(reduced, start, other)
+          if (other%is_least .or. other%value < found%value*(1.0_wp - 1.0e-12_wp)) found = other
           if (found%is_least) return
         end do
       end do
@@ -170,9 +181,8 @@ contains
   end subroutine find_of_carried
 
   !> The solution with all φ = 0.
-  pure function without_lengths(reduced, carried) result(start)
+  pure function without_lengths(reduced) result(start)
     type(reduced_t), intent(in) :: reduced
-    logical, intent(in) :: carried(:)
     real(wp) :: start(2, reduced%n)
 
     type(reduced_t) :: alone
@@ -182,9 +192,9 @@ contains
     type(vector_problem_t) :: less
 
     start = 0.0_wp
-    n = count(carried)
+    n = count(reduced%carried)
     if (n == 0) return
-    kept = pack([(i, i=1, reduced%n)], carried)
+    kept = pack([(i, i=1, reduced%n)], reduced%carried)
     columns = 3*reduced%n + 1
     allocate (less%along(columns, 2*n), less%by_length(columns, n))
     do i = 1, n
@@ -207,9 +217,8 @@ contains
 
   !> Newton's method, with a multiple of the unit matrix where it does not descend (Levenberg,
   !! Marquardt). A vector that vanishes rests; one that is at rest moves where that descends.
-  pure subroutine descend(reduced, carried, start, found)
+  pure subroutine descend(reduced, start, found)
     type(reduced_t), intent(in) :: reduced
-    logical, intent(in) :: carried(:)
     real(wp), intent(in) :: start(:, :) !! (2, vectors)
     type(vector_minimum_t), intent(out) :: found
 
@@ -220,7 +229,7 @@ contains
 
     p = start
     do b = 1, reduced%n
-      if (.not. carried(b)) p(:, b) = 0.0_wp
+      if (.not. reduced%carried(b)) p(:, b) = 0.0_wp
     end do
     tiny_length = 1.0e-12_wp*norm2(start)
     damping = 0.0_wp
@@ -232,7 +241,7 @@ contains
       call differentiate(reduced, p, moves, g, h, measure)
       found%gradient = maxval(abs(g)/measure)
       if (found%gradient <= epsilon(1.0_wp)) then
-        call wake(reduced, carried, p, value)
+        call wake(reduced, p, value)
         if (any((norm2(p, dim=1) > 0.0_wp) .neqv. moves)) cycle
         exit
       end if
@@ -249,10 +258,20 @@ contains
       end if
       ! Rounding ends the descent where the derivatives are nothing but rounding.
       if (found%gradient <= flat) then
-        call wake(reduced, carried, p, value)
+        call wake(reduced, p, value)
         if (all((norm2(p, dim=1) > 0.0_wp) .eqv. moves)) exit
         cycle
       end if
+      ! Zero is a corner, to which Newton's steps do not lead.
+      do b = 1, reduced%n
+        if (.not. moves(b)) cycle
+        trial = p
+        trial(:, b) = 0.0_wp
+        next = sum_of_squares(reduced, trial)
+        if (.not. next < value) cycle
+        p = trial
+        value = next
+      end do
       damping = max(10.0_wp*damping, 1.0e-10_wp)
       if (damping > 1.0e20_wp) exit
     end do
@@ -262,7 +281,7 @@ contains
     call solve_definite(h, g, moves, 0.0_wp, step, found%is_minimum)
     found%vector = p
     found%value = value
-    call prove(reduced, carried, p, found)
+    call prove(reduced, p, found)
   end subroutine descend
 
   !> The unknowns (p, φ, 1) of the triangular factor.
@@ -279,7 +298,7 @@ contains
     do b = 1, n
       s = norm2(p(:, b))
       x(2*n + b) = reduced%linear(b)*s + reduced%square(b)*s**2
-      if (s > 0.0_wp) x(2*n + b) = x(2*n + b) + reduced%jump(b)
+      if (reduced%carried(b)) x(2*n + b) = x(2*n + b) + reduced%jump(b)
     end do
     x(3*n + 1) = 1.0_wp
   end function unknowns_of
@@ -384,9 +403,8 @@ contains
 
   !> Moves vectors at rest whose growth lessens the sum of squares: its slope at p = 0 is least
   !! against the gradient.
-  pure subroutine wake(reduced, carried, p, value)
+  pure subroutine wake(reduced, p, value)
     type(reduced_t), intent(in) :: reduced
-    logical, intent(in) :: carried(:)
     real(wp), intent(inout) :: p(:, :)
     real(wp), intent(inout) :: value
 
@@ -395,7 +413,7 @@ contains
 
     n = reduced%n
     do b = 1, n
-      if (.not. carried(b) .or. norm2(p(:, b)) > 0.0_wp .or. reduced%jump(b) > 0.0_wp) cycle
+      if (.not. reduced%carried(b) .or. norm2(p(:, b)) > 0.0_wp) cycle
       rest = matmul(reduced%r, unknowns_of(reduced, p))
       g = 2.0_wp*matmul(rest, reduced%r(:, 2*b - 1:2*b))
       slope = 2.0_wp*dot_product(rest, reduced%r(:, 2*n + b))*reduced%linear(b) - norm2(g)
@@ -416,27 +434,31 @@ contains
     end do
   end subroutine wake
 
-  !> Whether the sum of squares would not fall if any φ grew, at a minimum.
-  pure subroutine prove(reduced, carried, p, found)
+  !> Whether the sum of squares would not fall if any φ grew, at a stationary point.
+  pure subroutine prove(reduced, p, found)
     type(reduced_t), intent(in) :: reduced
-    logical, intent(in) :: carried(:)
     real(wp), intent(in) :: p(:, :)
     type(vector_minimum_t), intent(inout) :: found
 
     real(wp) :: rest(3*reduced%n + 1), slope
+    logical :: rests !! vectors that are zero stay so
     integer :: b, n
 
     n = reduced%n
     rest = matmul(reduced%r, unknowns_of(reduced, p))
     found%length_helps = .false.
+    rests = .true.
     do b = 1, n
-      if (.not. carried(b)) cycle
-      slope = dot_product(rest, reduced%r(:, 2*n + b))
-      found%length_helps = found%length_helps .or. slope < -flat*norm2(reduced%r(:, 2*n + b))* &
-        norm2(reduced%r(:, 3*n + 1))
+      if (.not. reduced%carried(b)) cycle
+      slope = 2.0_wp*dot_product(rest, reduced%r(:, 2*n + b))
+      found%length_helps = found%length_helps .or. slope < -2.0_wp*flat*norm2(reduced%r(:, 2*n + &
+        b))*norm2(reduced%r(:, 3*n + 1))
+      if (norm2(p(:, b)) > 0.0_wp) cycle
+      rests = rests .and. 2.0_wp*norm2(matmul(rest, reduced%r(:, 2*b - 1:2*b))) <= slope* &
+        reduced%linear(b) + 2.0_wp*flat*norm2(reduced%r(:, 2*b - 1:2*b))*norm2(reduced%r(:, &
+        3*n + 1))
     end do
-    found%is_least = found%gradient <= 1.0e-12_wp .and. .not. found%length_helps .and. &
-      .not. any(carried .and. norm2(p, dim=1) <= 0.0_wp .and. reduced%jump > 0.0_wp)
+    found%is_least = found%gradient <= 1.0e-12_wp .and. rests .and. .not. found%length_helps
   end subroutine prove
 
 end module vector_least_squares
