@@ -146,6 +146,11 @@ contains
 
     associate (balance => variant%found%balance, &
         state => variant%found%positions%state(position))
+      if (is_unbalanced(variant)) then
+        call add_failed_row(rows, [variant%model%shown_speed(speed), &
+          variant%found%positions%crank(position)], balance%partial%error%text)
+        return
+      end if
       call add_position_row(variant, layout, position, speed, [balance%centre(:, state), &
         row_quantities(variant%found%reactions), row_quantities(balance%balanced)], rows)
     end associate
@@ -181,6 +186,11 @@ contains
 
     state = variant%found%positions%state(position)
     associate (balance => variant%found%balance)
+      if (is_unbalanced(variant)) then
+        call add_failed_row(rows, [variant%model%shown_speed(speed), &
+          variant%found%positions%crank(position)], balance%partial%error%text)
+        return
+      end if
       count = merge(10, 6, has_balanced(balance))
       values(:2) = balance%centre(:, state)
       values(3:6) = row_quantities(variant%found%joints)
@@ -203,6 +213,15 @@ contains
     end function row_quantities
 
   end subroutine add_hung_balance
+
+  !> Whether BALANCE cards could not be followed.
+  pure function is_unbalanced(variant) result(is)
+    type(variant_results_t), intent(in) :: variant !! with its balance computed
+    logical :: is
+
+    is = allocated(variant%found%balance%partial)
+    if (is) is = allocated(variant%found%balance%partial%error)
+  end function is_unbalanced
 
   !> Meaning of the columns, and the number of samples with the change that halving it makes; or
   !! the reason why the table has no rows.
@@ -263,6 +282,8 @@ contains
 
     if (.not. variant%found%class%reach%closes) call add_failed_row(rows, nowhere, &
       variant%unreachable)
+    if (is_unbalanced(variant)) call add_failed_row(rows, nowhere, &
+      variant%found%balance%partial%error%text)
     if (.not. variant%found%harmonics%has_cycle) return
     do k = 1, size(variant%model%speed%value)
       if (k > 1) call add_gap(rows, 2)

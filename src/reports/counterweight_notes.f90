@@ -25,10 +25,7 @@ contains
     type(variant_results_t), intent(in) :: variant !! with a balance for BALANCE cards
     character(len=:), allocatable :: words
 
-    if (.not. variant%found%balance%partial%has_cycle) then
-      words = "balanced: as given, since the crank does not turn fully, or comes to a dead "// &
-        "point: BALANCE is over a whole turn"
-    else if (size(variant%model%shafts) == 0) then
+    if (size(variant%model%shafts) == 0) then
       words = "balanced: with the counterweights of the BALANCE card"
     else
       words = "balanced: with the counterweights and balance shafts of the BALANCE cards"
@@ -46,7 +43,7 @@ contains
 
     length = table_unit("length", variant%model%outputs)
     associate (balance => variant%found%balance, mechanism => variant%mechanism)
-      if (.not. balance%partial%has_cycle) return
+      if (allocated(balance%partial%error)) return
       call append_aims(variant, notes)
       do i = 1, size(balance%partial%idle)
         call append_string(notes, "no counterweight on link "// &
@@ -116,11 +113,8 @@ contains
     integer :: i, shafts
 
     associate (balance => variant%found%balance)
-      if (.not. balance%partial%has_cycle) then
-        text = "balance: none, since the crank does not turn fully"//achar(10)
-        return
-      end if
       text = ""
+      if (allocated(balance%partial%error)) return
       do i = 1, size(balance%weights)
         if (balance%weights(i)%needed) text = text//", "// &
           variant%mechanism%names(balance%weights(i)%body)%text

@@ -11,6 +11,7 @@ module partial_balance_study
   use counterweight_series, only: counterweight_on, unit_parts
   use crank_cycle, only: cycle_t, drive_torque, parts_at, quantity_count, shaking_force, &
     shaking_moment, usual_values
+  use errors, only: error_of_reach, error_t, set_error
   use harmonics_study, only: has_cycle
   use kinds, only: wp
   use linkages, only: linkage_t, reference_point, shaft_t
@@ -45,7 +46,7 @@ module partial_balance_study
   end type balance_request_t
 
   type :: partial_balance_t
-    logical :: has_cycle = .false.       !! the crank turns fully; else nothing is balanced
+    type(error_t), allocatable :: error  !! why nothing is balanced: the crank does not turn fully
     type(counterweight_t), allocatable :: weights(:)
     type(counterweight_make_t), allocatable :: makes(:) !! (weights)
     integer, allocatable :: idle(:)      !! bodies on which a counterweight does nothing for the aims,
@@ -80,8 +81,11 @@ contains
 
     found%linkage = linkage
     allocate (found%weights(0), found%makes(0), found%idle(0))
-    found%has_cycle = has_cycle(linkage)
-    if (.not. found%has_cycle) return
+    if (.not. has_cycle(linkage)) then
+      call set_error(found%error, error_of_reach, "the crank does not turn fully, or comes to a "// &
+        "dead point: BALANCE is over a whole turn, and there is none")
+      return
+    end if
     call sample_given(request, linkage, elements, threads, given)
     found%samples = size(given, 2)
     found%before = rms_of(given)
