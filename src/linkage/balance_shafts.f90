@@ -1,10 +1,10 @@
 !> Balance shafts: what their unbalanced masses exert. A pair that turns with and against the crank
 !! at its speed, or at a multiple of it, cancels a harmonic of the shaking force.
 !!
-!! F. W. Lanchester: Engine balancing. Proc. Inst. Automobile Engineers 8 (1914) 195. E. N. Stevensen:
-!! Balancing of machines. J. Eng. Ind. 95 (1973) 650: with `F = Σ Z_k exp(i k θ2)` for the shaking
-!! force in complex coordinates, over k of both signs, a shaft that makes k turns in one of the crank
-!! cancels Z_k if its first moment is `|Z_k|/(k ω2)²`, opposite to Z_k at θ2 = 0.
+!! F. W. Lanchester: Engine balancing. Proc. Inst. Automobile Engineers 8 (1914) 195. E. N.
+!! Stevensen: Balancing of machines. J. Eng. Ind. 95 (1973) 650: with `F = Σ Z_k exp(i k θ2)` for
+!! the shaking force in complex coordinates, over k of both signs, a shaft that makes k turns in one
+!! of the crank cancels Z_k if its first moment is `|Z_k|/(k ω2)²`, opposite to Z_k at θ2 = 0.
 module balance_shafts
   use constants, only: degree, two_pi
   use group_equations, only: direction_at
@@ -21,9 +21,9 @@ contains
   !> Shaking force and moment of the balance shafts of a linkage, and the torque that they need from
   !! the first drive, for each of the three load cases; zeros without shafts.
   !!
-  !! With s its first moment, u the direction of its mass, n the normal of u and k its turns, a shaft
-  !! has `F = s (k² ω2² u − k α2 n)`, the moment `−k J α2` besides that of F, and takes the torque
-  !! `k² J α2 − k s g·n`.
+  !! With s its first moment, u the direction of its mass, n the normal of u and k its turns, a
+  !! shaft has `F = s (k² ω2² u − k α2 n)`, the moment `−k J α2` besides that of F, and takes the
+  !! torque `k² J α2 − k s g·n`.
   pure function parts_of_shafts(linkage, crank) result(part)
     type(linkage_t), intent(in) :: linkage !! with its shafts, and gravity
     real(wp), intent(in) :: crank          !! coordinate of the first drive [deg]

@@ -19,7 +19,8 @@ module balanced_linkages
     integer :: pin = 0                   !! about which it balances: a ground pivot, or the pin
                                          !! through which the link hangs on others
     integer :: towards = 0               !! another pin of the link
-    real(wp) :: radius = 0.0_wp          !! of its mass centre from the pin; 0: the link's length [m]
+    real(wp) :: radius = 0.0_wp          !! of its mass centre from the pin; 0: the link's length
+                                         !! [m]
     real(wp) :: inertia = 0.0_wp         !! moment of inertia about its mass centre [kg m²]
   end type counterweight_t
 
@@ -28,7 +29,8 @@ module balanced_linkages
   type :: counterweight_make_t
     real(wp) :: density = 0.0_wp         !! of the disc [kg/m³]; 0: no disc
     real(wp) :: thickness = 0.0_wp       !! of the disc, normal to the plane of motion [m]
-    real(wp) :: inertia = 0.0_wp         !! of a body about its mass centre, whatever its mass [kg m²]
+    real(wp) :: inertia = 0.0_wp         !! of a body about its mass centre, whatever its mass
+                                         !! [kg m²]
   end type counterweight_make_t
 
 contains

@@ -37,8 +37,8 @@ contains
   !! moment of inertia about the pivot, at ω2 = 1 and α2 = 0; zeros where there is no pose.
   !!
   !! With e along the way, n to its left, h and h' the derivatives of the angle of the link, and arm
-  !! that of the pivot from the reference point, e has `F = h² e − h' n` and n `F = h² n + h' e`, with
-  !! the moments `arm × F`; the moment of inertia has the moment `−h'` and the torque `h h'`.
+  !! that of the pivot from the reference point, e has `F = h² e − h' n` and n `F = h² n + h' e`,
+  !! with the moments `arm × F`; the moment of inertia has the moment `−h'` and the torque `h h'`.
   pure subroutine unit_parts(linkage, weights, crank, parts)
     type(linkage_t), intent(in) :: linkage          !! that turns fully
     type(counterweight_t), intent(in) :: weights(:) !! by `counterweight_on`

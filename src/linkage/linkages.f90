@@ -149,8 +149,8 @@ module linkages
     real(wp) :: period = 0.0_wp                  !! after which it repeats [deg]; 0: it does not
   end type path_t
 
-  !> A balance shaft, geared to the first drive: with the coordinate c of this one its mass is in the
-  !! direction `turns*c + phase`.
+  !> A balance shaft, geared to the first drive: with the coordinate c of this one its mass is in
+  !! the direction `turns*c + phase`.
   type :: shaft_t
     integer :: turns = 0                   !! in one of the first drive; negative: against it
     real(wp) :: first_moment = 0.0_wp      !! mass × radius [kg m]

@@ -1,8 +1,7 @@
 !> The BALANCE cards of a model as a request, in the terms of mechanics.
 module balance_requests
   use balance_cards, only: weight_make_t
-  use balance_study, only: balance_request_t
-  use balanced_linkages, only: counterweight_make_t
+  use balance_study, only: balance_request_t, counterweight_make_t
   use kinds, only: wp
   use mechanisms, only: mechanism_t
   use models, only: model_t

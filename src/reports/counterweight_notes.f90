@@ -1,7 +1,6 @@
 !> Remarks on counterweights and balance shafts, at the head of `balance.dat`.
 module counterweight_notes
   use attached_parts, only: place_on_card
-  use balanced_linkages, only: disc_diameter
   use constants, only: degree
   use kinds, only: wp
   use numbers, only: shortest_text
@@ -51,13 +50,12 @@ contains
           ": it would change none of what is minimised, or only as those on the others do")
       end do
       do i = 1, size(balance%weights)
-        associate (weight => balance%weights(i), make => balance%partial%makes(i), &
-            lump => balance%lumps(i))
+        associate (weight => balance%weights(i), diameter => balance%partial%diameter(i))
           heading = "card, with radius "//to_string(from_si(weight%radius, length), 12)//" "// &
             length%name//":"
-          if (weight%needed .and. make%density > 0.0_wp) heading = "card, with radius "// &
+          if (diameter > 0.0_wp) heading = "card, with radius "// &
             to_string(from_si(weight%radius, length), 12)//" "//length%name//", a disc of "// &
-            "diameter "//to_string(from_si(disc_diameter(make, lump%mass), length), 6)//" "// &
+            "diameter "//to_string(from_si(diameter, length), 6)//" "// &
             length%name//":"
         end associate
         call append_counterweight(variant, i, heading, notes)

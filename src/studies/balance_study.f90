@@ -1,8 +1,9 @@
-!> Balancing of a linkage: its counterweights, its mass centre without them, and its forces with them
-!! at every position. Counterweights cancel the shaking force, unless other aims are requested.
+!> Balancing of a linkage: its counterweights, its mass centre without them, and its forces with
+!! them at every position. Counterweights cancel the shaking force, unless other aims are requested.
 module balance_study
   use balance_shafts, only: parts_of_shafts
-  use balanced_linkages, only: balanced_linkage, counterweight_lump, counterweight_t, radius_of
+  use balanced_linkages, only: balanced_linkage, counterweight_lump, counterweight_make_t, &
+    counterweight_t, radius_of
   use counterweights, only: find_counterweights
   use hung_counterweights, only: find_hung_counterweights, obstacle_link, obstacle_loop, &
     obstacle_none, obstacle_pin, obstacle_ram, obstacle_t
@@ -16,7 +17,8 @@ module balance_study
   implicit none (type, external)
   private
 
-  public :: balance_result_t, balance_request_t, find_balance, find_hung_balance, has_balanced
+  public :: balance_result_t, balance_request_t, counterweight_make_t, find_balance, &
+    find_hung_balance, has_balanced
   public :: obstacle_t, obstacle_none, obstacle_loop, obstacle_ram, obstacle_link, obstacle_pin
 
   type :: balance_result_t

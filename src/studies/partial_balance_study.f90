@@ -6,7 +6,7 @@
 module partial_balance_study
   use balance_shafts, only: cancelling_shaft, force_harmonic
   use balanced_linkages, only: balanced_linkage, counterweight_make_t, counterweight_t, &
-    own_inertia, radius_of
+    disc_diameter, own_inertia, radius_of
   use constants, only: pi
   use counterweight_series, only: counterweight_on, unit_parts
   use crank_cycle, only: cycle_t, drive_torque, parts_at, quantity_count, shaking_force, &
@@ -23,7 +23,7 @@ module partial_balance_study
   private
 
   public :: balance_request_t, shaft_request_t, partial_balance_t, find_partial_balance
-  public :: aim_count, aim_force, aim_moment, aim_torque
+  public :: no_turn, aim_count, aim_force, aim_moment, aim_torque
 
   !> What may be minimised.
   integer, parameter :: aim_count = 3, aim_force = 1, aim_moment = 2, aim_torque = 3
@@ -48,9 +48,9 @@ module partial_balance_study
   type :: partial_balance_t
     type(error_t), allocatable :: error  !! why nothing is balanced: the crank does not turn fully
     type(counterweight_t), allocatable :: weights(:)
-    type(counterweight_make_t), allocatable :: makes(:) !! (weights)
-    integer, allocatable :: idle(:)      !! bodies on which a counterweight does nothing for the aims,
-                                         !! or nothing that those before it do not
+    real(wp), allocatable :: diameter(:) !! (weights) of discs; 0: no disc [m]
+    integer, allocatable :: idle(:)      !! bodies on which a counterweight does nothing for the
+                                         !! aims, or nothing that those before it do not
     real(wp) :: before(aim_count) = 0.0_wp !! rms of the aims at ω2 = 1, as given [N s², N m s²]
     real(wp) :: after(aim_count) = 0.0_wp  !! with counterweights and shafts
     logical :: is_alive(aim_count) = .false. !! the quantity is not zero as given
@@ -59,6 +59,9 @@ module partial_balance_study
     integer :: samples = 0               !! of the turn
     type(linkage_t) :: linkage           !! balanced
   end type partial_balance_t
+
+  character(len=*), parameter :: no_turn = "the crank does not turn fully, or comes to a dead "// &
+    "point: BALANCE is over a whole turn, and there is none"
 
   !> Below this share of its usual value a quantity is rounding.
   real(wp), parameter :: rounding = 1.0e-13_wp
@@ -80,10 +83,9 @@ contains
     integer :: i
 
     found%linkage = linkage
-    allocate (found%weights(0), found%makes(0), found%idle(0))
+    allocate (found%weights(0), found%diameter(0), found%idle(0))
     if (.not. has_cycle(linkage)) then
-      call set_error(found%error, error_of_reach, "the crank does not turn fully, or comes to a "// &
-        "dead point: BALANCE is over a whole turn, and there is none")
+      call set_error(found%error, error_of_reach, no_turn)
       return
     end if
     call sample_given(request, linkage, elements, threads, given)
@@ -118,14 +120,14 @@ contains
     request%aim(aim_force) = 1.0_wp
     request%make = pair%make
     linkage = balanced_linkage(found%linkage, found%weights)
-    allocate (alone%weights(0), alone%makes(0), alone%idle(0))
+    allocate (alone%weights(0), alone%diameter(0), alone%idle(0))
     call minimise(request, linkage, elements, sampled(linkage, elements, samples), alone)
     found%weights = [found%weights, alone%weights]
-    found%makes = [found%makes, alone%makes]
+    found%diameter = [found%diameter, alone%diameter]
   end subroutine balance_crank
 
-  !> Shaking force, moment and torque of the given linkage at ω2 = 1, over a turn with so many samples
-  !! that neither its spectra nor those with heavy counterweights change with more.
+  !> Shaking force, moment and torque of the given linkage at ω2 = 1, over a turn with so many
+  !! samples that neither its spectra nor those with heavy counterweights change with more.
   subroutine sample_given(request, linkage, elements, threads, given)
     type(balance_request_t), intent(in) :: request
     type(linkage_t), intent(in) :: linkage
@@ -266,7 +268,10 @@ contains
         if (weight%needed) weight%inertia = own_inertia(request%make, norm2(weight%first_moment)/ &
           radius(kept(i)))
         found%weights = [found%weights, weight]
-        found%makes = [found%makes, request%make]
+        found%diameter = [found%diameter, 0.0_wp]
+        if (weight%needed .and. request%make%density > 0.0_wp) &
+          found%diameter(size(found%diameter)) = disc_diameter(request%make, &
+          norm2(weight%first_moment)/radius(kept(i)))
       end associate
     end do
   end subroutine minimise

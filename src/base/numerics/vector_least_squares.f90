@@ -24,8 +24,8 @@ module vector_least_squares
   type :: vector_minimum_t
     real(wp), allocatable :: vector(:, :)  !! (2, vectors) p
     real(wp) :: value = 0.0_wp             !! the sum of squares
-    real(wp) :: gradient = 0.0_wp          !! largest derivative by a component, over twice the norms
-                                           !! of its column and of d [-]
+    real(wp) :: gradient = 0.0_wp          !! largest derivative by a component, over twice the
+                                           !! norms of its column and of d [-]
     logical :: is_minimum = .false.        !! the matrix of second derivatives is positive definite
     logical :: is_least = .false.          !! proved the smallest of all
     logical :: length_helps = .false.      !! the sum of squares falls as some φ grows
@@ -68,8 +68,8 @@ contains
       call find_of_carried(reduced, found)
       return
     end if
-    ! A jump is a cost of a vector, however small: it may be better to do without the vector. One that
-    ! vanishes with its jump is no vector, and its sum of squares only a bound.
+    ! A jump is a cost of a vector, however small: it may be better to do without the vector. One
+    ! that vanishes with its jump is no vector, and its sum of squares only a bound.
     found%value = huge(bound)
     bound = huge(bound)
     all_proved = .true.

@@ -135,9 +135,9 @@ contains
       all_fine = .false.
     end do
     if (.not. all_fine) return
-    if (all(choices == 3)) call add_error(diagnostics, aims(1), "the torque depends on moments of "// &
-      "inertia alone, so that the direction of a counterweight does not follow from it; expected "// &
-      "force or moment beside it")
+    if (all(choices == 3)) call add_error(diagnostics, aims(1), "the torque depends on "// &
+      "moments of inertia alone, so that the direction of a counterweight does not follow from "// &
+      "it; expected force or moment beside it")
     weights = 1.0_wp
     if (entry_number(card, "weights") > 0) then
       call find_items(card, "weights", diagnostics, words, fine)
@@ -246,15 +246,16 @@ contains
       "a moment of inertia", diagnostics)
     first = max(density, thickness)
     if (first > 0 .and. inertia > 0) then
-      call add_error(diagnostics, card%entries(max(first, inertia))%key, "the moment of inertia "// &
-        "of a counterweight is given by 'inertia=', or follows from the disc of 'density=' and "// &
-        "'thickness='; expected one of these")
+      call add_error(diagnostics, card%entries(max(first, inertia))%key, "the moment of "// &
+        "inertia of a counterweight is given by 'inertia=', or follows from the disc of "// &
+        "'density=' and 'thickness='; expected one of these")
     else if ((density > 0) .neqv. (thickness > 0)) then
       call add_error(diagnostics, card%entries(first)%key, "a disc has a density and a "// &
         "thickness; expected '"//trim(merge("thickness", "density  ", density > 0))//"=' too")
     else if (max(first, inertia) > 0 .and. .not. has_key(card, "radius")) then
-      call add_error(diagnostics, card%entries(max(first, inertia))%key, "a counterweight with a "// &
-        "moment of inertia of its own needs its distance from the pivot; expected 'radius=' too")
+      call add_error(diagnostics, card%entries(max(first, inertia))%key, "a counterweight "// &
+        "with a moment of inertia of its own needs its distance from the pivot; expected "// &
+        "'radius=' too")
     end if
   end subroutine read_make
 

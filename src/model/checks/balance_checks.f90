@@ -22,9 +22,9 @@ module balance_checks
 contains
 
   !> Looks up the links of the BALANCE card; without names, all that turn about a ground pivot.
-  !! Errors: an unknown link, one named twice, one without a ground pivot or with two, a ram; not one
-  !! radius a link; a slider or a ram as the first drive; two pairs of shafts of one order. Warning:
-  !! no REPORT balance.
+  !! Errors: an unknown link, one named twice, one without a ground pivot or with two, a ram; not
+  !! one radius a link; a slider or a ram as the first drive; two pairs of shafts of one order.
+  !! Warning: no REPORT balance.
   pure subroutine check_balance(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors and warnings are added
     type(model_t), intent(inout) :: model             !! link numbers of its card are set
@@ -36,8 +36,8 @@ contains
     do i = 1, size(model%shafts)
       do k = 1, i - 1
         if (model%shafts(k)%order /= model%shafts(i)%order .or. model%shafts(i)%order == 0) cycle
-        call add_error(diagnostics, model%shafts(i)%order_word, "a second pair of balance shafts "// &
-          "of order "//to_string(model%shafts(i)%order), model%shafts(k)%order_word, &
+        call add_error(diagnostics, model%shafts(i)%order_word, "a second pair of balance "// &
+          "shafts of order "//to_string(model%shafts(i)%order), model%shafts(k)%order_word, &
           "the first is here")
         exit
       end do
@@ -45,9 +45,9 @@ contains
     if (.not. balances(model)) return
     place = model%balance%keyword
     if (place%line == 0) place = model%shafts(1)%keyword
-    if (drives_length(model)) call add_error(diagnostics, place, "BALANCE is about a whole turn "// &
-      "of the crank at constant speed, and the first DRIVE moves a slider or a ram", model%drive, &
-      "it is driven here")
+    if (drives_length(model)) call add_error(diagnostics, place, "BALANCE is about a whole "// &
+      "turn of the crank at constant speed, and the first DRIVE moves a slider or a ram", &
+      model%drive, "it is driven here")
     if (report_number(model, "balance") == 0) call add_warning(diagnostics, place, "BALANCE is "// &
       "used by REPORT balance only, which is not asked for")
   end subroutine check_balance

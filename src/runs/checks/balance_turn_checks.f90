@@ -5,6 +5,7 @@ module balance_turn_checks
   use harmonics_study, only: has_cycle
   use mechanisms, only: mechanism_t
   use models, only: balances, model_t, report_number
+  use partial_balance_study, only: no_turn
   use tokens, only: token_t
   implicit none (type, external)
   private
@@ -26,8 +27,7 @@ contains
     if (has_cycle(mechanism%linkage)) return
     place = model%balance%keyword
     if (place%line == 0) place = model%shafts(1)%keyword
-    call add_error(diagnostics, place, "the crank does not turn fully, or comes to a dead point: "// &
-      "BALANCE is over a whole turn, and there is none", kind=error_of_reach)
+    call add_error(diagnostics, place, no_turn, kind=error_of_reach)
   end subroutine check_balance_turn
 
 end module balance_turn_checks
