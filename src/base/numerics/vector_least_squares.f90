@@ -6,6 +6,7 @@
 !! convex set. By the conditions of Karush, Kuhn and Tucker a stationary point at which no sum of
 !! squares falls as a j_b grows is the smallest over that set, and so over all p: that proves it.
 module vector_least_squares
+  use constants, only: two_pi
   use kinds, only: wp
   implicit none (type, external)
   private
@@ -41,9 +42,10 @@ module vector_least_squares
 
   integer, parameter :: most_steps = 300
 
-  !> Directions and sizes from which a vector is started where nothing is proved.
-  integer, parameter :: directions = 12
-  real(wp), parameter :: sizes(3) = [0.3_wp, 1.0_wp, 3.0_wp]
+  !> Directions from which a vector is started where nothing is proved, each with the best of some
+  !! sizes over so many powers of ten to either side of the usual one.
+  integer, parameter :: directions = 24, sizes = 12
+  real(wp), parameter :: powers = 2.0_wp
 
   !> Rounding of a derivative, relative as `gradient` is.
   real(wp), parameter :: flat = 1.0e-13_wp
@@ -51,7 +53,7 @@ module vector_least_squares
 contains
 
   !> The smallest sum of squares. Where no proof is found it is the smallest of the minima reached
-  !! from the solution without lengths and from some dozen directions of every vector.
+  !! from the solution without lengths and from two dozen directions of every vector.
   pure subroutine find_least_squares(problem, found)
     type(vector_problem_t), intent(in) :: problem !! whose A has full rank
     type(vector_minimum_t), intent(out) :: found
@@ -158,7 +160,7 @@ contains
     type(vector_minimum_t), intent(out) :: found
 
     type(vector_minimum_t) :: other
-    real(wp) :: start(2, reduced%n), angle, usual
+    real(wp) :: start(2, reduced%n), trial(2, reduced%n), angle, usual, value, least
     integer :: b, i, k
 
     start = without_lengths(reduced)
@@ -167,15 +169,20 @@ contains
     if (found%is_least .or. .not. usual > 0.0_wp) return
     do b = 1, reduced%n
       if (.not. reduced%carried(b)) cycle
-      do k = 1, size(sizes)
-        do i = 1, directions
-          angle = i*2.0_wp*acos(-1.0_wp)/directions
-          start = found%vector
-          start(:, b) = sizes(k)*usual*[cos(angle), sin(angle)]
-          call descend(reduced, start, other)
-          if (other%is_least .or. other%value < found%value*(1.0_wp - 1.0e-12_wp)) found = other
-          if (found%is_least) return
+      do i = 1, directions
+        angle = i*two_pi/directions
+        least = huge(least)
+        do k = -sizes, sizes
+          trial = found%vector
+          trial(:, b) = usual*10.0_wp**(powers*k/sizes)*[cos(angle), sin(angle)]
+          value = sum_of_squares(reduced, trial)
+          if (value >= least) cycle
+          least = value
+          start = trial
         end do
+        call descend(reduced, start, other)
+        if (other%is_least .or. other%value < found%value*(1.0_wp - 1.0e-12_wp)) found = other
+        if (found%is_least) return
       end do
     end do
   end subroutine find_of_carried
@@ -223,7 +230,7 @@ contains
     type(vector_minimum_t), intent(out) :: found
 
     real(wp) :: p(2, reduced%n), trial(2, reduced%n), g(2*reduced%n), h(2*reduced%n, 2*reduced%n), &
-      step(2*reduced%n), measure(2*reduced%n), damping, value, next, tiny_length
+      step(2*reduced%n), measure(2*reduced%n), damping, value, next, tiny_length, whole
     logical :: moves(reduced%n), is_definite
     integer :: steps, b
 
@@ -232,6 +239,7 @@ contains
       if (.not. reduced%carried(b)) p(:, b) = 0.0_wp
     end do
     tiny_length = 1.0e-12_wp*norm2(start)
+    whole = norm2(reduced%r(:, 3*reduced%n + 1))
     damping = 0.0_wp
     value = sum_of_squares(reduced, p)
     is_definite = .false.
@@ -255,6 +263,16 @@ contains
         value = next
         damping = merge(0.0_wp, 0.1_wp*damping, damping < 1.0e-12_wp)
         cycle
+      end if
+      ! Near the minimum the derivatives tell more than the sum of squares.
+      if (is_definite) then
+        call differentiate(reduced, trial, moves, g, h, measure)
+        if (next <= value + epsilon(1.0_wp)*whole**2 .and. maxval(abs(g)/measure) < &
+          0.5_wp*found%gradient) then
+          p = trial
+          value = next
+          cycle
+        end if
       end if
       ! Rounding ends the descent where the derivatives are nothing but rounding.
       if (found%gradient <= flat) then
