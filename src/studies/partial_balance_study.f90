@@ -123,6 +123,7 @@ contains
     allocate (alone%weights(0), alone%diameter(0), alone%idle(0))
     call minimise(request, linkage, elements, sampled(linkage, elements, samples), alone)
     found%weights = [found%weights, alone%weights]
+    found%idle = pack(found%idle, found%idle /= 1)
     found%diameter = [found%diameter, alone%diameter]
   end subroutine balance_crank
 

@@ -166,6 +166,10 @@ contains
     start = without_lengths(reduced)
     usual = norm2(start)
     call descend(reduced, start, found)
+    ! Where lengths cost much more than vectors gain, a descent may end too soon.
+    trial = 0.0_wp
+    call descend(reduced, trial, other)
+    if (.not. found%value <= other%value) found = other
     if (found%is_least .or. .not. usual > 0.0_wp) return
     do b = 1, reduced%n
       if (.not. reduced%carried(b)) cycle
