@@ -6,7 +6,9 @@ table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argum
 
 eval answer(table, "facts")
 headline = numbered(figure, sprintf("Shaking force, shaking moment and driving torque, %s", at_speed(speed, unit_speed)))
-note = "balanced: with the counterweights of balance.dat on crank and follower, which cancel the shaking force"
+by_cards = system("grep -c '^# rms over a turn' ".quoted(table)) + 0       # those of the BALANCE cards
+note = by_cards ? "balanced: with the counterweights and balance shafts of the BALANCE cards" : \
+    "balanced: with the counterweights of balance.dat on crank and follower, which cancel the shaking force"
 source_of(k) = table
 picked = "same(field('speed'),speed)"
 x = "field('crank')"

@@ -289,6 +289,9 @@ plan_cycle() {
     if [ -n "$cycle" ] && ask facts "$cycle" | grep -q "unit_crank = 'deg'"; then
         [ -f balance.dat ] && shaking=balance.dat
         [ -n "$shaking" ] && have "$shaking" && plan_speeds shaking_force "$shaking" 'shaking_x shaking_y'
+        # Where only the shaking force is balanced the remarks of the table say all.
+        [ ! -f balance.dat ] || ! grep -q '^# rms over a turn' balance.dat ||
+            plan_speeds balance balance.dat 'shaking_x shaking_y shaking_moment torque balanced_moment balanced_torque'
     fi
     have harmonics.dat && plan_speeds harmonics harmonics.dat largest
     have lagrange.dat && plan_speeds lagrange lagrange.dat

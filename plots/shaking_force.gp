@@ -26,8 +26,9 @@ load plots."legend.gp"
 given_style = "lt 1 lw 4 dt solid"
 balanced_style = "lw 4 dt (16,7) lc rgb '#0060A8'"
 if (balanced) {
+    balanced_words = system("grep -c '^# rms over a turn' ".quoted(table)) + 0 ? "balanced" : "with counterweights"
     eval entry_line(of_frame ? "shaking force: of the inertia forces" : "as given", given_style)
-    eval entry_line(of_frame ? "force on the frame: with weights and loads" : "with counterweights", balanced_style)
+    eval entry_line(of_frame ? "force on the frame: with weights and loads" : balanced_words, balanced_style)
 }
 
 # The greatest ring fills the page but for its names of axes.

@@ -2,8 +2,8 @@
 !! energy; without one, but determined by the pose; and what depends on how fast the linkage moves.
 module applied_loads
   use applied_load_types, only: acts_always, applied_load_t, applies_along, applies_between, &
-    applies_couple, applies_force, load_place_t, over_angle, over_drive, over_nothing, over_slider, &
-    over_travel
+    applies_couple, applies_force, load_place_t, over_angle, over_drive, over_nothing, &
+    over_slider, over_travel
   use body_points, only: find_point_coefficients, point_coefficients_t
   use constants, only: degree
   use cubic_splines, only: spline_values

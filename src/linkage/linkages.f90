@@ -11,7 +11,7 @@ module linkages
   private
 
   public :: linkage_t, body_t, body_pin_t, lump_t, slider_t, turn_t, drive_t, drawing_t, &
-    equation_t, group_t, path_t
+    equation_t, group_t, path_t, shaft_t
   public :: new_four_bar, mobility, reference_point, is_dyad_linkage, cross, normal_to, turned, &
     turned_back
   public :: drives_angle, drives_slider, drives_length
@@ -150,6 +150,17 @@ module linkages
     real(wp) :: period = 0.0_wp                  !! after which it repeats [deg]; 0: it does not
   end type path_t
 
+  !> A balance shaft, geared to the first drive: with the coordinate c of this one its mass is in
+  !! the direction `turns*c + phase`.
+  type :: shaft_t
+    integer :: turns = 0                   !! in one of the first drive; negative: against it
+    real(wp) :: first_moment = 0.0_wp      !! mass × radius [kg m]
+    real(wp) :: phase = 0.0_wp             !! from the global x axis [deg]
+    real(wp) :: place(2) = 0.0_wp          !! of its axis in global axes [m]
+    real(wp) :: radius = 0.0_wp            !! of its mass [m]
+    real(wp) :: inertia = 0.0_wp           !! moment of inertia about its axis [kg m²]
+  end type shaft_t
+
   !> Pins, bodies, what joins and drives them, and loads.
   type :: linkage_t
     logical, allocatable :: is_ground(:)           !! (pins) fixed to the ground
@@ -172,6 +183,7 @@ module linkages
     type(equation_t), allocatable :: redundancies(:) !! that the others fulfil, or the linkage does
                                                    !! not fit
     type(path_t) :: path                           !! of groups without a closed form
+    type(shaft_t), allocatable :: shafts(:)        !! balance shafts, of balanced linkages only
   end type linkage_t
 
 contains

@@ -1,5 +1,7 @@
 !> Cards → model.
 module model_reader
+  use balance_cards, only: is_shaft_form, read_balance, read_shaft, shaft_card_t, shaft_form
+  use balance_checks, only: check_balance
   use body_cards, only: read_mass, read_point
   use body_checks, only: check_bodies
   use card_table, only: card_kind_number, card_kinds, card_names
@@ -70,6 +72,7 @@ contains
     model%solver_word = token_t("", 0, 0)
     model%gravity_word = token_t("", 0, 0)
     model%motor%keyword = token_t("", 0, 0)
+    model%balance%keyword = token_t("", 0, 0)
     model%without%keyword = token_t("", 0, 0)
     allocate (model%crank%value(0), model%crank%word(0), model%crank%words(0))
     model%speed%value = [0.0_wp]
@@ -98,6 +101,7 @@ contains
     call check_links(diagnostics, model)
     call check_joints(diagnostics, model)
     call check_drives(diagnostics, model)
+    call check_balance(diagnostics, model)
     call find_dampings(diagnostics, model)
     call find_gauges(diagnostics, model)
     call find_four_bar_branch(diagnostics, model)
@@ -210,6 +214,7 @@ contains
       kind = card_kind_number(cards(i)%keyword%text)
       if (kind == 0) cycle
       if (is_response_form(cards(i))) kind = card_kind_number(cards(i)%keyword%text, response_form)
+      if (is_shaft_form(cards(i))) kind = card_kind_number(cards(i)%keyword%text, shaft_form)
       if (first(kind) == 0) then
         first(kind) = i
       else if (card_kinds(kind)%is_single) then
@@ -317,7 +322,9 @@ contains
       model%dampings(number_of(cards, "DAMPING")), model%gauges(number_of(cards, "GAUGE")))
     allocate (model%drawn_pins(number_of(cards, "PIN")), model%welds(number_of(cards, "WELD")), &
       model%guides(number_of(cards, "GUIDE")), model%sliders(number_of(cards, "SLIDER")), &
-      model%drives(number_of(cards, "DRIVE")), model%branches(number_of(cards, "BRANCH")))
+      model%drives(number_of(cards, "DRIVE")), model%branches(number_of(cards, "BRANCH")), &
+      model%shafts(number_of(cards, "BALANCE")))
+    model%shafts%keyword = token_t("", 0, 0)
     ! What the first drive moves says what CRANK and SPEED are.
     do first_drive = 1, size(cards)
       if (same_word(cards(first_drive)%keyword%text, "DRIVE")) exit
@@ -331,6 +338,7 @@ contains
         cards(min(first_drive, size(cards))), reports, diagnostics, model)
     end do
     call keep_branches_of_pins(model)
+    call keep_shafts(model)
     if (size(model%drives) > 0) model%drive = model%drives(1)%subject
   end subroutine read_model_cards
 
@@ -350,6 +358,23 @@ contains
     end do
     call move_alloc(branches, model%branches)
   end subroutine keep_branches_of_pins
+
+  !> Removes from the list of balance shafts the BALANCE cards on links.
+  pure subroutine keep_shafts(model)
+    type(model_t), intent(inout) :: model
+
+    type(shaft_card_t), allocatable :: shafts(:)
+    integer :: i, filled
+
+    allocate (shafts(count(model%shafts%keyword%line > 0)))
+    filled = 0
+    do i = 1, size(model%shafts)
+      if (model%shafts(i)%keyword%line == 0) cycle
+      filled = filled + 1
+      shafts(filled) = model%shafts(i)
+    end do
+    call move_alloc(shafts, model%shafts)
+  end subroutine keep_shafts
 
   pure function number_of(cards, keyword) result(number)
     type(card_t), intent(in) :: cards(:)
@@ -427,6 +452,12 @@ contains
         call read_motor(card, system, diagnostics, model%motor)
       case ("LOAD")
         call read_resistance(card, system, diagnostics, model%resistances(number))
+      case ("BALANCE")
+        if (is_shaft_form(card)) then
+          call read_shaft(card, system, diagnostics, model%shafts(number))
+        else
+          call read_balance(card, system, diagnostics, model%balance)
+        end if
       case ("CRANK")
         call read_crank(card, system, diagnostics, model%crank, by_length)
       case ("SPEED")

@@ -1,6 +1,7 @@
 !> The model: the contents of a deck in SI (crank angles in degrees), each part with the word of the
 !! deck it came from.
 module models
+  use balance_cards, only: balance_card_t, shaft_card_t
   use body_cards, only: mass_card_t, point_t
   use card_echo, only: echo_line_t
   use drive_cards, only: branch_t, drive_angle, drive_t, moves_along
@@ -28,7 +29,7 @@ module models
     needs_loads, needs_inertia, needs_frequencies, needs_response, report_in_motion, &
     steady_state_report, accuracy_of_study, needs_beams, &
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
-    link_line_density, speed_in_table, speed_in_words, is_four_bar, drives_length
+    link_line_density, speed_in_table, speed_in_words, is_four_bar, drives_length, balances
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
@@ -62,6 +63,8 @@ module models
     type(torque_card_t), allocatable :: torques(:)
     type(motor_t) :: motor
     type(resistance_t), allocatable :: resistances(:)
+    type(balance_card_t) :: balance             !! counterweights of REPORT balance
+    type(shaft_card_t), allocatable :: shafts(:) !! its balance shafts
     type(drive_t), allocatable :: drives(:)     !! the first one's positions are those of CRANK
     type(token_t) :: drive                      !! first word of the first DRIVE card: the driven
                                                 !! link, or the pin of the driven slider
@@ -217,6 +220,14 @@ contains
     drives = .false.
     if (size(model%drives) > 0) drives = moves_along(model%drives(1)%kind)
   end function drives_length
+
+  !> Whether the deck has BALANCE cards.
+  pure function balances(model) result(has)
+    type(model_t), intent(in) :: model !! as read
+    logical :: has
+
+    has = model%balance%keyword%line > 0 .or. size(model%shafts) > 0
+  end function balances
 
   !> Whether any report has a row for every crank angle; true without REPORT cards. A report that
   !! cannot be read does not count.

@@ -1,14 +1,12 @@
 !> `balance.dat` and `harmonics.dat`: shaking force, shaking moment and driving torque of a
 !! linkage, as given and with counterweights.
 module balance_report
-  use attached_parts, only: place_on_card
-  use balance_study, only: obstacle_link, obstacle_none, obstacle_pin, obstacle_ram
-  use constants, only: degree
+  use balance_study, only: has_balanced, obstacle_link, obstacle_none, obstacle_pin, obstacle_ram
+  use counterweight_notes, only: append_counterweight, append_partial_notes, balanced_by_cards
   use harmonics_study, only: has_settled, is_moment, quantity_count, quantity_names
   use kinds, only: wp
   use joint_study, only: joints_result_t
   use load_notes, only: acceleration_note
-  use numbers, only: shortest_text
   use position_rows, only: add_position_row
   use reactions_study, only: reaction_values, reactions_at_speed, reactions_result_t, &
     shaking_values, torque_value
@@ -42,6 +40,10 @@ contains
     call append_string(notes, "G: mass centre of the moving masses, without counterweights")
     call append_string(notes, "total mass: "// &
       to_string(from_si(variant%found%balance%mass, mass), 12)//" "//mass%name)
+    if (allocated(variant%found%balance%partial)) then
+      call append_partial_notes(variant, notes)
+      return
+    end if
     do i = 1, size(variant%found%balance%weights)
       call append_counterweight(variant, i, "card, with the link's length for a radius (the "// &
         "shaking force depends on mass x radius only, moment and torque on the radius too):", &
@@ -54,7 +56,9 @@ contains
     type(variant_results_t), intent(in) :: variant         !! with its balance computed
     type(string_t), allocatable, intent(inout) :: notes(:) !! to which a line is appended
 
-    if (variant%found%balance%obstacle%kind == obstacle_none) then
+    if (allocated(variant%found%balance%partial)) then
+      call append_string(notes, balanced_by_cards(variant))
+    else if (variant%found%balance%obstacle%kind == obstacle_none) then
       call append_string(notes, "balanced: with the counterweights of balance.dat, each as far "// &
         "from the pin about which it balances as its link is long")
     else
@@ -76,6 +80,10 @@ contains
       call append_string(notes, "G: mass centre of the moving masses, without counterweights")
       call append_string(notes, "total mass: "//to_string(from_si(balance%mass, mass), 12)//" "// &
         mass%name)
+      if (allocated(balance%partial)) then
+        call append_partial_notes(variant, notes)
+        return
+      end if
       do i = 1, size(balance%weights)
         call append_counterweight(variant, i, "card, with the link's length for a radius "// &
           "(links on which it hangs bear its mass: with another radius their counterweights "// &
@@ -115,44 +123,14 @@ contains
         "that of these and of all -I alpha, about "//mechanism%pin_names(1)%text// &
         "; torque: of the drive on link "//mechanism%names(1)%text//", with gravity and loads")
     end associate
-    call append_string(list, "balanced: with the counterweights of balance.dat, each as far "// &
-      "from its ground pivot as its link is long")
+    if (allocated(variant%found%balance%partial)) then
+      call append_string(list, balanced_by_cards(variant))
+    else
+      call append_string(list, "balanced: with the counterweights of balance.dat, each as far "// &
+        "from its ground pivot as its link is long")
+    end if
     call append_string(list, acceleration_note(variant%model))
   end function quantity_notes
-
-  !> Mass × radius and angle of a counterweight, and the MASS card for it.
-  pure subroutine append_counterweight(variant, number, heading, list)
-    type(variant_results_t), intent(in) :: variant
-    integer, intent(in) :: number           !! of the counterweight
-    character(len=*), intent(in) :: heading !! of the card
-    type(string_t), allocatable, intent(inout) :: list(:)
-
-    type(unit_t) :: mass, first_moment
-    real(wp) :: place(2)
-
-    mass = table_unit("mass", variant%model%outputs)
-    first_moment = table_unit("first_moment", variant%model%outputs)
-    associate (weight => variant%found%balance%weights(number), &
-        lump => variant%found%balance%lumps(number), mechanism => variant%mechanism)
-      associate (name => mechanism%names(weight%body)%text)
-        if (.not. weight%needed) then
-          call append_string(list, "link "//name//" needs no counterweight")
-          return
-        end if
-        call append_string(list, "counterweight of link "//name//": mass x radius "// &
-          shortest_text(from_si(norm2(weight%first_moment), first_moment))//" "// &
-          first_moment%name//", at "//shortest_text(atan2(weight%first_moment(2), &
-          weight%first_moment(1))/degree)//" deg from "//mechanism%pin_names(weight%pin)%text// &
-          " -> "//mechanism%pin_names(weight%towards)%text)
-        ! `place_on_card` is its own inverse: here it goes from the body to the card.
-        place = from_si(place_on_card(variant%mechanism%linkage%bodies(weight%body), lump%place), &
-          table_unit("length", variant%model%outputs)) + 0.0_wp
-        call append_string(list, heading)
-        call append_string(list, "MASS "//name//" at="//shortest_text(place(1))//" offset="// &
-          shortest_text(place(2))//" "//shortest_text(from_si(lump%mass, mass))//mass%name)
-      end associate
-    end associate
-  end subroutine append_counterweight
 
   !> Appends the row of a position and speed.
   subroutine add_balance(variant, layout, position, speed, rows)
@@ -164,6 +142,11 @@ contains
 
     associate (balance => variant%found%balance, &
         state => variant%found%positions%state(position))
+      if (is_unbalanced(variant)) then
+        call add_failed_row(rows, [variant%model%shown_speed(speed), &
+          variant%found%positions%crank(position)], balance%partial%error%text)
+        return
+      end if
       call add_position_row(variant, layout, position, speed, [balance%centre(:, state), &
         row_quantities(variant%found%reactions), row_quantities(balance%balanced)], rows)
     end associate
@@ -199,7 +182,12 @@ contains
 
     state = variant%found%positions%state(position)
     associate (balance => variant%found%balance)
-      count = merge(10, 6, size(balance%weights) > 0)
+      if (is_unbalanced(variant)) then
+        call add_failed_row(rows, [variant%model%shown_speed(speed), &
+          variant%found%positions%crank(position)], balance%partial%error%text)
+        return
+      end if
+      count = merge(10, 6, has_balanced(balance))
       values(:2) = balance%centre(:, state)
       values(3:6) = row_quantities(variant%found%joints)
       if (count > 6) values(7:) = row_quantities(balance%balanced_joints)
@@ -223,6 +211,15 @@ contains
     end function row_quantities
 
   end subroutine add_hung_balance
+
+  !> Whether BALANCE cards could not be followed.
+  pure function is_unbalanced(variant) result(is)
+    type(variant_results_t), intent(in) :: variant !! with its balance computed
+    logical :: is
+
+    is = allocated(variant%found%balance%partial)
+    if (is) is = allocated(variant%found%balance%partial%error)
+  end function is_unbalanced
 
   !> Meaning of the columns, and the number of samples with the change that halving it makes; or
   !! the reason why the table has no rows.
@@ -283,6 +280,8 @@ contains
 
     if (.not. variant%found%class%reach%closes) call add_failed_row(rows, nowhere, &
       variant%unreachable)
+    if (is_unbalanced(variant)) call add_failed_row(rows, nowhere, &
+      variant%found%balance%partial%error%text)
     if (.not. variant%found%harmonics%has_cycle) return
     do k = 1, size(variant%model%speed%value)
       if (k > 1) call add_gap(rows, 2)

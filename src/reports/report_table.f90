@@ -10,7 +10,8 @@ module report_table
   use attached_parts, only: own_lumps_of
   use balance_report, only: add_balance, add_harmonics, add_hung_balance, append_balanced_notes, &
     append_harmonics_notes, append_hung_notes, balance_notes, harmonics_notes, harmonics_words
-  use balance_study, only: find_balance, find_hung_balance
+  use balance_requests, only: balance_request_of
+  use balance_study, only: balance_request_t, find_balance, find_hung_balance, has_balanced
   use bearings_report, only: add_bearings, bearings_notes
   use campbell_report, only: add_campbell, add_critical, campbell_notes, campbell_words, &
     critical_notes
@@ -41,7 +42,7 @@ module report_table
   use links_report, only: add_links, add_pins, links_notes, pin_names, pins_notes, shown_crank
   use loci_report, only: add_loci, loci_notes, locus_words
   use mesh_report, only: add_mesh, mesh_notes
-  use models, only: drives_length, is_four_bar, model_t, report_number
+  use models, only: balances, drives_length, is_four_bar, model_t, report_number
   use motion_pins_report, only: add_motion_pins, motion_pins_notes
   use motion_report, only: add_motion, motion_notes, motion_words
   use peaks_report, only: add_peaks, peaks_notes
@@ -277,6 +278,7 @@ contains
     type(variant_results_t), intent(inout) :: variant !! that gets the result
 
     real(wp), allocatable :: speeds(:, :)
+    type(balance_request_t), allocatable :: request !! absent: to cancel the shaking force
     integer :: i
 
     associate (linkage => variant%mechanism%linkage, elements => variant%mechanism%load_elements, &
@@ -309,16 +311,23 @@ contains
         call find_lagrange_terms(linkage, elements, found%positions, threads, found%lagrange, &
           speeds)
       case ("balance")
+        if (balances(model)) allocate (request, source=balance_request_of(model, &
+          variant%mechanism))
         if (variant%mechanism%is_four_bar) then
-          call find_balance(linkage, elements, found%positions, threads, found%balance, &
+          call find_balance(linkage, elements, found%positions, threads, found%balance, request, &
             speeds)
         else
           call find_hung_balance(linkage, elements, found%positions, threads, found%balance, &
-            speeds)
+            request, speeds)
         end if
       case ("harmonics")
-        call find_harmonics(linkage, elements, model%speed%value, model%acceleration, threads, &
-          found%harmonics)
+        if (allocated(found%balance%partial)) then
+          call find_harmonics(linkage, elements, model%speed%value, model%acceleration, threads, &
+            found%harmonics, found%balance%partial%linkage)
+        else
+          call find_harmonics(linkage, elements, model%speed%value, model%acceleration, threads, &
+            found%harmonics)
+        end if
       case ("linkage")
         call find_linkage(linkage, found%linkage)
       case ("limits")
@@ -395,7 +404,7 @@ contains
       if (.not. variant%mechanism%is_four_bar) names = limits_names(variant)
       plan%items = 1
     case ("balance")
-      if (.not. variant%mechanism%is_four_bar) optional = size(variant%found%balance%weights) > 0
+      if (.not. variant%mechanism%is_four_bar) optional = has_balanced(variant%found%balance)
     case ("harmonics")
       names(:2) = harmonics_words()
       count = highest_harmonic

@@ -2,6 +2,7 @@
 module deck_runs
   use, intrinsic :: iso_fortran_env, only: compiler_version
   use cards, only: card_t
+  use counterweight_notes, only: balance_log
   use deck_outputs, only: discard_outputs, open_outputs, outputs_t, publish_outputs, write_texts, &
     write_variant
   use deck_readings, only: deck_t, read_variant
@@ -356,6 +357,7 @@ contains
       text = text//notes(i)%text//line_feed
     end do
     associate (found => variant%found)
+      if (allocated(found%balance%partial)) text = text//balance_log(variant)
       if (allocated(found%motion%samples)) text = text//motion_log(found%motion)
       if (allocated(found%linkage_motion%samples)) text = text//linkage_motion_log(variant)
       if (allocated(found%response%at_speed)) text = text//response_log(variant)

@@ -20,7 +20,7 @@ contains
 
   !> Appends every position, position and speed, or speed of a response or transient,
   !! without a result, and a motion that ended too soon; or the variant as a whole, if its linkage
-  !! closes at no crank angle.
+  !! closes at no crank angle, or its crank does not turn fully and BALANCE needs that.
   pure subroutine find_failures(variant, findings)
     type(variant_results_t), intent(in) :: variant !! computed
     type(findings_t), intent(inout) :: findings    !! to which they are appended
@@ -53,6 +53,10 @@ contains
           if (allocated(found%geometry%outcome(i)%error)) call note_failure(variant, at_position, &
             found%geometry%outcome(i)%error, found%geometry%crank(i), 0, 0.0_wp, findings)
         end do
+      end if
+      if (allocated(found%balance%partial)) then
+        if (allocated(found%balance%partial%error)) call note_failure(variant, of_variant, &
+          found%balance%partial%error, 0.0_wp, 0, 0.0_wp, findings)
       end if
       if (allocated(found%response%at_speed)) then
         do k = 1, size(found%response%at_speed)

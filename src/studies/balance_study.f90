@@ -1,78 +1,151 @@
-!> Force balancing of a linkage: its counterweights, its mass centre without them, and its forces
-!! with them at every position.
+!> Balancing of a linkage: its counterweights, its mass centre without them, and its forces with
+!! them at every position. Counterweights cancel the shaking force, unless other aims are requested.
 module balance_study
-  use balanced_linkages, only: balanced_linkage, counterweight_lump, counterweight_t
+  use balance_shafts, only: parts_of_shafts
+  use balanced_linkages, only: balanced_linkage, counterweight_lump, counterweight_make_t, &
+    counterweight_t, radius_of
   use counterweights, only: find_counterweights
   use hung_counterweights, only: find_hung_counterweights, obstacle_link, obstacle_loop, &
     obstacle_none, obstacle_pin, obstacle_ram, obstacle_t
   use joint_study, only: find_joints, joints_result_t
   use kinds, only: wp
   use linkages, only: linkage_t, lump_t
+  use partial_balance_study, only: balance_request_t, find_partial_balance, partial_balance_t
   use positions, only: positions_t
-  use reactions_study, only: find_reactions, reactions_result_t
+  use reactions_study, only: find_reactions, reactions_result_t, shaking_values, torque_value
   use rigid_bodies, only: linkage_mass_centre, rigid_bodies_of, rigid_body_t, total_mass
   implicit none (type, external)
   private
 
-  public :: balance_result_t, find_balance, find_hung_balance
+  public :: balance_result_t, balance_request_t, counterweight_make_t, find_balance, &
+    find_hung_balance, has_balanced
   public :: obstacle_t, obstacle_none, obstacle_loop, obstacle_ram, obstacle_link, obstacle_pin
 
   type :: balance_result_t
     type(counterweight_t), allocatable :: weights(:) !! of a four-bar, on crank and follower; none
                                               !! where there is an obstacle
-    type(lump_t), allocatable :: lumps(:)     !! the same as point masses, one link length from
-                                              !! their pins; zero where none is needed
+    type(lump_t), allocatable :: lumps(:)     !! the same as masses, a link length from their pins
+                                              !! unless requested otherwise; zero where none is
+                                              !! needed
     type(obstacle_t) :: obstacle              !! why there are none
     real(wp) :: mass = 0.0_wp                 !! of all moving parts, without counterweights [kg]
     real(wp), allocatable :: centre(:, :)     !! (2, states) mass centre, without counterweights
                                               !! [m]; zeros where there is no pose
     type(reactions_result_t) :: balanced      !! reactions of a four-bar with counterweights
     type(joints_result_t) :: balanced_joints  !! of another linkage, if it has any
+    type(partial_balance_t), allocatable :: partial !! for the aims and shafts that are requested
   end type balance_result_t
 
 contains
 
   !> Counterweights, mass centre, and the reactions of the balanced four-bar, once for all speeds.
-  !! Berkof and Lowen 1969, see `counterweights`.
-  subroutine find_balance(linkage, elements, positions, threads, found, speeds)
+  !! Berkof and Lowen 1969, see `counterweights`; for other aims, see `partial_balance_study`.
+  subroutine find_balance(linkage, elements, positions, threads, found, request, speeds)
     type(linkage_t), intent(in) :: linkage       !! a four-bar, without counterweights
     integer, intent(in) :: elements(:)           !! (bodies) on whose nodes the masses are lumped;
                                                  !! 0: distributed
     type(positions_t), intent(in) :: positions   !! of the run
     integer, intent(in) :: threads               !! number of OpenMP threads
     type(balance_result_t), intent(out) :: found !! for all positions and speeds
+    type(balance_request_t), intent(in), optional :: request !! other aims, balance shafts
     real(wp), intent(in), optional :: speeds(:, :) !! (speeds, states) of the first drive, for loads
                                                    !! that depend on it [rad/s] or [m/s]; absent:
                                                    !! without these
 
-    found%weights = find_counterweights(linkage, elements)
-    call find_lumps(linkage, found)
+    type(linkage_t) :: balanced
+
     call find_centres(linkage, elements, positions, threads, found)
-    call find_reactions(balanced_linkage(linkage, found%weights), elements, positions, threads, &
-      found%balanced, speeds)
+    if (present(request)) then
+      call take_partial(request, linkage, elements, threads, found)
+      balanced = found%partial%linkage
+    else
+      found%weights = find_counterweights(linkage, elements)
+      balanced = balanced_linkage(linkage, found%weights)
+    end if
+    call find_lumps(linkage, found)
+    call find_reactions(balanced, elements, positions, threads, found%balanced, speeds)
+    call add_shafts(balanced, positions, found)
   end subroutine find_balance
 
   !> The same of any other linkage, with counterweights where links hang on each other without a
   !! loop, see `hung_counterweights`.
-  subroutine find_hung_balance(linkage, elements, positions, threads, found, speeds)
+  subroutine find_hung_balance(linkage, elements, positions, threads, found, request, speeds)
     type(linkage_t), intent(in) :: linkage       !! of any kind, without counterweights
     integer, intent(in) :: elements(:)           !! (bodies) on whose nodes the masses are lumped;
                                                  !! 0: distributed
     type(positions_t), intent(in) :: positions   !! of the run
     integer, intent(in) :: threads               !! number of OpenMP threads
     type(balance_result_t), intent(out) :: found !! for all positions and speeds
+    type(balance_request_t), intent(in), optional :: request !! other aims, balance shafts
     real(wp), intent(in), optional :: speeds(:, :) !! (speeds, states) of the first drive, for loads
                                                    !! that depend on it [rad/s] or [m/s]; absent:
                                                    !! without these
 
-    call find_hung_counterweights(linkage, elements, found%weights, found%obstacle)
-    call find_lumps(linkage, found)
+    type(linkage_t) :: balanced
+
     call find_centres(linkage, elements, positions, threads, found)
-    if (size(found%weights) > 0) call find_joints(balanced_linkage(linkage, found%weights), &
-      elements, positions, threads, found%balanced_joints, speeds)
+    if (present(request)) then
+      call take_partial(request, linkage, elements, threads, found)
+      balanced = found%partial%linkage
+    else
+      call find_hung_counterweights(linkage, elements, found%weights, found%obstacle)
+      balanced = balanced_linkage(linkage, found%weights)
+    end if
+    call find_lumps(linkage, found)
+    if (.not. has_balanced(found)) return
+    call find_joints(balanced, elements, positions, threads, found%balanced_joints, speeds)
+    call add_shafts(balanced, positions, found)
   end subroutine find_hung_balance
 
-  !> The counterweights as point masses, as far from their pins as their links are long.
+  !> Whether there is a balanced linkage beside the given one.
+  pure function has_balanced(found) result(has)
+    type(balance_result_t), intent(in) :: found
+    logical :: has
+
+    has = allocated(found%partial) .or. size(found%weights) > 0
+  end function has_balanced
+
+  !> Counterweights and balance shafts for requested aims.
+  subroutine take_partial(request, linkage, elements, threads, found)
+    type(balance_request_t), intent(in) :: request
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: elements(:), threads
+    type(balance_result_t), intent(inout) :: found
+
+    allocate (found%partial)
+    call find_partial_balance(request, linkage, elements, threads, found%partial)
+    found%weights = found%partial%weights
+  end subroutine take_partial
+
+  !> Adds what the balance shafts exert to the shaking force and moment and the torque of the
+  !! balanced linkage.
+  subroutine add_shafts(balanced, positions, found)
+    type(linkage_t), intent(in) :: balanced
+    type(positions_t), intent(in) :: positions
+    type(balance_result_t), intent(inout) :: found
+
+    real(wp), allocatable :: part(:, :)
+    integer :: i
+
+    if (.not. allocated(balanced%shafts)) return
+    do i = 1, size(positions%states)
+      if (allocated(positions%states(i)%error)) cycle
+      part = parts_of_shafts(balanced, positions%states(i)%crank)
+      if (allocated(found%balanced%unit)) then
+        associate (unit => found%balanced%unit(:, :, i))
+          unit(shaking_values, :) = unit(shaking_values, :) + part(:3, :)
+          unit(torque_value, :) = unit(torque_value, :) + part(4, :)
+        end associate
+      else
+        associate (joints => found%balanced_joints)
+          joints%shaking(:, :, i) = joints%shaking(:, :, i) + part(:3, :)
+          joints%drive(1, :, i) = joints%drive(1, :, i) + part(4, :)
+        end associate
+      end if
+    end do
+  end subroutine add_shafts
+
+  !> The counterweights as point masses.
   pure subroutine find_lumps(linkage, found)
     type(linkage_t), intent(in) :: linkage
     type(balance_result_t), intent(inout) :: found !! with its counterweights
@@ -83,7 +156,8 @@ contains
     do i = 1, size(found%weights)
       if (.not. found%weights(i)%needed) cycle
       associate (body => linkage%bodies(found%weights(i)%body))
-        found%lumps(i) = counterweight_lump(found%weights(i), body, body%length)
+        found%lumps(i) = counterweight_lump(found%weights(i), body, radius_of(found%weights(i), &
+          body))
       end associate
     end do
   end subroutine find_lumps

@@ -17,7 +17,7 @@ module harmonics_study
   private
 
   public :: harmonics_result_t, harmonic_t, find_harmonics, quantity_count, quantity_names, &
-    highest_harmonic, is_moment, has_settled
+    highest_harmonic, is_moment, has_cycle, has_settled
 
   !> A quantity over a turn: mean + Σ amplitude cos(k θ2 + phase), all in [N] or [N m] but phases.
   type :: harmonic_t
@@ -50,7 +50,7 @@ contains
 
   !> Harmonics at every speed. An interrupted run returns incomplete results: too few samples, or
   !! largest values of 0.
-  subroutine find_harmonics(linkage, elements, speed, acceleration, threads, found)
+  subroutine find_harmonics(linkage, elements, speed, acceleration, threads, found, balanced)
     type(linkage_t), intent(in) :: linkage !! of any kind, without counterweights
     integer, intent(in) :: elements(:)     !! (bodies) on whose nodes the masses are lumped; 0:
                                            !! distributed
@@ -58,19 +58,23 @@ contains
     real(wp), intent(in) :: acceleration   !! α2, constant over the turn [rad/s²]
     integer, intent(in) :: threads         !! number of OpenMP threads
     type(harmonics_result_t), intent(out) :: found !! empty if the crank does not turn fully
+    type(linkage_t), intent(in), optional :: balanced !! absent: with counterweights that cancel the
+                                                   !! shaking force
 
     type(linkage_t), allocatable :: linkages(:)
     type(cycle_t), allocatable :: turns(:)
     real(wp), allocatable :: largest(:, :, :) !! (quantities, linkages, speeds)
     integer :: solutions, i, k, q
 
-    if (is_four_bar(linkage)) then
-      found%has_cycle = turns_freely(linkage)
-    else
-      found%has_cycle = turns_fully(linkage)
-    end if
+    found%has_cycle = has_cycle(linkage)
     if (.not. found%has_cycle) return
-    call balance_linkage(linkage, elements, linkages)
+    if (present(balanced)) then
+      allocate (linkages(2))
+      linkages(1) = linkage
+      linkages(2) = balanced
+    else
+      call balance_linkage(linkage, elements, linkages)
+    end if
     allocate (turns(size(linkages)))
     call find_settled_cycles(linkages, elements, speed, acceleration, threads, turns, found%change)
     found%samples = size(turns(1)%part, 3)
@@ -105,6 +109,18 @@ contains
     end do
     !$omp end parallel do
   end subroutine find_harmonics
+
+  !> Whether the crank turns fully, without a dead point.
+  pure function has_cycle(linkage) result(has)
+    type(linkage_t), intent(in) :: linkage !! of any kind
+    logical :: has
+
+    if (is_four_bar(linkage)) then
+      has = turns_freely(linkage)
+    else
+      has = turns_fully(linkage)
+    end if
+  end function has_cycle
 
   !> The linkage as given and, where there are counterweights in closed form, balanced.
   pure subroutine balance_linkage(linkage, elements, linkages)

@@ -238,8 +238,8 @@ contains
     integer, intent(in) :: state               !! number; with a pose
     real(wp), intent(in) :: speed              !! of the first drive [rad/s] or [m/s]
     real(wp), intent(in) :: acceleration       !! of the first drive [rad/s²] or [m/s²]
-    integer, intent(in), optional :: number              !! of the speed, for loads that depend on it; absent:
-                                               !! without these
+    integer, intent(in), optional :: number !! of the speed, for loads that depend on it; absent:
+                                            !! without these
     real(wp) :: forces(3, size(found%joints))  !! fx, fy, moment [N, N m]
 
     real(wp) :: factor(case_count)
@@ -356,8 +356,8 @@ contains
     real(wp), intent(in) :: crank              !! coordinate of the first drive [deg] or [m]
     real(wp), intent(in) :: speed              !! of the first drive [rad/s] or [m/s]
     real(wp), intent(in) :: acceleration       !! of the first drive [rad/s²] or [m/s²]
-    integer, intent(in), optional :: number              !! of the speed, for loads that depend on it; absent:
-                                               !! without these
+    integer, intent(in), optional :: number !! of the speed, for loads that depend on it; absent:
+                                            !! without these
     real(wp) :: drives(3, size(linkage%drives)) !! [deg, rad/s, N m] or [m, m/s, N]
 
     integer :: d

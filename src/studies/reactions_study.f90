@@ -102,8 +102,8 @@ contains
     integer, intent(in) :: state                  !! number; with a pose
     real(wp), intent(in) :: speed                 !! ω2 [rad/s]
     real(wp), intent(in) :: acceleration          !! α2 [rad/s²]
-    integer, intent(in), optional :: number                 !! of the speed, for loads that depend on it;
-                                                  !! absent: without these
+    integer, intent(in), optional :: number !! of the speed, for loads that depend on it; absent:
+                                            !! without these
     real(wp) :: values(reaction_values)
 
     real(wp) :: factor(case_count)

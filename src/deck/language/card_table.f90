@@ -116,6 +116,13 @@ module card_table
       help="what turns the driven link in REPORT motion"), &
     card_kind_t("LOAD", least=1, most=1, pattern="LOAD link [torque=] [damping=]", &
       help="the resistance at a link in REPORT motion"), &
+    card_kind_t("BALANCE", is_single=.true., most=many, &
+      pattern="BALANCE [link ...] minimise=force,moment,torque [weights=] [radius=] "// &
+      "[density= thickness= | inertia=]", choices="force moment torque", help= &
+      "counterweights of REPORT balance that minimise what shakes and drives the linkage"), &
+    card_kind_t("BALANCE", "shaft", least=1, most=1, &
+      pattern="BALANCE shaft order= [at=x,y] [radius=] [density= thickness= | inertia=]", &
+      help="shafts that cancel a harmonic of the shaking force, with and against the crank"), &
     card_kind_t("CRANK", is_single=.true., is_list=.true., least=1, most=many, &
       pattern="CRANK a to b step s, or a list of angles", help="the positions"), &
     card_kind_t("SPEED", is_single=.true., is_list=.true., least=1, most=many, &

@@ -1,5 +1,6 @@
 !> A full turn of the crank: shaking force, shaking moment and drive torque as periodic quantities.
 module crank_cycle
+  use balance_shafts, only: parts_of_shafts
   use errors, only: error_t
   use four_bar_limits, only: crank_reach, reach_t
   use kinds, only: wp
@@ -51,8 +52,8 @@ contains
     end do
   end function turns_freely
 
-  !> Shaking force, shaking moment and torque at a crank angle, for each of the three load cases;
-  !! zero where the links cannot be moved.
+  !> Shaking force, shaking moment and torque at a crank angle, with those of balance shafts, for
+  !! each of the three load cases; zero where the links cannot be moved.
   pure function parts_at(linkage, elements, crank) result(part)
     type(linkage_t), intent(in) :: linkage !! whose crank turns freely
     integer, intent(in) :: elements(:)     !! (bodies) elements whose nodes carry the mass;
@@ -75,6 +76,7 @@ contains
       part(:, i) = [unit%of_case(i)%shaking_force, unit%of_case(i)%shaking_moment, &
         unit%of_case(i)%joints%torque]
     end do
+    if (allocated(linkage%shafts)) part = part + parts_of_shafts(linkage, crank)
   end function parts_at
 
   !> All quantities over a turn, at a speed and an acceleration of the crank that are constant over

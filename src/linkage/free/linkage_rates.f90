@@ -91,8 +91,8 @@ contains
     type(kinematic_coefficients_t), allocatable, intent(out) :: per(:) !! (coordinates)
     type(kinematic_coefficients_t), intent(out) :: now                 !! per second
     logical, intent(out) :: found       !! the coordinates reach so far
-    type(error_t), allocatable, intent(out), optional :: left !! else the block that leaves its link, or
-                                                              !! the table that ends
+    type(error_t), allocatable, intent(out), optional :: left !! else the block that leaves its
+                                                              !! link, or the table that ends
 
     type(dense_factor_t) :: factor
     type(error_t), allocatable :: error

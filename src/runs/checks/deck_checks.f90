@@ -1,5 +1,6 @@
 !> Checks of a model that need mechanics; their messages point at the deck.
 module deck_checks
+  use balance_turn_checks, only: check_balance_turn
   use beam_mesh, only: moving_unknowns
   use crank_cycle, only: turns_freely
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
@@ -56,6 +57,7 @@ contains
     mechanism = mechanism_of(model, assembly)
     if (.not. mechanism%is_four_bar) then
       call check_linkage(model, assembly, mechanism, diagnostics)
+      if (.not. allocated(assembly%error)) call check_balance_turn(model, mechanism, diagnostics)
       return
     end if
     associate (ground => mechanism%linkage%ground_position(:, [1, 4]))
@@ -80,6 +82,7 @@ contains
     call check_reach(model, reach, diagnostics)
     call check_geometry(model, reach, diagnostics)
     call check_turn(model, mechanism, reach, diagnostics)
+    call check_balance_turn(model, mechanism, diagnostics)
     call check_motion(model, mechanism, reach, reachable_text(reach), diagnostics)
     if (.not. needs_frequencies(model) .or. .not. has_mesh(mechanism) .or. &
       .not. has_beams(mechanism)) return
