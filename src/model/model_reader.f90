@@ -33,6 +33,7 @@ module model_reader
   use sections, only: read_section
   use shear, only: check_shear
   use spelling, only: suggestion
+  use table_cards, only: check_tables
   use text, only: joined, same_word, string_t, upper_case
   use tokens, only: token_t
   use unit_cards, only: read_units
@@ -81,6 +82,7 @@ contains
     call refuse_second_cards(cards, diagnostics)
     call read_system(cards, diagnostics, model%units, model%outputs, chooses_rate)
     call read_model_cards(cards, reports, diagnostics, model)
+    call check_tables(cards, diagnostics)
     call choose_reports(reports, diagnostics, model)
     if (.not. chooses_rate) call take_rate_of_deck(model)
     call choose_speed_unit(model)

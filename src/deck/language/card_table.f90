@@ -39,6 +39,8 @@ module card_table
     card_kind_t("INCLUDE", least=1, most=1, pattern="INCLUDE file", &
       help="the cards of another file"), &
     card_kind_t("SET", least=2, most=2, pattern="SET name value", help="a value for $name"), &
+    card_kind_t("TABLE", least=2, most=many, pattern="TABLE name unit unit ... number number ...", &
+      help="columns of numbers by name: their units, then row by row; or a file, table=name"), &
     card_kind_t("VARY", is_list=.true., least=2, most=many, &
       pattern="VARY name a to b step s, or VARY name and a list of values", &
       help="values for $name, one after the other: the variants of the deck"), &
