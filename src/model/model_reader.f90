@@ -39,7 +39,7 @@ module model_reader
   use unit_cards, only: read_units
   use unit_checks, only: check_bare_units
   use units, only: coherent_unit, dimension_velocity, from_si, si_units, unit_system_t, unit_t
-  use value_lists, only: value_list_t
+  use value_lists, only: empty_list, value_list_t
   implicit none (type, external)
   private
 
@@ -76,7 +76,7 @@ contains
     model%speed%value = [0.0_wp]
     model%speed%word = [0]
     allocate (model%speed%words(0))
-
+    model%time = empty_list()
     model%effects = 0
     call check_keywords(cards, diagnostics)
     call refuse_second_cards(cards, diagnostics)

@@ -28,7 +28,7 @@ module models
     needs_loads, needs_inertia, needs_frequencies, needs_response, report_in_motion, &
     steady_state_report, accuracy_of_study, needs_beams, &
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
-    link_line_density, speed_in_table, speed_in_words, is_four_bar, drives_length
+    link_line_density, speed_in_table, speed_in_words, is_four_bar, drives_length, has_law
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
@@ -79,6 +79,10 @@ module models
                                                 !! likewise
     real(wp) :: acceleration = 0.0_wp           !! α2, at every speed [rad/s²], of a slider or a ram
                                                 !! [m/s²]
+    type(value_list_t) :: time                  !! instants of a law [s], each with its position in
+                                                !! `crank`; else empty
+    real(wp), allocatable :: law_rates(:, :)    !! (2, instants) speed and acceleration [as `speed`,
+                                                !! `acceleration`]; not allocated without a law
     real(wp) :: ramp = 0.0_wp                   !! time in which REPORT transient gets to the speed
                                                 !! from rest; 0: it has it [s]
     type(token_t) :: ramp_word
@@ -218,6 +222,14 @@ contains
     if (size(model%drives) > 0) drives = moves_along(model%drives(1)%kind)
   end function drives_length
 
+  !> Whether the first drive moves by a law.
+  pure function has_law(model) result(has)
+    type(model_t), intent(in) :: model !! as read
+    logical :: has
+
+    has = allocated(model%law_rates)
+  end function has_law
+
   !> Whether any report has a row for every crank angle; true without REPORT cards. A report that
   !! cannot be read does not count.
   pure function needs_positions(model) result(needs)
@@ -227,12 +239,13 @@ contains
     needs = size(model%reports) == 0 .or. any(model%reports%kind%positions)
   end function needs_positions
 
-  !> Whether any speed or the acceleration is not zero.
+  !> Whether the linkage moves by a law, or any speed or the acceleration is not zero.
   pure function is_moving(model) result(is)
     type(model_t), intent(in) :: model !! as read
     logical :: is
 
-    is = any(abs(model%speed%value) > 0.0_wp) .or. abs(model%acceleration) > 0.0_wp
+    is = has_law(model) .or. any(abs(model%speed%value) > 0.0_wp) .or. &
+      abs(model%acceleration) > 0.0_wp
   end function is_moving
 
   !> Whether there are external loads: gravity, forces on pins or torques on links.

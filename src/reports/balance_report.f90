@@ -4,6 +4,7 @@ module balance_report
   use attached_parts, only: place_on_card
   use balance_study, only: obstacle_link, obstacle_none, obstacle_pin, obstacle_ram
   use constants, only: degree
+  use drive_motions, only: drive_rates
   use harmonics_study, only: is_moment, quantity_count, quantity_names
   use kinds, only: wp
   use joint_study, only: joints_result_t
@@ -179,10 +180,11 @@ contains
       type(reactions_result_t), intent(in) :: reactions
       real(wp) :: values(4)
 
-      real(wp) :: every(reaction_values)
+      real(wp) :: every(reaction_values), rates(2)
 
-      every = reactions_at_speed(reactions, variant%found%positions%state(position), &
-        variant%model%speed%value(speed), variant%model%acceleration)
+      rates = drive_rates(variant%model, speed, position)
+      every = reactions_at_speed(reactions, variant%found%positions%state(position), rates(1), &
+        rates(2))
       values = [every(shaking_values), every(torque_value)]
     end function row_quantities
 
@@ -217,9 +219,10 @@ contains
       type(joints_result_t), intent(in) :: joints
       real(wp) :: quantities(4)
 
-      real(wp) :: factor(3)
+      real(wp) :: factor(3), rates(2)
 
-      factor = [variant%model%speed%value(speed)**2, variant%model%acceleration, 1.0_wp]
+      rates = drive_rates(variant%model, speed, position)
+      factor = [rates(1)**2, rates(2), 1.0_wp]
       quantities = [factor(1)*joints%shaking(:, 1, state) + factor(2)*joints%shaking(:, 2, &
         state), dot_product(factor, joints%drive(1, :, state))]
     end function row_quantities

@@ -13,6 +13,7 @@ module report_table
   use balance_study, only: find_balance, find_hung_balance
   use campbell_report, only: add_campbell, add_critical, campbell_notes, campbell_words, &
     critical_notes
+  use drive_motions, only: place_columns, table_place
   use drive_report, only: add_drive, drive_notes
   use frequency_report, only: add_frequencies, add_shapes, drawn_rows, frequency_notes, shape_notes
   use geometry_report, only: add_geometry, geometry_notes, geometry_words
@@ -39,7 +40,7 @@ module report_table
   use links_report, only: add_links, add_pins, links_notes, pin_names, pins_notes, shown_crank
   use loci_report, only: add_loci, loci_notes, locus_words
   use mesh_report, only: add_mesh, mesh_notes
-  use models, only: drives_length, is_four_bar, model_t, report_number
+  use models, only: drives_length, has_law, is_four_bar, model_t, report_number
   use motion_pins_report, only: add_motion_pins, motion_pins_notes
   use motion_report, only: add_motion, motion_notes, motion_words
   use peaks_report, only: add_peaks, peaks_notes
@@ -52,10 +53,11 @@ module report_table
   use response_report, only: add_response, response_notes_of, response_point_names
   use stability_report, only: add_stability, stability_notes, stability_words
   use strains_report, only: add_strains, gauge_names, strains_notes
-  use table_columns, only: name_list_t, new_table_layout, table_layout_t
+  use table_columns, only: name_list_t, new_table_layout, table_factor, table_layout_t
   use table_rows, only: add_failed_row, add_gap, rows_t
   use text, only: string_t
   use transient_report, only: add_transient, gauge_history_notes, transient_notes
+  use units, only: from_si
   use validity_report, only: add_validity, validity_notes
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -616,6 +618,8 @@ contains
     integer, intent(in) :: position, speed !! numbers
     type(rows_t), intent(inout) :: rows
 
+    real(wp) :: place(place_columns(variant%model))
+
     associate (positions => variant%found%positions)
       associate (state => positions%states(positions%state(position)), &
           crank => positions%crank(position))
@@ -626,9 +630,11 @@ contains
         else if (allocated(state%error) .and. table == "mesh") then
           call add_failed_row(rows, [crank], state%error%text)
         else if (allocated(state%error)) then
-          call add_failed_row(rows, [variant%model%shown_speed(speed), shown_crank(variant, &
-            crank)], &
-            state%error%text)
+          place = table_place(variant%model, speed, position)
+          place(size(place)) = shown_crank(variant, crank)
+          if (has_law(variant%model)) place(1) = from_si(place(1), table_factor("time", &
+            variant%model%outputs))
+          call add_failed_row(rows, place, state%error%text)
         else if (.not. variant%mechanism%is_four_bar .and. any(table == general_tables)) then
           call add_general(table, variant, layout, position, speed, rows)
         else
