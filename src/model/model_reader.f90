@@ -12,14 +12,16 @@ module model_reader
   use joint_cards, only: read_guide, read_pin, read_slider, read_weld
   use joint_checks, only: check_joints
   use kinds, only: wp
+  use law_cards, only: read_law, read_time
+  use law_checks, only: find_law, refuse_reports_of_law
   use link_cards, only: read_link
   use link_checks, only: check_links
   use linkage_cards, only: read_ground, read_mesh, read_pin_mass, set_default_mesh
   use load_cards, only: read_force, read_gravity, read_torque
   use materials, only: read_material
   use mesh_checks, only: check_meshes
-  use models, only: drives_length, is_four_bar, is_loaded, is_moving, model_t, needs_mesh, &
-    report_number
+  use models, only: drives_length, has_law, is_four_bar, is_loaded, is_moving, model_t, &
+    needs_mesh, report_number
   use motor_cards, only: read_motor, read_resistance
   use name_checks, only: check_names
   use output_units, only: new_output_units, output_units_t, table_name
@@ -83,7 +85,9 @@ contains
     call read_system(cards, diagnostics, model%units, model%outputs, chooses_rate)
     call read_model_cards(cards, reports, diagnostics, model)
     call check_tables(cards, diagnostics)
+    call find_law(cards, diagnostics, model)
     call choose_reports(reports, diagnostics, model)
+    if (has_law(model)) call refuse_reports_of_law(diagnostics, model)
     if (.not. chooses_rate) call take_rate_of_deck(model)
     call choose_speed_unit(model)
     call show_speeds(model)
@@ -128,6 +132,11 @@ contains
           report%kind = reports(number)
           if (report%kind%name == "motion" .and. .not. report%with_pins) report%kind%tables(2) = &
             table_kind_t()
+          ! Harmonics are of a whole turn at constant speed.
+          if (report%kind%name == "balance" .and. has_law(model)) then
+            report%kind%tables(2) = table_kind_t()
+            report%kind%studies = report%kind%studies(:index(report%kind%studies, "harmonics") - 1)
+          end if
         else
           call add_error(diagnostics, report%keyword, "REPORT "//trim(report%kind%name)// &
             " is made for four-bars only, so far: three links with two pins each, two ground "// &
@@ -319,7 +328,8 @@ contains
       model%dampings(number_of(cards, "DAMPING")), model%gauges(number_of(cards, "GAUGE")))
     allocate (model%drawn_pins(number_of(cards, "PIN")), model%welds(number_of(cards, "WELD")), &
       model%guides(number_of(cards, "GUIDE")), model%sliders(number_of(cards, "SLIDER")), &
-      model%drives(number_of(cards, "DRIVE")), model%branches(number_of(cards, "BRANCH")))
+      model%drives(number_of(cards, "DRIVE")), model%laws(number_of(cards, "LAW")), &
+      model%branches(number_of(cards, "BRANCH")))
     ! What the first drive moves says what CRANK and SPEED are.
     do first_drive = 1, size(cards)
       if (same_word(cards(first_drive)%keyword%text, "DRIVE")) exit
@@ -434,6 +444,10 @@ contains
       case ("SPEED")
         call read_speed(card, system, diagnostics, model%speed, model%acceleration, &
           model%ramp, model%ramp_word, by_length)
+      case ("LAW")
+        call read_law(card, system, diagnostics, model%laws(number), by_length)
+      case ("TIME")
+        call read_time(card, system, diagnostics, model%time)
       case ("INERTIA")
         call read_option(card, diagnostics, model%inertia, model%inertia_word)
       case ("EFFECTS")

@@ -7,6 +7,7 @@ module models
   use effect_cards, only: effects_axial, effects_static
   use joint_cards, only: drawn_pin_t, guide_t, slider_t, weld_t
   use kinds, only: wp
+  use law_cards, only: law_card_t
   use link_cards, only: has_own_mass, link_t
   use linkage_cards, only: ground_t, mesh_t, pin_mass_t
   use load_cards, only: force_card_t, torque_card_t
@@ -62,6 +63,7 @@ module models
     type(torque_card_t), allocatable :: torques(:)
     type(motor_t) :: motor
     type(resistance_t), allocatable :: resistances(:)
+    type(law_card_t), allocatable :: laws(:)    !! LAW cards
     type(drive_t), allocatable :: drives(:)     !! the first one's positions are those of CRANK
     type(token_t) :: drive                      !! first word of the first DRIVE card: the driven
                                                 !! link, or the pin of the driven slider

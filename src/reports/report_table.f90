@@ -683,23 +683,33 @@ contains
     end select
   end subroutine add_general
 
-  !> A table in the units of the first drive: positions of a slider or a ram are lengths.
+  !> A table in the units of the first drive: positions of a slider or a ram are lengths. Of a
+  !! drive with a law it has the time in its first column.
   pure function table_in_units(table, model) result(fitted)
     type(table_kind_t), intent(in) :: table !! of a report that the model asks for
     type(model_t), intent(in) :: model      !! with its drives
     type(table_kind_t) :: fitted
 
-    integer :: at
-
     fitted = table
     if (table%name == "drive" .and. .not. is_four_bar(model)) fitted%columns = drive_columns(model)
     if (table%name == "motion" .and. .not. is_four_bar(model)) fitted%columns = &
       linkage_motion_columns(model)
-    if (.not. drives_length(model)) return
+    if (drives_length(model)) call use_lengths(model, fitted)
+    if (has_law(model) .and. index(fitted%columns, "speed:") == 1 .and. index(fitted%columns, &
+      " crank:") > 0) fitted%columns = "time:time "//fitted%columns
+  end function table_in_units
+
+  !> Makes the columns of a table those of a slider or a ram.
+  pure subroutine use_lengths(model, fitted)
+    type(model_t), intent(in) :: model
+    type(table_kind_t), intent(inout) :: fitted
+
+    integer :: at
+
     ! What turns a crank is a force on a slider, and its inertia a mass.
-    if (table%name == "lagrange") fitted%columns = "speed:speed crank:deg M:mass "// &
+    if (fitted%name == "lagrange") fitted%columns = "speed:speed crank:deg M:mass "// &
       "dM:mass_per_length V,gravity,load,torque:force kinetic,potential:energy"
-    if (table%name == "balance") fitted%columns = "speed:speed crank:deg xG,yG:length "// &
+    if (fitted%name == "balance") fitted%columns = "speed:speed crank:deg xG,yG:length "// &
       "shaking_x,shaking_y:force shaking_moment:moment torque:force "// &
       "balanced_x?,balanced_y?:force balanced_moment?:moment balanced_torque?:force"
     at = index(fitted%columns, "crank:deg")
@@ -708,6 +718,6 @@ contains
     at = index(fitted%columns, "speed:speed")
     if (at > 0) fitted%columns = fitted%columns(:at - 1)//"speed:"//model%speed_unit%name// &
       trim(fitted%columns(at + 11:))
-  end function table_in_units
+  end subroutine use_lengths
 
 end module report_table

@@ -1,4 +1,4 @@
-!> Motion laws: the rise from 0 to 1 in unit time, and motions made of such rises with dwells between.
+!> Motion laws: the rise from 0 to 1 in unit time, and motions of such rises with dwells between.
 !!
 !! Norton, *Cam Design and Manufacturing Handbook*, 2nd ed. 2009, chapters 3 and 4; Rothbart, *Cam
 !! Design Handbook*, 2004, chapters 2 and 3. All of these laws are antimetric, s(1 − x) = 1 − s(x):
