@@ -50,15 +50,19 @@ contains
 
   !> The different angles of a list, without poses. Whole turns make no difference, or whole periods
   !! where the linkage repeats its positions later.
-  pure subroutine list_positions(crank, positions, period)
+  pure subroutine list_positions(crank, positions, period, instants)
     real(wp), intent(in) :: crank(:)            !! (positions) crank angles [deg]
     type(positions_t), intent(out) :: positions !! with states yet to be found
     real(wp), intent(in), optional :: period    !! of the linkage [deg]; 0: none; absent: a turn
+    logical, intent(in), optional :: instants   !! each is a state of its own, for the speed differs
+                                                !! from one to the other; absent: no
 
     real(wp) :: reduced(size(crank))
     integer :: order(size(crank)), i, states
     integer :: first(size(crank))
+    logical :: is_apart
 
+    is_apart = .false.
     positions%crank = crank
     if (present(period)) positions%period = period
     reduced = reduced_crank(positions%period, crank)
@@ -66,7 +70,9 @@ contains
     allocate (positions%state(size(crank)))
     ! Equal angles are adjacent in the sorted order, the first listed before the others.
     first = [(i, i=1, size(crank))]
+    if (present(instants)) is_apart = instants
     do i = 2, size(crank)
+      if (is_apart) exit
       if (reduced(order(i)) <= reduced(order(i - 1))) first(order(i)) = first(order(i - 1))
     end do
     states = 0

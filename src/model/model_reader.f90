@@ -14,14 +14,16 @@ module model_reader
   use joint_cards, only: read_guide, read_pin, read_slider, read_weld
   use joint_checks, only: check_joints
   use kinds, only: wp
+  use law_cards, only: read_law, read_time
+  use law_checks, only: find_law, refuse_reports_of_law
   use link_cards, only: read_link
   use link_checks, only: check_links
   use linkage_cards, only: read_ground, read_mesh, read_pin_mass, set_default_mesh
   use load_cards, only: read_force, read_gravity, read_torque
   use materials, only: read_material
   use mesh_checks, only: check_meshes
-  use models, only: drives_length, is_four_bar, is_loaded, is_moving, model_t, needs_mesh, &
-    report_number
+  use models, only: drives_length, has_law, is_four_bar, is_loaded, is_moving, model_t, &
+    needs_mesh, report_number
   use motor_cards, only: read_motor, read_resistance
   use name_checks, only: check_names
   use output_units, only: new_output_units, output_units_t, table_name
@@ -35,12 +37,13 @@ module model_reader
   use sections, only: read_section
   use shear, only: check_shear
   use spelling, only: suggestion
+  use table_cards, only: check_tables
   use text, only: joined, same_word, string_t, upper_case
   use tokens, only: token_t
   use unit_cards, only: read_units
   use unit_checks, only: check_bare_units
   use units, only: coherent_unit, dimension_velocity, from_si, si_units, unit_system_t, unit_t
-  use value_lists, only: value_list_t
+  use value_lists, only: empty_list, value_list_t
   implicit none (type, external)
   private
 
@@ -78,13 +81,16 @@ contains
     model%speed%value = [0.0_wp]
     model%speed%word = [0]
     allocate (model%speed%words(0))
-
+    model%time = empty_list()
     model%effects = 0
     call check_keywords(cards, diagnostics)
     call refuse_second_cards(cards, diagnostics)
     call read_system(cards, diagnostics, model%units, model%outputs, chooses_rate)
     call read_model_cards(cards, reports, diagnostics, model)
+    call check_tables(cards, diagnostics)
+    call find_law(cards, diagnostics, model)
     call choose_reports(reports, diagnostics, model)
+    if (has_law(model)) call refuse_reports_of_law(diagnostics, model)
     if (.not. chooses_rate) call take_rate_of_deck(model)
     call choose_speed_unit(model)
     call show_speeds(model)
@@ -130,6 +136,11 @@ contains
           report%kind = reports(number)
           if (report%kind%name == "motion" .and. .not. report%with_pins) report%kind%tables(2) = &
             table_kind_t()
+          ! Harmonics are of a whole turn at constant speed.
+          if (report%kind%name == "balance" .and. has_law(model)) then
+            report%kind%tables(2) = table_kind_t()
+            report%kind%studies = report%kind%studies(:index(report%kind%studies, "harmonics") - 1)
+          end if
         else
           call add_error(diagnostics, report%keyword, "REPORT "//trim(report%kind%name)// &
             " is made for four-bars only, so far: three links with two pins each, two ground "// &
@@ -322,8 +333,8 @@ contains
       model%dampings(number_of(cards, "DAMPING")), model%gauges(number_of(cards, "GAUGE")))
     allocate (model%drawn_pins(number_of(cards, "PIN")), model%welds(number_of(cards, "WELD")), &
       model%guides(number_of(cards, "GUIDE")), model%sliders(number_of(cards, "SLIDER")), &
-      model%drives(number_of(cards, "DRIVE")), model%branches(number_of(cards, "BRANCH")), &
-      model%shafts(number_of(cards, "BALANCE")))
+      model%drives(number_of(cards, "DRIVE")), model%laws(number_of(cards, "LAW")), &
+      model%branches(number_of(cards, "BRANCH")), model%shafts(number_of(cards, "BALANCE")))
     model%shafts%keyword = token_t("", 0, 0)
     ! What the first drive moves says what CRANK and SPEED are.
     do first_drive = 1, size(cards)
@@ -463,6 +474,10 @@ contains
       case ("SPEED")
         call read_speed(card, system, diagnostics, model%speed, model%acceleration, &
           model%ramp, model%ramp_word, by_length)
+      case ("LAW")
+        call read_law(card, system, diagnostics, model%laws(number), by_length)
+      case ("TIME")
+        call read_time(card, system, diagnostics, model%time)
       case ("INERTIA")
         call read_option(card, diagnostics, model%inertia, model%inertia_word)
       case ("EFFECTS")

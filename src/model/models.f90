@@ -8,6 +8,7 @@ module models
   use effect_cards, only: effects_axial, effects_static
   use joint_cards, only: drawn_pin_t, guide_t, slider_t, weld_t
   use kinds, only: wp
+  use law_cards, only: law_card_t
   use link_cards, only: has_own_mass, link_t
   use linkage_cards, only: ground_t, mesh_t, pin_mass_t
   use load_cards, only: force_card_t, torque_card_t
@@ -29,7 +30,8 @@ module models
     needs_loads, needs_inertia, needs_frequencies, needs_response, report_in_motion, &
     steady_state_report, accuracy_of_study, needs_beams, &
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
-    link_line_density, speed_in_table, speed_in_words, is_four_bar, drives_length, balances
+    link_line_density, speed_in_table, speed_in_words, is_four_bar, drives_length, balances, &
+    has_law
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
@@ -65,6 +67,7 @@ module models
     type(resistance_t), allocatable :: resistances(:)
     type(balance_card_t) :: balance             !! counterweights of REPORT balance
     type(shaft_card_t), allocatable :: shafts(:) !! its balance shafts
+    type(law_card_t), allocatable :: laws(:)    !! LAW cards
     type(drive_t), allocatable :: drives(:)     !! the first one's positions are those of CRANK
     type(token_t) :: drive                      !! first word of the first DRIVE card: the driven
                                                 !! link, or the pin of the driven slider
@@ -82,6 +85,10 @@ module models
                                                 !! likewise
     real(wp) :: acceleration = 0.0_wp           !! α2, at every speed [rad/s²], of a slider or a ram
                                                 !! [m/s²]
+    type(value_list_t) :: time                  !! instants of a law [s], each with its position in
+                                                !! `crank`; else empty
+    real(wp), allocatable :: law_rates(:, :)    !! (2, instants) speed and acceleration [as `speed`,
+                                                !! `acceleration`]; not allocated without a law
     real(wp) :: ramp = 0.0_wp                   !! time in which REPORT transient gets to the speed
                                                 !! from rest; 0: it has it [s]
     type(token_t) :: ramp_word
@@ -229,6 +236,14 @@ contains
     has = model%balance%keyword%line > 0 .or. size(model%shafts) > 0
   end function balances
 
+  !> Whether the first drive moves by a law.
+  pure function has_law(model) result(has)
+    type(model_t), intent(in) :: model !! as read
+    logical :: has
+
+    has = allocated(model%law_rates)
+  end function has_law
+
   !> Whether any report has a row for every crank angle; true without REPORT cards. A report that
   !! cannot be read does not count.
   pure function needs_positions(model) result(needs)
@@ -238,12 +253,13 @@ contains
     needs = size(model%reports) == 0 .or. any(model%reports%kind%positions)
   end function needs_positions
 
-  !> Whether any speed or the acceleration is not zero.
+  !> Whether the linkage moves by a law, or any speed or the acceleration is not zero.
   pure function is_moving(model) result(is)
     type(model_t), intent(in) :: model !! as read
     logical :: is
 
-    is = any(abs(model%speed%value) > 0.0_wp) .or. abs(model%acceleration) > 0.0_wp
+    is = has_law(model) .or. any(abs(model%speed%value) > 0.0_wp) .or. &
+      abs(model%acceleration) > 0.0_wp
   end function is_moving
 
   !> Whether there are external loads: gravity, forces on pins or torques on links.

@@ -3,6 +3,7 @@
 module balance_report
   use balance_study, only: has_balanced, obstacle_link, obstacle_none, obstacle_pin, obstacle_ram
   use counterweight_notes, only: append_counterweight, append_partial_notes, balanced_by_cards
+  use drive_motions, only: drive_rates
   use harmonics_study, only: has_settled, is_moment, quantity_count, quantity_names
   use kinds, only: wp
   use joint_study, only: joints_result_t
@@ -158,10 +159,11 @@ contains
       type(reactions_result_t), intent(in) :: reactions
       real(wp) :: values(4)
 
-      real(wp) :: every(reaction_values)
+      real(wp) :: every(reaction_values), rates(2)
 
-      every = reactions_at_speed(reactions, variant%found%positions%state(position), &
-        variant%model%speed%value(speed), variant%model%acceleration, speed)
+      rates = drive_rates(variant%model, speed, position)
+      every = reactions_at_speed(reactions, variant%found%positions%state(position), rates(1), &
+        rates(2), speed)
       values = [every(shaking_values), every(torque_value)]
     end function row_quantities
 
@@ -201,9 +203,10 @@ contains
       type(joints_result_t), intent(in) :: joints
       real(wp) :: quantities(4)
 
-      real(wp) :: factor(3)
+      real(wp) :: factor(3), rates(2)
 
-      factor = [variant%model%speed%value(speed)**2, variant%model%acceleration, 1.0_wp]
+      rates = drive_rates(variant%model, speed, position)
+      factor = [rates(1)**2, rates(2), 1.0_wp]
       quantities = [factor(1)*joints%shaking(:, 1, state) + factor(2)*joints%shaking(:, 2, &
         state), dot_product(factor, joints%drive(1, :, state))]
       if (size(joints%running_drive, 2) > 0) quantities(4) = quantities(4) + &

@@ -1,8 +1,10 @@
 !> `bearings.dat`: the force in every joint, in global axes and in those of the link on which it
 !! acts.
 module bearings_report
+  use drive_motions, only: drive_rates, place_columns, table_place
   use joint_study, only: bearings_at_speed
   use joints_report, only: owner_cell
+  use kinds, only: wp
   use load_notes, only: acceleration_note, append_load_notes
   use table_columns, only: cells, column_width, table_layout_t
   use table_rows, only: add_row, rows_t
@@ -40,21 +42,22 @@ contains
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
-    integer :: i
+    real(wp) :: place(place_columns(variant%model)), rates(2)
+    integer :: i, next
 
-    associate (positions => variant%found%positions, model => variant%model, &
-        mechanism => variant%mechanism, found => variant%found%joints)
-      associate (state => positions%state(position))
-        associate (values => bearings_at_speed(mechanism%linkage, found, &
-            positions%states(state)%pose, state, model%speed%value(speed), &
-            model%acceleration, speed))
-          do i = 1, size(found%joints)
-            call add_row(rows, cells(layout, 1, [model%shown_speed(speed), &
-              positions%crank(position)])//name_cell(mechanism%pin_names(found%joints(i)%pin)% &
-              text, column_width(layout, 3))//owner_cell(variant, found%joints(i), &
-              column_width(layout, 4))//cells(layout, 5, values(:, i)))
-          end do
-        end associate
+    place = table_place(variant%model, speed, position)
+    next = size(place) + 1
+    rates = drive_rates(variant%model, speed, position)
+    associate (mechanism => variant%mechanism, found => variant%found%joints, &
+        state => variant%found%positions%state(position))
+      associate (values => bearings_at_speed(mechanism%linkage, found, &
+          variant%found%positions%states(state)%pose, state, rates(1), rates(2), speed))
+        do i = 1, size(found%joints)
+          call add_row(rows, cells(layout, 1, place)// &
+            name_cell(mechanism%pin_names(found%joints(i)%pin)%text, column_width(layout, next))// &
+            owner_cell(variant, found%joints(i), column_width(layout, next + 1))// &
+            cells(layout, next + 2, values(:, i)))
+        end do
       end associate
     end associate
   end subroutine add_bearings

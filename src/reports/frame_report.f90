@@ -1,5 +1,6 @@
 !> `frame.dat`: what shakes the frame, and all that it bears.
 module frame_report
+  use drive_motions, only: drive_rates
   use joint_study, only: frame_at_speed
   use joints_report, only: reference_words
   use kinds, only: wp
@@ -84,11 +85,12 @@ contains
     real(wp), allocatable :: point(:)
 
     call find_point(variant, point)
-    associate (model => variant%model, state => variant%found%positions%state(position))
+    associate (rates => drive_rates(variant%model, speed, position), &
+        state => variant%found%positions%state(position))
       ! A point that is not allocated is an argument that is absent.
       call add_position_row(variant, layout, position, speed, frame_at_speed( &
-        variant%mechanism%linkage, variant%found%joints, state, model%speed%value(speed), &
-        model%acceleration, speed, point), rows)
+        variant%mechanism%linkage, variant%found%joints, state, rates(1), rates(2), speed, point), &
+        rows)
     end associate
   end subroutine add_frame
 

@@ -1,5 +1,6 @@
 !> `inertia.dat`: masses, their accelerations and inertia forces.
 module inertia_report
+  use drive_motions, only: drive_rates, place_columns, table_place
   use inertia_study, only: at_pin, loads_at_speed, mass_load_t, mass_t, of_block, of_body, on_link
   use kinds, only: wp
   use load_notes, only: acceleration_note
@@ -114,21 +115,22 @@ contains
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
     type(mass_load_t) :: loads(size(variant%found%inertia%masses))
-    real(wp) :: place(2), moment(merge(1, 0, has_moments(variant) .or. .not. &
-      variant%mechanism%is_four_bar))
-    integer :: i, state
+    real(wp) :: place(place_columns(variant%model)), rates(2), moment(merge(1, 0, &
+      has_moments(variant) .or. .not. variant%mechanism%is_four_bar))
+    integer :: i, state, next
 
     state = variant%found%positions%state(position)
-    place = [variant%model%shown_speed(speed), variant%found%positions%crank(position)]
+    place = table_place(variant%model, speed, position)
+    next = size(place) + 1
+    rates = drive_rates(variant%model, speed, position)
     associate (inertia => variant%found%inertia)
       call loads_at_speed(variant%mechanism%linkage, inertia, &
-        variant%found%positions%states(state), state, variant%model%speed%value(speed), &
-        variant%model%acceleration, loads)
+        variant%found%positions%states(state), state, rates(1), rates(2), loads)
       do i = 1, size(loads)
         moment = loads(i)%moment
         call add_row(rows, cells(layout, 1, place)//integer_cell(i, "mass")// &
-          owner_cell(variant%mechanism, inertia%masses(i), column_width(layout, 4))// &
-          cells(layout, 5, [loads(i)%place, loads(i)%acceleration, loads(i)%force, &
+          owner_cell(variant%mechanism, inertia%masses(i), column_width(layout, next + 1))// &
+          cells(layout, next + 2, [loads(i)%place, loads(i)%acceleration, loads(i)%force, &
           inertia%masses(i)%mass, moment]))
       end do
     end associate

@@ -1,10 +1,12 @@
 !> `reactions.dat`, `drive.dat` and `shaking.dat` of linkages that are no four-bars.
 module joints_report
+  use drive_motions, only: drive_rates, place_columns, table_place
   use joint_study, only: drives_at_speed, joint_t, joints_at_speed
   use kinds, only: wp
   use drive_cards, only: moves_along
   use load_notes, only: acceleration_note, append_load_notes
   use models, only: model_t
+  use position_rows, only: add_position_row
   use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
     table_unit
   use table_rows, only: add_row, rows_t
@@ -56,17 +58,20 @@ contains
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
     real(wp), allocatable :: forces(:, :)
-    integer :: i
+    real(wp) :: place(place_columns(variant%model)), rates(2)
+    integer :: i, next
 
-    associate (positions => variant%found%positions, omega => variant%model%speed%value(speed), &
-        mechanism => variant%mechanism, joints => variant%found%joints%joints)
-      forces = joints_at_speed(variant%found%joints, positions%state(position), omega, &
-        variant%model%acceleration, speed)
+    place = table_place(variant%model, speed, position)
+    next = size(place) + 1
+    rates = drive_rates(variant%model, speed, position)
+    associate (mechanism => variant%mechanism, joints => variant%found%joints%joints)
+      forces = joints_at_speed(variant%found%joints, variant%found%positions%state(position), &
+        rates(1), rates(2), speed)
       do i = 1, size(joints)
-        call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed), &
-          positions%crank(position)])//name_cell(mechanism%pin_names(joints(i)%pin)%text, &
-          column_width(layout, 3))//owner_cell(variant, joints(i), column_width(layout, 4))// &
-          cells(layout, 5, forces(:, i)))
+        call add_row(rows, cells(layout, 1, place)// &
+          name_cell(mechanism%pin_names(joints(i)%pin)%text, column_width(layout, next))// &
+          owner_cell(variant, joints(i), column_width(layout, next + 1))// &
+          cells(layout, next + 2, forces(:, i)))
       end do
     end associate
   end subroutine add_joints
@@ -193,13 +198,18 @@ contains
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
     real(wp), allocatable :: values(:, :)
+    real(wp) :: place(place_columns(variant%model)), rates(2)
     logical :: mixed
-    integer :: i
+    integer :: i, next
+
+    place = table_place(variant%model, speed, position)
+    next = size(place) + 1
+    rates = drive_rates(variant%model, speed, position)
 
     associate (model => variant%model, positions => variant%found%positions, &
         linkage => variant%mechanism%linkage)
       values = drives_at_speed(linkage, variant%found%joints, positions%state(position), &
-        positions%crank(position), model%speed%value(speed), model%acceleration, speed)
+        positions%crank(position), rates(1), rates(2), speed)
       mixed = any(moves_along(model%drives%kind)) .and. .not. all(moves_along(model%drives%kind))
       do i = 1, size(values, 2)
         if (mixed) then
@@ -212,9 +222,8 @@ contains
             values(3, i) = from_si(values(3, i), table_factor("force", model%outputs))
           end if
         end if
-        call add_row(rows, cells(layout, 1, [model%shown_speed(speed), positions%crank( &
-          position)])//name_cell(model%drives(i)%subject%text, column_width(layout, 3))// &
-          cells(layout, 4, values(:, i)))
+        call add_row(rows, cells(layout, 1, place)//name_cell(model%drives(i)%subject%text, &
+          column_width(layout, next))//cells(layout, next + 1, values(:, i)))
       end do
     end associate
   end subroutine add_drives
@@ -227,12 +236,10 @@ contains
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which it is appended
 
-    associate (model => variant%model, positions => variant%found%positions, &
-        shaking => variant%found%joints%shaking)
-      associate (state => positions%state(position), omega => model%speed%value(speed))
-        call add_row(rows, cells(layout, 1, [model%shown_speed(speed), positions%crank(position), &
-          omega**2*shaking(:, 1, state) + model%acceleration*shaking(:, 2, state)]))
-      end associate
+    associate (rates => drive_rates(variant%model, speed, position), &
+        state => variant%found%positions%state(position), shaking => variant%found%joints%shaking)
+      call add_position_row(variant, layout, position, speed, &
+        rates(1)**2*shaking(:, 1, state) + rates(2)*shaking(:, 2, state), rows)
     end associate
   end subroutine add_shaking
 

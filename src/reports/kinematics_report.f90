@@ -1,6 +1,7 @@
 !> `kinematics.dat`: angles, angular velocities and accelerations of the links, moving pins,
 !! transmission angle.
 module kinematics_report
+  use drive_motions, only: drive_rates
   use kinematics_study, only: kinematics_at
   use linkage_notes, only: angle_note, notes_on_linkage
   use load_notes, only: acceleration_note
@@ -38,11 +39,10 @@ contains
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which it is appended
 
-    associate (omega => variant%model%speed%value(speed), &
+    associate (rates => drive_rates(variant%model, speed, position), &
         state => variant%found%positions%state(position))
       call add_position_row(variant, layout, position, speed, &
-        kinematics_at(variant%found%kinematics, state, omega, &
-        variant%model%acceleration), rows)
+        kinematics_at(variant%found%kinematics, state, rates(1), rates(2)), rows)
     end associate
   end subroutine add_kinematics
 

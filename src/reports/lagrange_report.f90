@@ -1,5 +1,6 @@
 !> `lagrange.dat`: terms of Lagrange's equation, driving torque, energies.
 module lagrange_report
+  use drive_motions, only: drive_rates
   use lagrange_study, only: lagrange_at_speed
   use load_notes, only: append_load_notes, append_motion_notes, potential_note
   use position_rows, only: add_position_row
@@ -36,11 +37,10 @@ contains
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which it is appended
 
-    associate (omega => variant%model%speed%value(speed), &
+    associate (rates => drive_rates(variant%model, speed, position), &
         state => variant%found%positions%state(position))
       call add_position_row(variant, layout, position, speed, &
-        lagrange_at_speed(variant%found%lagrange, state, omega, variant%model%acceleration, &
-        speed), rows)
+        lagrange_at_speed(variant%found%lagrange, state, rates(1), rates(2), speed), rows)
     end associate
   end subroutine add_lagrange
 

@@ -1,6 +1,7 @@
 !> `kinematics.dat` of linkages that are no four-bars: angle, angular velocity and acceleration of
 !! every link, a row each; and `pins.dat`: paths, velocities and accelerations of the pins.
 module links_report
+  use drive_motions, only: drive_rates, place_columns, table_place
   use kinds, only: wp
   use linkage_notes, only: notes_on_linkage
   use links_study, only: link_at_speed, pin_at_speed
@@ -81,16 +82,18 @@ contains
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
-    integer :: b
+    real(wp) :: place(place_columns(variant%model))
+    integer :: b, next
 
-    associate (positions => variant%found%positions, omega => variant%model%speed%value(speed), &
-        mechanism => variant%mechanism)
+    place = table_place(variant%model, speed, position)
+    next = size(place) + 1
+    associate (positions => variant%found%positions, mechanism => variant%mechanism, &
+        rates => drive_rates(variant%model, speed, position))
       associate (state => positions%states(positions%state(position)))
         do b = 1, size(mechanism%names)
-          call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed), &
-            positions%crank(position)])//name_cell(mechanism%names(b)%text, column_width(layout, &
-            3))//cells(layout, 4, link_at_speed(mechanism%linkage, state, b, omega, &
-            variant%model%acceleration)))
+          call add_row(rows, cells(layout, 1, place)//name_cell(mechanism%names(b)%text, &
+            column_width(layout, next))//cells(layout, next + 1, link_at_speed( &
+            mechanism%linkage, state, b, rates(1), rates(2))))
         end do
       end associate
     end associate
@@ -121,17 +124,19 @@ contains
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
-    integer :: p
+    real(wp) :: place(place_columns(variant%model))
+    integer :: p, next
 
-    associate (positions => variant%found%positions, omega => variant%model%speed%value(speed), &
-        mechanism => variant%mechanism)
+    place = table_place(variant%model, speed, position)
+    next = size(place) + 1
+    associate (positions => variant%found%positions, mechanism => variant%mechanism, &
+        rates => drive_rates(variant%model, speed, position))
       associate (state => positions%states(positions%state(position)))
         do p = 1, size(mechanism%pin_names)
           if (mechanism%linkage%is_ground(p)) cycle
-          call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed), &
-            positions%crank(position)])//name_cell(mechanism%pin_names(p)%text, &
-            column_width(layout, 3))//cells(layout, 4, pin_at_speed(state, p, omega, &
-            variant%model%acceleration)))
+          call add_row(rows, cells(layout, 1, place)//name_cell(mechanism%pin_names(p)%text, &
+            column_width(layout, next))//cells(layout, next + 1, pin_at_speed(state, p, rates(1), &
+            rates(2))))
         end do
       end associate
     end associate

@@ -3,7 +3,7 @@ module load_notes
   use kinds, only: wp
   use link_cards, only: has_own_mass
   use mechanisms, only: mechanism_t
-  use models, only: drives_length, model_t
+  use models, only: drives_length, has_law, model_t
   use text, only: append_string, plural, string_t, to_string
   use units, only: coherent_unit, dimension_acceleration, from_si, unit_t
   implicit none (type, external)
@@ -141,12 +141,14 @@ contains
     call append_string(notes, acceleration_note(model))
   end subroutine append_motion_notes
 
-  !> Angular acceleration of the crank.
+  !> Angular acceleration of the crank, or the name of its law.
   pure function acceleration_note(model) result(note)
     type(model_t), intent(in) :: model !! in SI
     character(len=:), allocatable :: note
 
-    if (drives_length(model)) then
+    if (has_law(model)) then
+      note = "speed and acceleration of the first drive: by law "//model%drives(1)%law%text
+    else if (drives_length(model)) then
       note = "acceleration of the first drive: "//to_string(from_si(model%acceleration, &
         coherent_unit(model%units, dimension_acceleration)))//" "//name_of_acceleration(model)
     else

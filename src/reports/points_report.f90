@@ -1,6 +1,8 @@
 !> `points.dat`: paths, velocities and accelerations of points fixed to links.
 module points_report
   use body_lines, only: place_words
+  use drive_motions, only: drive_rates, place_columns, table_place
+  use kinds, only: wp
   use load_notes, only: acceleration_note
   use points_study, only: point_at_speed
   use table_columns, only: cells, column_width, name_list_t, table_layout_t, table_unit
@@ -56,16 +58,17 @@ contains
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
-    integer :: p
+    real(wp) :: place(place_columns(variant%model))
+    integer :: p, next
 
-    associate (omega => variant%model%speed%value(speed), positions => variant%found%positions, &
-        points => variant%mechanism%points)
+    place = table_place(variant%model, speed, position)
+    next = size(place) + 1
+    associate (rates => drive_rates(variant%model, speed, position), &
+        state => variant%found%positions%state(position), points => variant%mechanism%points)
       do p = 1, size(points)
-        call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed), &
-          positions%crank(position)])// &
-          name_cell(points(p)%name, column_width(layout, 3))//cells(layout, 4, &
-          point_at_speed(variant%found%points(p, positions%state(position)), omega, &
-          variant%model%acceleration)))
+        call add_row(rows, cells(layout, 1, place)// &
+          name_cell(points(p)%name, column_width(layout, next))//cells(layout, next + 1, &
+          point_at_speed(variant%found%points(p, state), rates(1), rates(2))))
       end do
     end associate
   end subroutine add_points

@@ -1,5 +1,6 @@
 !> Rows of tables of positions and speeds that hold numbers only.
 module position_rows
+  use drive_motions, only: table_place
   use kinds, only: wp
   use table_columns, only: cells, table_layout_t
   use table_rows, only: add_row, rows_t
@@ -11,7 +12,7 @@ module position_rows
 
 contains
 
-  !> Appends a row: speed, crank angle, then values.
+  !> Appends a row: its place, then values.
   subroutine add_position_row(variant, layout, position, speed, values, rows)
     type(variant_results_t), intent(in) :: variant !! with its positions
     type(table_layout_t), intent(in) :: layout     !! of the table
@@ -21,8 +22,7 @@ contains
                                                    !! unit
     type(rows_t), intent(inout) :: rows            !! to which it is appended
 
-    call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed), &
-      variant%found%positions%crank(position), values]))
+    call add_row(rows, cells(layout, 1, [table_place(variant%model, speed, position), values]))
   end subroutine add_position_row
 
 end module position_rows

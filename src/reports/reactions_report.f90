@@ -1,5 +1,6 @@
 !> `reactions.dat`: pin forces, driving torque, shaking force and shaking moment.
 module reactions_report
+  use drive_motions, only: drive_rates
   use load_notes, only: append_load_notes, append_motion_notes
   use position_rows, only: add_position_row
   use reactions_study, only: reactions_at_speed
@@ -37,11 +38,10 @@ contains
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which it is appended
 
-    associate (omega => variant%model%speed%value(speed), &
+    associate (rates => drive_rates(variant%model, speed, position), &
         state => variant%found%positions%state(position))
       call add_position_row(variant, layout, position, speed, &
-        reactions_at_speed(variant%found%reactions, state, omega, &
-        variant%model%acceleration, speed), rows)
+        reactions_at_speed(variant%found%reactions, state, rates(1), rates(2), speed), rows)
     end associate
   end subroutine add_reactions
 

@@ -15,6 +15,7 @@ module report_table
   use bearings_report, only: add_bearings, bearings_notes
   use campbell_report, only: add_campbell, add_critical, campbell_notes, campbell_words, &
     critical_notes
+  use drive_motions, only: place_columns, table_place
   use drive_report, only: add_drive, drive_notes
   use frame_report, only: add_frame, frame_notes
   use frequency_report, only: add_frequencies, add_shapes, drawn_rows, frequency_notes, shape_notes
@@ -42,7 +43,7 @@ module report_table
   use links_report, only: add_links, add_pins, links_notes, pin_names, pins_notes, shown_crank
   use loci_report, only: add_loci, loci_notes, locus_words
   use mesh_report, only: add_mesh, mesh_notes
-  use models, only: balances, drives_length, is_four_bar, model_t, report_number
+  use models, only: balances, drives_length, has_law, is_four_bar, model_t, report_number
   use motion_pins_report, only: add_motion_pins, motion_pins_notes
   use motion_report, only: add_motion, motion_notes, motion_words
   use peaks_report, only: add_peaks, peaks_notes
@@ -55,10 +56,11 @@ module report_table
   use response_report, only: add_response, response_notes_of, response_point_names
   use stability_report, only: add_stability, stability_notes, stability_words
   use strains_report, only: add_strains, gauge_names, strains_notes
-  use table_columns, only: name_list_t, new_table_layout, table_layout_t
+  use table_columns, only: name_list_t, new_table_layout, table_factor, table_layout_t
   use table_rows, only: add_failed_row, add_gap, rows_t
   use text, only: string_t
   use transient_report, only: add_transient, gauge_history_notes, transient_notes
+  use units, only: from_si
   use validity_report, only: add_validity, validity_notes
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -283,8 +285,12 @@ contains
 
     associate (linkage => variant%mechanism%linkage, elements => variant%mechanism%load_elements, &
         model => variant%model, points => variant%mechanism%points, found => variant%found)
-      if (allocated(found%positions%states)) speeds = spread(model%speed%value, 2, &
-        size(found%positions%states))
+      if (has_law(model)) then
+        ! There is a state for every instant.
+        speeds = model%law_rates(1:1, :)
+      else if (allocated(found%positions%states)) then
+        speeds = spread(model%speed%value, 2, size(found%positions%states))
+      end if
       select case (study)
       case ("kinematics")
         if (variant%mechanism%is_four_bar) call find_kinematics(linkage, found%positions, threads, &
@@ -648,6 +654,8 @@ contains
     integer, intent(in) :: position, speed !! numbers
     type(rows_t), intent(inout) :: rows
 
+    real(wp) :: place(place_columns(variant%model))
+
     associate (positions => variant%found%positions)
       associate (state => positions%states(positions%state(position)), &
           crank => positions%crank(position))
@@ -658,9 +666,11 @@ contains
         else if (allocated(state%error) .and. table == "mesh") then
           call add_failed_row(rows, [crank], state%error%text)
         else if (allocated(state%error)) then
-          call add_failed_row(rows, [variant%model%shown_speed(speed), shown_crank(variant, &
-            crank)], &
-            state%error%text)
+          place = table_place(variant%model, speed, position)
+          place(size(place)) = shown_crank(variant, crank)
+          if (has_law(variant%model)) place(1) = from_si(place(1), table_factor("time", &
+            variant%model%outputs))
+          call add_failed_row(rows, place, state%error%text)
         else if (.not. variant%mechanism%is_four_bar .and. any(table == general_tables)) then
           call add_general(table, variant, layout, position, speed, rows)
         else
@@ -713,23 +723,33 @@ contains
     end select
   end subroutine add_general
 
-  !> A table in the units of the first drive: positions of a slider or a ram are lengths.
+  !> A table in the units of the first drive: positions of a slider or a ram are lengths. Of a
+  !! drive with a law it has the time in its first column.
   pure function table_in_units(table, model) result(fitted)
     type(table_kind_t), intent(in) :: table !! of a report that the model asks for
     type(model_t), intent(in) :: model      !! with its drives
     type(table_kind_t) :: fitted
 
-    integer :: at
-
     fitted = table
     if (table%name == "drive" .and. .not. is_four_bar(model)) fitted%columns = drive_columns(model)
     if (table%name == "motion" .and. .not. is_four_bar(model)) fitted%columns = &
       linkage_motion_columns(model)
-    if (.not. drives_length(model)) return
+    if (drives_length(model)) call use_lengths(model, fitted)
+    if (has_law(model) .and. index(fitted%columns, "speed:") == 1 .and. index(fitted%columns, &
+      " crank:") > 0) fitted%columns = "time:time "//fitted%columns
+  end function table_in_units
+
+  !> Makes the columns of a table those of a slider or a ram.
+  pure subroutine use_lengths(model, fitted)
+    type(model_t), intent(in) :: model
+    type(table_kind_t), intent(inout) :: fitted
+
+    integer :: at
+
     ! What turns a crank is a force on a slider, and its inertia a mass.
-    if (table%name == "lagrange") fitted%columns = "speed:speed crank:deg M:mass "// &
+    if (fitted%name == "lagrange") fitted%columns = "speed:speed crank:deg M:mass "// &
       "dM:mass_per_length V,gravity,load,torque:force kinetic,potential:energy"
-    if (table%name == "balance") fitted%columns = "speed:speed crank:deg xG,yG:length "// &
+    if (fitted%name == "balance") fitted%columns = "speed:speed crank:deg xG,yG:length "// &
       "shaking_x,shaking_y:force shaking_moment:moment torque:force "// &
       "balanced_x?,balanced_y?:force balanced_moment?:moment balanced_torque?:force"
     at = index(fitted%columns, "crank:deg")
@@ -738,6 +758,6 @@ contains
     at = index(fitted%columns, "speed:speed")
     if (at > 0) fitted%columns = fitted%columns(:at - 1)//"speed:"//model%speed_unit%name// &
       trim(fitted%columns(at + 11:))
-  end function table_in_units
+  end subroutine use_lengths
 
 end module report_table

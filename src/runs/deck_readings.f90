@@ -15,6 +15,7 @@ module deck_readings
   use model_reader, only: read_model
   use models, only: model_t
   use report_table, only: reports
+  use table_files, only: add_table_files
   use text, only: string_t, to_string
   use variants, only: deck_cards_t, read_deck_cards, take_variant, variant_count, variant_text, &
     variant_values
@@ -74,6 +75,7 @@ contains
       return
     end if
     call read_all_cards(deck%source, cards, deck%diagnostics)
+    call add_table_files(deck%source, cards, deck%diagnostics)
     if (present(settings)) then
       call read_deck_cards(cards, settings, deck%source, reports, deck%diagnostics, &
         deck%cards)

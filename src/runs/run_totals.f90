@@ -3,6 +3,7 @@
 module run_totals
   use byte_streams, only: get_integers, get_logicals, get_reals, put_integers, put_logicals, &
     put_reals
+  use drive_motions, only: drive_rates
   use kinds, only: long, wp
   use ledger, only: add_ledger, ledger_t
   use models, only: report_number
@@ -114,16 +115,17 @@ contains
     type(variant_results_t), intent(in) :: variant
     type(range_t) :: range
 
-    real(wp) :: values(reaction_values)
-    integer :: i, k
+    real(wp) :: values(reaction_values), rates(2)
+    integer :: i, k, state
 
     associate (found => variant%found)
       if (.not. allocated(found%reactions%unit)) return
-      do i = 1, size(found%positions%states)
-        if (allocated(found%positions%states(i)%error)) cycle
+      do i = 1, size(found%positions%crank)
+        state = found%positions%state(i)
+        if (allocated(found%positions%states(state)%error)) cycle
         do k = 1, size(variant%model%speed%value)
-          values = reactions_at_speed(found%reactions, i, variant%model%speed%value(k), &
-            variant%model%acceleration, k)
+          rates = drive_rates(variant%model, k, i)
+          values = reactions_at_speed(found%reactions, state, rates(1), rates(2), k)
           call widen(range, values(torque_value))
         end do
       end do

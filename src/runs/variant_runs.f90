@@ -12,7 +12,7 @@ module variant_runs
   use linkage_study, only: class_of_other, classify_linkage
   use loci_study, only: follow_loci
   use mechanisms, only: mechanism_t, new_mechanism
-  use models, only: model_t, needs_positions, needs_study
+  use models, only: has_law, model_t, needs_positions, needs_study
   use motion_study, only: begin_motion, continue_motion, finish_motion, motion_under_way_t
   use position_study, only: find_all_positions
   use positions, only: by_crank_angle
@@ -84,7 +84,8 @@ contains
         found => run%results%found)
       ! Crank angles that no report needs must not fail.
       if (needs_positions(model)) then
-        call find_all_positions(linkage, model%crank%value, threads, found%positions)
+        call find_all_positions(linkage, model%crank%value, threads, found%positions, &
+          has_law(model))
       else
         call find_all_positions(linkage, none, threads, found%positions)
       end if

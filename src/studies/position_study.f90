@@ -15,15 +15,17 @@ contains
   !> Poses and kinematic coefficients, once for every different crank angle.
   !!
   !! Errors, in each state: the linkage does not reach the position, or it is a dead point.
-  subroutine find_all_positions(linkage, crank, threads, positions)
+  subroutine find_all_positions(linkage, crank, threads, positions, instants)
     type(linkage_t), intent(in) :: linkage      !! of mobility one
     real(wp), intent(in) :: crank(:)            !! (positions) as listed in the deck [deg]
     integer, intent(in) :: threads              !! number of OpenMP threads
     type(positions_t), intent(out) :: positions !! one state for every different angle
+    logical, intent(in), optional :: instants   !! one state for every position, see
+                                                !! `list_positions`
 
     integer :: i
 
-    call list_positions(crank, positions, load_period(linkage, period_of(linkage)))
+    call list_positions(crank, positions, load_period(linkage, period_of(linkage)), instants)
     !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i)
     do i = 1, size(positions%states)
       call find_state(linkage, positions%states(i))

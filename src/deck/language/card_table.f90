@@ -20,7 +20,7 @@ module card_table
     integer :: least = 0, most = 0     !! words besides the keyword
     character(len=128) :: pattern = "" !! correct form of the card; its keys end with `=`
     character(len=96) :: keys = ""     !! separated by blanks, if the pattern does not name them all
-    character(len=48) :: choices = ""  !! allowed words, separated by blanks
+    character(len=112) :: choices = "" !! allowed words, separated by blanks
     character(len=20) :: entry = ""    !! default entries, `key=value`, with blanks between them
     character(len=16) :: default = ""  !! words of the card in a deck without it
     character(len=88) :: help = ""     !! in one line
@@ -39,6 +39,8 @@ module card_table
     card_kind_t("INCLUDE", least=1, most=1, pattern="INCLUDE file", &
       help="the cards of another file"), &
     card_kind_t("SET", least=2, most=2, pattern="SET name value", help="a value for $name"), &
+    card_kind_t("TABLE", least=2, most=many, pattern="TABLE name unit unit ... number number ...", &
+      help="columns of numbers by name: their units, then row by row; or a file, table=name"), &
     card_kind_t("VARY", is_list=.true., least=2, most=many, &
       pattern="VARY name a to b step s, or VARY name and a list of values", &
       help="values for $name, one after the other: the variants of the deck"), &
@@ -85,7 +87,7 @@ module card_table
       help="a block at a pin slides along a GUIDE or LINK; the third word: a link fixed to it"), &
     card_kind_t("DRIVE", least=1, most=4, &
       pattern="DRIVE link, DRIVE link against link, DRIVE pin guide or DRIVE link length, with "// &
-      "[free] [at=] [ratio= phase=]", choices="against length free", &
+      "[free] [law=] [at=] [ratio= phase=]", choices="against length free", &
       help="whose angle, place or length is given; required; further ones: at= or ratio="), &
     card_kind_t("BRANCH", least=1, most=4, &
       pattern="BRANCH open|crossed, BRANCH pin left|right pin pin, or BRANCH pin "// &
@@ -128,6 +130,15 @@ module card_table
     card_kind_t("SPEED", is_single=.true., is_list=.true., least=1, most=many, &
       pattern="SPEED a list or range of speeds [rad/s|rpm] [alpha=] [ramp=]", default="0", &
       help="of the crank; alpha: acceleration at all of them; ramp: time up to them from rest"), &
+    card_kind_t("LAW", least=1, most=2, &
+      pattern="LAW name kind to= start= stop= [from=], or LAW name table= "// &
+      "[ends=free|rest|periodic]", &
+      choices="ramp parabolic harmonic cycloidal modified_sine modified_trapezoid "// &
+      "polynomial_345 polynomial_4567", &
+      help="the motion of the first drive: a segment of it, or a table of positions over time"), &
+    card_kind_t("TIME", is_single=.true., is_list=.true., least=1, most=many, &
+      pattern="TIME a to b step s, or a list of instants", &
+      help="the instants of tables, in place of CRANK and SPEED, if the drive has a law"), &
     card_kind_t("INERTIA", is_single=.true., least=1, most=1, &
       pattern="INERTIA lumped|distributed", choices="lumped distributed", &
       help="where inertia loads act: at the nodes of the mesh, or along the links"), &

@@ -17,7 +17,7 @@ module value_lists
   private
 
   public :: value_list_t, empty_list, read_values, read_entry_list, read_entry_pair, find_items, &
-    list_steps, value_number
+    list_steps, model_value, value_number
 
   !> The numbers in a list on a card, each with the word it comes from.
   type :: value_list_t
@@ -255,7 +255,7 @@ contains
     if (number%unit%name /= list%unit%name) value = number_in(list%unit, point, dimension)
   end function in_unit_of
 
-  !> The number of a point in a unit: the inverse of `converted`.
+  !> The number of a point in a unit: the inverse of `model_value`.
   pure function number_in(measure, point, dimension) result(number)
     type(unit_t), intent(in) :: measure
     real(wp), intent(in) :: point !! as the list has it
@@ -320,12 +320,12 @@ contains
     length = number_length(word%text)
     number%decimal = decimal_of(word%text(:length))
     number%is_zero = length == len(word%text) .and. abs(number%number) <= 0.0_wp
-    number%value = converted(number%number, number%unit, dimension)
+    number%value = model_value(number%number, number%unit, dimension)
   end subroutine read_value
 
   !> A number as the list has it. An angle in degrees is not converted, so it keeps the user's
   !! digits.
-  pure function converted(number, measure, dimension) result(value)
+  pure function model_value(number, measure, dimension) result(value)
     real(wp), intent(in) :: number
     type(unit_t), intent(in) :: measure !! its unit
     integer, intent(in) :: dimension(4)
@@ -338,7 +338,7 @@ contains
     else
       value = from_si(to_si(number, measure), degrees())
     end if
-  end function converted
+  end function model_value
 
   !> Reads the words `to b step s` after `words(i)`.
   pure subroutine read_range_end(words, i, dimension, bare, noun, diagnostics, last, step, fine)
@@ -441,7 +441,7 @@ contains
     else
       number%number = first%number + count*step%number
     end if
-    point = converted(number%number, step%unit, dimension)
+    point = model_value(number%number, step%unit, dimension)
   end subroutine find_point
 
   !> Appends values that all come from one word. The arrays grow by doubling: a deck may list a

@@ -5,6 +5,7 @@ module card_echo
   use cards, only: card_t
   use deck_source, only: line_origin, source_t
   use effect_cards, only: effect_words
+  use numbers, only: number_length
   use report_kinds, only: kind_named, report_kind_t
   use response_cards, only: is_response_form
   use settings, only: setting_t
@@ -93,16 +94,20 @@ contains
     end if
   end function echo_card
 
-  !> A card in the uniform layout: words first, single blanks.
+  !> A card in the uniform layout: words first, single blanks, of a TABLE a row on each line.
   pure function card_text(card) result(text)
     type(card_t), intent(in) :: card
     character(len=:), allocatable :: text
 
     type(text_buffer_t) :: buffer
-    integer :: i
+    integer :: i, row
 
     call append_text(buffer, upper_case(card%keyword%text))
+    row = 0
+    if (same_word(card%keyword%text, "TABLE")) row = column_count(card)
     do i = 1, size(card%words)
+      if (row > 0 .and. mod(i - 2, max(row, 1)) == 0 .and. i > 2) call append_text(buffer, &
+        " &"//achar(10)//"   ")
       call append_text(buffer, " "//card%words(i)%text)
     end do
     do i = 1, size(card%entries)
@@ -110,6 +115,19 @@ contains
     end do
     text = buffer_text(buffer)
   end function card_text
+
+  !> Number of columns of a TABLE card: its words between the name and the first number.
+  pure function column_count(card) result(columns)
+    type(card_t), intent(in) :: card
+    integer :: columns
+
+    do columns = 0, size(card%words) - 2
+      associate (text => card%words(columns + 2)%text)
+        if (number_length(text) > 0 .or. index(text, "$") == 1) return
+      end associate
+    end do
+    columns = 0
+  end function column_count
 
   !> Writes out the word that an EFFECTS card leaves to speeds and loads.
   pure subroutine complete_effects(card, loads, line)

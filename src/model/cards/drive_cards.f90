@@ -41,6 +41,7 @@ module drive_cards
     logical :: has_ratio = .false. !! `ratio=` is given
     real(wp) :: ratio = 0.0_wp     !! position over that of the first drive [SI: 1, m/rad or rad/m]
     type(token_t) :: ratio_word
+    type(token_t) :: law           !! of the first drive: the name of its law
     real(wp) :: phase = 0.0_wp     !! position where that of the first drive is 0 [as `at`]
     integer :: link = 0            !! number of `subject` in the model's list; 0: it is a pin
     integer :: against_link = 0    !! number of `against` in the model's list; 0: it is none
@@ -93,9 +94,10 @@ contains
   end function word_count
 
   !> Reads a DRIVE card: `link`, `link against link`, `pin guide` or `link length`, then `free`, and
-  !! of a further card `at=` or `ratio= [phase=]`. A ratio of a length to an angle is in the deck's
-  !! length per degree. Errors: words or keys that do not fit the card, unreadable values, a first
-  !! card with a position of its own, a further one without.
+  !! of the first card `law=`, of a further one `at=` or `ratio= [phase=]`. A ratio of a length to
+  !! an angle is in the deck's length per degree. Errors: words or keys that do not fit the card,
+  !! unreadable values, a first card with a position of its own, a further one without or with a
+  !! law.
   pure subroutine read_drive(card, first, system, diagnostics, drive)
     type(card_t), intent(in) :: card                  !! the DRIVE card
     type(card_t), intent(in) :: first                 !! the first of the deck, perhaps the same
@@ -105,6 +107,7 @@ contains
 
     type(token_t) :: nowhere
     logical :: fine, known_keys
+    integer :: i
 
     nowhere = token_t("", 0, 0)
     drive%keyword = card%keyword
@@ -112,6 +115,7 @@ contains
     drive%against = nowhere
     drive%at_word = nowhere
     drive%ratio_word = nowhere
+    drive%law = nowhere
     call check_form(card, diagnostics, fine, known_keys)
     if (.not. fine) return
     call read_subject(card, diagnostics, drive)
@@ -120,9 +124,13 @@ contains
     drive%has_ratio = has_key(card, "ratio")
     if (card%keyword%line == first%keyword%line .and. card%keyword%column == &
       first%keyword%column) then
-      if (size(card%entries) > 0 .and. known_keys) call add_error(diagnostics, &
-        card%entries(1)%key, "the first DRIVE has its positions from CRANK; '"// &
-        card%entries(1)%key%text//"=' is for further ones")
+      if (known_keys) call read_law_word(card, diagnostics, drive)
+      return
+    end if
+    i = entry_number(card, "law")
+    if (i > 0) then
+      call add_error(diagnostics, card%entries(i)%key, "'law=' is for the first DRIVE, and "// &
+        "this one goes with it by 'ratio=' or stands 'at='", first%keyword, "the first is here")
       return
     end if
     call read_position(card, kind_of_drive(first), system, diagnostics, drive)
@@ -133,6 +141,27 @@ contains
     call add_error(diagnostics, drive%subject, "the linkage is driven already; a further DRIVE "// &
       "needs 'at=' or 'ratio='", first%words(1), "first driven here")
   end subroutine read_drive
+
+  !> Reads the key of the first DRIVE: `law=`. Errors: keys of further ones.
+  pure subroutine read_law_word(card, diagnostics, drive)
+    type(card_t), intent(in) :: card
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(drive_t), intent(inout) :: drive
+
+    integer :: i
+
+    do i = 1, size(card%entries)
+      associate (entry => card%entries(i))
+        if (same_word(entry%key%text, "law")) then
+          if (len(entry%value%text) > 0) drive%law = entry%value
+        else
+          call add_error(diagnostics, entry%key, "the first DRIVE has its positions from CRANK "// &
+            "or a law; '"//entry%key%text//"=' is for further ones")
+          return
+        end if
+      end associate
+    end do
+  end subroutine read_law_word
 
   !> Reads the words of a DRIVE card.
   pure subroutine read_subject(card, diagnostics, drive)

@@ -4,7 +4,7 @@ module request_checks
   use cards, only: card_t
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use kinds, only: wp
-  use models, only: effects_static, is_loaded, is_moving, model_t, needs_frequencies, &
+  use models, only: effects_static, has_law, is_loaded, is_moving, model_t, needs_frequencies, &
     needs_positions, needs_response, needs_study, report_number
   use name_checks, only: pin_names
   use name_index, only: find_name, name_index_t, new_name_index
@@ -50,7 +50,10 @@ contains
     else if (.not. has_card(cards, "DRIVE")) then
       call missing("the linkage is not driven; expected: "//pattern_of("DRIVE"))
     end if
-    if (needs_positions(model) .and. .not. has_card(cards, "CRANK")) then
+    if (needs_positions(model) .and. has_law(model)) then
+      if (.not. has_card(cards, "TIME")) call add_error(diagnostics, model%drives(1)%law, &
+        "the first drive moves by a law, and there is no TIME card; expected: "//pattern_of("TIME"))
+    else if (needs_positions(model) .and. .not. has_card(cards, "CRANK")) then
       call missing("there is no CRANK card; expected: "//pattern_of("CRANK"))
     end if
     ! A speed of 0, the default, is no speed for a steady state.

@@ -7,7 +7,7 @@ module echo
   use kinds, only: wp
   use link_bodies, only: link_center, link_inertia
   use link_cards, only: has_own_mass
-  use models, only: branch_crossed, is_four_bar, link_mass, model_t
+  use models, only: branch_crossed, has_law, is_four_bar, link_mass, model_t
   use response_cards, only: response_form
   use sections, only: shape_channel
   use shear, only: link_rotary_inertia, link_shear_stiffness, shear_coefficient
@@ -73,6 +73,9 @@ contains
       ! Other linkages have none; that of a four-bar may come from the drawing.
       if (is_four_bar(model)) call append_default_text(buffer, model, trim(kind%keyword), &
         trim(merge("crossed", "open   ", model%branch == branch_crossed)))
+    case ("SPEED")
+      if (.not. has_law(model)) call append_default_text(buffer, model, trim(kind%keyword), &
+        trim(kind%default))
     case ("EFFECTS")
       call append_default_text(buffer, model, trim(kind%keyword), effect_words(model%effects, &
         .false., .false.))

@@ -6,8 +6,8 @@ module run_log
   use kinds, only: wp
   use link_cards, only: has_own_mass
   use mechanisms, only: mechanism_t
-  use models, only: branch_crossed, inertia_distributed, inertia_lumped, link_mass, model_t, &
-    needs_frequencies
+  use models, only: branch_crossed, has_law, inertia_distributed, inertia_lumped, link_mass, &
+    model_t, needs_frequencies
   use pose_types, only: pins_of_body
   use text, only: plural, string_t, to_string
   use units, only: coherent_unit, dimension_acceleration, dimension_damping, dimension_length, &
@@ -74,8 +74,13 @@ contains
     if (needs_frequencies(model)) then
       text = text//"effects: "//effect_words(model%effects, model%rotary, model%shear)//line_feed
     end if
-    text = text//plural(size(model%crank%value), "crank angle")//", "// &
-      plural(size(model%speed%value), "speed")//line_feed
+    if (has_law(model)) then
+      text = text//plural(size(model%time%value), "instant")//" of law "// &
+        model%drives(1)%law%text//line_feed
+    else
+      text = text//plural(size(model%crank%value), "crank angle")//", "// &
+        plural(size(model%speed%value), "speed")//line_feed
+    end if
   end function model_summary
 
   !> `A - B - C`: the pins of a link; of a four-bar in the order of the loop.

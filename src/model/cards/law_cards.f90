@@ -1,0 +1,181 @@
+!> LAW cards: how the first drive moves in time; and the TIME card. What a law as a whole is, and
+!! whether it is one, `law_checks` finds.
+module law_cards
+  use card_reader, only: check_form, entry_number, has_key, read_choice, read_entry_quantity, &
+    read_measure, read_name
+  use card_table, only: pattern_of
+  use cards, only: card_t
+  use diagnostics, only: add_error, diagnostics_t
+  use kinds, only: wp
+  use motion_laws, only: law_words
+  use tokens, only: token_t
+  use units, only: coherent_unit, dimension_angle, dimension_length, dimension_time, &
+    unit_system_t, unit_t
+  use value_lists, only: model_value, read_values, value_list_t
+  implicit none (type, external)
+  private
+
+  public :: law_card_t, read_law, read_time
+  public :: table_free, table_rest, table_periodic
+
+  ! In the order of `ends_words`.
+  integer, parameter :: table_free = 1, table_rest = 2, table_periodic = 3
+  character(len=*), parameter :: ends_words = "free rest periodic"
+
+  !> One LAW card: a segment, or a table. A word without a line is not on the card.
+  type :: law_card_t
+    type(token_t) :: name                 !! without a line if the card cannot be read
+    integer :: law = 0                    !! of a segment: one of the law_… constants
+    type(token_t) :: law_word
+    real(wp) :: start = 0.0_wp            !! [s]
+    real(wp) :: stop = 0.0_wp             !! [s]
+    type(token_t) :: start_word, stop_word
+    real(wp) :: from = 0.0_wp             !! [deg], of a slider or a ram [m]
+    real(wp) :: to = 0.0_wp               !! likewise
+    type(token_t) :: from_word, to_word
+    type(token_t) :: table_word           !! of a table
+    integer :: ends = table_free          !! of a table: one of the table_… constants
+  end type law_card_t
+
+contains
+
+  !> Reads a LAW card: `name kind to= start= stop= [from=]` or `name table= [ends=]`. Errors: words
+  !! or keys that do not fit the card, unreadable values, a segment that stops before it starts.
+  pure subroutine read_law(card, system, diagnostics, law, by_length)
+    type(card_t), intent(in) :: card                  !! the LAW card
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(law_card_t), intent(out) :: law              !! as read
+    logical, intent(in) :: by_length                  !! the first drive is a slider or a ram
+
+    type(token_t) :: nowhere
+    logical :: fine, known_keys
+
+    nowhere = token_t("", 0, 0)
+    law%name = nowhere
+    law%law_word = nowhere
+    law%start_word = nowhere
+    law%stop_word = nowhere
+    law%from_word = nowhere
+    law%to_word = nowhere
+    law%table_word = nowhere
+    call check_form(card, diagnostics, fine, known_keys)
+    if (.not. fine) return
+    call read_name(card%words(1), diagnostics)
+    if (.not. known_keys) return
+    if (has_key(card, "table")) then
+      call read_table_of_law(card, diagnostics, law)
+    else
+      call read_segment(card, system, by_length, diagnostics, law)
+    end if
+  end subroutine read_law
+
+  !> Reads `table= [ends=]`.
+  pure subroutine read_table_of_law(card, diagnostics, law)
+    type(card_t), intent(in) :: card
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(law_card_t), intent(inout) :: law
+
+    character(len=5), parameter :: others(4) = [character(len=5) :: "to", "from", "start", "stop"]
+    integer :: i, choice
+
+    if (size(card%words) > 1) call add_error(diagnostics, card%words(2), "unexpected '"// &
+      card%words(2)%text//"': a table is no segment; expected: "//pattern_of("LAW"))
+    do i = 1, size(others)
+      if (.not. has_key(card, trim(others(i)))) cycle
+      call add_error(diagnostics, card%keyword, "'"//trim(others(i))// &
+        "=' has no meaning beside 'table='")
+    end do
+    i = entry_number(card, "ends")
+    if (i > 0) then
+      call read_choice(card%entries(i)%value, ends_words, diagnostics, choice)
+      if (choice > 0) law%ends = choice
+    end if
+    i = entry_number(card, "table")
+    if (i == 0) return
+    law%name = card%words(1)
+    law%table_word = card%entries(i)%value
+  end subroutine read_table_of_law
+
+  !> Reads `kind to= start= stop= [from=]`.
+  pure subroutine read_segment(card, system, by_length, diagnostics, law)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    logical, intent(in) :: by_length
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(law_card_t), intent(inout) :: law
+
+    logical :: fine(4)
+
+    if (size(card%words) < 2) then
+      call add_error(diagnostics, card%keyword, "this card is too short; expected: "// &
+        pattern_of("LAW"))
+      return
+    end if
+    if (has_key(card, "ends")) call add_error(diagnostics, card%keyword, &
+      "'ends=' is for a table")
+    law%law_word = card%words(2)
+    call read_choice(card%words(2), law_words, diagnostics, law%law)
+    call read_position(card, "to", by_length, system, .true., diagnostics, law%to, law%to_word, &
+      fine(1))
+    call read_position(card, "from", by_length, system, .false., diagnostics, law%from, &
+      law%from_word, fine(2))
+    call read_entry_quantity(card, "start", dimension_time, system, .true., diagnostics, &
+      law%start, fine(3))
+    call read_entry_quantity(card, "stop", dimension_time, system, .true., diagnostics, law%stop, &
+      fine(4))
+    if (law%law == 0 .or. .not. all(fine([1, 3, 4]))) return
+    law%name = card%words(1)
+    law%start_word = card%entries(entry_number(card, "start"))%value
+    law%stop_word = card%entries(entry_number(card, "stop"))%value
+    if (law%stop > law%start) return
+    call add_error(diagnostics, law%stop_word, "a segment stops after it starts", law%start_word, &
+      "it starts here")
+  end subroutine read_segment
+
+  !> Reads a position of the first drive: an angle in degrees to the last digit, or a length.
+  pure subroutine read_position(card, key, by_length, system, required, diagnostics, value, word, &
+    fine)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: key
+    logical, intent(in) :: by_length
+    type(unit_system_t), intent(in) :: system
+    logical, intent(in) :: required
+    type(diagnostics_t), intent(inout) :: diagnostics
+    real(wp), intent(out) :: value !! [deg] or [m]; 0 without a value
+    type(token_t), intent(inout) :: word
+    logical, intent(out) :: fine
+
+    type(unit_t) :: measure
+    real(wp) :: number
+    integer :: dimension(4), i
+
+    value = 0.0_wp
+    fine = .false.
+    dimension = merge(dimension_length, dimension_angle, by_length)
+    i = entry_number(card, key)
+    if (i == 0) then
+      if (required .and. .not. has_key(card, key)) call add_error(diagnostics, card%keyword, &
+        "'"//key//"=' is missing; expected the position at the end of this segment")
+      return
+    end if
+    word = card%entries(i)%value
+    call read_measure(word, dimension, coherent_unit(system, dimension), diagnostics, number, &
+      measure, fine)
+    if (fine) value = model_value(number, measure, dimension)
+  end subroutine read_position
+
+  !> Reads `TIME`: instants, listed like crank angles. Errors: as for CRANK.
+  pure subroutine read_time(card, system, diagnostics, time)
+    type(card_t), intent(in) :: card                  !! the TIME card
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(value_list_t), intent(out) :: time           !! [s]
+
+    logical :: fine
+
+    call check_form(card, diagnostics, fine)
+    call read_values(card%words, dimension_time, system, "instant", diagnostics, time)
+  end subroutine read_time
+
+end module law_cards
