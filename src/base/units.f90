@@ -19,7 +19,7 @@ module units
     dimension_force, dimension_moment
   public :: dimension_stress, dimension_density, dimension_area, dimension_second_moment, &
     dimension_rotary_inertia
-  public :: dimension_inertia, dimension_damping
+  public :: dimension_inertia, dimension_damping, dimension_line_damping
 
   !> Exponents of length, mass, time and angle. An angle counts as a dimension here, so that rpm and
   !! 1/s are distinct.
@@ -40,6 +40,7 @@ module units
   integer, parameter :: dimension_inertia(4) = [2, 1, 0, 0]
   integer, parameter :: dimension_damping(4) = [2, 1, -1, 0]       !! moment per angular velocity,
                                                                    !! without the angle
+  integer, parameter :: dimension_line_damping(4) = [0, 1, -1, 0]  !! force per velocity
   integer, parameter :: dimension_area(4) = [2, 0, 0, 0]
   integer, parameter :: dimension_second_moment(4) = [4, 0, 0, 0]
 
@@ -464,6 +465,7 @@ contains
     if (all(dimension == dimension_length - dimension_angle)) noun = "length per angle"
     if (all(dimension == dimension_angle - dimension_length)) noun = "angle per length"
     if (all(dimension == dimension_damping)) noun = "moment per angular velocity"
+    if (all(dimension == dimension_line_damping)) noun = "force per velocity"
   end function dimension_noun
 
   !> `a length`, `an area`: the expected quantity in messages.

@@ -1,7 +1,6 @@
 !> Model → masses and points on the bodies of the linkage, and external loads. Places are turned
 !! from the axes of the LINK card into those of the body.
 module attached_parts
-  use applied_load_types, only: applies_couple
   use kinds, only: wp
   use link_bodies, only: link_center, link_inertia
   use link_cards, only: has_own_mass, link_t
@@ -190,7 +189,7 @@ contains
     against = body%card_axis(1) < 0.0_wp
   end function runs_against
 
-  !> Sets gravity, forces on pins and torques on links, and what resists the motion of links.
+  !> Sets gravity, constant forces on pins and constant torques on links.
   pure subroutine apply_loads(model, links, pins, linkage)
     type(model_t), intent(in) :: model        !! without errors
     integer, intent(in) :: links(:)           !! (bodies) numbers of their links in the model
@@ -206,16 +205,6 @@ contains
     end do
     do i = 1, size(model%torques)
       linkage%couple(findloc(links, model%torques(i)%link, dim=1)) = model%torques(i)%torque
-    end do
-    deallocate (linkage%loads)
-    allocate (linkage%loads(size(model%resistances)))
-    do i = 1, size(model%resistances)
-      associate (load => linkage%loads(i), resistance => model%resistances(i))
-        load%kind = applies_couple
-        load%body(1) = findloc(links, resistance%link, dim=1)
-        load%couple = -resistance%torque
-        load%damping = resistance%damping
-      end associate
     end do
   end subroutine apply_loads
 

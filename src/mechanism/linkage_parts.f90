@@ -84,6 +84,9 @@ contains
     do i = 1, size(model%forces)
       call add_pin(model%forces(i)%pin, pins)
     end do
+    do i = 1, size(model%processes)
+      if (.not. model%processes(i)%on_link) call add_pin(model%processes(i)%subject, pins)
+    end do
     if (is_four_bar(model)) return
     do i = 1, size(model%drawn_pins)
       call add_pin(model%drawn_pins(i)%pin, pins)

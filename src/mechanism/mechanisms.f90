@@ -10,6 +10,7 @@ module mechanisms
   use models, only: inertia_lumped, is_four_bar, model_t
   use name_index, only: name_index_t, new_name_index
   use pose_types, only: pins_of_body
+  use process_parts, only: process_loads
   use response_parts, only: body_gauge_t, gauges_of, response_points_of
   use shear, only: link_shear_stiffness
   use structures, only: structure_t
@@ -71,6 +72,7 @@ contains
     call add_beams(model, links, mechanism)
     call add_beam_mesh(model, links, mechanism)
     call apply_loads(model, assembly%link, pins, mechanism%linkage)
+    mechanism%linkage%loads = process_loads(model, assembly%link, pins, mechanism%linkage)
     mechanism%points = points_of(model, assembly%link, mechanism%linkage)
     mechanism%response_points = response_points_of(model, assembly%link, assembly%pins, &
       mechanism%linkage)

@@ -19,12 +19,15 @@ module model_reader
   use link_cards, only: read_link
   use link_checks, only: check_links
   use linkage_cards, only: read_ground, read_mesh, read_pin_mass, set_default_mesh
-  use load_cards, only: read_force, read_gravity, read_torque
+  use load_cards, only: force_card_t, read_force, read_gravity, read_torque, torque_card_t
   use materials, only: read_material
   use mesh_checks, only: check_meshes
   use models, only: drives_length, has_law, is_four_bar, is_loaded, is_moving, model_t, &
     needs_mesh, report_number
-  use motor_cards, only: read_motor, read_resistance
+  use motor_cards, only: read_motor
+  use process_cards, only: is_process_form, process_card_t, read_process_force, &
+    read_process_torque, read_resistance
+  use process_checks, only: find_processes
   use name_checks, only: check_names
   use output_units, only: new_output_units, output_units_t, table_name
   use report_cards, only: read_report
@@ -104,6 +107,7 @@ contains
     call check_required(cards, reports, diagnostics, model)
     call check_names(diagnostics, model)
     call check_bodies(diagnostics, model)
+    call find_processes(cards, diagnostics, model)
     call check_links(diagnostics, model)
     call check_joints(diagnostics, model)
     call check_drives(diagnostics, model)
@@ -123,10 +127,11 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(inout) :: model
 
-    logical :: four_bar
+    logical :: four_bar, is_sound
     integer :: i, number
 
-    if (has_errors(diagnostics)) return
+    ! Of a deck with errors the linkage may be another one than it seems to be.
+    is_sound = .not. has_errors(diagnostics)
     four_bar = is_four_bar(model)
     do i = 1, size(model%reports)
       associate (report => model%reports(i))
@@ -141,7 +146,7 @@ contains
             report%kind%tables(2) = table_kind_t()
             report%kind%studies = report%kind%studies(:index(report%kind%studies, "harmonics") - 1)
           end if
-        else
+        else if (is_sound) then
           call add_error(diagnostics, report%keyword, "REPORT "//trim(report%kind%name)// &
             " is made for four-bars only, so far: three links with two pins each, two ground "// &
             "pivots, and a driven link")
@@ -329,13 +334,15 @@ contains
       model%meshes(number_of(cards, "MESH")), model%reports(number_of(cards, "REPORT")))
     allocate (model%masses(number_of(cards, "MASS")), model%points(number_of(cards, "POINT")), &
       model%forces(number_of(cards, "FORCE")), model%torques(number_of(cards, "TORQUE")), &
-      model%resistances(number_of(cards, "LOAD")), &
       model%dampings(number_of(cards, "DAMPING")), model%gauges(number_of(cards, "GAUGE")))
     allocate (model%drawn_pins(number_of(cards, "PIN")), model%welds(number_of(cards, "WELD")), &
       model%guides(number_of(cards, "GUIDE")), model%sliders(number_of(cards, "SLIDER")), &
       model%drives(number_of(cards, "DRIVE")), model%laws(number_of(cards, "LAW")), &
       model%branches(number_of(cards, "BRANCH")), model%shafts(number_of(cards, "BALANCE")))
     model%shafts%keyword = token_t("", 0, 0)
+    model%forces%pin = token_t("", 0, 0)
+    model%torques%link_name = token_t("", 0, 0)
+    allocate (model%processes(0))
     ! What the first drive moves says what CRANK and SPEED are.
     do first_drive = 1, size(cards)
       if (same_word(cards(first_drive)%keyword%text, "DRIVE")) exit
@@ -346,10 +353,12 @@ contains
       if (kind == 0) cycle
       so_far(kind) = so_far(kind) + 1
       call read_card(cards(i), trim(card_kinds(kind)%keyword), so_far(kind), &
-        cards(min(first_drive, size(cards))), reports, diagnostics, model)
+        cards(min(first_drive, size(cards))), names_link(cards(i), cards), reports, diagnostics, &
+        model)
     end do
     call keep_branches_of_pins(model)
     call keep_shafts(model)
+    call keep_constant_loads(model)
     if (size(model%drives) > 0) model%drive = model%drives(1)%subject
   end subroutine read_model_cards
 
@@ -369,6 +378,65 @@ contains
     end do
     call move_alloc(branches, model%branches)
   end subroutine keep_branches_of_pins
+
+  !> Removes from the lists of constant forces and torques the cards on other loads.
+  pure subroutine keep_constant_loads(model)
+    type(model_t), intent(inout) :: model
+
+    type(force_card_t), allocatable :: forces(:)
+    type(torque_card_t), allocatable :: torques(:)
+    integer :: i, filled
+
+    allocate (forces(count(model%forces%pin%line > 0)), &
+      torques(count(model%torques%link_name%line > 0)))
+    filled = 0
+    do i = 1, size(model%forces)
+      if (model%forces(i)%pin%line == 0) cycle
+      filled = filled + 1
+      forces(filled) = model%forces(i)
+    end do
+    filled = 0
+    do i = 1, size(model%torques)
+      if (model%torques(i)%link_name%line == 0) cycle
+      filled = filled + 1
+      torques(filled) = model%torques(i)
+    end do
+    call move_alloc(forces, model%forces)
+    call move_alloc(torques, model%torques)
+  end subroutine keep_constant_loads
+
+  !> Appends a load of a process.
+  pure subroutine append_process(model, process)
+    type(model_t), intent(inout) :: model
+    type(process_card_t), intent(in) :: process
+
+    type(process_card_t), allocatable :: longer(:)
+    integer :: i
+
+    allocate (longer(size(model%processes) + 1))
+    do i = 1, size(model%processes)
+      longer(i) = model%processes(i)
+    end do
+    longer(size(longer)) = process
+    call move_alloc(longer, model%processes)
+  end subroutine append_process
+
+  !> Whether the first word of a card is the name of a link.
+  pure function names_link(card, cards) result(names)
+    type(card_t), intent(in) :: card
+    type(card_t), intent(in) :: cards(:) !! all of the deck
+    logical :: names
+
+    integer :: i
+
+    names = .true.
+    if (size(card%words) == 0) return
+    do i = 1, size(cards)
+      if (.not. same_word(cards(i)%keyword%text, "LINK") .or. size(cards(i)%words) == 0) cycle
+      if (same_word(cards(i)%words(1)%text, card%words(1)%text)) return
+    end do
+    names = .false.
+  end function names_link
 
   !> Removes from the list of balance shafts the BALANCE cards on links.
   pure subroutine keep_shafts(model)
@@ -401,15 +469,17 @@ contains
   end function number_of
 
   !> Reads one card. UNITS is read before; INCLUDE, SET and VARY are already carried out.
-  subroutine read_card(card, keyword, number, first_drive, reports, diagnostics, model)
+  subroutine read_card(card, keyword, number, first_drive, on_link, reports, diagnostics, model)
     type(card_t), intent(in) :: card
     character(len=*), intent(in) :: keyword       !! as in the table of cards
     integer, intent(in) :: number                 !! of the card among those of its keyword, from 1
     type(card_t), intent(in) :: first_drive       !! the first DRIVE card, if there is one
+    logical, intent(in) :: on_link                !! the first word of the card names a link
     type(report_kind_t), intent(in) :: reports(:) !! (kinds) all that exist
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(inout) :: model !! has its units, and its lists their lengths
 
+    type(process_card_t) :: process
     logical :: by_length
 
     by_length = .false.
@@ -456,13 +526,24 @@ contains
         model%gravity_word = card%keyword
         call read_gravity(card, system, diagnostics, model%gravity)
       case ("FORCE")
-        call read_force(card, system, diagnostics, model%forces(number))
+        if (is_process_form(card)) then
+          call read_process_force(card, system, diagnostics, process)
+          call append_process(model, process)
+        else
+          call read_force(card, system, diagnostics, model%forces(number))
+        end if
       case ("TORQUE")
-        call read_torque(card, system, diagnostics, model%torques(number))
+        if (is_process_form(card)) then
+          call read_process_torque(card, system, diagnostics, process)
+          call append_process(model, process)
+        else
+          call read_torque(card, system, diagnostics, model%torques(number))
+        end if
       case ("MOTOR")
         call read_motor(card, system, diagnostics, model%motor)
       case ("LOAD")
-        call read_resistance(card, system, diagnostics, model%resistances(number))
+        call read_resistance(card, on_link, system, diagnostics, process)
+        call append_process(model, process)
       case ("BALANCE")
         if (is_shaft_form(card)) then
           call read_shaft(card, system, diagnostics, model%shafts(number))

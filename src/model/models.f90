@@ -13,7 +13,8 @@ module models
   use linkage_cards, only: ground_t, mesh_t, pin_mass_t
   use load_cards, only: force_card_t, torque_card_t
   use materials, only: material_t
-  use motor_cards, only: motor_t, resistance_t
+  use motor_cards, only: motor_t
+  use process_cards, only: over_nothing, process_card_t
   use output_units, only: output_units_t
   use report_cards, only: report_t
   use report_kinds, only: report_kind_t
@@ -64,7 +65,8 @@ module models
     type(force_card_t), allocatable :: forces(:)
     type(torque_card_t), allocatable :: torques(:)
     type(motor_t) :: motor
-    type(resistance_t), allocatable :: resistances(:)
+    type(process_card_t), allocatable :: processes(:) !! FORCE, TORQUE and LOAD cards on all
+                                                !! other loads
     type(balance_card_t) :: balance             !! counterweights of REPORT balance
     type(shaft_card_t), allocatable :: shafts(:) !! its balance shafts
     type(law_card_t), allocatable :: laws(:)    !! LAW cards
@@ -172,6 +174,10 @@ contains
     do i = 1, size(model%forces)
       if (same_word(model%forces(i)%pin%text, name)) return
     end do
+    do i = 1, size(model%processes)
+      if (.not. model%processes(i)%on_link .and. same_word(model%processes(i)%subject%text, name)) &
+        return
+    end do
     is = .false.
   end function is_pin
 
@@ -274,6 +280,12 @@ contains
       is = is .or. any(abs(model%forces(i)%force) > 0.0_wp)
     end do
     is = is .or. any(abs(model%torques%torque) > 0.0_wp)
+    do i = 1, size(model%processes)
+      associate (process => model%processes(i))
+        is = is .or. process%during == 0 .and. (process%over /= over_nothing .or. &
+          any(abs(process%force) > 0.0_wp) .or. abs(process%torque) > 0.0_wp)
+      end associate
+    end do
   end function is_loaded
 
   !> Whether frequencies are requested: alone, with mode shapes or as loci.

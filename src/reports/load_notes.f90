@@ -2,6 +2,7 @@
 module load_notes
   use kinds, only: wp
   use link_cards, only: has_own_mass
+  use load_words, only: process_words
   use mechanisms, only: mechanism_t
   use models, only: drives_length, has_law, model_t
   use text, only: append_string, plural, string_t, to_string
@@ -99,6 +100,10 @@ contains
         before = line//", "
       end do
     end associate
+    do i = 1, size(model%processes)
+      line = before//process_words(model, model%processes(i))
+      before = line//"; "
+    end do
   end function outside_loads
 
   !> `0 -9.81 m/s2`, or `none`

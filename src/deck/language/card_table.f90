@@ -110,14 +110,17 @@ module card_table
       help="the damping of links that bend, in their elastic response"), &
     card_kind_t("GRAVITY", is_single=.true., least=2, most=2, pattern="GRAVITY gx gy", &
       help="acceleration of gravity in global axes"), &
-    card_kind_t("FORCE", least=3, most=3, pattern="FORCE pin fx fy", &
-      help="a constant force on a moving pin"), &
-    card_kind_t("TORQUE", least=2, most=2, pattern="TORQUE link torque", &
-      help="a constant torque on a link"), &
+    card_kind_t("FORCE", least=3, most=3, pattern="FORCE pin fx fy, or FORCE link fx fy at= "// &
+      "[offset=] [axes=], with [table= over=] [during= smooth=]", &
+      help="a force on a moving pin, or at a place of a link"), &
+    card_kind_t("TORQUE", least=1, most=2, pattern="TORQUE link torque, or TORQUE link table= "// &
+      "[over=], with [during= smooth=]", &
+      help="a torque on a link"), &
     card_kind_t("MOTOR", is_single=.true., pattern="MOTOR torque=, or MOTOR stall= noload=", &
       help="what turns the driven link in REPORT motion"), &
-    card_kind_t("LOAD", least=1, most=1, pattern="LOAD link [torque=] [damping=]", &
-      help="the resistance at a link in REPORT motion"), &
+    card_kind_t("LOAD", least=1, most=1, pattern="LOAD link [torque=] [damping=] "// &
+      "[resisting= smooth=], or LOAD pin [damping=] [resisting= smooth=]", &
+      help="what resists the motion of a link or a pin"), &
     card_kind_t("BALANCE", is_single=.true., most=many, &
       pattern="BALANCE [link ...] minimise=force,moment,torque [weights=] [radius=] "// &
       "[density= thickness= | inertia=]", choices="force moment torque", help= &

@@ -1,9 +1,10 @@
-!> GRAVITY, FORCE and TORQUE cards: constant external loads. Names are looked up later, by
-!! `body_checks`.
+!> GRAVITY card; FORCE and TORQUE cards of constant forces on pins and constant torques. Names are
+!! looked up later, by `body_checks`; all other loads are in `process_cards`.
 module load_cards
   use card_reader, only: check_form, read_quantity
+  use card_table, only: pattern_of
   use cards, only: card_t
-  use diagnostics, only: add_warning, diagnostics_t
+  use diagnostics, only: add_error, add_warning, diagnostics_t
   use errors, only: error_t
   use kinds, only: wp
   use numbers, only: number_length, read_real
@@ -126,6 +127,11 @@ contains
     torque%link_name = token_t("", 0, 0)
     call check_form(card, diagnostics, fine)
     if (size(card%words) > 0) torque%link_name = card%words(1)
+    if (fine .and. size(card%words) < 2) then
+      call add_error(diagnostics, card%keyword, "the torque is missing; expected: "// &
+        pattern_of("TORQUE"))
+      return
+    end if
     if (fine) call read_quantity(card%words(2), dimension_moment, system, diagnostics, &
       torque%torque, fine)
   end subroutine read_torque

@@ -1,18 +1,17 @@
-!> MOTOR and LOAD cards: driving torque and resistances of forward dynamics (REPORT motion). Names
-!! are looked up later, by `body_checks`.
+!> MOTOR card: the driving torque of forward dynamics (REPORT motion).
 module motor_cards
-  use card_reader, only: check_form, entry_number, has_key, read_entry_quantity, refuse_negative
+  use card_reader, only: check_form, entry_number, has_key, read_entry_quantity
   use card_table, only: pattern_of
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
   use text, only: same_word
   use tokens, only: token_t
-  use units, only: dimension_damping, dimension_moment, dimension_rate, unit_system_t
+  use units, only: dimension_moment, dimension_rate, unit_system_t
   implicit none (type, external)
   private
 
-  public :: motor_t, resistance_t, read_motor, read_resistance
+  public :: motor_t, read_motor
 
   !> Torque on the driven link: constant, or `stall (1 − ω2/noload)`.
   type :: motor_t
@@ -22,15 +21,6 @@ module motor_cards
     real(wp) :: stall = 0.0_wp     !! torque at rest, counter-clockwise [N m]
     real(wp) :: noload = 0.0_wp    !! speed at zero torque, of the same sign [rad/s]
   end type motor_t
-
-  !> Resisting torque on a link: `torque + damping × angular velocity of the link`.
-  type :: resistance_t
-    type(token_t) :: keyword
-    type(token_t) :: link_name     !! without a line if the card lacks it
-    integer :: link = 0            !! number in the model's list; 0: unknown
-    real(wp) :: torque = 0.0_wp    !! taken from the link, counter-clockwise [N m]
-    real(wp) :: damping = 0.0_wp   !! not negative [N m s/rad]
-  end type resistance_t
 
 contains
 
@@ -101,33 +91,5 @@ contains
       "a motor has a constant torque, 'torque=', or one that falls with its "// &
       "speed, 'stall= noload=', not both", card%entries(constant)%key, "'torque=' is given here")
   end subroutine refuse_mixture
-
-  !> Reads `LOAD link [torque=] [damping=]`. Errors: words or keys that do not fit the card, neither
-  !! `torque=` nor `damping=`, an unreadable value, negative damping.
-  pure subroutine read_resistance(card, system, diagnostics, resistance)
-    type(card_t), intent(in) :: card                  !! the LOAD card
-    type(unit_system_t), intent(in) :: system         !! units of bare numbers
-    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
-    type(resistance_t), intent(out) :: resistance     !! as read; the link is not looked up
-
-    logical :: fine, known_keys
-
-    resistance%keyword = card%keyword
-    resistance%link_name = token_t("", 0, 0)
-    call check_form(card, diagnostics, fine, known_keys)
-    if (size(card%words) > 0) resistance%link_name = card%words(1)
-    if (known_keys .and. .not. has_key(card, "torque") .and. .not. has_key(card, "damping")) then
-      call add_error(diagnostics, card%keyword, &
-        "'torque=' or 'damping=' is missing: this load would be zero")
-    end if
-    call read_entry_quantity(card, "torque", dimension_moment, system, .false., diagnostics, &
-      resistance%torque, fine)
-    call read_entry_quantity(card, "damping", dimension_damping, system, .false., diagnostics, &
-      resistance%damping, fine)
-    if (fine) then
-      call refuse_negative(card%entries(entry_number(card, "damping"))%value, resistance%damping, &
-        "damping", diagnostics)
-    end if
-  end subroutine read_resistance
 
 end module motor_cards

@@ -1,4 +1,4 @@
-!> Checks of MASS, POINT, FORCE, TORQUE and LOAD cards: the links and pins that they name, and
+!> Checks of MASS, POINT, FORCE and TORQUE cards: the links and pins that they name, and
 !! whether rigid bodies have all their data.
 module body_checks
   use diagnostics, only: add_error, diagnostics_t
@@ -37,10 +37,6 @@ contains
     end do
     do i = 1, size(model%torques)
       call seek_link(model%torques(i)%link_name, links, pins, diagnostics, model%torques(i)%link)
-    end do
-    do i = 1, size(model%resistances)
-      call seek_link(model%resistances(i)%link_name, links, pins, diagnostics, &
-        model%resistances(i)%link)
     end do
     call check_points(diagnostics, model)
     call check_forces(diagnostics, model)

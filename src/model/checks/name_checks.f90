@@ -4,6 +4,7 @@ module name_checks
   use link_cards, only: link_t
   use models, only: is_four_bar, model_t
   use name_index, only: find_name, name_index_t, new_name_index
+  use process_cards, only: process_resistance
   use spelling, only: suggestion
   use text, only: append_string, same_word, string_t
   use tokens, only: token_t, token_texts
@@ -53,7 +54,7 @@ contains
     call refuse_same(model%gauges%name, "gauge")
     call refuse_same(model%forces%pin, "force at pin")
     call refuse_same(model%torques%link_name, "torque on link")
-    call refuse_same(model%resistances%link_name, "load on link")
+    call refuse_same(subjects_of(model, .true.), "load on")
     do i = 2, size(model%reports)
       do j = 1, min(i - 1, most_reports)
         if (len_trim(model%reports(i)%kind%name) == 0 .or. &
@@ -248,6 +249,26 @@ contains
     end do
   end function pin_names
 
+  !> The names on LOAD cards, or the pins on FORCE and LOAD cards of processes.
+  pure function subjects_of(model, loads) result(subjects)
+    type(model_t), intent(in) :: model
+    logical, intent(in) :: loads !! else the pins
+    type(token_t), allocatable :: subjects(:)
+
+    logical :: is_one(size(model%processes))
+    integer :: i, filled
+
+    is_one = .not. model%processes%on_link
+    if (loads) is_one = model%processes%kind == process_resistance
+    allocate (subjects(count(is_one)))
+    filled = 0
+    do i = 1, size(model%processes)
+      if (.not. is_one(i)) cycle
+      filled = filled + 1
+      subjects(filled) = model%processes(i)%subject
+    end do
+  end function subjects_of
+
   !> The pins that cards other than LINK name: who writes such a card knows the pin.
   pure function names_on_other_cards(model) result(names)
     type(model_t), intent(in) :: model
@@ -256,14 +277,15 @@ contains
     integer :: filled
 
     filled = size(model%drawn_pins) + size(model%points) + size(model%pin_masses) + &
-      size(model%forces) + size(model%sliders) + size(model%welds) + size(model%drives) + &
-      3*size(model%branches)
+      size(model%forces) + count(.not. model%processes%on_link) + size(model%sliders) + &
+      size(model%welds) + size(model%drives) + 3*size(model%branches)
     allocate (names(filled))
     filled = 0
     call take(model%drawn_pins%pin, filled, names)
     call take(model%points%name, filled, names)
     call take(model%pin_masses%pin, filled, names)
     call take(model%forces%pin, filled, names)
+    call take(subjects_of(model, .false.), filled, names)
     call take(model%sliders%pin, filled, names)
     call take(model%welds%pin, filled, names)
     call take(model%drives%subject, filled, names)

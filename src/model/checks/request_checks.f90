@@ -5,7 +5,7 @@ module request_checks
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use kinds, only: wp
   use models, only: effects_static, has_law, is_loaded, is_moving, model_t, needs_frequencies, &
-    needs_positions, needs_response, needs_study, report_number
+    needs_positions, needs_response, needs_study, report_number, report_of_masses
   use name_checks, only: pin_names
   use name_index, only: find_name, name_index_t, new_name_index
   use report_kinds, only: report_kind_t, report_names
@@ -263,26 +263,23 @@ contains
     end do
   end subroutine warn_of_static_loads
 
-  !> MOTOR and LOAD have no effect where the crank angle is prescribed.
+  !> A motor has no effect where the crank angle is prescribed, other loads none on kinematics.
   pure subroutine warn_of_idle_motors(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
     integer :: i
 
-    if (report_number(model, "motion") > 0) return
-    if (model%motor%keyword%line > 0) call warn_of_idle_card(diagnostics, model%motor%keyword)
-    do i = 1, size(model%resistances)
-      call warn_of_idle_card(diagnostics, model%resistances(i)%keyword)
+    if (report_number(model, "motion") == 0 .and. model%motor%keyword%line > 0) call add_warning( &
+      diagnostics, model%motor%keyword, &
+      "MOTOR is used by REPORT motion only, which is not asked for")
+    if (report_of_masses(model) > 0 .or. needs_frequencies(model)) return
+    do i = 1, size(model%processes)
+      associate (keyword => model%processes(i)%keyword)
+        call add_warning(diagnostics, keyword, upper_case(keyword%text)// &
+          " is used by reports on forces and motion only, none of which is asked for")
+      end associate
     end do
   end subroutine warn_of_idle_motors
-
-  pure subroutine warn_of_idle_card(diagnostics, keyword)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(token_t), intent(in) :: keyword
-
-    call add_warning(diagnostics, keyword, upper_case(keyword%text)// &
-      " is used by REPORT motion only, which is not asked for")
-  end subroutine warn_of_idle_card
 
 end module request_checks

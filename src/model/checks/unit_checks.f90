@@ -70,6 +70,8 @@ contains
     allocate (words(0))
     keyword = card%keyword%text
     if (noun == "forces" .and. same_word(trim(keyword), "FORCE")) then
+      ! Beside a table the words are a direction.
+      if (entry_number(card, "table") > 0) return
       words = card%words(min(2, size(card%words) + 1):)
     else if (noun == "torques" .and. same_word(trim(keyword), "TORQUE")) then
       words = card%words(min(2, size(card%words) + 1):)

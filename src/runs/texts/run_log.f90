@@ -5,12 +5,13 @@ module run_log
   use effect_cards, only: effect_words
   use kinds, only: wp
   use link_cards, only: has_own_mass
+  use load_words, only: process_words
   use mechanisms, only: mechanism_t
   use models, only: branch_crossed, has_law, inertia_distributed, inertia_lumped, link_mass, &
     model_t, needs_frequencies
   use pose_types, only: pins_of_body
   use text, only: plural, string_t, to_string
-  use units, only: coherent_unit, dimension_acceleration, dimension_damping, dimension_length, &
+  use units, only: coherent_unit, dimension_acceleration, dimension_length, &
     dimension_mass, from_si, unit_t
   implicit none (type, external)
   private
@@ -98,7 +99,7 @@ contains
     end do
   end function way_of
 
-  !> Constant loads, one per line.
+  !> Gravity, forces and torques, one per line.
   pure function load_lines(model) result(text)
     type(model_t), intent(in) :: model
     character(len=:), allocatable :: text
@@ -120,18 +121,19 @@ contains
       text = text//"torque on link "//model%torques(i)%link_name%text//": "// &
         to_string(from_si(model%torques(i)%torque, moment), 12)//" "//moment%name//line_feed
     end do
+    do i = 1, size(model%processes)
+      text = text//process_words(model, model%processes(i))//line_feed
+    end do
   end function load_lines
 
-  !> Drive and resistances of a forward motion, one per line.
+  !> The motor of a forward motion.
   pure function motor_lines(model) result(text)
     type(model_t), intent(in) :: model
     character(len=:), allocatable :: text
 
-    type(unit_t) :: moment, damping
-    integer :: i
+    type(unit_t) :: moment
 
     moment = model%outputs%moment
-    damping = coherent_unit(model%units, dimension_damping)
     text = ""
     if (model%motor%keyword%line > 0) then
       if (model%motor%is_line) then
@@ -143,13 +145,6 @@ contains
           moment%name//line_feed
       end if
     end if
-    do i = 1, size(model%resistances)
-      associate (load => model%resistances(i))
-        text = text//"load on link "//load%link_name%text//": torque "// &
-          to_string(from_si(load%torque, moment), 12)//" "//moment%name//", damping "// &
-          to_string(from_si(load%damping, damping), 12)//" "//damping%name//line_feed
-      end associate
-    end do
   end function motor_lines
 
   !> `0, -9810 mm/s2`

@@ -1,0 +1,84 @@
+!> Model → loads of processes on the linkage.
+module process_parts
+  use applied_load_types, only: acts_against_motion, acts_always, acts_with_motion, &
+    applied_load_t, applies_couple, applies_force, load_over_angle => over_angle, &
+    load_over_drive => over_drive, load_over_slider => over_slider, load_over_travel => over_travel
+  use attached_parts, only: place_on_body
+  use cubic_splines, only: ends_not_a_knot, ends_periodic, new_cubic_spline
+  use kinds, only: wp
+  use linkages, only: linkage_t, turned
+  use models, only: model_t
+  use name_index, only: find_name, name_index_t
+  use process_cards, only: over_angle, over_drive, over_nothing, over_slider, over_travel, &
+    process_card_t, process_force, process_resistance
+  implicit none (type, external)
+  private
+
+  public :: process_loads
+
+contains
+
+  !> The loads of FORCE, TORQUE and LOAD cards that are not constant forces on pins or constant
+  !! torques.
+  pure function process_loads(model, links, pins, linkage) result(loads)
+    type(model_t), intent(in) :: model        !! without errors
+    integer, intent(in) :: links(:)           !! (bodies) numbers of their links in the model
+    type(name_index_t), intent(in) :: pins    !! names of the pins
+    type(linkage_t), intent(in) :: linkage    !! its bodies and sliders
+    type(applied_load_t), allocatable :: loads(:)
+
+    integer :: i
+
+    allocate (loads(size(model%processes)))
+    do i = 1, size(loads)
+      associate (process => model%processes(i), load => loads(i))
+        load%kind = merge(applies_force, applies_couple, process%kind == process_force .or. &
+          .not. process%on_link)
+        if (process%on_link) then
+          load%body(1) = findloc(links, process%link, dim=1)
+          load%at(1)%body = load%body(1)
+          load%at(1)%place = place_on_body(linkage%bodies(load%body(1)), process%place)
+        else
+          load%at(1)%pin = find_name(pins, process%subject%text)
+        end if
+        load%force = process%force
+        load%is_carried = process%in_link_axes
+        if (load%is_carried) load%force = turned(process%force, &
+          linkage%bodies(load%body(1))%card_axis)
+        load%couple = process%torque
+        if (process%kind == process_resistance) load%couple = -process%torque
+        load%damping = process%damping
+        load%resisting = process%resisting
+        load%smooth = process%smooth
+        load%during = merge(acts_with_motion, acts_against_motion, process%during > 0)
+        if (process%during == 0) load%during = acts_always
+        if (process%over /= over_nothing) call set_table(process, links, load)
+      end associate
+    end do
+  end function process_loads
+
+  !> The table of a load; its force is then a unit vector.
+  pure subroutine set_table(process, links, load)
+    type(process_card_t), intent(in) :: process
+    integer, intent(in) :: links(:)
+    type(applied_load_t), intent(inout) :: load
+
+    load%table_name = process%table_word%text
+    load%table = new_cubic_spline(process%x, process%y, merge(ends_periodic, ends_not_a_knot, &
+      process%is_periodic))
+    if (process%kind == process_force) load%force = load%force/norm2(load%force)
+    load%number = process%number
+    select case (process%over)
+    case (over_drive)
+      load%over = load_over_drive
+    case (over_slider)
+      load%over = load_over_slider
+    case (over_travel)
+      load%over = load_over_travel
+    case (over_angle)
+      load%over = load_over_angle
+      load%number = findloc(links, process%number, dim=1)
+    end select
+  end subroutine set_table
+
+end module process_parts
