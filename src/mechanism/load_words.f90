@@ -34,8 +34,8 @@ contains
       if (process%on_link) words = words//place_words(model, process)
       words = words//": "
       if (process%over /= over_nothing) then
-        words = words//table_words(process)//" along "//to_string(process%force(1), 12)// &
-          " "//to_string(process%force(2), 12)
+        words = words//"along "//to_string(process%force(1), 12)//" "// &
+          to_string(process%force(2), 12)//", "//table_words(process)
       else
         words = words//to_string(from_si(process%force(1), measure), 12)//" "// &
           to_string(from_si(process%force(2), measure), 12)//" "//measure%name
