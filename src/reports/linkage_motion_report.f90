@@ -4,12 +4,12 @@ module linkage_motion_report
   use kinds, only: wp
   use linkage_motion_study, only: free_drives, linkage_motion_tolerance
   use models, only: drives_length, model_t
-  use motion_report, only: most_listed, time_in_table
+  use motion_report, only: most_listed, steps_line, time_in_table
   use plan_words, only: group_names
   use table_columns, only: cells, table_factor, table_layout_t, table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: real_cells
-  use text, only: append_string, plural, string_t, to_string
+  use text, only: append_string, string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use units, only: from_si, unit_t
   use variant_results, only: variant_results_t
@@ -184,8 +184,7 @@ contains
         if (size(motion%passages) > most_listed) call append_text(buffer, "motion: "// &
           to_string(size(motion%passages) - most_listed)//" more of these"//line_feed)
       end if
-      call append_text(buffer, "motion: "//to_string(motion%steps)//" steps, "// &
-        plural(motion%count, "row")//line_feed)
+      call append_text(buffer, steps_line(motion%steps, motion%implicit_steps, motion%count))
     end associate
     text = buffer_text(buffer)
   end function linkage_motion_log

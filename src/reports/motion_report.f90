@@ -1,6 +1,6 @@
 !> `motion.dat`: forward dynamics, and its lines in the log.
 module motion_report
-  use kinds, only: wp
+  use kinds, only: long, wp
   use linkage_notes, only: angle_note
   use models, only: model_t, report_number
   use motion_study, only: motion_result_t, motion_tolerance
@@ -16,8 +16,8 @@ module motion_report
   implicit none (type, external)
   private
 
-  public :: motion_notes, motion_words, add_motion, motion_log, time_in_table, &
-    most_listed
+  public :: motion_notes, motion_words, add_motion, motion_log, steps_line, &
+    time_in_table, most_listed
 
   character(len=*), parameter :: branch_names = "open crossed"
 
@@ -131,9 +131,22 @@ contains
       call append_text(buffer, "motion: "//to_string(size(motion%turnings) - most_listed)// &
         " more of these"//line_feed)
     end if
-    call append_text(buffer, "motion: "//to_string(motion%steps)//" steps, "// &
-      plural(motion%count, "row")//line_feed)
+    call append_text(buffer, steps_line(motion%steps, motion%implicit_steps, motion%count))
     text = buffer_text(buffer)
   end function motion_log
+
+  !> A line of the log: steps of the methods of integration, and rows.
+  pure function steps_line(steps, implicit_steps, rows) result(line)
+    integer(long), intent(in) :: steps          !! of both methods
+    integer(long), intent(in) :: implicit_steps !! of the implicit one
+    integer, intent(in) :: rows                 !! of the table, without a failed one
+    character(len=:), allocatable :: line
+
+    line = "motion: "//to_string(steps)//" steps"
+    if (implicit_steps > 0) line = line//", "//to_string(steps - implicit_steps)// &
+      " explicit ones of order 8 and "//to_string(implicit_steps)// &
+      " implicit ones of order 17, where the equations are stiff"
+    line = line//", "//plural(rows, "row")//line_feed
+  end function steps_line
 
 end module motion_report

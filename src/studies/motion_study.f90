@@ -38,6 +38,7 @@ module motion_study
     type(error_t), allocatable :: error                !! why it has not reached the end time
     logical :: has_begun = .false.                     !! the start was possible
     integer(long) :: steps = 0_long                    !! of the integration
+    integer(long) :: implicit_steps = 0_long           !! those of the implicit method among them
     real(wp) :: energy = 0.0_wp                        !! kinetic + potential, at the start [J]
     real(wp), allocatable :: pin(:, :, :)              !! (2, pins, instants) in global axes, where
                                                        !! they are wanted [m]
@@ -141,6 +142,7 @@ contains
     associate (motion => under_way%motion)
       result%turnings = motion%turnings(:motion%turning_count)
       result%steps = motion%integrator%steps
+      result%implicit_steps = motion%integrator%implicit_steps
       result%energy = motion%energy
       call explain_stop(motion%stop, result%error)
     end associate
