@@ -40,7 +40,7 @@ module implicit_steps
                                                     !! the start of the step
     real(wp), allocatable, private :: changes(:, :) !! (unknowns, stages) of the last step; not
                                                     !! allocated before the first
-    real(wp) :: last_step = 0.0_wp         !! its length
+    real(wp), private :: last_step = 0.0_wp         !! its length
   end type implicit_method_t
 
   !> A step is shortened by the first factor where its equations are not solved, and changes by the
