@@ -8,7 +8,7 @@ module linkage_motion_report
   use plan_words, only: group_names
   use table_columns, only: cells, table_factor, table_layout_t, table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
-  use tables, only: real_cells
+  use tables, only: decimal_cell
   use text, only: append_string, string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use units, only: from_si, unit_t
@@ -148,7 +148,7 @@ contains
               torque = from_si(torque, table_factor("moment", model%outputs))
             end if
           end if
-          call add_row(rows, real_cells([time_in_table(model, i)])//cells(layout, 2, [position, &
+          call add_row(rows, decimal_cell(time_in_table(model, i))//cells(layout, 2, [position, &
             rate, torque, sample%kinetic, sample%potential, sample%work, sample%energy_error]))
         end associate
       end do

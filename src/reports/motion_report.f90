@@ -8,7 +8,7 @@ module motion_report
   use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
     table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
-  use tables, only: name_cell, real_cells
+  use tables, only: decimal_cell, name_cell, real_cells
   use text, only: append_string, plural, string_t, to_string, word_list
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use units, only: from_si, unit_t
@@ -81,7 +81,7 @@ contains
             crank = real_cells([model%reports(report)%start_angle])
             speed = real_cells([model%shown_start])
           end if
-          call add_row(rows, real_cells([time_in_table(model, i)])//crank// &
+          call add_row(rows, decimal_cell(time_in_table(model, i))//crank// &
             cells(layout, 3, sample%angle(2:))//speed//cells(layout, 6, [sample%speed(2:), &
             sample%torque, sample%kinetic, sample%potential, sample%work, sample%energy_error, &
             sample%closure])//name_cell(trim(branch_of(sample%is_open)), column_width(layout, 14)))

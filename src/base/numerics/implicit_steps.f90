@@ -119,8 +119,8 @@ contains
         step = shorter*step
         cycle
       end if
-      factor = min(most_factor, max(least_factor, safety/max(error, tiny(1.0_wp))**(1.0_wp/(stages + &
-        1))))
+      factor = safety/max(error, tiny(1.0_wp))**(1.0_wp/(stages + 1))
+      factor = min(most_factor, max(least_factor, factor))
       if (error <= 1.0_wp) exit
       step = min(factor, safety)*step
     end do
@@ -327,7 +327,8 @@ contains
         if (.not. solved) return
       end do
       correction = step*matmul(rates, transpose(method%rule%matrix)) - changes
-      correction = reshape(solve(factor, reshape(correction, [size(correction)])), shape(correction))
+      correction = reshape(solve(factor, reshape(correction, [size(correction)])), &
+        shape(correction))
       changes = changes + correction
       now = maxval(abs(correction)/spread(allowed, 2, stages))
       ! Written so that NaN is refused as well.
