@@ -111,7 +111,7 @@ contains
     name = merge("open   ", "crossed", is_open)
   end function branch_of
 
-  !> Log lines: one for each point where the crank turns back, then the numbers of steps and rows.
+  !> Log lines: one for each point where the crank turns back and each change point passed, then the numbers of steps and rows.
   pure function motion_log(motion) result(text)
     type(motion_result_t), intent(in) :: motion !! finished
     character(len=:), allocatable :: text
@@ -121,6 +121,13 @@ contains
 
     do i = 1, min(most_listed, size(motion%turnings))
       associate (turning => motion%turnings(i))
+        if (turning%is_change_point) then
+          call append_text(buffer, "motion: at t="//to_string(turning%time, 12)// &
+            " s the linkage goes straight through a change point, the crank at "// &
+            to_string(turning%crank, 12)//" deg; it goes on as "//trim(branch_of( &
+            turning%to_open))//line_feed)
+          cycle
+        end if
         call append_text(buffer, "motion: at t="//to_string(turning%time, 12)// &
           " s the crank turns back at "//to_string(turning%crank, 12)// &
           " deg; the linkage changes from "//trim(branch_of(.not. turning%to_open))//" to "// &

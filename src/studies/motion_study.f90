@@ -28,12 +28,14 @@ module motion_study
     type(motor_drive_t) :: drive     !! motor on the crank
     type(resistances_t) :: resistances !! on all links
     logical :: with_pins = .false.   !! the places of all pins are wanted
+    logical :: through = .false.     !! straight through change points, in place of a stop there
   end type motion_request_t
 
   type :: motion_result_t
     integer :: count = 0                               !! instants reached
     type(motion_sample_t), allocatable :: samples(:)   !! (all instants) the first `count` are set
-    type(turning_point_t), allocatable :: turnings(:)  !! where the crank has turned back
+    type(turning_point_t), allocatable :: turnings(:)  !! where the crank has turned back, and
+                                                       !! change points that were passed
     type(motion_sample_t) :: last                      !! last state reached
     type(error_t), allocatable :: error                !! why it has not reached the end time
     logical :: has_begun = .false.                     !! the start was possible
@@ -76,7 +78,7 @@ contains
     result%last%angle(1) = request%start_angle
     call start_motion(linkage, rigid_bodies_of(linkage, elements), request%drive, &
       request%resistances, request%start_angle, request%start_speed, request%end_time, &
-      under_way%motion, result%error)
+      under_way%motion, result%error, request%through)
     result%has_begun = .not. allocated(result%error)
     under_way%is_over = allocated(result%error)
   end subroutine begin_motion
