@@ -4,7 +4,7 @@ module linkage_motion_report
   use kinds, only: wp
   use linkage_motion_study, only: free_drives, linkage_motion_tolerance
   use models, only: drives_length, model_t
-  use motion_report, only: most_listed, steps_line, time_in_table
+  use motion_report, only: implicit_words, most_listed, steps_line, time_in_table
   use plan_words, only: group_names
   use table_columns, only: cells, table_factor, table_layout_t, table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
@@ -58,7 +58,8 @@ contains
     energy = table_unit("energy", variant%model%outputs)
     if (variant%found%linkage_motion%count > 0) call append_string(notes, "initial energy: "// &
       to_string(from_si(variant%found%linkage_motion%energy, energy))//" "//energy%name// &
-      "; steps of order 8, each to "//to_string(linkage_motion_tolerance))
+      "; steps of order 8"//implicit_words(variant%found%linkage_motion%implicit_steps)// &
+      ", each to "//to_string(linkage_motion_tolerance))
   end subroutine linkage_motion_notes
 
   !> Whether some coordinates are angles and others lengths.

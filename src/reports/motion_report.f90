@@ -17,7 +17,7 @@ module motion_report
   private
 
   public :: motion_notes, motion_words, add_motion, motion_log, steps_line, &
-    time_in_table, most_listed
+    implicit_words, time_in_table, most_listed
 
   character(len=*), parameter :: branch_names = "open crossed"
 
@@ -48,10 +48,19 @@ contains
         "closure: the gap of the loop")
       if (motion%count == 0) return
       call append_string(notes, "initial energy: "//to_string(from_si(motion%energy, energy))// &
-        " "//energy%name//"; steps of order 8, each to "//to_string(motion_tolerance)// &
-        " of a radian and of the speed")
+        " "//energy%name//"; steps of order 8"//implicit_words(motion%implicit_steps)// &
+        ", each to "//to_string(motion_tolerance)//" of a radian and of the speed")
     end associate
   end subroutine motion_notes
+
+  !> What the head of a table says of implicit steps, if there are some.
+  pure function implicit_words(steps) result(words)
+    integer(long), intent(in) :: steps !! of the implicit method
+    character(len=:), allocatable :: words
+
+    words = ""
+    if (steps > 0) words = ", or 17 where the equations are stiff"
+  end function implicit_words
 
   !> The words in the column `branch`.
   pure function motion_words() result(list)
@@ -111,7 +120,8 @@ contains
     name = merge("open   ", "crossed", is_open)
   end function branch_of
 
-  !> Log lines: one for each point where the crank turns back and each change point passed, then the numbers of steps and rows.
+  !> Log lines: one for each point where the crank turns back and each change point passed, then the
+  !! numbers of steps and rows.
   pure function motion_log(motion) result(text)
     type(motion_result_t), intent(in) :: motion !! finished
     character(len=:), allocatable :: text

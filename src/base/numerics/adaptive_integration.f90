@@ -41,12 +41,13 @@ module adaptive_integration
     type(c_ptr), private :: stepper = c_null_ptr, control = c_null_ptr, evolution = c_null_ptr
   end type integrator_t
 
-  !> The stiffness is looked at after every so many steps of either method. The explicit method is
-  !! limited by its stability where the fastest change goes through more than `stability_limit` of
-  !! itself in a step: some 0.3 where the error limits it, from 3 on where stability does. After so
-  !! many such looks in turn the other method goes on.
+  !> The stiffness is looked at after every so many steps of either method. The equations are stiff
+  !! where the fastest change goes through more than `stability_limit` of itself in a step of the
+  !! explicit method: up to some 0.3 where the error limits it, from 3 on where stability does, in
+  !! between where rounding does that the fastest change makes larger. After so many such looks in
+  !! turn the other method goes on.
   integer, parameter :: explicit_steps_between = 100, implicit_steps_between = 4
-  real(wp), parameter :: stability_limit = 1.0_wp
+  real(wp), parameter :: stability_limit = 0.5_wp
   integer, parameter :: looks_before_change = 5
 
   !> What the fastest change goes through in a step of the explicit method at the limit, and what

@@ -22,8 +22,8 @@ module loop_curves
   type :: loop_curve_t
     real(wp) :: length(3) = 0.0_wp !! of crank, coupler, follower: r2, r3, r4 [m]
     real(wp) :: ground(2) = 0.0_wp !! O2 → O4 [m]
-    type(crossing_branch_t), allocatable :: branches(:) !! to follow through change points; none: the
-                                                        !! curve ends there
+    !> Branches to follow through change points; none: the curve ends there.
+    type(crossing_branch_t), allocatable :: branches(:)
     integer :: near = 0            !! number of the branch that is followed near a change point; 0:
                                    !! there is none near by
     real(wp) :: sense = 1.0_wp     !! −1: the curve is followed against v
