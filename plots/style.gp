@@ -310,7 +310,7 @@ page_of_one(entries, longest, name, unit, low, high) = "lower = foot(lines_of_no
     "; eval heading; plot_height = @panel_room - lower; set tmargin at screen down(125); set bmargin at screen up(lower)".\
     sprintf("; eval value_axis(%.15g, %.15g, plot_height); eval axis_title(%s, lower, plot_height)", low, high, \
         quoted_twice(value_title(name, unit, low, high)))
-crank_step(lowest, highest) = highest - lowest > 150 ? (plot_width < 800 ? 60 : 30) : 15
+crank_step(lowest, highest) = highest - lowest > 1000 ? 180 : highest - lowest > 400 ? (plot_width < 800 ? 120 : 60) : highest - lowest > 150 ? (plot_width < 800 ? 60 : 30) : 15
 crank_axis(lowest, highest) = (unit_crank ne "deg" ? abscissa(lowest, highest) : lowest == highest \
     ? sprintf("set xrange [%g:%g]; set xtics 10; set mxtics 2", lowest - 30, highest + 30) \
     : highest - lowest > 150 \

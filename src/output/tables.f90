@@ -2,9 +2,11 @@
 !! rows as CSV.
 module tables
   use csv_text, only: csv_field, csv_line_end, csv_quoted, csv_record
+  use decimals, only: decimal_of, decimal_t, decimal_value
   use errors, only: error_t
   use kinds, only: long, wp
   use number_text, only: number_width, scientific
+  use numbers, only: shortest_text
   use output_files, only: append_output, discard_output, finish_output, open_output, &
     output_file_t, publish_output
   use table_rows, only: item_failure, item_gap, item_row, next_item, row_item_t, rows_t
@@ -15,7 +17,7 @@ module tables
   public :: table_t, open_table, begin_variant, finish_table, publish_table, discard_table
   public :: column_t, real_column, integer_column, name_column, append_column
   public :: write_header, write_notes, write_rows
-  public :: real_cells, integer_cell, name_cell, has_unit
+  public :: real_cells, decimal_cell, integer_cell, name_cell, has_unit
 
   type :: column_t
     character(len=:), allocatable :: name
@@ -333,6 +335,30 @@ contains
       cells(number_width*(i - 1) + 1:number_width*i) = scientific(values(i) + 0.0_wp, number_width)
     end do
   end function real_cells
+
+  !> A number as the shortest decimal that is read as the same number, filled up with zeros: 0.9 has
+  !! no 2 at its end, as the nearest double in 17 digits does.
+  function decimal_cell(value) result(cell)
+    real(wp), intent(in) :: value !! finite
+    character(len=number_width) :: cell
+
+    type(decimal_t) :: number
+    character(len=:), allocatable :: digits
+    character(len=4) :: exponent
+    integer :: zeros
+
+    cell = real_cells([value])
+    number = decimal_of(shortest_text(value))
+    if (.not. number%is_exact .or. number%digits == 0_long) return
+    if (abs(decimal_value(number) - value) > 0.0_wp) return
+    digits = to_string(abs(number%digits))
+    ! Besides digits: a blank, sign, point, E, sign and three digits of the exponent.
+    zeros = number_width - 8 - len(digits)
+    if (zeros < 0) return
+    write (exponent, "(sp,i4.3)") number%power + len(digits) - 1
+    cell = " "//merge("-", " ", value < 0.0_wp)//digits(1:1)//"."//digits(2:)//repeat("0", &
+      zeros)//"E"//exponent
+  end function decimal_cell
 
   !> A whole number at the right end of its column.
   pure function integer_cell(value, name) result(cell)

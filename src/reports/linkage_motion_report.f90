@@ -5,12 +5,12 @@ module linkage_motion_report
   use linkage_motion_study, only: free_drives, linkage_motion_tolerance
   use load_notes, only: potential_note, work_note
   use models, only: drives_length, model_t
-  use motion_report, only: most_listed, time_in_table
+  use motion_report, only: implicit_words, most_listed, steps_line, time_in_table
   use plan_words, only: group_names
   use table_columns, only: cells, table_factor, table_layout_t, table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
-  use tables, only: real_cells
-  use text, only: append_string, plural, string_t, to_string
+  use tables, only: decimal_cell
+  use text, only: append_string, string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use units, only: from_si, unit_t
   use variant_results, only: variant_results_t
@@ -58,7 +58,8 @@ contains
     energy = table_unit("energy", variant%model%outputs)
     if (variant%found%linkage_motion%count > 0) call append_string(notes, "initial energy: "// &
       to_string(from_si(variant%found%linkage_motion%energy, energy))//" "//energy%name// &
-      "; steps of order 8, each to "//to_string(linkage_motion_tolerance))
+      "; steps of order 8"//implicit_words(variant%found%linkage_motion%implicit_steps)// &
+      ", each to "//to_string(linkage_motion_tolerance))
   end subroutine linkage_motion_notes
 
   !> Whether some coordinates are angles and others lengths.
@@ -148,7 +149,7 @@ contains
               torque = from_si(torque, table_factor("moment", model%outputs))
             end if
           end if
-          call add_row(rows, real_cells([time_in_table(model, i)])//cells(layout, 2, [position, &
+          call add_row(rows, decimal_cell(time_in_table(model, i))//cells(layout, 2, [position, &
             rate, torque, sample%kinetic, sample%potential, sample%work, sample%energy_error]))
         end associate
       end do
@@ -184,8 +185,7 @@ contains
         if (size(motion%passages) > most_listed) call append_text(buffer, "motion: "// &
           to_string(size(motion%passages) - most_listed)//" more of these"//line_feed)
       end if
-      call append_text(buffer, "motion: "//to_string(motion%steps)//" steps, "// &
-        plural(motion%count, "row")//line_feed)
+      call append_text(buffer, steps_line(motion%steps, motion%implicit_steps, motion%count))
     end associate
     text = buffer_text(buffer)
   end function linkage_motion_log

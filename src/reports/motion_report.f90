@@ -1,6 +1,6 @@
 !> `motion.dat`: forward dynamics, and its lines in the log.
 module motion_report
-  use kinds, only: wp
+  use kinds, only: long, wp
   use linkage_notes, only: angle_note
   use load_notes, only: potential_note, work_note
   use models, only: model_t, report_number
@@ -9,7 +9,7 @@ module motion_report
   use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
     table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
-  use tables, only: name_cell, real_cells
+  use tables, only: decimal_cell, name_cell, real_cells
   use text, only: append_string, plural, string_t, to_string, word_list
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use units, only: from_si, unit_t
@@ -17,8 +17,8 @@ module motion_report
   implicit none (type, external)
   private
 
-  public :: motion_notes, motion_words, add_motion, motion_log, time_in_table, &
-    most_listed
+  public :: motion_notes, motion_words, add_motion, motion_log, steps_line, &
+    implicit_words, time_in_table, most_listed
 
   character(len=*), parameter :: branch_names = "open crossed"
 
@@ -45,10 +45,19 @@ contains
       call append_string(notes, work_note//"; closure: the gap of the loop")
       if (motion%count == 0) return
       call append_string(notes, "initial energy: "//to_string(from_si(motion%energy, energy))// &
-        " "//energy%name//"; steps of order 8, each to "//to_string(motion_tolerance)// &
-        " of a radian and of the speed")
+        " "//energy%name//"; steps of order 8"//implicit_words(motion%implicit_steps)// &
+        ", each to "//to_string(motion_tolerance)//" of a radian and of the speed")
     end associate
   end subroutine motion_notes
+
+  !> What the head of a table says of implicit steps, if there are some.
+  pure function implicit_words(steps) result(words)
+    integer(long), intent(in) :: steps !! of the implicit method
+    character(len=:), allocatable :: words
+
+    words = ""
+    if (steps > 0) words = ", or 17 where the equations are stiff"
+  end function implicit_words
 
   !> The words in the column `branch`.
   pure function motion_words() result(list)
@@ -78,7 +87,7 @@ contains
             crank = real_cells([model%reports(report)%start_angle])
             speed = real_cells([model%shown_start])
           end if
-          call add_row(rows, real_cells([time_in_table(model, i)])//crank// &
+          call add_row(rows, decimal_cell(time_in_table(model, i))//crank// &
             cells(layout, 3, sample%angle(2:))//speed//cells(layout, 6, [sample%speed(2:), &
             sample%torque, sample%kinetic, sample%potential, sample%work, sample%energy_error, &
             sample%closure])//name_cell(trim(branch_of(sample%is_open)), column_width(layout, 14)))
@@ -108,7 +117,8 @@ contains
     name = merge("open   ", "crossed", is_open)
   end function branch_of
 
-  !> Log lines: one for each point where the crank turns back, then the numbers of steps and rows.
+  !> Log lines: one for each point where the crank turns back and each change point passed, then the
+  !! numbers of steps and rows.
   pure function motion_log(motion) result(text)
     type(motion_result_t), intent(in) :: motion !! finished
     character(len=:), allocatable :: text
@@ -118,6 +128,13 @@ contains
 
     do i = 1, min(most_listed, size(motion%turnings))
       associate (turning => motion%turnings(i))
+        if (turning%is_change_point) then
+          call append_text(buffer, "motion: at t="//to_string(turning%time, 12)// &
+            " s the linkage goes straight through a change point, the crank at "// &
+            to_string(turning%crank, 12)//" deg; it goes on as "//trim(branch_of( &
+            turning%to_open))//line_feed)
+          cycle
+        end if
         call append_text(buffer, "motion: at t="//to_string(turning%time, 12)// &
           " s the crank turns back at "//to_string(turning%crank, 12)// &
           " deg; the linkage changes from "//trim(branch_of(.not. turning%to_open))//" to "// &
@@ -128,9 +145,22 @@ contains
       call append_text(buffer, "motion: "//to_string(size(motion%turnings) - most_listed)// &
         " more of these"//line_feed)
     end if
-    call append_text(buffer, "motion: "//to_string(motion%steps)//" steps, "// &
-      plural(motion%count, "row")//line_feed)
+    call append_text(buffer, steps_line(motion%steps, motion%implicit_steps, motion%count))
     text = buffer_text(buffer)
   end function motion_log
+
+  !> A line of the log: steps of the methods of integration, and rows.
+  pure function steps_line(steps, implicit_steps, rows) result(line)
+    integer(long), intent(in) :: steps          !! of both methods
+    integer(long), intent(in) :: implicit_steps !! of the implicit one
+    integer, intent(in) :: rows                 !! of the table, without a failed one
+    character(len=:), allocatable :: line
+
+    line = "motion: "//to_string(steps)//" steps"
+    if (implicit_steps > 0) line = line//", "//to_string(steps - implicit_steps)// &
+      " explicit ones of order 8 and "//to_string(implicit_steps)// &
+      " implicit ones of order 17, where the equations are stiff"
+    line = line//", "//plural(rows, "row")//line_feed
+  end function steps_line
 
 end module motion_report

@@ -258,15 +258,17 @@ module report_table
       table_kind_t("gauges", "speed:speed time:time crank:deg gauge:name "// &
       "axial_strain,bending_strain:- moment:moment axial_force:force stress:stress error:-")]), &
     report_kind_t(name="motion", help="the motion under motor and loads", &
-      pattern="REPORT motion crank= [speed=0] end= step= [pins=no|yes]", &
-      default="speed=0 pins=no", studies="motion", masses=.true., &
+      pattern="REPORT motion crank= [speed=0] end= step= [pins=no|yes] "// &
+      "[change_points=stop|through]", default="speed=0 pins=no change_points=stop", &
+      studies="motion", masses=.true., &
       linkages=four_bars, tables=[ &
       table_kind_t("motion", "time:time crank,theta3,theta4:deg omega2,omega3,omega4:rate "// &
       "torque:moment kinetic,potential,work,energy_error:energy closure:length branch:name"), &
       motion_pins]), &
     report_kind_t(name="motion", help="of other linkages: the motion under motor and loads", &
-      pattern="REPORT motion crank= [speed=0] end= step= [pins=no|yes]", &
-      default="speed=0 pins=no", studies="motion", masses=.true., &
+      pattern="REPORT motion crank= [speed=0] end= step= [pins=no|yes] "// &
+      "[change_points=stop|through]", default="speed=0 pins=no change_points=stop", &
+      studies="motion", masses=.true., &
       linkages=other_linkages, tables=[ &
       table_kind_t("motion", "time:time position*:deg rate*:rate torque:moment "// &
       "kinetic,potential,work,energy_error:energy"), motion_pins])]

@@ -95,6 +95,7 @@ contains
       request%end_time = asked%end_time
       request%instants = asked%instants%value
       request%with_pins = asked%with_pins
+      request%through = asked%through
     end associate
     request%drive = drive_of(model)
   end function motion_request_of

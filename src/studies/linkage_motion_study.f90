@@ -34,6 +34,7 @@ module linkage_motion_study
     type(linkage_sample_t) :: last                     !! last state reached
     type(error_t), allocatable :: error                !! why it has not reached the end time
     integer(long) :: steps = 0_long                    !! of the integration
+    integer(long) :: implicit_steps = 0_long           !! those of the implicit method among them
     real(wp) :: energy = 0.0_wp                        !! kinetic + potential, at the start [J]
     type(passage_t), allocatable :: passages(:)        !! dead points that it has passed
     logical :: has_begun = .false.                     !! the start was possible
@@ -100,6 +101,7 @@ contains
     if (.not. result%has_begun) return
     associate (motion => under_way%motion)
       result%steps = motion%integrator%steps
+      result%implicit_steps = motion%integrator%implicit_steps
       result%energy = motion%energy
       result%passages = motion%passages(:motion%passage_count)
       if (allocated(motion%left)) then

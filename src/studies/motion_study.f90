@@ -27,16 +27,19 @@ module motion_study
     real(wp), allocatable :: instants(:) !! of the samples, ascending from 0 to `end_time` [s]
     type(motor_drive_t) :: drive     !! motor on the crank
     logical :: with_pins = .false.   !! the places of all pins are wanted
+    logical :: through = .false.     !! straight through change points, in place of a stop there
   end type motion_request_t
 
   type :: motion_result_t
     integer :: count = 0                               !! instants reached
     type(motion_sample_t), allocatable :: samples(:)   !! (all instants) the first `count` are set
-    type(turning_point_t), allocatable :: turnings(:)  !! where the crank has turned back
+    type(turning_point_t), allocatable :: turnings(:)  !! where the crank has turned back, and
+                                                       !! change points that were passed
     type(motion_sample_t) :: last                      !! last state reached
     type(error_t), allocatable :: error                !! why it has not reached the end time
     logical :: has_begun = .false.                     !! the start was possible
     integer(long) :: steps = 0_long                    !! of the integration
+    integer(long) :: implicit_steps = 0_long           !! those of the implicit method among them
     real(wp) :: energy = 0.0_wp                        !! kinetic + potential, at the start [J]
     real(wp), allocatable :: pin(:, :, :)              !! (2, pins, instants) in global axes, where
                                                        !! they are wanted [m]
@@ -73,7 +76,8 @@ contains
     end if
     result%last%angle(1) = request%start_angle
     call start_motion(linkage, rigid_bodies_of(linkage, elements), request%drive, &
-      request%start_angle, request%start_speed, request%end_time, under_way%motion, result%error)
+      request%start_angle, request%start_speed, request%end_time, under_way%motion, result%error, &
+      request%through)
     result%has_begun = .not. allocated(result%error)
     under_way%is_over = allocated(result%error)
   end subroutine begin_motion
@@ -139,6 +143,7 @@ contains
     associate (motion => under_way%motion)
       result%turnings = motion%turnings(:motion%turning_count)
       result%steps = motion%integrator%steps
+      result%implicit_steps = motion%integrator%implicit_steps
       result%energy = motion%energy
       if (allocated(motion%ended)) then
         result%error = motion%ended

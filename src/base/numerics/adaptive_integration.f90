@@ -1,6 +1,8 @@
 !> Integration of ordinary differential equations by a Runge-Kutta method of order 8 with step
 !! control: `rk8pd` of the GNU Scientific Library (Prince and Dormand 1981, order 8 with an error
-!! estimate of order 7).
+!! estimate of order 7). Where the equations are stiff, so that its steps are as long as its
+!! stability allows and not as the error allows, an implicit method goes on (`implicit_steps`), as
+!! long as this takes fewer evaluations of the rates.
 !!
 !! The only module that handles pointers of C. The library computes in double precision, whatever
 !! the working precision.
@@ -8,40 +10,51 @@ module adaptive_integration
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_funptr, &
     c_int, c_loc, c_null_funptr, c_null_ptr, c_ptr, c_size_t
   use errors, only: error_of_numerics, error_t, set_error
+  use implicit_steps, only: advance_implicitly, implicit_method_t, new_implicit_method, &
+    step_implicitly
   use kinds, only: long, wp
+  use rate_jacobians, only: find_jacobian, spectral_radius
+  use rate_systems, only: rate_system_t
   implicit none (type, external)
   private
 
-  public :: rate_system_t, integrator_t, open_integrator, close_integrator, advance, step_by
-
-  !> A system of differential equations `dy/dt = f(t, y)`.
-  type, abstract :: rate_system_t
-  contains
-    procedure(rates_interface), deferred :: find_rates
-  end type rate_system_t
-
-  abstract interface
-    !> Computes `f(t, y)`.
-    subroutine rates_interface(self, time, state, rates, found)
-      import :: rate_system_t, wp
-      class(rate_system_t), intent(inout) :: self !! the system of equations
-      real(wp), intent(in) :: time                !! t
-      real(wp), intent(in) :: state(:)            !! (unknowns) y
-      real(wp), intent(out) :: rates(:)           !! (unknowns) dy/dt; defined only if `found`
-      logical, intent(out) :: found               !! false: no rates exist here; a shorter step is
-                                                  !! tried
-    end subroutine rates_interface
-  end interface
+  public :: rate_system_t, integrator_t, open_integrator, reopen_integrator, close_integrator, &
+    advance, step_by
 
   !> The library's data between steps. To be closed after use, and never copied.
   type :: integrator_t
-    integer(long) :: steps = 0_long       !! accepted so far
-    integer(long) :: evaluations = 0_long !! of rates so far
-    real(wp) :: step = 0.0_wp             !! length of the next step that the error allows, in the
-                                          !! unit of time
+    integer(long) :: steps = 0_long          !! accepted so far, of both methods
+    integer(long) :: implicit_steps = 0_long !! those of the implicit method among them
+    integer(long) :: evaluations = 0_long    !! of rates so far
+    real(wp) :: step = 0.0_wp                !! length of the next step that the error allows, in
+                                             !! the unit of time
+    logical :: is_stiff = .false.            !! the next step is one of the implicit method
     integer, private :: unknowns = 0
+    real(wp), allocatable, private :: scale(:) !! of `open_integrator`
+    integer, private :: count = 0            !! steps since the last look at the stiffness
+    integer, private :: looks = 0            !! at which the same was seen, one after the other
+    integer, private :: patience = 1         !! factor of the looks that a change to the implicit
+                                             !! method takes
+    real(wp), private :: longest = 0.0_wp    !! step since the last look
+    integer(long), private :: evaluated = 0_long !! evaluations up to the last look
+    type(implicit_method_t), private :: implicit
     type(c_ptr), private :: stepper = c_null_ptr, control = c_null_ptr, evolution = c_null_ptr
   end type integrator_t
+
+  !> The stiffness is looked at after every so many steps of either method. The equations are stiff
+  !! where the fastest change goes through more than `stability_limit` of itself in a step of the
+  !! explicit method: up to some 0.3 where the error limits it, from 3 on where stability does, in
+  !! between where rounding does that the fastest change makes larger. After so many such looks in
+  !! turn the other method goes on.
+  integer, parameter :: explicit_steps_between = 100, implicit_steps_between = 4
+  real(wp), parameter :: stability_limit = 0.5_wp
+  integer, parameter :: looks_before_change = 5
+
+  !> What the fastest change goes through in a step of the explicit method at the limit, and what
+  !! this step costs. After a return from the implicit method the next try waits twice as long, up
+  !! to a bound.
+  real(wp), parameter :: explicit_reach = 3.0_wp, explicit_evaluations = 13.0_wp
+  integer, parameter :: most_patience = 64
 
   !> Passed through the library to `rates_for_library`.
   type :: request_t
@@ -163,7 +176,9 @@ contains
     ! The library's own handler would print and abort.
     previous = gsl_set_error_handler_off()
     integrator%unknowns = size(scale)
+    integrator%scale = scale
     integrator%step = first_step
+    integrator%implicit = new_implicit_method(scale, tolerance)
     unknowns = size(scale, kind=c_size_t)
     allowed = real(tolerance, c_double)
     integrator%stepper = gsl_odeiv2_step_alloc(order_eight(), unknowns)
@@ -187,6 +202,31 @@ contains
     call c_f_pointer(address, kept)
     method = kept
   end function order_eight
+
+  !> Goes on with unknowns of another kind, as many: steps, method and counts are kept.
+  !!
+  !! Errors: not enough memory.
+  subroutine reopen_integrator(integrator, scale, tolerance, error)
+    type(integrator_t), intent(inout) :: integrator  !! open
+    real(wp), intent(in) :: scale(:)                 !! (unknowns) as of `open_integrator`
+    real(wp), intent(in) :: tolerance                !! relative [-]
+    type(error_t), allocatable, intent(out) :: error !! allocated if memory is short
+
+    type(integrator_t) :: next
+
+    call open_integrator(next, scale, tolerance, integrator%step, error)
+    next%steps = integrator%steps
+    next%implicit_steps = integrator%implicit_steps
+    next%evaluations = integrator%evaluations
+    next%is_stiff = integrator%is_stiff
+    next%count = integrator%count
+    next%looks = integrator%looks
+    next%patience = integrator%patience
+    next%longest = integrator%longest
+    next%evaluated = integrator%evaluated
+    call close_integrator(integrator)
+    integrator = next
+  end subroutine reopen_integrator
 
   !> Frees the library's memory.
   subroutine close_integrator(integrator)
@@ -212,6 +252,125 @@ contains
     real(wp), intent(in) :: limit                         !! latest end of the step
     real(wp), intent(inout) :: state(:)                   !! (unknowns) at `time`
     type(error_t), allocatable, intent(out) :: error      !! allocated if no step was made
+
+    real(wp) :: before
+    logical :: found
+
+    before = time
+    if (integrator%is_stiff) then
+      call take_implicit_step(integrator, system, time, limit, state, found)
+      if (found) then
+        call look_at_gain(integrator, time - before)
+        return
+      end if
+      call return_to_explicit(integrator)
+    end if
+    call take_explicit_step(integrator, system, time, limit, state, error)
+    if (.not. allocated(error)) call look_at_stiffness(integrator, system, time, state, time - &
+      before)
+  end subroutine advance
+
+  !> One step of the implicit method.
+  subroutine take_implicit_step(integrator, system, time, limit, state, found)
+    type(integrator_t), intent(inout) :: integrator
+    class(rate_system_t), intent(inout) :: system
+    real(wp), intent(inout) :: time
+    real(wp), intent(in) :: limit
+    real(wp), intent(inout) :: state(:)
+    logical, intent(out) :: found !! false: there is none, or the explicit method needs no shorter
+                                  !! one
+
+    integer(long) :: evaluations
+
+    evaluations = integrator%implicit%evaluations
+    integrator%implicit%step = integrator%step
+    call advance_implicitly(integrator%implicit, system, time, limit, state, found)
+    integrator%evaluations = integrator%evaluations + integrator%implicit%evaluations - evaluations
+    if (.not. found) return
+    integrator%step = integrator%implicit%step
+    integrator%steps = integrator%steps + 1_long
+    integrator%implicit_steps = integrator%implicit_steps + 1_long
+  end subroutine take_implicit_step
+
+  !> After a step of the implicit method: the explicit one goes on where it would need fewer
+  !! evaluations for the same way.
+  subroutine look_at_gain(integrator, step)
+    type(integrator_t), intent(inout) :: integrator
+    real(wp), intent(in) :: step !! its length
+
+    real(wp) :: evaluations
+
+    integrator%count = integrator%count + 1
+    integrator%longest = max(integrator%longest, step)
+    if (integrator%count < implicit_steps_between) return
+    evaluations = real(integrator%evaluations - integrator%evaluated, wp)/integrator%count
+    if (integrator%longest*integrator%implicit%fastest*explicit_evaluations < &
+      explicit_reach*evaluations) then
+      integrator%looks = integrator%looks + 1
+    else
+      integrator%looks = 0
+    end if
+    call begin_look(integrator)
+    if (integrator%looks >= looks_before_change) call return_to_explicit(integrator)
+  end subroutine look_at_gain
+
+  !> The next steps are those of the explicit method.
+  pure subroutine return_to_explicit(integrator)
+    type(integrator_t), intent(inout) :: integrator
+
+    integrator%is_stiff = .false.
+    integrator%patience = min(most_patience, 2*integrator%patience)
+    integrator%looks = 0
+    if (integrator%implicit%fastest > 0.0_wp) integrator%step = min(integrator%step, &
+      stability_limit/integrator%implicit%fastest)
+    call begin_look(integrator)
+  end subroutine return_to_explicit
+
+  !> After a step of the explicit method: whether its stability limits it.
+  subroutine look_at_stiffness(integrator, system, time, state, step)
+    type(integrator_t), intent(inout) :: integrator
+    class(rate_system_t), intent(inout) :: system
+    real(wp), intent(in) :: time     !! after the step
+    real(wp), intent(in) :: state(:) !! likewise
+    real(wp), intent(in) :: step     !! its length
+
+    real(wp) :: rates(size(state)), jacobian(size(state), size(state))
+    logical :: found
+
+    integrator%count = integrator%count + 1
+    integrator%longest = max(integrator%longest, step)
+    if (integrator%count < explicit_steps_between) return
+    integrator%evaluations = integrator%evaluations + 1_long
+    call system%find_rates(time, state, rates, found)
+    if (found) call find_jacobian(system, time, state, rates, integrator%scale, jacobian, found, &
+      integrator%evaluations)
+    if (found) found = integrator%longest*spectral_radius(jacobian) > stability_limit
+    integrator%looks = merge(integrator%looks + 1, 0, found)
+    call begin_look(integrator)
+    if (integrator%looks < looks_before_change*integrator%patience) return
+    integrator%is_stiff = .true.
+    integrator%looks = 0
+  end subroutine look_at_stiffness
+
+  !> Steps are counted anew.
+  pure subroutine begin_look(integrator)
+    type(integrator_t), intent(inout) :: integrator
+
+    integrator%count = 0
+    integrator%longest = 0.0_wp
+    integrator%evaluated = integrator%evaluations
+  end subroutine begin_look
+
+  !> One step of the explicit method.
+  !!
+  !! Errors: as of `advance`.
+  subroutine take_explicit_step(integrator, system, time, limit, state, error)
+    type(integrator_t), intent(inout) :: integrator
+    class(rate_system_t), intent(inout), target :: system
+    real(wp), intent(inout) :: time
+    real(wp), intent(in) :: limit
+    real(wp), intent(inout) :: state(:)
+    type(error_t), allocatable, intent(out) :: error
 
     type(request_t), target :: request
     type(library_system_t), target :: library_system
@@ -240,7 +399,7 @@ contains
     ! Both have been rounded to the precision of the library.
     if (abs(time - limit) <= epsilon(1.0_c_double)*abs(limit)) time = limit
     state = real(library_state, wp)
-  end subroutine advance
+  end subroutine take_explicit_step
 
   !> The state after one step of given length, whatever its error: for a place within a step that
   !! `advance` has made.
@@ -259,7 +418,17 @@ contains
     type(library_system_t), target :: library_system
     real(c_double) :: library_state(integrator%unknowns), estimate(integrator%unknowns)
     integer(c_int) :: status
+    integer(long) :: evaluations
+    logical :: found
 
+    if (integrator%is_stiff) then
+      evaluations = integrator%implicit%evaluations
+      call step_implicitly(integrator%implicit, system, time, step, state, found)
+      integrator%evaluations = integrator%evaluations + integrator%implicit%evaluations - &
+        evaluations
+      if (.not. found) call set_error(error, error_of_numerics, "a step of the integration fails")
+      return
+    end if
     request%system => system
     request%unknowns = integrator%unknowns
     library_system = library_system_t(c_funloc(rates_for_library), c_null_funptr, &

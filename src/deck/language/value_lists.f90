@@ -72,8 +72,8 @@ contains
     if (fine) call read_values(words, dimension, system, key//" value", diagnostics, list)
   end subroutine read_entry_list
 
-  !> The values `0, step, 2 step, …` up to an end, which is one of them if it is within 1e-9 of a
-  !! step of one; they have no words.
+  !> The values `0, step, 2 step, …` before an end, and the end, which takes the place of the last
+  !! of them if it is within 1e-9 of a step of it; they have no words.
   pure subroutine list_steps(end_word, step_word, dimension, system, list)
     type(token_t), intent(in) :: end_word, step_word !! already read without errors, both above 0
     integer, intent(in) :: dimension(4)              !! of the values
@@ -93,6 +93,10 @@ contains
     call read_value(step_word, dimension, bare, diagnostics, step, fine)
     list%unit = step%unit
     call find_points(first, last, step, dimension, list, list%written, list%value)
+    if (list%value(size(list%value)) < last%value) then
+      list%value = [list%value, last%value]
+      list%written = [list%written, in_unit_of(list, last, last%value, dimension)]
+    end if
     list%word = spread(0, 1, size(list%value))
   end subroutine list_steps
 

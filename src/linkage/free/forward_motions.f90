@@ -18,8 +18,8 @@ module forward_motions
   use kinds, only: long, wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t
-  use loop_curves, only: closure_error, curve_point_t, find_point, find_start, new_loop_curve, &
-    project, reduce
+  use loop_curves, only: choose_branch, closure_error, curve_point_t, find_point, find_start, &
+    new_loop_curve, place_from_crossing, project, reduce
   use pose_types, only: pose_t
   use poses, only: dead_point_sine
   use rigid_bodies, only: rigid_body_t
@@ -43,11 +43,13 @@ module forward_motions
   !! either side.
   real(wp), parameter :: undecided_sine = 1.0e-12_wp
 
-  !> A position where the crank turns back and the linkage changes its branch.
+  !> A position where the crank turns back and the linkage changes its branch, or a change point
+  !! through which it goes straight on.
   type :: turning_point_t
     real(wp) :: time = 0.0_wp    !! [s]
     real(wp) :: crank = 0.0_wp   !! with all whole turns [deg]
     logical :: to_open = .false. !! else to the crossed branch
+    logical :: is_change_point = .false.
   end type turning_point_t
 
   !> A motion in progress.
@@ -88,7 +90,8 @@ contains
   !! Errors: those of `find_start` (out of reach, change point); a speed at a limit position, where
   !! the crank can only be at rest and its speed would not determine those of the other links; no
   !! memory. Other reasons why a motion cannot begin are found by `move_until`.
-  subroutine start_motion(linkage, rigid, drive, crank_degrees, speed, duration, motion, error)
+  subroutine start_motion(linkage, rigid, drive, crank_degrees, speed, duration, motion, error, &
+      through)
     type(linkage_t), intent(in) :: linkage           !! a four-bar
     type(rigid_body_t), intent(in) :: rigid(:)       !! (bodies) of the linkage
     class(drive_t), intent(in) :: drive              !! torque on the crank
@@ -99,13 +102,15 @@ contains
     type(forward_motion_t), intent(out) :: motion    !! at its first instant; to be ended by
                                                      !! `end_motion`
     type(error_t), allocatable, intent(out) :: error !! why it cannot begin
+    logical, intent(in), optional :: through         !! straight through change points, in place of
+                                                     !! a stop there
 
     type(curve_point_t) :: point
     type(motion_sample_t) :: first
     real(wp) :: slope, inertia
     logical :: is_smooth
 
-    motion%system%curve = new_loop_curve(linkage)
+    motion%system%curve = new_loop_curve(linkage, through)
     motion%system%dynamics = new_curve_dynamics(linkage, rigid)
     allocate (motion%system%drive, source=drive)
     motion%system%linkage = linkage
@@ -125,6 +130,7 @@ contains
     motion%state(rate_number) = 0.0_wp
     if (abs(speed) > 0.0_wp) motion%state(rate_number) = speed/point%tangent(1)
     call find_inertia(motion%system%dynamics, point, inertia, slope)
+    call choose_branch(motion%system%curve, motion%state(1:3))
     first = sample_motion(motion)
     motion%energy = first%kinetic + first%potential
     ! Rates and work that are small against those of one radian in the whole duration do not matter.
@@ -173,8 +179,13 @@ contains
         return
       end if
       call project(motion%system%curve, motion%state(1:3))
-      if (has_changed_branch(motion)) call note_turning_point(motion, time_before, before)
+      if (has_passed_crossing(motion, before)) then
+        call note_passage(motion, time_before, before, .true.)
+      else if (has_changed_branch(motion)) then
+        call note_passage(motion, time_before, before, .false.)
+      end if
       call reduce(motion%state(1:3), motion%system%turns)
+      call choose_branch(motion%system%curve, motion%state(1:3))
     end do
   end subroutine move_until
 
@@ -204,27 +215,44 @@ contains
     has = abs(sine) > undecided_sine .and. (sine > 0.0_wp .neqv. motion%is_open)
   end function has_changed_branch
 
-  !> Records the change of branch and the instant in the last step at which `sin(θ4 − θ3)` passed
-  !! through zero. It is found by Newton's method within a shrinking interval; each trial is a
-  !! single step from the beginning of the last one. If the sign at that beginning is mere rounding,
-  !! the instant is the beginning itself.
-  subroutine note_turning_point(motion, time, before)
+  !> Whether the last step has passed a change point.
+  pure function has_passed_crossing(motion, before) result(has)
+    type(forward_motion_t), intent(in) :: motion
+    real(wp), intent(in) :: before(unknown_count) !! state at its beginning
+    logical :: has
+
+    real(wp) :: from, to, slope(3)
+
+    has = motion%system%curve%near > 0
+    if (.not. has) return
+    call place_from_crossing(motion%system%curve, before(1:3), from, slope)
+    call place_from_crossing(motion%system%curve, motion%state(1:3), to, slope)
+    has = from*to < 0.0_wp .or. (abs(to) <= 0.0_wp .and. abs(from) > 0.0_wp)
+  end function has_passed_crossing
+
+  !> Records the passage of a change point, or a change of branch, and the instant in the last step
+  !! at which the place along the branch, or `sin(θ4 − θ3)`, passed through zero. It is found by
+  !! Newton's method within a shrinking interval; each trial is a single step from the beginning of
+  !! the last one. If the sign at that beginning is mere rounding, the instant is the beginning
+  !! itself.
+  subroutine note_passage(motion, time, before, is_change_point)
     type(forward_motion_t), intent(inout) :: motion
     real(wp), intent(in) :: time !! at the beginning of the step [s]
     real(wp), intent(in) :: before(unknown_count) !! state at that time
+    logical, intent(in) :: is_change_point
 
     integer, parameter :: most_trials = 60
     type(error_t), allocatable :: error
     real(wp) :: state(unknown_count), rates(unknown_count), low, high, step, next, value, &
-      start_value, slope
+      start_value, by_angle(3), slope
     integer :: trial
     logical :: found
 
-    motion%is_open = .not. motion%is_open
+    if (has_changed_branch(motion)) motion%is_open = .not. motion%is_open
     low = 0.0_wp
     high = motion%time - time
-    start_value = sin(before(3) - before(2))
-    value = sin(motion%state(3) - motion%state(2))
+    call find_value(before, start_value)
+    call find_value(motion%state, value)
     step = 0.0_wp
     if (value*start_value < 0.0_wp) step = high*start_value/(start_value - value)
     state = before
@@ -234,13 +262,13 @@ contains
       found = .false.
       if (.not. allocated(error)) call motion%system%find_rates(time + step, state, rates, found)
       if (.not. found) exit
-      value = sin(state(3) - state(2))
+      call find_value(state, value)
       if (value*start_value > 0.0_wp) then
         low = step
       else
         high = step
       end if
-      slope = cos(state(3) - state(2))*(rates(3) - rates(2))
+      slope = dot_product(by_angle, rates(1:3))
       next = -1.0_wp
       if (abs(slope) > tiny(slope)) next = step - value/slope
       if (abs(next - step) <= 2.0_wp*epsilon(1.0_wp)*(time + step)) exit
@@ -248,8 +276,24 @@ contains
       step = next
     end do
     call append_turning_point(motion, turning_point_t(time + step, &
-      state(1)/degree + 360.0_wp*motion%system%turns(1), motion%is_open))
-  end subroutine note_turning_point
+      state(1)/degree + 360.0_wp*motion%system%turns(1), motion%is_open, is_change_point))
+
+  contains
+
+    !> What passes through zero, and its derivatives by the angles.
+    subroutine find_value(state, value)
+      real(wp), intent(in) :: state(unknown_count)
+      real(wp), intent(out) :: value
+
+      if (is_change_point) then
+        call place_from_crossing(motion%system%curve, state(1:3), value, by_angle)
+      else
+        value = sin(state(3) - state(2))
+        by_angle = cos(state(3) - state(2))*[0.0_wp, -1.0_wp, 1.0_wp]
+      end if
+    end subroutine find_value
+
+  end subroutine note_passage
 
   pure subroutine append_turning_point(motion, turning)
     type(forward_motion_t), intent(inout) :: motion

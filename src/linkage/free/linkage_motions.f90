@@ -5,7 +5,8 @@
 !! limit and turn back while the linkage goes on, on its other branch. The energy is never
 !! corrected, so that its balance measures the accuracy of the motion.
 module linkage_motions
-  use adaptive_integration, only: advance, close_integrator, integrator_t, open_integrator, step_by
+  use adaptive_integration, only: advance, close_integrator, integrator_t, open_integrator, &
+    reopen_integrator, step_by
   use constants, only: degree, two_pi
   use drives, only: drive_t
   use errors, only: error_of_dead_point, error_t, set_error
@@ -154,33 +155,32 @@ contains
       motion%energy = first%kinetic + first%potential
       motion%stop = no_stop
       ! Work that is small against the energy of one radian in the whole duration does not matter.
-      call open_steps(motion, first%kinetic + all_inertia(system)*(span_of(linkage)/duration)**2, &
-        0.01_wp*duration, error)
+      motion%work_scale = first%kinetic + all_inertia(system)*(span_of(linkage)/duration)**2
+      motion%tolerance = tolerance_of(motion)
+      call open_integrator(motion%integrator, scale_of(motion, 0.01_wp*duration), &
+        motion%tolerance, 0.01_wp*duration, error)
     end associate
   end subroutine start_linkage_motion
 
-  !> Prepares the steps: coordinates that change little against the linkage, or a radian, and rates
-  !! small against the present ones, need no accuracy.
-  subroutine open_steps(motion, energy, first_step, error)
-    type(linkage_motion_t), intent(inout) :: motion
-    real(wp), intent(in) :: energy     !! against which the work may be small [J]
-    real(wp), intent(in) :: first_step !! [s]
-    type(error_t), allocatable, intent(inout) :: error
+  !> Values of the state against which it may change little: of coordinates the linkage, or a
+  !! radian, of rates the largest present one, or a hundredth of the linkage in a step.
+  pure function scale_of(motion, step) result(scale)
+    type(linkage_motion_t), intent(in) :: motion
+    real(wp), intent(in) :: step !! of the integration [s]
+    real(wp) :: scale(size(motion%state))
 
     real(wp) :: span
     integer :: f
 
-    motion%work_scale = energy
-    motion%tolerance = tolerance_of(motion)
     associate (system => motion%system)
       f = size(system%free)
       span = span_of(system%whole%linkage)
       if (system%by_drives .and. system%whole%linkage%drives(1)%kind == drives_angle) span = 1.0_wp
-      call open_integrator(motion%integrator, [spread(span, 1, f), spread(max(maxval(abs( &
-        motion%state(f + 1:2*f))), span*0.01_wp/first_step), 1, f), energy], &
-        motion%tolerance, first_step, error)
+      scale(:f) = span
+      scale(f + 1:2*f) = max(maxval(abs(motion%state(f + 1:2*f))), span*0.01_wp/step)
+      scale(2*f + 1) = motion%work_scale
     end associate
-  end subroutine open_steps
+  end function scale_of
 
   !> The error that steps may have from the present position on.
   pure function tolerance_of(motion) result(tolerance)
@@ -394,16 +394,10 @@ contains
     type(linkage_motion_t), intent(inout) :: motion
 
     type(error_t), allocatable :: error
-    integer(long) :: steps, evaluations
-    real(wp) :: step
 
-    steps = motion%integrator%steps
-    evaluations = motion%integrator%evaluations
-    step = motion%integrator%step
-    call close_integrator(motion%integrator)
-    call open_steps(motion, motion%work_scale, step, error)
-    motion%integrator%steps = steps
-    motion%integrator%evaluations = evaluations
+    motion%tolerance = tolerance_of(motion)
+    call reopen_integrator(motion%integrator, scale_of(motion, motion%integrator%step), &
+      motion%tolerance, error)
     if (allocated(error)) motion%stop = stop_steps
   end subroutine reopen_steps
 

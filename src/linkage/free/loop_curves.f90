@@ -2,9 +2,11 @@
 !! where its loop is closed.
 !!
 !! Along the curve the crank's angle may turn back and the branch may change, while the curve goes
-!! on. Only at change points, where all links lie in one line, is it not smooth.
+!! on. Only at change points, where all links lie in one line, is it not smooth: two branches cross,
+!! and on request the curve is the one that goes straight through (`curve_crossings`).
 module loop_curves
   use constants, only: pi, two_pi
+  use curve_crossings, only: crossing_branch_t, crossing_branches, find_on_branch, place_on_branch
   use errors, only: error_of_dead_point, error_t, set_error
   use kinds, only: wp
   use linkages, only: cross, linkage_t, normal_to
@@ -13,13 +15,18 @@ module loop_curves
   private
 
   public :: loop_curve_t, curve_point_t, new_loop_curve, find_start, find_point, closure_error, &
-    project, reduce
+    project, reduce, choose_branch, place_from_crossing
   public :: change_point_message
 
   !> Lengths that define the curve.
   type :: loop_curve_t
     real(wp) :: length(3) = 0.0_wp !! of crank, coupler, follower: r2, r3, r4 [m]
     real(wp) :: ground(2) = 0.0_wp !! O2 → O4 [m]
+    !> Branches to follow through change points; none: the curve ends there.
+    type(crossing_branch_t), allocatable :: branches(:)
+    integer :: near = 0            !! number of the branch that is followed near a change point; 0:
+                                   !! there is none near by
+    real(wp) :: sense = 1.0_wp     !! −1: the curve is followed against v
   end type loop_curve_t
 
   !> A point of the curve, with direction and curvature of the curve there; s is the length of the
@@ -36,14 +43,19 @@ module loop_curves
   !! in one line.
   real(wp), parameter :: change_point_sine = 1.0e-6_wp
 
+  !> A branch is followed as such where no angle is farther from the change point than the first; it
+  !! is left where one is beyond the second [rad].
+  real(wp), parameter :: near_crossing = 0.2_wp, far_from_crossing = 0.3_wp
+
   character(len=*), parameter :: change_point_message = &
     "change point: all links lie in one line, and the linkage may go on either way"
 
 contains
 
   !> The curve of a four-bar.
-  pure function new_loop_curve(linkage) result(curve)
+  pure function new_loop_curve(linkage, through) result(curve)
     type(linkage_t), intent(in) :: linkage !! a four-bar
+    logical, intent(in), optional :: through !! it goes straight through change points
     type(loop_curve_t) :: curve
 
     associate (dyad => linkage%groups(1))
@@ -51,7 +63,62 @@ contains
       curve%ground = linkage%ground_position(:, dyad%base(2)) - linkage%ground_position(:, &
         linkage%bodies(1)%first_pin)
     end associate
+    allocate (curve%branches(0))
+    if (.not. present(through)) return
+    if (through) curve%branches = crossing_branches(curve%length, curve%ground)
   end function new_loop_curve
+
+  !> Takes the branch that the linkage is on where it comes near a change point, and leaves it
+  !! farther away. The tangent keeps its direction.
+  pure subroutine choose_branch(curve, angle)
+    type(loop_curve_t), intent(inout) :: curve !! its `near` and `sense` are set
+    real(wp), intent(in) :: angle(3)           !! θ2, θ3, θ4 on the curve [rad]
+
+    type(curve_point_t) :: before, after
+    real(wp) :: change(3), place, on_branch(3), slope(3), bend(3), off, least
+    integer :: i, nearest
+    logical :: found, is_smooth
+
+    if (size(curve%branches) == 0) return
+    call find_point(curve, angle, before, is_smooth)
+    if (.not. is_smooth) return
+    if (curve%near > 0) then
+      call place_on_branch(curve%branches(curve%near), angle, change, place)
+      if (maxval(abs(change)) < far_from_crossing) return
+      curve%near = 0
+    else
+      nearest = 0
+      least = huge(1.0_wp)
+      do i = 1, size(curve%branches)
+        call place_on_branch(curve%branches(i), angle, change, place)
+        if (maxval(abs(change)) > near_crossing) cycle
+        call find_on_branch(curve%branches(i), place, on_branch, slope, bend, found)
+        if (.not. found) cycle
+        off = norm2(change - on_branch)
+        if (off >= least) cycle
+        least = off
+        nearest = i
+      end do
+      if (nearest == 0) return
+      curve%near = nearest
+    end if
+    call find_point(curve, angle, after, is_smooth)
+    if (dot_product(before%tangent, after%tangent) < 0.0_wp) curve%sense = -curve%sense
+  end subroutine choose_branch
+
+  !> Where the linkage is along the branch through a change point, in the direction of the tangent;
+  !! its zero is the change point.
+  pure subroutine place_from_crossing(curve, angle, place, slope)
+    type(loop_curve_t), intent(in) :: curve !! near a change point
+    real(wp), intent(in) :: angle(3)        !! θ2, θ3, θ4 [rad]
+    real(wp), intent(out) :: place          !! x [rad]
+    real(wp), intent(out) :: slope(3)       !! ∂x/∂θ [-]
+
+    real(wp) :: change(3)
+
+    call place_on_branch(curve%branches(curve%near), angle, change, place)
+    slope = curve%branches(curve%near)%tangent
+  end subroutine place_from_crossing
 
   !> The angles θ2, θ3, θ4 at a crank angle, on the branch of the linkage, in (−π, π] [rad].
   !!
@@ -88,7 +155,8 @@ contains
   !!
   !! The tangent is `v/|v|` with `v = (r3 r4 sin(θ3 − θ4), r2 r4 sin(θ4 − θ2), r2 r3 sin(θ3 − θ2))`,
   !! which satisfies the velocity loop `r2 n2 v2 + r3 n3 v3 − r4 n4 v4 = 0`. With v' along the
-  !! tangent τ, `τ' = (v' − τ (τ·v'))/|v|`.
+  !! tangent τ, `τ' = (v' − τ (τ·v'))/|v|`. Near a change point that the curve goes through, where v
+  !! turns over, both are those of the branch.
   pure subroutine find_point(curve, angle, point, is_smooth)
     type(loop_curve_t), intent(in) :: curve   !! lengths of the links
     real(wp), intent(in) :: angle(3)          !! θ2, θ3, θ4 [rad]
@@ -105,9 +173,13 @@ contains
       sines = [cross(e(:, 3), e(:, 2)), cross(e(:, 1), e(:, 3)), cross(e(:, 1), e(:, 2))]
       cosines = [dot_product(e(:, 3), e(:, 2)), dot_product(e(:, 1), e(:, 3)), &
         dot_product(e(:, 1), e(:, 2))]
+      point%sine = -sines(1)
+      if (curve%near > 0) then
+        call find_point_on_branch(curve, angle, point, is_smooth)
+        return
+      end if
       is_smooth = maxval(abs(sines)) >= change_point_sine
       if (.not. is_smooth) return
-      point%sine = -sines(1)
       area = [r3*r4, r2*r4, r2*r3]
       v = area*sines
       size_of_v = norm2(v)
@@ -116,9 +188,26 @@ contains
         bend = area*cosines*[tangent(2) - tangent(3), tangent(3) - tangent(1), &
           tangent(2) - tangent(1)]
         point%tangent_slope = (bend - tangent*dot_product(tangent, bend))/size_of_v
+        tangent = curve%sense*tangent
       end associate
     end associate
   end subroutine find_point
+
+  !> Tangent and curvature of the branch through a change point, at the place of a point near it.
+  pure subroutine find_point_on_branch(curve, angle, point, found)
+    type(loop_curve_t), intent(in) :: curve
+    real(wp), intent(in) :: angle(3)
+    type(curve_point_t), intent(inout) :: point !! gets them
+    logical, intent(out) :: found               !! false: it is not near
+
+    real(wp) :: change(3), place, on_branch(3), slope(3), bend(3)
+
+    call place_on_branch(curve%branches(curve%near), angle, change, place)
+    call find_on_branch(curve%branches(curve%near), place, on_branch, slope, bend, found)
+    if (.not. found) return
+    point%tangent = curve%sense*slope/norm2(slope)
+    point%tangent_slope = (bend - point%tangent*dot_product(point%tangent, bend))/sum(slope**2)
+  end subroutine find_point_on_branch
 
   !> Vector from B as placed by the follower to B as placed by crank and coupler [m].
   pure function gap_of(curve, direction) result(gap)
@@ -140,7 +229,7 @@ contains
   end function closure_error
 
   !> Moves angles near the curve onto it by the smallest change: Newton's method,
-  !! `Δθ = −Jᵀ (J Jᵀ)⁻¹ gap`.
+  !! `Δθ = −Jᵀ (J Jᵀ)⁻¹ gap`. Near a change point, to the same place on the branch through it.
   pure subroutine project(curve, angle)
     type(loop_curve_t), intent(in) :: curve !! lengths of the links
     real(wp), intent(inout) :: angle(3)     !! θ2, θ3, θ4 away from change points [rad]
@@ -149,8 +238,16 @@ contains
     ! rounding.
     integer, parameter :: turns = 2
     real(wp) :: direction(2, 3), jacobian(2, 3), gap(2), square(2, 2), multiplier(2)
+    real(wp) :: change(3), place, on_branch(3), slope(3), bend(3)
     integer :: i, k
+    logical :: found
 
+    if (curve%near > 0) then
+      call place_on_branch(curve%branches(curve%near), angle, change, place)
+      call find_on_branch(curve%branches(curve%near), place, on_branch, slope, bend, found)
+      if (found) angle = angle + (on_branch - change)
+      return
+    end if
     do i = 1, turns
       direction(1, :) = cos(angle)
       direction(2, :) = sin(angle)

@@ -42,7 +42,8 @@ module report_cards
     real(wp) :: time_step = 0.0_wp   !! between rows [s]
     type(value_list_t) :: instants   !! of the rows [s]
     logical :: with_pins = .false.   !! with a table of the places of the pins
-    type(token_t) :: start_angle_word, start_speed_word, end_time_word, time_step_word
+    logical :: through = .false.     !! straight through change points
+    type(token_t) :: start_angle_word, start_speed_word, end_time_word, time_step_word, through_word
     type(transient_card_t) :: transient !! REPORT transient
     ! REPORT frame: about a place, about a pin, or without either about the point of reference.
     logical :: has_about = .false.   !! `about=x,y` is given
@@ -84,6 +85,7 @@ contains
     report%end_time_word = token_t("", 0, 0)
     report%time_step_word = token_t("", 0, 0)
     report%about_pin = token_t("", 0, 0)
+    report%through_word = token_t("", 0, 0)
     pattern = "REPORT "//joined(word_list(report_names(reports)), "|")
     number = 0
     if (size(card%words) > 0) then
@@ -222,7 +224,7 @@ contains
       system, diagnostics, report%crank)
   end subroutine read_geometry
 
-  !> Reads `REPORT motion crank= [speed=0] end= step= [pins=no|yes]`.
+  !> Reads `REPORT motion crank= [speed=0] end= step= [pins=no|yes] [change_points=stop|through]`.
   pure subroutine read_motion(card, known_keys, by_length, system, diagnostics, report)
     type(card_t), intent(in) :: card
     logical, intent(in) :: known_keys !! no key is unknown: missing ones are an error
@@ -259,6 +261,12 @@ contains
     if (i > 0) then
       call read_choice(card%entries(i)%value, "no yes", diagnostics, choice)
       report%with_pins = choice == 2
+    end if
+    i = entry_number(card, "change_points")
+    if (i > 0) then
+      report%through_word = card%entries(i)%value
+      call read_choice(report%through_word, "stop through", diagnostics, choice)
+      report%through = choice == 2
     end if
     call read_entry_quantity(card, "end", dimension_time, system, known_keys, diagnostics, &
       report%end_time, ends)

@@ -67,6 +67,12 @@ contains
     if (drives_length(model) .and. model%motor%keyword%line > 0) call add_error(diagnostics, &
       model%motor%keyword, "a MOTOR turns a link, and the first DRIVE moves a slider or a ram; "// &
       "a FORCE on its pin, or a DRIVE of a link, may serve")
+    report = report_number(model, "motion")
+    if (report > 0) then
+      if (model%reports(report)%through) call add_error(diagnostics, &
+        model%reports(report)%through_word, "only a four-bar, of three LINKs and no SLIDER, is "// &
+        "followed straight through change points; expected change_points=stop")
+    end if
     call check_reach(model, mechanism, leaving, diagnostics)
     if (leaving > 0) call check_blocks(model, mechanism, diagnostics)
   end subroutine check_linkage
