@@ -11,6 +11,7 @@ module law_checks
   use law_cards, only: law_card_t, table_free, table_periodic, table_rest
   use models, only: drives_length, model_t
   use motion_laws, only: law_ramp, motion_segment_t, motion_values
+  use report_kinds, only: report_kind_t
   use sorting, only: ascending_order
   use spelling, only: suggestion
   use table_cards, only: number_table_t, read_table
@@ -55,8 +56,7 @@ contains
     end if
     allocate (model%law_rates(2, 0))
     call refuse_cards(cards, ["CRANK", "SPEED"], &
-      "the first drive moves by its law; the instants of tables are those of TIME", diagnostics, &
-      word)
+      "the rows of tables are those of the instants of TIME", diagnostics, word)
     call take_parts(model, word, parts)
     if (size(parts) == 0) then
       if (.not. has_errors(diagnostics)) call add_error(diagnostics, word, "there is no law '"// &
@@ -337,7 +337,7 @@ contains
   !> Errors: a report that is about constant speed, or moves the first drive otherwise.
   pure subroutine refuse_reports_of_law(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
-    type(model_t), intent(in) :: model                !! with a law, and its reports chosen
+    type(model_t), intent(inout) :: model             !! with a law, and its reports chosen
 
     character(len=:), allocatable :: reason
     integer :: i
@@ -355,6 +355,8 @@ contains
         end if
         call add_error(diagnostics, report%keyword, "REPORT "//trim(report%kind%name)//" "// &
           reason, model%drives(1)%law, "the law is given here")
+        ! What it would need is not asked for.
+        report%kind = report_kind_t()
       end associate
     end do
   end subroutine refuse_reports_of_law
