@@ -32,8 +32,8 @@ contains
   !> Puts the motion of the first drive by its law into a model: positions in place of those of
   !! CRANK, speed and acceleration at every instant of TIME.
   !!
-  !! Errors: TIME without a law; CRANK and SPEED beside one; a law without cards; segments that
-  !! overlap, a first one that does not say where it begins, later ones that begin elsewhere than
+  !! Errors: TIME without a law; CRANK and SPEED beside one, and VARY time; a law without cards;
+  !! segments that overlap, a first one that does not say where it begins, later ones that begin elsewhere than
   !! the one before ends; a table beside segments or another table, with less than two rows, with an
   !! instant beyond its ends. Warnings: a law that no DRIVE uses, a ramp that begins or ends with a
   !! jump of the velocity.
@@ -57,6 +57,7 @@ contains
     allocate (model%law_rates(2, 0))
     call refuse_cards(cards, ["CRANK", "SPEED"], &
       "the rows of tables are those of the instants of TIME", diagnostics, word)
+    call refuse_time_as_name(cards, diagnostics)
     call take_parts(model, word, parts)
     if (size(parts) == 0) then
       if (.not. has_errors(diagnostics)) call add_error(diagnostics, word, "there is no law '"// &
@@ -95,6 +96,21 @@ contains
       end do
     end do
   end subroutine refuse_cards
+
+  !> Errors: a VARY has the name of the first column of tables of a law.
+  pure subroutine refuse_time_as_name(cards, diagnostics)
+    type(card_t), intent(in) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: i
+
+    do i = 1, size(cards)
+      if (.not. same_word(cards(i)%keyword%text, "VARY") .or. size(cards(i)%words) == 0) cycle
+      if (cards(i)%words(1)%text == "time") call add_error(diagnostics, cards(i)%words(1), &
+        "'time' is a column of the tables of a law; choose another name, since a VARY becomes "// &
+        "a column too")
+    end do
+  end subroutine refuse_time_as_name
 
   !> The LAW cards of a name, segments in the order of their starts.
   pure subroutine take_parts(model, word, parts)
