@@ -33,10 +33,10 @@ contains
   !! CRANK, speed and acceleration at every instant of TIME.
   !!
   !! Errors: TIME without a law; CRANK and SPEED beside one, and VARY time; a law without cards;
-  !! segments that overlap, a first one that does not say where it begins, later ones that begin elsewhere than
-  !! the one before ends; a table beside segments or another table, with less than two rows, with an
-  !! instant beyond its ends. Warnings: a law that no DRIVE uses, a ramp that begins or ends with a
-  !! jump of the velocity.
+  !! segments that overlap, a first one that does not say where it begins, later ones that begin
+  !! elsewhere than the one before ends; a table beside segments or another table, with less than
+  !! two rows, with an instant beyond its ends. Warnings: a law that no DRIVE uses, a ramp that
+  !! begins or ends with a jump of the velocity.
   subroutine find_law(cards, diagnostics, model)
     type(card_t), intent(in) :: cards(:)              !! (cards) all of the deck
     type(diagnostics_t), intent(inout) :: diagnostics !! errors and warnings are added
