@@ -173,6 +173,25 @@ have() {
 # add FIGURE SCRIPT TABLE [ARGUMENT…]
 add() { (IFS='|'; printf '%s\n' "$*") >> "$new/plan"; }
 
+# put_over_time TABLE: a table of a drive with a law has the time before speed and position. Its curves are drawn from a copy with
+# the time in the place of the position, and one speed.
+put_over_time() {
+    mkdir -p "$new/over_time"
+    awk '
+        function written(line,    n, field, i, text) {
+            n = split(line, field, " ")
+            # Names and units stand behind a #.
+            first = field[1] == "#" ? 2 : 1
+            text = first == 2 ? "# " field[first + 1] " " (field[first] == "time" ? "crank" : field[first]) : "0 " field[first]
+            for (i = first + 3; i <= n; i++) text = text " " field[i]
+            return text
+        }
+        /^#/ && !body && !/^# *failed / { if (NR > 2) print before; before = last; last = $0; next }
+        !body { body = 1; if (NR > 2) { print written(before); print written(last) } }
+        { print /^#/ || NF == 0 ? $0 : written($0) }
+        END { if (!body) { print written(before); print written(last) } }' "$1" > "$new/over_time/$1"
+}
+
 # A position that shows the mechanism well: the one nearest to 60 degrees.
 telling_crank() {
     ask 'distinct crank' "$1" | awk '
@@ -274,19 +293,19 @@ plan_cycle() {
         add linkage_positions linkage_positions.gp "$cycle"
         [ "${format:-png}" = png ] && can_animate && add linkage animate_cycle.gp "$cycle"
     fi
-    have kinematics.dat && plan_speeds link_motion kinematics.dat
-    have pins.dat && plan_speeds pin_motion pins.dat
-    have points.dat && plan_speeds point_rates points.dat 'vx vy ax ay'
-    have reactions.dat && plan_speeds joint_forces reactions.dat 'fx fy'
+    have kinematics.dat && plan_speeds link_motion "${over}kinematics.dat"
+    have pins.dat && plan_speeds pin_motion "${over}pins.dat"
+    have points.dat && plan_speeds point_rates "${over}points.dat" 'vx vy ax ay'
+    have reactions.dat && plan_speeds joint_forces "${over}reactions.dat" 'fx fy'
     plan_bearings
     shaking=
-    [ -f shaking.dat ] && shaking=shaking.dat
+    [ -f shaking.dat ] && shaking=${over}shaking.dat
     if have drive.dat; then
-        plan_speeds drive_forces drive.dat
-        [ -z "$shaking" ] || sed -i "/drive_forces.gp/s/$/|$shaking/" "$new/plan"
+        plan_speeds drive_forces "${over}drive.dat"
+        [ -z "$shaking" ] || sed -i "/drive_forces.gp/s#\$#|$shaking#" "$new/plan"
     fi
-    # Places of a slider have no directions.
-    if [ -n "$cycle" ] && ask facts "$cycle" | grep -q "unit_crank = 'deg'"; then
+    # Places of a slider have no directions, and by a law a force comes to one of them more than once.
+    if [ -n "$cycle" ] && [ -z "$over" ] && ask facts "$cycle" | grep -q "unit_crank = 'deg'"; then
         [ -f balance.dat ] && shaking=balance.dat
         [ -n "$shaking" ] && have "$shaking" && plan_speeds shaking_force "$shaking" 'shaking_x shaking_y'
         # Where only the shaking force is balanced the remarks of the table say all.
@@ -294,14 +313,15 @@ plan_cycle() {
             plan_speeds balance balance.dat 'shaking_x shaking_y shaking_moment torque balanced_moment balanced_torque'
     fi
     have harmonics.dat && plan_speeds harmonics harmonics.dat largest
-    have lagrange.dat && plan_speeds lagrange lagrange.dat
+    have lagrange.dat && plan_speeds lagrange "${over}lagrange.dat"
     have linkage.dat && add limits limits.gp linkage.dat
     have motion.dat time && add motion motion.gp motion.dat
 }
 
 # Of any linkage: loci of the forces in its joints, and of that on the frame beside the shaking force. Places of a slider have no
-# directions.
+# directions, and figures of a law are over time.
 plan_bearings() {
+    [ -z "$over" ] || return 0
     have bearings.dat && several bearings.dat && plan_speeds bearings bearings.dat magnitude
     if have frame.dat && several frame.dat && ask facts frame.dat | grep -q "unit_crank = 'deg'"; then
         plan_speeds frame_force frame.dat 'frame_x frame_y' shaking_force.gp
@@ -310,11 +330,11 @@ plan_bearings() {
 
 # Angles always; what stands still has no curve worth drawing.
 plan_kinematics() {
-    add kinematics_angles kinematics.gp kinematics.dat angles
+    add kinematics_angles kinematics.gp "${over}kinematics.dat" angles
     [ "$(ask 'range omega3 omega4' kinematics.dat)" = '0 0' ] ||
-        add kinematics_velocities kinematics.gp kinematics.dat velocities
+        add kinematics_velocities kinematics.gp "${over}kinematics.dat" velocities
     [ "$(ask 'range alpha3 alpha4' kinematics.dat)" = '0 0' ] ||
-        add kinematics_accelerations kinematics.gp kinematics.dat accelerations
+        add kinematics_accelerations kinematics.gp "${over}kinematics.dat" accelerations
 }
 
 # The program can place the linkage anew.
@@ -346,17 +366,25 @@ plan_rigid_dynamics() {
     balance=
     have balance.dat && balance=balance.dat
     if have points.dat; then
-        plan_speeds point_rates points.dat 'vx vy ax ay'
+        plan_speeds point_rates "${over}points.dat" 'vx vy ax ay'
         if ! several points.dat; then
             remark 'paths of points need several positions'
         elif can_place; then
-            add coupler_curve coupler_curve.gp points.dat "$(telling_crank points.dat)" "$balance"
+            # The path of a mass centre is that of even positions.
+            add coupler_curve coupler_curve.gp points.dat "$(telling_crank points.dat)" "$([ -n "$over" ] || echo "$balance")"
             [ "${format:-png}" = png ] && can_animate && add linkage animate_linkage.gp points.dat points.dat
         fi
     fi
     have linkage.dat && can_place && add special_positions special_positions.gp linkage.dat
     have reactions.dat &&
-        plan_speeds reactions reactions.dat 'O2x O2y A2x A2y A3x A3y B3x B3y B4x B4y O4x O4y torque'
+        plan_speeds reactions "${over}reactions.dat" 'O2x O2y A2x A2y A3x A3y B3x B3y B4x B4y O4x O4y torque'
+    if [ -n "$over" ]; then
+        [ -z "$balance" ] ||
+            plan_speeds balance "${over}balance.dat" 'shaking_x shaking_y shaking_moment torque balanced_moment balanced_torque'
+        have lagrange.dat && plan_speeds lagrange "${over}lagrange.dat"
+        have pins.dat && plan_speeds pin_motion "${over}pins.dat"
+        return
+    fi
     have reactions.dat && can_place && plan_forces forces.gp
     [ -n "$balance" ] || ! have reactions.dat || plan_speeds shaking_force reactions.dat 'shaking_x shaking_y'
     if [ -n "$balance" ]; then
@@ -418,7 +446,7 @@ plan_animations() {
         if have motion.dat time && several motion.dat time && can_place; then add motion animate_linkage_motion.gp motion.dat; fi
         return
     fi
-    if have reactions.dat && [ "$(ask 'distinct crank' reactions.dat | wc -l)" -ge 12 ] && can_place; then
+    if [ -z "$over" ] && have reactions.dat && [ "$(ask 'distinct crank' reactions.dat | wc -l)" -ge 12 ] && can_place; then
         plan_forces animate_forces.gp
     fi
     if have response.dat && [ "$(ask 'distinct crank' response.dat | wc -l)" -ge 12 ] && can_place; then
@@ -441,6 +469,19 @@ varied=
 for table in *.dat; do
     [ -z "$varied" ] && [ -f "$table" ] && varied=$(ask varied "$table")
 done
+
+# A drive with a law: its tables are over time.
+over=
+for table in *.dat; do
+    if [ -z "$varied" ] && [ -f "$table" ] && ask facts "$table" | grep -q 'columns = .time  *speed  *crank '; then
+        put_over_time "$table"
+        over=$new/over_time/
+    fi
+done
+if [ -n "$over" ]; then
+    law=$(sed -n "s/^DRIVE .* law=\([^ ]*\).*/\1/p" echo.deck 2> /dev/null | sed "s/'/''/g; 1q")
+    settings="$settings; law_name = '$law'"
+fi
 
 case $format in
     svg) terminal=svg ;;
@@ -472,7 +513,7 @@ if [ -n "$varied" ]; then
 elif [ $figures = animations ]; then
     plan_animations
 else
-    [ $other = no ] && have inertia.dat && plan_mechanism
+    [ $other = no ] && [ -z "$over" ] && have inertia.dat && plan_mechanism
     have mesh.dat && add finite_element_model finite_element_model.gp mesh.dat "$(telling_crank mesh.dat)"
     have frequencies.dat && plan_frequencies
     have branches.dat && plan_speeds branches branches.dat

@@ -18,7 +18,7 @@ symbol(name) = letter.(number(name) < 10 ? word("₁ ₂ ₃ ₄ ₅ ₆ ₇ ₈
 speeds = answer(table, "distinct speed")
 n = words(speeds)
 positions = rows/n
-headline = numbered(figure, subject." against crank angle")
+headline = numbered(figure, subject." ".against.(by_law && kind eq "angles" ? ", ".at_speed(0, "") : ""))
 note = link_note
 lower = foot(lines_of_notes(note, remark))
 pick(k, name) = same(field("speed"), word(speeds, k) + 0) ? field(name) : NaN
@@ -30,7 +30,7 @@ unwrapped(id, angle) = (turns = curve eq id ? turns + turn(angle - previous) : 0
     curve = id, previous = angle, angle + 360*turns)
 angle(pass, name) = same(field("speed"), word(speeds, 1) + 0) ? unwrapped(pass.name, field(name)) : NaN
 
-speed_text(k) = sprintf("%.5g %s", word(speeds, k) + 0, typeset(unit_speed))
+speed_text(k) = by_law ? at_speed(0, "") : sprintf("%.5g %s", word(speeds, k) + 0, typeset(unit_speed))
 
 if (kind eq "angles") {
     drawn = drawn." transmission_angle"
@@ -58,14 +58,16 @@ if (kind eq "angles") {
     eval legend_page(125 + lower + m*(panel + gap) - gap, n + 1, longest, ticks_room, 1)
     panel = (@panel_room - lower + gap)/m - gap
     eval heading
-    set key title "crank speed ω₂" left
+    set key title by_law ? "" : "crank speed ω₂" left
     set multiplot
     do for [j=1:m] {
         name = word(drawn, j)
         base = lower + (m - j)*(panel + gap)
         set bmargin at screen up(base)
         set tmargin at screen up(base + panel)
+        bare = j < m
         eval crank_axis(low_crank, high_crank)
+        bare = 0
         if (j < m) { set format x ""; set xlabel "" } else { set format x "%h" }
         if (j > 1) { unset label; unset key }
         eval value_axis(value("low_".name), value("high_".name), panel)

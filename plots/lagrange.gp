@@ -6,7 +6,7 @@ table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argum
 
 eval answer(table, "facts")
 headline = numbered(figure, sprintf("Lagrange's equation of the %s, %s", \
-    of_cycle ? "drive" : "crank against its angle", at_speed(speed, unit_speed)))
+    of_cycle ? "drive" : by_law ? "crank" : "crank against its angle", at_speed(speed, unit_speed)))
 note = of_cycle ? "torque = M α + V + gravity + load,  V = ½ M′ ω², with α and ω of the drive" \
     : "torque = M α₂ + V + gravity + load,  V = ½ M′ ω₂²"
 source_of(k) = table

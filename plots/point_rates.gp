@@ -6,7 +6,7 @@ table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argum
 
 eval answer(table, "facts")
 names = names_in(table, "point")
-headline = numbered(figure, sprintf("Speed and acceleration of %s".(of_cycle ? "" : " against crank angle").", %s", \
+headline = numbered(figure, sprintf("Speed and acceleration of %s".(of_cycle ? "" : " ".against).", %s", \
     words(names) == 1 ? "point ".short_name(names, 1) : "points", at_speed(speed, unit_speed)))
 note = ""
 x = "field('crank')"

@@ -5,7 +5,8 @@ load ARG0[1 : strlen(ARG0) - strlen("reactions.gp")]."style.gp"
 table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
 
 eval answer(table, "facts")
-headline = numbered(figure, sprintf("Forces at the pins and driving torque against crank angle, %s", at_speed(speed, unit_speed)))
+headline = numbered(figure, sprintf("Forces at the pins and driving torque %s, %s", against, \
+    at_speed(speed, unit_speed)))
 note = link_note
 source_of(k) = table
 picked = "same(field('speed'),speed)"

@@ -130,17 +130,21 @@ ordinal(n) = n <= 10 ? word("first second third fourth fifth sixth seventh eight
 capital(text) = substr("ABCDEFGHIJKLMNOPQRSTUVWXYZ", strstrt("abcdefghijklmnopqrstuvwxyz", text[1:1]), \
     strstrt("abcdefghijklmnopqrstuvwxyz", text[1:1])).text[2:*]
 at_crank(crank) = of_cycle ? drive_subject.sprintf(" at %.10g", crank).(unit_crank eq "deg" ? "°" : " ".unit_crank) : sprintf("θ₂ = %.10g°", crank)
-at_speed(speed, unit) = of_cycle ? drive_subject.sprintf(" at %.6g %s", speed, typeset(unit)) : sprintf("ω₂ = %.6g %s", speed, typeset(unit))
+at_speed(speed, unit) = by_law ? (law_name eq "" ? "by its law" : "by law ".law_name) : of_cycle ? drive_subject.sprintf(" at %.6g %s", speed, typeset(unit)) : sprintf("ω₂ = %.6g %s", speed, typeset(unit))
+
+# Of a drive with a law (law_name, which draw_figures.sh hands over) tables are over time.
+by_law = exists("law_name")
+against = by_law ? "against time" : "against crank angle"
 
 # Of a linkage that is no four-bar (is_cycle, which draw_figures.sh hands over) axes and titles name what the first DRIVE moves.
 of_cycle = exists("is_cycle")
-driven = of_cycle ? system("sed -n 's/^DRIVE *//p' echo.deck 2> /dev/null | sed '1s/ *!.*//; 1q'") : ""
+driven = of_cycle ? system("sed -n 's/^DRIVE *//p' echo.deck 2> /dev/null | sed '1s/ *!.*//; 1s/ *law=[^ ]*//; 1q'") : ""
 driven_word(k) = words(driven) >= k ? word(driven, k) : ""
 drive_subject = driven eq "" ? "crank" : driven_word(1)
 drive_quantity(unit) = driven_word(2) eq "against" ? "angle of ".drive_subject." against ".driven_word(3) \
     : unit eq "deg" ? (drive_subject eq "crank" ? "crank angle" : "angle of ".drive_subject) \
     : driven_word(2) eq "length" ? "length of ".drive_subject : "place of ".drive_subject." along ".driven_word(2)
-crank_title(unit) = (of_cycle ? drive_quantity(unit) : "crank angle θ₂")." [".typeset(unit)."]"
+crank_title(unit) = by_law ? "time [".unit."]" : (of_cycle ? drive_quantity(unit) : "crank angle θ₂")." [".typeset(unit)."]"
 numbered(figure, text) = figure eq "" ? text : "Figure ".figure.".  ".text
 divergence = "below zero: −√(−ω²)/2π of a mode that has diverged (static instability)"
 cut(text, n) = strlen(text) <= n ? text : text[1 : n - 1]."…"

@@ -82,6 +82,8 @@ contains
     if (index(word%text, "$") == 1) then
       call add_error(diagnostics, word, &
         "files are read before values are set: '"//key//"=' takes no '"//word%text//"'")
+      ! It is looked up no more.
+      cards(card)%entries(entry)%value%set_line = -1
       return
     end if
     path = word%text

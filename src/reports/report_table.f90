@@ -737,8 +737,10 @@ contains
     if (table%name == "motion" .and. .not. is_four_bar(model)) fitted%columns = &
       linkage_motion_columns(model)
     if (drives_length(model)) call use_lengths(model, fitted)
-    if (has_law(model) .and. index(fitted%columns, "speed:") == 1 .and. index(fitted%columns, &
-      " crank:") > 0) fitted%columns = "time:time "//fitted%columns
+    ! Tables of positions, not those of speeds.
+    if (has_law(model) .and. index(fitted%columns, "speed:") == 1 .and. &
+      max(index(fitted%columns, " crank:"), index(fitted%columns, " crank,")) > 0) &
+      fitted%columns = "time:time "//fitted%columns
   end function table_in_units
 
   !> Makes the columns of a table those of a slider or a ram.

@@ -3,9 +3,10 @@ module result_failures
   use errors, only: error_of_reach, error_t, set_error
   use frequency_study, only: has_result
   use kinds, only: wp
-  use models, only: drives_length, needs_frequencies, report_number, speed_in_words
-  use run_findings, only: add_failure, at_frequencies, at_position, failure_t, findings_t, &
-    in_campbell, in_intervals, in_motion, in_response, in_stability, in_transient, of_variant
+  use models, only: drives_length, has_law, needs_frequencies, report_number, speed_in_words
+  use run_findings, only: add_failure, at_frequencies, at_instant, at_position, failure_t, &
+    findings_t, in_campbell, in_intervals, in_motion, in_response, in_stability, in_transient, &
+    of_variant
   use stability_types, only: gap_t
   use table_columns, only: table_unit
   use text, only: to_string
@@ -36,7 +37,10 @@ contains
     associate (found => variant%found, crank => variant%found%positions%crank)
       do i = 1, size(crank)
         associate (state => found%positions%state(i))
-          if (allocated(found%positions%states(state)%error)) then
+          if (allocated(found%positions%states(state)%error) .and. has_law(variant%model)) then
+            call note_failure(variant, at_instant, found%positions%states(state)%error, &
+              crank(i), 0, variant%model%time%value(i), findings)
+          else if (allocated(found%positions%states(state)%error)) then
             call note_failure(variant, at_position, found%positions%states(state)%error, &
               crank(i), 0, 0.0_wp, findings)
           else if (needs_frequencies(variant%model)) then

@@ -11,6 +11,7 @@ module law_checks
   use law_cards, only: law_card_t, table_free, table_periodic, table_rest
   use models, only: drives_length, model_t
   use motion_laws, only: law_ramp, motion_segment_t, motion_values
+  use report_kinds, only: report_kind_t
   use sorting, only: ascending_order
   use spelling, only: suggestion
   use table_cards, only: number_table_t, read_table
@@ -31,11 +32,11 @@ contains
   !> Puts the motion of the first drive by its law into a model: positions in place of those of
   !! CRANK, speed and acceleration at every instant of TIME.
   !!
-  !! Errors: TIME without a law; CRANK and SPEED beside one; a law without cards; segments that
-  !! overlap, a first one that does not say where it begins, later ones that begin elsewhere than
-  !! the one before ends; a table beside segments or another table, with less than two rows, with an
-  !! instant beyond its ends. Warnings: a law that no DRIVE uses, a ramp that begins or ends with a
-  !! jump of the velocity.
+  !! Errors: TIME without a law; CRANK and SPEED beside one, and VARY time; a law without cards;
+  !! segments that overlap, a first one that does not say where it begins, later ones that begin
+  !! elsewhere than the one before ends; a table beside segments or another table, with less than
+  !! two rows, with an instant beyond its ends. Warnings: a law that no DRIVE uses, a ramp that
+  !! begins or ends with a jump of the velocity.
   subroutine find_law(cards, diagnostics, model)
     type(card_t), intent(in) :: cards(:)              !! (cards) all of the deck
     type(diagnostics_t), intent(inout) :: diagnostics !! errors and warnings are added
@@ -55,8 +56,8 @@ contains
     end if
     allocate (model%law_rates(2, 0))
     call refuse_cards(cards, ["CRANK", "SPEED"], &
-      "the first drive moves by its law; the instants of tables are those of TIME", diagnostics, &
-      word)
+      "the rows of tables are those of the instants of TIME", diagnostics, word)
+    call refuse_time_as_name(cards, diagnostics)
     call take_parts(model, word, parts)
     if (size(parts) == 0) then
       if (.not. has_errors(diagnostics)) call add_error(diagnostics, word, "there is no law '"// &
@@ -95,6 +96,21 @@ contains
       end do
     end do
   end subroutine refuse_cards
+
+  !> Errors: a VARY has the name of the first column of tables of a law.
+  pure subroutine refuse_time_as_name(cards, diagnostics)
+    type(card_t), intent(in) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: i
+
+    do i = 1, size(cards)
+      if (.not. same_word(cards(i)%keyword%text, "VARY") .or. size(cards(i)%words) == 0) cycle
+      if (cards(i)%words(1)%text == "time") call add_error(diagnostics, cards(i)%words(1), &
+        "'time' is a column of the tables of a law; choose another name, since a VARY becomes "// &
+        "a column too")
+    end do
+  end subroutine refuse_time_as_name
 
   !> The LAW cards of a name, segments in the order of their starts.
   pure subroutine take_parts(model, word, parts)
@@ -337,7 +353,7 @@ contains
   !> Errors: a report that is about constant speed, or moves the first drive otherwise.
   pure subroutine refuse_reports_of_law(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
-    type(model_t), intent(in) :: model                !! with a law, and its reports chosen
+    type(model_t), intent(inout) :: model             !! with a law, and its reports chosen
 
     character(len=:), allocatable :: reason
     integer :: i
@@ -355,6 +371,8 @@ contains
         end if
         call add_error(diagnostics, report%keyword, "REPORT "//trim(report%kind%name)//" "// &
           reason, model%drives(1)%law, "the law is given here")
+        ! What it would need is not asked for.
+        report%kind = report_kind_t()
       end associate
     end do
   end subroutine refuse_reports_of_law

@@ -11,8 +11,8 @@ module deck_checks
   use linkage_checks, only: check_linkage
   use linkage_parts, only: assemble_linkage, assembly_t
   use mechanisms, only: mechanism_of, mechanism_t
-  use models, only: model_t, needs_frequencies, report_number, solver_band, steady_state_report, &
-    solver_dense
+  use models, only: has_law, model_t, needs_frequencies, report_number, solver_band, &
+    solver_dense, steady_state_report
   use motion_checks, only: check_motion
   use nodal_eigensolver, only: most_round_off
   use plan_faults, only: report_problem
@@ -115,7 +115,7 @@ contains
     type(reach_t), intent(in) :: reach
     type(diagnostics_t), intent(inout) :: diagnostics
 
-    character(len=:), allocatable :: message
+    character(len=:), allocatable :: message, remedy
     logical :: out_of_reach(size(model%crank%value))
     integer :: first
 
@@ -128,9 +128,13 @@ contains
       message = to_string(count(out_of_reach))//" crank angles are out of reach, the first at "// &
         to_string(model%crank%value(first), 10)//" deg"
     end if
+    if (has_law(model)) then
+      remedy = ""
+    else
+      remedy = ": "//ready_card(reach, step_of(model%crank))
+    end if
     call add_error(diagnostics, model%crank%words(model%crank%word(first)), &
-      message//"; the linkage closes "//reachable_text(reach)//": "// &
-      ready_card(reach, step_of(model%crank)), kind=error_of_reach)
+      message//"; the linkage closes "//reachable_text(reach)//remedy, kind=error_of_reach)
   end subroutine check_reach
 
   !> Positions out of reach that REPORT geometry asks for.

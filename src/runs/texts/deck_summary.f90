@@ -8,7 +8,7 @@ module deck_summary
     json_value
   use models, only: model_t, needs_frequencies
   use program_version, only: program_name, version_number
-  use run_findings, only: at_position, failure_t, findings_t, in_motion, in_response, &
+  use run_findings, only: at_instant, at_position, failure_t, findings_t, in_motion, in_response, &
     in_campbell, in_intervals, in_stability, in_transient, of_variant
   use run_totals, only: run_totals_t
   use tables, only: column_t, has_unit, table_t
@@ -339,7 +339,7 @@ contains
     case (in_motion)
       call add_member(object, "stage", json_value("motion"))
       call add_member(object, "speed", json_null)
-    case (at_position)
+    case (at_instant, at_position)
       call add_member(object, "stage", json_value("position"))
       call add_member(object, "speed", json_null)
     case (in_response)
@@ -370,7 +370,7 @@ contains
     else
       call add_member(object, "crank", json_value(failure%crank))
     end if
-    if (failure%stage == in_motion) then
+    if (any(failure%stage == [in_motion, at_instant])) then
       call add_member(object, "time", json_value(failure%time))
     else
       call add_member(object, "time", json_null)
