@@ -1,7 +1,7 @@
 !> Model → masses and points on the bodies of the linkage, and external loads. Places are turned
 !! from the axes of the LINK card into those of the body.
 module attached_parts
-  use applied_load_types, only: applies_couple
+  use applied_load_types, only: applied_load_t, applies_couple
   use kinds, only: wp
   use link_bodies, only: link_center, link_inertia
   use link_cards, only: has_own_mass, link_t
@@ -10,6 +10,7 @@ module attached_parts
   use models, only: inertia_lumped, link_line_density, link_mass, model_t
   use name_index, only: find_name, name_index_t
   use shear, only: link_rotary_inertia
+  use spring_parts, only: springs_of
   implicit none (type, external)
   private
 
@@ -217,7 +218,23 @@ contains
         load%damping = resistance%damping
       end associate
     end do
+    if (size(model%springs) > 0) call append_loads(springs_of(model, links, pins, linkage), linkage)
   end subroutine apply_loads
+
+  !> Appends loads to those of a linkage.
+  pure subroutine append_loads(loads, linkage)
+    type(applied_load_t), intent(in) :: loads(:)
+    type(linkage_t), intent(inout) :: linkage
+
+    type(applied_load_t), allocatable :: longer(:)
+    integer :: before
+
+    before = size(linkage%loads)
+    allocate (longer(before + size(loads)))
+    longer(:before) = linkage%loads
+    longer(before + 1:) = loads
+    call move_alloc(longer, linkage%loads)
+  end subroutine append_loads
 
   !> The points whose paths are requested, in the order of the deck.
   pure function points_of(model, links, linkage) result(points)
