@@ -7,8 +7,8 @@ module table_columns
   use tables, only: append_column, column_t, integer_column, name_column, real_cells, real_column
   use text, only: string_t, to_string
   use units, only: coherent_factor, coherent_unit, dimension_acceleration, dimension_inertia, &
-    dimension_length, dimension_mass, dimension_none, dimension_time, dimension_velocity, from_si, &
-    unit_t
+    dimension_length, dimension_line_stiffness, dimension_mass, dimension_none, dimension_time, &
+    dimension_turning_stiffness, dimension_velocity, from_si, unit_t
   implicit none (type, external)
   private
 
@@ -192,6 +192,10 @@ contains
       dimension = dimension_inertia
     case ("mass_per_length")
       dimension = dimension_mass - dimension_length
+    case ("line_stiffness")
+      dimension = dimension_line_stiffness
+    case ("turning_stiffness")
+      dimension = dimension_turning_stiffness
     case ("first_moment")
       dimension = dimension_mass + dimension_length
     case default

@@ -1,7 +1,7 @@
 !> SPRING and DAMPER cards: along the line between two places, or torsional between two links or a
 !! link and the ground. Names are looked up later, by `spring_checks`.
 module spring_cards
-  use card_reader, only: check_form, entry_number, has_key, read_entry_quantity, read_part_name, &
+  use card_reader, only: check_form, entry_number, read_entry_quantity, read_part_name, &
     refuse_negative
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
@@ -59,7 +59,7 @@ contains
     type(spring_t), intent(out) :: spring             !! as read; names are not looked up
 
     type(token_t) :: none
-    logical :: fine, known_keys, has_load
+    logical :: fine, known_keys, has_load, is_stiff
 
     none = token_t("", 0, 0)
     spring%keyword = card%keyword
@@ -89,11 +89,12 @@ contains
     end if
     if (spring%damps) then
       call read_factor(card, "damping", merge(dimension_damping, dimension_line_damping, turns), &
-        known_keys, system, diagnostics, spring%damping)
+        known_keys, system, diagnostics, spring%damping, fine)
       return
     end if
     call read_factor(card, "stiffness", merge(dimension_turning_stiffness, &
-      dimension_line_stiffness, turns), known_keys, system, diagnostics, spring%stiffness)
+      dimension_line_stiffness, turns), known_keys, system, diagnostics, spring%stiffness, &
+      is_stiff)
     call refuse_other_form(card, turns, diagnostics)
     if (turns) then
       call read_entry_quantity(card, "free_angle", dimension_angle, system, .false., diagnostics, &
@@ -112,14 +113,15 @@ contains
     end if
     if (spring%has_rest .and. has_load) call refuse_both(card, merge("free_angle ", &
       "free_length", turns), merge("torque", "force ", turns), diagnostics)
-    if (fine .and. has_key(card, "stiffness") .and. .not. spring%stiffness > 0.0_wp .and. &
-      .not. has_load) call add_error(diagnostics, card%entries(entry_number(card, &
-      "stiffness"))%value, "a spring without stiffness does nothing but with '"// &
-      trim(merge("torque", "force ", turns))//"=', which it then keeps")
+    if (is_stiff .and. .not. spring%stiffness > 0.0_wp .and. .not. has_load) call &
+      add_error(diagnostics, card%entries(entry_number(card, "stiffness"))%value, &
+      "a spring without stiffness does nothing but with '"//trim(merge("torque", "force ", &
+      turns))//"=', which it then keeps")
   end subroutine read_spring
 
   !> Reads the value that every such card has.
-  pure subroutine read_factor(card, key, dimension, known_keys, system, diagnostics, value)
+  pure subroutine read_factor(card, key, dimension, known_keys, system, diagnostics, value, &
+    fine)
     type(card_t), intent(in) :: card
     character(len=*), intent(in) :: key
     integer, intent(in) :: dimension(4)
@@ -127,12 +129,12 @@ contains
     type(unit_system_t), intent(in) :: system
     type(diagnostics_t), intent(inout) :: diagnostics
     real(wp), intent(out) :: value
-
-    logical :: fine
+    logical, intent(out) :: fine !! whether it was read and is not negative
 
     call read_entry_quantity(card, key, dimension, system, known_keys, diagnostics, value, fine)
     if (fine) call refuse_negative(card%entries(entry_number(card, key))%value, value, &
       "the "//key, diagnostics)
+    fine = fine .and. value >= 0.0_wp
   end subroutine read_factor
 
   !> Reports keys of springs between places on a torsional one, and the other way round.

@@ -30,7 +30,7 @@ contains
     type(model_t), intent(inout) :: model             !! with its links; its springs are set
 
     type(name_index_t) :: links, pins
-    logical :: turns
+    logical :: turns, is_unclear
     integer :: i, filled
 
     links = new_name_index(token_texts(model%links%name))
@@ -41,16 +41,21 @@ contains
       if (.not. is_spring_card(cards(i))) cycle
       filled = filled + 1
       turns = .false.
+      is_unclear = .false.
       if (size(cards(i)%words) > 2) then
         associate (word => cards(i)%words(3))
           turns = find_name(links, word%text) > 0
-          if (turns .and. find_name(pins, word%text) > 0) call add_error(diagnostics, word, "'"// &
+          is_unclear = turns .and. find_name(pins, word%text) > 0
+          if (is_unclear) call add_error(diagnostics, word, "'"// &
             word%text//"' is a link and a pin, which tells nothing of the form of this card; "// &
             "give the pin another name", model%links(find_name(links, word%text))%name, &
             "the link is here")
         end associate
       end if
-      call read_spring(cards(i), turns, model%units, diagnostics, model%springs(filled))
+      associate (spring => model%springs(filled))
+        call read_spring(cards(i), turns, model%units, diagnostics, spring)
+        if (is_unclear) spring%ends(1) = token_t("", 0, 0)
+      end associate
     end do
   end subroutine read_springs
 
