@@ -7,7 +7,7 @@ module applied_loads
   use body_points, only: find_point_coefficients, point_coefficients_t
   use constants, only: degree
   use cubic_splines, only: spline_values
-  use errors, only: error_of_reach, error_t, set_error
+  use errors, only: error_of_numerics, error_of_reach, error_t, set_error
   use group_equations, only: line_axis, world_line
   use inertia_loads, only: load_t
   use kinds, only: wp
@@ -339,7 +339,7 @@ contains
         if (load%kind == applies_between .and. load%stiffness > 0.0_wp .and. &
           .not. counts_turns(linkage, load)) then
           if (abs(deflection(linkage, pose, load)) > most_deflection) then
-            call set_error(error, error_of_reach, "a torsional spring is turned by nearly half "// &
+            call set_error(error, error_of_numerics, "a torsional spring is turned by nearly half "// &
               "a turn or more, and its torque would jump")
             return
           end if

@@ -3,9 +3,9 @@ module spring_words
   use kinds, only: wp
   use mechanisms, only: mechanism_t
   use models, only: model_t
+  use output_units, only: damping_unit, stiffness_unit
   use text, only: append_string, string_t, to_string
-  use units, only: coherent_unit, dimension_angle, dimension_damping, dimension_length, &
-    dimension_line_damping, dimension_line_stiffness, dimension_turning_stiffness, from_si, unit_t
+  use units, only: coherent_unit, dimension_angle, dimension_length, from_si, unit_t
   implicit none (type, external)
   private
 
@@ -36,12 +36,10 @@ contains
           line = line//", link "//spring%link_names(1)%text//" and the ground"
         end if
         if (spring%damps) then
-          line = line//", "//in_words(load%damping, coherent_unit(model%units, &
-            merge(dimension_damping, dimension_line_damping, spring%turns)))
+          line = line//", "//in_words(load%damping, damping_unit(model%outputs, spring%turns))
         else if (spring%stiffness > 0.0_wp) then
-          line = line//", "//in_words(load%stiffness, coherent_unit(model%units, &
-            merge(dimension_turning_stiffness, dimension_line_stiffness, spring%turns)))// &
-            ", unloaded at "//in_words(load%rest, coherent_unit(model%units, &
+          line = line//", "//in_words(load%stiffness, stiffness_unit(model%outputs, &
+            spring%turns))//", unloaded at "//in_words(load%rest, coherent_unit(model%units, &
             merge(dimension_angle, dimension_length, spring%turns)))
         else if (spring%turns) then
           line = line//", a constant torque of "//in_words(load%tension, model%outputs%moment)

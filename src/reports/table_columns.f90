@@ -2,13 +2,14 @@
 module table_columns
   use kinds, only: wp
   use number_text, only: number_width
-  use output_units, only: output_units_t, power_factor, power_unit, stress_factor, stress_unit
+  use output_units, only: output_units_t, power_factor, power_unit, stiffness_unit, &
+    stress_factor, stress_unit
   use report_kinds, only: column_kind_t, columns_of, table_kind_t
   use tables, only: append_column, column_t, integer_column, name_column, real_cells, real_column
   use text, only: string_t, to_string
   use units, only: coherent_factor, coherent_unit, dimension_acceleration, dimension_inertia, &
-    dimension_length, dimension_line_stiffness, dimension_mass, dimension_none, dimension_time, &
-    dimension_turning_stiffness, dimension_velocity, from_si, unit_t
+    dimension_length, dimension_mass, dimension_none, dimension_time, dimension_velocity, from_si, &
+    unit_t
   implicit none (type, external)
   private
 
@@ -124,6 +125,8 @@ contains
       measure = outputs%energy
     case ("stress")
       measure = stress_unit(outputs)
+    case ("line_stiffness", "turning_stiffness")
+      measure = stiffness_unit(outputs, word == "turning_stiffness")
     case ("power")
       measure = power_unit(outputs)
     case default
@@ -192,10 +195,6 @@ contains
       dimension = dimension_inertia
     case ("mass_per_length")
       dimension = dimension_mass - dimension_length
-    case ("line_stiffness")
-      dimension = dimension_line_stiffness
-    case ("turning_stiffness")
-      dimension = dimension_turning_stiffness
     case ("first_moment")
       dimension = dimension_mass + dimension_length
     case default
