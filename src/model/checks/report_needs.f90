@@ -29,7 +29,8 @@ contains
     end do
     call check_inertia_card(diagnostics, model)
     i = report_number(model, "equilibrium")
-    if (i > 0 .and. count(model%drives%is_free) > 1) call add_error(diagnostics, &
+    ! The first drive does not act there, whatever its card says.
+    if (i > 0 .and. any(model%drives(2:)%is_free)) call add_error(diagnostics, &
       model%reports(i)%keyword, "rests of a linkage with more than one free drive are not found yet")
     points = report_number(model, "points")
     if (points == 0 .or. size(model%points) > 0) return
