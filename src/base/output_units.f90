@@ -102,7 +102,7 @@ contains
     measure%denominator = outputs%energy%denominator
   end function power_factor
 
-  !> The unit of stiffness, of a line or of a turn: that of forces per length, of moments per radian.
+  !> The unit of stiffness, of a line or of a turn: forces per length, moments per radian.
   pure function stiffness_unit(outputs, turning) result(measure)
     type(output_units_t), intent(in) :: outputs !! of the deck's results
     logical, intent(in) :: turning              !! of a torsional spring

@@ -339,7 +339,8 @@ contains
         if (load%kind == applies_between .and. load%stiffness > 0.0_wp .and. &
           .not. counts_turns(linkage, load)) then
           if (abs(deflection(linkage, pose, load)) > most_deflection) then
-            call set_error(error, error_of_numerics, "a torsional spring is turned by nearly half "// &
+            call set_error(error, error_of_numerics, "a torsional spring is turned by nearly "// &
+              "half "// &
               "a turn or more, and its torque would jump")
             return
           end if

@@ -35,13 +35,15 @@ contains
       allocate (notes(0))
       call append_string(notes, "positions in which the linkage rests while its drive does not "// &
         "act; stiffness: derivative of the force or torque that the drive would have to give")
-      call append_string(notes, "indifferent: it rests everywhere between this row and the next; "// &
+      call append_string(notes, "indifferent: it rests everywhere between this row "// &
+          "and the next; "// &
         "frequency: of small oscillations without friction about a stable rest, else 0; "// &
         "error: estimated, relative")
       call append_string(notes, potential_note)
       if (found%gaps > 0) call append_string(notes, plural(found%gaps, "sample")// &
         " without a value, at dead points or beyond what loads allow: nothing is said of them")
-      if (found%is_cut) call append_string(notes, "more than 64 turns would be needed: there may "// &
+      if (found%is_cut) call append_string(notes, "more than 64 turns would be "// &
+          "needed: there may "// &
         "be further rests")
     end associate
     call append_load_notes(notes, variant%model, variant%mechanism)

@@ -119,7 +119,8 @@ module card_table
     card_kind_t("LOAD", least=1, most=1, pattern="LOAD link [torque=] [damping=]", &
       help="the resistance at a link in REPORT motion"), &
     card_kind_t("SPRING", least=3, most=4, pattern="SPRING name end end stiffness= "// &
-      "[free_length= | force=], or SPRING name pin link [link] stiffness= [free_angle= | torque=]", &
+      "[free_length= | force=], or SPRING name pin link [link] stiffness= [free_angle= | "// &
+          "torque=]", &
       keys="stiffness free_length force free_angle torque", &
       help="a spring between two pins or points, or a torsional one at a pin of links"), &
     card_kind_t("DAMPER", least=3, most=4, pattern="DAMPER name end end damping=, or "// &

@@ -149,7 +149,8 @@ contains
       associate (key => card%entries(i)%key)
         if (turns .and. (same_word(key%text, "free_length") .or. same_word(key%text, "force"))) &
           then
-          call add_error(diagnostics, key, "'"//key%text//"=' is of a spring between two places; "// &
+          call add_error(diagnostics, key, "'"//key%text//"=' is of a spring between "// &
+          "two places; "// &
             "this one is torsional, for its last word is a link: 'free_angle=' or 'torque='")
         else if (.not. turns .and. (same_word(key%text, "free_angle") .or. same_word(key%text, &
           "torque"))) then

@@ -31,7 +31,8 @@ contains
     i = report_number(model, "equilibrium")
     ! The first drive does not act there, whatever its card says.
     if (i > 0 .and. any(model%drives(2:)%is_free)) call add_error(diagnostics, &
-      model%reports(i)%keyword, "rests of a linkage with more than one free drive are not found yet")
+      model%reports(i)%keyword, "rests of a linkage with more than one free drive "// &
+      "are not found yet")
     points = report_number(model, "points")
     if (points == 0 .or. size(model%points) > 0) return
     call add_error(diagnostics, model%reports(points)%keyword, &

@@ -125,7 +125,8 @@ contains
     if (find_name(pins, word%text) == 0 .and. find_name(grounds, word%text) == 0) then
       known = .false.
       if (find_name(links, word%text) > 0) then
-        call add_error(diagnostics, word, "'"//word%text//"' is a link; expected a pin, a POINT "// &
+        call add_error(diagnostics, word, "'"//word%text//"' is a link; expected a "// &
+          "pin, a POINT "// &
           "or a GROUND pin")
       else
         call look_up(word, pins, "pin", diagnostics, number)
