@@ -2,13 +2,14 @@
 !! customary for the quantity. What bare numbers of a deck mean is not affected.
 module output_units
   use errors, only: error_t
-  use units, only: coherent_unit, dimension_force, dimension_moment, dimension_rate, &
-    dimension_stress, dimension_time, own_name, read_unit, unit_system_t, unit_t
+  use units, only: coherent_unit, dimension_force, dimension_line_stiffness, dimension_moment, &
+    dimension_rate, dimension_stress, dimension_time, dimension_turning_stiffness, own_name, &
+    read_unit, unit_system_t, unit_t
   implicit none (type, external)
   private
 
   public :: output_units_t, new_output_units, table_name, stress_unit, stress_factor, power_unit, &
-    power_factor
+    power_factor, stiffness_unit, stiffness_factor, damping_unit
 
   !> Angles are in degrees, angular accelerations in rad/s², frequencies in Hz.
   type :: output_units_t
@@ -100,6 +101,58 @@ contains
     measure%numerator = outputs%energy%numerator
     measure%denominator = outputs%energy%denominator
   end function power_factor
+
+  !> The unit of stiffness, of a line or of a turn: forces per length, moments per radian.
+  pure function stiffness_unit(outputs, turning) result(measure)
+    type(output_units_t), intent(in) :: outputs !! of the deck's results
+    logical, intent(in) :: turning              !! of a torsional spring
+    type(unit_t) :: measure
+
+    measure = stiffness_factor(outputs, turning)
+    if (turning) then
+      measure%name = outputs%moment%name//"/rad"
+    else
+      measure%name = outputs%force%name//"/"//outputs%system%length%name
+    end if
+  end function stiffness_unit
+
+  !> As `stiffness_unit`, without the name.
+  pure function stiffness_factor(outputs, turning) result(measure)
+    type(output_units_t), intent(in) :: outputs !! of the deck's results
+    logical, intent(in) :: turning              !! of a torsional spring
+    type(unit_t) :: measure
+
+    if (turning) then
+      measure%dimension = dimension_turning_stiffness
+      measure%numerator = outputs%moment%numerator
+      measure%denominator = outputs%moment%denominator
+      return
+    end if
+    associate (force => outputs%force, length => outputs%system%length)
+      measure%dimension = dimension_line_stiffness
+      measure%numerator = force%numerator*length%denominator
+      measure%denominator = force%denominator*length%numerator
+    end associate
+  end function stiffness_factor
+
+  !> The unit of damping of a line or of a turn: that of stiffness times that of time.
+  pure function damping_unit(outputs, turning) result(measure)
+    type(output_units_t), intent(in) :: outputs !! of the deck's results
+    logical, intent(in) :: turning              !! of a torsional damper
+    type(unit_t) :: measure
+
+    measure = stiffness_factor(outputs, turning)
+    associate (time => outputs%system%time)
+      measure%dimension = measure%dimension + dimension_time
+      measure%numerator = measure%numerator*time%numerator
+      measure%denominator = measure%denominator*time%denominator
+      if (turning) then
+        measure%name = outputs%moment%name//"."//time%name//"/rad"
+      else
+        measure%name = outputs%force%name//"."//time%name//"/"//outputs%system%length%name
+      end if
+    end associate
+  end function damping_unit
 
   !> A unit known to exist, with the name that tables have.
   pure function unit_of(text, dimension) result(measure)

@@ -19,7 +19,8 @@ module units
     dimension_force, dimension_moment
   public :: dimension_stress, dimension_density, dimension_area, dimension_second_moment, &
     dimension_rotary_inertia
-  public :: dimension_inertia, dimension_damping, dimension_line_damping
+  public :: dimension_inertia, dimension_damping
+  public :: dimension_line_stiffness, dimension_line_damping, dimension_turning_stiffness
 
   !> Exponents of length, mass, time and angle. An angle counts as a dimension here, so that rpm and
   !! 1/s are distinct.
@@ -40,7 +41,9 @@ module units
   integer, parameter :: dimension_inertia(4) = [2, 1, 0, 0]
   integer, parameter :: dimension_damping(4) = [2, 1, -1, 0]       !! moment per angular velocity,
                                                                    !! without the angle
-  integer, parameter :: dimension_line_damping(4) = [0, 1, -1, 0]  !! force per velocity
+  integer, parameter :: dimension_line_stiffness(4) = [0, 1, -2, 0]    !! force per length
+  integer, parameter :: dimension_line_damping(4) = [0, 1, -1, 0]      !! force per velocity
+  integer, parameter :: dimension_turning_stiffness(4) = [2, 1, -2, -1] !! moment per angle
   integer, parameter :: dimension_area(4) = [2, 0, 0, 0]
   integer, parameter :: dimension_second_moment(4) = [4, 0, 0, 0]
 
@@ -311,8 +314,14 @@ contains
     integer, intent(in) :: dimension(4)       !! exponents of length, mass, time, angle
     type(unit_t) :: measure
 
+    type(unit_t) :: moment
+
     measure = coherent_factor(system, dimension)
     if (dimension(4) == 0) measure%name = coherent_name(system, measure)
+    if (all(dimension == dimension_turning_stiffness)) then
+      moment = coherent_factor(system, dimension_moment)
+      measure%name = coherent_name(system, moment)//"/rad"
+    end if
   end function coherent_unit
 
   !> As `coherent_unit`, but without the name, which takes longer to find than the rest.
@@ -326,8 +335,9 @@ contains
       if (all(dimension == dimension_rate)) measure = unit("rad/s", dimension, 1.0_wp, 1.0_wp)
       if (all(dimension == dimension_angular_acceleration)) measure = unit("rad/s2", dimension, &
         1.0_wp, 1.0_wp)
-      return
+      if (any(dimension /= dimension_turning_stiffness)) return
     end if
+    ! The angle of a stiffness is in radians.
     measure = unit("", dimension, 1.0_wp, 1.0_wp)
     call multiply_unit(measure, system%length, dimension(1))
     call multiply_unit(measure, system%mass, dimension(2))
@@ -466,6 +476,8 @@ contains
     if (all(dimension == dimension_angle - dimension_length)) noun = "angle per length"
     if (all(dimension == dimension_damping)) noun = "moment per angular velocity"
     if (all(dimension == dimension_line_damping)) noun = "force per velocity"
+    if (all(dimension == dimension_line_stiffness)) noun = "force per length"
+    if (all(dimension == dimension_turning_stiffness)) noun = "moment per angle"
   end function dimension_noun
 
   !> `a length`, `an area`: the expected quantity in messages.
@@ -483,8 +495,8 @@ contains
     end if
   end function dimension_name
 
-  !> Whether a unit has the wanted dimension. Damping may be written with its angle, `N*m*s/rad`, or
-  !! without, `N*m*s`.
+  !> Whether a unit has the wanted dimension. Damping and stiffness may be written with their angle,
+  !! `N*m*s/rad`, `N*m/rad`, or without, `N*m*s`, `N*m`.
   pure function serves_for(measure, wanted) result(serves)
     type(unit_t), intent(in) :: measure !! as read
     integer, intent(in) :: wanted(4)    !! exponents of length, mass, time, angle
@@ -493,6 +505,8 @@ contains
     serves = all(measure%dimension == wanted)
     if (all(wanted == dimension_damping)) serves = serves .or. &
       all(measure%dimension == wanted - dimension_angle)
+    if (all(wanted == dimension_turning_stiffness)) serves = serves .or. &
+      all(measure%dimension == wanted + dimension_angle)
   end function serves_for
 
   !> The text of an error about a unit of the wrong dimension.

@@ -7,7 +7,7 @@ module applied_loads
   use body_points, only: find_point_coefficients, point_coefficients_t
   use constants, only: degree
   use cubic_splines, only: spline_values
-  use errors, only: error_of_reach, error_t, set_error
+  use errors, only: error_of_numerics, error_t, set_error
   use group_equations, only: line_axis, world_line
   use inertia_loads, only: load_t
   use kinds, only: wp
@@ -20,10 +20,13 @@ module applied_loads
 
   public :: add_conservative_loads, add_prescribed_loads, add_moving_loads, applied_potential, &
     generalised_force, has_standing_loads, has_moving_loads, refuse_beyond_tables, load_period, &
-    springs_on_ground, dampers_on_ground
+    springs_on_ground, dampers_on_ground, spring_scale
 
   !> By how much rounding may put a coordinate beyond the ends of a table, of its length.
   real(wp), parameter :: slack = 1.0e-12_wp
+
+  !> Largest angle between a torsional spring and its rest; its sign changes at a half turn [rad].
+  real(wp), parameter :: most_deflection = 170.0_wp*degree
 
 contains
 
@@ -206,6 +209,34 @@ contains
     end do
   end function applied_potential
 
+  !> Sum of the magnitudes of what springs do, from which their generalised force is a difference:
+  !! its rounding is of the order of 1e-16 of it [N m] or [N].
+  pure function spring_scale(linkage, pose, per) result(scale)
+    type(linkage_t), intent(in) :: linkage            !! its loads
+    type(pose_t), intent(in) :: pose                  !! positions and directions
+    type(kinematic_coefficients_t), intent(in) :: per !! velocities per rate of the coordinate
+    real(wp) :: scale
+
+    real(wp) :: pull
+    integer :: i
+
+    scale = 0.0_wp
+    do i = 1, size(linkage%loads)
+      associate (load => linkage%loads(i))
+        if (.not. is_conservative(load) .or. load%kind == applies_force) cycle
+        pull = abs(load%tension) + load%stiffness*(abs(deflection(linkage, pose, load)) + &
+          abs(load%rest))
+        if (load%kind == applies_along) then
+          scale = scale + pull*(norm2(velocity_at(linkage, pose, per, load%at(1))) + &
+            norm2(velocity_at(linkage, pose, per, load%at(2))))
+        else
+          scale = scale + pull*abs(per%turn(load%body(2)))
+          if (load%body(1) > 0) scale = scale + pull*abs(per%turn(load%body(1)))
+        end if
+      end associate
+    end do
+  end function spring_scale
+
   !> Force of springs on the ground, and its moment about `reference_point` [N, N m].
   pure function springs_on_ground(linkage, pose) result(load)
     type(linkage_t), intent(in) :: linkage !! its loads
@@ -290,12 +321,14 @@ contains
     end do
   end function generalised_force
 
-  !> Refuses a pose beyond the ends of a table.
+  !> Refuses a pose beyond the ends of a table, or with a torsional spring near half a turn from its
+  !! rest, where its torque would jump.
   pure subroutine refuse_beyond_tables(linkage, pose, origin, error)
     type(linkage_t), intent(in) :: linkage !! its loads
     type(pose_t), intent(in) :: pose       !! with the coordinate of the first drive
     real(wp), intent(in) :: origin(2)      !! from which its pins are counted [m]
-    type(error_t), allocatable, intent(inout) :: error !! allocated if there is such a table
+    type(error_t), allocatable, intent(inout) :: error !! allocated if there is such a table or
+                                                       !! spring
 
     real(wp) :: x, first, last
     integer :: i
@@ -303,15 +336,24 @@ contains
     if (.not. allocated(linkage%loads)) return
     do i = 1, size(linkage%loads)
       associate (load => linkage%loads(i))
+        if (load%kind == applies_between .and. load%stiffness > 0.0_wp .and. &
+          .not. counts_turns(linkage, load)) then
+          if (abs(deflection(linkage, pose, load)) > most_deflection) then
+            call set_error(error, error_of_numerics, "a torsional spring is turned by nearly "// &
+              "half "// &
+              "a turn or more, and its torque would jump")
+            return
+          end if
+        end if
         if (load%over == over_nothing .or. load%table%is_periodic) cycle
         x = table_coordinate(linkage, pose, origin, load)
         first = load%table%x(1)
         last = load%table%x(size(load%table%x))
         if (x >= first - slack*(last - first) .and. x <= last + slack*(last - first)) cycle
         if (x < first) then
-          call set_error(error, error_of_reach, "the table "//load%table_name//" begins later")
+          call set_error(error, error_of_numerics, "the table "//load%table_name//" begins later")
         else
-          call set_error(error, error_of_reach, "the table "//load%table_name//" ends before")
+          call set_error(error, error_of_numerics, "the table "//load%table_name//" ends before")
         end if
         return
       end associate
@@ -467,7 +509,7 @@ contains
     if (load%kind == applies_along) then
       stretch = norm2(place_in(linkage, pose, load%at(2)) - place_in(linkage, pose, load%at(1))) - &
         load%rest
-    else if (linkage%has_crank .and. load%body(2) == 1 .and. load%body(1) == 0) then
+    else if (counts_turns(linkage, load)) then
       stretch = pose%crank*degree - load%rest
     else
       angle = body_angle(linkage, pose, load%body(2)) - load%rest
@@ -475,6 +517,15 @@ contains
       stretch = atan2(sin(angle), cos(angle))
     end if
   end function deflection
+
+  !> Whether a spring counts whole turns: from the ground to the crank.
+  pure function counts_turns(linkage, load) result(counts)
+    type(linkage_t), intent(in) :: linkage
+    type(applied_load_t), intent(in) :: load !! between two bodies
+    logical :: counts
+
+    counts = linkage%has_crank .and. load%body(2) == 1 .and. load%body(1) == 0
+  end function counts_turns
 
   !> Rate of the coordinate of a line or of two bodies [m/s] or [rad/s].
   pure function rate_of(linkage, pose, now, load) result(rate)

@@ -1,6 +1,7 @@
 !> Model → masses and points on the bodies of the linkage, and external loads. Places are turned
 !! from the axes of the LINK card into those of the body.
 module attached_parts
+  use applied_load_types, only: applied_load_t
   use kinds, only: wp
   use link_bodies, only: link_center, link_inertia
   use link_cards, only: has_own_mass, link_t
@@ -12,7 +13,7 @@ module attached_parts
   implicit none (type, external)
   private
 
-  public :: body_point_t, attach_masses, own_lumps_of, apply_loads, points_of, place_on_body, &
+  public :: body_point_t, attach_masses, own_lumps_of, apply_loads, append_loads, points_of, place_on_body, &
     place_on_card, runs_against
 
   !> A point fixed to a body.
@@ -207,6 +208,21 @@ contains
       linkage%couple(findloc(links, model%torques(i)%link, dim=1)) = model%torques(i)%torque
     end do
   end subroutine apply_loads
+
+  !> Appends loads to those of a linkage.
+  pure subroutine append_loads(loads, linkage)
+    type(applied_load_t), intent(in) :: loads(:)
+    type(linkage_t), intent(inout) :: linkage
+
+    type(applied_load_t), allocatable :: longer(:)
+    integer :: before
+
+    before = size(linkage%loads)
+    allocate (longer(before + size(loads)))
+    longer(:before) = linkage%loads
+    longer(before + 1:) = loads
+    call move_alloc(longer, linkage%loads)
+  end subroutine append_loads
 
   !> The points whose paths are requested, in the order of the deck.
   pure function points_of(model, links, linkage) result(points)

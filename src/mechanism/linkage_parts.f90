@@ -62,7 +62,7 @@ contains
   end subroutine assemble_linkage
 
   !> The pins of all links in the order of the deck, points of links that other cards use as pins,
-  !! and ground pivots that only sliders use.
+  !! and ground pivots that only sliders or springs use.
   pure subroutine list_pins(model, pins)
     type(model_t), intent(in) :: model
     type(string_t), allocatable, intent(out) :: pins(:)
@@ -88,10 +88,29 @@ contains
       if (.not. model%processes(i)%on_link) call add_pin(model%processes(i)%subject, pins)
     end do
     if (is_four_bar(model)) return
+    do i = 1, size(model%springs)
+      do k = 1, 2
+        if (is_ground(model, model%springs(i)%ends(k))) call add_pin(model%springs(i)%ends(k), pins)
+      end do
+    end do
     do i = 1, size(model%drawn_pins)
       call add_pin(model%drawn_pins(i)%pin, pins)
     end do
   end subroutine list_pins
+
+  !> Whether a GROUND card has this pin.
+  pure function is_ground(model, pin) result(is)
+    type(model_t), intent(in) :: model
+    type(token_t), intent(in) :: pin
+    logical :: is
+
+    integer :: i
+
+    is = .false.
+    do i = 1, size(model%grounds)
+      is = is .or. same_word(model%grounds(i)%pin%text, pin%text)
+    end do
+  end function is_ground
 
   !> Adds a pin to a list that does not have it.
   pure subroutine add_pin(pin, pins)

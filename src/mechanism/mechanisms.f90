@@ -1,6 +1,6 @@
 !> Model → mechanism: the linkage with its masses and loads, its beams and its mesh.
 module mechanisms
-  use attached_parts, only: apply_loads, attach_masses, body_point_t, points_of, &
+  use attached_parts, only: append_loads, apply_loads, attach_masses, body_point_t, points_of, &
     runs_against
   use beam_mesh, only: new_beam_mesh
   use kinds, only: wp
@@ -13,6 +13,7 @@ module mechanisms
   use process_parts, only: process_loads
   use response_parts, only: body_gauge_t, gauges_of, response_points_of
   use shear, only: link_shear_stiffness
+  use spring_parts, only: springs_of
   use structures, only: structure_t
   use text, only: string_t
   use tokens, only: token_texts
@@ -72,7 +73,10 @@ contains
     call add_beams(model, links, mechanism)
     call add_beam_mesh(model, links, mechanism)
     call apply_loads(model, assembly%link, pins, mechanism%linkage)
-    mechanism%linkage%loads = process_loads(model, assembly%link, pins, mechanism%linkage)
+    call append_loads(process_loads(model, assembly%link, pins, mechanism%linkage), &
+      mechanism%linkage)
+    ! Springs are the last: `spring_words` finds them there.
+    call append_loads(springs_of(model, assembly%link, pins, mechanism%linkage), mechanism%linkage)
     mechanism%points = points_of(model, assembly%link, mechanism%linkage)
     mechanism%response_points = response_points_of(model, assembly%link, assembly%pins, &
       mechanism%linkage)

@@ -40,6 +40,7 @@ module model_reader
   use sections, only: read_section
   use shear, only: check_shear
   use spelling, only: suggestion
+  use spring_checks, only: check_springs, read_springs
   use table_cards, only: check_tables
   use text, only: joined, same_word, string_t, upper_case
   use tokens, only: token_t
@@ -90,6 +91,7 @@ contains
     call refuse_second_cards(cards, diagnostics)
     call read_system(cards, diagnostics, model%units, model%outputs, chooses_rate)
     call read_model_cards(cards, reports, diagnostics, model)
+    call read_springs(cards, diagnostics, model)
     call check_tables(cards, diagnostics)
     call find_law(cards, diagnostics, model)
     call choose_reports(reports, diagnostics, model)
@@ -111,6 +113,7 @@ contains
     call check_links(diagnostics, model)
     call check_joints(diagnostics, model)
     call check_drives(diagnostics, model)
+    call check_springs(diagnostics, model)
     call check_balance(diagnostics, model)
     call find_dampings(diagnostics, model)
     call find_gauges(diagnostics, model)
@@ -191,7 +194,7 @@ contains
     character(len=:), allocatable :: hint
 
     ! In any spelling with or without an s at its end.
-    character(len=*), parameter :: not_built = " RACK SPRING TORSION DAMPER DASHPOT CAM GEAR "// &
+    character(len=*), parameter :: not_built = " RACK TORSION DASHPOT CAM GEAR "// &
       "BELT CHAIN FRICTION CONTACT CLEARANCE ", sliding = " SLIDE PISTON PRISMATIC SLOT BLOCK ", &
       joints = " JOINT HINGE REVOLUTE PIVOT "
     character(len=*), parameter :: signs(*) = ["//", "/*", "--", "% ", "* ", "; ", "''"]
@@ -200,7 +203,9 @@ contains
     word = upper_case(keyword)
     if (len(word) > 1 .and. word(len(word):) == "S") word = word(:len(word) - 1)
     if (index(not_built, " "//word//" ") > 0) then
-      hint = ": springs, dampers, cams, gears, belts, friction and contact are not built yet"
+      hint = ": cams, gears, belts, friction and contact are not built yet"
+      if (word == "TORSION") hint = "; a torsional spring is a SPRING at a pin of links"
+      if (word == "DASHPOT") hint = "; expected DAMPER"
       return
     else if (index(sliding, " "//word//" ") > 0) then
       hint = "; what slides is described by SLIDER, and what it slides along by GUIDE or LINK"

@@ -20,6 +20,7 @@ module models
   use report_kinds, only: report_kind_t
   use response_cards, only: damping_card_t, gauge_t, omitted_terms_t
   use sections, only: section_t
+  use spring_cards, only: spring_t
   use text, only: same_word, to_string
   use tokens, only: token_t
   use units, only: from_si, unit_system_t, unit_t
@@ -67,6 +68,7 @@ module models
     type(motor_t) :: motor
     type(process_card_t), allocatable :: processes(:) !! FORCE, TORQUE and LOAD cards on all
                                                 !! other loads
+    type(spring_t), allocatable :: springs(:)   !! SPRING and DAMPER cards
     type(balance_card_t) :: balance             !! counterweights of REPORT balance
     type(shaft_card_t), allocatable :: shafts(:) !! its balance shafts
     type(law_card_t), allocatable :: laws(:)    !! LAW cards

@@ -5,6 +5,7 @@ module load_notes
   use load_words, only: process_words
   use mechanisms, only: mechanism_t
   use models, only: drives_length, has_law, model_t
+  use spring_words, only: spring_lines
   use text, only: append_string, plural, string_t, to_string
   use units, only: coherent_unit, dimension_acceleration, from_si, unit_t
   implicit none (type, external)
@@ -23,12 +24,14 @@ module load_notes
 
 contains
 
-  !> Inertia of every link, gravity, external loads: one line for each of the three.
+  !> Inertia of every link, gravity, external loads: one line for each of the three. Springs and
+  !! dampers: one line each.
   pure subroutine append_load_notes(notes, model, mechanism)
     type(string_t), allocatable, intent(inout) :: notes(:) !! to which they are appended
     type(model_t), intent(in) :: model                     !! in SI
     type(mechanism_t), intent(in) :: mechanism             !! of the model
 
+    type(string_t), allocatable :: lines(:)
     character(len=:), allocatable :: line
     integer :: b
 
@@ -40,6 +43,11 @@ contains
     call append_string(notes, line)
     call append_string(notes, gravity_words(model, mechanism))
     call append_string(notes, outside_loads(model, mechanism))
+    if (size(model%springs) == 0) return
+    lines = spring_lines(model, mechanism)
+    do b = 1, size(lines)
+      call append_string(notes, lines(b)%text)
+    end do
   end subroutine append_load_notes
 
   !> `lumped on 4 elements`

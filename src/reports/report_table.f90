@@ -17,6 +17,8 @@ module report_table
     critical_notes
   use drive_motions, only: place_columns, table_place
   use drive_report, only: add_drive, drive_notes
+  use equilibrium_report, only: add_equilibria, equilibrium_notes, equilibrium_words
+  use equilibrium_study, only: find_equilibria
   use frame_report, only: add_frame, frame_notes
   use frequency_report, only: add_frequencies, add_shapes, drawn_rows, frequency_notes, shape_notes
   use geometry_report, only: add_geometry, geometry_notes, geometry_words
@@ -81,9 +83,9 @@ module report_table
 
   !> All studies in the order in which they are made: some use the results of others. The last
   !! are made by `variant_runs`, some of them block by block or step by step.
-  character(len=*), parameter :: study_names(19) = [character(len=12) :: "kinematics", "geometry", &
+  character(len=*), parameter :: study_names(20) = [character(len=12) :: "kinematics", "geometry", &
     "inertia", "points", "reactions", "joints", "lagrange", "balance", "harmonics", "linkage", &
-    "limits", "response", &
+    "limits", "equilibrium", "response", &
     "stability", "intervals", "campbell", "transient", "motion", "frequencies", "loci"]
 
   !> Tables of the elastic response with rows for every position.
@@ -173,6 +175,10 @@ module report_table
       studies="lagrange", positions=.true., masses=.true., numbers=5, tables=[ &
       table_kind_t("lagrange", "speed:speed crank:deg M,dM:inertia "// &
       "V,gravity,load,torque:moment kinetic,potential:energy"), no_table]), &
+    report_kind_t(name="equilibrium", help="where the linkage rests without its drive", &
+      studies="equilibrium", masses=.true., tables=[ &
+      table_kind_t("equilibrium", "crank:deg verdict:name potential:energy "// &
+      "stiffness:turning_stiffness frequency:Hz error:-"), no_table]), &
     report_kind_t(name="linkage", help="class, limits and special positions", &
       studies="linkage", linkages=four_bars, tables=[ &
       table_kind_t("linkage", "branch,event:name crank,theta3,theta4,transmission_angle:deg"), &
@@ -340,6 +346,8 @@ contains
         call find_linkage(linkage, found%linkage)
       case ("limits")
         call find_limits(linkage, positions_of_deck(model), found%limits)
+      case ("equilibrium")
+        call find_equilibria(linkage, elements, positions_of_deck(model), found%equilibria)
       end select
     end associate
   end subroutine find_study
@@ -410,6 +418,9 @@ contains
     case ("linkage")
       names(:2) = linkage_words()
       if (.not. variant%mechanism%is_four_bar) names = limits_names(variant)
+      plan%items = 1
+    case ("equilibrium")
+      names(1) = equilibrium_words()
       plan%items = 1
     case ("balance")
       if (.not. variant%mechanism%is_four_bar) optional = has_balanced(variant%found%balance)
@@ -520,6 +531,8 @@ contains
       call geometry_notes(variant, notes)
     case ("linkage")
       call linkage_remarks(variant, notes)
+    case ("equilibrium")
+      call equilibrium_notes(variant, notes)
     case ("balance")
       call balance_notes(variant, notes)
     case ("harmonics")
@@ -571,6 +584,8 @@ contains
       else
         call add_limits(variant, plan%layout, rows)
       end if
+    case ("equilibrium")
+      call add_equilibria(variant, plan%layout, rows)
     case ("harmonics")
       call add_harmonics(variant, plan%layout, rows)
     case ("motion")
@@ -756,6 +771,9 @@ contains
     if (fitted%name == "balance") fitted%columns = "speed:speed crank:deg xG,yG:length "// &
       "shaking_x,shaking_y:force shaking_moment:moment torque:force "// &
       "balanced_x?,balanced_y?:force balanced_moment?:moment balanced_torque?:force"
+    at = index(fitted%columns, "turning_stiffness")
+    if (at > 0) fitted%columns = fitted%columns(:at - 1)//"line_stiffness"// &
+      trim(fitted%columns(at + 17:))
     at = index(fitted%columns, "crank:deg")
     if (at > 0) fitted%columns = fitted%columns(:at - 1)//"crank:length"// &
       trim(fitted%columns(at + 9:))

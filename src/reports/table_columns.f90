@@ -2,7 +2,8 @@
 module table_columns
   use kinds, only: wp
   use number_text, only: number_width
-  use output_units, only: output_units_t, power_factor, power_unit, stress_factor, stress_unit
+  use output_units, only: output_units_t, power_factor, power_unit, stiffness_unit, &
+    stress_factor, stress_unit
   use report_kinds, only: column_kind_t, columns_of, table_kind_t
   use tables, only: append_column, column_t, integer_column, name_column, real_cells, real_column
   use text, only: string_t, to_string
@@ -124,6 +125,8 @@ contains
       measure = outputs%energy
     case ("stress")
       measure = stress_unit(outputs)
+    case ("line_stiffness", "turning_stiffness")
+      measure = stiffness_unit(outputs, word == "turning_stiffness")
     case ("power")
       measure = power_unit(outputs)
     case default

@@ -12,7 +12,8 @@ module limits_study
   implicit none (type, external)
   private
 
-  public :: limits_result_t, crank_range_t, drive_range_t, low_points_t, find_limits, time_ratio
+  public :: limits_result_t, crank_range_t, drive_range_t, low_points_t, find_limits, time_ratio, &
+    everywhere
   public :: quantity_t, angle_of_body, place_of_slider, pressure_of_lever, pressure_of_slider, &
     transmission_of_dyad, transmission_of_lines
 

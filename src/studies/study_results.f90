@@ -3,6 +3,7 @@ module study_results
   use balance_study, only: balance_result_t
   use body_points, only: point_coefficients_t
   use campbell_types, only: campbell_t
+  use equilibrium_study, only: equilibria_t
   use geometry_study, only: geometry_result_t
   use harmonics_study, only: harmonics_result_t
   use inertia_study, only: inertia_result_t
@@ -39,6 +40,7 @@ module study_results
     type(harmonics_result_t) :: harmonics
     type(linkage_result_t) :: linkage                       !! of a four-bar
     type(limits_result_t) :: limits                         !! of any other linkage
+    type(equilibria_t) :: equilibria
     type(motion_result_t) :: motion                         !! of a four-bar
     type(linkage_motion_result_t) :: linkage_motion         !! of any other linkage
     type(sweep_t) :: sweep

@@ -305,6 +305,17 @@ def squeezer_end(options):
     return squeezer_force(options, "squeezer_end", 1e-6)
 
 
+def squeezer_motion(options):
+    """Moved by its motor against its spring for 0.03 s; two other integrators in one coordinate agree on these digits."""
+    path = os.path.join(HERE, "decks", "squeezer_motion.deck")
+    row = run(options.program, path, options.scratch)["motion"].rows[-1]
+    beta = float(abs(D(row["position1"]) * Digits.pi / 180 - D("15.8107711951536")))
+    rate = float(abs(D(row["rate1"]) - D("1139.9203022591")) / 1424)
+    passed = abs(row["time"] - 0.03) < 1e-15 and beta <= 1e-12 and rate <= 1e-12
+    print(f"{'passed' if passed else 'FAILED'} squeezer_motion: position {beta:.1e} rate {rate:.1e}")
+    return passed
+
+
 def norton(options):
     """Example 11-3 of Norton, Design of Machinery: angles, a force and the torque to the digits printed there."""
     anchor = Anchor("norton", options)
@@ -405,7 +416,7 @@ def main():
         options.program = [sys.executable, "-B"] + options.program
     passed = True
     for anchor in (engine, quick_return, pumping_unit, jansen_drawn, crank_slider_drawn, squeezer,
-                   squeezer_start, squeezer_end, norton):
+                   squeezer_start, squeezer_end, squeezer_motion, norton):
         try:
             passed = anchor(options) and passed
         except (RuntimeError, ValueError, KeyError, OSError) as failure:

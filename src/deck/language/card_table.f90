@@ -121,6 +121,14 @@ module card_table
     card_kind_t("LOAD", least=1, most=1, pattern="LOAD link [torque=] [damping=] "// &
       "[resisting= smooth=], or LOAD pin [damping=] [resisting= smooth=]", &
       help="what resists the motion of a link or a pin"), &
+    card_kind_t("SPRING", least=3, most=4, pattern="SPRING name end end stiffness= "// &
+      "[free_length= | force=], or SPRING name pin link [link] stiffness= [free_angle= | "// &
+          "torque=]", &
+      keys="stiffness free_length force free_angle torque", &
+      help="a spring between two pins or points, or a torsional one at a pin of links"), &
+    card_kind_t("DAMPER", least=3, most=4, pattern="DAMPER name end end damping=, or "// &
+      "DAMPER name pin link [link] damping=", keys="damping", &
+      help="a viscous damper between two pins or points, or at a pin of links"), &
     card_kind_t("BALANCE", is_single=.true., most=many, &
       pattern="BALANCE [link ...] minimise=force,moment,torque [weights=] [radius=] "// &
       "[density= thickness= | inertia=]", choices="force moment torque", help= &

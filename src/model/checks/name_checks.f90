@@ -55,6 +55,7 @@ contains
     call refuse_same(model%forces%pin, "force at pin")
     call refuse_same(model%torques%link_name, "torque on link")
     call refuse_same(subjects_of(model, .true.), "load on")
+    call refuse_same(model%springs%name, "spring or damper")
     do i = 2, size(model%reports)
       do j = 1, min(i - 1, most_reports)
         if (len_trim(model%reports(i)%kind%name) == 0 .or. &
@@ -166,7 +167,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
-    type(name_index_t) :: grounds, ends, named, blocks
+    type(name_index_t) :: grounds, ends, named, blocks, springs(2)
     character(len=:), allocatable :: hint
     integer, allocatable :: uses(:)
     integer :: i, k, first
@@ -182,6 +183,8 @@ contains
     ends = new_name_index(token_texts(link_ends(model%links)))
     named = new_name_index(names_on_other_cards(model))
     blocks = new_name_index(token_texts(model%sliders%pin))
+    springs(1) = new_name_index(token_texts(model%springs%ends(1)))
+    springs(2) = new_name_index(token_texts(model%springs%ends(2)))
     allocate (uses(size(ends%name)))
     uses = 0
     do i = 1, size(uses)
@@ -205,6 +208,8 @@ contains
     do i = 1, size(model%grounds)
       if (find_name(ends, model%grounds(i)%pin%text) > 0) cycle
       if (find_name(blocks, model%grounds(i)%pin%text) > 0) cycle
+      if (find_name(springs(1), model%grounds(i)%pin%text) > 0) cycle
+      if (find_name(springs(2), model%grounds(i)%pin%text) > 0) cycle
       call add_error(diagnostics, model%grounds(i)%pin, "no link uses the ground pivot '"// &
         model%grounds(i)%pin%text//"'")
     end do

@@ -16,7 +16,7 @@ contains
 
   !> Checks what reports need. Errors: a link without material, section or mesh, or without a mass;
   !! a bending link with its own mass; no INERTIA card where results depend on it; REPORT points
-  !! without POINT cards.
+  !! without POINT cards; REPORT equilibrium with several free drives.
   pure subroutine check_report_needs(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(model_t), intent(in) :: model                !! whose links have their materials, sections
@@ -28,6 +28,11 @@ contains
       call check_link(diagnostics, model, model%links(i))
     end do
     call check_inertia_card(diagnostics, model)
+    i = report_number(model, "equilibrium")
+    ! The first drive does not act there, whatever its card says.
+    if (i > 0 .and. any(model%drives(2:)%is_free)) call add_error(diagnostics, &
+      model%reports(i)%keyword, "rests of a linkage with more than one free drive "// &
+      "are not found yet")
     points = report_number(model, "points")
     if (points == 0 .or. size(model%points) > 0) return
     call add_error(diagnostics, model%reports(points)%keyword, &

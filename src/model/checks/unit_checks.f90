@@ -79,6 +79,10 @@ contains
       same_word(trim(keyword), "LOAD"))) then
       call append_value(card, "torque", words)
       call append_value(card, "stall", words)
+    else if (noun == "torques" .and. same_word(trim(keyword), "SPRING")) then
+      call append_value(card, "torque", words)
+    else if (noun == "forces" .and. same_word(trim(keyword), "SPRING")) then
+      call append_value(card, "force", words)
     else if (noun == "speeds" .and. same_word(trim(keyword), "SPEED")) then
       if (size(card%words) == 0) return
       if (number_length(card%words(size(card%words))%text) > 0) words = card%words

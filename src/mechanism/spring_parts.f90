@@ -1,0 +1,122 @@
+!> Model → springs and dampers of the linkage.
+module spring_parts
+  use applied_load_types, only: applied_load_t, applies_along, applies_between, load_place_t
+  use kinds, only: wp
+  use link_shapes, only: find_drawn_place
+  use linkages, only: body_t, linkage_t, turned
+  use models, only: model_t
+  use name_index, only: find_name, name_index_t
+  use spring_cards, only: spring_t
+  use text, only: same_word
+  implicit none (type, external)
+  private
+
+  public :: springs_of
+
+contains
+
+  !> The springs and dampers of a model, in the order of the deck.
+  pure function springs_of(model, links, pins, linkage) result(loads)
+    type(model_t), intent(in) :: model        !! without errors
+    integer, intent(in) :: links(:)           !! (bodies) numbers of their links in the model
+    type(name_index_t), intent(in) :: pins    !! names of the pins
+    type(linkage_t), intent(in) :: linkage    !! its bodies
+    type(applied_load_t), allocatable :: loads(:) !! (springs)
+
+    integer :: i, k
+
+    allocate (loads(size(model%springs)))
+    do i = 1, size(loads)
+      associate (load => loads(i), spring => model%springs(i))
+        if (spring%turns) then
+          load%kind = applies_between
+          ! One link turns against the ground.
+          if (spring%link(2) > 0) then
+            load%body(1) = findloc(links, spring%link(1), dim=1)
+            load%body(2) = findloc(links, spring%link(2), dim=1)
+          else
+            load%body(2) = findloc(links, spring%link(1), dim=1)
+          end if
+        else
+          load%kind = applies_along
+          do k = 1, 2
+            load%at(k) = place_of(model, links, pins, linkage, spring%ends(k)%text)
+          end do
+        end if
+        load%stiffness = spring%stiffness
+        load%damping = spring%damping
+        if (.not. spring%damps) call set_rest(model, pins, linkage, spring, load)
+      end associate
+    end do
+  end function springs_of
+
+  !> The coordinate without load: given, or that of the drawing less the stretch of the load there.
+  !! Without stiffness the load of the drawing stays.
+  pure subroutine set_rest(model, pins, linkage, spring, load)
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: pins
+    type(linkage_t), intent(in) :: linkage
+    type(spring_t), intent(in) :: spring
+    type(applied_load_t), intent(inout) :: load !! with its ends
+
+    real(wp) :: place(2, 2)
+    logical :: is_drawn
+    integer :: k
+
+    if (.not. spring%stiffness > 0.0_wp) then
+      load%tension = spring%load
+    else if (spring%has_rest) then
+      load%rest = spring%rest
+    else if (spring%turns) then
+      load%rest = drawn_angle(model, pins, linkage%bodies(load%body(2)))
+      if (load%body(1) > 0) load%rest = load%rest - drawn_angle(model, pins, &
+        linkage%bodies(load%body(1)))
+      load%rest = load%rest - spring%load/spring%stiffness
+    else
+      do k = 1, 2
+        call find_drawn_place(model, spring%ends(k)%text, place(:, k), is_drawn)
+      end do
+      load%rest = norm2(place(:, 2) - place(:, 1)) - spring%load/spring%stiffness
+    end if
+  end subroutine set_rest
+
+  !> A pin, or a point of a body.
+  pure function place_of(model, links, pins, linkage, name) result(at)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: links(:)
+    type(name_index_t), intent(in) :: pins
+    type(linkage_t), intent(in) :: linkage
+    character(len=*), intent(in) :: name
+    type(load_place_t) :: at
+
+    integer :: i
+
+    at%pin = find_name(pins, name)
+    if (at%pin > 0) return
+    do i = 1, size(model%points)
+      if (.not. same_word(model%points(i)%name%text, name)) cycle
+      at%body = findloc(links, model%points(i)%link, dim=1)
+      associate (body => linkage%bodies(at%body))
+        at%place = body%origin + turned(model%points(i)%place, body%card_axis)
+      end associate
+      return
+    end do
+  end function place_of
+
+  !> Angle of a body in the drawing, as `body_angle` has it at a pose [rad].
+  pure function drawn_angle(model, pins, body) result(angle)
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: pins
+    type(body_t), intent(in) :: body
+    real(wp) :: angle
+
+    real(wp) :: start(2), end(2), way(2)
+    logical :: is_drawn
+
+    call find_drawn_place(model, pins%name(body%first_pin)%text, start, is_drawn)
+    call find_drawn_place(model, pins%name(body%last_pin)%text, end, is_drawn)
+    way = turned(body%heading, (end - start)/norm2(end - start))
+    angle = atan2(way(2) + 0.0_wp, way(1) + 0.0_wp)
+  end function drawn_angle
+
+end module spring_parts

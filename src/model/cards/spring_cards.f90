@@ -1,0 +1,179 @@
+!> SPRING and DAMPER cards: along the line between two places, or torsional between two links or a
+!! link and the ground. Names are looked up later, by `spring_checks`.
+module spring_cards
+  use card_reader, only: check_form, entry_number, read_entry_quantity, read_part_name, &
+    refuse_negative
+  use cards, only: card_t
+  use diagnostics, only: add_error, diagnostics_t
+  use kinds, only: wp
+  use text, only: same_word
+  use tokens, only: token_t
+  use units, only: dimension_angle, dimension_damping, dimension_force, dimension_length, &
+    dimension_line_damping, dimension_line_stiffness, dimension_moment, &
+    dimension_turning_stiffness, unit_system_t
+  implicit none (type, external)
+  private
+
+  public :: spring_t, is_spring_card, read_spring
+
+  !> A spring or a damper. Its coordinate is the distance of its ends, or the angle of its second
+  !! link less that of its first: of one link the angle of this.
+  type :: spring_t
+    type(token_t) :: keyword
+    type(token_t) :: name                !! without a line if the card lacks it
+    logical :: damps = .false.           !! a damper
+    logical :: turns = .false.           !! torsional
+    type(token_t) :: ends(2)             !! pins or points; of a torsional one the first is its pin
+    type(token_t) :: link_names(2)       !! of a torsional one; the second has no line if the first
+                                         !! turns against the ground
+    integer :: link(2) = 0               !! numbers in the model's list; 0: unknown, the ground
+    real(wp) :: stiffness = 0.0_wp       !! [N/m] or [N m/rad]
+    real(wp) :: damping = 0.0_wp         !! [N s/m] or [N m s/rad]
+    logical :: has_rest = .false.        !! `free_length=` or `free_angle=`; else it follows from
+                                         !! the drawing
+    real(wp) :: rest = 0.0_wp            !! coordinate without load [m] or [rad]
+    type(token_t) :: load_word           !! value of `force=` or `torque=`; else without a line
+    real(wp) :: load = 0.0_wp            !! in the drawing: tension, or against a growing angle [N]
+                                         !! or [N m]
+  end type spring_t
+
+contains
+
+  !> Whether a card is one of these.
+  pure function is_spring_card(card) result(is)
+    type(card_t), intent(in) :: card !! of any kind
+    logical :: is
+
+    is = same_word(card%keyword%text, "SPRING") .or. same_word(card%keyword%text, "DAMPER")
+  end function is_spring_card
+
+  !> Reads `SPRING name end end stiffness= [free_length= | force=]`, `SPRING name pin link [link]
+  !! stiffness= [free_angle= | torque=]`, and the DAMPER cards that have `damping=` instead.
+  !! Errors: words or keys that do not fit the card, an invalid name, a missing, negative or
+  !! unreadable value, a key of the other form, a rest and a load at once.
+  pure subroutine read_spring(card, turns, system, diagnostics, spring)
+    type(card_t), intent(in) :: card                  !! the SPRING or DAMPER card
+    logical, intent(in) :: turns                      !! it is torsional: its last word is a link
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(spring_t), intent(out) :: spring             !! as read; names are not looked up
+
+    type(token_t) :: none
+    logical :: fine, known_keys, has_load, is_stiff
+
+    none = token_t("", 0, 0)
+    spring%keyword = card%keyword
+    spring%name = none
+    spring%ends(1) = none
+    spring%ends(2) = none
+    spring%link_names(1) = none
+    spring%link_names(2) = none
+    spring%load_word = none
+    spring%damps = same_word(card%keyword%text, "DAMPER")
+    spring%turns = turns
+    call check_form(card, diagnostics, fine, known_keys)
+    if (size(card%words) > 0) then
+      spring%name = card%words(1)
+      call read_part_name(spring%name, diagnostics)
+    end if
+    if (fine) then
+      spring%ends(1) = card%words(2)
+      if (turns) then
+        spring%link_names(1) = card%words(3)
+        if (size(card%words) > 3) spring%link_names(2) = card%words(4)
+      else
+        spring%ends(2) = card%words(3)
+        if (size(card%words) > 3) call add_error(diagnostics, card%words(4), &
+          "between two places nothing follows them; a torsional one has a pin and two links")
+      end if
+    end if
+    if (spring%damps) then
+      call read_factor(card, "damping", merge(dimension_damping, dimension_line_damping, turns), &
+        known_keys, system, diagnostics, spring%damping, fine)
+      return
+    end if
+    call read_factor(card, "stiffness", merge(dimension_turning_stiffness, &
+      dimension_line_stiffness, turns), known_keys, system, diagnostics, spring%stiffness, &
+      is_stiff)
+    call refuse_other_form(card, turns, diagnostics)
+    if (turns) then
+      call read_entry_quantity(card, "free_angle", dimension_angle, system, .false., diagnostics, &
+        spring%rest, spring%has_rest)
+      call read_entry_quantity(card, "torque", dimension_moment, system, .false., diagnostics, &
+        spring%load, has_load)
+      if (has_load) spring%load_word = card%entries(entry_number(card, "torque"))%value
+    else
+      call read_entry_quantity(card, "free_length", dimension_length, system, .false., &
+        diagnostics, spring%rest, spring%has_rest)
+      if (spring%has_rest) call refuse_negative(card%entries(entry_number(card, &
+        "free_length"))%value, spring%rest, "a free length", diagnostics)
+      call read_entry_quantity(card, "force", dimension_force, system, .false., diagnostics, &
+        spring%load, has_load)
+      if (has_load) spring%load_word = card%entries(entry_number(card, "force"))%value
+    end if
+    if (spring%has_rest .and. has_load) call refuse_both(card, merge("free_angle ", &
+      "free_length", turns), merge("torque", "force ", turns), diagnostics)
+    if (is_stiff .and. .not. spring%stiffness > 0.0_wp .and. .not. has_load) call &
+      add_error(diagnostics, card%entries(entry_number(card, "stiffness"))%value, &
+      "a spring without stiffness does nothing but with '"//trim(merge("torque", "force ", &
+      turns))//"=', which it then keeps")
+  end subroutine read_spring
+
+  !> Reads the value that every such card has.
+  pure subroutine read_factor(card, key, dimension, known_keys, system, diagnostics, value, &
+    fine)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: key
+    integer, intent(in) :: dimension(4)
+    logical, intent(in) :: known_keys !! no key is unknown: a missing one is an error
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    real(wp), intent(out) :: value
+    logical, intent(out) :: fine !! whether it was read and is not negative
+
+    call read_entry_quantity(card, key, dimension, system, known_keys, diagnostics, value, fine)
+    if (fine) call refuse_negative(card%entries(entry_number(card, key))%value, value, &
+      "the "//key, diagnostics)
+    fine = fine .and. value >= 0.0_wp
+  end subroutine read_factor
+
+  !> Reports keys of springs between places on a torsional one, and the other way round.
+  pure subroutine refuse_other_form(card, turns, diagnostics)
+    type(card_t), intent(in) :: card
+    logical, intent(in) :: turns
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: i
+
+    do i = 1, size(card%entries)
+      associate (key => card%entries(i)%key)
+        if (turns .and. (same_word(key%text, "free_length") .or. same_word(key%text, "force"))) &
+          then
+          call add_error(diagnostics, key, "'"//key%text//"=' is of a spring between "// &
+          "two places; "// &
+            "this one is torsional, for its last word is a link: 'free_angle=' or 'torque='")
+        else if (.not. turns .and. (same_word(key%text, "free_angle") .or. same_word(key%text, &
+          "torque"))) then
+          call add_error(diagnostics, key, "'"//key%text//"=' is of a torsional spring, at a "// &
+            "pin of links; this one is between two places: 'free_length=' or 'force='")
+        end if
+      end associate
+    end do
+  end subroutine refuse_other_form
+
+  !> Reports a spring whose load in the drawing and whose rest are given.
+  pure subroutine refuse_both(card, rest, load, diagnostics)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: rest, load !! keys
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: first, second
+
+    first = min(entry_number(card, trim(rest)), entry_number(card, trim(load)))
+    second = max(entry_number(card, trim(rest)), entry_number(card, trim(load)))
+    call add_error(diagnostics, card%entries(second)%key, "a spring has '"//trim(rest)// &
+      "=' or '"//trim(load)//"=', not both", card%entries(first)%key, "'"// &
+      card%entries(first)%key%text//"=' is given here")
+  end subroutine refuse_both
+
+end module spring_cards

@@ -1,0 +1,73 @@
+!> `equilibrium.dat`: where the linkage rests without its drive.
+module equilibrium_report
+  use kinds, only: wp
+  use load_notes, only: append_load_notes, potential_note
+  use table_columns, only: cells, column_width, name_list_t, table_layout_t
+  use table_rows, only: add_failed_row, add_row, rows_t
+  use tables, only: name_cell
+  use text, only: append_string, plural, string_t, word_list
+  use variant_results, only: variant_results_t
+  implicit none (type, external)
+  private
+
+  public :: equilibrium_notes, equilibrium_words, add_equilibria
+
+  !> In the order of the is_… numbers.
+  character(len=*), parameter :: verdicts(3) = [character(len=11) :: "stable", "unstable", &
+    "indifferent"]
+
+contains
+
+  !> The words in the column `verdict`.
+  pure function equilibrium_words() result(list)
+    type(name_list_t) :: list
+
+    list%column = "verdict"
+    list%names = word_list("stable unstable indifferent")
+  end function equilibrium_words
+
+  !> What the columns are, and where rests were looked for.
+  subroutine equilibrium_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its rests
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    associate (found => variant%found%equilibria)
+      allocate (notes(0))
+      call append_string(notes, "positions in which the linkage rests while its drive does not "// &
+        "act; stiffness: derivative of the force or torque that the drive would have to give")
+      call append_string(notes, "indifferent: it rests everywhere between this row "// &
+          "and the next; "// &
+        "frequency: of small oscillations without friction about a stable rest, else 0; "// &
+        "error: estimated, relative")
+      call append_string(notes, potential_note)
+      if (found%gaps > 0) call append_string(notes, plural(found%gaps, "sample")// &
+        " without a value, at dead points or beyond what loads allow: nothing is said of them")
+      if (found%is_cut) call append_string(notes, "more than 64 turns would be "// &
+          "needed: there may "// &
+        "be further rests")
+    end associate
+    call append_load_notes(notes, variant%model, variant%mechanism)
+  end subroutine equilibrium_notes
+
+  !> Appends a row for every rest.
+  subroutine add_equilibria(variant, layout, rows)
+    type(variant_results_t), intent(in) :: variant !! with its rests
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
+
+    real(wp) :: nowhere(0)
+    integer :: i
+
+    associate (found => variant%found%equilibria)
+      if (size(found%at) == 0) call add_failed_row(rows, nowhere, "the linkage rests nowhere")
+      do i = 1, size(found%at)
+        associate (rest => found%at(i))
+          call add_row(rows, cells(layout, 1, [rest%crank])//name_cell(trim(verdicts(rest%kind)), &
+            column_width(layout, 2))//cells(layout, 3, [rest%potential, rest%stiffness, &
+            rest%frequency, rest%error]))
+        end associate
+      end do
+    end associate
+  end subroutine add_equilibria
+
+end module equilibrium_report
