@@ -28,6 +28,9 @@ module flywheels
     real(wp), allocatable :: energy(:)   !! its integral W from the start [J]
   end type cycle_t
 
+  !> A mean torque below this share of the largest torque is round-off and written as 0.
+  real(wp), parameter :: round_off_share = 1.0e-12_wp
+
   integer, parameter :: most_iterations = 100, most_doublings = 400
 
 contains
@@ -56,6 +59,8 @@ contains
 
     turn = cycle_of(inertia, slope, load, period)
     flywheel%mean_torque = mean_load(load)
+    if (abs(flywheel%mean_torque) <= round_off_share*maxval(abs(load))) flywheel%mean_torque = &
+      0.0_wp
     flywheel%energy = swing(turn%energy, turn%excess, turn%step)
     flywheel%moves_alone = minval(turn%inertia) > epsilon(1.0_wp)*flywheel%energy/speed**2
     if (flywheel%moves_alone) then

@@ -212,10 +212,11 @@ contains
     type(sizing_t), intent(in) :: sizing
     type(rows_t), intent(inout) :: rows
 
-    associate (flywheel => sizing%flywheel, error => sizing%flywheel_error)
+    associate (flywheel => sizing%flywheel)
       call put("mean_torque", flywheel%mean_torque, "moment", 0.0_wp)
       call put("energy_of_cycle", flywheel%energy, "energy", 0.0_wp)
-      if (flywheel%moves_alone) call put("fluctuation_without", flywheel%alone, "1", 0.0_wp)
+      if (flywheel%moves_alone) call put("fluctuation_without", flywheel%alone, "1", 0.0_wp, &
+        sizing%alone_error)
       call put("flywheel", flywheel%inertia, "inertia", 0.0_wp)
       call put("fluctuation", flywheel%fluctuation, "1", 0.0_wp)
       call put("greatest_rate", flywheel%greatest, "rate", flywheel%at_greatest/degree)
@@ -224,13 +225,19 @@ contains
 
   contains
 
-    subroutine put(quantity, value, quantity_unit, crank)
+    subroutine put(quantity, value, quantity_unit, crank, error)
       character(len=*), intent(in) :: quantity, quantity_unit
       real(wp), intent(in) :: value, crank
+      real(wp), intent(in), optional :: error !! absent: that of the flywheel
+
+      real(wp) :: shown
+
+      shown = sizing%flywheel_error
+      if (present(error)) shown = error
 
       call put_row(variant, layout, speed, name_cell(flywheel_word, column_width(layout, 2))// &
-        name_cell(no_pin, column_width(layout, 3)), quantity, value, quantity_unit, crank, &
-        sizing%flywheel_error, rows)
+        name_cell(no_pin, column_width(layout, 3)), quantity, value, quantity_unit, crank, shown, &
+        rows)
     end subroutine put
 
   end subroutine add_flywheel

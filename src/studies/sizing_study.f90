@@ -18,9 +18,13 @@ module sizing_study
 
   public :: sizing_request_t, sized_t, sizing_t, sizing_result_t, find_sizing
 
-  !> Samples of a cycle: doubled until no mean changes by more than `settled` of its peak.
+  !> Samples of a cycle: doubled until no result changes by more than `settled` of its peak.
   integer, parameter :: fewest_samples = 128, most_samples = 8192
-  real(wp), parameter :: settled = 1.0e-13_wp*fineness
+  real(wp), parameter :: settled = 1.0e-11_wp*fineness
+
+  !> A force below this share of the largest of its kind, and a mean below this share of the peak,
+  !! is round-off and written as 0.
+  real(wp), parameter :: round_off_share = 1.0e-12_wp
 
   !> What is asked for.
   type :: sizing_request_t
@@ -51,6 +55,7 @@ module sizing_study
     logical :: has_flywheel = .false.       !! `flywheel` is found
     type(flywheel_t) :: flywheel            !! on the first drive
     real(wp) :: flywheel_error = 0.0_wp     !! of its inertia, estimated [-]
+    real(wp) :: alone_error = 0.0_wp        !! of the fluctuation without it, estimated [-]
   end type sizing_t
 
   type :: sizing_result_t
@@ -152,7 +157,15 @@ contains
         sized%mean = sum(values(:, s))/size(values, 1)
         sized%rms = sqrt(sum(values(:, s)**2)/size(values, 1))
         sized%cubic = (sum(abs(values(:, s))**3)/size(values, 1))**(1.0_wp/3.0_wp)
+        if (maxval(abs(values(:, s))) <= round_off_share*maxval(abs(values(:, &
+          merge(1, d + 1, s <= d):merge(d, n, s <= d))))) then
+          sized%mean = 0.0_wp
+          sized%rms = 0.0_wp
+          sized%cubic = 0.0_wp
+          cycle
+        end if
         call find_peak(linkage, elements, request, number, s, positions%period, values(:, s), sized)
+        if (abs(sized%mean) <= round_off_share*abs(sized%peak)) sized%mean = 0.0_wp
       end associate
     end do
   end subroutine size_speed
@@ -311,6 +324,7 @@ contains
       if (.not. now(k)%has_flywheel) cycle
       associate (a => now(k)%flywheel, b => last(k)%flywheel)
         now(k)%flywheel_error = abs(a%inertia - b%inertia)/max(a%inertia, b%inertia, tiny(1.0_wp))
+        now(k)%alone_error = abs(a%alone - b%alone)/max(a%alone, b%alone, tiny(1.0_wp))
         change = max(change, now(k)%flywheel_error)
       end associate
     end do
