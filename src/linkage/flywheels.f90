@@ -68,7 +68,9 @@ contains
       flywheel%alone = flywheel%fluctuation
       if (flywheel%alone <= fluctuation) return
     end if
-    high = max(flywheel%energy/(fluctuation*speed**2), tiny(1.0_wp))
+    ! What loads and what the change of M alone would ask for.
+    high = flywheel%energy/(fluctuation*speed**2) + (maxval(turn%inertia) - &
+      minval(turn%inertia))/fluctuation + tiny(1.0_wp)
     do i = 1, most_doublings
       call run(turn, high, speed, flywheel)
       if (flywheel%fluctuation <= fluctuation) exit
