@@ -44,7 +44,8 @@ contains
         to_string(found%period, 6)//" deg of the first drive at constant speed: "// &
         to_string(found%samples)//" samples, peaks enclosed between them")
       call append_string(notes, "peak: greatest absolute value, of drives with its sign; "// &
-        "crank: where it is, 0 in rows without a place; cubic_mean_force: cube root of the mean of "// &
+        "crank: where it is, 0 in rows without a place; cubic_mean_force: cube root of the "// &
+        "mean of "// &
         "|F|^3 over the cycle, not weighted by how the pin turns in its bearing")
       call append_string(notes, "forces of joints: on the link at the pin, as in bearings.dat; "// &
         "angle_at_peak: of the force in the axes of the link")
@@ -63,7 +64,8 @@ contains
 
     call append_string(notes, "flywheel: moment of inertia on the first drive with which "// &
       "(greatest - least)/mean speed is "//to_string(fluctuation, 9)// &
-      " while a constant torque, mean_torque, drives the linkage; the mean of the speed is that over time; 0: none is "// &
+      " while a constant torque, mean_torque, drives the linkage; the mean of the speed is "// &
+      "that over time; 0: none is "// &
       "needed; loads that depend on the speed are those at the mean speed")
     call append_string(notes, "energy_of_cycle: greatest less least of the integral of "// &
       "(mean_torque - torque of the loads); fluctuation_without: without a flywheel; "// &
