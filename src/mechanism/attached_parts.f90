@@ -13,8 +13,8 @@ module attached_parts
   implicit none (type, external)
   private
 
-  public :: body_point_t, attach_masses, own_lumps_of, apply_loads, append_loads, points_of, place_on_body, &
-    place_on_card, runs_against
+  public :: body_point_t, attach_masses, own_lumps_of, apply_loads, append_loads, points_of, &
+    place_on_body, place_on_card, runs_against
 
   !> A point fixed to a body.
   type :: body_point_t

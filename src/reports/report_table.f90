@@ -56,6 +56,8 @@ module report_table
   use report_kinds, only: four_bars, other_linkages, report_kind_t, table_kind_t
   use response_notes, only: add_failed_speed, has_response
   use response_report, only: add_response, response_notes_of, response_point_names
+  use sizing_report, only: add_sizing, sizing_names, sizing_notes
+  use sizing_study, only: find_sizing, sizing_request_t
   use stability_report, only: add_stability, stability_notes, stability_words
   use strains_report, only: add_strains, gauge_names, strains_notes
   use table_columns, only: name_list_t, new_table_layout, table_factor, table_layout_t
@@ -83,9 +85,9 @@ module report_table
 
   !> All studies in the order in which they are made: some use the results of others. The last
   !! are made by `variant_runs`, some of them block by block or step by step.
-  character(len=*), parameter :: study_names(20) = [character(len=12) :: "kinematics", "geometry", &
+  character(len=*), parameter :: study_names(21) = [character(len=12) :: "kinematics", "geometry", &
     "inertia", "points", "reactions", "joints", "lagrange", "balance", "harmonics", "linkage", &
-    "limits", "equilibrium", "response", &
+    "limits", "sizing", "equilibrium", "response", &
     "stability", "intervals", "campbell", "transient", "motion", "frequencies", "loci"]
 
   !> Tables of the elastic response with rows for every position.
@@ -167,6 +169,10 @@ module report_table
       masses=.true., numbers=82, tables=[ &
       table_kind_t("frame", "speed:speed crank:deg shaking_x,shaking_y:force "// &
       "shaking_moment:moment frame_x,frame_y:force frame_moment:moment"), no_table]), &
+    report_kind_t(name="sizing", help="peaks and means of drives and bearings, the flywheel", &
+      pattern="REPORT sizing [fluctuation=]", studies="sizing", masses=.true., tables=[ &
+      table_kind_t("sizing", "speed:speed part,pin,quantity:name value:see_unit unit:name "// &
+      "crank:deg error:-"), no_table]), &
     report_kind_t(name="points", help="paths, velocities and accelerations of points", &
       studies="points", positions=.true., tables=[ &
       table_kind_t("points", "speed:speed crank:deg point:name x,y:length vx,vy:velocity "// &
@@ -344,6 +350,10 @@ contains
         end if
       case ("linkage")
         call find_linkage(linkage, found%linkage)
+      case ("sizing")
+        call find_sizing(linkage, elements, sizing_request_t(model%speed%value, &
+          model%acceleration, model%reports(report_number(model, "sizing"))%fluctuation), &
+          threads, found%sizing)
       case ("limits")
         call find_limits(linkage, positions_of_deck(model), found%limits)
       case ("equilibrium")
@@ -370,7 +380,7 @@ contains
     type(variant_results_t), intent(in) :: variant  !! with its results
     type(table_plan_t), intent(out) :: plan         !! for `add_item_rows`
 
-    type(name_list_t) :: names(3)
+    type(name_list_t) :: names(4)
     integer :: count
     logical :: optional
 
@@ -378,6 +388,7 @@ contains
     names(1)%column = ""
     names(2)%column = ""
     names(3)%column = ""
+    names(4)%column = ""
     count = 0
     optional = .false.
     plan%speeds = size(variant%model%speed%value)
@@ -413,11 +424,14 @@ contains
       names(1) = pin_names(variant)
       names(2) = joint_owners(variant)
     case ("geometry")
-      names = geometry_words(variant)
+      names(:3) = geometry_words(variant)
       plan%items = size(variant%found%geometry%crank)
     case ("linkage")
       names(:2) = linkage_words()
-      if (.not. variant%mechanism%is_four_bar) names = limits_names(variant)
+      if (.not. variant%mechanism%is_four_bar) names(:3) = limits_names(variant)
+      plan%items = 1
+    case ("sizing")
+      names = sizing_names(variant)
       plan%items = 1
     case ("equilibrium")
       names(1) = equilibrium_words()
@@ -521,6 +535,8 @@ contains
       call reactions_notes(variant, notes)
     case ("bearings")
       call bearings_notes(variant, notes)
+    case ("sizing")
+      call sizing_notes(variant, notes)
     case ("frame")
       call frame_notes(variant, notes)
     case ("points")
@@ -601,6 +617,8 @@ contains
       call add_transient(plan%name, variant, plan%layout, number, rows)
     case ("branches")
       call add_loci(variant, plan%layout, rows)
+    case ("sizing")
+      call add_sizing(variant, plan%layout, rows)
     case ("peaks", "validity")
       call add_speed(plan%name, variant, plan%layout, number, rows)
     case ("stability")

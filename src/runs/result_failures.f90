@@ -58,6 +58,14 @@ contains
             found%geometry%outcome(i)%error, found%geometry%crank(i), 0, 0.0_wp, findings)
         end do
       end if
+      if (allocated(found%sizing%error)) then
+        if (found%sizing%period > 0.0_wp) then
+          call note_failure(variant, at_position, found%sizing%error, found%sizing%error_crank, 0, &
+            0.0_wp, findings)
+        else
+          call note_failure(variant, of_variant, found%sizing%error, 0.0_wp, 0, 0.0_wp, findings)
+        end if
+      end if
       if (allocated(found%balance%partial)) then
         if (allocated(found%balance%partial%error)) call note_failure(variant, of_variant, &
           found%balance%partial%error, 0.0_wp, 0, 0.0_wp, findings)

@@ -19,6 +19,7 @@ module study_results
   use reactions_study, only: reactions_result_t
   use response_types, only: response_t
   use stability_types, only: intervals_t, stability_t
+  use sizing_study, only: sizing_result_t
   use sweeps, only: sweep_t
   use transient_types, only: transient_t
   implicit none (type, external)
@@ -41,6 +42,7 @@ module study_results
     type(linkage_result_t) :: linkage                       !! of a four-bar
     type(limits_result_t) :: limits                         !! of any other linkage
     type(equilibria_t) :: equilibria
+    type(sizing_result_t) :: sizing
     type(motion_result_t) :: motion                         !! of a four-bar
     type(linkage_motion_result_t) :: linkage_motion         !! of any other linkage
     type(sweep_t) :: sweep

@@ -1,7 +1,7 @@
 !> REPORT card: requests one or several tables.
 module report_cards
   use card_reader, only: check_words, entry_number, has_key, read_choice, read_entry_accuracy, &
-    read_entry_count, read_entry_quantity, require_positive
+    read_entry_count, read_entry_quantity, read_quantity, require_positive
   use card_table, only: keys_in
   use cards, only: card_t, entry_t
   use diagnostics, only: add_error, diagnostics_t
@@ -23,6 +23,9 @@ module report_cards
   !! over the turn; on stability, of exponents; of intervals, relative to the speed.
   real(wp), parameter :: finest_response_accuracy = 1.0e-12_wp*fineness, &
     coarsest_response_accuracy = 1.0e-2_wp
+
+  !> `fluctuation=` of REPORT sizing.
+  real(wp), parameter :: least_fluctuation = 1.0e-6_wp, most_fluctuation = 1.0_wp
 
   !> One REPORT card.
   type :: report_t
@@ -48,6 +51,7 @@ module report_cards
     ! REPORT frame: about a place, about a pin, or without either about the point of reference.
     logical :: has_about = .false.   !! `about=x,y` is given
     real(wp) :: about(2) = 0.0_wp    !! in global axes [m]
+    real(wp) :: fluctuation = 0.0_wp !! of REPORT sizing; 0: no flywheel is asked for [-]
     type(token_t) :: about_pin       !! value of `about=pin`; without a line if it is not given
   end type report_t
 
@@ -114,6 +118,8 @@ contains
       call read_intervals(card, system, diagnostics, report)
     case ("transient")
       call read_transient(card, report%kind, known_keys, system, diagnostics, report%transient)
+    case ("sizing")
+      call read_sizing(card, system, diagnostics, report)
     case ("frame")
       call read_frame(card, system, diagnostics, report)
     end select
@@ -159,6 +165,40 @@ contains
       report%least_growth = growth
     end if
   end subroutine read_intervals
+
+  !> Reads `REPORT sizing [fluctuation=]`: a share, or a percentage with its sign.
+  pure subroutine read_sizing(card, system, diagnostics, report)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(report_t), intent(inout) :: report
+
+    type(token_t) :: word
+    real(wp) :: fluctuation, factor
+    logical :: fine
+    integer :: i, last
+
+    i = entry_number(card, "fluctuation")
+    if (i == 0) return
+    word = card%entries(i)%value
+    last = len(word%text)
+    factor = 1.0_wp
+    if (last > 1) then
+      if (word%text(last:) == "%") then
+        word%text = word%text(:last - 1)
+        factor = 100.0_wp
+      end if
+    end if
+    call read_quantity(word, dimension_none, system, diagnostics, fluctuation, fine)
+    if (.not. fine) return
+    fluctuation = fluctuation/factor
+    if (fluctuation < least_fluctuation .or. fluctuation > most_fluctuation) then
+      call add_error(diagnostics, card%entries(i)%value, "the fluctuation of the speed, "// &
+        "(greatest - least)/mean, is from 1e-6 to 1, or in %, not "//card%entries(i)%value%text)
+    else
+      report%fluctuation = fluctuation
+    end if
+  end subroutine read_sizing
 
   !> Reads `REPORT frame [about=x,y|pin]`: a name, or the coordinates of a place.
   pure subroutine read_frame(card, system, diagnostics, report)

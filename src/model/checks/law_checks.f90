@@ -362,7 +362,7 @@ contains
       associate (report => model%reports(i))
         if (report%kind%name == "motion") then
           reason = "moves the first drive by its motor, not by a law"
-        else if (report%kind%response) then
+        else if (report%kind%response .or. report%kind%name == "sizing") then
           reason = "is about a crank at constant speed, not about one that moves by a law"
         else if (report%kind%beams) then
           reason = "is about positions and speeds of CRANK and SPEED, not about a law"

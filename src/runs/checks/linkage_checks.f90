@@ -58,7 +58,8 @@ contains
     if (size(mechanism%linkage%redundancies) > 0) then
       call check_fit(model, mechanism, diagnostics)
       if (has_errors(diagnostics)) return
-      report = max(report_number(model, "reactions"), report_number(model, "bearings"))
+      report = max(report_number(model, "reactions"), report_number(model, "bearings"), &
+        report_number(model, "sizing"))
       if (report > 0) call add_error(diagnostics, model%reports(report)%keyword, &
         "the forces in '"//mechanism%names(max(1, body_of_redundancy(mechanism%linkage, &
         1)))%text//"' and the links that hold the same pins cannot be told apart while all are "// &

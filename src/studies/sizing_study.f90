@@ -1,0 +1,333 @@
+!> What is bought for a linkage: torque, speed and power of its drives, forces of its bearings, and
+!! the flywheel, each over the whole cycle.
+module sizing_study
+  use constants, only: degree
+  use errors, only: error_of_input, error_t, set_error
+  use flywheels, only: flywheel_t, size_flywheel
+  use interruption, only: was_interrupted
+  use joint_study, only: bearing_values, bearings_at_speed, drives_at_speed, find_joints, &
+    joint_t, joints_at_speed, joints_result_t
+  use kinds, only: fineness, wp
+  use lagrange_study, only: find_lagrange_terms, lagrange_result_t
+  use linkages, only: linkage_t
+  use applied_loads, only: load_period
+  use linkage_paths, only: period_of
+  use positions, only: find_positions, positions_t
+  implicit none (type, external)
+  private
+
+  public :: sizing_request_t, sized_t, sizing_t, sizing_result_t, find_sizing
+
+  !> Samples of a cycle: doubled until no result changes by more than `settled` of its peak.
+  integer, parameter :: fewest_samples = 128, most_samples = 8192
+  real(wp), parameter :: settled = 1.0e-11_wp*fineness
+
+  !> A force below this share of the largest of its kind, and a mean below this share of the peak,
+  !! is round-off and written as 0.
+  real(wp), parameter :: round_off_share = 1.0e-12_wp
+
+  !> What is asked for.
+  type :: sizing_request_t
+    real(wp), allocatable :: speed(:)    !! (speeds) of the first drive [rad/s] or [m/s]
+    real(wp) :: acceleration = 0.0_wp    !! of the first drive [rad/s²] or [m/s²]
+    real(wp) :: fluctuation = 0.0_wp     !! of the speed, that a flywheel is to allow; 0: none is
+                                         !! asked for [-]
+  end type sizing_request_t
+
+  !> A force over the cycle: of a drive its torque or force, with its sign; of a joint its
+  !! magnitude.
+  type :: sized_t
+    integer :: drive = 0        !! number; 0: of a joint
+    integer :: joint = 0        !! number; 0: of a drive
+    real(wp) :: peak = 0.0_wp   !! greatest absolute value, with its sign [N m] or [N]
+    real(wp) :: crank = 0.0_wp  !! position of the first drive there [deg]
+    real(wp) :: angle = 0.0_wp  !! of a joint: of the force there, in the axes of its link [deg]
+    real(wp) :: rate = 0.0_wp   !! of a drive [rad/s] or [m/s]
+    real(wp) :: rms = 0.0_wp    !! [N m] or [N]
+    real(wp) :: mean = 0.0_wp   !! [N m] or [N]
+    real(wp) :: cubic = 0.0_wp  !! cubic mean of absolute values [N m] or [N]
+    real(wp) :: error = 0.0_wp  !! of peak and means, estimated, as a share of the peak [-]
+  end type sized_t
+
+  !> At one speed.
+  type :: sizing_t
+    type(sized_t), allocatable :: sized(:)  !! drives, then joints
+    logical :: has_flywheel = .false.       !! `flywheel` is found
+    type(flywheel_t) :: flywheel            !! on the first drive
+    real(wp) :: flywheel_error = 0.0_wp     !! of its inertia, estimated [-]
+    real(wp) :: alone_error = 0.0_wp        !! of the fluctuation without it, estimated [-]
+  end type sizing_t
+
+  type :: sizing_result_t
+    type(error_t), allocatable :: error       !! why there is nothing
+    real(wp) :: error_crank = 0.0_wp          !! where [deg]
+    integer :: samples = 0                    !! of the cycle
+    real(wp) :: period = 0.0_wp               !! of the cycle [deg]
+    type(joint_t), allocatable :: joints(:)   !! as in `joint_study`
+    type(sizing_t), allocatable :: at_speed(:)
+  end type sizing_result_t
+
+contains
+
+  !> Peaks and means over the cycle for every speed, and flywheels.
+  !!
+  !! Peaks between samples are enclosed by golden-section search around the three highest samples.
+  !! Errors are estimated by those with half as many samples. Errors: the first drive does not turn
+  !! fully, positions and loads do not repeat, or those of a position.
+  subroutine find_sizing(linkage, elements, request, threads, found)
+    type(linkage_t), intent(in) :: linkage       !! of any kind, with masses
+    integer, intent(in) :: elements(:)           !! (bodies) on whose nodes the masses are lumped;
+                                                 !! 0: distributed
+    type(sizing_request_t), intent(in) :: request
+    integer, intent(in) :: threads               !! number of OpenMP threads
+    type(sizing_result_t), intent(out) :: found
+
+    type(sizing_t), allocatable :: last(:)
+    type(positions_t) :: positions
+    type(joints_result_t) :: joints
+    real(wp), allocatable :: speeds(:, :)
+    real(wp) :: change
+    integer :: i, k, samples
+
+    found%period = load_period(linkage, period_of(linkage))
+    if (found%period <= 0.0_wp) then
+      call set_error(found%error, error_of_input, "positions and loads do not repeat with the "// &
+        "first drive: there is no cycle")
+      return
+    end if
+    samples = fewest_samples*max(1, nint(found%period/360.0_wp))
+    do
+      positions = find_positions(linkage, [(found%period*(i - 1)/samples, i=1, samples)])
+      do i = 1, samples
+        if (.not. allocated(positions%states(i)%error)) cycle
+        found%error = positions%states(i)%error
+        found%error_crank = positions%states(i)%crank
+        return
+      end do
+      speeds = spread(request%speed, 2, samples)
+      call find_joints(linkage, elements, positions, threads, joints, speeds)
+      found%joints = joints%joints
+      found%samples = samples
+      if (allocated(found%at_speed)) call move_alloc(found%at_speed, last)
+      allocate (found%at_speed(size(request%speed)))
+      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k)
+      do k = 1, size(request%speed)
+        call size_speed(linkage, elements, request, positions, joints, k, found%at_speed(k))
+      end do
+      !$omp end parallel do
+      if (request%fluctuation > 0.0_wp) call find_flywheels(linkage, elements, request, positions, &
+        threads, speeds, found)
+      change = huge(change)
+      if (allocated(last)) change = largest_change(found%at_speed, last)
+      if (change <= settled .or. 2*samples > most_samples .or. was_interrupted()) exit
+      samples = 2*samples
+    end do
+  end subroutine find_sizing
+
+  !> All drives and joints at a speed.
+  subroutine size_speed(linkage, elements, request, positions, joints, number, found)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: elements(:)
+    type(sizing_request_t), intent(in) :: request
+    type(positions_t), intent(in) :: positions
+    type(joints_result_t), intent(in) :: joints
+    integer, intent(in) :: number !! of the speed
+    type(sizing_t), intent(inout) :: found
+
+    real(wp), allocatable :: values(:, :)
+    real(wp) :: drives(3, size(linkage%drives))
+    integer :: i, s, n, d
+
+    d = size(linkage%drives)
+    n = d + size(joints%joints)
+    allocate (found%sized(n), values(size(positions%states), n))
+    do i = 1, size(values, 1)
+      values(i, :) = values_at(linkage, joints, i, request, number)
+    end do
+    drives = drives_at_speed(linkage, joints, 1, 0.0_wp, request%speed(number), &
+      request%acceleration)
+    do s = 1, n
+      associate (sized => found%sized(s))
+        if (s <= d) then
+          sized%drive = s
+          sized%rate = drives(2, s)
+        else
+          sized%joint = s - d
+        end if
+        sized%mean = sum(values(:, s))/size(values, 1)
+        sized%rms = sqrt(sum(values(:, s)**2)/size(values, 1))
+        sized%cubic = (sum(abs(values(:, s))**3)/size(values, 1))**(1.0_wp/3.0_wp)
+        if (maxval(abs(values(:, s))) <= round_off_share*maxval(abs(values(:, &
+          merge(1, d + 1, s <= d):merge(d, n, s <= d))))) then
+          sized%mean = 0.0_wp
+          sized%rms = 0.0_wp
+          sized%cubic = 0.0_wp
+          cycle
+        end if
+        call find_peak(linkage, elements, request, number, s, positions%period, values(:, s), sized)
+        if (abs(sized%mean) <= round_off_share*abs(sized%peak)) sized%mean = 0.0_wp
+      end associate
+    end do
+  end subroutine size_speed
+
+  !> Forces of the drives, then magnitudes of the joints.
+  pure function values_at(linkage, joints, state, request, number) result(values)
+    type(linkage_t), intent(in) :: linkage
+    type(joints_result_t), intent(in) :: joints
+    integer, intent(in) :: state
+    type(sizing_request_t), intent(in) :: request
+    integer, intent(in) :: number !! of the speed
+    real(wp) :: values(size(linkage%drives) + size(joints%joints))
+
+    real(wp) :: drives(3, size(linkage%drives)), forces(3, size(joints%joints))
+    integer :: d
+
+    d = size(linkage%drives)
+    drives = drives_at_speed(linkage, joints, state, 0.0_wp, request%speed(number), &
+      request%acceleration, number)
+    forces = joints_at_speed(joints, state, request%speed(number), request%acceleration, number)
+    values(:d) = drives(3, :)
+    values(d + 1:) = norm2(forces(:2, :), dim=1)
+  end function values_at
+
+  !> The greatest absolute value: golden-section search around the highest samples.
+  subroutine find_peak(linkage, elements, request, number, signal, period, values, sized)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: elements(:)
+    type(sizing_request_t), intent(in) :: request
+    integer, intent(in) :: number, signal !! of the speed; of the force
+    real(wp), intent(in) :: period        !! [deg]
+    real(wp), intent(in) :: values(:)     !! (samples)
+    type(sized_t), intent(inout) :: sized
+
+    integer, parameter :: most_peaks = 3
+    real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
+    ! A peak is flat: this close to it [deg] the value is exact to the last digits.
+    real(wp), parameter :: near = 1.0e-6_wp
+    real(wp) :: height(size(values)), a, b, x(2), y(2), step
+    integer :: at, k
+
+    step = period/size(values)
+    height = abs(values)
+    at = maxloc(height, dim=1)
+    sized%peak = values(at)
+    sized%crank = step*(at - 1)
+    height = merge(height, 0.0_wp, height >= cshift(height, 1) .and. height >= cshift(height, -1))
+    ! A force that is constant has no peak to look for.
+    if (maxval(abs(values)) - minval(abs(values)) <= 1.0e-12_wp*abs(sized%peak)) height = 0.0_wp
+    do k = 1, most_peaks
+      at = maxloc(height, dim=1)
+      if (height(at) <= 0.0_wp) exit
+      height(at) = 0.0_wp
+      a = step*(at - 2)
+      b = step*at
+      x = [b - golden*(b - a), a + golden*(b - a)]
+      y = [value_at(x(1)), value_at(x(2))]
+      do while (b - a > near)
+        if (abs(y(1)) >= abs(y(2))) then
+          b = x(2)
+          x = [b - golden*(b - a), x(1)]
+          y = [value_at(x(1)), y(1)]
+        else
+          a = x(1)
+          x = [x(2), a + golden*(b - a)]
+          y = [y(2), value_at(x(2))]
+        end if
+      end do
+      at = merge(1, 2, abs(y(1)) >= abs(y(2)))
+      if (abs(y(at)) <= abs(sized%peak)) cycle
+      sized%peak = y(at)
+      sized%crank = modulo(x(at), period)
+    end do
+    if (sized%joint > 0) sized%angle = angle_at(sized%crank)
+
+  contains
+
+    !> The force at a position; 0 where there is none.
+    function value_at(crank) result(value)
+      real(wp), intent(in) :: crank
+      real(wp) :: value
+
+      type(positions_t) :: there
+      type(joints_result_t) :: joints
+      real(wp), allocatable :: all_values(:)
+
+      value = 0.0_wp
+      there = find_positions(linkage, [crank])
+      if (allocated(there%states(1)%error)) return
+      call find_joints(linkage, elements, there, 1, joints, spread(request%speed, 2, 1))
+      all_values = values_at(linkage, joints, 1, request, number)
+      value = all_values(signal)
+    end function value_at
+
+    !> Direction of the force of the joint at a position.
+    function angle_at(crank) result(angle)
+      real(wp), intent(in) :: crank
+      real(wp) :: angle
+
+      type(positions_t) :: there
+      type(joints_result_t) :: joints
+      real(wp), allocatable :: bearings(:, :)
+
+      there = find_positions(linkage, [crank])
+      call find_joints(linkage, elements, there, 1, joints, spread(request%speed, 2, 1))
+      bearings = bearings_at_speed(linkage, joints, there%states(1)%pose, 1, &
+        request%speed(number), request%acceleration, number)
+      angle = bearings(bearing_values, sized%joint)
+    end function angle_at
+
+  end subroutine find_peak
+
+  !> Flywheels for all speeds; loads that depend on the speed are those at the mean speed.
+  subroutine find_flywheels(linkage, elements, request, positions, threads, speeds, found)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: elements(:)
+    type(sizing_request_t), intent(in) :: request
+    type(positions_t), intent(in) :: positions
+    integer, intent(in) :: threads
+    real(wp), intent(in) :: speeds(:, :)
+    type(sizing_result_t), intent(inout) :: found
+
+    type(lagrange_result_t) :: lagrange
+    real(wp), allocatable :: load(:)
+    integer :: k
+
+    call find_lagrange_terms(linkage, elements, positions, threads, lagrange, speeds)
+    do k = 1, size(request%speed)
+      if (abs(request%speed(k)) <= 0.0_wp) cycle
+      load = lagrange%terms%gravity + lagrange%terms%load
+      if (size(lagrange%running_load, 1) > 0) load = load + lagrange%running_load(k, :)
+      found%at_speed(k)%has_flywheel = .true.
+      found%at_speed(k)%flywheel = size_flywheel(lagrange%terms%inertia, &
+        lagrange%terms%inertia_slope, load, found%period*degree, request%speed(k), &
+        request%fluctuation)
+    end do
+  end subroutine find_flywheels
+
+  !> The greatest change of all results, which become their estimated errors.
+  function largest_change(now, last) result(change)
+    type(sizing_t), intent(inout) :: now(:)
+    type(sizing_t), intent(in) :: last(:)
+    real(wp) :: change
+
+    integer :: k, s
+
+    change = 0.0_wp
+    do k = 1, size(now)
+      do s = 1, size(now(k)%sized)
+        associate (a => now(k)%sized(s), b => last(k)%sized(s))
+          a%error = max(abs(abs(a%peak) - abs(b%peak)), abs(a%rms - b%rms), abs(a%mean - b%mean), &
+            abs(a%cubic - b%cubic))/max(abs(a%peak), tiny(1.0_wp))
+          change = max(change, a%error)
+        end associate
+      end do
+      if (.not. now(k)%has_flywheel) cycle
+      associate (a => now(k)%flywheel, b => last(k)%flywheel)
+        now(k)%flywheel_error = abs(a%inertia - b%inertia)/max(a%inertia, b%inertia, tiny(1.0_wp))
+        now(k)%alone_error = abs(a%alone - b%alone)/max(a%alone, b%alone, tiny(1.0_wp))
+        change = max(change, now(k)%flywheel_error)
+      end associate
+    end do
+  end function largest_change
+
+end module sizing_study
