@@ -258,6 +258,7 @@ contains
         exit
       end if
       call solve_definite(h, g, moves, damping, step, is_definite)
+      next = value
       if (is_definite) then
         trial = p - reshape(step, shape(p))
         next = sum_of_squares(reduced, trial)
