@@ -367,7 +367,7 @@ END_OF_DECK
 moving_places() {
   sed 's/step=0.01/& pins=yes/' "$scratch/driven.deck" >"$scratch/paced.deck"
   run 0 --quiet --out "$scratch/out" "$scratch/paced.deck" || return 1
-  cranks=$(awk '!/^#/ && (NR - 1) % 10 == 6 { printf "%s%.17g", (n++ ? "," : ""), $2 }' "$scratch/out/paced/motion.dat")
+  cranks=$(awk '!/^#/ && rows++ % 10 == 0 { printf "%s%.17g", (n++ ? "," : ""), $2 }' "$scratch/out/paced/motion.dat")
   for crank in 30 "$cranks"; do
     { sed '/^REPORT/d' "$scratch/driven.deck" && echo "REPORT geometry crank=$crank"; } >"$scratch/there.deck"
     run 0 --quiet --out "$scratch/out" "$scratch/there.deck" || return 1

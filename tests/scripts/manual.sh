@@ -40,7 +40,7 @@ rendered() {
 }
 
 renders() {
-  rendered "$scratch/flexmech.1" NAME "flexmech - dynamics" --threads --help-cards "REPORT motion crank= [speed=0]" "EXIT STATUS" -- "$@"
+  rendered "$scratch/flexmech.1" NAME "flexmech - dynamics" --threads --help-cards "REPORT motion" "EXIT STATUS" -- "$@"
 }
 
 # The page of flexmech-plot, made as `make install` makes it.

@@ -14,17 +14,17 @@ form() {
     END { if (!failed && !rows) { print FILENAME ": no rows"; exit 1 } }' "$1"
 }
 
-# Where 0 and 360 degrees are both there: computed once, so their rows differ in nothing but the angle, which is
+# Where 0 and 360 degrees, or a longer period, are both there: computed once, so their rows differ in nothing but the angle, which is
 # the position of a drive too.
 full_turn() {
-  awk '/^#/ { for (i = 2; i <= NF; i++) if ($i == "position") position = i - 1 }
+  awk -v period="${2:-360}" '/^#/ { for (i = 2; i <= NF; i++) if ($i == "position") position = i - 1 }
     /^#/ || !NF { next }
     { angle = $2; first = $1; $1 = $2 = ""; if (position) $position = ""; rest = $0 }
     angle == 0 { row[first] = row[first] rest "\n"; zeros++ }
-    angle == 360 { again[first] = again[first] rest "\n"; turns++ }
+    angle == period { again[first] = again[first] rest "\n"; turns++ }
     END { if (!turns) exit 0
-      if (zeros != turns) { print zeros " rows at 0, " turns " at 360"; exit 1 }
-      for (first in row) if (row[first] != again[first]) { print "the rows at 0 and 360 degrees differ"; exit 1 } }' "$1"
+      if (zeros != turns) { print zeros " rows at 0, " turns " at " period; exit 1 }
+      for (first in row) if (row[first] != again[first]) { print "the rows at 0 and " period " degrees differ"; exit 1 } }' "$1"
 }
 
 for deck in inputs/*.deck; do
@@ -36,6 +36,7 @@ for deck in inputs/*.deck; do
     check "form of $name" form "$table"
     case $name in
       */mesh.dat | */branches.dat) ;; # in branches a row depends on the one before
+      gas_engine/*) check "0 and 720 degrees in $name" full_turn "$table" 720 ;;
       *) check "0 and 360 degrees in $name" full_turn "$table" ;;
     esac
   done
