@@ -7,6 +7,7 @@ module balance_report
   use harmonics_study, only: has_settled, is_moment, quantity_count, quantity_names
   use kinds, only: wp
   use joint_study, only: joints_result_t
+  use models, only: model_t
   use load_notes, only: acceleration_note
   use position_rows, only: add_position_row
   use reactions_study, only: reaction_values, reactions_at_speed, reactions_result_t, &
@@ -254,12 +255,25 @@ contains
         "speed and acceleration are constant over the turn")
       call append_string(notes, "forces in "//force%name//", moments and torques in "// &
         moment%name//", phases in deg; a phase is 0 where its h is only round-off")
+      if (has_moving_loads(variant%model)) call append_string(notes, "torque is without loads "// &
+        "that depend on the speed: dampers, resistances, loads in one direction of the motion")
+      if (any(variant%model%processes%is_periodic)) call append_string(notes, "tables of loads "// &
+        "over several turns are taken over their first turn, from 0 to 360 deg")
       call append_string(notes, "samples: "//to_string(found%samples)//"; every second one "// &
         "gives the same to "//to_string(found%change, 2)//" of the largest value")
       if (.not. has_settled(found)) call append_string(notes, "harmonics have not converged: "// &
         "the crank passes close to a dead point, or the shaking force through zero")
     end associate
   end subroutine append_harmonics_notes
+
+  !> Whether loads depend on the speed.
+  pure function has_moving_loads(model) result(has)
+    type(model_t), intent(in) :: model
+    logical :: has
+
+    has = any(model%processes%damping > 0.0_wp .or. model%processes%resisting > 0.0_wp .or. &
+      model%processes%during /= 0) .or. any(model%springs%damping > 0.0_wp)
+  end function has_moving_loads
 
   !> The words in the columns `linkage` and `quantity`.
   pure function harmonics_words() result(lists)
