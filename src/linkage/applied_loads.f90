@@ -8,7 +8,7 @@ module applied_loads
   use constants, only: degree
   use cubic_splines, only: spline_values
   use errors, only: error_of_numerics, error_t, set_error
-  use group_equations, only: line_axis, world_line
+  use group_equations, only: world_line
   use inertia_loads, only: load_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t

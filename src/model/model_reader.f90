@@ -332,6 +332,7 @@ contains
     type(model_t), intent(inout) :: model !! has its units
 
     integer :: so_far(size(card_kinds)), i, kind, first_drive
+    logical :: on_link
 
     allocate (model%materials(number_of(cards, "MATERIAL")), &
       model%sections(number_of(cards, "SECTION")), model%grounds(number_of(cards, "GROUND")), &
@@ -357,9 +358,10 @@ contains
       kind = card_kind_number(cards(i)%keyword%text)
       if (kind == 0) cycle
       so_far(kind) = so_far(kind) + 1
+      on_link = card_kinds(kind)%keyword == "LOAD"
+      if (on_link) on_link = names_link(cards(i), cards)
       call read_card(cards(i), trim(card_kinds(kind)%keyword), so_far(kind), &
-        cards(min(first_drive, size(cards))), names_link(cards(i), cards), reports, diagnostics, &
-        model)
+        cards(min(first_drive, size(cards))), on_link, reports, diagnostics, model)
     end do
     call keep_branches_of_pins(model)
     call keep_shafts(model)
@@ -479,7 +481,7 @@ contains
     character(len=*), intent(in) :: keyword       !! as in the table of cards
     integer, intent(in) :: number                 !! of the card among those of its keyword, from 1
     type(card_t), intent(in) :: first_drive       !! the first DRIVE card, if there is one
-    logical, intent(in) :: on_link                !! the first word of the card names a link
+    logical, intent(in) :: on_link                !! of LOAD: its first word names a link
     type(report_kind_t), intent(in) :: reports(:) !! (kinds) all that exist
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(inout) :: model !! has its units, and its lists their lengths
