@@ -63,8 +63,8 @@ contains
   !!
   !! Forces in the joints depend linearly on the friction in them: with the unknown magnitudes x of
   !! the forces in the joints that rub, `x_k = |F_k + Σ A_kj x_j|`, where F are the forces without
-  !! Coulomb friction and A_kj the force in joint k per magnitude in joint j. If the matrix of |A_kj|
-  !! has a spectral radius below one, which is found from a weight w > 0 with `(1 − |A|) w = 1`,
+  !! Coulomb friction and A_kj the force in joint k per magnitude in joint j. If the matrix of
+  !! |A_kj| has a spectral radius below one, which is found from a weight w > 0 with `(1 − |A|) w = 1`,
   !! this map contracts in the norm of these weights by `max (|A| w)_k/w_k`: there is one solution
   !! and iterations find it (Banach). Else the solution is followed from that without Coulomb
   !! friction, all coefficients rising together, by Newton's method. Where its determinant reaches
@@ -244,13 +244,17 @@ contains
     real(wp), intent(out) :: bound        !! huge: none is found
 
     type(dense_factor_t) :: factor
+    real(wp) :: rest(size(matrix, 1), size(matrix, 1))
     integer :: i, n
 
     n = size(matrix, 1)
     bound = huge(1.0_wp)
     weight = 1.0_wp
-    call factorize(reshape([(merge(1.0_wp, 0.0_wp, modulo(i, n + 1) == 0), i=0, n*n - 1)], [n, n]) - &
-      matrix, factor)
+    rest = -matrix
+    do i = 1, n
+      rest(i, i) = rest(i, i) + 1.0_wp
+    end do
+    call factorize(rest, factor)
     if (.not. abs(factor%determinant) > 0.0_wp) return
     weight = solve(factor, spread(1.0_wp, 1, n))
     if (all(weight >= 1.0_wp) .and. all(weight < huge(1.0_wp))) then

@@ -41,7 +41,8 @@ contains
 
   !> These loads at a pose, speed and acceleration, and the forces that balance them. Friction
   !! depends on all forces in the joints, those of the load cases too.
-  pure subroutine find_running_loads(linkage, pose, coefficients, speed, acceleration, unit, running)
+  pure subroutine find_running_loads(linkage, pose, coefficients, speed, acceleration, unit, &
+    running)
     type(linkage_t), intent(in) :: linkage !! its loads
     type(pose_t), intent(in) :: pose       !! away from dead points
     type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose

@@ -26,7 +26,8 @@ contains
 
   !> Generalised inertia M, M' = dM/dθ2, generalised loads and potential at all positions, once for
   !! all speeds: Ulker 2010 (2.50) to (2.64).
-  subroutine find_lagrange_terms(linkage, elements, positions, threads, found, speeds, accelerations)
+  subroutine find_lagrange_terms(linkage, elements, positions, threads, found, speeds, &
+      accelerations)
     type(linkage_t), intent(in) :: linkage     !! with masses
     integer, intent(in) :: elements(:)         !! (bodies) on whose nodes the masses are lumped; 0:
                                                !! distributed
