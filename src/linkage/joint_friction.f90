@@ -64,7 +64,7 @@ contains
   !! Forces in the joints depend linearly on the friction in them: with the unknown magnitudes x of
   !! the forces in the joints that rub, `x_k = |F_k + Σ A_kj x_j|`, where F are the forces without
   !! Coulomb friction and A_kj the force in joint k per magnitude in joint j. If the matrix of
-  !! |A_kj| has a spectral radius below one, which is found from a weight w > 0 with `(1 − |A|) w = 1`,
+  !! |A_kj| has a spectral radius below one, proven by a weight w > 0 of `(1 − |A|) w = 1`,
   !! this map contracts in the norm of these weights by `max (|A| w)_k/w_k`: there is one solution
   !! and iterations find it (Banach). Else the solution is followed from that without Coulomb
   !! friction, all coefficients rising together, by Newton's method. Where its determinant reaches
