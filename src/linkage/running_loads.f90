@@ -1,13 +1,16 @@
 !> Loads that depend on the speed of a running linkage otherwise than as its square: dampers,
-!! resistances, loads that act in one direction of the motion.
+!! resistances, loads that act in one direction of the motion, and friction in the joints.
 module running_loads
   use applied_loads, only: add_moving_loads, dampers_on_ground, generalised_force, has_moving_loads
   use inertia_loads, only: load_t
   use joint_forces, only: find_joint_forces, joint_forces_t
+  use joint_friction, only: find_friction, friction_t, has_friction
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t
+  use load_cases, only: case_count
   use poses, only: pose_t
+  use reactions, only: unit_reactions_t
   implicit none (type, external)
   private
 
@@ -23,6 +26,7 @@ module running_loads
                                                 !! `reference_point` [N, N m]
     real(wp) :: load = 0.0_wp                   !! minus their generalised force at the first drive
                                                 !! [N m] or [N]
+    type(friction_t) :: friction                !! in the joints; empty without
   end type running_t
 
 contains
@@ -32,27 +36,52 @@ contains
     type(linkage_t), intent(in) :: linkage !! its loads
     logical :: depends
 
-    depends = has_moving_loads(linkage)
+    depends = has_moving_loads(linkage) .or. has_friction(linkage)
   end function depends_on_speed
 
-  !> These loads at a pose and speed, and the forces that balance them.
-  pure subroutine find_running_loads(linkage, pose, coefficients, speed, running)
+  !> These loads at a pose, speed and acceleration, and the forces that balance them. Friction
+  !! depends on all forces in the joints, those of the load cases too.
+  pure subroutine find_running_loads(linkage, pose, coefficients, speed, acceleration, unit, &
+    running)
     type(linkage_t), intent(in) :: linkage !! its loads
     type(pose_t), intent(in) :: pose       !! away from dead points
     type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
     real(wp), intent(in) :: speed          !! of the first drive [rad/s] or [m/s]
+    real(wp), intent(in) :: acceleration   !! of the first drive [rad/s²] or [m/s²]
+    type(unit_reactions_t), intent(in) :: unit !! of this pose; needed only where joints rub
     type(running_t), intent(out) :: running
 
     type(kinematic_coefficients_t) :: now
+    type(joint_forces_t) :: without(case_count + 1)
+    integer :: i
 
     allocate (running%body_load(size(linkage%bodies)), running%pin_load(2, &
       size(linkage%is_ground)))
     running%pin_load = 0.0_wp
-    now = velocities_at(coefficients, speed)
-    call add_moving_loads(linkage, pose, [0.0_wp, 0.0_wp], now, running%body_load, running%pin_load)
-    running%on_ground = dampers_on_ground(linkage, pose, now)
+    if (has_moving_loads(linkage)) then
+      now = velocities_at(coefficients, speed)
+      call add_moving_loads(linkage, pose, [0.0_wp, 0.0_wp], now, running%body_load, &
+        running%pin_load)
+      running%on_ground = dampers_on_ground(linkage, pose, now)
+    end if
     running%joints = find_joint_forces(linkage, pose, running%body_load, running%pin_load)
     running%load = -generalised_force(linkage, coefficients, running%body_load, running%pin_load)
+    if (.not. has_friction(linkage)) return
+    do i = 1, case_count
+      without(i) = unit%of_case(i)%joints
+    end do
+    without(case_count + 1) = running%joints
+    call find_friction(linkage, pose, coefficients, speed, [speed**2, acceleration, 1.0_wp, &
+      1.0_wp], without, running%friction)
+    do i = 1, size(running%body_load)
+      running%body_load(i)%force = running%body_load(i)%force + &
+        running%friction%body_load(i)%force
+      running%body_load(i)%moment = running%body_load(i)%moment + &
+        running%friction%body_load(i)%moment
+    end do
+    running%pin_load = running%pin_load + running%friction%pin_load
+    running%load = running%load + running%friction%load
+    running%joints = find_joint_forces(linkage, pose, running%body_load, running%pin_load)
   end subroutine find_running_loads
 
   !> Velocities at a speed of the first drive; no accelerations.

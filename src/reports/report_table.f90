@@ -293,7 +293,7 @@ contains
     integer, intent(in) :: threads       !! on which it is computed
     type(variant_results_t), intent(inout) :: variant !! that gets the result
 
-    real(wp), allocatable :: speeds(:, :)
+    real(wp), allocatable :: speeds(:, :), accelerations(:, :)
     type(balance_request_t), allocatable :: request !! absent: to cancel the shaking force
     integer :: i
 
@@ -302,8 +302,11 @@ contains
       if (has_law(model)) then
         ! There is a state for every instant.
         speeds = model%law_rates(1:1, :)
+        accelerations = model%law_rates(2:2, :)
       else if (allocated(found%positions%states)) then
         speeds = spread(model%speed%value, 2, size(found%positions%states))
+        allocate (accelerations, mold=speeds)
+        accelerations = model%acceleration
       end if
       select case (study)
       case ("kinematics")
@@ -323,13 +326,13 @@ contains
           model%reports(report_number(model, "geometry"))%crank%value, threads, found%geometry)
       case ("reactions")
         call find_reactions(linkage, elements, found%positions, threads, found%reactions, &
-          speeds)
+          speeds, accelerations)
       case ("joints")
         call find_joints(linkage, elements, found%positions, threads, found%joints, &
-          speeds)
+          speeds, accelerations)
       case ("lagrange")
         call find_lagrange_terms(linkage, elements, found%positions, threads, found%lagrange, &
-          speeds)
+          speeds, accelerations)
       case ("balance")
         if (balances(model)) allocate (request, source=balance_request_of(model, &
           variant%mechanism))

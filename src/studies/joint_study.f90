@@ -51,7 +51,7 @@ module joint_study
 contains
 
   !> Forces at all positions, once for all speeds.
-  subroutine find_joints(linkage, elements, positions, threads, found, speeds)
+  subroutine find_joints(linkage, elements, positions, threads, found, speeds, accelerations)
     type(linkage_t), intent(in) :: linkage      !! of any kind
     integer, intent(in) :: elements(:)          !! (bodies) on whose nodes the masses are lumped;
                                                 !! 0: distributed
@@ -61,9 +61,12 @@ contains
     real(wp), intent(in), optional :: speeds(:, :) !! (speeds, states) of the first drive, for loads
                                                    !! that depend on it [rad/s] or [m/s]; absent:
                                                    !! without these
+    real(wp), intent(in), optional :: accelerations(:, :) !! (speeds, states) likewise, for friction
+                                                   !! [rad/s²] or [m/s²]; absent: none
 
     type(unit_reactions_t) :: unit
     type(running_t) :: running
+    real(wp) :: acceleration
     integer :: i, k, n, running_speeds
 
     call list_joints(linkage, found%joints)
@@ -84,7 +87,7 @@ contains
     found%running_drive = 0.0_wp
     found%running_frame = 0.0_wp
     !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) &
-    !$omp   private(i, k, unit, running)
+    !$omp   private(i, k, acceleration, unit, running)
     do i = 1, n
       associate (state => positions%states(i))
         if (allocated(state%error)) cycle
@@ -99,7 +102,10 @@ contains
         end do
         call turn_guides(linkage, found%joints, state%pose%direction, found%force(:, :, :, i))
         do k = 1, running_speeds
-          call find_running_loads(linkage, state%pose, state%coefficients, speeds(k, i), running)
+          acceleration = 0.0_wp
+          if (present(accelerations)) acceleration = accelerations(k, i)
+          call find_running_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
+            acceleration, unit, running)
           call take_forces(linkage, found%joints, running%joints, found%running_force(:, :, k, i))
           found%running_drive(:, k, i) = drives_of(running%joints)
           found%running_frame(:, k, i) = find_frame_load(linkage, state%pose, running%joints) + &

@@ -1,9 +1,11 @@
 !> The terms of Lagrange's equation at every position.
 module lagrange_study
+  use joint_friction, only: has_friction
   use kinds, only: wp
   use lagrange, only: demanded_torque, find_lagrange, kinetic_energy, lagrange_t, velocity_term
   use linkages, only: linkage_t
   use positions, only: positions_t
+  use reactions, only: find_unit_reactions, unit_reactions_t
   use rigid_bodies, only: rigid_bodies_of, rigid_body_t
   use running_loads, only: depends_on_speed, find_running_loads, running_t
   implicit none (type, external)
@@ -24,7 +26,8 @@ contains
 
   !> Generalised inertia M, M' = dM/dθ2, generalised loads and potential at all positions, once for
   !! all speeds: Ulker 2010 (2.50) to (2.64).
-  subroutine find_lagrange_terms(linkage, elements, positions, threads, found, speeds)
+  subroutine find_lagrange_terms(linkage, elements, positions, threads, found, speeds, &
+      accelerations)
     type(linkage_t), intent(in) :: linkage     !! with masses
     integer, intent(in) :: elements(:)         !! (bodies) on whose nodes the masses are lumped; 0:
                                                !! distributed
@@ -34,9 +37,13 @@ contains
     real(wp), intent(in), optional :: speeds(:, :) !! (speeds, states) of the first drive, for loads
                                                    !! that depend on it [rad/s] or [m/s]; absent:
                                                    !! without these
+    real(wp), intent(in), optional :: accelerations(:, :) !! (speeds, states) likewise, for friction
+                                                   !! [rad/s²] or [m/s²]; absent: none
 
     type(rigid_body_t) :: rigid(size(linkage%bodies))
+    type(unit_reactions_t) :: unit
     type(running_t) :: running
+    real(wp) :: acceleration
     integer :: i, k, running_speeds
 
     rigid = rigid_bodies_of(linkage, elements)
@@ -46,13 +53,18 @@ contains
       size(positions%states)))
     found%running_load = 0.0_wp
     !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) &
-    !$omp   private(i, k, running)
+    !$omp   private(i, k, acceleration, unit, running)
     do i = 1, size(found%terms)
       associate (state => positions%states(i))
         if (allocated(state%error)) cycle
         found%terms(i) = find_lagrange(linkage, rigid, state%pose, state%coefficients)
+        if (running_speeds > 0 .and. has_friction(linkage)) call find_unit_reactions(linkage, &
+          elements, state%pose, state%coefficients, unit)
         do k = 1, running_speeds
-          call find_running_loads(linkage, state%pose, state%coefficients, speeds(k, i), running)
+          acceleration = 0.0_wp
+          if (present(accelerations)) acceleration = accelerations(k, i)
+          call find_running_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
+            acceleration, unit, running)
           found%running_load(k, i) = running%load
         end do
       end associate

@@ -30,7 +30,7 @@ module reactions_study
 contains
 
   !> Reactions at all positions, once for all speeds: Ulker 2010 (2.47) to (2.49).
-  subroutine find_reactions(linkage, elements, positions, threads, found, speeds)
+  subroutine find_reactions(linkage, elements, positions, threads, found, speeds, accelerations)
     type(linkage_t), intent(in) :: linkage         !! a four-bar
     integer, intent(in) :: elements(:)             !! (bodies) on whose nodes the masses are lumped;
                                                    !! 0: distributed
@@ -40,9 +40,12 @@ contains
     real(wp), intent(in), optional :: speeds(:, :) !! (speeds, states) of the first drive, for loads
                                                    !! that depend on it [rad/s] or [m/s]; absent:
                                                    !! without these
+    real(wp), intent(in), optional :: accelerations(:, :) !! (speeds, states) likewise, for friction
+                                                   !! [rad/s²] or [m/s²]; absent: none
 
     type(unit_reactions_t) :: unit
     type(running_t) :: running
+    real(wp) :: acceleration
     integer :: i, k, running_speeds
 
     running_speeds = 0
@@ -50,7 +53,7 @@ contains
     allocate (found%unit(reaction_values, case_count, size(positions%states)), &
       found%running(reaction_values, running_speeds, size(positions%states)))
     !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) &
-    !$omp   private(i, k, unit, running)
+    !$omp   private(i, k, acceleration, unit, running)
     do i = 1, size(positions%states)
       found%unit(:, :, i) = 0.0_wp
       found%running(:, :, i) = 0.0_wp
@@ -59,7 +62,10 @@ contains
         call find_unit_reactions(linkage, elements, state%pose, state%coefficients, unit)
         found%unit(:, :, i) = as_values(unit)
         do k = 1, running_speeds
-          call find_running_loads(linkage, state%pose, state%coefficients, speeds(k, i), running)
+          acceleration = 0.0_wp
+          if (present(accelerations)) acceleration = accelerations(k, i)
+          call find_running_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
+            acceleration, unit, running)
           found%running(:torque_value, k, i) = pin_forces_of(running%joints)
         end do
       end associate

@@ -1,0 +1,336 @@
+!> Friction in pins and sliders: the forces in the joints that it depends on, and that it changes.
+module joint_friction
+  use applied_loads, only: generalised_force
+  use dense_factor, only: dense_factor_t, factorize, solve
+  use group_equations, only: line_axis
+  use inertia_loads, only: load_t
+  use joint_forces, only: find_joint_forces, force_at_pin, joint_forces_t
+  use joint_friction_types, only: joint_friction_t
+  use kinds, only: wp
+  use kinematic_coefficients, only: kinematic_coefficients_t
+  use linkages, only: cross, linkage_t
+  use poses, only: pose_t
+  implicit none (type, external)
+  private
+
+  public :: friction_t, has_friction, find_friction, force_in_joint
+  public :: is_solved, is_locked
+
+  !> Whether forces in the joints are found, or grow beyond all bounds as friction rises.
+  integer, parameter :: is_solved = 0, is_locked = 1
+
+  !> Friction in the joints, and the forces that balance it.
+  type :: friction_t
+    integer :: state = is_solved                !! is_solved or is_locked
+    integer :: locked = 0                       !! number of the friction that grows most where they
+                                                !! lock
+    real(wp) :: share = 1.0_wp                  !! of all coefficients at which they lock [-]
+    real(wp) :: contraction = 0.0_wp            !! bound of the iteration: below 1 it is proven that
+                                                !! there is one solution [-]
+    real(wp), allocatable :: normal(:)          !! (frictions) force in the joint, 0 or more [N]
+    real(wp), allocatable :: effort(:)          !! (frictions) couple on the body, or force along
+                                                !! the line on the pin [N m] or [N]
+    real(wp), allocatable :: rate(:)            !! (frictions) relative [rad/s] or [m/s]
+    real(wp), allocatable :: power(:)           !! (frictions) lost, 0 or more [W]
+    type(load_t), allocatable :: body_load(:)   !! (bodies) about their first pins
+    real(wp), allocatable :: pin_load(:, :)     !! (2, pins) [N]
+    type(joint_forces_t) :: joints              !! that balance these loads
+    real(wp) :: load = 0.0_wp                   !! minus their generalised force at the first drive
+                                                !! [N m] or [N]
+  end type friction_t
+
+  !> Change of the forces at which the iteration has converged, of the largest one.
+  real(wp), parameter :: accuracy = 1.0e-14_wp
+
+  !> Most steps of an iteration, and of Newton's method at one share of the coefficients.
+  integer, parameter :: most_iterations = 100, most_newton = 30
+
+  !> Shares of the coefficients go up by steps between these.
+  real(wp), parameter :: largest_step = 0.05_wp, smallest_step = 1.0e-9_wp
+
+contains
+
+  !> Whether joints of a linkage rub.
+  pure function has_friction(linkage) result(has)
+    type(linkage_t), intent(in) :: linkage !! its frictions
+    logical :: has
+
+    has = .false.
+    if (allocated(linkage%frictions)) has = size(linkage%frictions) > 0
+  end function has_friction
+
+  !> Friction at a pose and speed, with all other loads balanced by given forces.
+  !!
+  !! Forces in the joints depend linearly on the friction in them: with the unknown magnitudes x of
+  !! the forces in the joints that rub, `x_k = |F_k + Σ A_kj x_j|`, where F are the forces without
+  !! Coulomb friction and A_kj the force in joint k per magnitude in joint j. If the matrix of
+  !! |A_kj| has a spectral radius below one, proven by a weight w > 0 of `(1 − |A|) w = 1`,
+  !! this map contracts in the norm of these weights by `max (|A| w)_k/w_k`: there is one solution
+  !! and iterations find it (Banach). Else the solution is followed from that without Coulomb
+  !! friction, all coefficients rising together, by Newton's method. Where its determinant reaches
+  !! zero on the way forces grow beyond all bounds: the linkage locks itself.
+  pure subroutine find_friction(linkage, pose, coefficients, speed, factor, without, friction)
+    type(linkage_t), intent(in) :: linkage       !! its frictions; not redundant
+    type(pose_t), intent(in) :: pose             !! away from dead points
+    type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
+    real(wp), intent(in) :: speed                !! of the first drive [rad/s] or [m/s]
+    real(wp), intent(in) :: factor(:)            !! (parts) by which each part is multiplied
+    type(joint_forces_t), intent(in) :: without(:) !! (parts) of the forces in the joints without
+                                                 !! friction
+    type(friction_t), intent(out) :: friction
+
+    type(load_t) :: body_load(size(linkage%bodies))
+    real(wp) :: pin_load(2, size(linkage%is_ground))
+    real(wp), dimension(size(linkage%frictions)) :: viscous, coulomb
+    real(wp) :: base(2, size(linkage%frictions)), influence(2, size(linkage%frictions), &
+      size(linkage%frictions))
+    type(joint_forces_t) :: joints
+    integer :: i, j, k
+
+    associate (rubs => linkage%frictions)
+      allocate (friction%rate(size(rubs)), friction%normal(size(rubs)), friction%effort(size(rubs)))
+      do k = 1, size(rubs)
+        friction%rate(k) = speed*rate_of(linkage, pose, coefficients, rubs(k))
+      end do
+      coulomb = -rubs%coefficient*tanh(friction%rate/rubs%smooth)
+      where (rubs%slider == 0) coulomb = coulomb*rubs%radius
+      viscous = -rubs%viscous*friction%rate
+      call put_on(linkage, pose, viscous, body_load, pin_load)
+      joints = find_joint_forces(linkage, pose, body_load, pin_load)
+      do k = 1, size(rubs)
+        base(:, k) = force_in_joint(linkage, joints, rubs(k))
+        do i = 1, size(without)
+          base(:, k) = base(:, k) + factor(i)*force_in_joint(linkage, without(i), rubs(k))
+        end do
+      end do
+      do j = 1, size(rubs)
+        call put_on(linkage, pose, merge(coulomb, 0.0_wp, [(i == j, i=1, size(rubs))]), body_load, &
+          pin_load)
+        joints = find_joint_forces(linkage, pose, body_load, pin_load)
+        do k = 1, size(rubs)
+          influence(:, k, j) = force_in_joint(linkage, joints, rubs(k))
+        end do
+      end do
+      call find_normal_forces(base, influence, friction)
+      friction%effort = viscous + coulomb*friction%normal
+      friction%power = -friction%effort*friction%rate
+      allocate (friction%body_load(size(linkage%bodies)), friction%pin_load(2, &
+        size(linkage%is_ground)))
+      call put_on(linkage, pose, friction%effort, friction%body_load, friction%pin_load)
+      friction%joints = find_joint_forces(linkage, pose, friction%body_load, friction%pin_load)
+      friction%load = -generalised_force(linkage, coefficients, friction%body_load, &
+        friction%pin_load)
+    end associate
+  end subroutine find_friction
+
+  !> Force in a joint that rubs: on the body by the pin, or along the normal of a line [N].
+  pure function force_in_joint(linkage, joints, rub) result(force)
+    type(linkage_t), intent(in) :: linkage      !! its bodies
+    type(joint_forces_t), intent(in) :: joints  !! of this linkage
+    type(joint_friction_t), intent(in) :: rub   !! one of its frictions
+    real(wp) :: force(2)
+
+    if (rub%slider > 0) then
+      force = [joints%guide(rub%slider), 0.0_wp]
+    else
+      force = force_at_pin(linkage, joints, rub%body, rub%pin)
+    end if
+  end function force_in_joint
+
+  !> Rate of a joint: of its body against the other one, or of its pin along the line [-] or [m],
+  !! or, with a drive by length, [1/m] or [-].
+  pure function rate_of(linkage, pose, coefficients, rub) result(rate)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: coefficients
+    type(joint_friction_t), intent(in) :: rub
+    real(wp) :: rate
+
+    real(wp) :: axis(2), arm(2)
+    integer :: first
+
+    if (rub%slider == 0) then
+      rate = coefficients%turn(rub%body)
+      if (rub%against > 0) rate = rate - coefficients%turn(rub%against)
+      return
+    end if
+    axis = line_axis(linkage, pose, rub%slider)
+    rate = dot_product(axis, coefficients%pin(:, rub%pin))
+    associate (carrier => linkage%sliders(rub%slider)%body)
+      if (carrier == 0) return
+      first = linkage%bodies(carrier)%first_pin
+      arm = pose%pin(:, rub%pin) - pose%pin(:, first)
+      ! The point of the carrier where the pin is now moves by x' + h n.
+      rate = rate - dot_product(axis, coefficients%pin(:, first)) - &
+        coefficients%turn(carrier)*cross(arm, axis)
+    end associate
+  end function rate_of
+
+  !> Puts couples of pins and forces of sliders on the linkage.
+  pure subroutine put_on(linkage, pose, effort, body_load, pin_load)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    real(wp), intent(in) :: effort(:)         !! (frictions) on the body or the pin [N m] or [N]
+    type(load_t), intent(out) :: body_load(:) !! (bodies)
+    real(wp), intent(out) :: pin_load(:, :)   !! (2, pins)
+
+    real(wp) :: force(2), arm(2)
+    integer :: k
+
+    pin_load = 0.0_wp
+    do k = 1, size(effort)
+      associate (rub => linkage%frictions(k))
+        if (rub%slider == 0) then
+          body_load(rub%body)%moment = body_load(rub%body)%moment + effort(k)
+          if (rub%against > 0) body_load(rub%against)%moment = body_load(rub%against)%moment - &
+            effort(k)
+          cycle
+        end if
+        force = effort(k)*line_axis(linkage, pose, rub%slider)
+        pin_load(:, rub%pin) = pin_load(:, rub%pin) + force
+        associate (carrier => linkage%sliders(rub%slider)%body)
+          if (carrier == 0) cycle
+          arm = pose%pin(:, rub%pin) - pose%pin(:, linkage%bodies(carrier)%first_pin)
+          body_load(carrier)%force = body_load(carrier)%force - force
+          body_load(carrier)%moment = body_load(carrier)%moment - cross(arm, force)
+        end associate
+      end associate
+    end do
+  end subroutine put_on
+
+  !> Solves `x_k = |F_k + Σ A_kj x_j|`.
+  pure subroutine find_normal_forces(base, influence, friction)
+    real(wp), intent(in) :: base(:, :)           !! (2, frictions) F [N]
+    real(wp), intent(in) :: influence(:, :, :)   !! (2, frictions, frictions) A [-]
+    type(friction_t), intent(inout) :: friction  !! its normal forces and state are set
+
+    real(wp), dimension(size(base, 2)) :: weight, next
+    real(wp) :: bound, change
+    integer :: i
+
+    friction%normal = norm2(base, dim=1)
+    call find_contraction(norm2(influence, dim=1), weight, bound)
+    friction%contraction = bound
+    if (bound < 1.0_wp) then
+      do i = 1, most_iterations
+        next = norm2(forces_of(base, influence, friction%normal), dim=1)
+        change = maxval(abs(next - friction%normal)/weight)
+        friction%normal = next
+        ! What is left to the solution is at most bound/(1 − bound) of the last change.
+        if (change*bound <= (1.0_wp - bound)*accuracy*maxval(next/weight)) return
+      end do
+    end if
+    call follow_solution(base, influence, friction)
+  end subroutine find_normal_forces
+
+  !> Forces in the joints with given magnitudes.
+  pure function forces_of(base, influence, normal) result(force)
+    real(wp), intent(in) :: base(:, :), influence(:, :, :), normal(:)
+    real(wp) :: force(size(base, 1), size(base, 2))
+
+    integer :: j
+
+    force = base
+    do j = 1, size(normal)
+      force = force + normal(j)*influence(:, :, j)
+    end do
+  end function forces_of
+
+  !> Bound by which a map with Lipschitz constants `matrix` contracts, and weights of the norm:
+  !! `(1 − matrix) w = 1` has a positive solution if and only if the spectral radius is below one.
+  pure subroutine find_contraction(matrix, weight, bound)
+    real(wp), intent(in) :: matrix(:, :)  !! (n, n) not negative
+    real(wp), intent(out) :: weight(:)    !! (n) positive
+    real(wp), intent(out) :: bound        !! huge: none is found
+
+    type(dense_factor_t) :: factor
+    real(wp) :: rest(size(matrix, 1), size(matrix, 1))
+    integer :: i, n
+
+    n = size(matrix, 1)
+    bound = huge(1.0_wp)
+    weight = 1.0_wp
+    rest = -matrix
+    do i = 1, n
+      rest(i, i) = rest(i, i) + 1.0_wp
+    end do
+    call factorize(rest, factor)
+    if (.not. abs(factor%determinant) > 0.0_wp) return
+    weight = solve(factor, spread(1.0_wp, 1, n))
+    if (all(weight >= 1.0_wp) .and. all(weight < huge(1.0_wp))) then
+      bound = maxval(matmul(matrix, weight)/weight)
+    else
+      weight = 1.0_wp
+    end if
+  end subroutine find_contraction
+
+  !> The solution of `x = |F + s A x|` from s = 0 to s = 1.
+  pure subroutine follow_solution(base, influence, friction)
+    real(wp), intent(in) :: base(:, :), influence(:, :, :)
+    type(friction_t), intent(inout) :: friction
+
+    real(wp), dimension(size(base, 2)) :: here, next
+    real(wp) :: share, step
+    logical :: found
+
+    here = norm2(base, dim=1)
+    share = 0.0_wp
+    step = largest_step
+    do while (share < 1.0_wp)
+      next = here
+      call solve_at(base, min(1.0_wp, share + step)*influence, next, found)
+      if (found) then
+        share = min(1.0_wp, share + step)
+        here = next
+        step = min(largest_step, 2.0_wp*step)
+      else
+        step = 0.5_wp*step
+        if (step < smallest_step) exit
+      end if
+    end do
+    friction%normal = here
+    friction%share = share
+    if (share >= 1.0_wp) return
+    friction%state = is_locked
+    friction%locked = maxloc(here, dim=1)
+  end subroutine follow_solution
+
+  !> Newton's method from a neighbouring solution. It fails where the determinant is no longer
+  !! positive: there the solution has gone through infinity.
+  pure subroutine solve_at(base, influence, normal, found)
+    real(wp), intent(in) :: base(:, :), influence(:, :, :)
+    real(wp), intent(inout) :: normal(:)
+    logical, intent(out) :: found
+
+    type(dense_factor_t) :: factor
+    real(wp) :: force(2, size(normal)), matrix(size(normal), size(normal)), residual(size(normal))
+    real(wp) :: change(size(normal)), before
+    integer :: i, j, k
+
+    found = .false.
+    before = huge(1.0_wp)
+    do i = 1, most_newton
+      force = forces_of(base, influence, normal)
+      residual = norm2(force, dim=1) - normal
+      do j = 1, size(normal)
+        do k = 1, size(normal)
+          matrix(k, j) = merge(1.0_wp, 0.0_wp, j == k)
+          if (norm2(force(:, k)) > 0.0_wp) matrix(k, j) = matrix(k, j) - dot_product(force(:, k), &
+            influence(:, k, j))/norm2(force(:, k))
+        end do
+      end do
+      call factorize(matrix, factor)
+      if (.not. factor%determinant > 0.0_wp) return
+      change = solve(factor, residual)
+      normal = normal + change
+      if (any(normal < 0.0_wp)) return
+      ! At its accuracy the change no longer falls.
+      if (maxval(abs(change)) <= accuracy*maxval(normal)) exit
+      if (maxval(abs(change)) >= before .and. maxval(abs(change)) <= 100.0_wp*accuracy* &
+        maxval(normal)) exit
+      before = maxval(abs(change))
+    end do
+    found = i <= most_newton
+  end subroutine solve_at
+
+end module joint_friction
