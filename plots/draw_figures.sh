@@ -279,7 +279,7 @@ no_four_bar() {
 
 # cycle_table: a table of such a linkage with its positions.
 cycle_table() {
-    for table in pins.dat kinematics.dat drive.dat reactions.dat points.dat lagrange.dat balance.dat bearings.dat frame.dat; do
+    for table in pins.dat kinematics.dat drive.dat reactions.dat points.dat lagrange.dat balance.dat bearings.dat frame.dat friction.dat; do
         if [ -f $table ]; then
             echo $table
             return
@@ -318,9 +318,13 @@ plan_cycle() {
     have motion.dat time && add motion motion.gp motion.dat
 }
 
-# Of any linkage: loci of the forces in its joints, and of that on the frame beside the shaking force. Places of a slider have no
-# directions, and figures of a law are over time.
+# Of any linkage: friction; loci of the forces in its joints, and of that on the frame beside the shaking force. Places of a slider
+# have no directions, and figures of a law are over time.
 plan_bearings() {
+    if have friction.dat; then
+        plan_speeds friction "${over}friction.dat" lost
+        [ -n "$over" ] || [ ! -f holding.dat ] || sed -i "/friction.gp/s#\$#|holding.dat#" "$new/plan"
+    fi
     [ -z "$over" ] || return 0
     have bearings.dat && several bearings.dat && plan_speeds bearings bearings.dat magnitude
     if have frame.dat && several frame.dat && ask facts frame.dat | grep -q "unit_crank = 'deg'"; then

@@ -39,7 +39,7 @@
 #   want="branches 20"             the branches of branches.dat at speed 20, an index a branch, an empty line where rows
 #                                  have failed: crank, frequency, branch, 1 on its first row, 1 where a mark is drawn
 #   want="wide 20 link theta omega"     of a table with a row a link (or a pin, a drive …) at speed 20, a line a position: the crank, then
-#                                  theta and omega of every link; angles theta go on beyond 180 degrees
+#                                  theta and omega of every link; angles theta go on beyond 180 degrees; joint stands for pin and link
 #   want="joints 20"               of reactions.dat with a row a pin and link at speed 20, a line a position: the crank, then the size of
 #                                  the force at every joint; one for the two opposite forces at a pin of two links
 #   want="joint_names 20"          the names of these joints: A, or A:crank where the links feel different forces
@@ -276,7 +276,7 @@ asked[1] == "wide" && same($at["speed"], asked[2]) || asked[1] ~ /^joint/ && sam
         crank[++positions] = $at["crank"] ""
         broken[positions] = gap[rows]
     }
-    key = asked[1] == "wide" ? $at[asked[3]] : $at["pin"] ":" $at["link"]
+    key = asked[1] == "wide" && asked[3] != "joint" ? $at[asked[3]] : $at["pin"] ":" $at["link"]
     if (!(key in seen)) { seen[key] = 1; key_of[++keys] = key; if (asked[1] != "wide") links_at[$at["pin"]]++ }
     if (asked[1] == "wide") for (i = 4; i <= n_asked; i++) value[positions, key, i] = $at[asked[i]]
     else {

@@ -89,7 +89,7 @@ contains
     end do
     without(case_count + 1) = running%joints
     call find_friction(linkage, pose, coefficients, speed, [speed**2, acceleration, 1.0_wp, &
-      1.0_wp], without, .false., running%friction)
+      1.0_wp], without, running%friction)
     running%on_ground = running%on_ground + friction_on_ground(linkage, pose, &
       running%friction%effort)
     do i = 1, size(running%body_load)

@@ -46,8 +46,7 @@ contains
         call take(found%balance%balanced_joints%lock)
       end if
       if (any_table .or. table == "lagrange") call take(found%lagrange%lock)
-      if (any_table .or. any(table == [character(len=8) :: "friction", "holding"])) &
-        call take(found%friction%lock)
+      if (any_table .or. table == "friction") call take(found%friction%lock)
     end associate
 
   contains

@@ -178,8 +178,7 @@ module report_table
       studies="friction", positions=.true., masses=.true., numbers=82, tables=[ &
       table_kind_t("friction", "speed:speed crank:deg pin,link:name force:force "// &
       "sliding:velocity friction:force moment:moment lost:power"), &
-      table_kind_t("holding", "speed:speed crank:deg lost:power forward,backward:moment "// &
-      "verdict:name")]), &
+      table_kind_t("holding", "crank:deg forward,backward:moment verdict:name")]), &
     report_kind_t(name="sizing", help="peaks and means of drives and bearings, the flywheel", &
       pattern="REPORT sizing [fluctuation=]", studies="sizing", masses=.true., tables=[ &
       table_kind_t("sizing", "speed:speed part,pin,quantity:name value:see_unit unit:name "// &
@@ -445,6 +444,7 @@ contains
       names(2) = friction_owners(variant)
     case ("holding")
       names(1) = holding_words()
+      plan%items = plan%positions
     case ("geometry")
       names(:3) = geometry_words(variant)
       plan%items = size(variant%found%geometry%crank)
@@ -726,6 +726,8 @@ contains
           call add_frequencies(variant, layout, position, speed, rows)
         else if (allocated(state%error) .and. table == "mesh") then
           call add_failed_row(rows, [crank], state%error%text)
+        else if (allocated(state%error) .and. table == "holding") then
+          call add_failed_row(rows, [shown_crank(variant, crank)], state%error%text)
         else if (allocated(state%error)) then
           place = table_place(variant%model, speed, position)
           place(size(place)) = shown_crank(variant, crank)
@@ -753,7 +755,7 @@ contains
           case ("friction")
             call add_friction(variant, layout, position, speed, rows)
           case ("holding")
-            call add_holding(variant, layout, position, speed, rows)
+            call add_holding(variant, layout, position, rows)
           case ("frame")
             call add_frame(variant, layout, position, speed, rows)
           case ("points")
@@ -833,8 +835,7 @@ contains
     integer :: at
 
     ! What turns a crank is a force on a slider, and its inertia a mass.
-    if (fitted%name == "holding") fitted%columns = "speed:speed crank:deg lost:power "// &
-      "forward,backward:force verdict:name"
+    if (fitted%name == "holding") fitted%columns = "crank:deg forward,backward:force verdict:name"
     if (fitted%name == "lagrange") fitted%columns = "speed:speed crank:deg M:mass "// &
       "dM:mass_per_length V,gravity,load,torque:force kinetic,potential:energy"
     if (fitted%name == "balance") fitted%columns = "speed:speed crank:deg xG,yG:length "// &

@@ -118,6 +118,7 @@ contains
 
     type(pose_t) :: pose
     type(kinematic_coefficients_t) :: per, now
+    type(kinematic_coefficients_t), allocatable :: all_per(:)
     type(load_t) :: body_load(3), of_springs(3)
     real(wp), dimension(2, size(self%linkage%is_ground)) :: pin_load, spring_force
     type(error_t), allocatable :: error
@@ -149,7 +150,10 @@ contains
         body_load(b)%force = body_load(b)%force + of_springs(b)%force
         body_load(b)%moment = body_load(b)%moment + of_springs(b)%moment
       end do
-      call find_free_friction(self%whole, self%rigid, pose, [per], now, body_load, &
+      ! An array constructor would copy no components in gfortran 12.
+      allocate (all_per(1))
+      all_per(1) = per
+      call find_free_friction(self%whole, self%rigid, pose, all_per, now, body_load, &
         pin_load + spring_force, torque, friction)
       found = friction%state == is_solved
       if (.not. found) self%stop = stop_locked

@@ -267,6 +267,12 @@ contains
       return
     end if
     call sum_up(self, pose, now, per, inertia, right)
+    call factorize(inertia, factor)
+    found = abs(factor%determinant) > least_inertia
+    if (.not. found) then
+      self%stop = stop_no_inertia
+      return
+    end if
     driving = 0.0_wp
     if (self%by_drives) then
       torque = self%drive%torque(time, state(1), state(f + 1))
@@ -278,12 +284,6 @@ contains
     call add_loads(self, pose, now, per, torque, right, driving, found)
     if (.not. found) then
       self%stop = stop_locked
-      return
-    end if
-    call factorize(inertia, factor)
-    found = abs(factor%determinant) > least_inertia
-    if (.not. found) then
-      self%stop = stop_no_inertia
       return
     end if
     rates(:f) = state(f + 1:2*f)
