@@ -12,7 +12,7 @@ module ground_loads
 
 contains
 
-  !> Force on the ground, and its moment about `reference_point`, of what pulls at it along lines and
+  !> Force on the ground, and its moment about `reference_point`, of what pulls at it along lines or
   !! turns bodies against it [N, N m].
   pure function pulls_on_ground(linkage, pose, pull) result(total)
     type(linkage_t), intent(in) :: linkage !! its loads
