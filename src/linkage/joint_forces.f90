@@ -12,7 +12,7 @@ module joint_forces
   implicit none (type, external)
   private
 
-  public :: joint_forces_t, find_joint_forces, force_at_pin
+  public :: joint_forces_t, find_joint_forces, force_at_pin, add_force
 
   !> Forces on the bodies at their pins, and the torque of the drive.
   type :: joint_forces_t
@@ -129,10 +129,11 @@ contains
 
   !> Adds a force on a body at one of its pins.
   pure subroutine add_force(linkage, body, pin, force, forces)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: body, pin
-    real(wp), intent(in) :: force(2)
-    type(joint_forces_t), intent(inout) :: forces
+    type(linkage_t), intent(in) :: linkage        !! its bodies
+    integer, intent(in) :: body                   !! number, from 1
+    integer, intent(in) :: pin                    !! number, one of its pins
+    real(wp), intent(in) :: force(2)              !! [N]
+    type(joint_forces_t), intent(inout) :: forces !! of this linkage
 
     integer :: number
 

@@ -8,12 +8,14 @@ module joint_friction
   use joint_friction_types, only: joint_friction_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
-  use linkages, only: cross, linkage_t
+  use linkages, only: cross, linkage_t, reference_point
   use poses, only: pose_t
   implicit none (type, external)
   private
 
   public :: friction_t, has_friction, find_friction, force_in_joint
+  public :: friction_rates, coulomb_efforts, put_friction, find_normal_forces, finish_friction, &
+    friction_on_ground
   public :: is_solved, is_locked
 
   !> Whether forces in the joints are found, or grow beyond all bounds as friction rises.
@@ -69,14 +71,19 @@ contains
   !! and iterations find it (Banach). Else the solution is followed from that without Coulomb
   !! friction, all coefficients rising together, by Newton's method. Where its determinant reaches
   !! zero on the way forces grow beyond all bounds: the linkage locks itself.
-  pure subroutine find_friction(linkage, pose, coefficients, speed, factor, without, friction)
+  !!
+  !! At the start of a motion from rest Coulomb friction is the whole of it, and viscous none.
+  pure subroutine find_friction(linkage, pose, coefficients, speed, factor, without, is_starting, &
+    friction)
     type(linkage_t), intent(in) :: linkage       !! its frictions; not redundant
     type(pose_t), intent(in) :: pose             !! away from dead points
     type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
-    real(wp), intent(in) :: speed                !! of the first drive [rad/s] or [m/s]
+    real(wp), intent(in) :: speed                !! of the first drive; at the start only its sign
+                                                 !! counts [rad/s] or [m/s]
     real(wp), intent(in) :: factor(:)            !! (parts) by which each part is multiplied
     type(joint_forces_t), intent(in) :: without(:) !! (parts) of the forces in the joints without
                                                  !! friction
+    logical, intent(in) :: is_starting           !! it starts with this speed from rest
     type(friction_t), intent(out) :: friction
 
     type(load_t) :: body_load(size(linkage%bodies))
@@ -88,14 +95,11 @@ contains
     integer :: i, j, k
 
     associate (rubs => linkage%frictions)
-      allocate (friction%rate(size(rubs)), friction%normal(size(rubs)), friction%effort(size(rubs)))
-      do k = 1, size(rubs)
-        friction%rate(k) = speed*rate_of(linkage, pose, coefficients, rubs(k))
-      end do
-      coulomb = -rubs%coefficient*tanh(friction%rate/rubs%smooth)
-      where (rubs%slider == 0) coulomb = coulomb*rubs%radius
+      friction%rate = friction_rates(linkage, pose, coefficients, speed)
+      coulomb = coulomb_efforts(rubs, friction%rate, is_starting)
       viscous = -rubs%viscous*friction%rate
-      call put_on(linkage, pose, viscous, body_load, pin_load)
+      if (is_starting) viscous = 0.0_wp
+      call put_friction(linkage, pose, viscous, body_load, pin_load)
       joints = find_joint_forces(linkage, pose, body_load, pin_load)
       do k = 1, size(rubs)
         base(:, k) = force_in_joint(linkage, joints, rubs(k))
@@ -104,26 +108,66 @@ contains
         end do
       end do
       do j = 1, size(rubs)
-        call put_on(linkage, pose, merge(coulomb, 0.0_wp, [(i == j, i=1, size(rubs))]), body_load, &
-          pin_load)
+        call put_friction(linkage, pose, merge(coulomb, 0.0_wp, [(i == j, i=1, size(rubs))]), &
+          body_load, pin_load)
         joints = find_joint_forces(linkage, pose, body_load, pin_load)
         do k = 1, size(rubs)
           influence(:, k, j) = force_in_joint(linkage, joints, rubs(k))
         end do
       end do
-      call find_normal_forces(base, influence, friction)
-      friction%effort = viscous + coulomb*friction%normal
-      friction%power = -friction%effort*friction%rate
-      allocate (friction%body_load(size(linkage%bodies)), friction%pin_load(2, &
-        size(linkage%is_ground)))
-      call put_on(linkage, pose, friction%effort, friction%body_load, friction%pin_load)
-      friction%joints = find_joint_forces(linkage, pose, friction%body_load, friction%pin_load)
-      friction%load = -generalised_force(linkage, coefficients, friction%body_load, &
-        friction%pin_load)
     end associate
+    call find_normal_forces(base, influence, friction)
+    call finish_friction(linkage, pose, viscous, coulomb, friction)
+    friction%joints = find_joint_forces(linkage, pose, friction%body_load, friction%pin_load)
+    friction%load = -generalised_force(linkage, coefficients, friction%body_load, &
+      friction%pin_load)
   end subroutine find_friction
 
-  !> Force in a joint that rubs: on the body by the pin, or along the normal of a line [N].
+  !> Rates of all joints that rub [rad/s] or [m/s].
+  pure function friction_rates(linkage, pose, coefficients, speed) result(rates)
+    type(linkage_t), intent(in) :: linkage       !! its frictions
+    type(pose_t), intent(in) :: pose             !! pins and directions
+    type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
+    real(wp), intent(in) :: speed                !! by which they are multiplied
+    real(wp) :: rates(size(linkage%frictions))
+
+    integer :: k
+
+    do k = 1, size(rates)
+      rates(k) = speed*rate_of(linkage, pose, coefficients, linkage%frictions(k))
+    end do
+  end function friction_rates
+
+  !> Couples in pins and forces along lines of Coulomb friction with forces of 1 N in the joints.
+  pure function coulomb_efforts(rubs, rates, is_starting) result(efforts)
+    type(joint_friction_t), intent(in) :: rubs(:) !! (frictions)
+    real(wp), intent(in) :: rates(:)              !! (frictions) [rad/s] or [m/s]
+    logical, intent(in) :: is_starting            !! from rest, in the direction of these rates
+    real(wp) :: efforts(size(rubs))               !! [m] or [-]
+
+    efforts = -rubs%coefficient*tanh(rates/rubs%smooth)
+    if (is_starting) efforts = -rubs%coefficient*merge(sign(1.0_wp, rates), 0.0_wp, &
+      abs(rates) > 0.0_wp)
+    where (rubs%slider == 0) efforts = efforts*rubs%radius
+  end function coulomb_efforts
+
+  !> Efforts, power and loads of friction from the forces in the joints.
+  pure subroutine finish_friction(linkage, pose, viscous, coulomb, friction)
+    type(linkage_t), intent(in) :: linkage      !! its frictions
+    type(pose_t), intent(in) :: pose            !! pins and directions
+    real(wp), intent(in) :: viscous(:)          !! (frictions) efforts [N m] or [N]
+    real(wp), intent(in) :: coulomb(:)          !! (frictions) of `coulomb_efforts`
+    type(friction_t), intent(inout) :: friction !! with normal forces and rates; the rest is set
+
+    friction%effort = viscous + coulomb*friction%normal
+    friction%power = -friction%effort*friction%rate
+    allocate (friction%body_load(size(linkage%bodies)), friction%pin_load(2, &
+      size(linkage%is_ground)))
+    call put_friction(linkage, pose, friction%effort, friction%body_load, friction%pin_load)
+  end subroutine finish_friction
+
+  !> Force in a joint that rubs: on the body by the pin, or along the normal of a line, or at one end
+  !! of a block that keeps a body from turning, N/2 ± M/length [N].
   pure function force_in_joint(linkage, joints, rub) result(force)
     type(linkage_t), intent(in) :: linkage      !! its bodies
     type(joint_forces_t), intent(in) :: joints  !! of this linkage
@@ -132,6 +176,7 @@ contains
 
     if (rub%slider > 0) then
       force = [joints%guide(rub%slider), 0.0_wp]
+      if (rub%turn > 0) force(1) = 0.5_wp*force(1) + joints%couple(rub%turn)/rub%reach
     else
       force = force_at_pin(linkage, joints, rub%body, rub%pin)
     end if
@@ -167,9 +212,9 @@ contains
   end function rate_of
 
   !> Puts couples of pins and forces of sliders on the linkage.
-  pure subroutine put_on(linkage, pose, effort, body_load, pin_load)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
+  pure subroutine put_friction(linkage, pose, effort, body_load, pin_load)
+    type(linkage_t), intent(in) :: linkage    !! its frictions
+    type(pose_t), intent(in) :: pose          !! pins and directions
     real(wp), intent(in) :: effort(:)         !! (frictions) on the body or the pin [N m] or [N]
     type(load_t), intent(out) :: body_load(:) !! (bodies)
     real(wp), intent(out) :: pin_load(:, :)   !! (2, pins)
@@ -196,7 +241,35 @@ contains
         end associate
       end associate
     end do
-  end subroutine put_on
+  end subroutine put_friction
+
+  !> What friction puts on the ground beside the forces in the joints: couples of pins on ground
+  !! pivots, or on blocks that do not turn, and forces along fixed guides, or by a link on the block
+  !! at a ground pivot.
+  pure function friction_on_ground(linkage, pose, effort) result(load)
+    type(linkage_t), intent(in) :: linkage !! its frictions
+    type(pose_t), intent(in) :: pose       !! pins and directions
+    real(wp), intent(in) :: effort(:)      !! (frictions) on the body or the pin [N m] or [N]
+    real(wp) :: load(3)                    !! fx, fy [N], moment about `reference_point` [N m]
+
+    real(wp) :: force(2)
+    integer :: k
+
+    load = 0.0_wp
+    do k = 1, size(effort)
+      associate (rub => linkage%frictions(k))
+        if (rub%slider == 0) then
+          if (rub%against == 0) load(3) = load(3) - effort(k)
+          cycle
+        end if
+        if (linkage%sliders(rub%slider)%body > 0 .and. .not. linkage%is_ground(rub%pin)) cycle
+        force = effort(k)*line_axis(linkage, pose, rub%slider)
+        if (linkage%sliders(rub%slider)%body == 0) force = -force
+        load(:2) = load(:2) + force
+        load(3) = load(3) + cross(pose%pin(:, rub%pin) - reference_point(linkage), force)
+      end associate
+    end do
+  end function friction_on_ground
 
   !> Solves `x_k = |F_k + Σ A_kj x_j|`.
   pure subroutine find_normal_forces(base, influence, friction)
@@ -209,6 +282,7 @@ contains
     integer :: i
 
     friction%normal = norm2(base, dim=1)
+    friction%state = is_solved
     call find_contraction(norm2(influence, dim=1), weight, bound)
     friction%contraction = bound
     if (bound < 1.0_wp) then

@@ -15,6 +15,11 @@ module joint_friction_types
     integer :: against = 0            !! the body that bears the pin; 0: the ground, or a block that
                                       !! does not turn
     integer :: slider = 0             !! whose block rubs on its line; 0: the pin rubs
+    integer :: turn = 0               !! by which the block keeps a body from turning, so that its
+                                      !! two ends press on the line; each is a friction of its own
+    real(wp) :: reach = 0.0_wp        !! then the length of the block, negative at one end [m]
+    integer :: joint = 0              !! number of the joint among those that rub: the ends of a
+                                      !! block have the same
     real(wp) :: radius = 0.0_wp       !! of the bearing; not of a slider [m]
     real(wp) :: coefficient = 0.0_wp  !! μ of Coulomb friction [-]
     real(wp) :: viscous = 0.0_wp      !! [N m s/rad] or [N s/m]

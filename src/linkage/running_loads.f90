@@ -5,7 +5,8 @@ module running_loads
   use ground_loads, only: pulls_on_ground
   use inertia_loads, only: load_t
   use joint_forces, only: find_joint_forces, joint_forces_t
-  use joint_friction, only: find_friction, friction_t, has_friction
+  use joint_friction, only: find_friction, friction_on_ground, friction_t, has_friction, &
+    is_locked
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t
@@ -15,7 +16,7 @@ module running_loads
   implicit none (type, external)
   private
 
-  public :: running_t, depends_on_speed, find_running_loads
+  public :: running_t, lock_t, depends_on_speed, find_running_loads, lock_of
 
   !> What the speed adds to the load cases.
   type :: running_t
@@ -23,14 +24,30 @@ module running_loads
     real(wp), allocatable :: pin_load(:, :)     !! (2, pins) [N]
     type(joint_forces_t) :: joints              !! forces in the pins, and of the drives, that
                                                 !! balance them
-    real(wp) :: on_ground(3) = 0.0_wp           !! force of dampers on the ground, and moment about
-                                                !! `reference_point` [N, N m]
+    real(wp) :: on_ground(3) = 0.0_wp           !! force of dampers and friction on the ground, and
+                                                !! moment about `reference_point` [N, N m]
     real(wp) :: load = 0.0_wp                   !! minus their generalised force at the first drive
                                                 !! [N m] or [N]
     type(friction_t) :: friction                !! in the joints; empty without
   end type running_t
 
+  !> Where friction locks a linkage.
+  type :: lock_t
+    integer :: friction = 0      !! number of the friction that grows most; 0: nothing locks
+    real(wp) :: share = 1.0_wp   !! of all coefficients at which forces grow beyond all bounds [-]
+  end type lock_t
+
 contains
+
+  !> Whether friction locks the linkage: then there are no loads.
+  pure function lock_of(running) result(lock)
+    type(running_t), intent(in) :: running !! of `find_running_loads`
+    type(lock_t) :: lock
+
+    if (running%friction%state /= is_locked) return
+    lock%friction = running%friction%locked
+    lock%share = running%friction%share
+  end function lock_of
 
   !> Whether a linkage has such loads.
   pure function depends_on_speed(linkage) result(depends)
@@ -73,7 +90,9 @@ contains
     end do
     without(case_count + 1) = running%joints
     call find_friction(linkage, pose, coefficients, speed, [speed**2, acceleration, 1.0_wp, &
-      1.0_wp], without, running%friction)
+      1.0_wp], without, .false., running%friction)
+    running%on_ground = running%on_ground + friction_on_ground(linkage, pose, &
+      running%friction%effort)
     do i = 1, size(running%body_load)
       running%body_load(i)%force = running%body_load(i)%force + &
         running%friction%body_load(i)%force

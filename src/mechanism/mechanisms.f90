@@ -3,6 +3,7 @@ module mechanisms
   use attached_parts, only: append_loads, apply_loads, attach_masses, body_point_t, points_of, &
     runs_against
   use beam_mesh, only: new_beam_mesh
+  use friction_parts, only: frictions_of
   use kinds, only: wp
   use link_cards, only: has_own_mass, link_t
   use linkage_parts, only: assemble_linkage, assembly_t
@@ -77,6 +78,7 @@ contains
       mechanism%linkage)
     ! Springs are the last: `spring_words` finds them there.
     call append_loads(springs_of(model, assembly%link, pins, mechanism%linkage), mechanism%linkage)
+    mechanism%linkage%frictions = frictions_of(model, assembly%link, pins, mechanism%linkage)
     mechanism%points = points_of(model, assembly%link, mechanism%linkage)
     mechanism%response_points = response_points_of(model, assembly%link, assembly%pins, &
       mechanism%linkage)

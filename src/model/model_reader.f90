@@ -12,6 +12,7 @@ module model_reader
   use drive_checks, only: check_drives
   use effect_cards, only: effects_axial, effects_static, effects_t, read_effects
   use four_bar_branches, only: find_four_bar_branch
+  use friction_checks, only: check_frictions, read_frictions
   use joint_cards, only: read_guide, read_pin, read_slider, read_weld
   use joint_checks, only: check_joints
   use kinds, only: wp
@@ -93,6 +94,7 @@ contains
     call read_system(cards, diagnostics, model%units, model%outputs, chooses_rate)
     call read_model_cards(cards, reports, diagnostics, model)
     call read_springs(cards, diagnostics, model)
+    call read_frictions(cards, diagnostics, model)
     call check_tables(cards, diagnostics)
     call find_law(cards, diagnostics, model)
     call choose_reports(reports, diagnostics, model)
@@ -115,6 +117,7 @@ contains
     call check_joints(diagnostics, model)
     call check_drives(diagnostics, model)
     call check_springs(diagnostics, model)
+    call check_frictions(diagnostics, model)
     call check_balance(diagnostics, model)
     call find_dampings(diagnostics, model)
     call find_gauges(diagnostics, model)
@@ -196,7 +199,7 @@ contains
 
     ! In any spelling with or without an s at its end.
     character(len=*), parameter :: not_built = " RACK TORSION DASHPOT CAM GEAR "// &
-      "BELT CHAIN FRICTION CONTACT CLEARANCE ", sliding = " SLIDE PISTON PRISMATIC SLOT BLOCK ", &
+      "BELT CHAIN CONTACT CLEARANCE ", sliding = " SLIDE PISTON PRISMATIC SLOT BLOCK ", &
       joints = " JOINT HINGE REVOLUTE PIVOT "
     character(len=*), parameter :: signs(*) = ["//", "/*", "--", "% ", "* ", "; ", "''"]
     character(len=:), allocatable :: word
@@ -204,7 +207,7 @@ contains
     word = upper_case(keyword)
     if (len(word) > 1 .and. word(len(word):) == "S") word = word(:len(word) - 1)
     if (index(not_built, " "//word//" ") > 0) then
-      hint = ": cams, gears, belts, friction and contact are not built yet"
+      hint = ": cams, gears, belts and contact are not built yet"
       if (word == "TORSION") hint = "; a torsional spring is a SPRING at a pin of links"
       if (word == "DASHPOT") hint = "; expected DAMPER"
       return

@@ -6,6 +6,7 @@ module models
   use card_echo, only: echo_line_t
   use drive_cards, only: branch_t, drive_angle, drive_t, moves_along
   use effect_cards, only: effects_axial, effects_static
+  use friction_cards, only: friction_card_t
   use joint_cards, only: drawn_pin_t, guide_t, slider_t, weld_t
   use kinds, only: wp
   use law_cards, only: law_card_t
@@ -69,6 +70,7 @@ module models
     type(process_card_t), allocatable :: processes(:) !! FORCE, TORQUE and LOAD cards on all
                                                 !! other loads
     type(spring_t), allocatable :: springs(:)   !! SPRING and DAMPER cards
+    type(friction_card_t), allocatable :: frictions(:) !! FRICTION cards
     type(balance_card_t) :: balance             !! counterweights of REPORT balance
     type(shaft_card_t), allocatable :: shafts(:) !! its balance shafts
     type(law_card_t), allocatable :: laws(:)    !! LAW cards

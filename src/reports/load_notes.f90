@@ -1,5 +1,6 @@
 !> Loads of a mechanism in words, for the heads of tables.
 module load_notes
+  use friction_words, only: friction_lines
   use kinds, only: wp
   use link_cards, only: has_own_mass
   use load_words, only: process_words
@@ -24,8 +25,8 @@ module load_notes
 
 contains
 
-  !> Inertia of every link, gravity, external loads: one line for each of the three. Springs and
-  !! dampers: one line each.
+  !> Inertia of every link, gravity, external loads: one line for each of the three. Springs, dampers
+  !! and joints that rub: one line each.
   pure subroutine append_load_notes(notes, model, mechanism)
     type(string_t), allocatable, intent(inout) :: notes(:) !! to which they are appended
     type(model_t), intent(in) :: model                     !! in SI
@@ -43,8 +44,11 @@ contains
     call append_string(notes, line)
     call append_string(notes, gravity_words(model, mechanism))
     call append_string(notes, outside_loads(model, mechanism))
-    if (size(model%springs) == 0) return
     lines = spring_lines(model, mechanism)
+    do b = 1, size(lines)
+      call append_string(notes, lines(b)%text)
+    end do
+    lines = friction_lines(model, mechanism)
     do b = 1, size(lines)
       call append_string(notes, lines(b)%text)
     end do

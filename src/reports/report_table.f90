@@ -21,6 +21,10 @@ module report_table
   use equilibrium_study, only: find_equilibria
   use frame_report, only: add_frame, frame_notes
   use frequency_report, only: add_frequencies, add_shapes, drawn_rows, frequency_notes, shape_notes
+  use friction_report, only: add_friction, add_holding, friction_notes, friction_owners, &
+    holding_notes, holding_words
+  use friction_study, only: find_joint_friction
+  use friction_words, only: lock_words
   use geometry_report, only: add_geometry, geometry_notes, geometry_words
   use geometry_study, only: find_geometry
   use harmonics_study, only: find_harmonics, highest_harmonic
@@ -43,6 +47,7 @@ module report_table
   use linkage_report, only: add_linkage, linkage_remarks, linkage_words
   use linkage_study, only: find_linkage
   use links_report, only: add_links, add_pins, links_notes, pin_names, pins_notes, shown_crank
+  use locked_rows, only: is_locked_at, lock_at
   use loci_report, only: add_loci, loci_notes, locus_words
   use mesh_report, only: add_mesh, mesh_notes
   use models, only: balances, drives_length, has_law, is_four_bar, model_t, report_number
@@ -85,8 +90,8 @@ module report_table
 
   !> All studies in the order in which they are made: some use the results of others. The last
   !! are made by `variant_runs`, some of them block by block or step by step.
-  character(len=*), parameter :: study_names(21) = [character(len=12) :: "kinematics", "geometry", &
-    "inertia", "points", "reactions", "joints", "lagrange", "balance", "harmonics", "linkage", &
+  character(len=*), parameter :: study_names(22) = [character(len=12) :: "kinematics", "geometry", &
+    "inertia", "points", "reactions", "joints", "friction", "lagrange", "balance", "harmonics", "linkage", &
     "limits", "sizing", "equilibrium", "response", &
     "stability", "intervals", "campbell", "transient", "motion", "frequencies", "loci"]
 
@@ -169,6 +174,12 @@ module report_table
       masses=.true., numbers=82, tables=[ &
       table_kind_t("frame", "speed:speed crank:deg shaking_x,shaking_y:force "// &
       "shaking_moment:moment frame_x,frame_y:force frame_moment:moment"), no_table]), &
+    report_kind_t(name="friction", help="joints that rub: forces, losses, self-locking", &
+      studies="friction", positions=.true., masses=.true., numbers=82, tables=[ &
+      table_kind_t("friction", "speed:speed crank:deg pin,link:name force:force "// &
+      "sliding:velocity friction:force moment:moment lost:power"), &
+      table_kind_t("holding", "speed:speed crank:deg lost:power forward,backward:moment "// &
+      "verdict:name")]), &
     report_kind_t(name="sizing", help="peaks and means of drives and bearings, the flywheel", &
       pattern="REPORT sizing [fluctuation=]", studies="sizing", masses=.true., tables=[ &
       table_kind_t("sizing", "speed:speed part,pin,quantity:name value:see_unit unit:name "// &
@@ -330,6 +341,9 @@ contains
       case ("joints")
         call find_joints(linkage, elements, found%positions, threads, found%joints, &
           speeds, accelerations)
+      case ("friction")
+        call find_joint_friction(linkage, elements, found%positions, threads, speeds, &
+          accelerations, found%friction)
       case ("lagrange")
         call find_lagrange_terms(linkage, elements, found%positions, threads, found%lagrange, &
           speeds, accelerations)
@@ -338,10 +352,10 @@ contains
           variant%mechanism))
         if (variant%mechanism%is_four_bar) then
           call find_balance(linkage, elements, found%positions, threads, found%balance, request, &
-            speeds)
+            speeds, accelerations)
         else
           call find_hung_balance(linkage, elements, found%positions, threads, found%balance, &
-            request, speeds)
+            request, speeds, accelerations)
         end if
       case ("harmonics")
         if (allocated(found%balance%partial)) then
@@ -426,6 +440,11 @@ contains
     case ("reactions", "bearings")
       names(1) = pin_names(variant)
       names(2) = joint_owners(variant)
+    case ("friction")
+      names(1) = pin_names(variant)
+      names(2) = friction_owners(variant)
+    case ("holding")
+      names(1) = holding_words()
     case ("geometry")
       names(:3) = geometry_words(variant)
       plan%items = size(variant%found%geometry%crank)
@@ -538,6 +557,10 @@ contains
       call reactions_notes(variant, notes)
     case ("bearings")
       call bearings_notes(variant, notes)
+    case ("friction")
+      call friction_notes(variant, notes)
+    case ("holding")
+      call holding_notes(variant, notes)
     case ("sizing")
       call sizing_notes(variant, notes)
     case ("frame")
@@ -709,6 +732,8 @@ contains
           if (has_law(variant%model)) place(1) = from_si(place(1), table_factor("time", &
             variant%model%outputs))
           call add_failed_row(rows, place, state%error%text)
+        else if (is_locked_at(variant, table, position, speed)) then
+          call add_locked_row(variant, table, position, speed, rows)
         else if (.not. variant%mechanism%is_four_bar .and. any(table == general_tables)) then
           call add_general(table, variant, layout, position, speed, rows)
         else
@@ -725,6 +750,10 @@ contains
             call add_reactions(variant, layout, position, speed, rows)
           case ("bearings")
             call add_bearings(variant, layout, position, speed, rows)
+          case ("friction")
+            call add_friction(variant, layout, position, speed, rows)
+          case ("holding")
+            call add_holding(variant, layout, position, speed, rows)
           case ("frame")
             call add_frame(variant, layout, position, speed, rows)
           case ("points")
@@ -738,6 +767,23 @@ contains
       end associate
     end associate
   end subroutine add_position
+
+  !> Appends a failed row where friction locks the linkage.
+  subroutine add_locked_row(variant, table, position, speed, rows)
+    type(variant_results_t), intent(in) :: variant
+    character(len=*), intent(in) :: table
+    integer, intent(in) :: position, speed !! numbers
+    type(rows_t), intent(inout) :: rows
+
+    real(wp) :: place(place_columns(variant%model))
+
+    place = table_place(variant%model, speed, position)
+    place(size(place)) = shown_crank(variant, variant%found%positions%crank(position))
+    if (has_law(variant%model)) place(1) = from_si(place(1), table_factor("time", &
+      variant%model%outputs))
+    call add_failed_row(rows, place, lock_words(variant%model, variant%mechanism, &
+      lock_at(variant, table, position, speed)))
+  end subroutine add_locked_row
 
   !> The rows of a position and speed of a linkage that is no four-bar.
   subroutine add_general(table, variant, layout, position, speed, rows)
@@ -787,6 +833,8 @@ contains
     integer :: at
 
     ! What turns a crank is a force on a slider, and its inertia a mass.
+    if (fitted%name == "holding") fitted%columns = "speed:speed crank:deg lost:power "// &
+      "forward,backward:force verdict:name"
     if (fitted%name == "lagrange") fitted%columns = "speed:speed crank:deg M:mass "// &
       "dM:mass_per_length V,gravity,load,torque:force kinetic,potential:energy"
     if (fitted%name == "balance") fitted%columns = "speed:speed crank:deg xG,yG:length "// &

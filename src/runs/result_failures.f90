@@ -1,10 +1,12 @@
 !> Rows of a variant that could not be computed.
 module result_failures
-  use errors, only: error_of_reach, error_t, set_error
+  use errors, only: error_of_numerics, error_of_reach, error_t, set_error
+  use friction_words, only: lock_words
   use frequency_study, only: has_result
   use kinds, only: wp
+  use locked_rows, only: is_locked_at, lock_at
   use models, only: drives_length, has_law, needs_frequencies, report_number, speed_in_words
-  use run_findings, only: add_failure, at_frequencies, at_instant, at_position, failure_t, &
+  use run_findings, only: add_failure, at_forces, at_frequencies, at_instant, at_position, failure_t, &
     findings_t, in_campbell, in_intervals, in_motion, in_response, in_stability, in_transient, &
     of_variant
   use stability_types, only: gap_t
@@ -50,6 +52,8 @@ contains
                 found%sweep%results(state)%outcome(k)%error, crank(i), k, 0.0_wp, findings)
             end do
           end if
+          if (.not. allocated(found%positions%states(state)%error)) call note_locks(variant, i, &
+            findings)
         end associate
       end do
       if (allocated(found%geometry%outcome)) then
@@ -108,6 +112,29 @@ contains
         found%linkage_motion%last%time, findings)
     end associate
   end subroutine find_failures
+
+  !> Speeds at which friction locks the linkage at a position.
+  pure subroutine note_locks(variant, position, findings)
+    type(variant_results_t), intent(in) :: variant
+    integer, intent(in) :: position !! number in the deck's list, with a pose
+    type(findings_t), intent(inout) :: findings
+
+    type(error_t), allocatable :: error
+    integer :: k
+
+    do k = 1, size(variant%model%speed%value)
+      if (.not. is_locked_at(variant, "", position, k)) cycle
+      call set_error(error, error_of_numerics, lock_words(variant%model, variant%mechanism, &
+        lock_at(variant, "", position, k)))
+      if (has_law(variant%model)) then
+        call note_failure(variant, at_instant, error, variant%found%positions%crank(position), 0, &
+          variant%model%time%value(position), findings)
+      else
+        call note_failure(variant, at_forces, error, variant%found%positions%crank(position), k, &
+          0.0_wp, findings)
+      end if
+    end do
+  end subroutine note_locks
 
   !> Where the first drive was at last: at the start, if the motion has not begun [deg] or [m].
   pure function last_crank(variant) result(crank)

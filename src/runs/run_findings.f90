@@ -13,14 +13,15 @@ module run_findings
   public :: findings_t, failure_t, add_failure, add_warning_of_run, add_findings, put_findings, &
     get_findings, warnings_of_grade, place_in_words, place_of_failure
   public :: at_position, at_frequencies, in_motion, of_variant, in_response, in_stability, &
-    in_intervals, in_transient, in_campbell, at_instant
+    in_intervals, in_transient, in_campbell, at_instant, at_forces
 
   !> Stages at which rows fail: no pose at a crank angle, hence no row at any speed; no frequencies
   !! at a crank angle and speed; a motion that ended too soon; a variant that has no pose at any
-  !! crank angle; no elastic response, and no exponents, at a speed; no pose at an instant of a law.
+  !! crank angle; no elastic response, and no exponents, at a speed; no pose at an instant of a law;
+  !! no forces at a crank angle and speed.
   integer, parameter :: at_position = 1, at_frequencies = 2, in_motion = 3, of_variant = 4, &
     in_response = 5, in_stability = 6, in_transient = 7, in_intervals = 8, in_campbell = 9, &
-    at_instant = 10
+    at_instant = 10, at_forces = 11
 
   !> A position, or an instant of a motion, without a result.
   type :: failure_t

@@ -40,7 +40,8 @@ contains
 
   !> Counterweights, mass centre, and the reactions of the balanced four-bar, once for all speeds.
   !! Berkof and Lowen 1969, see `counterweights`; for other aims, see `partial_balance_study`.
-  subroutine find_balance(linkage, elements, positions, threads, found, request, speeds)
+  subroutine find_balance(linkage, elements, positions, threads, found, request, speeds, &
+      accelerations)
     type(linkage_t), intent(in) :: linkage       !! a four-bar, without counterweights
     integer, intent(in) :: elements(:)           !! (bodies) on whose nodes the masses are lumped;
                                                  !! 0: distributed
@@ -51,6 +52,8 @@ contains
     real(wp), intent(in), optional :: speeds(:, :) !! (speeds, states) of the first drive, for loads
                                                    !! that depend on it [rad/s] or [m/s]; absent:
                                                    !! without these
+    real(wp), intent(in), optional :: accelerations(:, :) !! (speeds, states) likewise, for friction
+                                                   !! [rad/s²] or [m/s²]; absent: none
 
     type(linkage_t) :: balanced
 
@@ -63,13 +66,15 @@ contains
       balanced = balanced_linkage(linkage, found%weights)
     end if
     call find_lumps(linkage, found)
-    call find_reactions(balanced, elements, positions, threads, found%balanced, speeds)
+    call find_reactions(balanced, elements, positions, threads, found%balanced, speeds, &
+      accelerations)
     call add_shafts(balanced, positions, found)
   end subroutine find_balance
 
   !> The same of any other linkage, with counterweights where links hang on each other without a
   !! loop, see `hung_counterweights`.
-  subroutine find_hung_balance(linkage, elements, positions, threads, found, request, speeds)
+  subroutine find_hung_balance(linkage, elements, positions, threads, found, request, speeds, &
+      accelerations)
     type(linkage_t), intent(in) :: linkage       !! of any kind, without counterweights
     integer, intent(in) :: elements(:)           !! (bodies) on whose nodes the masses are lumped;
                                                  !! 0: distributed
@@ -80,6 +85,8 @@ contains
     real(wp), intent(in), optional :: speeds(:, :) !! (speeds, states) of the first drive, for loads
                                                    !! that depend on it [rad/s] or [m/s]; absent:
                                                    !! without these
+    real(wp), intent(in), optional :: accelerations(:, :) !! (speeds, states) likewise, for friction
+                                                   !! [rad/s²] or [m/s²]; absent: none
 
     type(linkage_t) :: balanced
 
@@ -93,7 +100,8 @@ contains
     end if
     call find_lumps(linkage, found)
     if (.not. has_balanced(found)) return
-    call find_joints(balanced, elements, positions, threads, found%balanced_joints, speeds)
+    call find_joints(balanced, elements, positions, threads, found%balanced_joints, speeds, &
+      accelerations)
     call add_shafts(balanced, positions, found)
   end subroutine find_hung_balance
 

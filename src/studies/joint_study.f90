@@ -14,7 +14,7 @@ module joint_study
   use pose_types, only: pins_of_body, pose_t
   use positions, only: positions_t
   use reactions, only: find_unit_reactions, unit_reactions_t
-  use running_loads, only: depends_on_speed, find_running_loads, running_t
+  use running_loads, only: depends_on_speed, find_running_loads, lock_of, lock_t, running_t
   implicit none (type, external)
   private
 
@@ -47,6 +47,7 @@ module joint_study
     real(wp), allocatable :: frame(:, :, :)    !! (3, cases, states) force on the frame, and moment
                                                !! about `reference_point` [N, N m]
     real(wp), allocatable :: running_frame(:, :, :)    !! (3, speeds, states), as `frame`
+    type(lock_t), allocatable :: lock(:, :)    !! (speeds, states) where friction locks the linkage
   end type joints_result_t
 
 contains
@@ -83,7 +84,7 @@ contains
     if (present(speeds) .and. depends_on_speed(linkage)) running_speeds = size(speeds, 1)
     allocate (found%running_force(3, size(found%joints), running_speeds, n), &
       found%running_drive(size(linkage%drives), running_speeds, n), &
-      found%running_frame(3, running_speeds, n))
+      found%running_frame(3, running_speeds, n), found%lock(running_speeds, n))
     found%running_force = 0.0_wp
     found%running_drive = 0.0_wp
     found%running_frame = 0.0_wp
@@ -107,6 +108,8 @@ contains
           if (present(accelerations)) acceleration = accelerations(k, i)
           call find_running_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
             acceleration, unit, running)
+          found%lock(k, i) = lock_of(running)
+          if (found%lock(k, i)%friction > 0) cycle
           call take_forces(linkage, found%joints, running%joints, found%running_force(:, :, k, i))
           found%running_drive(:, k, i) = drives_of(running%joints)
           found%running_frame(:, k, i) = find_frame_load(linkage, state%pose, running%joints) + &

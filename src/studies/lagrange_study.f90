@@ -7,7 +7,7 @@ module lagrange_study
   use positions, only: positions_t
   use reactions, only: find_unit_reactions, unit_reactions_t
   use rigid_bodies, only: rigid_bodies_of, rigid_body_t
-  use running_loads, only: depends_on_speed, find_running_loads, running_t
+  use running_loads, only: depends_on_speed, find_running_loads, lock_of, lock_t, running_t
   implicit none (type, external)
   private
 
@@ -20,6 +20,7 @@ module lagrange_study
     type(lagrange_t), allocatable :: terms(:)    !! (states) zeros where there is no pose
     real(wp), allocatable :: running_load(:, :)  !! (speeds, states) added to `load` at each speed;
                                                  !! no speeds: nothing is [N m]
+    type(lock_t), allocatable :: lock(:, :)    !! (speeds, states) where friction locks the linkage
   end type lagrange_result_t
 
 contains
@@ -51,6 +52,7 @@ contains
     if (present(speeds) .and. depends_on_speed(linkage)) running_speeds = size(speeds, 1)
     allocate (found%terms(size(positions%states)), found%running_load(running_speeds, &
       size(positions%states)))
+    allocate (found%lock(running_speeds, size(positions%states)))
     found%running_load = 0.0_wp
     !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) &
     !$omp   private(i, k, acceleration, unit, running)
@@ -65,6 +67,8 @@ contains
           if (present(accelerations)) acceleration = accelerations(k, i)
           call find_running_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
             acceleration, unit, running)
+          found%lock(k, i) = lock_of(running)
+          if (found%lock(k, i)%friction > 0) cycle
           found%running_load(k, i) = running%load
         end do
       end associate

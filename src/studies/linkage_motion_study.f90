@@ -7,7 +7,7 @@ module linkage_motion_study
   use linkage_motions, only: change_point_message, end_linkage_motion, linkage_motion_t, &
     linkage_motion_tolerance, linkage_sample_t, move_linkage_until, passage_t, &
     sample_linkage_motion, start_linkage_motion
-  use linkage_rates, only: free_drives, no_stop, stop_change_point, stop_energy, &
+  use linkage_rates, only: free_drives, no_stop, stop_change_point, stop_energy, stop_locked, &
     stop_many_steps, stop_misfit, stop_no_inertia, stop_too_fast
   use linkages, only: linkage_t
   use rigid_bodies, only: rigid_bodies_of
@@ -137,6 +137,9 @@ contains
       call set_error(error, error_of_numerics, "a million steps of the integration do not "// &
         "reach the next row: 'step=' or 'end=' is too long for a motion as fast as this, or "// &
         "motor or damping too strong for the masses")
+    case (stop_locked)
+      call set_error(error, error_of_numerics, "friction locks the joints: no acceleration "// &
+        "balances the forces at this position")
     case default
       call set_error(error, error_of_numerics, "the steps of the integration shrink to nothing")
     end select

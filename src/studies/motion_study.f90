@@ -5,7 +5,8 @@ module motion_study
   use errors, only: error_of_dead_point, error_of_numerics, error_t, set_error
   use forward_motions, only: end_motion, forward_motion_t, motion_sample_t, motion_tolerance, &
     move_until, sample_motion, start_motion, turning_point_t
-  use four_bar_rates, only: no_stop, stop_change_point, stop_many_steps, stop_no_inertia, &
+  use four_bar_rates, only: no_stop, stop_change_point, stop_locked, stop_many_steps, &
+    stop_no_inertia, &
     stop_too_fast
   use interruption, only: was_interrupted
   use kinds, only: long, wp
@@ -173,6 +174,9 @@ contains
       call set_error(error, error_of_numerics, "a million steps of the integration do not "// &
         "reach the next row: 'step=' or 'end=' is too long for a motion as fast as this, or "// &
         "motor or damping too strong for the masses")
+    case (stop_locked)
+      call set_error(error, error_of_numerics, "friction locks the joints: no acceleration "// &
+        "balances the forces at this position")
     case default
       call set_error(error, error_of_numerics, "the steps of the integration shrink to nothing")
     end select

@@ -6,7 +6,7 @@ module reactions_study
   use load_cases, only: case_count
   use positions, only: positions_t
   use reactions, only: find_unit_reactions, unit_reactions_t
-  use running_loads, only: depends_on_speed, find_running_loads, running_t
+  use running_loads, only: depends_on_speed, find_running_loads, lock_of, lock_t, running_t
   implicit none (type, external)
   private
 
@@ -25,6 +25,7 @@ module reactions_study
     real(wp), allocatable :: unit(:, :, :) !! (values, cases, states) [N, N m]
     real(wp), allocatable :: running(:, :, :) !! (values, speeds, states) added at each speed; no
                                               !! speeds: nothing is [N, N m]
+    type(lock_t), allocatable :: lock(:, :)    !! (speeds, states) where friction locks the linkage
   end type reactions_result_t
 
 contains
@@ -51,7 +52,8 @@ contains
     running_speeds = 0
     if (present(speeds) .and. depends_on_speed(linkage)) running_speeds = size(speeds, 1)
     allocate (found%unit(reaction_values, case_count, size(positions%states)), &
-      found%running(reaction_values, running_speeds, size(positions%states)))
+      found%running(reaction_values, running_speeds, size(positions%states)), &
+      found%lock(running_speeds, size(positions%states)))
     !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) &
     !$omp   private(i, k, acceleration, unit, running)
     do i = 1, size(positions%states)
@@ -66,6 +68,8 @@ contains
           if (present(accelerations)) acceleration = accelerations(k, i)
           call find_running_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
             acceleration, unit, running)
+          found%lock(k, i) = lock_of(running)
+          if (found%lock(k, i)%friction > 0) cycle
           found%running(:torque_value, k, i) = pin_forces_of(running%joints)
         end do
       end associate

@@ -2,7 +2,7 @@
 !! the flywheel, each over the whole cycle.
 module sizing_study
   use constants, only: degree
-  use errors, only: error_of_input, error_t, set_error
+  use errors, only: error_of_input, error_of_numerics, error_t, set_error
   use flywheels, only: flywheel_t, size_flywheel
   use interruption, only: was_interrupted
   use joint_study, only: bearing_values, bearings_at_speed, drives_at_speed, find_joints, &
@@ -85,7 +85,7 @@ contains
     type(sizing_t), allocatable :: last(:)
     type(positions_t) :: positions
     type(joints_result_t) :: joints
-    real(wp), allocatable :: speeds(:, :)
+    real(wp), allocatable :: speeds(:, :), accelerations(:, :)
     real(wp) :: change
     integer :: i, k, samples
 
@@ -105,7 +105,14 @@ contains
         return
       end do
       speeds = spread(request%speed, 2, samples)
-      call find_joints(linkage, elements, positions, threads, joints, speeds)
+      accelerations = spread(0.0_wp*request%speed + request%acceleration, 2, samples)
+      call find_joints(linkage, elements, positions, threads, joints, speeds, accelerations)
+      if (any(joints%lock%friction > 0)) then
+        i = findloc(any(joints%lock%friction > 0, dim=1), .true., dim=1)
+        call set_error(found%error, error_of_numerics, "friction locks the linkage")
+        found%error_crank = positions%states(i)%crank
+        return
+      end if
       found%joints = joints%joints
       found%samples = samples
       if (allocated(found%at_speed)) call move_alloc(found%at_speed, last)
@@ -116,7 +123,7 @@ contains
       end do
       !$omp end parallel do
       if (request%fluctuation > 0.0_wp) call find_flywheels(linkage, elements, request, positions, &
-        threads, speeds, found)
+        threads, speeds, accelerations, found)
       change = huge(change)
       if (allocated(last)) change = largest_change(found%at_speed, last)
       if (change <= settled .or. 2*samples > most_samples .or. was_interrupted()) exit
@@ -255,7 +262,9 @@ contains
       value = 0.0_wp
       there = find_positions(linkage, [crank])
       if (allocated(there%states(1)%error)) return
-      call find_joints(linkage, elements, there, 1, joints, spread(request%speed, 2, 1))
+      call find_joints(linkage, elements, there, 1, joints, spread(request%speed, 2, 1), &
+        spread(0.0_wp*request%speed + request%acceleration, 2, 1))
+      if (any(joints%lock%friction > 0)) return
       all_values = values_at(linkage, joints, 1, request, number)
       value = all_values(signal)
     end function value_at
@@ -270,7 +279,8 @@ contains
       real(wp), allocatable :: bearings(:, :)
 
       there = find_positions(linkage, [crank])
-      call find_joints(linkage, elements, there, 1, joints, spread(request%speed, 2, 1))
+      call find_joints(linkage, elements, there, 1, joints, spread(request%speed, 2, 1), &
+        spread(0.0_wp*request%speed + request%acceleration, 2, 1))
       bearings = bearings_at_speed(linkage, joints, there%states(1)%pose, 1, &
         request%speed(number), request%acceleration, number)
       angle = bearings(bearing_values, sized%joint)
@@ -279,20 +289,22 @@ contains
   end subroutine find_peak
 
   !> Flywheels for all speeds; loads that depend on the speed are those at the mean speed.
-  subroutine find_flywheels(linkage, elements, request, positions, threads, speeds, found)
+  subroutine find_flywheels(linkage, elements, request, positions, threads, speeds, &
+    accelerations, found)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: elements(:)
     type(sizing_request_t), intent(in) :: request
     type(positions_t), intent(in) :: positions
     integer, intent(in) :: threads
-    real(wp), intent(in) :: speeds(:, :)
+    real(wp), intent(in) :: speeds(:, :), accelerations(:, :)
     type(sizing_result_t), intent(inout) :: found
 
     type(lagrange_result_t) :: lagrange
     real(wp), allocatable :: load(:)
     integer :: k
 
-    call find_lagrange_terms(linkage, elements, positions, threads, lagrange, speeds)
+    call find_lagrange_terms(linkage, elements, positions, threads, lagrange, speeds, &
+      accelerations)
     do k = 1, size(request%speed)
       if (abs(request%speed(k)) <= 0.0_wp) cycle
       load = lagrange%terms%gravity + lagrange%terms%load

@@ -4,6 +4,7 @@ module study_results
   use body_points, only: point_coefficients_t
   use campbell_types, only: campbell_t
   use equilibrium_study, only: equilibria_t
+  use friction_study, only: friction_result_t
   use geometry_study, only: geometry_result_t
   use harmonics_study, only: harmonics_result_t
   use inertia_study, only: inertia_result_t
@@ -36,6 +37,7 @@ module study_results
     type(point_coefficients_t), allocatable :: points(:, :) !! (points, states)
     type(reactions_result_t) :: reactions
     type(joints_result_t) :: joints
+    type(friction_result_t) :: friction
     type(lagrange_result_t) :: lagrange
     type(balance_result_t) :: balance
     type(harmonics_result_t) :: harmonics

@@ -129,6 +129,10 @@ module card_table
     card_kind_t("DAMPER", least=3, most=4, pattern="DAMPER name end end damping=, or "// &
       "DAMPER name pin link [link] damping=", keys="damping", &
       help="a viscous damper between two pins or points, or at a pin of links"), &
+    card_kind_t("FRICTION", least=1, most=3, pattern="FRICTION pin [link [link]] radius= "// &
+      "coefficient= [viscous= smooth=], or FRICTION pin guide coefficient= [viscous= smooth= "// &
+      "length=]", keys="radius coefficient viscous smooth length", &
+      help="friction at a pin, or of a block along its guide"), &
     card_kind_t("BALANCE", is_single=.true., most=many, &
       pattern="BALANCE [link ...] minimise=force,moment,torque [weights=] [radius=] "// &
       "[density= thickness= | inertia=]", choices="force moment torque", help= &

@@ -23,6 +23,7 @@ module forward_motions
   use pose_types, only: pose_t
   use poses, only: dead_point_sine
   use rigid_bodies, only: rigid_body_t
+  use whole_systems, only: new_whole_system
   implicit none (type, external)
   private
 
@@ -114,6 +115,8 @@ contains
     motion%system%dynamics = new_curve_dynamics(linkage, rigid)
     allocate (motion%system%drive, source=drive)
     motion%system%linkage = linkage
+    motion%system%whole = new_whole_system(linkage, [1])
+    motion%system%rigid = rigid
     allocate (motion%turnings(0))
     call find_start(linkage, crank_degrees, motion%state(1:3), error)
     if (allocated(error)) return

@@ -9,23 +9,29 @@ module four_bar_rates
   use drives, only: drive_t
   use errors, only: error_t
   use four_bar_poses, only: find_curve_pose
+  use free_friction, only: find_free_friction
   use inertia_loads, only: load_t
+  use joint_friction, only: friction_t, has_friction, is_solved
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t
   use load_tables, only: refuse_beyond_tables
   use loop_curves, only: curve_point_t, find_point, loop_curve_t
   use pose_types, only: pose_t
+  use rigid_bodies, only: rigid_body_t
+  use whole_systems, only: whole_system_t
   implicit none (type, external)
   private
 
   public :: moving_four_bar_t, rate_number, work_number, unknown_count
   public :: no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps, &
-    stop_many_steps, stop_at_end
+    stop_many_steps, stop_at_end, stop_locked
 
-  !> Why a motion stops. For reasons 1 to 3, and where a table ends, there are no rates.
+  !> Why a motion stops. For reasons 1 to 3, where a table ends, and where no acceleration balances
+  !! friction, there are no rates.
   integer, parameter :: no_stop = 0, stop_change_point = 1, stop_no_inertia = 2, &
-    stop_too_fast = 3, stop_steps = 4, stop_many_steps = 5, stop_at_end = 6
+    stop_too_fast = 3, stop_steps = 4, stop_many_steps = 5, stop_at_end = 6, &
+    stop_locked = 7
 
   !> Steps begin with angles from −π to π: a trial step beyond `most_angle` is too long, whatever
   !! its estimated error [rad]. `most_rate` is beyond any mechanics, but short of overflow [rad/s].
@@ -44,6 +50,8 @@ module four_bar_rates
     type(curve_dynamics_t) :: dynamics
     class(drive_t), allocatable :: drive
     type(linkage_t) :: linkage    !! its loads
+    type(whole_system_t) :: whole !! its equations, for friction
+    type(rigid_body_t), allocatable :: rigid(:) !! (bodies) likewise
     real(wp) :: turns(3) = 0.0_wp !! whole turns not contained in the angle of each link
     integer :: stop = no_stop     !! why rates were last not found
     type(error_t), allocatable :: ended !! the table that ended, when `stop` says so
@@ -66,7 +74,7 @@ contains
     logical, intent(out) :: found     !! false: `stop` is set
 
     type(curve_point_t) :: point
-    real(wp) :: inertia, slope, speed(3), driving, restoring
+    real(wp) :: inertia, slope, speed(3), torque, driving, restoring
 
     ! Written so that NaN is refused as well.
     found = maxval(abs(state(1:3))) < most_angle .and. abs(state(rate_number)) < most_rate
@@ -86,11 +94,11 @@ contains
       return
     end if
     speed = point%tangent*state(rate_number)
-    driving = point%tangent(1)*self%drive%torque(time, state(1) + two_pi*self%turns(1), speed(1)) &
-      + dot_product(self%dynamics%couple, point%tangent)
+    torque = self%drive%torque(time, state(1) + two_pi*self%turns(1), speed(1))
+    driving = point%tangent(1)*torque + dot_product(self%dynamics%couple, point%tangent)
     restoring = dot_product(conservative_torques(self%dynamics, point), point%tangent)
-    if (size(self%linkage%loads) > 0) then
-      call add_loads(self, point, state, restoring, driving, found)
+    if (size(self%linkage%loads) > 0 .or. has_friction(self%linkage)) then
+      call add_loads(self, point, state, torque, restoring, driving, found)
       if (.not. found) return
     end if
     rates(1:3) = speed
@@ -98,21 +106,25 @@ contains
     rates(work_number) = driving*state(rate_number)
   end subroutine rates_of_motion
 
-  !> Adds the generalised forces of springs, dampers and processes along the curve: those with a
-  !! potential to the first, all others to the second.
-  subroutine add_loads(self, point, state, restoring, driving, found)
+  !> Adds the generalised forces of springs, dampers, processes and friction along the curve: those
+  !! with a potential to the first, all others to the second.
+  subroutine add_loads(self, point, state, torque, restoring, driving, found)
     class(moving_four_bar_t), intent(inout) :: self
     type(curve_point_t), intent(in) :: point
     real(wp), intent(in) :: state(:)
+    real(wp), intent(in) :: torque                !! of the drive [N m]
     real(wp), intent(inout) :: restoring, driving !! [N m]
-    logical, intent(out) :: found                 !! false: a table has ended, `stop` is set
+    logical, intent(out) :: found                 !! false: a table has ended, or joints lock;
+                                                  !! `stop` is set
 
     type(pose_t) :: pose
     type(kinematic_coefficients_t) :: per, now
     type(load_t) :: body_load(3), of_springs(3)
     real(wp), dimension(2, size(self%linkage%is_ground)) :: pin_load, spring_force
     type(error_t), allocatable :: error
+    type(friction_t) :: friction
     real(wp), parameter :: origin(2) = 0.0_wp
+    integer :: b
 
     associate (linkage => self%linkage)
       call find_curve_pose(linkage, point, state(1) + two_pi*self%turns(1), pose, per)
@@ -133,6 +145,16 @@ contains
       call add_moving_loads(linkage, pose, origin, now, body_load, pin_load)
       restoring = restoring + generalised_force(linkage, per, of_springs, spring_force)
       driving = driving + generalised_force(linkage, per, body_load, pin_load)
+      if (.not. has_friction(linkage)) return
+      do b = 1, 3
+        body_load(b)%force = body_load(b)%force + of_springs(b)%force
+        body_load(b)%moment = body_load(b)%moment + of_springs(b)%moment
+      end do
+      call find_free_friction(self%whole, self%rigid, pose, [per], now, body_load, &
+        pin_load + spring_force, torque, friction)
+      found = friction%state == is_solved
+      if (.not. found) self%stop = stop_locked
+      driving = driving + generalised_force(linkage, per, friction%body_load, friction%pin_load)
     end associate
   end subroutine add_loads
 

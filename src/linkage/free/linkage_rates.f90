@@ -16,8 +16,10 @@ module linkage_rates
   use dense_factor, only: dense_factor_t, factorize, solve
   use drives, only: drive_t
   use errors, only: error_of_dead_point, error_of_reach, error_t, set_error
+  use free_friction, only: find_free_friction
   use group_equations, only: drive_rate
   use inertia_loads, only: load_t
+  use joint_friction, only: friction_t, has_friction, is_solved
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, find_velocities, &
     kinematic_coefficients_t
@@ -34,14 +36,14 @@ module linkage_rates
   public :: moving_linkage_t, free_drives, find_state, place_by_drives, &
     find_rates_of_coordinates, all_inertia, inertia_share, rate_of_drive
   public :: no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps, &
-    stop_many_steps, stop_misfit, stop_energy, stop_at_end
+    stop_many_steps, stop_misfit, stop_energy, stop_at_end, stop_locked
 
-  !> Why a motion stops; at last because a block leaves its link
-  !! or a table ends. There are no rates then, without
-  !! inertia, and where links move too fast.
+  !> Why a motion stops; at last because a block leaves its link or a table ends, and because no
+  !! acceleration balances friction. There are no rates then, without inertia, and where links move
+  !! too fast.
   integer, parameter :: no_stop = 0, stop_change_point = 1, stop_no_inertia = 2, &
     stop_too_fast = 3, stop_steps = 4, stop_many_steps = 5, stop_misfit = 6, stop_energy = 7, &
-    stop_at_end = 8
+    stop_at_end = 8, stop_locked = 9
 
   !> Steps begin with an angle of the first drive from −π to π: a trial step beyond `most_angle` is
   !! too long, whatever its estimated error [rad]. `most_rate` is beyond any mechanics, but short of
@@ -274,7 +276,11 @@ contains
       torque = self%drive%torque(time, coordinate_of(self, pose), rate_of_drive(self, pose, now, 1))
       driving = torque*[(rate_of_drive(self, pose, per(k), 1), k=1, f)]
     end if
-    call add_loads(self, pose, now, per, right, driving)
+    call add_loads(self, pose, now, per, torque, right, driving, found)
+    if (.not. found) then
+      self%stop = stop_locked
+      return
+    end if
     call factorize(inertia, factor)
     found = abs(factor%determinant) > least_inertia
     if (.not. found) then
@@ -286,24 +292,29 @@ contains
     rates(2*f + 1) = dot_product(driving, state(f + 1:2*f))
   end subroutine rates_of_motion
 
-  !> Adds the generalised forces of springs, dampers and processes: those with a potential to the
-  !! first sum, all others, with constant torques, to the second.
-  pure subroutine add_loads(self, pose, now, per, right, driving)
+  !> Adds the generalised forces of springs, dampers, processes and friction: those with a potential
+  !! to the first sum, all others, with constant torques, to the second. Not found where joints
+  !! lock.
+  pure subroutine add_loads(self, pose, now, per, torque, right, driving, found)
     class(moving_linkage_t), intent(in) :: self
     type(pose_t), intent(in) :: pose
     type(kinematic_coefficients_t), intent(in) :: now
     type(kinematic_coefficients_t), intent(in) :: per(:)
+    real(wp), intent(in) :: torque                  !! of the drive
     real(wp), intent(inout) :: right(:), driving(:) !! (coordinates)
+    logical, intent(out) :: found
 
     type(load_t) :: body_load(size(self%rigid)), of_springs(size(self%rigid))
     real(wp) :: pin_load(2, size(pose%pin, 2)), spring_force(2, size(pose%pin, 2))
+    type(friction_t) :: friction
     integer :: k
 
+    found = .true.
     associate (linkage => self%whole%linkage, origin => self%whole%origin)
       do k = 1, size(per)
         driving(k) = driving(k) + dot_product(linkage%couple, per(k)%turn)
       end do
-      if (size(linkage%loads) == 0) return
+      if (size(linkage%loads) == 0 .and. .not. has_friction(linkage)) return
       spring_force = 0.0_wp
       pin_load = 0.0_wp
       call add_conservative_loads(linkage, pose, of_springs, spring_force)
@@ -312,6 +323,18 @@ contains
       do k = 1, size(per)
         right(k) = right(k) + generalised_force(linkage, per(k), of_springs, spring_force)
         driving(k) = driving(k) + generalised_force(linkage, per(k), body_load, pin_load)
+      end do
+      if (.not. has_friction(linkage)) return
+      do k = 1, size(body_load)
+        body_load(k)%force = body_load(k)%force + of_springs(k)%force
+        body_load(k)%moment = body_load(k)%moment + of_springs(k)%moment
+      end do
+      call find_free_friction(self%whole, self%rigid, pose, per, now, body_load, &
+        pin_load + spring_force, torque, friction)
+      found = friction%state == is_solved
+      do k = 1, size(per)
+        driving(k) = driving(k) + generalised_force(linkage, per(k), friction%body_load, &
+          friction%pin_load)
       end do
     end associate
   end subroutine add_loads

@@ -19,6 +19,7 @@ module process_cards
     read_resistance
   public :: process_force, process_torque, process_resistance
   public :: over_nothing, over_drive, over_slider, over_travel, over_angle
+  public :: smooth_velocity, smooth_rate
 
   integer, parameter :: process_force = 1, process_torque = 2, process_resistance = 3
 

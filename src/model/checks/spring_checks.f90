@@ -15,7 +15,7 @@ module spring_checks
   implicit none (type, external)
   private
 
-  public :: read_springs, check_springs
+  public :: read_springs, check_springs, is_on_link
 
   !> Relative difference of a length from that in the drawing that is more than rounding [-].
   real(wp), parameter :: least_difference = 1.0e-4_wp
@@ -172,9 +172,9 @@ contains
 
   !> Whether a link has a pin or a point.
   pure function is_on_link(model, link, word) result(is)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: link !! number
-    type(token_t), intent(in) :: word
+    type(model_t), intent(in) :: model !! with its links and points
+    integer, intent(in) :: link        !! number
+    type(token_t), intent(in) :: word  !! name of a pin or a point
     logical :: is
 
     integer :: k

@@ -8,7 +8,7 @@ module deck_summary
     json_value
   use models, only: model_t, needs_frequencies
   use program_version, only: program_name, version_number
-  use run_findings, only: at_instant, at_position, failure_t, findings_t, in_motion, in_response, &
+  use run_findings, only: at_forces, at_instant, at_position, failure_t, findings_t, in_motion, in_response, &
     in_campbell, in_intervals, in_stability, in_transient, of_variant
   use run_totals, only: run_totals_t
   use tables, only: column_t, has_unit, table_t
@@ -356,6 +356,9 @@ contains
       call add_member(object, "speed", json_value(failure%speed))
     case (in_transient)
       call add_member(object, "stage", json_value("transient"))
+      call add_member(object, "speed", json_value(failure%speed))
+    case (at_forces)
+      call add_member(object, "stage", json_value("forces"))
       call add_member(object, "speed", json_value(failure%speed))
     case (of_variant)
       call add_member(object, "stage", json_value("variant"))

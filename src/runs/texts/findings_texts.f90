@@ -2,7 +2,7 @@
 module findings_texts
   use deck_source, only: source_t
   use diagnostics, only: diagnostics_t, warning_texts
-  use run_findings, only: at_instant, at_position, failure_t, findings_t, in_motion, in_response, &
+  use run_findings, only: at_forces, at_instant, at_position, failure_t, findings_t, in_motion, in_response, &
     in_campbell, in_intervals, in_stability, in_transient, of_variant, place_in_words, &
     place_of_failure, &
     warnings_of_grade
@@ -34,6 +34,8 @@ contains
       line = "time "//to_string(failure%time, 12)//" s, "//place_of_failure(failure)
     case (at_position)
       line = place_of_failure(failure)
+    case (at_forces)
+      line = "forces, speed "//failure%speed_words//", "//place_of_failure(failure)
     case (in_response)
       line = "response, speed "//failure%speed_words
     case (in_stability)

@@ -10,6 +10,7 @@ module run_log
   use models, only: branch_crossed, has_law, inertia_distributed, inertia_lumped, link_mass, &
     model_t, needs_frequencies
   use pose_types, only: pins_of_body
+  use friction_words, only: friction_lines
   use spring_words, only: spring_lines
   use text, only: plural, string_t, to_string
   use units, only: coherent_unit, dimension_acceleration, dimension_length, &
@@ -74,6 +75,10 @@ contains
     if (model%inertia == inertia_distributed) text = text//"inertia loads: distributed"//line_feed
     text = text//load_lines(model)//motor_lines(model)
     remarks = spring_lines(model, mechanism)
+    do i = 1, size(remarks)
+      text = text//remarks(i)%text//line_feed
+    end do
+    remarks = friction_lines(model, mechanism)
     do i = 1, size(remarks)
       text = text//remarks(i)%text//line_feed
     end do

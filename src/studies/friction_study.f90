@@ -1,0 +1,139 @@
+!> Friction in the joints at every position: forces, sliding, power lost, and whether the linkage
+!! holds itself at rest.
+module friction_study
+  use joint_forces, only: joint_forces_t
+  use joint_friction, only: find_friction, friction_t, is_locked
+  use kinds, only: wp
+  use kinematic_coefficients, only: kinematic_coefficients_t
+  use linkages, only: linkage_t
+  use load_cases, only: constant_case
+  use poses, only: pose_t
+  use positions, only: positions_t
+  use reactions, only: find_unit_reactions, unit_reactions_t
+  use running_loads, only: find_running_loads, lock_of, lock_t, running_t
+  implicit none (type, external)
+  private
+
+  public :: friction_result_t, find_joint_friction
+  public :: friction_values, normal_value, sliding_value, force_value, moment_value, power_value
+  public :: forward_sense, backward_sense
+
+  !> Values of a joint that rubs: force in it [N], sliding speed [m/s], friction along a line [N],
+  !! couple of a pin [N m], power lost [W].
+  integer, parameter :: friction_values = 5, normal_value = 1, sliding_value = 2, force_value = 3, &
+    moment_value = 4, power_value = 5
+
+  !> Senses of the first drive in which it may start.
+  integer, parameter :: forward_sense = 1, backward_sense = 2
+
+  type :: friction_result_t
+    integer, allocatable :: first(:)            !! (joints) number of the first friction of each
+    real(wp), allocatable :: values(:, :, :, :) !! (friction_values, joints, speeds, states)
+    type(lock_t), allocatable :: lock(:, :)     !! (speeds, states) where it locks the linkage
+    real(wp), allocatable :: start(:, :)        !! (2, states) torque or force of the first drive
+                                                !! that starts it from rest, forward and backward;
+                                                !! 0 where it is locked [N m] or [N]
+    type(lock_t), allocatable :: start_lock(:, :) !! (2, states) where it cannot start
+  end type friction_result_t
+
+contains
+
+  !> Friction at all positions and speeds.
+  !!
+  !! Torques at the start are those against full Coulomb friction under the loads that a pose
+  !! determines: what rests moves by itself where the one backward is positive, or that forward
+  !! negative, and else holds itself.
+  subroutine find_joint_friction(linkage, elements, positions, threads, speeds, accelerations, found)
+    type(linkage_t), intent(in) :: linkage      !! with frictions
+    integer, intent(in) :: elements(:)          !! (bodies) on whose nodes the masses are lumped;
+                                                !! 0: distributed
+    type(positions_t), intent(in) :: positions  !! of the run
+    integer, intent(in) :: threads              !! number of OpenMP threads
+    real(wp), intent(in) :: speeds(:, :)        !! (speeds, states) of the first drive [rad/s] or
+                                                !! [m/s]
+    real(wp), intent(in) :: accelerations(:, :) !! likewise [rad/s²] or [m/s²]
+    type(friction_result_t), intent(out) :: found !! for all positions and speeds
+
+    type(unit_reactions_t) :: unit
+    type(running_t) :: running
+    integer :: i, k, n, joints
+
+    joints = maxval(linkage%frictions%joint)
+    n = size(positions%states)
+    found%first = [(findloc(linkage%frictions%joint, i, dim=1), i=1, joints)]
+    allocate (found%values(friction_values, joints, size(speeds, 1), n), &
+      found%lock(size(speeds, 1), n), found%start(2, n), found%start_lock(2, n))
+    found%values = 0.0_wp
+    found%start = 0.0_wp
+    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) &
+    !$omp   private(i, k, unit, running)
+    do i = 1, n
+      associate (state => positions%states(i))
+        if (allocated(state%error)) cycle
+        call find_unit_reactions(linkage, elements, state%pose, state%coefficients, unit)
+        do k = 1, size(speeds, 1)
+          call find_running_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
+            accelerations(k, i), unit, running)
+          found%lock(k, i) = lock_of(running)
+          if (found%lock(k, i)%friction == 0) found%values(:, :, k, i) = values_of(linkage, joints, &
+            running%friction)
+        end do
+        call find_starts(linkage, state%pose, state%coefficients, unit, found%start(:, i), &
+          found%start_lock(:, i))
+      end associate
+    end do
+    !$omp end parallel do
+  end subroutine find_joint_friction
+
+  !> Values of all joints that rub: those of both ends of a block together.
+  pure function values_of(linkage, joints, friction) result(values)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: joints
+    type(friction_t), intent(in) :: friction
+    real(wp) :: values(friction_values, joints)
+
+    integer :: k
+
+    values = 0.0_wp
+    do k = 1, size(linkage%frictions)
+      associate (rub => linkage%frictions(k), value => values(:, linkage%frictions(k)%joint))
+        value(normal_value) = value(normal_value) + friction%normal(k)
+        value(power_value) = value(power_value) + friction%power(k)
+        if (rub%slider > 0) then
+          value(sliding_value) = friction%rate(k)
+          value(force_value) = value(force_value) + friction%effort(k)
+        else
+          value(sliding_value) = rub%radius*friction%rate(k)
+          value(moment_value) = value(moment_value) + friction%effort(k)
+        end if
+      end associate
+    end do
+  end function values_of
+
+  !> What starts the linkage from rest in both senses.
+  pure subroutine find_starts(linkage, pose, coefficients, unit, start, lock)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: coefficients
+    type(unit_reactions_t), intent(in) :: unit
+    real(wp), intent(out) :: start(2)
+    type(lock_t), intent(out) :: lock(2)
+
+    type(friction_t) :: friction
+    type(joint_forces_t) :: without(1)
+    integer :: sense
+
+    without(1) = unit%of_case(constant_case)%joints
+    start = 0.0_wp
+    do sense = forward_sense, backward_sense
+      call find_friction(linkage, pose, coefficients, merge(1.0_wp, -1.0_wp, &
+        sense == forward_sense), [1.0_wp], without, .true., friction)
+      if (friction%state == is_locked) then
+        lock(sense) = lock_t(friction%locked, friction%share)
+      else
+        start(sense) = without(1)%torque + friction%load
+      end if
+    end do
+  end subroutine find_starts
+
+end module friction_study
