@@ -114,9 +114,9 @@ class LoadedPlace(Place):
                 scale = max(moment, force * float(max(abs(value) for value in about))) if k == 2 else force
                 self.add("force", row[f"{name}_{axis}"], sums[k] / unit, scale / float(unit), f"{name}_{axis}")
 
-    def terms(self):
+    def terms(self, s):
         """Powers of all loads, weights and inertia, with the solver's motion: (of inertia, of weights, of loads)."""
-        model, s = self.model, self.state
+        model = self.model
         gx, gy = model.gravity
         inertia, weights, loads = [], [], []
 
@@ -143,13 +143,13 @@ class LoadedPlace(Place):
             _, (vx, vy), _ = model.pin_motion(s, pin)
             loads += [fx * vx, fy * vy]
         loads += [torque * s.v[model.bodies[link].angle] for link, torque in model.torques.items()]
-        for load in model.applied:
+        for load in model.applied + (model.rubs if hasattr(s, "pressing") else []):
             loads += model.power_of_effects(s, load.effects(s))
         return inertia, weights, loads
 
     def virtual_work(self):
         """The power of the drives in the tables is that of nothing else."""
-        terms = [term for part in self.terms() for term in part]
+        terms = [term for part in self.terms(self.state) for term in part]
         whole = float(sum(abs(term) for term in terms))
         power, rows = [], [row for row in self.model.rows if row[0] == "drive"]
         for row in rows:
@@ -173,10 +173,8 @@ class LoadedPlace(Place):
         linear = self.deck.drives[0]["linear"]
         effort = units["force" if linear else "torque"]
         slow = model.state(s.q, s.first, Digits.number(1), Digits.number(0))
-        kept, self.state = self.state, slow
-        velocity = -sum(self.terms()[0], model.zero)
-        self.state = kept
-        _, weights, loads = self.terms()
+        velocity = -sum(self.terms(slow)[0], model.zero)
+        _, weights, loads = self.terms(s)
         kinetic = model.energy(s)[0]
         potential = model.energy(s)[1] - sum((f * x for pin, force in model.forces.items()
                                               for f, x in zip(force, model.pin_motion(s, pin)[0])), model.zero)
@@ -184,7 +182,7 @@ class LoadedPlace(Place):
         gravity, load = -sum(weights, model.zero) / s.rate, -sum(loads, model.zero) / s.rate
         torque = inertia * s.second + velocity * s.rate**2 + gravity + load
         force, moment = self.scales()
-        parts = [float(abs(term) / abs(s.rate)) for part in self.terms() for term in part]
+        parts = [float(abs(term) / abs(s.rate)) for part in self.terms(s) for term in part]
         scale = max([force if linear else moment] + parts) / float(effort)
         for name, value in (("V", velocity * s.rate**2), ("gravity", gravity), ("load", load), ("torque", torque)):
             self.add("torque", row[name], value / effort, scale, name)

@@ -320,7 +320,7 @@ class Spring(Load):
 
     def is_fine(self, s):
         if not self.turns:
-            return self.stretch(s)[0] + self.rest > 0.02 * self.model.size
+            return self.rest >= 0 and self.stretch(s)[0] + self.rest > 0.02 * self.model.size
         return self.stiffness == 0 or self.on_crank or abs(self.stretch(s)[0]) < 2.9
 
     def pull(self, s):
@@ -355,3 +355,88 @@ def loads_of(model):
     """All loads of the cards that have keys."""
     return [(Spring if keyword in ("spring", "damper") else Process)(model, keyword, words, keys)
             for keyword, words, keys in model.deck.applied]
+
+
+class Rub(Load):
+    """What rubs in a joint: a link on another one or on the ground, or a block on its line; told by the magnitudes of the forces
+    that press (of a block with a fixed link one at each of its ends)."""
+
+    def __init__(self, model, words, keys, slider=None, body=None, against=None):
+        super().__init__(model, "friction", words, keys)
+        self.pin, self.slider, self.body, self.against = words[0], slider, body, against
+        kind = "" if slider else "turning_"
+        self.coefficient, self.viscous = self.value("coefficient", "number"), self.value("viscous", kind + "damping")
+        self.smooth = self.value("smooth", "rate" if slider else "speed", "1mm/s" if slider else "0.01rad/s")
+        self.radius, self.length = self.value("radius", "length"), self.value("length", "length")
+
+    def line(self, s):
+        """Sine and cosine of the line of a block."""
+        if self.slider["guide"] in self.model.guides:
+            return self.model.guides[self.slider["guide"]][:1:-1]
+        return self.model.trigonometry(s.q, self.model.bodies[self.slider["guide"]])
+
+    def rate(self, s):
+        if not self.slider:
+            return s.v[self.body.angle] - (s.v[self.against.angle] if self.against else 0)
+        sine, cosine = self.line(s)
+        _, (vx, vy), _ = self.model.pin_motion(s, self.pin)
+        if self.slider["guide"] not in self.model.guides:
+            first = self.model.bodies[self.slider["guide"]].first
+            vx, vy = vx - s.v[first], vy - s.v[first + 1]
+        return vx * cosine + vy * sine
+
+    def presses(self, s):
+        """Sum of the magnitudes that press."""
+        if not self.slider:
+            fx, fy, _ = s.forces[self.pin, self.body.name]
+            return self.model.field.sqrt(fx**2 + fy**2)
+        across, moment = s.contacts[self.slider["pin"], self.slider["guide"]]
+        if self.slider["link"] and self.length > 0:
+            return abs(across / 2 + moment / self.length) + abs(across / 2 - moment / self.length)
+        return abs(across)
+
+    def effort(self, s, pressing):
+        rate = self.rate(s)
+        coulomb = self.coefficient * pressing * tanh(self.model.field, rate / self.smooth)
+        return -(coulomb if self.slider else coulomb * self.radius) - self.viscous * rate
+
+    def effects(self, s):
+        effort = self.effort(s, s.pressing[self])
+        if not self.slider:
+            return [(self.body, effort)] + ([(self.against, -effort)] if self.against else [])
+        sine, cosine = self.line(s)
+        fx, fy = effort * cosine, effort * sine
+        effects = [(("pin", self.pin), fx, fy)]
+        if self.slider["guide"] not in self.model.guides:
+            body = self.model.bodies[self.slider["guide"]]
+            x, y, _ = self.model.pin_place(s.q, self.pin)
+            along = (x - s.q[body.first]) * cosine + (y - s.q[body.first + 1]) * sine
+            effects.append(((body, along, self.zero), -fx, -fy))
+        return effects
+
+    def has_potential(self):
+        return False
+
+
+def frictions_of(model):
+    """What rubs by the FRICTION cards."""
+    found, deck = [], model.deck
+    for words, keys in deck.frictions:
+        pin, names = words[0], words[1:]
+        here = [slider for slider in deck.sliders if slider["pin"] == pin]
+        block = next((slider for slider in here if names and slider["guide"] == names[0]), None)
+        if block:
+            found.append(Rub(model, words, keys, slider=block))
+            continue
+        there = [body for body in model.holders(pin) if body.name]
+        if pin in model.ground or here:
+            bearer = None
+            if here:
+                bearer = model.bodies.get(here[0]["link"] or here[0]["guide"])
+                there = [body for body in there if body is not bearer]
+            turning = [body for body in there if not names or body.name == names[0]]
+        else:
+            bearer = model.bodies[names[1]] if len(names) > 1 else next(body for body in there[::-1] if body.name not in names)
+            turning = [model.bodies[names[0]]] if names else [body for body in there if body is not bearer]
+        found += [Rub(model, words, keys, body=body, against=bearer) for body in turning]
+    return found

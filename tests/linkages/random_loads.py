@@ -4,7 +4,7 @@
 
 The linkages of random_linkages.py with forces at places of links and in their axes, forces and torques by tables over the drive, a
 block, the travel of a pin or the angle of a link, loads in one direction of the motion, resistances, springs and dampers of both
-kinds.  Compares forces in the joints and of the drives, bearings, the force on the frame and the terms of Lagrange's equation; at every
+kinds, friction in pins and of blocks.  Compares forces in the joints and of the drives, bearings, the force on the frame and the terms of Lagrange's equation; at every
 position the power of the drives has to be that of all loads and of inertia, to 1e-12 of the sum of absolute terms.
 """
 import argparse
@@ -18,7 +18,7 @@ import compare
 import compare_loads
 from decks import Deck
 from random_linkages import Case as Bare, run
-from solver import Failure, positions
+from solver import Failure, Model, positions
 from units import FACTORS
 
 REPORTS = ("kinematics", "pins", "reactions", "drive", "bearings", "frame about=0.3,-0.2", "lagrange")
@@ -39,7 +39,8 @@ class Case(Bare):
         """The constant loads of other decks, and these."""
         drawing = self.drawing
         self.cards_of_tables, lines = [], []
-        for kind, most in ((self._force, 3), (self._torque, 2), (self._resistance, 2), (self._spring, 2), (self._coil, 2)):
+        for kind, most in ((self._force, 3), (self._torque, 2), (self._resistance, 2), (self._spring, 2), (self._coil, 2),
+                           (self._friction, 3)):
             for _ in range(int(drawing.uniform(0, most + 1))):
                 lines.append(kind())
         self.applied = [line for line in lines if line]
@@ -168,6 +169,40 @@ class Case(Bare):
             rest = f" force={self._number(-most, most)}N" if draw < 0.2 else ""
         return f"SPRING spring{number} {one} {other} stiffness={stiffness:.6g}N/m{rest}"
 
+    def _friction(self):
+        """Of a pin, or of a block along its line; not where forces of several links or loads cannot be told apart."""
+        drawing, scale = self.drawing, self.scale
+        pin = drawing.pick(drawing.places)
+        blocks = [slider for slider in drawing.sliders if slider[0] == pin]
+        links = [name for name in drawing.links if pin in drawing.links[name]]
+        if pin in drawing.points or any(pin == where for where, _ in drawing.welds) or pin in self.rubbing:
+            return None
+        self.rubbing.append(pin)
+        values = f" coefficient={self._number(0.02, 0.3)}"
+        if blocks and (pin in drawing.grounds or len(blocks) > 1 or drawing.chance(0.6)):
+            block = drawing.pick(blocks)
+            self._count("friction_of_block")
+            if block[2]:
+                values += f" length={self._number(0.3, 0.8, scale)}"
+            if drawing.chance(0.4):
+                values += f" viscous={self._number(0, 5)}N*s/m"
+            return f"FRICTION {pin} {block[1]}{values} smooth={self._number(0.1, 1, scale)}"
+        values += f" radius={self._number(0.005, 0.05, scale)} smooth={self._number(0.1, 2)}rad/s"
+        if drawing.chance(0.4):
+            values += f" viscous={self._number(0, 0.5)}N*m*s"
+        if blocks:
+            links = [name for name in links if name != blocks[0][2]]
+        elif pin not in drawing.grounds:
+            if len(links) < 2:
+                return None
+            self._count("friction_of_pin")
+            links = links[::-1] if drawing.chance(0.5) else links
+            return f"FRICTION {pin} {links[0]} {links[1]}{values}"
+        if not links:
+            return None
+        self._count("friction_of_pin")
+        return f"FRICTION {pin}{values}"
+
     def _coil(self):
         """A torsional one."""
         drawing = self.drawing
@@ -200,24 +235,34 @@ class Case(Bare):
         return f"SPRING {words} stiffness={self._number(0.1, 20)}N*m/rad{rest}"
 
     def _cards(self):
-        self.loads_so_far, self.applied, self.cards_of_tables = [], [], []
+        self.loads_so_far, self.applied, self.cards_of_tables, self.rubbing = [], [], [], []
         return super()._cards()
 
     def find_range(self):
         """Of the linkage; then loads that are not computed everywhere in it go."""
         super().find_range()
-        cards = self.cards
+        cards, found = self.cards, positions(Deck(self.text(5)))[1]
         for load in self.applied:
-            self.cards = cards + [load] + [card for name, card in self.cards_of_tables if f"table={name}" in load.split() ]
+            self.cards = cards + [load] + [card for name, card in self.cards_of_tables if f"table={name}" in load.split()]
             deck = Deck(self.text(5))
-            model, found = positions(deck)
-            fine = True
+            model, fine = Model(deck), True
             for crank, q in zip(deck.cranks, found):
-                state = model.state(q, float(crank * deck.crank_factor()), 1.0, 0.0)
-                fine = fine and all(one.is_fine(state) for one in model.applied)
+                rate = float(deck.speeds[0] * deck.speed_factor())
+                state = model.state(q, float(crank * deck.crank_factor()), rate, float(deck.alpha()))
+                fine = fine and all(one.is_fine(state) for one in model.applied) and self._settles(model, state)
             if fine:
                 cards = self.cards
         self.cards = cards
+
+
+    @staticmethod
+    def _settles(model, state):
+        """Whether the forces with friction are found, by iterations that contract."""
+        try:
+            model.add_forces(state)
+            return True
+        except Failure:
+            return False
 
 
 def make(seed, links=None, reports=REPORTS):

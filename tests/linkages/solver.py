@@ -10,7 +10,7 @@ import random
 
 import dense
 from fields import Digits, Doubles
-from loads import loads_of
+from loads import frictions_of, loads_of
 
 
 class Failure(Exception):
@@ -71,6 +71,7 @@ class Model:
         self._find_size()
         self.pins_by_name = self._named_pins()
         self.applied = loads_of(self)
+        self.rubs = frictions_of(self)
 
     # construction
 
@@ -595,18 +596,43 @@ class Model:
             pin_loads[pin] = [fx + mass * (gx - ax), fy + mass * (gy - ay)]
         for load in self.applied:
             self._apply(s, load.effects(s), loads, pin_loads)
-        for pin, (fx, fy) in pin_loads.items():
-            for k, px, py in self.pin_place(s.q, pin)[2]:
-                loads[k] += fx * px + fy * py
         for link, torque in self.torques.items():
             loads[self.bodies[link].angle] += torque
         for slider in self.deck.sliders:
             if slider["inertia"]:
                 k = self.bodies[slider["guide"]].angle
                 loads[k] -= self.field.number(slider["inertia"]) * s.a[k]
+        self._balance(s, loads, pin_loads)
+        if self.rubs:
+            self._rub(s, loads, pin_loads)
+
+    def _balance(self, s, loads, pin_loads):
+        """Multipliers that balance loads, and the forces in the joints."""
+        for pin, (fx, fy) in pin_loads.items():
+            for k, px, py in self.pin_place(s.q, pin)[2]:
+                loads[k] += fx * px + fy * py
         s.multipliers = dense.solve_transposed(s.factors, [-load for load in loads])
         s.loads = loads
         self._share_forces(s, pin_loads)
+
+    def _rub(self, s, loads, pin_loads):
+        """Friction by what presses in the joints, again and again."""
+        inertia = [load - sum((fx * px + fy * py for pin, (fx, fy) in pin_loads.items()
+                               for k, px, py in self.pin_place(s.q, pin)[2] if k == number), self.zero)
+                   for number, load in enumerate(loads)]
+        s.pressing = {rub: rub.presses(s) for rub in self.rubs}
+        small = self.field.number("1e-10" if self.field is Doubles else "1e-30")
+        for _ in range(400):
+            here, pins = list(inertia), {pin: list(force) for pin, force in pin_loads.items()}
+            for rub in self.rubs:
+                self._apply(s, rub.effects(s), here, pins)
+            self._balance(s, here, pins)
+            after = {rub: rub.presses(s) for rub in self.rubs}
+            change = max(abs(after[rub] - s.pressing[rub]) for rub in self.rubs)
+            s.pressing = after
+            if change <= small * max(after.values()):
+                return
+        raise Failure("friction does not settle")
 
     def _apply(self, s, effects, loads, pin_loads):
         """Adds forces at places, and torques."""
@@ -651,7 +677,10 @@ class Model:
             if owner.name and pin in self.pins_by_name:
                 force = on(pin, owner.name)
                 force[0], force[1] = load
-        s.drives, place = [], 0
+        s.drives, place, s.contacts = [], 0, {}
+        for row in self.rows:
+            if row[0] in ("guide", "line"):
+                s.contacts[row[1]["pin"], row[1]["guide"]] = [z, z]
         for row in self.rows:
             value = s.multipliers[place]
             if row[0] == "pin":
@@ -671,6 +700,7 @@ class Model:
             elif row[0] == "turn":
                 _, one, other, _, where = row
                 if isinstance(where, dict):
+                    s.contacts[where["pin"], where["guide"]][1] = value
                     on(where["pin"], one.name)[2] += value
                     on(where["pin"], where["guide"])[2] += -value if other else value
                 else:
@@ -691,6 +721,7 @@ class Model:
         """The force of a guide on the pin, or of the block on the link along which it slides."""
         slider = row[1]
         pin, guide = slider["pin"], slider["guide"]
+        s.contacts[pin, guide][0] = value
         if row[0] == "guide":
             _, _, cosine, sine = self.guides[guide]
             force = on(pin, guide)
@@ -733,7 +764,7 @@ class Model:
         for pin, (fx, fy) in self.forces.items():
             _, (vx, vy), _ = self.pin_motion(s, pin)
             power += fx * vx + fy * vy
-        for load in self.applied:
+        for load in self.applied + (self.rubs if hasattr(s, "pressing") else []):
             if not load.has_potential():
                 power += sum(self.power_of_effects(s, load.effects(s)), self.zero)
         return power + sum((torque * s.v[self.bodies[link].angle] for link, torque in self.torques.items()), self.zero)
