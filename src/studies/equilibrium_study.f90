@@ -1,7 +1,7 @@
 !> Where a linkage rests whose drive does not act: the zeros of its generalised force.
 module equilibrium_study
   use applied_load_types, only: applies_between
-  use applied_loads, only: load_period, spring_scale
+  use applied_loads, only: spring_scale
   use constants, only: degree, pi
   use crank_limits, only: crank_range_t, find_ranges
   use kinds, only: wp
@@ -9,6 +9,7 @@ module equilibrium_study
   use limits_study, only: everywhere
   use linkage_paths, only: period_of
   use linkages, only: drives_angle, linkage_t
+  use load_tables, only: load_period
   use positions, only: find_state, state_t
   use rigid_bodies, only: rigid_bodies_of, rigid_body_t
   use sorting, only: ascending_order

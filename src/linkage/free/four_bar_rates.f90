@@ -4,7 +4,7 @@ module four_bar_rates
   use adaptive_integration, only: rate_system_t
   use constants, only: two_pi
   use applied_loads, only: add_conservative_loads, add_moving_loads, add_prescribed_loads, &
-    generalised_force, refuse_beyond_tables
+    generalised_force
   use curve_dynamics, only: conservative_torques, curve_dynamics_t, find_inertia
   use drives, only: drive_t
   use errors, only: error_t
@@ -15,6 +15,7 @@ module four_bar_rates
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t
+  use load_tables, only: refuse_beyond_tables
   use loop_curves, only: curve_point_t, find_point, loop_curve_t
   use pose_types, only: pose_t
   use rigid_bodies, only: rigid_body_t
