@@ -299,7 +299,8 @@ contains
       if (load%at(k)%pin == 0) cycle
       if (.not. linkage%is_ground(load%at(k)%pin)) cycle
       force = merge(pull, -pull, k == 1)*axis_of(linkage, pose, load)
-      total = total + [force, cross(pose%pin(:, load%at(k)%pin) - reference_point(linkage), force)]
+      total = total + [force, cross(place_in(linkage, pose, load%at(k)) - &
+        reference_point(linkage), force)]
     end do
   end function on_ground
 
@@ -472,7 +473,7 @@ contains
     real(wp) :: place(2)
 
     if (at%pin > 0) then
-      place = pose%pin(:, at%pin)
+      place = pose%pin(:, at%pin) + at%place
     else
       place = pose%pin(:, linkage%bodies(at%body)%first_pin) + arm_to_place(pose, at%body, at%place)
     end if
