@@ -51,7 +51,7 @@
 #   want="varied"                  the columns of varied parameters: those before the table's own
 #   want="poses"                   the positions of geometry.dat, a line each: the crank angle, then for every
 #                                  pin of a link the link's number (0 the ground), its name, x and y, for every point the
-#                                  same with the number below 0
+#                                  same with the number below 0; for springs and dampers the same with their part, | and name for it
 #   want="unit L"                  the unit of this column
 #   want="band L"                  where the other parameters and the speed are those of the first row: L, then the least and the
 #                                  greatest value over all positions of f1, of f2, …
@@ -167,7 +167,9 @@ asked[1] == "poses" {
         links = 0
     } else if ($at["link"] "" != link_drawn "") links++
     link_drawn = $at["link"] ""
-    pose = pose " " ($at["part"] == "point" ? -links : links) " " $at["place"] " " $at["x"] " " $at["y"]
+    if ($at["part"] ~ /^(spring|damper|side)$/) place_number = $at["part"] "|" $at["link"]
+    else place_number = $at["part"] == "point" ? -links : links
+    pose = pose " " place_number " " $at["place"] " " $at["x"] " " $at["y"]
 }
 
 asked[1] == "band" {
