@@ -288,6 +288,14 @@ parts_above(panel) = ""
 keys_of(panel) = ""
 legend_once = 0                                     # all panels have the same curves, and one legend beside them
 
+# Energies that are far from zero beside what changes, kinetic ones of a flywheel or potentials, whose zero is a matter of choice, are
+# drawn less their least value, as their titles say.
+energy_base(low, high) = high - low > 0.25*larger(abs(low), abs(high)) ? 0.0 : low
+energy_curve(name, low, high) = energy_base(low, high) == 0 ? sprintf("field('%s')", name) \
+    : sprintf("(field('%s')-(%.17g))", name, energy_base(low, high))
+energy_title(name, low, high, unit) = energy_base(low, high) == 0 ? name : sprintf("'%s %s %s %s'", name, low > 0 ? "−" : "+", \
+    abs(low) < 1e4 || abs(low) > 1e9 ? sprintf("%.4g", abs(low)) : sprintf("%.0f", abs(low)), typeset(unit))
+
 # ---- Curves against the crank angle ---------------------------------------------------------------------------
 # The legend stands in columns of its own at the right, so it never meets a curve; what is beyond three columns is counted.
 # The page is as wide as its ticks and the words of its legend make it.
