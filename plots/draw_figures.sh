@@ -314,6 +314,7 @@ plan_cycle() {
     fi
     have harmonics.dat && plan_speeds harmonics harmonics.dat largest
     have lagrange.dat && plan_speeds lagrange "${over}lagrange.dat"
+    plan_equilibrium
     have linkage.dat && add limits limits.gp linkage.dat
     have motion.dat time && add motion motion.gp motion.dat
 }
@@ -331,6 +332,9 @@ plan_bearings() {
         plan_speeds frame_force frame.dat 'frame_x frame_y' shaking_force.gp
     fi
 }
+
+# Of any linkage: where it rests, on its potential.
+plan_equilibrium() { [ ! -f equilibrium.dat ] || ! have potential.dat || add equilibrium equilibrium.gp potential.dat equilibrium.dat; }
 
 # Angles always; what stands still has no curve worth drawing.
 plan_kinematics() {
@@ -396,6 +400,7 @@ plan_rigid_dynamics() {
         plan_speeds balance balance.dat 'shaking_x shaking_y shaking_moment torque balanced_moment balanced_torque'
     fi
     plan_bearings
+    plan_equilibrium
     have harmonics.dat && plan_speeds harmonics harmonics.dat largest
     have lagrange.dat && plan_speeds lagrange lagrange.dat
     have motion.dat && add motion motion.gp motion.dat

@@ -51,7 +51,7 @@
 #   want="varied"                  the columns of varied parameters: those before the table's own
 #   want="poses"                   the positions of geometry.dat, a line each: the crank angle, then for every
 #                                  pin of a link the link's number (0 the ground), its name, x and y, for every point the
-#                                  same with the number below 0
+#                                  same with the number below 0; for springs and dampers the same with their part, | and name for it
 #   want="unit L"                  the unit of this column
 #   want="band L"                  where the other parameters and the speed are those of the first row: L, then the least and the
 #                                  greatest value over all positions of f1, of f2, …
@@ -167,7 +167,9 @@ asked[1] == "poses" {
         links = 0
     } else if ($at["link"] "" != link_drawn "") links++
     link_drawn = $at["link"] ""
-    pose = pose " " ($at["part"] == "point" ? -links : links) " " $at["place"] " " $at["x"] " " $at["y"]
+    if ($at["part"] ~ /^(spring|damper|side)$/) place_number = $at["part"] "|" $at["link"]
+    else place_number = $at["part"] == "point" ? -links : links
+    pose = pose " " place_number " " $at["place"] " " $at["x"] " " $at["y"]
 }
 
 asked[1] == "band" {
@@ -350,8 +352,8 @@ function print_wide(    n, k, i, line, number) {
     }
 }
 
-# Two links at a pin feel opposite forces, unless a mass or a load takes some of it.
-function join_forces(    k, m, n, pin, other, kept, alike) {
+# Two links at a pin feel opposite forces, unless a mass or a load takes some of it. The free end of a link feels none.
+function join_forces(    k, m, n, pin, other, kept, alike, felt) {
     for (k = 1; k <= keys; k++) {
         pin = substr(key_of[k], 1, index(key_of[k], ":") - 1)
         other = 0
@@ -360,6 +362,9 @@ function join_forces(    k, m, n, pin, other, kept, alike) {
         for (n = 1; other && n <= positions; n++)
             if (absolute(value[n, key_of[k], 4] - value[n, key_of[other], 4]) > 1e-9 * greatest) alike = 0
         single[k] = links_at[pin] == 1 || alike
+        felt = links_at[pin] > 1
+        for (n = 1; n <= positions; n++) if (value[n, key_of[k], 4] > 1e-12 * greatest) felt = 1
+        if (!felt && greatest > 0) dropped[k] = 1
         if (other && alike) { single[other] = 1; dropped[k] = 1 } else if (other && links_at[pin] == 2) single[other] = 0
     }
     for (k = 1; k <= keys; k++) {
@@ -373,7 +378,8 @@ function join_forces(    k, m, n, pin, other, kept, alike) {
 function print_limits(    kind, i, k, line) {
     for (kind = 1; kind <= 5; kind++)
         for (i = 1; i <= shapes; i++) {
-            if (key_of[i] != kind) continue
+            # A link that keeps its angle swings by what rounding makes of it.
+            if (key_of[i] != kind || kind == 2 && value[5, i] < 1e-9) continue
             line = kind " " link_at[i]
             for (k = 1; k <= 6; k++) line = line " " pointed(sprintf("%.12g", value[k, i]))
             print line, (kind == 1 ? stops[i] : "-")

@@ -24,7 +24,7 @@ contains
     real(wp) :: place(2)
 
     if (at%pin > 0) then
-      place = pose%pin(:, at%pin)
+      place = pose%pin(:, at%pin) + at%place
     else
       place = pose%pin(:, linkage%bodies(at%body)%first_pin) + arm_to_place(pose, at%body, at%place)
     end if

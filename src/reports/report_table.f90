@@ -17,7 +17,8 @@ module report_table
     critical_notes
   use drive_motions, only: place_columns, table_place
   use drive_report, only: add_drive, drive_notes
-  use equilibrium_report, only: add_equilibria, equilibrium_notes, equilibrium_words
+  use equilibrium_report, only: add_equilibria, add_potential, equilibrium_notes, &
+    equilibrium_words, potential_notes
   use equilibrium_study, only: find_equilibria
   use frame_report, only: add_frame, frame_notes
   use frequency_report, only: add_frequencies, add_shapes, drawn_rows, frequency_notes, shape_notes
@@ -194,7 +195,8 @@ module report_table
     report_kind_t(name="equilibrium", help="where the linkage rests without its drive", &
       studies="equilibrium", masses=.true., tables=[ &
       table_kind_t("equilibrium", "crank:deg verdict:name potential:energy "// &
-      "stiffness:turning_stiffness frequency:Hz error:-"), no_table]), &
+      "stiffness:turning_stiffness frequency:Hz error:-"), &
+      table_kind_t("potential", "crank:deg torque:moment potential:energy")]), &
     report_kind_t(name="linkage", help="class, limits and special positions", &
       studies="linkage", linkages=four_bars, tables=[ &
       table_kind_t("linkage", "branch,event:name crank,theta3,theta4,transmission_angle:deg"), &
@@ -458,6 +460,8 @@ contains
     case ("equilibrium")
       names(1) = equilibrium_words()
       plan%items = 1
+    case ("potential")
+      plan%items = 1
     case ("balance")
       if (.not. variant%mechanism%is_four_bar) optional = has_balanced(variant%found%balance)
     case ("harmonics")
@@ -575,6 +579,8 @@ contains
       call linkage_remarks(variant, notes)
     case ("equilibrium")
       call equilibrium_notes(variant, notes)
+    case ("potential")
+      call potential_notes(variant, notes)
     case ("balance")
       call balance_notes(variant, notes)
     case ("harmonics")
@@ -628,6 +634,8 @@ contains
       end if
     case ("equilibrium")
       call add_equilibria(variant, plan%layout, rows)
+    case ("potential")
+      call add_potential(variant, plan%layout, rows)
     case ("harmonics")
       call add_harmonics(variant, plan%layout, rows)
     case ("motion")
@@ -841,6 +849,7 @@ contains
     if (fitted%name == "balance") fitted%columns = "speed:speed crank:deg xG,yG:length "// &
       "shaking_x,shaking_y:force shaking_moment:moment torque:force "// &
       "balanced_x?,balanced_y?:force balanced_moment?:moment balanced_torque?:force"
+    if (fitted%name == "potential") fitted%columns = "crank:deg torque:force potential:energy"
     at = index(fitted%columns, "turning_stiffness")
     if (at > 0) fitted%columns = fitted%columns(:at - 1)//"line_stiffness"// &
       trim(fitted%columns(at + 17:))
