@@ -158,8 +158,8 @@ contains
     call put_friction(linkage, pose, friction%effort, friction%body_load, friction%pin_load)
   end subroutine finish_friction
 
-  !> Force in a joint that rubs: on the body by the pin, or along the normal of a line, or at one end
-  !! of a block that keeps a body from turning, N/2 ± M/length [N].
+  !> Force in a joint that rubs: on the body by the pin, or along the normal of a line, or at one
+  !! end of a block that keeps a body from turning, N/2 ± M/length [N].
   pure function force_in_joint(linkage, joints, rub) result(force)
     type(linkage_t), intent(in) :: linkage      !! its bodies
     type(joint_forces_t), intent(in) :: joints  !! of this linkage

@@ -29,11 +29,11 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with its friction
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
-    call append_string(notes, "force: in the joint, of a block across its line, with both of its "// &
-      "ends where a link is fixed to it; sliding: velocity of the link on the pin at the radius "// &
-      "of the bearing, or of the block along its line")
-    call append_string(notes, "friction: on the block along its line; moment: on the link at the "// &
-      "pin, counter-clockwise positive; lost: power")
+    call append_string(notes, "force: in the joint, of a block across its line, with both of "// &
+      "its ends where a link is fixed to it; sliding: velocity of the link on the pin at the "// &
+      "radius of the bearing, or of the block along its line")
+    call append_string(notes, "friction: on the block along its line; moment: on the link at "// &
+      "the pin, counter-clockwise positive; lost: power")
     call append_string(notes, acceleration_note(variant%model))
     call append_load_notes(notes, variant%model, variant%mechanism)
   end subroutine friction_notes

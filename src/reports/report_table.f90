@@ -92,8 +92,8 @@ module report_table
   !> All studies in the order in which they are made: some use the results of others. The last
   !! are made by `variant_runs`, some of them block by block or step by step.
   character(len=*), parameter :: study_names(22) = [character(len=12) :: "kinematics", "geometry", &
-    "inertia", "points", "reactions", "joints", "friction", "lagrange", "balance", "harmonics", "linkage", &
-    "limits", "sizing", "equilibrium", "response", &
+    "inertia", "points", "reactions", "joints", "friction", "lagrange", "balance", "harmonics", &
+    "linkage", "limits", "sizing", "equilibrium", "response", &
     "stability", "intervals", "campbell", "transient", "motion", "frequencies", "loci"]
 
   !> Tables of the elastic response with rows for every position.

@@ -12,7 +12,7 @@ module friction_study
   implicit none (type, external)
   private
 
-  public :: friction_result_t, find_joint_friction
+  public :: friction_result_t, find_joint_friction, lock_t
   public :: friction_values, normal_value, sliding_value, force_value, moment_value, power_value
   public :: forward_sense, backward_sense
 
@@ -40,7 +40,8 @@ contains
   !!
   !! Torques at the start are those against full friction, see `starting_linkage`: what rests moves
   !! by itself where the one backward is positive, or that forward negative, and else holds itself.
-  subroutine find_joint_friction(linkage, elements, positions, threads, speeds, accelerations, found)
+  subroutine find_joint_friction(linkage, elements, positions, threads, speeds, accelerations, &
+    found)
     type(linkage_t), intent(in) :: linkage      !! with frictions
     integer, intent(in) :: elements(:)          !! (bodies) on whose nodes the masses are lumped;
                                                 !! 0: distributed
@@ -75,8 +76,8 @@ contains
           call find_running_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
             accelerations(k, i), unit, running)
           found%lock(k, i) = lock_of(running)
-          if (found%lock(k, i)%friction == 0) found%values(:, :, k, i) = values_of(linkage, joints, &
-            running%friction)
+          if (found%lock(k, i)%friction == 0) found%values(:, :, k, i) = values_of(linkage, &
+            joints, running%friction)
         end do
         do k = forward_sense, backward_sense
           forward = merge(starting_speed, -starting_speed, k == forward_sense)
