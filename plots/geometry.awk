@@ -34,17 +34,17 @@ FILENAME ~ /poses$/ {
     next
 }
 
-!begun++ { print "$" block " << EOD" }
-
-{ key = $2 SUBSEP place[$2, $1]; printf "%.10g%s\n", $1, key in pose ? pose[key] : nowhere() }
-
-END {
-    print "EOD"
+!begun++ {
     print_springs()
     printf "hooks = %d; array hook_x[%d]; array hook_y[%d]; array hook_turn[%d]\n", hooks, hooks + 1, hooks + 1, hooks + 1
     for (k = 1; k <= hooks; k++)
         printf "hook_x[%d] = %.9g; hook_y[%d] = %.9g; hook_turn[%d] = %d\n", k, hook_x[k], k, hook_y[k], k, hook_turn(k)
+    print "$" block " << EOD"
 }
+
+{ key = $2 SUBSEP place[$2, $1]; printf "%.10g%s\n", $1, key in pose ? pose[key] : nowhere() }
+
+END { print "EOD" }
 
 # A place that is neither a pin nor a point stands still.
 function find_hook(name, x_there, y_there) {
@@ -52,7 +52,7 @@ function find_hook(name, x_there, y_there) {
     is_hook[name] = 1
     hook_x[++hooks] = x_there
     hook_y[hooks] = y_there
-    hook_name[hooks] = name
+    hook_name[hooks] = name ""
     hook_pose[hooks] = key
 }
 

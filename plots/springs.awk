@@ -16,11 +16,11 @@ function take_spring(pose, name, part, place, x, y,    k) {
     if (!((part, name) in spring_of)) {
         spring_of[part, name] = ++springs
         spring_part[springs] = part
-        spring_name[springs] = name
+        spring_name[springs] = name ""
     }
     spring_taken = spring_of[part, name]
     k = ++end_rows[pose, spring_taken]
-    end_name[spring_taken, k] = place
+    end_name[spring_taken, k] = place ""
     end_x[pose, spring_taken, k] = x
     end_y[pose, spring_taken, k] = y
 }

@@ -33,8 +33,8 @@ module models
     needs_loads, needs_inertia, needs_frequencies, needs_response, report_in_motion, &
     steady_state_report, accuracy_of_study, needs_beams, &
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
-    link_line_density, speed_in_table, speed_in_words, is_four_bar, pivots, drives_length, balances, &
-    has_law
+    link_line_density, speed_in_table, speed_in_words, is_four_bar, pivots, drives_length, &
+    balances, has_law
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
@@ -133,8 +133,9 @@ contains
   end function report_number
 
   !> Whether the linkage has the parts of a four-bar and no others: three links between two pins
-  !! each, two ground pivots, one driven link; GROUND pins that only hold springs do not count. Decks that were made with PIN or BRANCH cards about
-  !! pins must form its loop, too; of others a pin that does not fit is a mistake.
+  !! each, two ground pivots, one driven link. GROUND pins that only hold springs do not count.
+  !! Decks that were made with PIN or BRANCH cards about pins must form its loop, too; of others a
+  !! pin that does not fit is a mistake.
   pure function is_four_bar(model) result(is)
     type(model_t), intent(in) :: model !! as read
     logical :: is

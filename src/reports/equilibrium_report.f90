@@ -56,8 +56,8 @@ contains
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     allocate (notes(0))
-    call append_string(notes, "over all ranges of the first drive, at rest; torque: what a drive "// &
-      "would have to give, the derivative of the potential where all loads have one")
+    call append_string(notes, "over all ranges of the first drive, at rest; torque: what a "// &
+      "drive would have to give, the derivative of the potential where all loads have one")
     call append_string(notes, potential_note)
     call append_load_notes(notes, variant%model, variant%mechanism)
   end subroutine potential_notes

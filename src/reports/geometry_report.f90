@@ -40,7 +40,7 @@ contains
     type(name_list_t) :: lists(3)
 
     type(name_list_t) :: points
-    integer :: i
+    integer :: i, k
 
     lists(1)%column = "link"
     lists(1)%names = variant%mechanism%names
@@ -65,8 +65,11 @@ contains
     end if
     lists(3)%column = "place"
     lists(3)%names = variant%mechanism%pin_names
-    do i = 1, size(variant%model%grounds)
-      call append_string(lists(3)%names, variant%model%grounds(i)%pin%text)
+    do i = 1, size(variant%model%springs)
+      ! One may be on a GROUND pin that is none of the linkage.
+      do k = 1, merge(1, 2, variant%model%springs(i)%turns)
+        call append_string(lists(3)%names, variant%model%springs(i)%ends(k)%text)
+      end do
     end do
     points = point_names(variant)
     do i = 1, size(points%names)
@@ -130,8 +133,8 @@ contains
   end subroutine add_geometry
 
   !> Appends two rows for the ends of a spring or damper, or, for a torsional one, a row for its pin
-  !! and one for each of its links: the first pin of that link that is another one. The link that
-  !! turns first is the second; a single link turns against the ground.
+  !! and one for each of its links, as the card names them: the first pin of that link that is
+  !! another one. A single link turns against the ground.
   subroutine add_spring(variant, layout, spring, position, rows)
     type(variant_results_t), intent(in) :: variant
     type(table_layout_t), intent(in) :: layout
