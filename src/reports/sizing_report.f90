@@ -21,7 +21,7 @@ module sizing_report
 
   character(len=*), parameter :: quantity_words(*) = [character(len=20) :: "peak_torque", &
     "rms_torque", "mean_torque", "peak_force", "rms_force", "mean_force", "cubic_mean_force", &
-    "angle_at_peak", "rate", "peak_power", "mean_power", "flywheel", &
+    "equivalent_force", "angle_at_peak", "rate", "peak_power", "mean_power", "flywheel", &
     "energy_of_cycle", "fluctuation_without", "fluctuation", "greatest_rate", "least_rate"]
 
   !> Names of quantities whose units the deck's results have.
@@ -45,8 +45,11 @@ contains
         to_string(found%samples)//" samples, peaks enclosed between them")
       call append_string(notes, "peak: greatest absolute value, of drives with its sign; "// &
         "crank: where it is, 0 in rows without a place; cubic_mean_force: cube root of the "// &
-        "mean of "// &
-        "|F|^3 over the cycle, not weighted by how the pin turns in its bearing")
+        "mean of |F|^3 over the cycle; equivalent_force: the same weighted by the rate at "// &
+        "which the joint turns or slides, cube root of (integral of |F|^3 |v|)/(integral of "// &
+        "|v|), by ISO 281 the constant load of the same life of a ball "// &
+        "bearing; none where a joint is at rest; v of a link at a pin is that against the "// &
+        "ground, the block or the other link, where there are more against the first one")
       call append_string(notes, "forces of joints: on the link at the pin, as in bearings.dat; "// &
         "angle_at_peak: of the force in the axes of the link")
       call append_string(notes, "power: of the drive on the linkage, positive where it drives; "// &
@@ -190,6 +193,8 @@ contains
     call put("rms_force", sized%rms, "force", 0.0_wp, sized%error)
     call put("mean_force", sized%mean, "force", 0.0_wp, sized%error)
     call put("cubic_mean_force", sized%cubic, "force", 0.0_wp, sized%error)
+    if (sized%turns) call put("equivalent_force", sized%turned_cubic, "force", 0.0_wp, &
+      sized%turned_error)
 
   contains
 
