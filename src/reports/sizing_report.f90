@@ -21,7 +21,7 @@ module sizing_report
 
   character(len=*), parameter :: quantity_words(*) = [character(len=20) :: "peak_torque", &
     "rms_torque", "mean_torque", "peak_force", "rms_force", "mean_force", "cubic_mean_force", &
-    "angle_at_peak", "rate", "peak_power", "mean_power", "flywheel", &
+    "equivalent_force", "angle_at_peak", "rate", "peak_power", "mean_power", "flywheel", &
     "energy_of_cycle", "fluctuation_without", "fluctuation", "greatest_rate", "least_rate"]
 
   !> Names of quantities whose units the deck's results have.
@@ -54,8 +54,11 @@ contains
         to_string(found%samples)//" samples, peaks enclosed between them")
       call append_string(notes, "peak: greatest absolute value, of drives with its sign; "// &
         "crank: where it is, 0 in rows without a place; cubic_mean_force: cube root of the "// &
-        "mean of "// &
-        "|F|^3 over the cycle, not weighted by how the pin turns in its bearing")
+        "mean of |F|^3 over the cycle; equivalent_force: the same weighted by the rate at "// &
+        "which the joint turns or slides, cube root of (integral of |F|^3 |v|)/(integral of "// &
+        "|v|), by ISO 281 the constant load of the same life of a ball "// &
+        "bearing; none where a joint is at rest; v of a link at a pin is that against the "// &
+        "ground, the block or the other link, where there are more against the first one")
       call append_string(notes, "forces of joints: on the link at the pin, as in bearings.dat; "// &
         "angle_at_peak: of the force in the axes of the link")
       call append_string(notes, "power: of the drive on the linkage, positive where it drives; "// &
@@ -194,6 +197,10 @@ contains
         value_t("rms_force", sized%rms, "force", error=sized%error), &
         value_t("mean_force", sized%mean, "force", error=sized%error), &
         value_t("cubic_mean_force", sized%cubic, "force", error=sized%error)], rows)
+      if (sized%turns) call put_rows(variant, layout, speed, owner_cell(variant, joint, &
+        column_width(layout, 2))//name_cell(variant%mechanism%pin_names(joint%pin)%text, &
+        column_width(layout, 3)), [value_t("equivalent_force", sized%turned_cubic, "force", &
+        error=sized%turned_error)], rows)
     end associate
   end subroutine add_joint
 

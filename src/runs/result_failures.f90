@@ -70,6 +70,8 @@ contains
           call note_failure(variant, of_variant, found%sizing%error, 0.0_wp, 0, 0.0_wp, findings)
         end if
       end if
+      if (allocated(found%harmonics%error)) call note_failure(variant, at_position, &
+        found%harmonics%error, found%harmonics%error_crank, 0, 0.0_wp, findings)
       if (allocated(found%balance%partial)) then
         if (allocated(found%balance%partial%error)) call note_failure(variant, of_variant, &
           found%balance%partial%error, 0.0_wp, 0, 0.0_wp, findings)
