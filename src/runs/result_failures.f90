@@ -6,9 +6,9 @@ module result_failures
   use kinds, only: wp
   use locked_rows, only: is_locked_at, lock_at
   use models, only: drives_length, has_law, needs_frequencies, report_number, speed_in_words
-  use run_findings, only: add_failure, at_forces, at_frequencies, at_instant, at_position, failure_t, &
-    findings_t, in_campbell, in_intervals, in_motion, in_response, in_stability, in_transient, &
-    of_variant
+  use run_findings, only: add_failure, at_forces, at_frequencies, at_instant, at_position, &
+    failure_t, findings_t, in_campbell, in_intervals, in_motion, in_response, in_stability, &
+    in_transient, of_variant
   use stability_types, only: gap_t
   use table_columns, only: table_unit
   use text, only: to_string

@@ -11,8 +11,8 @@ module sizing_study
   use kinds, only: fineness, wp
   use lagrange_study, only: find_lagrange_terms, lagrange_result_t
   use linkages, only: linkage_t
-  use applied_loads, only: load_period
   use linkage_paths, only: period_of
+  use load_tables, only: load_period
   use positions, only: find_positions, positions_t
   implicit none (type, external)
   private

@@ -4,7 +4,7 @@ module four_bar_rates
   use adaptive_integration, only: rate_system_t
   use constants, only: two_pi
   use applied_loads, only: add_conservative_loads, add_moving_loads, add_prescribed_loads, &
-    generalised_force, refuse_beyond_tables
+    generalised_force
   use curve_dynamics, only: conservative_torques, curve_dynamics_t, find_inertia
   use drives, only: drive_t
   use errors, only: error_t
@@ -15,6 +15,7 @@ module four_bar_rates
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t
+  use load_tables, only: refuse_beyond_tables
   use loop_curves, only: curve_point_t, find_point, loop_curve_t
   use pose_types, only: pose_t
   use rigid_bodies, only: rigid_body_t
@@ -118,6 +119,7 @@ contains
 
     type(pose_t) :: pose
     type(kinematic_coefficients_t) :: per, now
+    type(kinematic_coefficients_t), allocatable :: all_per(:)
     type(load_t) :: body_load(3), of_springs(3)
     real(wp), dimension(2, size(self%linkage%is_ground)) :: pin_load, spring_force
     type(error_t), allocatable :: error
@@ -149,7 +151,10 @@ contains
         body_load(b)%force = body_load(b)%force + of_springs(b)%force
         body_load(b)%moment = body_load(b)%moment + of_springs(b)%moment
       end do
-      call find_free_friction(self%whole, self%rigid, pose, [per], now, body_load, &
+      ! An array constructor would copy no components in gfortran 12.
+      allocate (all_per(1))
+      all_per(1) = per
+      call find_free_friction(self%whole, self%rigid, pose, all_per, now, body_load, &
         pin_load + spring_force, torque, friction)
       found = friction%state == is_solved
       if (.not. found) self%stop = stop_locked

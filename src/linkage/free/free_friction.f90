@@ -69,7 +69,7 @@ contains
     associate (linkage => whole%linkage, rubs => whole%linkage%frictions)
       call new_equations(whole, rigid, pose, per, equations)
       friction%rate = friction_rates(linkage, pose, now, 1.0_wp)
-      coulomb = coulomb_efforts(rubs, friction%rate, .false.)
+      coulomb = coulomb_efforts(rubs, friction%rate)
       viscous = -rubs%viscous*friction%rate
       allocate (loads%body(size(linkage%bodies)), loads%pin(2, size(linkage%is_ground)))
       call put_friction(linkage, pose, viscous, loads%body, loads%pin)

@@ -9,7 +9,7 @@
 module linkage_rates
   use adaptive_integration, only: rate_system_t
   use applied_loads, only: add_conservative_loads, add_moving_loads, add_prescribed_loads, &
-    generalised_force, refuse_beyond_tables
+    generalised_force
   use block_ends, only: refuse_leaving_block
   use body_points, only: find_point_coefficients, point_coefficients_t
   use constants, only: degree
@@ -24,6 +24,7 @@ module linkage_rates
   use kinematic_coefficients, only: find_kinematic_coefficients, find_velocities, &
     kinematic_coefficients_t
   use linkages, only: drives_angle, linkage_t
+  use load_tables, only: refuse_beyond_tables
   use motion_charts, only: accelerations, find_on_chart, motion_chart_t, velocities
   use pose_types, only: pose_t
   use poses, only: dead_point_sine, place_groups, place_links
@@ -267,6 +268,12 @@ contains
       return
     end if
     call sum_up(self, pose, now, per, inertia, right)
+    call factorize(inertia, factor)
+    found = abs(factor%determinant) > least_inertia
+    if (.not. found) then
+      self%stop = stop_no_inertia
+      return
+    end if
     driving = 0.0_wp
     if (self%by_drives) then
       torque = self%drive%torque(time, state(1), state(f + 1))
@@ -278,12 +285,6 @@ contains
     call add_loads(self, pose, now, per, torque, right, driving, found)
     if (.not. found) then
       self%stop = stop_locked
-      return
-    end if
-    call factorize(inertia, factor)
-    found = abs(factor%determinant) > least_inertia
-    if (.not. found) then
-      self%stop = stop_no_inertia
       return
     end if
     rates(:f) = state(f + 1:2*f)
