@@ -1,7 +1,7 @@
 !> Harmonics of the shaking force, the shaking moment and the driving torque of a linkage over a
 !! cycle of the crank, as given and, where there are any, with counterweights.
 module harmonics_study
-  use applied_loads, only: load_period
+  use load_tables, only: load_period
   use balanced_linkages, only: balanced_linkage, counterweight_t
   use constants, only: degree
   use counterweights, only: find_counterweights

@@ -1,7 +1,7 @@
 !> A cycle of the crank, of one turn or several: shaking force, shaking moment and drive torque as
 !! periodic quantities.
 module crank_cycle
-  use applied_loads, only: refuse_beyond_tables
+  use load_tables, only: refuse_beyond_tables
   use balance_shafts, only: parts_of_shafts
   use errors, only: error_of_numerics, error_t, set_error
   use four_bar_limits, only: crank_reach, reach_t
