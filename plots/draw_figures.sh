@@ -304,6 +304,7 @@ plan_cycle() {
         plan_speeds drive_forces "${over}drive.dat"
         [ -z "$shaking" ] || sed -i "/drive_forces.gp/s#\$#|$shaking#" "$new/plan"
     fi
+    have sizing.dat && [ -z "$over" ] && have drive.dat && add drive_locus drive_locus.gp sizing.dat drive.dat
     # Places of a slider have no directions, and by a law a force comes to one of them more than once.
     if [ -n "$cycle" ] && [ -z "$over" ] && ask facts "$cycle" | grep -q "unit_crank = 'deg'"; then
         [ -f balance.dat ] && shaking=balance.dat

@@ -40,8 +40,8 @@ contains
     real(wp), intent(out) :: change            !! difference to the results from every second
                                                !! sample, relative to the largest value [-]
     real(wp), intent(in), optional :: period   !! of positions and loads, whole turns [deg]; then
-                                               !! with loads that depend on the speed; absent: a turn,
-                                               !! without these
+                                               !! with loads that depend on the speed; absent: a
+                                               !! turn, without these
 
     real(wp), parameter :: settled = 1.0e-13_wp*fineness
     real(wp), allocatable :: running(:)
