@@ -5,7 +5,7 @@
 At every instant of motion.dat the kinetic and the potential energy are those of the independent solver at the places of
 motion_pins.dat, and the work is the integral of its powers of all loads without a potential and of the motor (Romberg's method over
 windows of equal steps, which tells its own error).  Both energies have to balance with it to 1e-9 of the energies, in every window in
-which the powers are smooth enough for that.  Motions are compared up to the first dead point.
+which the powers are smooth enough for that.  Motions are compared up to the first dead point, and are without FRICTION cards.
 """
 import argparse
 import math
@@ -27,7 +27,7 @@ STEPS, WINDOW = 256, 32          # of a motion, and of an integral
 
 def deck(case, seed):
     """The linkage with the middle of its range as the start, and a motor; (text, motor)."""
-    lines = [line for line in case.text(5).splitlines() if not line.startswith(("CRANK", "SPEED", "REPORT"))]
+    lines = [line for line in case.text(5).splitlines() if not line.startswith(("CRANK", "SPEED", "REPORT", "FRICTION"))]
     draw = random.Random(seed)
     start = case.first + case.span * case.unit / 2
     speed = draw.choice((0, 0.4 * case.scale, -0.3 * case.scale) if case.linear else (0, 2, -3))

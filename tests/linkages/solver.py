@@ -622,7 +622,7 @@ class Model:
                    for number, load in enumerate(loads)]
         s.pressing = {rub: rub.presses(s) for rub in self.rubs}
         small = self.field.number("1e-10" if self.field is Doubles else "1e-30")
-        for _ in range(400):
+        for _ in range(2000):
             here, pins = list(inertia), {pin: list(force) for pin, force in pin_loads.items()}
             for rub in self.rubs:
                 self._apply(s, rub.effects(s), here, pins)

@@ -170,6 +170,17 @@ def refused_decks(build):
     group.end()
 
 
+def random_loads():
+    """Random linkages with all loads against the independent solver; `make loads` compares more."""
+    group = Group("random loads, release")
+    for script, count in (("random_loads.py", 36), ("random_load_motions.py", 12)):
+        run = execute([sys.executable, "-B", os.path.join("tests", "linkages", script), "1", str(count), "--program",
+                       program("release"), "--scratch", fresh("loads", base_name(script))])
+        said = run.stdout.strip() + run.stderr.strip()
+        group.result(f"tests/linkages/{script} 1 {count}", None if run.returncode == 0 else said)
+    group.end()
+
+
 def run_deck(group, build, deck, out):
     """Run a deck; status 1 (some rows could not be computed) is no failure here, for the tables tell."""
     run = execute([program(build), "--out", out, deck])
@@ -260,7 +271,7 @@ def main(tests):
     of_assertions = BUILDS if tests.startswith("funit") else ("release",)
     jobs = [(unit_tests, build, tests) for build in BUILDS]
     jobs += [(assertions, build, tests) for build in of_assertions] + [(layers,), (documents,)]
-    jobs += [(refused_decks, build) for build in BUILDS] + [(goldens, build) for build in BUILDS] + [(repeated_runs,)]
+    jobs += [(refused_decks, build) for build in BUILDS] + [(goldens, build) for build in BUILDS] + [(repeated_runs,), (random_loads,)]
     jobs += [(scripts, build) for build in BUILDS]
     # Two at once: unit tests take one processor, and decks of one speed, too.
     with multiprocessing.Pool(min(2, os.cpu_count())) as pool:

@@ -5,6 +5,7 @@ module spring_checks
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
+  use link_checks, only: is_ram
   use link_shapes, only: compare_lengths, find_drawn_place
   use models, only: model_t
   use name_checks, only: look_up, pin_names
@@ -72,9 +73,10 @@ contains
   end function count_springs
 
   !> Looks up what these cards name. Errors: an unknown link, pin or point; ends that are one place,
-  !! on one link, or both fixed; a link that does not turn about the pin; one link at a pin that
-  !! moves; links that are welded there; no drawing, or a rough one, where the free length follows
-  !! from it, or a negative free length that does; reports in which springs do not act.
+  !! on one link or on welded ones, or both fixed; a link that does not turn about the pin; one link
+  !! at a pin that moves; links that are welded there; no drawing, or a rough one, where the free
+  !! length follows from it, or a negative free length that does; reports in which springs do not
+  !! act.
   pure subroutine check_springs(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(model_t), intent(inout) :: model             !! has its links; link numbers of springs are
@@ -166,9 +168,34 @@ contains
           "the link is here")
         return
       end do
+      do i = 1, size(model%welds)
+        if (.not. is_on_weld(model, i, one) .or. .not. is_on_weld(model, i, other)) cycle
+        call add_error(diagnostics, other, "both ends are on links that are welded: nothing "// &
+          "moves between them", model%welds(i)%pin, "they are welded here")
+        return
+      end do
     end associate
     fine = .true.
   end subroutine check_ends
+
+  !> Whether one of the links of a weld has a pin or a point.
+  pure function is_on_weld(model, weld, word) result(is)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: weld !! number of the WELD card
+    type(token_t), intent(in) :: word
+    logical :: is
+
+    integer :: i
+
+    is = .false.
+    do i = 1, size(model%welds(weld)%link)
+      associate (link => model%welds(weld)%link(i))
+        if (link == 0) cycle
+        ! The far end of a ram moves.
+        if (.not. is_ram(model, model%links(link))) is = is .or. is_on_link(model, link, word)
+      end associate
+    end do
+  end function is_on_weld
 
   !> Whether a link has a pin or a point.
   pure function is_on_link(model, link, word) result(is)
