@@ -63,7 +63,8 @@ module report_table
   use response_notes, only: add_failed_speed, has_response
   use response_report, only: add_response, response_notes_of, response_point_names
   use sizing_report, only: add_sizing, sizing_names, sizing_notes
-  use sizing_study, only: find_sizing, sizing_request_t
+  use sizing_requests, only: sizing_request_of
+  use sizing_study, only: find_sizing
   use stability_report, only: add_stability, stability_notes, stability_words
   use strains_report, only: add_strains, gauge_names, strains_notes
   use table_columns, only: name_list_t, new_table_layout, table_factor, table_layout_t
@@ -372,9 +373,7 @@ contains
       case ("linkage")
         call find_linkage(linkage, found%linkage)
       case ("sizing")
-        call find_sizing(linkage, elements, sizing_request_t(model%speed%value, &
-          model%acceleration, model%reports(report_number(model, "sizing"))%fluctuation), &
-          threads, found%sizing)
+        call find_sizing(linkage, elements, sizing_request_of(model), threads, found%sizing)
       case ("limits")
         call find_limits(linkage, positions_of_deck(model), found%limits)
       case ("equilibrium")

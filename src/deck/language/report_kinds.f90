@@ -24,7 +24,7 @@ module report_kinds
   !! that ends with `*` stands for a series of numbered columns; one that ends with `?` is omitted
   !! in some tables.
   type :: table_kind_t
-    character(len=12) :: name = ""     !! of the table; blank: unused record
+    character(len=16) :: name = ""     !! of the table; blank: unused record
     character(len=320) :: columns = "" !! with units, as above
   end type table_kind_t
 
