@@ -58,6 +58,7 @@ do for [picture=1:pictures] {
         set rmargin at screen 0.5 + across(0.5*pixel*(x1 - x0))
         call plots."ground.gp" sprintf("%.12g", O2_x) sprintf("%.12g", O2_y) size 1 "pinned"
         call plots."ground.gp" sprintf("%.12g", O4_x) sprintf("%.12g", O4_y) size 11 "pinned"
+        eval ground_hooks(size)
     }
     now = row_of(picture)
     set output sprintf("%s_%03d", out, picture)

@@ -36,6 +36,7 @@ do for [picture=1:pictures] {
         set rmargin at screen 0.5 + across(0.5*pixel*(x1 - x0))
         call plots."ground.gp" O2_x O2_y size 1 "pinned"
         call plots."ground.gp" O4_x O4_y size 11 "pinned"
+        eval ground_hooks(size)
     }
     now = before + fine*(picture - 1) + 1
     row = $poses[now]

@@ -29,6 +29,10 @@ triangle(p, q, r, colour) = sprintf("$corners using ($1 == 0 ? %.7g : $1 == 1 ? 
     ":($1 == 0 ? %.7g : $1 == 1 ? %.7g : %.7g)", \
     real(p), real(q), real(r), imag(p), imag(q), imag(r)).filled(colour)
 
+call plots."springs.gp" sprintf("%g", 1.1*half_width)
+pale_spring_ink = "#707070"
+springs_of(row) = springs_from(1, row, spring_column)
+
 # Where pins and points are in a row of a block of poses.
 at(row, k) = word(row, k) + I*word(row, k + 1)
 first_pin(row, link) = link == 2 ? O2 : link == 3 ? at(row, 2) : O4
@@ -43,11 +47,13 @@ pin(z) = disc(z, 0.75*half_width, dark).disc(z, 0.45*half_width, "#FFFFFF")
 marks(p, row) = p > points ? "" : \
     disc(at(row, column_of(p)), 0.75*half_width, dark).disc(at(row, column_of(p)), 0.5*half_width, point_ink(p)).marks(p + 1, row)
 mechanism_below(row) = body(row, 4).body(row, 3).body(row, 2)
-mechanism_pins(row) = pin(O2).pin(O4).pin(at(row, 2)).pin(at(row, 4)).marks(1, row)
-mechanism(row) = mechanism_below(row).mechanism_pins(row)
+hooks_from(k) = k > hooks ? "" : pin(hook_x[k] + I*hook_y[k]).hooks_from(k + 1)
+mechanism_pins(row) = hooks_from(1).pin(O2).pin(O4).pin(at(row, 2)).pin(at(row, 4)).marks(1, row)
+mechanism(row) = mechanism_below(row).springs_of(row).mechanism_pins(row)
 
 # So pale that arrows stand out.
 pale(link) = word("- #C9DAEC #FFEBC4 #D7EBD7", link)
 pale_body(row, link) = capsule(first_pin(row, link), last_pin(row, link), half_width + 0.8*rim, "#8C8C8C").\
     capsule(first_pin(row, link), last_pin(row, link), half_width, pale(link))
-pale_mechanism(row) = pale_body(row, 4).pale_body(row, 3).pale_body(row, 2).pin(O2).pin(O4).pin(at(row, 2)).pin(at(row, 4))
+pale_mechanism(row) = pale_body(row, 4).pale_body(row, 3).pale_body(row, 2).\
+    pale_springs_from(1, row, spring_column).hooks_from(1).pin(O2).pin(O4).pin(at(row, 2)).pin(at(row, 4))

@@ -27,7 +27,7 @@ large = small*(small == 10 || small == 5 ? 3 : 5)
 tenth = small/10
 first_tenth = int(ceil(first/tenth - 1e-6))
 rows_of_path = int(floor(last/tenth + 1e-6)) - first_tenth
-row_of(multiple) = int(ceil(first_tenth*tenth/multiple - 1e-6)*multiple/tenth + 0.5) - first_tenth       # its first one, from 0
+row_of(multiple) = int(floor(ceil(first_tenth*tenth/multiple - 1e-6)*multiple/tenth + 0.5)) - first_tenth       # its first one, from 0
 set print angles
 do for [k=0:rows_of_path] { print sprintf("%.17g", (first_tenth + k)*tenth) }
 unset print
@@ -64,6 +64,7 @@ length_unit = unit_x
 load plots."frame.gp"
 call plots."ground.gp" sprintf("%.12g", O2_x) sprintf("%.12g", O2_y) size 1 "pinned"
 call plots."ground.gp" sprintf("%.12g", O4_x) sprintf("%.12g", O4_y) size 11 "pinned"
+eval ground_hooks(size)
 
 # Numbers keep clear of the paths, of pins and of each other. Two dots at one place, on a path that is gone to and fro, have one.
 set print places
@@ -95,11 +96,12 @@ print box_at(O4)
 print box_at(at(shown_row, 2))
 print box_at(at(shown_row, 4))
 do for [p=1:points] { print box_at(at(shown_row, column_of(p))) }
+do for [k=1:hooks] { print box_at(hook_x[k] + I*hook_y[k]) }
 do for [p=1:points] {
     do for [k=row_of(2*large):turning ? rows_of_path - 1 : rows_of_path:int(2*large/tenth + 0.5)] {
         angle = word($paths[k + 1], 1) + 0
         z = at($paths[k + 1], column_of(p))
-        text = sprintf("%.4g°", angle)
+        text = minus(sprintf("%.4g°", angle))
         print sprintf("label %.6g %.6g 12 %.4g %.4g 45 %s", page_x(real(z)), page_y(imag(z)), text_width(text, 15), text_height(15), \
             sprintf("%d %s", p, text))
     }
@@ -130,7 +132,7 @@ do for [p=1:points] {
 # A label begins with the number of its point.
 text_behind(label) = label[strstrt(label, " ") + 1 : *]
 ink_before(label) = int("0x".point_ink(int(label))[2:*])
-eval "plot ".mechanism_below(shown_row).halos.paths.mechanism_pins(shown_row).\
+eval "plot ".mechanism_below(shown_row).springs_of(shown_row).halos.paths.mechanism_pins(shown_row).\
     "$numbers using ($5 == 1 ? unscaled_x($3) : NaN):(unscaled_y($4)):".\
     "(unscaled_x($7) - unscaled_x($3)):(unscaled_y($8) - unscaled_y($4)) ".\
     "with vectors nohead lw 1 dt solid lc rgb '#808080' notitle, ".\

@@ -279,7 +279,7 @@ no_four_bar() {
 
 # cycle_table: a table of such a linkage with its positions.
 cycle_table() {
-    for table in pins.dat kinematics.dat drive.dat reactions.dat points.dat lagrange.dat balance.dat bearings.dat frame.dat; do
+    for table in pins.dat kinematics.dat drive.dat reactions.dat points.dat lagrange.dat balance.dat bearings.dat frame.dat friction.dat; do
         if [ -f $table ]; then
             echo $table
             return
@@ -304,6 +304,7 @@ plan_cycle() {
         plan_speeds drive_forces "${over}drive.dat"
         [ -z "$shaking" ] || sed -i "/drive_forces.gp/s#\$#|$shaking#" "$new/plan"
     fi
+    have sizing.dat && [ -z "$over" ] && have drive.dat && add drive_locus drive_locus.gp sizing.dat drive.dat
     # Places of a slider have no directions, and by a law a force comes to one of them more than once.
     if [ -n "$cycle" ] && [ -z "$over" ] && ask facts "$cycle" | grep -q "unit_crank = 'deg'"; then
         [ -f balance.dat ] && shaking=balance.dat
@@ -314,19 +315,27 @@ plan_cycle() {
     fi
     have harmonics.dat && plan_speeds harmonics harmonics.dat largest
     have lagrange.dat && plan_speeds lagrange "${over}lagrange.dat"
+    plan_equilibrium
     have linkage.dat && add limits limits.gp linkage.dat
     have motion.dat time && add motion motion.gp motion.dat
 }
 
-# Of any linkage: loci of the forces in its joints, and of that on the frame beside the shaking force. Places of a slider have no
-# directions, and figures of a law are over time.
+# Of any linkage: friction; loci of the forces in its joints, and of that on the frame beside the shaking force. Places of a slider
+# have no directions, and figures of a law are over time.
 plan_bearings() {
+    if have friction.dat; then
+        plan_speeds friction "${over}friction.dat" lost
+        [ -n "$over" ] || [ ! -f holding.dat ] || sed -i "/friction.gp/s#\$#|holding.dat#" "$new/plan"
+    fi
     [ -z "$over" ] || return 0
     have bearings.dat && several bearings.dat && plan_speeds bearings bearings.dat magnitude
     if have frame.dat && several frame.dat && ask facts frame.dat | grep -q "unit_crank = 'deg'"; then
         plan_speeds frame_force frame.dat 'frame_x frame_y' shaking_force.gp
     fi
 }
+
+# Of any linkage: where it rests, on its potential.
+plan_equilibrium() { [ ! -f equilibrium.dat ] || ! have potential.dat || add equilibrium equilibrium.gp potential.dat equilibrium.dat; }
 
 # Angles always; what stands still has no curve worth drawing.
 plan_kinematics() {
@@ -392,6 +401,7 @@ plan_rigid_dynamics() {
         plan_speeds balance balance.dat 'shaking_x shaking_y shaking_moment torque balanced_moment balanced_torque'
     fi
     plan_bearings
+    plan_equilibrium
     have harmonics.dat && plan_speeds harmonics harmonics.dat largest
     have lagrange.dat && plan_speeds lagrange lagrange.dat
     have motion.dat && add motion motion.gp motion.dat

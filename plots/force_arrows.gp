@@ -7,7 +7,9 @@ shaking_ink = "#C04000"
 force_at(row, k) = word(row, 2*k) + {0, 1}*word(row, 2*k + 1)
 tail_at(place, k) = k == 1 ? O2 : k == 4 ? O4 : k == 5 ? 0.5*(O2 + O4) : word(place, 2*k - 2) + {0, 1}*word(place, 2*k - 1)
 note = "forces on the crank at O2, on the coupler at A and B, on the follower at O4"
-remark = "shaking force: resultant of the inertia forces, drawn midway between O2 and O4".(remark eq "" ? "" : "; ".remark)
+greatest_shaking = 0
+do for [row_drawn=1:|$forces|] { greatest_shaking = larger(greatest_shaking, abs(force_at($forces[row_drawn], 5))) }
+if (greatest_shaking > 0) { remark = "shaking force: resultant of the inertia forces, drawn midway between O2 and O4".(remark eq "" ? "" : "; ".remark) }
 
 # The longest arrow takes half of the drawing's larger side; arrows of nearly nothing are left out. The extent takes in all.
 arrow_share = 0.5
@@ -22,7 +24,7 @@ scale_of_forces = "scale = greatest_force > 0 ? arrow_share*span/greatest_force 
 arrow_amount = greatest_force > 0 ? nice(greatest_force/3) : 0
 arrow_look(ink_of) = sprintf("size screen 0.008, 20 filled lw 3 lc rgb '%s'", ink_of)
 entries_of_forces = "eval entry_line('force at a pin', sprintf(\"lw 3 lc rgb '%s'\", pin_ink)); ".\
-    "eval entry_line('shaking force', sprintf(\"lw 3 lc rgb '%s'\", shaking_ink)); ".\
+    "if (greatest_shaking > 0) { eval entry_line('shaking force', sprintf(\"lw 3 lc rgb '%s'\", shaking_ink)) }; ".\
     "eval entry_arrow(amount(arrow_amount, unit_O2x), arrow_look('#000000'), pixel*scale*arrow_amount)"
 arrow_of(tag, tail, force, ink_of) = abs(force) < 5e-3*greatest_force ? sprintf("unset arrow %d; ", tag) \
     : sprintf("set arrow %d from %.9g, %.9g to %.9g, %.9g %s front; ", tag, real(tail), imag(tail), \
@@ -39,6 +41,8 @@ print_name(k, place) = sprintf("label %.6g %.6g 16 %.4g %.4g %d %s\n", pixel*rea
     text_width("O2", 15), text_height(15), \
     word("135 90 90 45", k) + 0, word("O₂ A B O₄", k))
 print_ground(z) = sprintf("box %.6g %.6g %.6g %.6g\n", pixel*real(z), pixel*(imag(z) - 0.7*size), pixel*1.6*size, pixel*1.3*size)
+print_hooks(k) = k > hooks ? "" : sprintf("box %.6g %.6g %.6g %.6g\n", pixel*hook_x[k], pixel*hook_y[k], pixel*1.6*size, pixel*2.4*size).\
+    print_hooks(k + 1)
 pins_to_name(place, row) = sprintf("page %.6g %.6g %.6g %.6g\n", pixel*x0, pixel*x1, pixel*line_y0[1], pixel*line_y1[1]).print_way(O2, tail_at(place, 2)).\
     print_way(tail_at(place, 2), tail_at(place, 3)).print_way(tail_at(place, 3), O4).print_ways(1, place, row).\
-    print_ground(O2).print_ground(O4).print_name(1, place).print_name(2, place).print_name(3, place).print_name(4, place)
+    print_ground(O2).print_ground(O4).print_hooks(1).print_name(1, place).print_name(2, place).print_name(3, place).print_name(4, place)

@@ -50,6 +50,7 @@ eval entries_of_forces
 load plots."tiles.gp"
 call plots."ground.gp" sprintf("%.12g", O2_x) sprintf("%.12g", O2_y) size 1 "pinned"
 call plots."ground.gp" sprintf("%.12g", O4_x) sprintf("%.12g", O4_y) size 11 "pinned"
+eval ground_hooks(size)
 set print places
 print pins_to_name($places[1], $forces[1])
 unset print
@@ -58,7 +59,7 @@ set multiplot
 do for [k=1:tiles] {
     if (k > 1) { eval clear_page }
     eval tile(k)
-    eval caption(1, k, sprintf("θ₂ = %.5g°", word($forces[k], 1) + 0))
+    eval caption(1, k, "θ₂ = ".minus(sprintf("%.5g°", word($forces[k], 1) + 0)))
     eval arrows_of($places[k], $forces[k])
     names_part = k > 1 ? "" : "$names using ($1/pixel):($2/pixel):(strcol(6)) with labels noenhanced font point_size(15) notitle, "
     eval "plot ".pale_mechanism($places[k]).names_part."NaN notitle"

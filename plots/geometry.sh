@@ -5,7 +5,8 @@
 # Sets the pivots O2 and O4, turns_fully, and link_ends, as response.dat names them: O2:crank A:crank A:coupler B:coupler
 # O4:follower B:follower; for the points of the table, in its order, point_link[k]: 2 the crank's link, 3 the coupler, 4 the
 # follower. A row of $BLOCK is a line of ANGLES: 1 the angle, 2 3 pin A, 4 5 pin B, then x and y of every
-# point, or of the middle of the coupler where there is no points.dat. FLEXMECH is the program, PLOTS the folder of tables.awk.
+# point, or of the middle of the coupler where there is no points.dat, then the numbers of springs and dampers (see springs.awk, which
+# sets more facts); hooks are the GROUND pins that only these use, at hook_x[k] hook_y[k], turned by hook_turn[k]. FLEXMECH is the program, PLOTS the folder of tables.awk.
 
 set -u
 block=$1 angles=$2 points=${3-}
@@ -52,34 +53,6 @@ done
 [ -z "$points" ] || awk -v want=points -f "$PLOTS/tables.awk" < "$points" > "$work/points"
 [ -n "$points" ] || : > "$work/points"
 
-# A line of poses is branch, angle, then for every pin and point the number of its link (0 the ground, below 0 for points), its
-# name and its place.
 echo "turns_fully = $turns"
-awk -v block="$block" '
-    FILENAME ~ /links$/ { if ($1 != "(ground)") link_name[++links] = $1; next }
-    FILENAME ~ /points$/ { wanted[++n_points] = $1; next }
-    FILENAME ~ /places$/ { place[$1, $2] = $3; next }
-    FILENAME ~ /poses$/ {
-        grounds = 0
-        row = ""
-        for (i = 3; i <= NF; i += 4) {
-            x[$(i + 1)] = $(i + 2); y[$(i + 1)] = $(i + 3)
-            if ($i == 0) { ground[++grounds] = $(i + 1); known[$(i + 1)] = 1 }
-            else if ($i < 0) link_of[$(i + 1)] = -$i
-            else if (!($(i + 1) in known)) { known[$(i + 1)] = 1; pin[++pins] = $(i + 1) }
-        }
-        if (!poses++) {
-            printf "O2 = {%.12g, %.12g}; O4 = {%.12g, %.12g}\n", x[ground[1]], y[ground[1]], x[ground[2]], y[ground[2]]
-            printf "link_ends = \"%s:%s %s:%s %s:%s %s:%s %s:%s %s:%s\"\n", ground[1], link_name[1], pin[1], link_name[1], \
-                pin[1], link_name[2], pin[2], link_name[2], ground[2], link_name[3], pin[2], link_name[3]
-            for (k = 1; k <= n_points; k++) printf "point_link[%d] = %d\n", k, link_of[wanted[k]] + 1
-        }
-        for (k = 1; k <= 2; k++) row = row sprintf(" %.7g %.7g", x[pin[k]], y[pin[k]])
-        for (k = 1; k <= n_points; k++) row = row sprintf(" %.7g %.7g", x[wanted[k]], y[wanted[k]])
-        if (!n_points) row = row sprintf(" %.7g %.7g", (x[pin[1]] + x[pin[2]])/2, (y[pin[1]] + y[pin[2]])/2)
-        pose[$1, $2] = row
-        next
-    }
-    !begun++ { print "$" block " << EOD" }
-    { key = $2 SUBSEP place[$2, $1]; printf "%.10g%s\n", $1, key in pose ? pose[key] : " NaN NaN NaN NaN NaN NaN" }
-    END { print "EOD" }' "$work/links" "$work/points" "$work/places" "$work/poses" "$work/asked"
+awk -v block="$block" -f "$PLOTS/springs.awk" -f "$PLOTS/geometry.awk" \
+    "$work/links" "$work/points" "$work/places" "$work/poses" "$work/asked"

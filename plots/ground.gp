@@ -1,12 +1,12 @@
 # A fixed pivot at x y: call "ground.gp" x y size first_tag kind [angle], with kind `pinned` or `clamped`.
-# pinned: the usual triangle on hatched ground. clamped: a hatched wall at a right angle to the link, whose angle in degrees is
+# pinned: the usual triangle on hatched ground, which the angle turns from upright. clamped: a hatched wall at a right angle to the link, whose angle in degrees is
 # given: it turns with the link.
 
 pivot = ARG1 + {0, 1}*ARG2
 gs = ARG3 + 0
 tag = ARG4 + 0
 clamped = ARG5 eq "clamped"
-up_from = clamped ? exp({0, 1}*(argument(6) + 0)*pi/180) : {0, 1}       # out of the ground
+up_from = (clamped ? 1 : {0, 1})*exp({0, 1}*(argument(6) eq "" ? 0 : argument(6) + 0)*pi/180)      # out of the ground
 beside = -{0, 1}*up_from
 foot_of = clamped ? pivot : pivot - gs*up_from
 reach = clamped ? 0.9*gs : 0.8*gs

@@ -54,9 +54,13 @@ do for [k in kept] {
     lines = larger(lines, planned_lines(title_of[k + 0], full_height))
 }
 
-headline = numbered(figure, sprintf("Harmonics over a turn%s, %s", of_cycle ? "" : " of the crank", \
+# Loads by tables may repeat after several turns only.
+turns = system("sed -n 's/^# *over a cycle of \\([0-9]*\\) turns of the crank.*/\\1/p' ".quoted(table))
+turns = turns eq "" ? "1" : turns
+headline = numbered(figure, sprintf("Harmonics over %s%s, %s", turns eq "1" ? "a turn" : turns." turns", of_cycle ? "" : " of the crank", \
     at_speed(speed, unit_speed)))
-note = (of_cycle ? "amplitudes of harmonics k of the turn" : "amplitudes of cos(k θ₂ + phase)")."; the mean is not shown"
+note = (of_cycle ? "amplitudes of harmonics k of the ".(turns eq "1" ? "turn" : "cycle") : "amplitudes of cos(k θ₂".(turns eq "1" ? "" : "/".turns)." + phase)").\
+    "; the mean is not shown"
 gap = 35
 lower = foot(lines_of_notes(note, remark))
 eval legend_page(125 + lower + panels*(full_height + gap) - gap, 1, widest(linkages, 20), tick_room, lines)

@@ -26,7 +26,9 @@ do for [name in "torque V gravity load"] {
 panels = 3
 array axis_of[3] = ["reduced inertia M", "torque", "energy"]
 array unit_of[3] = [unit_M, unit_torque, unit_kinetic]
-array curves_of[3] = ["field('M')", terms, "field('kinetic') field('potential')"]
-array titles_of[3] = ["M", titles, "kinetic potential"]
+array curves_of[3] = ["field('M')", terms, energy_curve("kinetic", low_kinetic, high_kinetic)." ".\
+    energy_curve("potential", low_potential, high_potential)]
+array titles_of[3] = ["M", titles, energy_title("kinetic", low_kinetic, high_kinetic, unit_kinetic)." ".\
+    energy_title("potential", low_potential, high_potential, unit_potential)]
 call plots."panels.gp"
 eval close

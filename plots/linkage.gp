@@ -16,13 +16,19 @@ point_names = table_of_poses eq "" ? "" : words_in(table_of_poses, "points")
 points = words(point_names)
 array point_link[points + 1]
 column_of(p) = 4 + 2*p                              # in a row of poses, of the x of a point; its y is in the next
+spring_column = 6 + 2*larger(points, 1)             # where the numbers of springs begin
 
 # The extent of a block of poses, with the pivots: x_min, x_max, y_min, y_max and span.
 extent = "x_min = real(O2); x_max = x_min; y_min = imag(O2); y_max = y_min; ".\
     "include(x, y) = (x_min = x < x_min ? x : x_min, x_max = x > x_max ? x : x_max, ".\
     "y_min = y < y_min ? y : y_min, y_max = y > y_max ? y : y_max, 0); extent_corner = include(real(O4), imag(O4)); ".\
+    "do for [k=1:hooks] { extent_corner = include(hook_x[k], hook_y[k]) }; ".\
     "do for [k=2:(4 + 2*points):2] { stats poses using (include(column(k), column(k + 1))) nooutput }; ".\
     "span = x_max - x_min > y_max - y_min ? x_max - x_min : y_max - y_min"
+
+# Where springs are hooked into the ground: to be evaluated.
+ground_hooks(size) = sprintf("do for [hook=1:hooks] { call plots.'ground.gp' sprintf('%%.12g', hook_x[hook]) ".\
+    "sprintf('%%.12g', hook_y[hook]) '%.9g' sprintf('%%d', 400 + 10*hook) 'pinned' sprintf('%%d', hook_turn[hook]) }", size)
 
 # Where there are no points, the middle of the coupler is one.
 middle_of_coupler = "if (points == 0) { points = 1; array point_link[1]; point_link[1] = 3 }"

@@ -54,8 +54,15 @@ print_name(x, y, away, name) = sprintf("label %.6g %.6g %.4g %.4g %.4g 45 %s", p
 print_pin(x, y) = sprintf("box %.6g %.6g %.4g %.4g", page_x(x), page_y(y), 2.4*pixel*bar, 2.4*pixel*bar)
 do for [k=1:paths] { print print_pin(word(row, 2*k) + 0, word(row, 2*k + 1) + 0) }
 do for [k=1:grounds] { print print_pin(ground_x[k], ground_y[k]) }
-do for [k=1:paths] { print print_name(word(row, 2*k) + 0, word(row, 2*k + 1) + 0, path_slides[k] ? 2.3 : 0.8, word(path_names, k)) }
+do for [k=1:paths] { print print_name(word(row, 2*k) + 0, word(row, 2*k + 1) + 0, path_slides[k] ? 3.3 : 0.8, word(path_names, k)) }
 do for [k=1:grounds] { print print_name(ground_x[k], ground_y[k], 0.8, word(ground_names, k)) }
+do for [k=1:springs] {
+    numbers = numbers_at($springs[shown], 4*k - 3)
+    turns = word(spring_kinds, k) eq "coil" || word(spring_kinds, k) eq "drag"
+    print turns ? print_name(number_of(numbers, 1), number_of(numbers, 2), 3.2, word(spring_names, k)) \
+        : print_name(0.5*(number_of(numbers, 1) + number_of(numbers, 3)), 0.5*(number_of(numbers, 2) + number_of(numbers, 4)), 1.4, \
+            word(spring_names, k))
+}
 unset print
 load labels_as("names")
 

@@ -1,5 +1,5 @@
-# A motion from its start: angular velocities, torque of the motor and energies against time; of a linkage that is no four-bar,
-# positions too, unless all there is to see is that the drive turns.
+# A motion from its start: angular velocities, torque of the motor and energies against time; positions too, unless all there is
+# to see is that the drive turns.
 #   gnuplot -c motion.gp motion.dat OUT [FIGURE [REMARK]]
 
 load ARG0[1 : strlen(ARG0) - strlen("motion.gp")]."style.gp"
@@ -55,9 +55,13 @@ if (of_cycle) {
         system("sed -n 's/^# *torque: of the motor on the first drive in \\([^;]*\\);.*/\\1/p' ".quoted(table))
     panel = add_panel(own_unit("position", 1) eq "deg" ? "motor torque" : "motor force", unit_of_torque, "field('torque')", "motor")
 } else {
+    if (high_crank - low_crank <= 360) { panel = add_panel("crank angle θ₂", unit_crank, "field('crank')", "crank") }
     panel = add_panel("angular velocity", unit_omega2, "field('omega2') field('omega4')", "'crank ω₂' 'follower ω₄'")
     panel = add_panel("motor torque", unit_torque, "field('torque')", "motor")
 }
-panel = add_panel("energy", unit_kinetic, "field('kinetic') field('potential') field('work')", "kinetic potential work")
+panel = add_panel("energy", unit_kinetic, energy_curve("kinetic", low_kinetic, high_kinetic)." ".\
+    energy_curve("potential", low_potential, high_potential)." field('work')", \
+    energy_title("kinetic", low_kinetic, high_kinetic, unit_kinetic)." ".\
+    energy_title("potential", low_potential, high_potential, unit_potential)." work")
 call plots."panels.gp"
 eval close

@@ -94,6 +94,6 @@ do for [place=1:n_kept] {
     }
     eval before_panel(panel)
     eval axis_title(title_of(panel), base, panel_height)
-    eval "plot ".parts."NaN notitle".keys
+    eval "plot ".parts_below(panel).parts.parts_above(panel)."NaN notitle".keys.keys_of(panel)
 }
 unset multiplot

@@ -1,14 +1,17 @@
 # Parts of a plot command that draw positions of a linkage of any kind, each with a comma behind it. Loaded once shapes.awk has
-# written them into the folder `shapes` and told its facts: bodies(n), pins_of(n) and pale_body(n) draw position n,
-# fixed_parts what stands still.
+# written them into the folder `shapes` and told its facts: bodies(n), pins_of(n) and pale_body(n) draw position n, bodies and pale
+# ones with their springs; fixed_parts what stands still.
+
+call plots."springs.gp" sprintf("%g", 1.1*bar)
+pale_spring_ink = "#B4B4B4"
 
 polygons(n, k, colour) = sprintf("'%s' index %d with filledcurves closed fc rgb '%s' fs solid 1 noborder notitle, ", \
     shapes."/pose_".n, k - 1, colour)
 layers_from(n, k, last) = k > last ? "" : polygons(n, k, layer_fill[k]).layers_from(n, k + 1, last)
 pale_from(n, k) = k > layers ? "" : polygons(n, k, layer_pale[k]).pale_from(n, k + 1)
-bodies(n) = pose_found[n] == 0 ? "" : layers_from(n, 1, body_layers)
+bodies(n) = pose_found[n] == 0 ? "" : layers_from(n, 1, body_layers).springs_from(1, $springs[n], 1)
 pins_of(n) = pose_found[n] == 0 ? "" : layers_from(n, body_layers + 1, layers)
-pale_body(n) = pose_found[n] == 0 ? "" : pale_from(n, 1)
+pale_body(n) = pose_found[n] == 0 ? "" : pale_from(n, 1).pale_springs_from(1, $springs[n], 1)
 grounds_part = grounds == 0 ? "" : \
     sprintf("'%s/grounds' index 0 with filledcurves closed fc rgb 'white' fs solid 1 noborder notitle, ", shapes).\
     sprintf("'%s/grounds' index 0 with lines lw 2 dt solid lc rgb ink notitle, ", shapes).\

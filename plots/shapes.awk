@@ -1,6 +1,6 @@
 # Any linkage drawn as bodies: from geometry.dat, on standard input, to files in a folder, and facts as gnuplot assignments on
 # standard output.
-#   awk -v folder=FOLDER -v share=0.014 -f shapes.awk < geometry.dat
+#   awk -v folder=FOLDER -v share=0.014 -f springs.awk -f shapes.awk < geometry.dat
 # share is half the width of a bar, as a share of the larger side of what the linkage sweeps. Files:
 #   FOLDER/pose_1, pose_2 …   the polygons of a position; an index (two empty lines) has those of one colour, in the order in which they
 #                             are drawn: layers, layer_fill[k], layer_pale[k]; bodies are the first body_layers, pins the others
@@ -9,7 +9,7 @@
 #   FOLDER/guides             rails, and behind two empty lines their hatching; nothing without guides
 #   FOLDER/grounds            the triangles of ground pivots, behind two empty lines their ground and its hatching
 # Facts: poses, pose_crank[k], pose_found[k], link_names, link_ink[k], grounds, ground_names, ground_x[k], ground_y[k], ground_up[k] (-1: hanging), paths,
-# path_names, path_ink[k] (empty for a path of no interest), path_slides[k], x_min, x_max, y_min, y_max, span, bar, ground_size.
+# path_names, path_ink[k] (empty for a path of no interest), path_slides[k], those of springs.awk, the block $springs, a position a line, x_min, x_max, y_min, y_max, span, bar, ground_size.
 
 BEGIN { pi = atan2(0, -1); wanted = 1 }
 
@@ -33,6 +33,8 @@ BEGIN { pi = atan2(0, -1); wanted = 1 }
         include(x, y)
     }
 }
+
+$3 == "spring" || $3 == "damper" || $3 == "side" { take_spring(poses, $2, $3, $4, x, y); next }
 
 $3 == "pin" && $2 == "(ground)" { if (poses == first) { ground[++grounds] = $4; fixed[$4] = 1 }; next }
 
@@ -72,6 +74,7 @@ END {
     block_height = 1.9 * bar
     rim = 0.28 * bar
     ground_size = 3.6 * bar
+    for (n = 1; n <= poses; n++) numbers[n] = spring_numbers(n)
     for (n = 1; n <= poses; n++) if (n in is_found) draw_pose(n)
     draw_paths()
     draw_guides()
@@ -111,14 +114,17 @@ function draw_pose(n,    i, k, p, file) {
         begin_layer(file, "#D9D9D9", "#F2F2F2")
         draw_block(file, i, n, block_length, block_height)
     }
+    draw_spring_skeletons(n)
     close(folder "/skeleton_" n)
     body_layers = layer
     begin_layer(file, "#333333", "#B4B4B4")
     for (p in pin_known) disc(file, at_x[p, n], at_y[p, n], 0.75 * bar)
     for (p in slides) disc(file, at_x[p, n], at_y[p, n], 0.75 * bar)
+    for (p in fixed) if (!(p in pin_known)) disc(file, at_x[p, n], at_y[p, n], 0.75 * bar)
     begin_layer(file, "#FFFFFF", "#FFFFFF")
     for (p in pin_known) disc(file, at_x[p, n], at_y[p, n], 0.45 * bar)
     for (p in slides) disc(file, at_x[p, n], at_y[p, n], 0.45 * bar)
+    for (p in fixed) if (!(p in pin_known)) disc(file, at_x[p, n], at_y[p, n], 0.45 * bar)
     for (k = 1; k <= paths; k++) {
         if (!(path[k] in is_point)) continue
         begin_layer(file, "#333333", "#B4B4B4")
@@ -172,6 +178,18 @@ function draw_skeleton(i, n,    k, m, x, y, way) {
         way = sqrt(x * x + y * y)
         for (m = -1; m <= 1; m++) printf "%.7g %.7g\n%.7g %.7g\n\n", hull_x[k] - m * bar * y / way, hull_y[k] + m * bar * x / way, \
             hull_x[k] + x - m * bar * y / way, hull_y[k] + y + m * bar * x / way > (folder "/skeleton_" n)
+    }
+}
+
+# Three lines a spring or damper, as of a bar.
+function draw_spring_skeletons(n,    s, m, x, y, way) {
+    for (s = 1; s <= springs; s++) {
+        if (spring_turns(s)) continue
+        x = end_x[n, s, 2] - end_x[n, s, 1]
+        y = end_y[n, s, 2] - end_y[n, s, 1]
+        way = sqrt(x * x + y * y)
+        for (m = -1; m <= 1 && way > 0; m++) printf "%.7g %.7g\n%.7g %.7g\n\n", end_x[n, s, 1] - m * bar * y / way, \
+            end_y[n, s, 1] + m * bar * x / way, end_x[n, s, 2] - m * bar * y / way, end_y[n, s, 2] + m * bar * x / way > (folder "/skeleton_" n)
     }
 }
 
@@ -339,6 +357,13 @@ function hangs(p,    i, k, n, m, found, total) {
                 if (m > 0) { total += (at_y[place[i, k], n] - at_y[p, n]) / m; count_of[p]++ }
             }
         }
+    # What only holds springs is on the side that they do not pull to.
+    if (!count_of[p])
+        for (i = 1; i <= springs; i++)
+            for (k = 1; k <= 2; k++) {
+                if (spring_turns(i) || end_name[i, k] != p) continue
+                total += end_y[first, i, 3 - k] - end_y[first, i, k]
+            }
     return total < -0.4 * count_of[p]
 }
 
@@ -363,6 +388,10 @@ function print_facts(    i, k, text) {
         text = text " \"" ground[i] "\""
     }
     printf "ground_names = %s\n", quoted(text)
+    print_springs()
+    print "$springs << EOD"
+    for (i = 1; i <= poses; i++) print substr(numbers[i], 2)
+    print "EOD"
 }
 
 function quoted(text) { gsub(/'/, "''", text); return "'" text "'" }

@@ -278,12 +278,23 @@ quoted_twice(text) = "\"".escaped(text)."\""
 escaped(text) = text eq "" ? "" : (text[1:1] eq "\n" ? "\\n" : text[1:1] eq "\\" || text[1:1] eq "\"" ? "\\".text[1:1] : text[1:1])\
     .escaped(text[2:*])
 
-# Of the panels of panels.gp: whether one has a logarithmic axis, what its axis takes in besides the curves, and what is done
-# before it is drawn.
+# Of the panels of panels.gp: whether one has a logarithmic axis, what its axis takes in besides the curves, what is done before it is
+# drawn, and parts of its plot command below and above the curves, a comma behind each, with their entries of the legend, a comma before each.
 is_logarithmic(panel) = 0
 also_shown(panel) = NaN
 before_panel(panel) = ""
+parts_below(panel) = ""
+parts_above(panel) = ""
+keys_of(panel) = ""
 legend_once = 0                                     # all panels have the same curves, and one legend beside them
+
+# Energies that are far from zero beside what changes, kinetic ones of a flywheel or potentials, whose zero is a matter of choice, are
+# drawn less their least value, as their titles say.
+energy_base(low, high) = high - low > 0.25*larger(abs(low), abs(high)) ? 0.0 : low
+energy_curve(name, low, high) = energy_base(low, high) == 0 ? sprintf("field('%s')", name) \
+    : sprintf("(field('%s')-(%.17g))", name, energy_base(low, high))
+energy_title(name, low, high, unit) = energy_base(low, high) == 0 ? name : sprintf("'%s %s %s %s'", name, low > 0 ? "−" : "+", \
+    abs(low) < 1e4 || abs(low) > 1e9 ? sprintf("%.4g", abs(low)) : sprintf("%.0f", abs(low)), typeset(unit))
 
 # ---- Curves against the crank angle ---------------------------------------------------------------------------
 # The legend stands in columns of its own at the right, so it never meets a curve; what is beyond three columns is counted.
@@ -314,7 +325,7 @@ page_of_one(entries, longest, name, unit, low, high) = "lower = foot(lines_of_no
     "; eval heading; plot_height = @panel_room - lower; set tmargin at screen down(125); set bmargin at screen up(lower)".\
     sprintf("; eval value_axis(%.15g, %.15g, plot_height); eval axis_title(%s, lower, plot_height)", low, high, \
         quoted_twice(value_title(name, unit, low, high)))
-crank_step(lowest, highest) = highest - lowest > 1000 ? 180 : highest - lowest > 400 ? (plot_width < 800 ? 120 : 60) : highest - lowest > 150 ? (plot_width < 800 ? 60 : 30) : 15
+crank_step(lowest, highest) = highest - lowest > 1800 ? 360*ceil((highest - lowest)/3240.0) : highest - lowest > 1000 ? 180 : highest - lowest > 750 ? 120 : highest - lowest > 400 ? (plot_width < 800 ? 120 : 60) : highest - lowest > 150 ? (plot_width < 800 ? 60 : 30) : 15
 crank_axis(lowest, highest) = (unit_crank ne "deg" ? abscissa(lowest, highest) : lowest == highest \
     ? sprintf("set xrange [%g:%g]; set xtics 10; set mxtics 2", lowest - 30, highest + 30) \
     : highest - lowest > 150 \

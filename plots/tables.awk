@@ -39,7 +39,7 @@
 #   want="branches 20"             the branches of branches.dat at speed 20, an index a branch, an empty line where rows
 #                                  have failed: crank, frequency, branch, 1 on its first row, 1 where a mark is drawn
 #   want="wide 20 link theta omega"     of a table with a row a link (or a pin, a drive …) at speed 20, a line a position: the crank, then
-#                                  theta and omega of every link; angles theta go on beyond 180 degrees
+#                                  theta and omega of every link; angles theta go on beyond 180 degrees; joint stands for pin and link
 #   want="joints 20"               of reactions.dat with a row a pin and link at speed 20, a line a position: the crank, then the size of
 #                                  the force at every joint; one for the two opposite forces at a pin of two links
 #   want="joint_names 20"          the names of these joints: A, or A:crank where the links feel different forces
@@ -51,7 +51,7 @@
 #   want="varied"                  the columns of varied parameters: those before the table's own
 #   want="poses"                   the positions of geometry.dat, a line each: the crank angle, then for every
 #                                  pin of a link the link's number (0 the ground), its name, x and y, for every point the
-#                                  same with the number below 0
+#                                  same with the number below 0; for springs and dampers the same with their part, | and name for it
 #   want="unit L"                  the unit of this column
 #   want="band L"                  where the other parameters and the speed are those of the first row: L, then the least and the
 #                                  greatest value over all positions of f1, of f2, …
@@ -167,7 +167,9 @@ asked[1] == "poses" {
         links = 0
     } else if ($at["link"] "" != link_drawn "") links++
     link_drawn = $at["link"] ""
-    pose = pose " " ($at["part"] == "point" ? -links : links) " " $at["place"] " " $at["x"] " " $at["y"]
+    if ($at["part"] ~ /^(spring|damper|side)$/) place_number = $at["part"] "|" $at["link"]
+    else place_number = $at["part"] == "point" ? -links : links
+    pose = pose " " place_number " " $at["place"] " " $at["x"] " " $at["y"]
 }
 
 asked[1] == "band" {
@@ -276,7 +278,7 @@ asked[1] == "wide" && same($at["speed"], asked[2]) || asked[1] ~ /^joint/ && sam
         crank[++positions] = $at["crank"] ""
         broken[positions] = gap[rows]
     }
-    key = asked[1] == "wide" ? $at[asked[3]] : $at["pin"] ":" $at["link"]
+    key = asked[1] == "wide" && asked[3] != "joint" ? $at[asked[3]] : $at["pin"] ":" $at["link"]
     if (!(key in seen)) { seen[key] = 1; key_of[++keys] = key; if (asked[1] != "wide") links_at[$at["pin"]]++ }
     if (asked[1] == "wide") for (i = 4; i <= n_asked; i++) value[positions, key, i] = $at[asked[i]]
     else {
@@ -350,8 +352,8 @@ function print_wide(    n, k, i, line, number) {
     }
 }
 
-# Two links at a pin feel opposite forces, unless a mass or a load takes some of it.
-function join_forces(    k, m, n, pin, other, kept, alike) {
+# Two links at a pin feel opposite forces, unless a mass or a load takes some of it. The free end of a link feels none.
+function join_forces(    k, m, n, pin, other, kept, alike, felt) {
     for (k = 1; k <= keys; k++) {
         pin = substr(key_of[k], 1, index(key_of[k], ":") - 1)
         other = 0
@@ -360,6 +362,9 @@ function join_forces(    k, m, n, pin, other, kept, alike) {
         for (n = 1; other && n <= positions; n++)
             if (absolute(value[n, key_of[k], 4] - value[n, key_of[other], 4]) > 1e-9 * greatest) alike = 0
         single[k] = links_at[pin] == 1 || alike
+        felt = links_at[pin] > 1
+        for (n = 1; n <= positions; n++) if (value[n, key_of[k], 4] > 1e-12 * greatest) felt = 1
+        if (!felt && greatest > 0) dropped[k] = 1
         if (other && alike) { single[other] = 1; dropped[k] = 1 } else if (other && links_at[pin] == 2) single[other] = 0
     }
     for (k = 1; k <= keys; k++) {
@@ -373,7 +378,8 @@ function join_forces(    k, m, n, pin, other, kept, alike) {
 function print_limits(    kind, i, k, line) {
     for (kind = 1; kind <= 5; kind++)
         for (i = 1; i <= shapes; i++) {
-            if (key_of[i] != kind) continue
+            # A link that keeps its angle swings by what rounding makes of it.
+            if (key_of[i] != kind || kind == 2 && value[5, i] < 1e-9) continue
             line = kind " " link_at[i]
             for (k = 1; k <= 6; k++) line = line " " pointed(sprintf("%.12g", value[k, i]))
             print line, (kind == 1 ? stops[i] : "-")

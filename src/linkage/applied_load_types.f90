@@ -28,7 +28,8 @@ module applied_load_types
   type :: load_place_t
     integer :: pin = 0             !! number; 0: a place of a body
     integer :: body = 0            !! number; not of a pin
-    real(wp) :: place(2) = 0.0_wp  !! from the first pin of the body, in its axes [m]
+    real(wp) :: place(2) = 0.0_wp  !! from the first pin of the body, in its axes; of a fixed place
+                                   !! from a ground pivot, in global axes [m]
   end type load_place_t
 
   !> A load. With the coordinate x of its kind, a length or an angle, and its rate v: `tension +

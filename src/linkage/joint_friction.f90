@@ -71,19 +71,15 @@ contains
   !! and iterations find it (Banach). Else the solution is followed from that without Coulomb
   !! friction, all coefficients rising together, by Newton's method. Where its determinant reaches
   !! zero on the way forces grow beyond all bounds: the linkage locks itself.
-  !!
-  !! At the start of a motion from rest Coulomb friction is the whole of it, and viscous none.
-  pure subroutine find_friction(linkage, pose, coefficients, speed, factor, without, is_starting, &
+  pure subroutine find_friction(linkage, pose, coefficients, speed, factor, without, &
     friction)
     type(linkage_t), intent(in) :: linkage       !! its frictions; not redundant
     type(pose_t), intent(in) :: pose             !! away from dead points
     type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
-    real(wp), intent(in) :: speed                !! of the first drive; at the start only its sign
-                                                 !! counts [rad/s] or [m/s]
+    real(wp), intent(in) :: speed                !! of the first drive [rad/s] or [m/s]
     real(wp), intent(in) :: factor(:)            !! (parts) by which each part is multiplied
     type(joint_forces_t), intent(in) :: without(:) !! (parts) of the forces in the joints without
                                                  !! friction
-    logical, intent(in) :: is_starting           !! it starts with this speed from rest
     type(friction_t), intent(out) :: friction
 
     type(load_t) :: body_load(size(linkage%bodies))
@@ -96,9 +92,8 @@ contains
 
     associate (rubs => linkage%frictions)
       friction%rate = friction_rates(linkage, pose, coefficients, speed)
-      coulomb = coulomb_efforts(rubs, friction%rate, is_starting)
+      coulomb = coulomb_efforts(rubs, friction%rate)
       viscous = -rubs%viscous*friction%rate
-      if (is_starting) viscous = 0.0_wp
       call put_friction(linkage, pose, viscous, body_load, pin_load)
       joints = find_joint_forces(linkage, pose, body_load, pin_load)
       do k = 1, size(rubs)
@@ -139,15 +134,12 @@ contains
   end function friction_rates
 
   !> Couples in pins and forces along lines of Coulomb friction with forces of 1 N in the joints.
-  pure function coulomb_efforts(rubs, rates, is_starting) result(efforts)
+  pure function coulomb_efforts(rubs, rates) result(efforts)
     type(joint_friction_t), intent(in) :: rubs(:) !! (frictions)
     real(wp), intent(in) :: rates(:)              !! (frictions) [rad/s] or [m/s]
-    logical, intent(in) :: is_starting            !! from rest, in the direction of these rates
     real(wp) :: efforts(size(rubs))               !! [m] or [-]
 
     efforts = -rubs%coefficient*tanh(rates/rubs%smooth)
-    if (is_starting) efforts = -rubs%coefficient*merge(sign(1.0_wp, rates), 0.0_wp, &
-      abs(rates) > 0.0_wp)
     where (rubs%slider == 0) efforts = efforts*rubs%radius
   end function coulomb_efforts
 
@@ -166,8 +158,8 @@ contains
     call put_friction(linkage, pose, friction%effort, friction%body_load, friction%pin_load)
   end subroutine finish_friction
 
-  !> Force in a joint that rubs: on the body by the pin, or along the normal of a line, or at one end
-  !! of a block that keeps a body from turning, N/2 ± M/length [N].
+  !> Force in a joint that rubs: on the body by the pin, or along the normal of a line, or at one
+  !! end of a block that keeps a body from turning, N/2 ± M/length [N].
   pure function force_in_joint(linkage, joints, rub) result(force)
     type(linkage_t), intent(in) :: linkage      !! its bodies
     type(joint_forces_t), intent(in) :: joints  !! of this linkage

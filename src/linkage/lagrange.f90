@@ -3,8 +3,8 @@
 !!
 !! The torque required for a motion follows from energies alone, without any pin force.
 module lagrange
-  use applied_loads, only: add_conservative_loads, add_prescribed_loads, applied_potential, &
-    generalised_force, has_standing_loads
+  use applied_loads, only: add_standing_loads, applied_potential, generalised_force, &
+    has_standing_loads
   use body_points, only: find_point_coefficients, point_coefficients_t
   use inertia_loads, only: load_t
   use kinds, only: wp
@@ -63,11 +63,11 @@ contains
       terms%load = terms%load - dot_product(linkage%pin_force(:, p), point%rate)
       terms%potential = terms%potential - dot_product(linkage%pin_force(:, p), point%place)
     end do
-    if (has_standing_loads(linkage)) call add_standing_loads(linkage, pose, coefficients, terms)
+    if (has_standing_loads(linkage)) call add_applied_loads(linkage, pose, coefficients, terms)
   end function find_lagrange
 
   !> Adds the loads of springs and processes that a pose determines.
-  pure subroutine add_standing_loads(linkage, pose, coefficients, terms)
+  pure subroutine add_applied_loads(linkage, pose, coefficients, terms)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
     type(kinematic_coefficients_t), intent(in) :: coefficients
@@ -77,11 +77,10 @@ contains
     real(wp) :: pin_load(2, size(linkage%is_ground))
 
     pin_load = 0.0_wp
-    call add_conservative_loads(linkage, pose, body_load, pin_load)
-    call add_prescribed_loads(linkage, pose, [0.0_wp, 0.0_wp], body_load, pin_load)
+    call add_standing_loads(linkage, pose, [0.0_wp, 0.0_wp], body_load, pin_load)
     terms%load = terms%load - generalised_force(linkage, coefficients, body_load, pin_load)
     terms%potential = terms%potential + applied_potential(linkage, pose, [0.0_wp, 0.0_wp])
-  end subroutine add_standing_loads
+  end subroutine add_applied_loads
 
   !> Adds a mass that moves without rotating.
   pure subroutine add_mass(mass, gravity, point, terms)

@@ -3,7 +3,7 @@
 !! speed is in `running_loads`.
 module load_cases
   use acceleration_fields, only: acceleration_field_t, find_unit_field
-  use applied_loads, only: add_conservative_loads, add_prescribed_loads, has_standing_loads
+  use applied_loads, only: add_standing_loads, has_standing_loads
   use inertia_loads, only: distributed_load, load_t, lumped_load, pin_load
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
@@ -80,12 +80,12 @@ contains
       constant%field%angular = 0.0_wp
       constant%pin_force = linkage%pin_force
       constant%couple = linkage%couple
-      if (has_standing_loads(linkage)) call add_standing_loads(linkage, pose, constant)
+      if (has_standing_loads(linkage)) call add_applied_loads(linkage, pose, constant)
     end associate
   end function find_unit_loads
 
   !> Adds the loads of springs and processes that a pose determines.
-  pure subroutine add_standing_loads(linkage, pose, constant)
+  pure subroutine add_applied_loads(linkage, pose, constant)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
     type(load_case_t), intent(inout) :: constant
@@ -93,14 +93,13 @@ contains
     type(load_t) :: body_loads(size(linkage%bodies))
     integer :: b
 
-    call add_conservative_loads(linkage, pose, body_loads, constant%pin_force)
-    call add_prescribed_loads(linkage, pose, [0.0_wp, 0.0_wp], body_loads, constant%pin_force)
+    call add_standing_loads(linkage, pose, [0.0_wp, 0.0_wp], body_loads, constant%pin_force)
     constant%couple = constant%couple + body_loads%moment
     allocate (constant%body_force(2, size(body_loads)))
     do b = 1, size(body_loads)
       constant%body_force(:, b) = body_loads(b)%force
     end do
-  end subroutine add_standing_loads
+  end subroutine add_applied_loads
 
   !> Loads on bodies and pins in one case.
   pure subroutine find_case_loads(linkage, elements, pose, case, body_loads, pin_loads)

@@ -1,11 +1,11 @@
 !> The crank positions of a run: each computed once, however often it is written.
 module positions
-  use applied_loads, only: load_period, refuse_beyond_tables
   use errors, only: error_t
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use linkage_paths, only: period_of
   use linkages, only: linkage_t
+  use load_tables, only: load_period, refuse_beyond_tables
   use poses, only: find_pose, pose_t
   use sorting, only: ascending_order
   implicit none (type, external)

@@ -1,7 +1,8 @@
 !> Loads that depend on the speed of a running linkage otherwise than as its square: dampers,
 !! resistances, loads that act in one direction of the motion, and friction in the joints.
 module running_loads
-  use applied_loads, only: add_moving_loads, dampers_on_ground, generalised_force, has_moving_loads
+  use applied_loads, only: add_moving_loads, damper_pulls, generalised_force, has_moving_loads
+  use ground_loads, only: pulls_on_ground
   use inertia_loads, only: load_t
   use joint_forces, only: find_joint_forces, joint_forces_t
   use joint_friction, only: find_friction, friction_on_ground, friction_t, has_friction, &
@@ -79,7 +80,7 @@ contains
       now = velocities_at(coefficients, speed)
       call add_moving_loads(linkage, pose, [0.0_wp, 0.0_wp], now, running%body_load, &
         running%pin_load)
-      running%on_ground = dampers_on_ground(linkage, pose, now)
+      running%on_ground = pulls_on_ground(linkage, pose, damper_pulls(linkage, pose, now))
     end if
     running%joints = find_joint_forces(linkage, pose, running%body_load, running%pin_load)
     running%load = -generalised_force(linkage, coefficients, running%body_load, running%pin_load)
@@ -89,7 +90,7 @@ contains
     end do
     without(case_count + 1) = running%joints
     call find_friction(linkage, pose, coefficients, speed, [speed**2, acceleration, 1.0_wp, &
-      1.0_wp], without, .false., running%friction)
+      1.0_wp], without, running%friction)
     running%on_ground = running%on_ground + friction_on_ground(linkage, pose, &
       running%friction%effort)
     do i = 1, size(running%body_load)

@@ -80,7 +80,8 @@ contains
     end if
   end subroutine set_rest
 
-  !> A pin, or a point of a body.
+  !> A pin, a point of a body, or a GROUND pin that is none of the linkage: such a place is counted
+  !! from a ground pivot.
   pure function place_of(model, links, pins, linkage, name) result(at)
     type(model_t), intent(in) :: model
     integer, intent(in) :: links(:)
@@ -100,6 +101,11 @@ contains
         at%place = body%origin + turned(model%points(i)%place, body%card_axis)
       end associate
       return
+    end do
+    at%pin = findloc(linkage%is_ground, .true., dim=1)
+    do i = 1, size(model%grounds)
+      if (same_word(model%grounds(i)%pin%text, name)) at%place = model%grounds(i)%position - &
+        linkage%ground_position(:, at%pin)
     end do
   end function place_of
 

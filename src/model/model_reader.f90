@@ -4,6 +4,7 @@ module model_reader
   use balance_checks, only: check_balance
   use body_cards, only: read_mass, read_point
   use body_checks, only: check_bodies
+  use card_lists, only: append_card
   use card_table, only: card_kind_number, card_kinds, card_names
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t, has_errors
@@ -349,16 +350,12 @@ contains
       model%links(number_of(cards, "LINK")), model%pin_masses(number_of(cards, "PINMASS")), &
       model%meshes(number_of(cards, "MESH")), model%reports(number_of(cards, "REPORT")))
     allocate (model%masses(number_of(cards, "MASS")), model%points(number_of(cards, "POINT")), &
-      model%forces(number_of(cards, "FORCE")), model%torques(number_of(cards, "TORQUE")), &
       model%dampings(number_of(cards, "DAMPING")), model%gauges(number_of(cards, "GAUGE")))
     allocate (model%drawn_pins(number_of(cards, "PIN")), model%welds(number_of(cards, "WELD")), &
       model%guides(number_of(cards, "GUIDE")), model%sliders(number_of(cards, "SLIDER")), &
-      model%drives(number_of(cards, "DRIVE")), model%laws(number_of(cards, "LAW")), &
-      model%branches(number_of(cards, "BRANCH")), model%shafts(number_of(cards, "BALANCE")))
-    model%shafts%keyword = token_t("", 0, 0)
-    model%forces%pin = token_t("", 0, 0)
-    model%torques%link_name = token_t("", 0, 0)
-    allocate (model%processes(0))
+      model%drives(number_of(cards, "DRIVE")), model%laws(number_of(cards, "LAW")))
+    allocate (model%branches(0), model%shafts(0), model%forces(0), model%torques(0), &
+      model%processes(0))
     ! What the first drive moves says what CRANK and SPEED are.
     do first_drive = 1, size(cards)
       if (same_word(cards(first_drive)%keyword%text, "DRIVE")) exit
@@ -373,70 +370,8 @@ contains
       call read_card(cards(i), trim(card_kinds(kind)%keyword), so_far(kind), &
         cards(min(first_drive, size(cards))), on_link, reports, diagnostics, model)
     end do
-    call keep_branches_of_pins(model)
-    call keep_shafts(model)
-    call keep_constant_loads(model)
     if (size(model%drives) > 0) model%drive = model%drives(1)%subject
   end subroutine read_model_cards
-
-  !> Removes from the list the BRANCH cards of one word, and those that cannot be read.
-  pure subroutine keep_branches_of_pins(model)
-    type(model_t), intent(inout) :: model
-
-    type(branch_t), allocatable :: branches(:)
-    integer :: i, filled
-
-    allocate (branches(count(model%branches%pin%line > 0)))
-    filled = 0
-    do i = 1, size(model%branches)
-      if (model%branches(i)%pin%line == 0) cycle
-      filled = filled + 1
-      branches(filled) = model%branches(i)
-    end do
-    call move_alloc(branches, model%branches)
-  end subroutine keep_branches_of_pins
-
-  !> Removes from the lists of constant forces and torques the cards on other loads.
-  pure subroutine keep_constant_loads(model)
-    type(model_t), intent(inout) :: model
-
-    type(force_card_t), allocatable :: forces(:)
-    type(torque_card_t), allocatable :: torques(:)
-    integer :: i, filled
-
-    allocate (forces(count(model%forces%pin%line > 0)), &
-      torques(count(model%torques%link_name%line > 0)))
-    filled = 0
-    do i = 1, size(model%forces)
-      if (model%forces(i)%pin%line == 0) cycle
-      filled = filled + 1
-      forces(filled) = model%forces(i)
-    end do
-    filled = 0
-    do i = 1, size(model%torques)
-      if (model%torques(i)%link_name%line == 0) cycle
-      filled = filled + 1
-      torques(filled) = model%torques(i)
-    end do
-    call move_alloc(forces, model%forces)
-    call move_alloc(torques, model%torques)
-  end subroutine keep_constant_loads
-
-  !> Appends a load of a process.
-  pure subroutine append_process(model, process)
-    type(model_t), intent(inout) :: model
-    type(process_card_t), intent(in) :: process
-
-    type(process_card_t), allocatable :: longer(:)
-    integer :: i
-
-    allocate (longer(size(model%processes) + 1))
-    do i = 1, size(model%processes)
-      longer(i) = model%processes(i)
-    end do
-    longer(size(longer)) = process
-    call move_alloc(longer, model%processes)
-  end subroutine append_process
 
   !> Whether the first word of a card is the name of a link.
   pure function names_link(card, cards) result(names)
@@ -454,23 +389,6 @@ contains
     end do
     names = .false.
   end function names_link
-
-  !> Removes from the list of balance shafts the BALANCE cards on links.
-  pure subroutine keep_shafts(model)
-    type(model_t), intent(inout) :: model
-
-    type(shaft_card_t), allocatable :: shafts(:)
-    integer :: i, filled
-
-    allocate (shafts(count(model%shafts%keyword%line > 0)))
-    filled = 0
-    do i = 1, size(model%shafts)
-      if (model%shafts(i)%keyword%line == 0) cycle
-      filled = filled + 1
-      shafts(filled) = model%shafts(i)
-    end do
-    call move_alloc(shafts, model%shafts)
-  end subroutine keep_shafts
 
   pure function number_of(cards, keyword) result(number)
     type(card_t), intent(in) :: cards(:)
@@ -496,7 +414,11 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(inout) :: model !! has its units, and its lists their lengths
 
+    type(branch_t) :: branch
+    type(force_card_t) :: force
+    type(torque_card_t) :: torque
     type(process_card_t) :: process
+    type(shaft_card_t) :: shaft
     logical :: by_length
 
     by_length = .false.
@@ -517,8 +439,8 @@ contains
       case ("DRIVE")
         call read_drive(card, first_drive, system, diagnostics, model%drives(number))
       case ("BRANCH")
-        call read_branch(card, diagnostics, model%branch, model%branch_word, &
-          model%branches(number))
+        call read_branch(card, diagnostics, model%branch, model%branch_word, branch)
+        if (branch%pin%line > 0) call append_card(model%branches, branch)
       case ("PIN")
         call read_pin(card, system, diagnostics, model%drawn_pins(number))
       case ("WELD")
@@ -545,25 +467,28 @@ contains
       case ("FORCE")
         if (is_process_form(card)) then
           call read_process_force(card, system, diagnostics, process)
-          call append_process(model, process)
+          call append_card(model%processes, process)
         else
-          call read_force(card, system, diagnostics, model%forces(number))
+          call read_force(card, system, diagnostics, force)
+          if (force%pin%line > 0) call append_card(model%forces, force)
         end if
       case ("TORQUE")
         if (is_process_form(card)) then
           call read_process_torque(card, system, diagnostics, process)
-          call append_process(model, process)
+          call append_card(model%processes, process)
         else
-          call read_torque(card, system, diagnostics, model%torques(number))
+          call read_torque(card, system, diagnostics, torque)
+          if (torque%link_name%line > 0) call append_card(model%torques, torque)
         end if
       case ("MOTOR")
         call read_motor(card, system, diagnostics, model%motor)
       case ("LOAD")
         call read_resistance(card, on_link, system, diagnostics, process)
-        call append_process(model, process)
+        call append_card(model%processes, process)
       case ("BALANCE")
         if (is_shaft_form(card)) then
-          call read_shaft(card, system, diagnostics, model%shafts(number))
+          call read_shaft(card, system, diagnostics, shaft)
+          call append_card(model%shafts, shaft)
         else
           call read_balance(card, system, diagnostics, model%balance)
         end if

@@ -33,8 +33,8 @@ module models
     needs_loads, needs_inertia, needs_frequencies, needs_response, report_in_motion, &
     steady_state_report, accuracy_of_study, needs_beams, &
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
-    link_line_density, speed_in_table, speed_in_words, is_four_bar, drives_length, balances, &
-    has_law
+    link_line_density, speed_in_table, speed_in_words, is_four_bar, pivots, drives_length, &
+    balances, has_law
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
@@ -133,15 +133,16 @@ contains
   end function report_number
 
   !> Whether the linkage has the parts of a four-bar and no others: three links between two pins
-  !! each, two ground pivots, one driven link. Decks that were made with PIN or BRANCH cards about
-  !! pins must form its loop, too; of others a pin that does not fit is a mistake.
+  !! each, two ground pivots, one driven link. GROUND pins that only hold springs do not count.
+  !! Decks that were made with PIN or BRANCH cards about pins must form its loop, too; of others a
+  !! pin that does not fit is a mistake.
   pure function is_four_bar(model) result(is)
     type(model_t), intent(in) :: model !! as read
     logical :: is
 
     integer :: i
 
-    is = size(model%links) == 3 .and. size(model%grounds) == 2 .and. size(model%guides) == 0 .and. &
+    is = size(model%links) == 3 .and. size(pivots(model)) == 2 .and. size(model%guides) == 0 .and. &
       size(model%sliders) == 0 .and. size(model%welds) == 0 .and. size(model%drives) <= 1
     if (.not. is) return
     do i = 1, size(model%drives)
@@ -191,9 +192,10 @@ contains
     type(model_t), intent(in) :: model !! with two ground pivots
     logical :: forms
 
-    integer :: i, k, g, uses, grounded
+    integer :: ground(2), i, k, g, uses, grounded
     logical :: is_ground
 
+    ground = pivots(model)
     forms = .true.
     do i = 1, 3
       grounded = 0
@@ -201,7 +203,7 @@ contains
         associate (pin => model%links(i)%pins(k)%text)
           is_ground = .false.
           do g = 1, 2
-            is_ground = is_ground .or. same_word(model%grounds(g)%pin%text, pin)
+            is_ground = is_ground .or. same_word(model%grounds(ground(g))%pin%text, pin)
           end do
           if (is_ground) grounded = grounded + 1
           uses = pin_uses(model, pin)
@@ -211,6 +213,31 @@ contains
       forms = forms .and. grounded < 2
     end do
   end function forms_loop
+
+  !> Numbers of the GROUND pins, but for those that only hold ends of springs and dampers.
+  pure function pivots(model) result(numbers)
+    type(model_t), intent(in) :: model !! as read
+    integer, allocatable :: numbers(:)
+
+    logical :: holds(size(model%grounds))
+    integer :: i, k, g
+
+    holds = .false.
+    if (allocated(model%springs)) then
+      do i = 1, size(model%springs)
+        do k = 1, 2
+          do g = 1, size(model%grounds)
+            holds(g) = holds(g) .or. (model%springs(i)%ends(k)%line > 0 .and. &
+              same_word(model%grounds(g)%pin%text, model%springs(i)%ends(k)%text))
+          end do
+        end do
+      end do
+    end if
+    do g = 1, size(model%grounds)
+      if (holds(g)) holds(g) = pin_uses(model, model%grounds(g)%pin%text) == 0
+    end do
+    numbers = pack([(g, g=1, size(model%grounds))], .not. holds)
+  end function pivots
 
   !> How many links have a pin.
   pure function pin_uses(model, name) result(uses)

@@ -7,7 +7,6 @@ module balance_report
   use harmonics_study, only: has_settled, is_moment, quantity_count, quantity_names
   use kinds, only: wp
   use joint_study, only: joints_result_t
-  use models, only: model_t
   use load_notes, only: acceleration_note
   use position_rows, only: add_position_row
   use reactions_study, only: reaction_values, reactions_at_speed, reactions_result_t, &
@@ -250,30 +249,36 @@ contains
           "point: there is no cycle")
         return
       end if
-      call append_string(notes, "over a whole turn of the crank: largest absolute value, root "// &
-        "of the mean square, mean, and mean + sum of h_k cos(k crank + phase_k); "// &
-        "speed and acceleration are constant over the turn")
+      if (found%turns == 0) then
+        call append_string(notes, "no rows: positions and loads do not repeat with the crank: "// &
+          "there is no cycle")
+        return
+      end if
+      if (found%turns == 1) then
+        call append_string(notes, "over a whole turn of the crank: largest absolute value, "// &
+          "root of the mean square, mean, and mean + sum of h_k cos(k crank + phase_k); "// &
+          "speed and acceleration are constant over the turn")
+      else
+        call append_string(notes, "over a cycle of "//to_string(found%turns)// &
+          " turns of the crank: largest absolute value, root of the mean square, mean, and "// &
+          "mean + sum of h_k cos(k crank/"//to_string(found%turns)//" + phase_k), so that h"// &
+          to_string(found%turns)//" is once a turn; speed and acceleration are constant over "// &
+          "the cycle")
+      end if
+      if (allocated(found%error)) then
+        call append_string(notes, "no rows: "//found%error%text//" at "// &
+          to_string(found%error_crank, 6)//" deg")
+        return
+      end if
       call append_string(notes, "forces in "//force%name//", moments and torques in "// &
         moment%name//", phases in deg; a phase is 0 where its h is only round-off")
-      if (has_moving_loads(variant%model)) call append_string(notes, "torque is without loads "// &
-        "that depend on the speed: dampers, resistances, loads in one direction of the motion")
-      if (any(variant%model%processes%is_periodic)) call append_string(notes, "tables of loads "// &
-        "over several turns are taken over their first turn, from 0 to 360 deg")
       call append_string(notes, "samples: "//to_string(found%samples)//"; every second one "// &
         "gives the same to "//to_string(found%change, 2)//" of the largest value")
       if (.not. has_settled(found)) call append_string(notes, "harmonics have not converged: "// &
-        "the crank passes close to a dead point, or the shaking force through zero")
+        "the crank passes close to a dead point, the shaking force through zero, or a load "// &
+        "changes steeply")
     end associate
   end subroutine append_harmonics_notes
-
-  !> Whether loads depend on the speed.
-  pure function has_moving_loads(model) result(has)
-    type(model_t), intent(in) :: model
-    logical :: has
-
-    has = any(model%processes%damping > 0.0_wp .or. model%processes%resisting > 0.0_wp .or. &
-      model%processes%during /= 0) .or. any(model%springs%damping > 0.0_wp)
-  end function has_moving_loads
 
   !> The words in the columns `linkage` and `quantity`.
   pure function harmonics_words() result(lists)
@@ -286,7 +291,8 @@ contains
   end function harmonics_words
 
   !> Appends one row per linkage (as given, balanced) and quantity, one block per speed. No rows if
-  !! the crank cannot make a full turn; a failed row without a place if the linkage does not close.
+  !! the crank cannot make a full turn, or loads do not repeat; a failed row without a place if the
+  !! linkage does not close, or has no forces somewhere on the cycle.
   subroutine add_harmonics(variant, layout, rows)
     type(variant_results_t), intent(in) :: variant !! with its harmonics computed
     type(table_layout_t), intent(in) :: layout     !! of this table
@@ -299,7 +305,14 @@ contains
       variant%unreachable)
     if (is_unbalanced(variant)) call add_failed_row(rows, nowhere, &
       variant%found%balance%partial%error%text)
-    if (.not. variant%found%harmonics%has_cycle) return
+    associate (found => variant%found%harmonics)
+      if (.not. found%has_cycle .or. found%turns == 0) return
+      if (allocated(found%error)) then
+        call add_failed_row(rows, nowhere, found%error%text//" at "//to_string(found%error_crank, &
+          6)//" deg")
+        return
+      end if
+    end associate
     do k = 1, size(variant%model%speed%value)
       if (k > 1) call add_gap(rows, 2)
       do i = 1, size(variant%found%harmonics%of, 2)

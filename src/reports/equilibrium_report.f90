@@ -1,16 +1,17 @@
-!> `equilibrium.dat`: where the linkage rests without its drive.
+!> `equilibrium.dat`: where the linkage rests without its drive; `potential.dat`: its potential over
+!! the ranges of the drive.
 module equilibrium_report
   use kinds, only: wp
   use load_notes, only: append_load_notes, potential_note
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
-  use table_rows, only: add_failed_row, add_row, rows_t
+  use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: name_cell
   use text, only: append_string, plural, string_t, word_list
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
 
-  public :: equilibrium_notes, equilibrium_words, add_equilibria
+  public :: equilibrium_notes, potential_notes, equilibrium_words, add_equilibria, add_potential
 
   !> In the order of the is_… numbers.
   character(len=*), parameter :: verdicts(3) = [character(len=11) :: "stable", "unstable", &
@@ -48,6 +49,41 @@ contains
     end associate
     call append_load_notes(notes, variant%model, variant%mechanism)
   end subroutine equilibrium_notes
+
+  !> What the columns are.
+  subroutine potential_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its rests
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    allocate (notes(0))
+    call append_string(notes, "over all ranges of the first drive, at rest; torque: what a "// &
+      "drive would have to give, the derivative of the potential where all loads have one")
+    call append_string(notes, potential_note)
+    call append_load_notes(notes, variant%model, variant%mechanism)
+  end subroutine potential_notes
+
+  !> Appends a row for every position of the curve, a block for every range; an empty line where
+  !! the linkage has no state.
+  subroutine add_potential(variant, layout, rows)
+    type(variant_results_t), intent(in) :: variant !! with its rests
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
+
+    integer :: i
+
+    associate (found => variant%found%equilibria)
+      do i = 1, size(found%curve)
+        if (i > 1 .and. any(found%first == i)) call add_gap(rows, 2)
+        associate (point => found%curve(i))
+          if (point%is_known) then
+            call add_row(rows, cells(layout, 1, [point%crank, point%force, point%potential]))
+          else if (.not. any(found%first == i)) then
+            if (found%curve(i - 1)%is_known) call add_gap(rows, 1)
+          end if
+        end associate
+      end do
+    end associate
+  end subroutine add_potential
 
   !> Appends a row for every rest.
   subroutine add_equilibria(variant, layout, rows)

@@ -1,5 +1,5 @@
-!> `friction.dat`: what every joint that rubs bears, and the power that it loses; `holding.dat`: all
-!! power lost, and whether the linkage holds itself at rest.
+!> `friction.dat`: what every joint that rubs bears, and the power that it loses; `holding.dat`:
+!! whether the linkage holds itself at rest.
 module friction_report
   use drive_motions, only: place_columns, table_place
   use friction_study, only: backward_sense, force_value, forward_sense, moment_value, &
@@ -29,12 +29,13 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with its friction
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
-    call append_string(notes, "force: in the joint, of a block across its line, with both of its "// &
-      "ends where a link is fixed to it; sliding: velocity of the link on the pin at the radius "// &
-      "of the bearing, or of the block along its line")
-    call append_string(notes, "friction: on the block along its line; moment: on the link at the "// &
-      "pin, counter-clockwise positive; lost: power")
-    call append_common(variant, notes)
+    call append_string(notes, "force: in the joint, of a block across its line, with both of "// &
+      "its ends where a link is fixed to it; sliding: velocity of the link on the pin at the "// &
+      "radius of the bearing, or of the block along its line")
+    call append_string(notes, "friction: on the block along its line; moment: on the link at "// &
+      "the pin, counter-clockwise positive; lost: power")
+    call append_string(notes, acceleration_note(variant%model))
+    call append_load_notes(notes, variant%model, variant%mechanism)
   end subroutine friction_notes
 
   !> Likewise, and at how many positions it holds itself, or locks.
@@ -45,9 +46,9 @@ contains
     integer :: counts(size(verdicts)), i, positions
     character(len=:), allocatable :: line
 
-    call append_string(notes, "lost: power in all joints; forward, backward: torque or force of "// &
-      "the first drive that starts the linkage from rest against full friction, under the loads "// &
-      "that a position determines; 0 where none can")
+    call append_string(notes, "forward, backward: torque or force of the first drive that "// &
+      "starts the linkage from rest against full friction and resistances, with loads of this "// &
+      "direction of the motion; 0 where none can")
     call append_string(notes, "verdict: at rest without its drive the linkage holds, or runs "// &
       "forward or backward; it locks in the senses in which no drive can move it")
     counts = 0
@@ -67,7 +68,7 @@ contains
       if (counts(i) > 0) line = line//" "//trim(verdicts(i))//" at "//plural_count(counts(i))//","
     end do
     call append_string(notes, line(:len(line) - 1))
-    call append_common(variant, notes)
+    call append_load_notes(notes, variant%model, variant%mechanism)
   end subroutine holding_notes
 
   pure function plural_count(number) result(words)
@@ -77,14 +78,6 @@ contains
     words = plural(number, "position")
     words = words(:index(words, " ") - 1)
   end function plural_count
-
-  subroutine append_common(variant, notes)
-    type(variant_results_t), intent(in) :: variant
-    type(string_t), allocatable, intent(inout) :: notes(:)
-
-    call append_string(notes, acceleration_note(variant%model))
-    call append_load_notes(notes, variant%model, variant%mechanism)
-  end subroutine append_common
 
   !> The names in the column `link`: links, and what blocks slide along.
   pure function friction_owners(variant) result(list)
@@ -151,23 +144,21 @@ contains
     end associate
   end function owner_cell
 
-  !> Appends the row of a position and speed.
-  subroutine add_holding(variant, layout, position, speed, rows)
+  !> Appends the row of a position.
+  subroutine add_holding(variant, layout, position, rows)
     type(variant_results_t), intent(in) :: variant !! with its friction
     type(table_layout_t), intent(in) :: layout     !! of this table
     integer, intent(in) :: position                !! number in the deck's list, with a pose
-    integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which it is appended
 
-    real(wp) :: place(place_columns(variant%model))
-    integer :: next
+    integer, parameter :: verdict_column = 4
 
-    place = table_place(variant%model, speed, position)
-    next = size(place) + 1
-    associate (found => variant%found%friction, state => variant%found%positions%state(position))
-      call add_row(rows, cells(layout, 1, [place, sum(found%values(power_value, :, speed, state)), &
-        found%start(:, state)])//name_cell(trim(verdicts(verdict_at(variant, state))), &
-        column_width(layout, next + 3)))
+    associate (found => variant%found%friction, positions => variant%found%positions)
+      associate (state => positions%state(position))
+        call add_row(rows, cells(layout, 1, [positions%crank(position), found%start(:, state)])// &
+          name_cell(trim(verdicts(verdict_at(variant, state))), column_width(layout, &
+          verdict_column)))
+      end associate
     end associate
   end subroutine add_holding
 

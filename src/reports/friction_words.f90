@@ -4,7 +4,7 @@ module friction_words
   use mechanisms, only: mechanism_t
   use models, only: model_t
   use output_units, only: damping_unit
-  use running_loads, only: lock_t
+  use friction_study, only: lock_t
   use text, only: append_string, string_t, to_string
   use units, only: coherent_unit, dimension_length, dimension_velocity, from_si, unit_t
   implicit none (type, external)

@@ -4,10 +4,11 @@ module geometry_report
   use linkage_notes, only: notes_on_linkage
   use mechanisms, only: pins_of_body
   use points_report, only: point_names
+  use spring_cards, only: spring_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: name_cell
-  use text, only: append_string, string_t
+  use text, only: append_string, same_word, string_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -29,6 +30,8 @@ contains
       "links one after the other, each from pin to pin, then its points; global axes")
     if (size(variant%mechanism%linkage%sliders) > 0) call append_string(notes, &
       "then the sliders on guides and links; ahead: 1 m from a slider in the sense of its line")
+    if (size(variant%model%springs) > 0) call append_string(notes, "then springs and dampers "// &
+      "with both ends; torsional ones with their pin, and side: a pin of each link there")
   end subroutine geometry_notes
 
   !> The names in the columns `link`, `part` and `place`.
@@ -37,13 +40,16 @@ contains
     type(name_list_t) :: lists(3)
 
     type(name_list_t) :: points
-    integer :: i
+    integer :: i, k
 
     lists(1)%column = "link"
     lists(1)%names = variant%mechanism%names
     call append_string(lists(1)%names, ground)
     do i = 1, size(variant%model%guides)
       call append_string(lists(1)%names, variant%model%guides(i)%name%text)
+    end do
+    do i = 1, size(variant%model%springs)
+      call append_string(lists(1)%names, variant%model%springs(i)%name%text)
     end do
     lists(2)%column = "part"
     call append_string(lists(2)%names, "pin")
@@ -52,8 +58,19 @@ contains
       call append_string(lists(2)%names, "slider")
       call append_string(lists(2)%names, "ahead")
     end if
+    if (size(variant%model%springs) > 0) then
+      call append_string(lists(2)%names, "spring")
+      call append_string(lists(2)%names, "damper")
+      call append_string(lists(2)%names, "side")
+    end if
     lists(3)%column = "place"
     lists(3)%names = variant%mechanism%pin_names
+    do i = 1, size(variant%model%springs)
+      ! One may be on a GROUND pin that is none of the linkage.
+      do k = 1, merge(1, 2, variant%model%springs(i)%turns)
+        call append_string(lists(3)%names, variant%model%springs(i)%ends(k)%text)
+      end do
+    end do
     points = point_names(variant)
     do i = 1, size(points%names)
       call append_string(lists(3)%names, points%names(i)%text)
@@ -61,7 +78,7 @@ contains
   end function geometry_words
 
   !> Appends the rows of a position, or one failed row. One empty line between links and between a
-  !! link and its points, and before a slider; two between positions.
+  !! link and its points, and before a slider or a spring; two between positions.
   subroutine add_geometry(variant, layout, position, rows)
     type(variant_results_t), intent(in) :: variant !! with its geometry computed
     type(table_layout_t), intent(in) :: layout     !! of this table
@@ -108,8 +125,71 @@ contains
         call add_place(layout, found%crank(position), line_name(variant, slider), "ahead", &
           pin_names(pin)%text, found%ahead(:, slider, position), rows)
       end do
+      do i = 1, size(variant%model%springs)
+        call add_gap(rows, 1)
+        call add_spring(variant, layout, variant%model%springs(i), position, rows)
+      end do
     end associate
   end subroutine add_geometry
+
+  !> Appends two rows for the ends of a spring or damper, or, for a torsional one, a row for its pin
+  !! and one for each of its links, as the card names them: the first pin of that link that is
+  !! another one. A single link turns against the ground.
+  subroutine add_spring(variant, layout, spring, position, rows)
+    type(variant_results_t), intent(in) :: variant
+    type(table_layout_t), intent(in) :: layout
+    type(spring_t), intent(in) :: spring
+    integer, intent(in) :: position
+    type(rows_t), intent(inout) :: rows
+
+    character(len=:), allocatable :: part
+    integer, allocatable :: pins(:)
+    integer :: k, i, body
+
+    part = trim(merge("damper", "spring", spring%damps))
+    associate (found => variant%found%geometry, mechanism => variant%mechanism)
+      do k = 1, merge(1, 2, spring%turns)
+        call add_place(layout, found%crank(position), spring%name%text, part, spring%ends(k)%text, &
+          place_of(variant, spring%ends(k)%text, position), rows)
+      end do
+      if (.not. spring%turns) return
+      do k = 1, 2
+        if (spring%link(k) == 0) cycle
+        body = findloc(mechanism%links, spring%link(k), dim=1)
+        pins = pins_of_body(mechanism%linkage%bodies(body))
+        do i = 1, size(pins)
+          if (same_word(mechanism%pin_names(pins(i))%text, spring%ends(1)%text)) cycle
+          call add_place(layout, found%crank(position), spring%name%text, "side", &
+            mechanism%pin_names(pins(i))%text, found%pin(:, pins(i), position), rows)
+          exit
+        end do
+      end do
+    end associate
+  end subroutine add_spring
+
+  !> Where an end of a spring is: a pin, a POINT, or a GROUND pin that only springs use [m].
+  pure function place_of(variant, name, position) result(x)
+    type(variant_results_t), intent(in) :: variant
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: position
+    real(wp) :: x(2)
+
+    integer :: i
+
+    x = 0.0_wp
+    associate (found => variant%found%geometry, mechanism => variant%mechanism, &
+        grounds => variant%model%grounds)
+      do i = 1, size(grounds)
+        if (same_word(grounds(i)%pin%text, name)) x = grounds(i)%position
+      end do
+      do i = 1, size(mechanism%points)
+        if (same_word(mechanism%points(i)%name, name)) x = found%point(:, i, position)
+      end do
+      do i = 1, size(mechanism%pin_names)
+        if (same_word(mechanism%pin_names(i)%text, name)) x = found%pin(:, i, position)
+      end do
+    end associate
+  end function place_of
 
   !> The guide or the link along which a slider slides.
   pure function line_name(variant, slider) result(name)

@@ -25,8 +25,8 @@ module load_notes
 
 contains
 
-  !> Inertia of every link, gravity, external loads: one line for each of the three. Springs, dampers
-  !! and joints that rub: one line each.
+  !> Inertia of every link, gravity, external loads: one line for each of the three. Springs,
+  !! dampers and joints that rub: one line each.
   pure subroutine append_load_notes(notes, model, mechanism)
     type(string_t), allocatable, intent(inout) :: notes(:) !! to which they are appended
     type(model_t), intent(in) :: model                     !! in SI

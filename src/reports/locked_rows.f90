@@ -1,6 +1,6 @@
 !> Rows of tables on forces where friction locks the linkage.
 module locked_rows
-  use running_loads, only: lock_t
+  use friction_study, only: lock_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -36,8 +36,8 @@ contains
     four_bar = variant%mechanism%is_four_bar
     any_table = len_trim(table) == 0
     associate (found => variant%found)
-      if (any_table .or. four_bar .and. any(table == [character(len=9) :: "reactions", "balance"])) &
-        call take(found%reactions%lock)
+      if (any_table .or. four_bar .and. any(table == [character(len=9) :: "reactions", &
+        "balance"])) call take(found%reactions%lock)
       if (any_table .or. any(table == [character(len=9) :: "bearings", "frame"]) .or. &
         .not. four_bar .and. any(table == [character(len=9) :: "reactions", "drive", "balance"])) &
         call take(found%joints%lock)
@@ -46,8 +46,7 @@ contains
         call take(found%balance%balanced_joints%lock)
       end if
       if (any_table .or. table == "lagrange") call take(found%lagrange%lock)
-      if (any_table .or. any(table == [character(len=8) :: "friction", "holding"])) &
-        call take(found%friction%lock)
+      if (any_table .or. table == "friction") call take(found%friction%lock)
     end associate
 
   contains

@@ -17,7 +17,8 @@ module report_table
     critical_notes
   use drive_motions, only: place_columns, table_place
   use drive_report, only: add_drive, drive_notes
-  use equilibrium_report, only: add_equilibria, equilibrium_notes, equilibrium_words
+  use equilibrium_report, only: add_equilibria, add_potential, equilibrium_notes, &
+    equilibrium_words, potential_notes
   use equilibrium_study, only: find_equilibria
   use frame_report, only: add_frame, frame_notes
   use frequency_report, only: add_frequencies, add_shapes, drawn_rows, frequency_notes, shape_notes
@@ -93,8 +94,8 @@ module report_table
   !> All studies in the order in which they are made: some use the results of others. The last
   !! are made by `variant_runs`, some of them block by block or step by step.
   character(len=*), parameter :: study_names(22) = [character(len=12) :: "kinematics", "geometry", &
-    "inertia", "points", "reactions", "joints", "friction", "lagrange", "balance", "harmonics", "linkage", &
-    "limits", "sizing", "equilibrium", "response", &
+    "inertia", "points", "reactions", "joints", "friction", "lagrange", "balance", "harmonics", &
+    "linkage", "limits", "sizing", "equilibrium", "response", &
     "stability", "intervals", "campbell", "transient", "motion", "frequencies", "loci"]
 
   !> Tables of the elastic response with rows for every position.
@@ -184,8 +185,7 @@ module report_table
       studies="friction", positions=.true., masses=.true., numbers=82, tables=[ &
       table_kind_t("friction", "speed:speed crank:deg pin,link:name force:force "// &
       "sliding:velocity friction:force moment:moment lost:power"), &
-      table_kind_t("holding", "speed:speed crank:deg lost:power forward,backward:moment "// &
-      "verdict:name"), no_table]), &
+      table_kind_t("holding", "crank:deg forward,backward:moment verdict:name"), no_table]), &
     report_kind_t(name="sizing", help="peaks and means of drives and bearings, the flywheel", &
       pattern="REPORT sizing [fluctuation=]", studies="sizing", masses=.true., tables=[ &
       table_kind_t("sizing", "speed:speed part,pin,quantity:name value:see_unit unit:name "// &
@@ -201,7 +201,8 @@ module report_table
     report_kind_t(name="equilibrium", help="where the linkage rests without its drive", &
       studies="equilibrium", masses=.true., tables=[ &
       table_kind_t("equilibrium", "crank:deg verdict:name potential:energy "// &
-      "stiffness:turning_stiffness frequency:Hz error:-"), no_table, no_table]), &
+      "stiffness:turning_stiffness frequency:Hz error:-"), &
+      table_kind_t("potential", "crank:deg torque:moment potential:energy"), no_table]), &
     report_kind_t(name="linkage", help="class, limits and special positions", &
       studies="linkage", linkages=four_bars, tables=[ &
       table_kind_t("linkage", "branch,event:name crank,theta3,theta4,transmission_angle:deg"), &
@@ -448,6 +449,7 @@ contains
       names(2) = friction_owners(variant)
     case ("holding")
       names(1) = holding_words()
+      plan%items = plan%positions
     case ("geometry")
       names(:3) = geometry_words(variant)
       plan%items = size(variant%found%geometry%crank)
@@ -460,6 +462,8 @@ contains
       plan%items = 1
     case ("equilibrium")
       names(1) = equilibrium_words()
+      plan%items = 1
+    case ("potential")
       plan%items = 1
     case ("balance")
       if (.not. variant%mechanism%is_four_bar) optional = has_balanced(variant%found%balance)
@@ -582,6 +586,8 @@ contains
       call linkage_remarks(variant, notes)
     case ("equilibrium")
       call equilibrium_notes(variant, notes)
+    case ("potential")
+      call potential_notes(variant, notes)
     case ("balance")
       call balance_notes(variant, notes)
     case ("harmonics")
@@ -637,6 +643,8 @@ contains
       end if
     case ("equilibrium")
       call add_equilibria(variant, plan%layout, rows)
+    case ("potential")
+      call add_potential(variant, plan%layout, rows)
     case ("harmonics")
       call add_harmonics(variant, plan%layout, rows)
     case ("motion")
@@ -737,6 +745,8 @@ contains
           call add_frequencies(variant, layout, position, speed, rows)
         else if (allocated(state%error) .and. table == "mesh") then
           call add_failed_row(rows, [crank], state%error%text)
+        else if (allocated(state%error) .and. table == "holding") then
+          call add_failed_row(rows, [shown_crank(variant, crank)], state%error%text)
         else if (allocated(state%error)) then
           place = table_place(variant%model, speed, position)
           place(size(place)) = shown_crank(variant, crank)
@@ -764,7 +774,7 @@ contains
           case ("friction")
             call add_friction(variant, layout, position, speed, rows)
           case ("holding")
-            call add_holding(variant, layout, position, speed, rows)
+            call add_holding(variant, layout, position, rows)
           case ("frame")
             call add_frame(variant, layout, position, speed, rows)
           case ("points")
@@ -846,13 +856,13 @@ contains
     integer :: at
 
     ! What turns a crank is a force on a slider, and its inertia a mass.
-    if (fitted%name == "holding") fitted%columns = "speed:speed crank:deg lost:power "// &
-      "forward,backward:force verdict:name"
+    if (fitted%name == "holding") fitted%columns = "crank:deg forward,backward:force verdict:name"
     if (fitted%name == "lagrange") fitted%columns = "speed:speed crank:deg M:mass "// &
       "dM:mass_per_length V,gravity,load,torque:force kinetic,potential:energy"
     if (fitted%name == "balance") fitted%columns = "speed:speed crank:deg xG,yG:length "// &
       "shaking_x,shaking_y:force shaking_moment:moment torque:force "// &
       "balanced_x?,balanced_y?:force balanced_moment?:moment balanced_torque?:force"
+    if (fitted%name == "potential") fitted%columns = "crank:deg torque:force potential:energy"
     at = index(fitted%columns, "turning_stiffness")
     if (at > 0) fitted%columns = fitted%columns(:at - 1)//"line_stiffness"// &
       trim(fitted%columns(at + 17:))

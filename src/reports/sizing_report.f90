@@ -22,7 +22,7 @@ module sizing_report
 
   character(len=*), parameter :: quantity_words(*) = [character(len=20) :: "peak_torque", &
     "rms_torque", "mean_torque", "peak_force", "rms_force", "mean_force", "cubic_mean_force", &
-    "angle_at_peak", "rate", "peak_power", "mean_power", "flywheel", &
+    "equivalent_force", "angle_at_peak", "rate", "peak_power", "mean_power", "flywheel", &
     "energy_of_cycle", "fluctuation_without", "fluctuation", "greatest_rate", "least_rate"]
 
   !> Names of quantities whose units the deck's results have.
@@ -31,6 +31,15 @@ module sizing_report
 
   !> In place of a pin in rows of drives.
   character(len=*), parameter :: no_pin = "-", flywheel_word = "flywheel", motor_word = "motor"
+
+  !> What a row says of its part.
+  type :: value_t
+    character(len=20) :: quantity    !! one of `quantity_words`
+    real(wp) :: value                !! [SI] or [deg]
+    character(len=8) :: unit         !! one of `unit_words`, `deg` or `1`
+    real(wp) :: crank = 0.0_wp       !! where it is; 0 without a place
+    real(wp) :: error = 0.0_wp       !! estimated, a share of the peak
+  end type value_t
 
 contains
 
@@ -46,8 +55,11 @@ contains
         to_string(found%samples)//" samples, peaks enclosed between them")
       call append_string(notes, "peak: greatest absolute value, of drives with its sign; "// &
         "crank: where it is, 0 in rows without a place; cubic_mean_force: cube root of the "// &
-        "mean of "// &
-        "|F|^3 over the cycle, not weighted by how the pin turns in its bearing")
+        "mean of |F|^3 over the cycle; equivalent_force: the same weighted by the rate at "// &
+        "which the joint turns or slides, cube root of (integral of |F|^3 |v|)/(integral of "// &
+        "|v|), by ISO 281 the constant load of the same life of a ball "// &
+        "bearing; none where a joint is at rest; v of a link at a pin is that against the "// &
+        "ground, the block or the other link, where there are more against the first one")
       call append_string(notes, "forces of joints: on the link at the pin, as in bearings.dat; "// &
         "angle_at_peak: of the force in the axes of the link")
       call append_string(notes, "power: of the drive on the linkage, positive where it drives; "// &
@@ -157,34 +169,28 @@ contains
     type(sized_t), intent(in) :: sized
     type(rows_t), intent(inout) :: rows
 
-    character(len=:), allocatable :: word, unit, part
+    character(len=6) :: word
+    character(len=8) :: unit, unit_of_rate
+    character(len=:), allocatable :: part
 
     part = variant%model%drives(sized%drive)%subject%text
     if (sized%is_motor) part = motor_word
     word = "torque"
     unit = "moment"
+    unit_of_rate = "rate"
     if (moves_along(variant%model%drives(sized%drive)%kind)) then
       word = "force"
       unit = "force"
+      unit_of_rate = "velocity"
     end if
-    call put("peak_"//word, sized%peak, unit, sized%crank, sized%error)
-    call put("rms_"//word, sized%rms, unit, 0.0_wp, sized%error)
-    call put("mean_"//word, sized%mean, unit, 0.0_wp, sized%error)
-    call put("rate", sized%rate, trim(merge("velocity", "rate    ", unit == "force")), 0.0_wp, &
-      0.0_wp)
-    call put("peak_power", sized%peak*sized%rate, "power", sized%crank, sized%error)
-    call put("mean_power", sized%mean*sized%rate, "power", 0.0_wp, sized%error)
-
-  contains
-
-    subroutine put(quantity, value, quantity_unit, crank, error)
-      character(len=*), intent(in) :: quantity, quantity_unit
-      real(wp), intent(in) :: value, crank, error
-
-      call put_row(variant, layout, speed, name_cell(part, column_width(layout, 2))//name_cell( &
-        no_pin, column_width(layout, 3)), quantity, value, quantity_unit, crank, error, rows)
-    end subroutine put
-
+    call put_rows(variant, layout, speed, name_cell(part, column_width(layout, 2))// &
+      name_cell(no_pin, column_width(layout, 3)), &
+      [value_t("peak_"//word, sized%peak, unit, sized%crank, sized%error), &
+      value_t("rms_"//word, sized%rms, unit, error=sized%error), &
+      value_t("mean_"//word, sized%mean, unit, error=sized%error), &
+      value_t("rate", sized%rate, unit_of_rate), &
+      value_t("peak_power", sized%peak*sized%rate, "power", sized%crank, sized%error), &
+      value_t("mean_power", sized%mean*sized%rate, "power", error=sized%error)], rows)
   end subroutine add_drive
 
   !> The rows of a joint.
@@ -195,25 +201,19 @@ contains
     type(sized_t), intent(in) :: sized
     type(rows_t), intent(inout) :: rows
 
-    call put("peak_force", sized%peak, "force", sized%crank, sized%error)
-    call put("angle_at_peak", sized%angle, "deg", sized%crank, 0.0_wp)
-    call put("rms_force", sized%rms, "force", 0.0_wp, sized%error)
-    call put("mean_force", sized%mean, "force", 0.0_wp, sized%error)
-    call put("cubic_mean_force", sized%cubic, "force", 0.0_wp, sized%error)
-
-  contains
-
-    subroutine put(quantity, value, quantity_unit, crank, error)
-      character(len=*), intent(in) :: quantity, quantity_unit
-      real(wp), intent(in) :: value, crank, error
-
-      associate (joint => variant%found%sizing%joints(sized%joint))
-        call put_row(variant, layout, speed, owner_cell(variant, joint, column_width(layout, 2))// &
-          name_cell(variant%mechanism%pin_names(joint%pin)%text, column_width(layout, 3)), &
-          quantity, value, quantity_unit, crank, error, rows)
-      end associate
-    end subroutine put
-
+    associate (joint => variant%found%sizing%joints(sized%joint))
+      call put_rows(variant, layout, speed, owner_cell(variant, joint, column_width(layout, 2))// &
+        name_cell(variant%mechanism%pin_names(joint%pin)%text, column_width(layout, 3)), &
+        [value_t("peak_force", sized%peak, "force", sized%crank, sized%error), &
+        value_t("angle_at_peak", sized%angle, "deg", sized%crank), &
+        value_t("rms_force", sized%rms, "force", error=sized%error), &
+        value_t("mean_force", sized%mean, "force", error=sized%error), &
+        value_t("cubic_mean_force", sized%cubic, "force", error=sized%error)], rows)
+      if (sized%turns) call put_rows(variant, layout, speed, owner_cell(variant, joint, &
+        column_width(layout, 2))//name_cell(variant%mechanism%pin_names(joint%pin)%text, &
+        column_width(layout, 3)), [value_t("equivalent_force", sized%turned_cubic, "force", &
+        error=sized%turned_error)], rows)
+    end associate
   end subroutine add_joint
 
   !> The rows of a flywheel.
@@ -224,64 +224,51 @@ contains
     type(sizing_t), intent(in) :: sizing
     type(rows_t), intent(inout) :: rows
 
+    type(value_t) :: values(7)
+
     associate (flywheel => sizing%flywheel)
-      call put("mean_torque", flywheel%mean_torque, "moment", 0.0_wp)
-      call put("energy_of_cycle", flywheel%energy, "energy", 0.0_wp)
-      if (flywheel%moves_alone) call put("fluctuation_without", flywheel%alone, "1", 0.0_wp, &
-        sizing%alone_error)
-      call put("flywheel", flywheel%inertia, "inertia", 0.0_wp)
-      call put("fluctuation", flywheel%fluctuation, "1", 0.0_wp)
-      call put("greatest_rate", flywheel%greatest, "rate", flywheel%at_greatest/degree)
-      call put("least_rate", flywheel%least, "rate", flywheel%at_least/degree)
+      values = [value_t("mean_torque", flywheel%mean_torque, "moment"), &
+        value_t("energy_of_cycle", flywheel%energy, "energy"), &
+        value_t("fluctuation_without", flywheel%alone, "1"), &
+        value_t("flywheel", flywheel%inertia, "inertia"), &
+        value_t("fluctuation", flywheel%fluctuation, "1"), &
+        value_t("greatest_rate", flywheel%greatest, "rate", flywheel%at_greatest/degree), &
+        value_t("least_rate", flywheel%least, "rate", flywheel%at_least/degree)]
+      values%error = merge(sizing%alone_error, sizing%flywheel_error, values%quantity == &
+        "fluctuation_without")
+      call put_rows(variant, layout, speed, name_cell(flywheel_word, column_width(layout, 2))// &
+        name_cell(no_pin, column_width(layout, 3)), pack(values, flywheel%moves_alone .or. &
+        values%quantity /= "fluctuation_without"), rows)
     end associate
-
-  contains
-
-    subroutine put(quantity, value, quantity_unit, crank, error)
-      character(len=*), intent(in) :: quantity, quantity_unit
-      real(wp), intent(in) :: value, crank
-      real(wp), intent(in), optional :: error !! absent: that of the flywheel
-
-      real(wp) :: shown
-
-      shown = sizing%flywheel_error
-      if (present(error)) shown = error
-
-      call put_row(variant, layout, speed, name_cell(flywheel_word, column_width(layout, 2))// &
-        name_cell(no_pin, column_width(layout, 3)), quantity, value, quantity_unit, crank, shown, &
-        rows)
-    end subroutine put
-
   end subroutine add_flywheel
 
-  !> Appends a row: a value in the unit of the deck's results.
-  subroutine put_row(variant, layout, speed, names, quantity, value, quantity_unit, crank, error, &
-    rows)
+  !> Appends rows of a part: values in the units of the deck's results.
+  subroutine put_rows(variant, layout, speed, names, values, rows)
     type(variant_results_t), intent(in) :: variant
     type(table_layout_t), intent(in) :: layout
     integer, intent(in) :: speed
-    character(len=*), intent(in) :: names           !! cells of part and pin
-    character(len=*), intent(in) :: quantity        !! one of `quantity_words`
-    real(wp), intent(in) :: value                   !! [SI] or [deg]
-    character(len=*), intent(in) :: quantity_unit   !! one of `unit_words`, `deg` or `1`
-    real(wp), intent(in) :: crank, error
+    character(len=*), intent(in) :: names    !! cells of part and pin
+    type(value_t), intent(in) :: values(:)   !! a row each
     type(rows_t), intent(inout) :: rows
 
     type(unit_t) :: measure
-    character(len=column_width(layout, 6)) :: unit_cell
+    character(len=:), allocatable :: unit
     real(wp) :: shown
+    integer :: i
 
-    shown = value
-    if (any(unit_words == quantity_unit)) then
-      measure = table_unit(quantity_unit, variant%model%outputs)
-      shown = from_si(value, measure)
-      unit_cell = name_cell(measure%name, column_width(layout, 6))
-    else
-      unit_cell = name_cell(quantity_unit, column_width(layout, 6))
-    end if
-    call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed)])//names// &
-      name_cell(quantity, column_width(layout, 4))//cells(layout, 5, [shown])//unit_cell// &
-      cells(layout, 7, [crank, error]))
-  end subroutine put_row
+    do i = 1, size(values)
+      shown = values(i)%value
+      unit = trim(values(i)%unit)
+      if (any(unit_words == unit)) then
+        measure = table_unit(unit, variant%model%outputs)
+        shown = from_si(shown, measure)
+        unit = measure%name
+      end if
+      call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed)])//names// &
+        name_cell(trim(values(i)%quantity), column_width(layout, 4))//cells(layout, 5, [shown])// &
+        name_cell(unit, column_width(layout, 6))//cells(layout, 7, [values(i)%crank, &
+        values(i)%error]))
+    end do
+  end subroutine put_rows
 
 end module sizing_report

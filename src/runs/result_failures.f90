@@ -7,9 +7,9 @@ module result_failures
   use locked_rows, only: is_locked_at, lock_at
   use models, only: drives_length, has_law, needs_frequencies, report_number, speed_in_words
   use motion_study, only: undetermined_message
-  use run_findings, only: add_failure, at_forces, at_frequencies, at_instant, at_position, failure_t, &
-    findings_t, in_campbell, in_intervals, in_motion, in_response, in_stability, in_transient, &
-    of_variant
+  use run_findings, only: add_failure, at_forces, at_frequencies, at_instant, at_position, &
+    failure_t, findings_t, in_campbell, in_intervals, in_motion, in_response, in_stability, &
+    in_transient, of_variant
   use stability_types, only: gap_t
   use table_columns, only: table_unit
   use text, only: to_string
@@ -71,6 +71,8 @@ contains
           call note_failure(variant, of_variant, found%sizing%error, 0.0_wp, 0, 0.0_wp, findings)
         end if
       end if
+      if (allocated(found%harmonics%error)) call note_failure(variant, at_position, &
+        found%harmonics%error, found%harmonics%error_crank, 0, 0.0_wp, findings)
       if (allocated(found%balance%partial)) then
         if (allocated(found%balance%partial%error)) call note_failure(variant, of_variant, &
           found%balance%partial%error, 0.0_wp, 0, 0.0_wp, findings)

@@ -1,7 +1,7 @@
 !> Where a linkage rests whose drive does not act: the zeros of its generalised force.
 module equilibrium_study
   use applied_load_types, only: applies_between
-  use applied_loads, only: load_period, spring_scale
+  use applied_loads, only: spring_scale
   use constants, only: degree, pi
   use crank_limits, only: crank_range_t, find_ranges
   use kinds, only: wp
@@ -9,13 +9,15 @@ module equilibrium_study
   use limits_study, only: everywhere
   use linkage_paths, only: period_of
   use linkages, only: drives_angle, linkage_t
+  use load_tables, only: load_period
   use positions, only: find_state, state_t
   use rigid_bodies, only: rigid_bodies_of, rigid_body_t
   use sorting, only: ascending_order
   implicit none (type, external)
   private
 
-  public :: equilibrium_t, equilibria_t, find_equilibria, is_stable, is_unstable, is_indifferent
+  public :: equilibrium_t, equilibria_t, potential_t, find_equilibria, is_stable, is_unstable, &
+    is_indifferent
 
   !> What a rest is: small displacements stay small; grow; it rests beside it, too.
   integer, parameter :: is_stable = 1, is_unstable = 2, is_indifferent = 3
@@ -32,8 +34,18 @@ module equilibrium_study
     real(wp) :: error = 0.0_wp         !! estimated, of the frequency, relative [-]
   end type equilibrium_t
 
+  !> Potential and what a drive would have to give, at a position at rest.
+  type :: potential_t
+    real(wp) :: crank = 0.0_wp     !! coordinate of the first drive [deg] or [m]
+    real(wp) :: potential = 0.0_wp !! of weights, constant forces and springs [N m]
+    real(wp) :: force = 0.0_wp     !! of the drive [N m] or [N]
+    logical :: is_known = .false.  !! false at dead points, and beyond what loads allow
+  end type potential_t
+
   type :: equilibria_t
     type(equilibrium_t), allocatable :: at(:) !! ascending
+    type(potential_t), allocatable :: curve(:) !! evenly over all ranges, one after the other
+    integer, allocatable :: first(:)          !! (ranges) where each begins there
     integer :: gaps = 0                       !! samples at which loads or links have no value
     real(wp) :: sampled(2) = 0.0_wp           !! from, to of all samples [deg] or [m]
     logical :: is_cut = .false.               !! springs that count turns would need more of them
@@ -84,17 +96,53 @@ contains
     inside = positions
     if (size(inside) == 0) inside = everywhere(linkage)
     call find_ranges(linkage, inside, ranges)
-    allocate (found%at(0))
+    allocate (found%at(0), found%curve(0), found%first(size(ranges)))
     do r = 1, size(ranges)
       ends = [ranges(r)%from, ranges(r)%to]
       if (ranges(r)%turns) call extend_turns(linkage, rigid, ends, found%is_cut)
       if (r == 1) found%sampled = ends
       found%sampled = [min(found%sampled(1), ends(1)), max(found%sampled(2), ends(2))]
       call search_range(linkage, rigid, ends, ranges(r)%turns, found)
+      found%first(r) = size(found%curve) + 1
+      call draw_curve(linkage, rigid, ends, found%curve)
     end do
     order = ascending_order(found%at%crank)
     found%at = found%at(order)
   end subroutine find_equilibria
+
+  !> Appends the potential over a range: 361 positions, or 90 a turn of many turns.
+  subroutine draw_curve(linkage, rigid, ends, curve)
+    type(linkage_t), intent(in) :: linkage
+    type(rigid_body_t), intent(in) :: rigid(:)
+    real(wp), intent(in) :: ends(2) !! [deg] or [m]
+    type(potential_t), allocatable, intent(inout) :: curve(:)
+
+    integer, parameter :: fewest = 360, each_turn = 90
+    type(potential_t), allocatable :: longer(:)
+    type(state_t) :: state
+    type(lagrange_t) :: terms
+    integer :: i, n, before
+
+    n = fewest
+    if (linkage%drives(1)%kind == drives_angle) n = max(n, ceiling((ends(2) - &
+      ends(1))/360.0_wp)*each_turn)
+    before = size(curve)
+    allocate (longer(before + n + 1))
+    longer(:before) = curve
+    do i = 0, n
+      associate (point => longer(before + 1 + i))
+        point%crank = (ends(1)*(n - i) + ends(2)*i)/n
+        state = state_t(crank=point%crank)
+        call find_state(linkage, state)
+        if (allocated(state%error)) cycle
+        terms = find_lagrange(linkage, rigid, state%pose, state%coefficients)
+        point%potential = terms%potential
+        point%force = terms%gravity + terms%load
+        point%is_known = .true.
+      end associate
+    end do
+    call move_alloc(longer, curve)
+  end subroutine draw_curve
 
   !> Springs from the ground to the crank count its turns: rests are where their torque is no more
   !! than all other loads can give.

@@ -1,20 +1,18 @@
 !> Friction in the joints at every position: forces, sliding, power lost, and whether the linkage
 !! holds itself at rest.
 module friction_study
-  use joint_forces, only: joint_forces_t
-  use joint_friction, only: find_friction, friction_t, is_locked
+  use joint_friction, only: friction_t
   use kinds, only: wp
-  use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t
   use load_cases, only: constant_case
-  use poses, only: pose_t
   use positions, only: positions_t
   use reactions, only: find_unit_reactions, unit_reactions_t
   use running_loads, only: find_running_loads, lock_of, lock_t, running_t
+  use starting_linkages, only: starting_linkage, starting_speed
   implicit none (type, external)
   private
 
-  public :: friction_result_t, find_joint_friction
+  public :: friction_result_t, find_joint_friction, lock_t
   public :: friction_values, normal_value, sliding_value, force_value, moment_value, power_value
   public :: forward_sense, backward_sense
 
@@ -40,10 +38,10 @@ contains
 
   !> Friction at all positions and speeds.
   !!
-  !! Torques at the start are those against full Coulomb friction under the loads that a pose
-  !! determines: what rests moves by itself where the one backward is positive, or that forward
-  !! negative, and else holds itself.
-  subroutine find_joint_friction(linkage, elements, positions, threads, speeds, accelerations, found)
+  !! Torques at the start are those against full friction, see `starting_linkage`: what rests moves
+  !! by itself where the one backward is positive, or that forward negative, and else holds itself.
+  subroutine find_joint_friction(linkage, elements, positions, threads, speeds, accelerations, &
+    found)
     type(linkage_t), intent(in) :: linkage      !! with frictions
     integer, intent(in) :: elements(:)          !! (bodies) on whose nodes the masses are lumped;
                                                 !! 0: distributed
@@ -56,8 +54,11 @@ contains
 
     type(unit_reactions_t) :: unit
     type(running_t) :: running
+    type(linkage_t) :: starting
+    real(wp) :: forward
     integer :: i, k, n, joints
 
+    starting = starting_linkage(linkage)
     joints = maxval(linkage%frictions%joint)
     n = size(positions%states)
     found%first = [(findloc(linkage%frictions%joint, i, dim=1), i=1, joints)]
@@ -66,7 +67,7 @@ contains
     found%values = 0.0_wp
     found%start = 0.0_wp
     !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) &
-    !$omp   private(i, k, unit, running)
+    !$omp   private(i, k, forward, unit, running)
     do i = 1, n
       associate (state => positions%states(i))
         if (allocated(state%error)) cycle
@@ -75,11 +76,17 @@ contains
           call find_running_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
             accelerations(k, i), unit, running)
           found%lock(k, i) = lock_of(running)
-          if (found%lock(k, i)%friction == 0) found%values(:, :, k, i) = values_of(linkage, joints, &
-            running%friction)
+          if (found%lock(k, i)%friction == 0) found%values(:, :, k, i) = values_of(linkage, &
+            joints, running%friction)
         end do
-        call find_starts(linkage, state%pose, state%coefficients, unit, found%start(:, i), &
-          found%start_lock(:, i))
+        do k = forward_sense, backward_sense
+          forward = merge(starting_speed, -starting_speed, k == forward_sense)
+          call find_running_loads(starting, state%pose, state%coefficients, forward, 0.0_wp, unit, &
+            running)
+          found%start_lock(k, i) = lock_of(running)
+          if (found%start_lock(k, i)%friction == 0) found%start(k, i) = &
+            unit%of_case(constant_case)%joints%torque + running%joints%torque
+        end do
       end associate
     end do
     !$omp end parallel do
@@ -109,31 +116,5 @@ contains
       end associate
     end do
   end function values_of
-
-  !> What starts the linkage from rest in both senses.
-  pure subroutine find_starts(linkage, pose, coefficients, unit, start, lock)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: coefficients
-    type(unit_reactions_t), intent(in) :: unit
-    real(wp), intent(out) :: start(2)
-    type(lock_t), intent(out) :: lock(2)
-
-    type(friction_t) :: friction
-    type(joint_forces_t) :: without(1)
-    integer :: sense
-
-    without(1) = unit%of_case(constant_case)%joints
-    start = 0.0_wp
-    do sense = forward_sense, backward_sense
-      call find_friction(linkage, pose, coefficients, merge(1.0_wp, -1.0_wp, &
-        sense == forward_sense), [1.0_wp], without, .true., friction)
-      if (friction%state == is_locked) then
-        lock(sense) = lock_t(friction%locked, friction%share)
-      else
-        start(sense) = without(1)%torque + friction%load
-      end if
-    end do
-  end subroutine find_starts
 
 end module friction_study

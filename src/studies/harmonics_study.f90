@@ -1,16 +1,19 @@
 !> Harmonics of the shaking force, the shaking moment and the driving torque of a linkage over a
-!! whole turn of the crank, as given and, where there are any, with counterweights.
+!! cycle of the crank, as given and, where there are any, with counterweights.
 module harmonics_study
+  use load_tables, only: load_period
   use balanced_linkages, only: balanced_linkage, counterweight_t
   use constants, only: degree
   use counterweights, only: find_counterweights
   use crank_limits, only: turns_fully
+  use errors, only: error_t
   use crank_cycle, only: cycle_t, cycle_values, drive_torque, find_largest_value, quantity_count, &
     quantity_names, shaking_moment, turns_freely, usual_values
   use harmonics, only: highest_harmonic, spectrum_of, spectrum_t
   use hung_counterweights, only: find_hung_counterweights, obstacle_t
   use interruption, only: was_interrupted
   use kinds, only: wp
+  use linkage_paths, only: period_of
   use linkages, only: is_dyad_linkage, linkage_t
   use settled_cycles, only: find_settled_cycles, least_share
   implicit none (type, external)
@@ -19,7 +22,8 @@ module harmonics_study
   public :: harmonics_result_t, harmonic_t, find_harmonics, quantity_count, quantity_names, &
     highest_harmonic, is_moment, has_cycle, has_settled
 
-  !> A quantity over a turn: mean + Σ amplitude cos(k θ2 + phase), all in [N] or [N m] but phases.
+  !> A quantity over a cycle of n turns: mean + Σ amplitude cos(k θ2/n + phase), all in [N] or [N m]
+  !! but phases.
   type :: harmonic_t
     real(wp) :: largest = 0.0_wp !! absolute value, also between the samples
     real(wp) :: rms = 0.0_wp     !! root mean square
@@ -31,7 +35,12 @@ module harmonics_study
   type :: harmonics_result_t
     logical :: has_cycle = .false. !! else the crank does not turn fully, and all that follows is
                                    !! empty
-    integer :: samples = 0         !! of a turn
+    integer :: turns = 0           !! of the crank, after which positions and loads repeat; 0: they
+                                   !! do not, and all that follows is empty
+    type(error_t), allocatable :: error !! why all that follows is empty: a position beyond the ends
+                                   !! of a table, or locked by friction
+    real(wp) :: error_crank = 0.0_wp !! where [deg]
+    integer :: samples = 0         !! of the cycle
     integer :: solutions = 0       !! poses found, for samples and largest values
     real(wp) :: change = 0.0_wp    !! difference to the results from every second sample, relative
                                    !! to the largest value [-]
@@ -48,14 +57,15 @@ module harmonics_study
 
 contains
 
-  !> Harmonics at every speed. An interrupted run returns incomplete results: too few samples, or
+  !> Harmonics at every speed, the torque with all loads, over as many turns as positions and loads
+  !! take to repeat. An interrupted run returns incomplete results: too few samples, or
   !! largest values of 0.
   subroutine find_harmonics(linkage, elements, speed, acceleration, threads, found, balanced)
     type(linkage_t), intent(in) :: linkage !! of any kind, without counterweights
     integer, intent(in) :: elements(:)     !! (bodies) on whose nodes the masses are lumped; 0:
                                            !! distributed
-    real(wp), intent(in) :: speed(:)       !! (speeds) ω2, constant over the turn [rad/s]
-    real(wp), intent(in) :: acceleration   !! α2, constant over the turn [rad/s²]
+    real(wp), intent(in) :: speed(:)       !! (speeds) ω2, constant over the cycle [rad/s]
+    real(wp), intent(in) :: acceleration   !! α2, constant over the cycle [rad/s²]
     integer, intent(in) :: threads         !! number of OpenMP threads
     type(harmonics_result_t), intent(out) :: found !! empty if the crank does not turn fully
     type(linkage_t), intent(in), optional :: balanced !! absent: with counterweights that cancel the
@@ -64,10 +74,14 @@ contains
     type(linkage_t), allocatable :: linkages(:)
     type(cycle_t), allocatable :: turns(:)
     real(wp), allocatable :: largest(:, :, :) !! (quantities, linkages, speeds)
+    real(wp) :: period
     integer :: solutions, i, k, q
 
     found%has_cycle = has_cycle(linkage)
     if (.not. found%has_cycle) return
+    period = load_period(linkage, period_of(linkage))
+    found%turns = nint(period/360.0_wp)
+    if (found%turns == 0) return
     if (present(balanced)) then
       allocate (linkages(2))
       linkages(1) = linkage
@@ -76,7 +90,14 @@ contains
       call balance_linkage(linkage, elements, linkages)
     end if
     allocate (turns(size(linkages)))
-    call find_settled_cycles(linkages, elements, speed, acceleration, threads, turns, found%change)
+    call find_settled_cycles(linkages, elements, speed, acceleration, threads, turns, &
+      found%change, period)
+    do i = 1, size(turns)
+      if (.not. allocated(turns(i)%error)) cycle
+      found%error = turns(i)%error
+      found%error_crank = turns(i)%error_crank
+      return
+    end do
     found%samples = size(turns(1)%part, 3)
     allocate (found%of(quantity_count, size(turns), size(speed)), largest(quantity_count, &
       size(turns), size(speed)))
@@ -90,7 +111,7 @@ contains
         do q = 1, quantity_count
           if (was_interrupted()) cycle
           call find_largest_value(linkages(i), elements, turns(i), q, speed(k), acceleration, &
-            largest(q, i, k), solutions)
+            largest(q, i, k), solutions, k)
           !$omp atomic
           found%solutions = found%solutions + solutions
         end do
@@ -102,7 +123,7 @@ contains
     do k = 1, size(speed)
       do i = 1, size(linkages)
         if (.not. was_interrupted()) &
-          call find_spectra(turns(i), speed(k), acceleration, largest(:, i, k), &
+          call find_spectra(turns(i), speed(k), acceleration, k, largest(:, i, k), &
             max(maxval(largest(:, :, k), dim=2), least_share*usual_values(linkages(1), &
             elements, speed(k), acceleration)), found%of(:, i, k))
       end do
@@ -152,10 +173,11 @@ contains
   end function is_four_bar
 
   !> Harmonics of all quantities of a linkage at one speed.
-  pure subroutine find_spectra(turn, speed, acceleration, largest, measure, found)
+  pure subroutine find_spectra(turn, speed, acceleration, number, largest, measure, found)
     type(cycle_t), intent(in) :: turn
     real(wp), intent(in) :: speed            !! ω2 [rad/s]
     real(wp), intent(in) :: acceleration     !! α2 [rad/s²]
+    integer, intent(in) :: number            !! of the speed
     real(wp), intent(in) :: largest(:)       !! (quantities) absolute values [N, N m]
     real(wp), intent(in) :: measure(:)       !! (quantities) usual value, with which harmonics are
                                              !! compared [N, N m]
@@ -165,7 +187,7 @@ contains
     type(spectrum_t) :: spectrum
     integer :: q
 
-    values = cycle_values(turn, speed, acceleration)
+    values = cycle_values(turn, speed, acceleration, number)
     do q = 1, quantity_count
       spectrum = spectrum_of(values(:, q))
       found(q)%largest = largest(q)

@@ -1,9 +1,10 @@
 !> Forces in the joints of any linkage: on every link at every pin, of guides, blocks and welds, of
 !! the drives, those that shake the ground, and all that it bears.
 module joint_study
-  use applied_loads, only: springs_on_ground
+  use applied_loads, only: spring_pulls
   use constants, only: degree
   use frame_forces, only: find_frame_load
+  use ground_loads, only: pulls_on_ground
   use group_equations, only: drive_rate, drive_value
   use joint_forces, only: force_at_pin, joint_forces_t
   use kinds, only: wp
@@ -115,7 +116,7 @@ contains
             running%on_ground
         end do
         found%frame(:, constant_case, i) = found%frame(:, constant_case, i) + &
-          springs_on_ground(linkage, state%pose)
+          pulls_on_ground(linkage, state%pose, spring_pulls(linkage, state%pose))
         call turn_guides(linkage, found%joints, state%pose%direction, found%running_force(:, :, :, &
           i))
         call add_blocks(linkage, found%joints, state%coefficients, found%force(:, :, :, i))

@@ -1,10 +1,10 @@
 !> The positions of a run, computed in parallel.
 module position_study
-  use applied_loads, only: load_period
   use kinds, only: wp
   use linkages, only: linkage_t
   use positions, only: find_state, list_positions, positions_t
   use linkage_paths, only: period_of
+  use load_tables, only: load_period
   implicit none (type, external)
   private
 

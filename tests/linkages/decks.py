@@ -3,24 +3,26 @@
 An own reader, for decks without mistakes: it knows the cards that the checks use, and says which it does not know.
 """
 import itertools
+import os
 import re
 from decimal import Decimal
 
 from fields import Digits
 from units import Units, unit_factor
 
-IGNORED = {"TITLE", "MESH", "REPORT", "INERTIA", "EFFECTS", "END", "MODES", "SOLVER",
-           "MOTOR", "LOAD", "GAUGE", "DAMPING", "SPRING", "DAMPER"}
+IGNORED = {"TITLE", "MESH", "REPORT", "INERTIA", "EFFECTS", "END", "MODES", "SOLVER", "MOTOR", "GAUGE", "DAMPING"}
 
 
 class Deck:
     """What the cards say.  links, guides and so on are in the order of the deck."""
 
-    def __init__(self, text):
+    def __init__(self, text, folder="."):
+        self.folder = folder                                   # of files of tables
         self.grounds, self.guides, self.pins = {}, {}, {}
         self.links, self.sliders, self.welds, self.points = {}, [], [], {}
         self.drives, self.branches = [], []
         self.masses, self.pin_masses, self.forces, self.torques = [], [], {}, {}
+        self.applied, self.tables, self.frictions = [], {}, []  # all other loads: (keyword, words, keys)
         self.gravity = (Decimal(0), Decimal(0))
         self.materials, self.sections = {}, {}
         self.cranks, self.speeds, self.alpha_text = [], [Decimal(0)], "0"
@@ -110,11 +112,44 @@ class Deck:
     def _gravity(self, bare, _):
         self.gravity = self._pair(bare, "acceleration")
 
-    def _force(self, bare, _):
-        self.forces[bare[0]] = self._pair(bare[1:3], "force")
+    def _force(self, bare, keys):
+        """A constant force on a pin, or any other."""
+        if keys:
+            self.applied.append(("force", bare, keys))
+        else:
+            self.forces[bare[0]] = self._pair(bare[1:3], "force")
 
-    def _torque(self, bare, _):
-        self.torques[bare[0]] = self.units.value(bare[1], "torque")
+    def _torque(self, bare, keys):
+        if keys:
+            self.applied.append(("torque", bare, keys))
+        else:
+            self.torques[bare[0]] = self.units.value(bare[1], "torque")
+
+    def _load(self, bare, keys):
+        self.applied.append(("load", bare, keys))
+
+    def _spring(self, bare, keys):
+        self.applied.append(("spring", bare, keys))
+
+    def _damper(self, bare, keys):
+        self.applied.append(("damper", bare, keys))
+
+    def _friction(self, bare, keys):
+        self.frictions.append((bare, keys))
+
+    def _table(self, bare, _):
+        self.tables[bare[0]] = bare[1:]
+
+    def table(self, name):
+        """(unit, numbers) of both columns of a TABLE card, or of a file beside the deck."""
+        if name in self.tables:
+            words = self.tables[name]
+        else:
+            with open(os.path.join(self.folder, name), encoding="utf-8") as file:
+                lines = [re.split("[!#]", line)[0].split() for line in file]
+            words = [word for line in lines for word in (line[1:] if line[:1] == ["units"] else line)]
+        numbers = [Decimal(word) for word in words[2:]]
+        return [(unit, numbers[k::2]) for k, unit in enumerate(words[:2])]
 
     def _crank(self, bare, _):
         """Positions as numbers of the deck (degrees or lengths)."""

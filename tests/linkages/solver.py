@@ -10,6 +10,7 @@ import random
 
 import dense
 from fields import Digits, Doubles
+from loads import frictions_of, loads_of
 
 
 class Failure(Exception):
@@ -68,8 +69,19 @@ class Model:
         self.torques = {link: number(torque) for link, torque in deck.torques.items()}
         self._add_rows()
         self._find_size()
+        self.pins_by_name = self._named_pins()
+        self.applied = loads_of(self)
+        self.rubs = frictions_of(self)
 
     # construction
+
+    def _named_pins(self):
+        """Pins, and POINTs that other cards take for pins."""
+        deck = self.deck
+        names = {pin for card in deck.links.values() for pin in card["pins"]} | set(deck.pins) | set(deck.grounds)
+        names |= {slider["pin"] for slider in deck.sliders} | {pin for pin, _ in deck.welds + deck.pin_masses}
+        names |= set(deck.forces) | {words[0] for keyword, words, keys in deck.applied if keyword == "force" and "at" not in keys}
+        return names
 
     def _add_link(self, name, card, is_ram):
         body = Body(name, self.count, True)
@@ -582,17 +594,76 @@ class Model:
             _, _, (ax, ay) = self.pin_motion(s, pin)
             mass, (fx, fy) = self.loads.get(pin, self.zero), self.forces.get(pin, (self.zero, self.zero))
             pin_loads[pin] = [fx + mass * (gx - ax), fy + mass * (gy - ay)]
-            for k, px, py in self.pin_place(s.q, pin)[2]:
-                loads[k] += pin_loads[pin][0] * px + pin_loads[pin][1] * py
+        for load in self.applied:
+            self._apply(s, load.effects(s), loads, pin_loads)
         for link, torque in self.torques.items():
             loads[self.bodies[link].angle] += torque
         for slider in self.deck.sliders:
             if slider["inertia"]:
                 k = self.bodies[slider["guide"]].angle
                 loads[k] -= self.field.number(slider["inertia"]) * s.a[k]
+        self._balance(s, loads, pin_loads)
+        if self.rubs:
+            self._rub(s, loads, pin_loads)
+
+    def _balance(self, s, loads, pin_loads):
+        """Multipliers that balance loads, and the forces in the joints."""
+        for pin, (fx, fy) in pin_loads.items():
+            for k, px, py in self.pin_place(s.q, pin)[2]:
+                loads[k] += fx * px + fy * py
         s.multipliers = dense.solve_transposed(s.factors, [-load for load in loads])
         s.loads = loads
         self._share_forces(s, pin_loads)
+
+    def _rub(self, s, loads, pin_loads):
+        """Friction by what presses in the joints, again and again."""
+        inertia = [load - sum((fx * px + fy * py for pin, (fx, fy) in pin_loads.items()
+                               for k, px, py in self.pin_place(s.q, pin)[2] if k == number), self.zero)
+                   for number, load in enumerate(loads)]
+        s.pressing = {rub: rub.presses(s) for rub in self.rubs}
+        small = self.field.number("1e-10" if self.field is Doubles else "1e-30")
+        for _ in range(400):
+            here, pins = list(inertia), {pin: list(force) for pin, force in pin_loads.items()}
+            for rub in self.rubs:
+                self._apply(s, rub.effects(s), here, pins)
+            self._balance(s, here, pins)
+            after = {rub: rub.presses(s) for rub in self.rubs}
+            change = max(abs(after[rub] - s.pressing[rub]) for rub in self.rubs)
+            s.pressing = after
+            if change <= small * max(after.values()):
+                return
+        raise Failure("friction does not settle")
+
+    def _apply(self, s, effects, loads, pin_loads):
+        """Adds forces at places, and torques."""
+        for effect in effects:
+            if len(effect) == 2:
+                body, torque = effect
+                loads[body.angle] += torque
+                continue
+            place, fx, fy = effect
+            if place[0] == "pin":
+                if place[1] in pin_loads:
+                    pin_loads[place[1]][0] += fx
+                    pin_loads[place[1]][1] += fy
+                continue
+            for k, px, py in self.locate(s.q, *place)[2]:
+                loads[k] += fx * px + fy * py
+
+    def power_of_effects(self, s, effects):
+        """Terms of the power of forces at places, and of torques."""
+        terms = []
+        for effect in effects:
+            if len(effect) == 2:
+                terms.append(effect[1] * s.v[effect[0].angle])
+                continue
+            place, fx, fy = effect
+            if place[0] == "pin":
+                _, (vx, vy), _ = self.pin_motion(s, place[1])
+            else:
+                (_, (vx, vy), _), _ = self.point_motion(s, *place)
+            terms += [fx * vx, fy * vy]
+        return terms
 
     def _share_forces(self, s, pin_loads):
         """From multipliers: forces[pin, link or guide] = [fx, fy, moment], drives = [force]."""
@@ -603,10 +674,13 @@ class Model:
 
         for pin, load in pin_loads.items():
             owner = self.holders(pin)[0]
-            if owner.name:
+            if owner.name and pin in self.pins_by_name:
                 force = on(pin, owner.name)
                 force[0], force[1] = load
-        s.drives, place = [], 0
+        s.drives, place, s.contacts = [], 0, {}
+        for row in self.rows:
+            if row[0] in ("guide", "line"):
+                s.contacts[row[1]["pin"], row[1]["guide"]] = [z, z]
         for row in self.rows:
             value = s.multipliers[place]
             if row[0] == "pin":
@@ -626,6 +700,7 @@ class Model:
             elif row[0] == "turn":
                 _, one, other, _, where = row
                 if isinstance(where, dict):
+                    s.contacts[where["pin"], where["guide"]][1] = value
                     on(where["pin"], one.name)[2] += value
                     on(where["pin"], where["guide"])[2] += -value if other else value
                 else:
@@ -646,6 +721,7 @@ class Model:
         """The force of a guide on the pin, or of the block on the link along which it slides."""
         slider = row[1]
         pin, guide = slider["pin"], slider["guide"]
+        s.contacts[pin, guide][0] = value
         if row[0] == "guide":
             _, _, cosine, sine = self.guides[guide]
             force = on(pin, guide)
@@ -662,7 +738,7 @@ class Model:
             self._add(on, pin, self.holders(pin)[0], x, y)
 
     def energy(self, s):
-        """Kinetic and potential energy (of weights)."""
+        """Kinetic and potential energy (of weights, springs, and constant forces at places of links)."""
         kinetic = potential = self.zero
         gx, gy = self.gravity
         for body in self.bodies.values():
@@ -680,14 +756,17 @@ class Model:
         for slider in self.deck.sliders:
             if slider["inertia"]:
                 kinetic += self.field.number(slider["inertia"]) * s.v[self.bodies[slider["guide"]].angle]**2 / 2
-        return kinetic, potential
+        return kinetic, potential + sum((load.potential(s) for load in self.applied), self.zero)
 
     def power_of_loads(self, s):
-        """Of forces and torques from outside."""
+        """Of forces and torques from outside that have no potential here."""
         power = self.zero
         for pin, (fx, fy) in self.forces.items():
             _, (vx, vy), _ = self.pin_motion(s, pin)
             power += fx * vx + fy * vy
+        for load in self.applied + (self.rubs if hasattr(s, "pressing") else []):
+            if not load.has_potential():
+                power += sum(self.power_of_effects(s, load.effects(s)), self.zero)
         return power + sum((torque * s.v[self.bodies[link].angle] for link, torque in self.torques.items()), self.zero)
 
     def power_of_drives(self, s):

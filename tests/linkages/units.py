@@ -16,6 +16,7 @@ FACTORS = {
 DIMENSIONS = {
     "number": (0, 0, 0), "length": (1, 0, 0), "mass": (0, 1, 0), "time": (0, 0, 1), "inertia": (2, 1, 0), "force": (1, 1, -2),
     "torque": (2, 1, -2), "speed": (0, 0, 0), "rate": (1, 0, -1), "alpha": (0, 0, 0), "acceleration": (1, 0, -2),
+    "stiffness": (0, 1, -2), "damping": (0, 1, -1), "turning_stiffness": (2, 1, -2), "turning_damping": (2, 1, -1),
     "density": (-3, 1, 0), "area": (2, 0, 0), "second_moment": (4, 0, 0), "stress": (-1, 1, -2), "angle": (0, 0, 0),
 }
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD](?=[+-]?\d)[+-]?\d+)?")
@@ -50,6 +51,8 @@ class Units:
             "alpha": Decimal(1), "moment": None,
         }
         self.results["moment"] = self.results["torque"]
+        self.results["mass"] = self.base[1]
+        self.results["energy"] = unit_factor(keys["energy"]) if "energy" in keys else self.results["torque"] if english else Decimal(1)
         self.has_speed = "speed" in keys
 
     def factor(self, quantity):

@@ -232,8 +232,10 @@ with open(sys.argv[1], encoding="utf-8") as file:
 assert lines[0] == "turns_fully = 1", lines[0]
 assert lines[1] == "O2 = {0.1, 0.05}; O4 = {0.5, 0.2}", lines[1]
 assert lines[2] == 'link_ends = "O2:crank A:crank A:coupler B:coupler O4:rocker B:rocker"', lines[2]
-assert lines[3] == "$placed << EOD" and lines[-1] == "EOD", (lines[3], lines[-1])
-rows = [[float(word) for word in line.split()] for line in lines[4:-1]]
+assert lines[4] == "springs = 0; spring_kinds = \"\"; spring_names = ''", lines[4]
+begin = lines.index("$placed << EOD")
+assert lines[-1] == "EOD", lines[-1]
+rows = [[float(word) for word in line.split()] for line in lines[begin + 1:-1]]
 assert [row[0] for row in rows] == [0, 350, 10, 10, 10, 10], rows
 ground, other = (0.1, 0.05), (0.5, 0.2)
 for _, ax, ay, bx, by, *middle in rows:
@@ -313,6 +315,85 @@ END_OF_DECK
   drawn meeting figures kinematics_angles special_positions || return 1
   { sed '/^REPORT/d' "$scratch/meeting.deck" && echo "REPORT geometry crank=0,10"; } >"$scratch/drawn.deck"
   run 1 --quiet --out "$scratch/out" "$scratch/drawn.deck" && says "crank 0 deg" && grep -q '^# *failed crank=0 ' "$scratch/out/drawn/geometry.dat"
+}
+
+# A four-bar on a spring to a GROUND pin of its own, with a torsional damper: where it rests, and what is drawn of them.
+spring_of_a_four_bar() {
+  run 0 --quiet --out "$scratch/out" inputs/desk_lamp.deck || return 1
+  drawn desk_lamp figures coupler_curve equilibrium forces kinematics_angles lagrange linkage motion pin_motion reactions || return 1
+  drawn desk_lamp animations forces linkage motion && gif desk_lamp/animations/linkage.gif 60 || return 1
+  printf '%s\n' 0 60 >"$scratch/angles.lamp"
+  rm -rf "$scratch/angles.lamp.d"
+  (cd "$scratch/out/desk_lamp" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/geometry.sh" placed "$scratch/angles.lamp" points.dat) \
+    >"$scratch/told" || return 1
+  python3 - "$scratch/told" <<'END_OF_PYTHON'
+import math
+import sys
+
+with open(sys.argv[1], encoding="utf-8") as file:
+    lines = file.read().splitlines()
+text = "\n".join(lines)
+assert 'springs = 2; spring_kinds = "spring drag"; spring_names = \' "s" "d"\'' in text, text
+assert "hook_x[1] = 0; hook_y[1] = 70; hook_turn[1] = 180" in text and "hooks = 1;" in text, text
+rows = [[float(word) for word in line.split()] for line in lines[lines.index("$placed << EOD") + 1:-1]]
+lengths = []
+for angle, row in zip((0, 60), rows):
+    turn = math.radians(angle)
+    # Behind the angle, two pins and two points: both ends of s, then the pin of d, downwards and along the arm.
+    wanted = [0, 70, 90*math.cos(turn), 90*math.sin(turn), 0, 0, -math.pi/2, turn]
+    assert len(row) == 9 + len(wanted) and all(abs(a - b) < 1e-4 for a, b in zip(row[9:], wanted)), (row[9:], wanted)
+    lengths.append(math.dist(wanted[:2], wanted[2:4]))
+low, high = (float(text.split(f"spring_{word}[1] = ")[1].split(";")[0].split()[0]) for word in ("low", "high"))
+assert abs(low - min(lengths)) < 1e-4 and abs(high - max(lengths)) < 1e-4, (low, high, lengths)
+END_OF_PYTHON
+}
+
+# Springs and dampers of both kinds on a slider-crank: a torsional one is wound on from turn to turn.
+springs_of_other_linkages() {
+  cat >"$scratch/sprung.deck" <<'END_OF_DECK'
+TITLE Springs on a slider-crank
+UNITS mm kg s force=N torque=N*m
+GROUND O 0 0
+GROUND H 150 90
+GROUND W 260 0
+GUIDE bore 0 0 angle=0
+LINK crank O A length=45 mass=1
+LINK rod A B length=145 mass=1
+POINT p rod along=70 offset=25
+SLIDER B bore mass=1
+SPRING s W B stiffness=1N/mm free_length=90
+DAMPER d H p damping=2N*s/m
+SPRING t O crank stiffness=1N*m/rad free_angle=30
+DAMPER e A crank rod damping=0.1N*m*s
+DRIVE crank
+BRANCH B forward
+CRANK 0 to 360 step 30
+REPORT pins
+REPORT equilibrium
+REPORT motion crank=60 end=1 step=0.02
+END_OF_DECK
+  run 0 --quiet --out "$scratch/out" "$scratch/sprung.deck" || return 1
+  drawn sprung figures equilibrium linkage linkage_positions motion pin_motion && drawn sprung animations linkage motion || return 1
+  (cd "$scratch/out/sprung" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/shapes.sh" "$scratch/sprung.shapes" 0 720 8 0.014) \
+    >"$scratch/told" || return 1
+  grep -q "springs = 4; spring_kinds = \"spring damper coil drag\"; spring_names = ' \"s\" \"d\" \"t\" \"e\"'" "$scratch/told" || return 1
+  python3 - "$scratch/told" <<'END_OF_PYTHON'
+import math
+import sys
+
+with open(sys.argv[1], encoding="utf-8") as file:
+    lines = file.read().splitlines()
+rows = [[float(word) for word in line.split()] for line in lines[lines.index("$springs << EOD") + 1:-1]]
+assert len(rows) == 9, rows
+for k, row in enumerate(rows):
+    turn = math.pi/2*k
+    slide = 45*math.cos(turn) + math.sqrt(145**2 - (45*math.sin(turn))**2)
+    wanted = [260, 0, slide, 0]
+    assert all(abs(a - b) < 1e-3 for a, b in zip(row, wanted)), (row, wanted)
+    assert [row[4], row[5], row[8], row[9]] == [150, 90, 0, 0], row
+    assert abs(row[10] + math.pi/2) < 1e-6 and abs(row[11] - turn) < 1e-6, (row, turn)
+    assert abs(math.cos(row[14] - turn) + 1) < 1e-6, "from A the crank goes back to O"
+END_OF_PYTHON
 }
 
 # A copy of the scripts, called through a link.
@@ -410,4 +491,6 @@ check "figures of other linkages than four-bars" other_linkages
 check "figures and animations of motions, ranges and pins" moving_linkages
 check "what is fixed to a link moves with it" moving_places
 check "shapes of other linkages" drawn_shapes
+check "springs of a four-bar are drawn" spring_of_a_four_bar
+check "springs of other linkages are drawn" springs_of_other_linkages
 check "installed scripts" installed_plots

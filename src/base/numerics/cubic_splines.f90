@@ -7,7 +7,7 @@ module cubic_splines
   implicit none (type, external)
   private
 
-  public :: cubic_spline_t, new_cubic_spline, spline_values, spline_integral
+  public :: cubic_spline_t, new_cubic_spline, spline_values
   public :: ends_natural, ends_not_a_knot, ends_at_rest, ends_periodic
 
   !> Conditions at the ends: no second derivative; one cubic over the first two intervals, and over
@@ -19,7 +19,6 @@ module cubic_splines
     real(wp), allocatable :: x(:)    !! (knots) rising
     real(wp), allocatable :: y(:)    !! (knots)
     real(wp), allocatable :: bend(:) !! (knots) second derivatives
-    real(wp), allocatable :: sum(:)  !! (knots) integrals from the first knot
   end type cubic_spline_t
 
 contains
@@ -35,23 +34,19 @@ contains
     type(cubic_spline_t) :: spline
 
     real(wp) :: h(size(x) - 1)
-    integer :: n, i
+    integer :: n
 
     n = size(x)
     h = x(2:) - x(:n - 1)
     spline%x = x
     spline%y = y
     spline%is_periodic = ends == ends_periodic
-    allocate (spline%bend(n), spline%sum(n), source=0.0_wp)
+    allocate (spline%bend(n), source=0.0_wp)
     if (spline%is_periodic .and. n > 2) then
       call find_periodic_bends(h, y, spline%bend)
     else if (n > 2 .or. ends == ends_at_rest) then
       call find_bends(h, y, ends, spline%bend)
     end if
-    do i = 2, n
-      spline%sum(i) = spline%sum(i - 1) + h(i - 1)*(y(i - 1) + y(i))/2.0_wp - &
-        h(i - 1)**3*(spline%bend(i - 1) + spline%bend(i))/24.0_wp
-    end do
   end function new_cubic_spline
 
   !> Second derivatives m of a spline with ends:
@@ -193,30 +188,6 @@ contains
       values(2) = a*m(i) + b*m(i + 1)
     end associate
   end function spline_values
-
-  !> Integral from the first knot; of a periodic spline over whole periods too.
-  pure function spline_integral(spline, x) result(integral)
-    type(cubic_spline_t), intent(in) :: spline
-    real(wp), intent(in) :: x
-    real(wp) :: integral
-
-    real(wp) :: at, h, a, b
-    integer :: i
-
-    at = in_period(spline, x)
-    i = interval_of(spline, at)
-    associate (y => spline%y, m => spline%bend)
-      h = spline%x(i + 1) - spline%x(i)
-      b = (at - spline%x(i))/h
-      a = 1.0_wp - b
-      integral = spline%sum(i) + h*(y(i)*(1.0_wp - a**2)/2.0_wp + y(i + 1)*b**2/2.0_wp) - &
-        h**3/24.0_wp*(m(i)*(1.0_wp - a**2)**2 + m(i + 1)*b**2*(2.0_wp - b**2))
-    end associate
-    if (.not. spline%is_periodic) return
-    associate (n => size(spline%x))
-      integral = integral + spline%sum(n)*anint((x - at)/(spline%x(n) - spline%x(1)))
-    end associate
-  end function spline_integral
 
   !> The place in the first period.
   pure function in_period(spline, x) result(at)

@@ -131,8 +131,8 @@ module card_table
       "DAMPER name pin link [link] damping=", keys="damping", &
       help="a viscous damper between two pins or points, or at a pin of links"), &
     card_kind_t("FRICTION", least=1, most=3, pattern="FRICTION pin [link [link]] radius= "// &
-      "coefficient= [viscous= smooth=], or FRICTION pin guide coefficient= [viscous= smooth= "// &
-      "length=]", keys="radius coefficient viscous smooth length", &
+      "coefficient= [viscous= smooth=], or FRICTION pin guide with [length=] for radius=", &
+      keys="radius coefficient viscous smooth length", &
       help="friction at a pin, or of a block along its guide"), &
     card_kind_t("BALANCE", is_single=.true., most=many, &
       pattern="BALANCE [link ...] minimise=force,moment,torque [weights=] [radius=] "// &

@@ -1,7 +1,9 @@
-!> A full turn of the crank: shaking force, shaking moment and drive torque as periodic quantities.
+!> A cycle of the crank, of one turn or several: shaking force, shaking moment and drive torque as
+!! periodic quantities.
 module crank_cycle
+  use load_tables, only: refuse_beyond_tables
   use balance_shafts, only: parts_of_shafts
-  use errors, only: error_t
+  use errors, only: error_of_numerics, error_t, set_error
   use four_bar_limits, only: crank_reach, reach_t
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
@@ -10,10 +12,12 @@ module crank_cycle
   use poses, only: find_pose, pose_t
   use reactions, only: find_unit_reactions, unit_reactions_t
   use rigid_bodies, only: rigid_bodies_of, rigid_body_t, total_mass
+  use running_loads, only: depends_on_speed, find_running_loads, lock_of, lock_t, running_t
   implicit none (type, external)
   private
 
-  public :: cycle_t, turns_freely, parts_at, cycle_values, find_largest_value, usual_values
+  public :: cycle_t, turns_freely, parts_at, find_parts, cycle_values, find_largest_value, &
+    usual_values
   public :: quantity_names, quantity_count, shaking_x, shaking_y, shaking_force, shaking_moment, &
     drive_torque
 
@@ -24,10 +28,16 @@ module crank_cycle
   character(len=*), parameter :: quantity_names(quantity_count) = &
     [character(len=14) :: "shaking_x", "shaking_y", "shaking_force", "shaking_moment", "torque"]
 
-  !> Shaking force along x and y, shaking moment and drive torque at every sample of a turn, for
-  !! each of the three load cases.
+  !> Shaking force along x and y, shaking moment and drive torque at every sample of a cycle, for
+  !! each of the three load cases; and what loads that depend on the speed add to the torque.
   type :: cycle_t
+    real(wp) :: period = 360.0_wp          !! [deg]
     real(wp), allocatable :: part(:, :, :) !! (4, cases, samples) [N, N, N m, N m]
+    real(wp), allocatable :: running(:, :) !! (speeds, samples) added torque [N m]; not allocated,
+                                           !! or no speeds: nothing is added
+    type(error_t), allocatable :: error    !! why there are no values: a position beyond the ends
+                                           !! of a table, or locked by friction
+    real(wp) :: error_crank = 0.0_wp       !! where [deg]
   end type cycle_t
 
 contains
@@ -61,13 +71,34 @@ contains
     real(wp), intent(in) :: crank          !! [deg]
     real(wp) :: part(4, case_count)        !! as in `cycle_t`
 
-    type(pose_t) :: pose
     type(error_t), allocatable :: error
+    real(wp) :: none(0)
+
+    call find_parts(linkage, elements, crank, none, 0.0_wp, part, none, error)
+  end function parts_at
+
+  !> The same, with the torque that loads that depend on the speed add. Errors: the links cannot be
+  !! moved; beyond the ends of a table; locked by friction. But for the first the parts are found.
+  pure subroutine find_parts(linkage, elements, crank, speed, acceleration, part, running, error)
+    type(linkage_t), intent(in) :: linkage !! whose crank turns freely
+    integer, intent(in) :: elements(:)     !! (bodies) elements whose nodes carry the mass;
+                                           !! 0: distributed mass
+    real(wp), intent(in) :: crank          !! [deg]
+    real(wp), intent(in) :: speed(:)       !! (speeds) ω2 [rad/s]
+    real(wp), intent(in) :: acceleration   !! α2 [rad/s²]
+    real(wp), intent(out) :: part(:, :)    !! (4, cases) as in `cycle_t`
+    real(wp), intent(out) :: running(:)    !! (speeds) added torque [N m]
+    type(error_t), allocatable, intent(inout) :: error
+
+    type(pose_t) :: pose
     type(kinematic_coefficients_t) :: coefficients
     type(unit_reactions_t) :: unit
+    type(running_t) :: loads
+    type(lock_t) :: lock
     integer :: i
 
     part = 0.0_wp
+    running = 0.0_wp
     call find_pose(linkage, crank, pose, error)
     if (allocated(error)) return
     coefficients = find_kinematic_coefficients(linkage, pose)
@@ -77,14 +108,27 @@ contains
         unit%of_case(i)%joints%torque]
     end do
     if (allocated(linkage%shafts)) part = part + parts_of_shafts(linkage, crank)
-  end function parts_at
+    call refuse_beyond_tables(linkage, pose, [0.0_wp, 0.0_wp], error)
+    if (allocated(error) .or. .not. depends_on_speed(linkage)) return
+    do i = 1, size(speed)
+      call find_running_loads(linkage, pose, coefficients, speed(i), acceleration, unit, loads)
+      lock = lock_of(loads)
+      if (lock%friction > 0) then
+        call set_error(error, error_of_numerics, "friction locks the linkage")
+        return
+      end if
+      running(i) = loads%joints%torque
+    end do
+  end subroutine find_parts
 
-  !> All quantities over a turn, at a speed and an acceleration of the crank that are constant over
+  !> All quantities over a cycle, at a speed and an acceleration of the crank that are constant over
   !! it.
-  pure function cycle_values(turn, speed, acceleration) result(values)
+  pure function cycle_values(turn, speed, acceleration, number) result(values)
     type(cycle_t), intent(in) :: turn    !! its samples
     real(wp), intent(in) :: speed        !! ω2 [rad/s]
     real(wp), intent(in) :: acceleration !! α2 [rad/s²]
+    integer, intent(in), optional :: number !! of the speed, for loads that depend on it; absent:
+                                            !! without these
     real(wp) :: values(size(turn%part, 3), quantity_count) !! (samples, quantities)
 
     integer :: i
@@ -92,6 +136,9 @@ contains
     do i = 1, size(values, 1)
       values(i, :) = quantities_of(turn%part(:, :, i), speed, acceleration)
     end do
+    if (.not. (present(number) .and. allocated(turn%running))) return
+    if (size(turn%running, 1) > 0) values(:, drive_torque) = values(:, drive_torque) + &
+      turn%running(number, :)
   end function cycle_values
 
   !> All quantities, from the parts of the three load cases.
@@ -129,13 +176,13 @@ contains
     values([shaking_moment, drive_torque]) = force*length
   end function usual_values
 
-  !> Largest absolute value of a quantity in a turn, also between its samples.
+  !> Largest absolute value of a quantity in a cycle, also between its samples.
   !!
   !! Around each of the three highest peaks among the samples the maximum is enclosed by
-  !! golden-section search. A turn with so many samples that more of them do not change its
+  !! golden-section search. A cycle with so many samples that more of them do not change its
   !! harmonics has no peaks that its samples do not show.
   pure subroutine find_largest_value(linkage, elements, turn, quantity, speed, acceleration, &
-      largest, solutions)
+      largest, solutions, number)
     type(linkage_t), intent(in) :: linkage !! whose crank turns freely
     integer, intent(in) :: elements(:)     !! (bodies) elements whose nodes carry the mass;
                                            !! 0: distributed mass
@@ -145,14 +192,17 @@ contains
     real(wp), intent(in) :: acceleration   !! α2 [rad/s²]
     real(wp), intent(out) :: largest       !! absolute value
     integer, intent(out) :: solutions      !! poses found besides the samples
+    integer, intent(in), optional :: number !! of the speed, for loads that depend on it; absent:
+                                            !! without these
 
     integer, parameter :: most_peaks = 3
-    real(wp), allocatable :: values(:, :), size_of(:)
+    real(wp), allocatable :: values(:, :), size_of(:), running(:)
     real(wp) :: peak, step
     integer :: k, at
 
-    values = abs(cycle_values(turn, speed, acceleration))
-    step = 360.0_wp/size(values, 1)
+    values = abs(cycle_values(turn, speed, acceleration, number))
+    running = pack([speed], [present(number) .and. quantity == drive_torque])
+    step = turn%period/size(values, 1)
     solutions = 0
     associate (value => values(:, quantity))
       largest = maxval(value)
@@ -163,18 +213,19 @@ contains
       at = maxloc(size_of, dim=1)
       if (size_of(at) <= 0.0_wp) exit
       size_of(at) = 0.0_wp
-      call find_peak(linkage, elements, quantity, speed, acceleration, step*(at - 2), step*at, &
-        peak, solutions)
+      call find_peak(linkage, elements, quantity, speed, acceleration, running, step*(at - 2), &
+        step*at, peak, solutions)
       largest = max(largest, peak)
     end do
   end subroutine find_largest_value
 
   !> Golden-section search for the largest absolute value of a quantity between two crank angles.
-  pure subroutine find_peak(linkage, elements, quantity, speed, acceleration, first, last, peak, &
-      solutions)
+  pure subroutine find_peak(linkage, elements, quantity, speed, acceleration, running, first, &
+      last, peak, solutions)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: elements(:), quantity
     real(wp), intent(in) :: speed, acceleration, first, last !! angles [deg]
+    real(wp), intent(in) :: running(:) !! the speed, for loads that depend on it; or empty
     real(wp), intent(out) :: peak
     integer, intent(inout) :: solutions !! each value needs another
 
@@ -186,34 +237,41 @@ contains
     a = first
     b = last
     x = [b - golden*(b - a), a + golden*(b - a)]
-    y = [value_at(linkage, elements, quantity, speed, acceleration, x(1)), &
-      value_at(linkage, elements, quantity, speed, acceleration, x(2))]
+    y = [value_at(linkage, elements, quantity, speed, acceleration, running, x(1)), &
+      value_at(linkage, elements, quantity, speed, acceleration, running, x(2))]
     solutions = solutions + 2
     do while (b - a > near)
       solutions = solutions + 1
       if (y(1) >= y(2)) then
         b = x(2)
         x = [b - golden*(b - a), x(1)]
-        y = [value_at(linkage, elements, quantity, speed, acceleration, x(1)), y(1)]
+        y = [value_at(linkage, elements, quantity, speed, acceleration, running, x(1)), y(1)]
       else
         a = x(1)
         x = [x(2), a + golden*(b - a)]
-        y = [y(2), value_at(linkage, elements, quantity, speed, acceleration, x(2))]
+        y = [y(2), value_at(linkage, elements, quantity, speed, acceleration, running, x(2))]
       end if
     end do
     peak = maxval(y)
   end subroutine find_peak
 
-  !> Absolute value of a quantity at a crank angle.
-  pure function value_at(linkage, elements, quantity, speed, acceleration, crank) result(value)
+  !> Absolute value of a quantity at a crank angle; 0 where it has none.
+  pure function value_at(linkage, elements, quantity, speed, acceleration, running, crank) &
+    result(value)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: elements(:), quantity
     real(wp), intent(in) :: speed, acceleration, crank !! angle [deg]
+    real(wp), intent(in) :: running(:) !! as in `find_peak`
     real(wp) :: value
 
-    real(wp) :: values(quantity_count)
+    type(error_t), allocatable :: error
+    real(wp) :: values(quantity_count), part(4, case_count), torque(size(running))
 
-    values = quantities_of(parts_at(linkage, elements, crank), speed, acceleration)
+    call find_parts(linkage, elements, crank, running, acceleration, part, torque, error)
+    value = 0.0_wp
+    if (allocated(error)) return
+    values = quantities_of(part, speed, acceleration)
+    values(drive_torque) = values(drive_torque) + sum(torque)
     value = abs(values(quantity))
   end function value_at
 

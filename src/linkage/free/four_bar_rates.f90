@@ -4,7 +4,7 @@ module four_bar_rates
   use adaptive_integration, only: rate_system_t
   use constants, only: two_pi
   use applied_loads, only: add_conservative_loads, add_moving_loads, add_prescribed_loads, &
-    generalised_force, refuse_beyond_tables
+    generalised_force
   use curve_dynamics, only: conservative_torques, curve_dynamics_t, find_inertia
   use drives, only: drive_t, refuse_speed
   use errors, only: error_t
@@ -16,6 +16,7 @@ module four_bar_rates
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t
+  use load_tables, only: refuse_beyond_tables
   use loop_curves, only: curve_point_t, find_point, loop_curve_t
   use pose_types, only: pose_t
   use rigid_bodies, only: rigid_body_t
@@ -183,6 +184,7 @@ contains
 
     type(pose_t) :: pose
     type(kinematic_coefficients_t) :: per, now
+    type(kinematic_coefficients_t), allocatable :: all_per(:)
     type(load_t) :: body_load(3), of_springs(3)
     real(wp), dimension(2, size(self%linkage%is_ground)) :: pin_load, spring_force
     type(error_t), allocatable :: error
@@ -218,7 +220,10 @@ contains
       end do
       pin_load = pin_load + spring_force
       if (has_friction(linkage)) then
-        call find_free_friction(self%whole, self%rigid, pose, [per], now, body_load, pin_load, &
+        ! An array constructor would copy no components in gfortran 12.
+        allocate (all_per(1))
+        all_per(1) = per
+        call find_free_friction(self%whole, self%rigid, pose, all_per, now, body_load, pin_load, &
           torque, friction, reflected)
         found = friction%state == is_solved
         if (.not. found) self%stop = stop_locked

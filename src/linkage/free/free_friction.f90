@@ -56,7 +56,7 @@ contains
       call new_free_equations(whole, rigid, pose, per, inertia, equations)
       bent = bent_motion(whole, pose, now, equations)
       friction%rate = friction_rates(linkage, pose, now, 1.0_wp)
-      coulomb = coulomb_efforts(rubs, friction%rate, .false.)
+      coulomb = coulomb_efforts(rubs, friction%rate)
       viscous = -rubs%viscous*friction%rate
       allocate (loads%body(size(linkage%bodies)), loads%pin(2, size(linkage%is_ground)))
       call put_friction(linkage, pose, viscous, loads%body, loads%pin)

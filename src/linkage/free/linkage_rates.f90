@@ -9,7 +9,7 @@
 module linkage_rates
   use adaptive_integration, only: rate_system_t
   use applied_loads, only: add_conservative_loads, add_moving_loads, add_prescribed_loads, &
-    generalised_force, refuse_beyond_tables
+    generalised_force
   use block_ends, only: refuse_leaving_block
   use body_points, only: find_point_coefficients, point_coefficients_t
   use constants, only: degree
@@ -25,6 +25,7 @@ module linkage_rates
   use kinematic_coefficients, only: find_kinematic_coefficients, find_velocities, &
     kinematic_coefficients_t
   use linkages, only: drives_angle, linkage_t
+  use load_tables, only: refuse_beyond_tables
   use motion_charts, only: accelerations, find_on_chart, motion_chart_t, velocities
   use pose_types, only: pose_t
   use poses, only: dead_point_sine, place_groups, place_links
@@ -332,15 +333,6 @@ contains
       do trial = 1, 2
         share = gear_share(self%gear, rate, through)
         reflected = reflected_inertia(self%gear, share)
-        torque = self%gear%ratio*share*motor
-        driving = torque*driven
-        loading = 0.0_wp
-        all_right = right
-        call add_loads(self, now, torque, reflected, instant, all_right, driving, loading, found)
-        if (.not. found) then
-          self%stop = stop_locked
-          return
-        end if
         do k = 1, f
           with_rotor(:, k) = inertia(:, k) + reflected*driven(k)*driven
         end do
@@ -348,6 +340,15 @@ contains
         found = abs(factor%determinant) > least_inertia
         if (.not. found) then
           self%stop = stop_no_inertia
+          return
+        end if
+        torque = self%gear%ratio*share*motor
+        driving = torque*driven
+        loading = 0.0_wp
+        all_right = right
+        call add_loads(self, now, torque, reflected, instant, all_right, driving, loading, found)
+        if (.not. found) then
+          self%stop = stop_locked
           return
         end if
         instant%acceleration = solve(factor, all_right + driving - (reflected*bent)*driven)

@@ -69,8 +69,8 @@ contains
       call refuse_key(card, "radius", diagnostics, "of a bearing at a pin; this card is on a "// &
         "block along '"//card%words(2)%text//"'")
     else
-      call refuse_key(card, "length", diagnostics, "of a block along its guide; this card is on "// &
-        "the pin '"//card%words(1)%text//"'")
+      call refuse_key(card, "length", diagnostics, "of a block along its guide; this card is "// &
+        "on the pin '"//card%words(1)%text//"'")
     end if
     call read_value(card, "coefficient", dimension_none, system, diagnostics, friction%coefficient)
     call read_value(card, "viscous", merge(dimension_line_damping, dimension_damping, slides), &
@@ -85,8 +85,8 @@ contains
         "nothing would rub")
     else if (.not. slides .and. friction%coefficient > 0.0_wp .and. .not. has_key(card, "radius")) &
       then
-      call add_error(diagnostics, card%keyword, "'radius=' of the bearing is missing: the couple "// &
-        "of Coulomb friction is coefficient * force * radius")
+      call add_error(diagnostics, card%keyword, "'radius=' of the bearing is missing: the "// &
+        "couple of Coulomb friction is coefficient * force * radius")
     end if
   end subroutine read_friction
 

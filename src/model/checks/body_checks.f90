@@ -12,7 +12,7 @@ module body_checks
   implicit none (type, external)
   private
 
-  public :: check_bodies, seek_link
+  public :: check_bodies, seek_link, seek_loaded_pin
 
 contains
 
@@ -95,32 +95,41 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
-    character(len=*), parameter :: only_pins = "; a FORCE acts on a moving pin or a point"
     type(name_index_t) :: pins, grounds, links
-    integer :: i, number
+    integer :: i
 
     pins = new_name_index(token_texts(pin_names(model)))
     grounds = new_name_index(token_texts(model%grounds%pin))
     links = new_name_index(token_texts(model%links%name))
     do i = 1, size(model%forces)
-      associate (pin => model%forces(i)%pin)
-        if (pin%line == 0) cycle
-        number = find_name(grounds, pin%text)
-        if (number > 0) then
-          call add_error(diagnostics, pin, &
-            "a force on a fixed pin: it would act on nothing but the ground", &
-            model%grounds(number)%pin, "'"//pin%text//"' is fixed here")
-        else if (find_name(pins, pin%text) > 0) then
-          cycle
-        else if (find_name(links, pin%text) > 0) then
-          call add_error(diagnostics, pin, "'"//pin%text//"' is a link"//only_pins// &
-            ", a TORQUE on a link")
-        else
-          call look_up(pin, pins, "pin", diagnostics, number)
-        end if
-      end associate
+      call seek_loaded_pin(model%forces(i)%pin, pins, grounds, links, model, diagnostics)
     end do
   end subroutine check_forces
+
+  !> Looks up a pin on which a load acts. Errors: an unknown pin; a fixed one; a link in its place.
+  pure subroutine seek_loaded_pin(pin, pins, grounds, links, model, diagnostics)
+    type(token_t), intent(in) :: pin                  !! without a line if the card lacks it
+    type(name_index_t), intent(in) :: pins, grounds, links !! of the deck
+    type(model_t), intent(in) :: model                !! its GROUND cards
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+
+    integer :: number
+
+    if (pin%line == 0) return
+    number = find_name(grounds, pin%text)
+    if (number > 0) then
+      call add_error(diagnostics, pin, &
+        "a load on a fixed pin: it would act on nothing but the ground", &
+        model%grounds(number)%pin, "'"//pin%text//"' is fixed here")
+    else if (find_name(pins, pin%text) > 0) then
+      return
+    else if (find_name(links, pin%text) > 0) then
+      call add_error(diagnostics, pin, "'"//pin%text//"' is a link; a FORCE on a link needs "// &
+        "its place there, 'at='")
+    else
+      call look_up(pin, pins, "pin", diagnostics, number)
+    end if
+  end subroutine seek_loaded_pin
 
   !> A link with `mass=` has the moment of inertia of the uniform link, unless its card gives
   !! another; one that changes its length has none, without material and section.

@@ -140,9 +140,9 @@ contains
     associate (slider => model%sliders(friction%slider))
       if (slider%turned%line > 0 .and. friction%coefficient > 0.0_wp .and. &
         friction%length <= 0.0_wp) then
-        call add_error(diagnostics, friction%keyword, "'length=' of the block is missing: link '"// &
-          slider%turned%text//"' does not turn on it, and its ends press the more the shorter "// &
-          "it is", slider%turned, "the link is fixed to it here")
+        call add_error(diagnostics, friction%keyword, "'length=' of the block is missing: link "// &
+          "'"//slider%turned%text//"' does not turn on it, and its ends press the more the "// &
+          "shorter it is", slider%turned, "the link is fixed to it here")
       else if (slider%turned%line == 0 .and. friction%length > 0.0_wp) then
         call add_error(diagnostics, friction%keyword, "'length=' does nothing: links turn on "// &
           "the block at '"//friction%pin%text//"', so that no moment presses on its ends", &

@@ -1,7 +1,7 @@
 !> Loads of processes: the links, pins and tables that their cards name, and the reports that do not
 !! take them.
 module process_checks
-  use body_checks, only: seek_link
+  use body_checks, only: seek_link, seek_loaded_pin
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t, has_errors
   use kinds, only: wp
@@ -49,7 +49,7 @@ contains
         if (process%on_link) then
           call seek_link(process%subject, links, ends, diagnostics, process%link)
         else
-          call seek_pin(process, pins, grounds, links, model, diagnostics)
+          call seek_loaded_pin(process%subject, pins, grounds, links, model, diagnostics)
         end if
         if (process%table_word%line > 0) call find_table(cards, model, links, pins, process, &
           diagnostics)
@@ -57,33 +57,6 @@ contains
     end do
     call refuse_reports(diagnostics, model)
   end subroutine find_processes
-
-  !> Looks up a moving pin or point.
-  pure subroutine seek_pin(process, pins, grounds, links, model, diagnostics)
-    type(process_card_t), intent(in) :: process
-    type(name_index_t), intent(in) :: pins, grounds, links
-    type(model_t), intent(in) :: model
-    type(diagnostics_t), intent(inout) :: diagnostics
-
-    integer :: number
-
-    associate (pin => process%subject)
-      if (pin%line == 0) return
-      number = find_name(grounds, pin%text)
-      if (number > 0) then
-        call add_error(diagnostics, pin, &
-          "a load on a fixed pin: it would act on nothing but the ground", &
-          model%grounds(number)%pin, "'"//pin%text//"' is fixed here")
-      else if (find_name(pins, pin%text) > 0) then
-        return
-      else if (find_name(links, pin%text) > 0) then
-        call add_error(diagnostics, pin, "'"//pin%text//"' is a link; a FORCE on a link needs "// &
-          "its place there, 'at='")
-      else
-        call look_up(pin, pins, "pin", diagnostics, number)
-      end if
-    end associate
-  end subroutine seek_pin
 
   !> Finds what a table is over, and reads it.
   pure subroutine find_table(cards, model, links, pins, process, diagnostics)

@@ -16,7 +16,8 @@ contains
 
   !> Checks what reports need. Errors: a link without material, section or mesh, or without a mass;
   !! a bending link with its own mass; no INERTIA card where results depend on it; REPORT points
-  !! without POINT cards, REPORT friction without FRICTION cards; REPORT equilibrium with several free drives.
+  !! without POINT cards, REPORT friction without FRICTION cards; REPORT equilibrium with several
+  !! free drives.
   pure subroutine check_report_needs(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(model_t), intent(in) :: model                !! whose links have their materials, sections
@@ -35,8 +36,8 @@ contains
       "are not found yet")
     i = report_number(model, "friction")
     if (i > 0 .and. size(model%frictions) == 0) call add_error(diagnostics, &
-      model%reports(i)%keyword, "this report is about joints that rub, and there is no FRICTION "// &
-      "card; expected: "//pattern_of("FRICTION"))
+      model%reports(i)%keyword, "this report is about joints that rub, and there is no "// &
+      "FRICTION card; expected: "//pattern_of("FRICTION"))
     points = report_number(model, "points")
     if (points == 0 .or. size(model%points) > 0) return
     call add_error(diagnostics, model%reports(points)%keyword, &

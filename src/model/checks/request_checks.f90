@@ -37,13 +37,16 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics !! to which errors are added
     type(model_t), intent(in) :: model                !! with its reports
 
+    logical :: is_fixed
+
     if (.not. has_card(cards, "UNITS")) &
       call missing("there is no UNITS card; expected: "//pattern_of("UNITS"))
     ! Cards of a file that could not be included are not missing from the deck.
     if (has_card(cards, "INCLUDE")) return
-    if (.not. has_card(cards, "GROUND") .or. .not. has_card(cards, "LINK")) then
-      call missing("there are no "//trim(merge("GROUND", "LINK  ", &
-        .not. has_card(cards, "GROUND")))//" cards: no linkage is described")
+    is_fixed = has_card(cards, "GROUND") .or. has_card(cards, "GUIDE")
+    if (.not. is_fixed .or. .not. has_card(cards, "LINK")) then
+      call missing("there are no "//trim(merge("GROUND", "LINK  ", .not. is_fixed))// &
+        " cards: no linkage is described")
     end if
     if (.not. has_card(cards, "DRIVE") .and. model%motor%keyword%line > 0) then
       call add_error(diagnostics, model%motor%keyword, &

@@ -11,7 +11,7 @@ module deck_checks
   use linkage_checks, only: check_linkage
   use linkage_parts, only: assemble_linkage, assembly_t
   use mechanisms, only: mechanism_of, mechanism_t
-  use models, only: has_law, model_t, needs_frequencies, report_number, solver_band, &
+  use models, only: has_law, model_t, needs_frequencies, pivots, report_number, solver_band, &
     solver_dense, steady_state_report
   use motion_checks, only: check_motion
   use nodal_eigensolver, only: most_round_off
@@ -47,6 +47,7 @@ contains
     type(mechanism_t) :: mechanism
     type(reach_t) :: reach
     type(assembly_t) :: assembly
+    integer :: pivot(2)
 
     call check_drawing(model, diagnostics)
     call assemble_linkage(model, assembly)
@@ -60,16 +61,17 @@ contains
       if (.not. allocated(assembly%error)) call check_balance_turn(model, mechanism, diagnostics)
       return
     end if
+    pivot = pivots(model)
     associate (ground => mechanism%linkage%ground_position(:, [1, 4]))
       if (norm2(ground(:, 2) - ground(:, 1)) <= 0.0_wp) then
-        call add_error(diagnostics, model%grounds(2)%pin, &
-          "the two ground pivots are at the same place", model%grounds(1)%pin, &
+        call add_error(diagnostics, model%grounds(pivot(2))%pin, &
+          "the two ground pivots are at the same place", model%grounds(pivot(1))%pin, &
           "the other one is here")
         return
       end if
       if (epsilon(1.0_wp)*maxval(abs(ground)) > most_coordinate_error*norm2(ground(:, &
         2) - ground(:, 1))) then
-        call add_warning(diagnostics, model%grounds(2)%pin, &
+        call add_warning(diagnostics, model%grounds(pivot(2))%pin, &
           "the ground pivots are so far from the origin that their distance "// &
           "has lost digits; put the origin nearer to them")
       end if
@@ -101,10 +103,11 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
 
     type(token_t) :: place
-    integer :: longest
+    integer :: longest, pivot(2)
 
     longest = longest_link(mechanism)
-    place = model%grounds(2)%pin
+    pivot = pivots(model)
+    place = model%grounds(pivot(2))%pin
     if (longest > 0) place = model%links(mechanism%links(longest))%length_word
     call add_error(diagnostics, place, open_linkage_text(mechanism), kind=error_of_reach)
   end subroutine report_open_linkage

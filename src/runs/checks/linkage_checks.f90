@@ -61,9 +61,9 @@ contains
       report = max(report_number(model, "reactions"), report_number(model, "bearings"), &
         report_number(model, "sizing"))
       if (report == 0 .and. size(model%frictions) > 0) call add_error(diagnostics, &
-        model%frictions(1)%keyword, "friction depends on the forces in the joints, and those in '"// &
-        mechanism%names(max(1, body_of_redundancy(mechanism%linkage, 1)))%text//"' and the "// &
-        "links that hold the same pins cannot be told apart while all are rigid")
+        model%frictions(1)%keyword, "friction depends on the forces in the joints, and those "// &
+        "in '"//mechanism%names(max(1, body_of_redundancy(mechanism%linkage, 1)))%text// &
+        "' and the links that hold the same pins cannot be told apart while all are rigid")
       if (report > 0) call add_error(diagnostics, model%reports(report)%keyword, &
         "the forces in '"//mechanism%names(max(1, body_of_redundancy(mechanism%linkage, &
         1)))%text//"' and the links that hold the same pins cannot be told apart while all are "// &

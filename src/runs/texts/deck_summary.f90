@@ -8,8 +8,8 @@ module deck_summary
     json_value
   use models, only: model_t, needs_frequencies
   use program_version, only: program_name, version_number
-  use run_findings, only: at_forces, at_instant, at_position, failure_t, findings_t, in_motion, in_response, &
-    in_campbell, in_intervals, in_stability, in_transient, of_variant
+  use run_findings, only: at_forces, at_instant, at_position, failure_t, findings_t, in_motion, &
+    in_response, in_campbell, in_intervals, in_stability, in_transient, of_variant
   use run_totals, only: run_totals_t
   use tables, only: column_t, has_unit, table_t
   use text, only: character_count, plural, string_t

@@ -2,10 +2,9 @@
 module findings_texts
   use deck_source, only: source_t
   use diagnostics, only: diagnostics_t, warning_texts
-  use run_findings, only: at_forces, at_instant, at_position, failure_t, findings_t, in_motion, in_response, &
-    in_campbell, in_intervals, in_stability, in_transient, of_variant, place_in_words, &
-    place_of_failure, &
-    warnings_of_grade
+  use run_findings, only: at_forces, at_instant, at_position, failure_t, findings_t, in_motion, &
+    in_response, in_campbell, in_intervals, in_stability, in_transient, of_variant, &
+    place_in_words, place_of_failure, warnings_of_grade
   use text, only: string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use warnings, only: grade_doubt, grade_meaningless

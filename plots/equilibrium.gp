@@ -1,0 +1,52 @@
+# Where a linkage rests without its drive: its potential over the ranges of the drive with the rests, and what a drive would have to
+# give.
+#   gnuplot -c equilibrium.gp potential.dat OUT equilibrium.dat [FIGURE [REMARK]]
+
+load ARG0[1 : strlen(ARG0) - strlen("equilibrium.gp")]."style.gp"
+table = ARG1; out = ARG2; rests = ARG3; figure = argument(4); remark = argument(5)
+
+eval answer(table, "facts")
+# Crank, verdict, potential, stiffness, frequency.
+load "< awk ".quoted("BEGIN { print \"$rests << EOD\" } !/^#/ && NF { print $1, $2, $3, $4, $5 } END { print \"EOD\" }")." ".quoted(rests)
+headline = numbered(figure, "Where the linkage rests without its drive")
+
+# A few are told in the notes, stable ones with their frequencies.
+verdicts = ""
+of_kind(k, kind) = k > |$rests| ? "" : (word($rests[k], 2) ne kind ? "" : ", ".place_of(k)).of_kind(k + 1, kind)
+place_of(k) = minus(sprintf("%.4g", word($rests[k], 1) + 0)).(unit_crank eq "deg" ? "°" : " ".unit_crank).\
+    (word($rests[k], 5) + 0 > 0 ? sprintf(" with %.3g Hz", word($rests[k], 5) + 0) : "")
+do for [k=1:|$rests|] { verdicts = verdicts." ".word($rests[k], 2) }
+listed_as(kind, text) = strstrt(verdicts, " ".kind) == 0 ? "" : text.of_kind(1, kind)[3:*]
+note = |$rests| == 0 ? "it rests nowhere" : words(verdicts) > 10 ? "frequencies of small oscillations about stable rests: equilibrium.dat" \
+    : listed_as("stable", "stable, with the frequency of small oscillations: ")
+if (words(verdicts) <= 10 && strstrt(verdicts, " unstable") > 0) {
+    remark = listed_as("unstable", "unstable: ").(remark eq "" ? "" : "; ".remark)
+}
+source_of(k) = table
+picked = "1"
+x = "field('crank')"
+x_axis = "eval crank_axis(low_crank, high_crank)"
+panels = 2
+array axis_of[2] = ["potential", unit_crank eq "deg" ? "torque to hold it" : "force to hold it"]
+array unit_of[2] = [unit_potential, unit_torque]
+# What is only rounding is nothing.
+nothing = larger(abs(low_torque), abs(high_torque)) < 1e-12*larger(abs(low_potential), abs(high_potential))
+array curves_of[2] = ["field('potential')", nothing ? "0" : "field('torque')"]
+array titles_of[2] = ["'it rests everywhere'", "torque"]
+
+# Between two rows of this word it rests everywhere.
+height(panel) = panel == 1 ? "3" : "(0)"
+is_rest(word_of) = sprintf("(strcol(2) eq '%s' ? $1 : NaN)", word_of)
+rests_with(word_of, panel, look) = sprintf("$rests using %s:%s with %s notitle, ", is_rest(word_of), height(panel), look)
+stable_look = "points pt 7 ps 2.6 lc rgb '#007A5A'"
+unstable_look = "points pt 6 ps 2.6 lw 3 lc rgb '#C04000'"
+everywhere_look = "lines lw 9 dt solid lc rgb '#9FD3C3'"
+has_rest(word_of) = strstrt(verdicts, " ".word_of) > 0
+parts_below(panel) = |$rests| == 0 ? "" : rests_with("indifferent", panel, everywhere_look)
+parts_above(panel) = |$rests| == 0 ? "" : rests_with("unstable", panel, "points pt 7 ps 2.6 lc rgb 'white'").\
+    rests_with("unstable", panel, unstable_look).rests_with("stable", panel, stable_look)
+keys_of(panel) = panel > 1 ? "" : (has_rest("stable") ? ", keyentry with ".stable_look." title 'stable rest'" : "").\
+    (has_rest("unstable") ? ", keyentry with ".unstable_look." title 'unstable rest'" : "").\
+    (has_rest("indifferent") ? ", keyentry with ".everywhere_look." title 'it rests everywhere'" : "")
+call plots."panels.gp"
+eval close

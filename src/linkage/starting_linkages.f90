@@ -1,0 +1,54 @@
+!> A linkage that starts from rest: what resists its motion is the whole of it, whatever the speed.
+module starting_linkages
+  use applied_load_types, only: applies_along, applies_force
+  use group_equations, only: farthest_arm
+  use kinds, only: wp
+  use linkages, only: drives_angle, linkage_t
+  implicit none (type, external)
+  private
+
+  public :: starting_linkage, starting_speed
+
+  !> Of the first drive: its square, and with it all inertia loads, is nothing [rad/s] or [m/s].
+  real(wp), parameter :: starting_speed = 1.0e-150_wp
+
+  !> Rates below this share of that of the drive are rounding, and those of joints that stand still.
+  real(wp), parameter :: rounding = 1.0e-12_wp
+
+contains
+
+  !> The linkage whose loads and friction at `starting_speed`, in either sense, are those of a start
+  !! from rest: Coulomb friction, resistances, and loads in one direction of the motion act in full,
+  !! dampers not at all.
+  pure function starting_linkage(linkage) result(starting)
+    type(linkage_t), intent(in) :: linkage !! its loads and frictions
+    type(linkage_t) :: starting
+
+    real(wp) :: span, turning, sliding
+    integer :: b
+
+    span = maxval([(farthest_arm(linkage%bodies(b)), b=1, size(linkage%bodies))])
+    if (linkage%drives(1)%kind == drives_angle) then
+      turning = starting_speed*rounding
+      sliding = turning*span
+    else
+      sliding = starting_speed*rounding
+      turning = sliding/span
+    end if
+    starting = linkage
+    starting%loads%damping = 0.0_wp
+    starting%loads%smooth = merge(sliding, turning, is_along_line(linkage%loads%kind))
+    if (.not. allocated(linkage%frictions)) return
+    starting%frictions%viscous = 0.0_wp
+    starting%frictions%smooth = merge(sliding, turning, linkage%frictions%slider > 0)
+  end function starting_linkage
+
+  !> Whether a load is along a line, not about a pin.
+  elemental function is_along_line(kind) result(is)
+    integer, intent(in) :: kind !! of the load
+    logical :: is
+
+    is = kind == applies_force .or. kind == applies_along
+  end function is_along_line
+
+end module starting_linkages

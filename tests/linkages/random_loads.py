@@ -1,0 +1,327 @@
+"""Random linkages with all loads that machines have, against the independent solver with 40 digits.
+
+    random_loads.py SEED COUNT [--program PATH] [--scratch FOLDER] [--keep] [--links N]
+
+The linkages of random_linkages.py with forces at places of links and in their axes, forces and torques by tables over the drive, a
+block, the travel of a pin or the angle of a link, loads in one direction of the motion, resistances, springs and dampers of both
+kinds, friction in pins and of blocks.  Compares forces in the joints and of the drives, bearings, the force on the frame and the terms of Lagrange's equation; at every
+position the power of the drives has to be that of all loads and of inertia, to 1e-12 of the sum of absolute terms.
+"""
+import argparse
+import math
+import os
+import shutil
+import sys
+import tempfile
+
+import compare
+import compare_loads
+from decks import Deck
+from random_linkages import Case as Bare, run
+from solver import Failure, Model, positions
+from units import FACTORS
+
+REPORTS = ("kinematics", "pins", "reactions", "drive", "bearings", "frame about=0.3,-0.2", "lagrange")
+
+
+class Case(Bare):
+    """A linkage with loads of every kind."""
+
+    def __init__(self, seed, links=None, reports=REPORTS):
+        self.kinds = {}                          # kinds of loads: how many
+        super().__init__(seed, links, reports)
+        self.loaded = True
+
+    def _count(self, kind):
+        self.kinds[kind] = self.kinds.get(kind, 0) + 1
+
+    def _loads(self):
+        """The constant loads of other decks, and these."""
+        drawing = self.drawing
+        self.cards_of_tables, lines = [], []
+        for kind, most in ((self._force, 3), (self._torque, 2), (self._resistance, 2), (self._spring, 2), (self._coil, 2),
+                           (self._friction, 3)):
+            for _ in range(int(drawing.uniform(0, most + 1))):
+                lines.append(kind())
+        self.applied = [line for line in lines if line]
+        return super()._loads()
+
+    def _links(self):
+        return [name for name in self.drawing.links if name != self.drawing.driven_length]
+
+    def _ends(self):
+        """Pins and points, moving ones."""
+        return [pin for pin in self.drawing.moving_pins()]
+
+    def _table(self, angular, unit):
+        """A TABLE card; its name."""
+        drawing, scale = self.drawing, self.scale
+        name = f"table{len(self.cards_of_tables) + 1}"
+        rows = 3 + int(drawing.uniform(0, 7))
+        if angular and drawing.chance(0.7):
+            first, last, closes = drawing.pick((0, -180, 30)), 0, True
+            last = first + drawing.pick((360, 360, 720))
+        elif angular:
+            first, last, closes = -420, 420, False
+        else:
+            first, last, closes = -6 * scale, 6 * scale, False
+        places = [first + (last - first) * (k + (drawing.uniform(-0.3, 0.3) if 0 < k < rows else 0)) / rows for k in range(rows + 1)]
+        values = [round(drawing.uniform(-20, 20), 3) for _ in places]
+        if closes:
+            values[-1] = values[0]
+        length = self.units.split()[0]
+        numbers = " ".join(f"{x:.9g} {y!r}" for x, y in zip(places, values))
+        self.cards_of_tables.append((name, f"TABLE {name} {'deg' if angular else length} {unit} {numbers}"))
+        self._count("table")
+        return name
+
+    def _course(self, own_pin, turns):
+        """Keys of a table, or none, and of the direction of motion."""
+        drawing, keys, scale = self.drawing, "", self.scale
+        has_table = drawing.chance(0.5)
+        if has_table:
+            unit = "N*m" if turns else "N"
+            over = drawing.pick(("drive", "slider", "travel", "angle"))
+            blocks = [pin for pin, _, _ in drawing.sliders]
+            if over == "slider" and blocks:
+                keys = f" over={drawing.pick(blocks)} table={self._table(False, unit)}"
+            elif over == "travel" and own_pin and own_pin not in blocks:
+                keys = f" over={own_pin} table={self._table(False, unit)}"
+            elif over == "angle":
+                keys = f" over={drawing.pick(self._links())} table={self._table(True, unit)}"
+            else:
+                over = "drive"
+                keys = f" table={self._table(not self.linear, unit)}"
+            self._count("over_" + over)
+        if drawing.chance(0.4):
+            smooth = f"{self._number(0.1, 3)}rad/s" if turns else self._number(0.1, 3, scale)
+            keys += f" during={drawing.pick(('with', 'against'))} smooth={smooth}"
+            self._count("during")
+        return has_table, keys
+
+    def _place(self):
+        return f" at={self._number(-0.3, 1, self.scale)} offset={self._number(-0.5, 0.5, self.scale)}"
+
+    def _force(self):
+        drawing = self.drawing
+        self._count("force")
+        if drawing.chance(0.5):
+            axes = " axes=link" if drawing.chance(0.5) else ""
+            has_table, keys = self._course(None, False)
+            subject, place = drawing.pick(self._links()), self._place() + axes
+        else:
+            subject, place = drawing.pick(self._ends()), ""
+            has_table, keys = self._course(subject, False)
+            if not keys:
+                return None
+        unit = "" if has_table else "N"
+        return f"FORCE {subject} {self._number(-30, 30)}{unit} {self._number(-30, 30)}{unit}{place}{keys}"
+
+    def _torque(self):
+        has_table, keys = self._course(None, True)
+        if not keys:
+            return None
+        self._count("torque")
+        value = "" if has_table else f" {self._number(-5, 5)}N*m"
+        return f"TORQUE {self.drawing.pick(self._links())}{value}{keys}"
+
+    def _resistance(self):
+        drawing, scale = self.drawing, self.scale
+        self._count("load")
+        on_link = drawing.chance(0.5)
+        subject = drawing.pick(self._links() if on_link else self._ends())
+        if any(line and line.startswith(f"LOAD {subject} ") for line in self.loads_so_far):
+            return None
+        keys = ""
+        if on_link and drawing.chance(0.4):
+            keys += f" torque={self._number(-3, 3)}N*m"
+        if drawing.chance(0.5):
+            keys += f" damping={self._number(0, 2)}" + ("N*m*s" if on_link else "N*s/m")
+        if drawing.chance(0.6) or not keys:
+            smooth = f"{self._number(0.1, 3)}rad/s" if on_link else self._number(0.1, 3, scale)
+            keys += f" resisting={self._number(0, 10)}" + ("N*m" if on_link else "N") + f" smooth={smooth}"
+        line = f"LOAD {subject}{keys}"
+        self.loads_so_far.append(line)
+        return line
+
+    def _spring(self):
+        """Along a line between pins, points or pivots."""
+        drawing, scale = self.drawing, self.scale
+        one = drawing.pick(self._ends())
+        other = drawing.pick([pin for pin in drawing.places if not drawing.holders(pin) & drawing.holders(one)] or [None])
+        if other is None or other == one:
+            return None
+        if drawing.chance(0.5):
+            one, other = other, one
+        number = len(self.loads_so_far) + 1
+        self.loads_so_far.append("spring")
+        if drawing.chance(0.35):
+            self._count("damper")
+            return f"DAMPER damper{number} {one} {other} damping={self._number(0, 30)}N*s/m"
+        self._count("spring")
+        draw, stiffness = drawing.random(), drawing.uniform(1, 300)
+        if draw > 0.85:
+            return f"SPRING spring{number} {one} {other} stiffness=0 force={self._number(-20, 20)}N"
+        # Four-bars are not drawn; a free length is not negative.
+        rest = f" free_length={self._number(0.1, 1, scale)}"
+        if draw < 0.3 and not self.four_bar:
+            most = 0.5 * stiffness * math.dist(drawing.places[one], drawing.places[other]) * scale * float(FACTORS[self.units.split()[0]])
+            rest = f" force={self._number(-most, most)}N" if draw < 0.2 else ""
+        return f"SPRING spring{number} {one} {other} stiffness={stiffness:.6g}N/m{rest}"
+
+    def _friction(self):
+        """Of a pin, or of a block along its line; not where forces of several links or loads cannot be told apart."""
+        drawing, scale = self.drawing, self.scale
+        pin = drawing.pick(drawing.places)
+        blocks = [slider for slider in drawing.sliders if slider[0] == pin]
+        links = [name for name in drawing.links if pin in drawing.links[name]]
+        if pin in drawing.points or any(pin == where for where, _ in drawing.welds) or pin in self.rubbing:
+            return None
+        self.rubbing.append(pin)
+        values = f" coefficient={self._number(0.02, 0.3)}"
+        if blocks and (pin in drawing.grounds or len(blocks) > 1 or drawing.chance(0.6)):
+            block = drawing.pick(blocks)
+            self._count("friction_of_block")
+            if block[2]:
+                values += f" length={self._number(0.3, 0.8, scale)}"
+            if drawing.chance(0.4):
+                values += f" viscous={self._number(0, 5)}N*s/m"
+            return f"FRICTION {pin} {block[1]}{values} smooth={self._number(0.1, 1, scale)}"
+        values += f" radius={self._number(0.005, 0.05, scale)} smooth={self._number(0.1, 2)}rad/s"
+        if drawing.chance(0.4):
+            values += f" viscous={self._number(0, 0.5)}N*m*s"
+        if blocks:
+            links = [name for name in links if name != blocks[0][2]]
+        elif pin not in drawing.grounds:
+            if len(links) < 2:
+                return None
+            self._count("friction_of_pin")
+            links = links[::-1] if drawing.chance(0.5) else links
+            return f"FRICTION {pin} {links[0]} {links[1]}{values}"
+        if not links:
+            return None
+        self._count("friction_of_pin")
+        return f"FRICTION {pin}{values}"
+
+    def _coil(self):
+        """A torsional one."""
+        drawing = self.drawing
+        pin = drawing.pick(drawing.places)
+        links = [name for name in drawing.links if pin in drawing.links[name]]
+        if pin in drawing.grounds:
+            links = [drawing.pick(links)] if links else []
+        elif len(links) < 2 or any(pin == where for where, _ in drawing.welds) or any(pin == slider[0] for slider in drawing.sliders):
+            return None
+        else:
+            links = links[:2] if drawing.chance(0.5) else links[1::-1]
+        if not links:
+            return None
+        number = len(self.loads_so_far) + 1
+        self.loads_so_far.append("coil")
+        words = f"coil{number} {pin} " + " ".join(links)
+        if drawing.chance(0.3):
+            self._count("torsional_damper")
+            return f"DAMPER {words} damping={self._number(0, 2)}N*m*s/rad"
+        self._count("torsional_spring")
+        angles = []
+        for link in links:
+            pins = drawing.links[link]
+            start = next((k for k, name in enumerate(pins) if name in drawing.grounds), 0)
+            angles.append(math.degrees(drawing.direction(pins[start], pins[(start + 1) % len(pins)])))
+        drawn = (angles[-1] - (angles[0] if len(angles) > 1 else 0) + 180) % 360 - 180
+        rest = f" free_angle={drawn + drawing.uniform(-60, 60):.6f}"
+        if drawing.chance(0.4) and not self.four_bar:
+            rest = f" torque={self._number(-5, 5)}N*m" if drawing.chance(0.5) else ""
+        return f"SPRING {words} stiffness={self._number(0.1, 20)}N*m/rad{rest}"
+
+    def _cards(self):
+        self.loads_so_far, self.applied, self.cards_of_tables, self.rubbing = [], [], [], []
+        return super()._cards()
+
+    def find_range(self):
+        """Of the linkage; then loads that are not computed everywhere in it go."""
+        super().find_range()
+        cards, found = self.cards, positions(Deck(self.text(5)))[1]
+        for load in self.applied:
+            self.cards = cards + [load] + [card for name, card in self.cards_of_tables if f"table={name}" in load.split()]
+            deck = Deck(self.text(5))
+            model, fine = Model(deck), True
+            for crank, q in zip(deck.cranks, found):
+                rate = float(deck.speeds[0] * deck.speed_factor())
+                state = model.state(q, float(crank * deck.crank_factor()), rate, float(deck.alpha()))
+                fine = fine and all(one.is_fine(state) for one in model.applied) and self._settles(model, state)
+            if fine:
+                cards = self.cards
+        self.cards = cards
+
+
+    @staticmethod
+    def _settles(model, state):
+        """Whether the forces with friction are found, by iterations that contract."""
+        try:
+            model.add_forces(state)
+            return True
+        except Failure:
+            return False
+
+
+def make(seed, links=None, reports=REPORTS):
+    """The first linkage of a seed and its successors that has a range."""
+    for attempt in range(100):
+        case = Case(seed + 1000003 * attempt, links or 4 + seed % 7, reports)
+        case.seed = seed
+        if not case.applied:
+            continue
+        try:
+            case.find_range()
+            return case
+        except (Failure, ZeroDivisionError, OverflowError):
+            continue
+    raise Failure(f"seed {seed}: no linkage")
+
+
+def check(case, program, folder):
+    """Runs and compares; the largest differences.  Raises compare.Wrong with a reason."""
+    path = os.path.join(folder, f"loads_{case.seed}.deck")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(case.text(5))
+    tables = run(program, path, os.path.join(folder, "tables"))
+    deck = Deck(case.text(5), folder)
+    return compare_loads.with_solver(deck, tables)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("seed", type=int)
+    parser.add_argument("count", type=int)
+    parser.add_argument("--program", default="build/release/flexmech")
+    parser.add_argument("--scratch", default=os.path.join(tempfile.gettempdir(), "flexmech_loads"))
+    parser.add_argument("--keep", action="store_true", help="keep the decks of all linkages")
+    parser.add_argument("--links", type=int, help="number of links, the ground among them")
+    options = parser.parse_args()
+    os.makedirs(options.scratch, exist_ok=True)
+    largest, failures, kinds, done = {}, 0, {}, 0
+    for seed in range(options.seed, options.seed + options.count):
+        case = make(seed, options.links)
+        done += 1
+        folder = os.path.join(options.scratch, f"seed_{seed}")
+        shutil.rmtree(folder, ignore_errors=True)
+        os.makedirs(folder)
+        for kind, number in case.kinds.items():
+            kinds[kind] = kinds.get(kind, 0) + number
+        try:
+            compare.merge(largest, check(case, options.program, folder))
+        except (compare.Wrong, Failure, RuntimeError, ValueError, KeyError, OSError) as failure:
+            failures += 1
+            print(f"seed {seed}: {failure or repr(failure)} ({' '.join(case.drawing.kinds)}; {folder})", flush=True)
+            continue
+        if not options.keep:
+            shutil.rmtree(folder)
+    shown = " ".join(f"{name} {value:.1e}" for name, value in sorted(largest.items()))
+    print(f"{done} linkages, {failures} failed; " + " ".join(f"{kind}:{number}" for kind, number in sorted(kinds.items())))
+    print(f"largest differences: {shown}")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
