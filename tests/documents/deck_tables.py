@@ -22,6 +22,8 @@ CARDS = {
     "POINT": "POINT tip coupler along=100",
 }
 BEAMS, BODIES = " material=steel section=strip", " mass=1"
+# Frequencies and the elastic response refuse friction.
+FURTHER = {"friction": ["FRICTION O2 radius=5 coefficient=0.1"]}
 KEYS = {"motion": " crank=30 end=1 step=0.1", "geometry": " crank=30", "transient": " turns=1"}
 
 
@@ -34,7 +36,7 @@ class Tables:
     def _accepts(self, report, without=(), links=BEAMS, **others):
         """Whether the program would run the deck with this report, without some cards and with others changed."""
         cards = {keyword: text for keyword, text in {**CARDS, **others}.items() if keyword not in without}
-        text = "\n".join([*cards.values(), f"REPORT {report}{KEYS.get(report, '')}"]).replace("{0}", links)
+        text = "\n".join([*cards.values(), *FURTHER.get(report, []), f"REPORT {report}{KEYS.get(report, '')}"]).replace("{0}", links)
         return subprocess.run([self._program, "--check", "-"], input=text, capture_output=True, text=True,
                               check=False).returncode == 0
 
