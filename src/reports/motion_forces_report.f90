@@ -25,8 +25,8 @@ contains
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     call append_string(notes, "instants of motion.dat; forces and moments as in reactions.dat: "// &
-      "in global axes on the link at the pin; of a guide: by the guide on the pin; of a block on "// &
-      "a link: by the block on that link")
+      "in global axes on the link at the pin; of a guide: by the guide on the pin; of a block "// &
+      "on a link: by the block on that link")
     call append_string(notes, "moment: on the link, of a weld or of a block on which it cannot "// &
       "turn; counter-clockwise positive")
     call append_load_notes(notes, variant%model, variant%mechanism)

@@ -245,7 +245,8 @@ module report_table
       response=.true., linkages=four_bars, tables=[ &
       table_kind_t("peaks", "speed:speed link:name strain:- strain_at:length "// &
       "strain_crank:deg stress:stress stress_at:length stress_crank:deg "// &
-      "deflection,deflection_at:length deflection_crank:deg power:power error:-"), no_table, no_table]), &
+      "deflection,deflection_at:length deflection_crank:deg power:power error:-"), no_table, &
+      no_table]), &
     report_kind_t(name="drive", help="the driving torque with its parts, and the power", &
       pattern="REPORT drive [accuracy=]", default="accuracy=1e-6", studies="response", &
       positions=.true., response=.true., linkages=four_bars, tables=[ &
@@ -286,7 +287,8 @@ module report_table
       table_kind_t("transient", "speed:speed time:time crank:deg point:name ux,uy:length "// &
       "rotation:deg error:-"), &
       table_kind_t("gauges", "speed:speed time:time crank:deg gauge:name "// &
-      "axial_strain,bending_strain:- moment:moment axial_force:force stress:stress error:-"), no_table]), &
+      "axial_strain,bending_strain:- moment:moment axial_force:force stress:stress error:-"), &
+      no_table]), &
     report_kind_t(name="motion", help="the motion under motor and loads", &
       pattern="REPORT motion crank= [speed=0] end= step= "// &
       "[columns=accelerations,forces,power] [pins=no|yes] [change_points=stop|through]", &

@@ -7,8 +7,8 @@ module linkage_motion_study
   use joint_study, only: joint_t, joint_values, list_joints
   use kinds, only: long, wp
   use linkage_motions, only: change_point_message, end_linkage_motion, find_linkage_details, &
-    linkage_details_t, linkage_motion_t, linkage_motion_tolerance, linkage_sample_t, move_linkage_until, passage_t, &
-    sample_linkage_motion, start_linkage_motion
+    linkage_details_t, linkage_motion_t, linkage_motion_tolerance, linkage_sample_t, &
+    move_linkage_until, passage_t, sample_linkage_motion, start_linkage_motion
   use linkage_rates, only: free_drives, no_stop, stop_change_point, stop_energy, stop_locked, &
     stop_many_steps, stop_misfit, stop_no_inertia, stop_too_fast
   use linkages, only: linkage_t

@@ -40,8 +40,8 @@ module sizing_study
     type(gear_t) :: gear                 !! between a motor and the first drive
   end type sizing_request_t
 
-  !> A force over the cycle: of a drive its torque or force, with its sign, of the motor likewise, at
-  !! its shaft; of a joint its magnitude.
+  !> A force over the cycle: of a drive its torque or force, with its sign, of the motor likewise,
+  !! at its shaft; of a joint its magnitude.
   type :: sized_t
     integer :: drive = 0        !! number; 0: of a joint
     integer :: joint = 0        !! number; 0: of a drive

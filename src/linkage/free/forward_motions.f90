@@ -106,7 +106,8 @@ contains
   !!
   !! Errors: those of `find_start` (out of reach, change point); a speed at a limit position, where
   !! the crank can only be at rest and its speed would not determine those of the other links; a
-  !! speed beyond the table of the motor; no memory. Other reasons why a motion cannot begin are found by `move_until`.
+  !! speed beyond the table of the motor; no memory. Other reasons why a motion cannot begin are
+  !! found by `move_until`.
   subroutine start_motion(linkage, rigid, drive, crank_degrees, speed, duration, motion, error, &
       through, gear)
     type(linkage_t), intent(in) :: linkage           !! a four-bar
@@ -407,6 +408,7 @@ contains
     type(four_bar_instant_t) :: instant
     type(pose_t) :: pose
     type(kinematic_coefficients_t) :: per, now
+    type(kinematic_coefficients_t), allocatable :: all_per(:)
     type(free_equations_t) :: equations
     type(loads_t) :: loads
     real(wp), allocatable :: pin_load(:, :)
@@ -422,7 +424,10 @@ contains
         per)
       now = moving(system%linkage, pose, per, rate, details%acceleration)
     end associate
-    call new_free_equations(system%whole, system%rigid, pose, [per], 0.0_wp, equations)
+    ! An array constructor would copy no components in gfortran 12.
+    allocate (all_per(1))
+    all_per(1) = per
+    call new_free_equations(system%whole, system%rigid, pose, all_per, 0.0_wp, equations)
     found = abs(equations%factor%determinant) > 0.0_wp
     if (.not. found) return
     allocate (pin_load(2, size(system%linkage%is_ground)), source=0.0_wp)

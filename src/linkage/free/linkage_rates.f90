@@ -34,8 +34,8 @@ module linkage_rates
   implicit none (type, external)
   private
 
-  public :: moving_linkage_t, linkage_instant_t, find_instant, free_drives, find_state, place_by_drives, &
-    find_rates_of_coordinates, all_inertia, inertia_share, rate_of_drive
+  public :: moving_linkage_t, linkage_instant_t, find_instant, free_drives, find_state, &
+    place_by_drives, find_rates_of_coordinates, all_inertia, inertia_share, rate_of_drive
   public :: no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps, &
     stop_many_steps, stop_misfit, stop_energy, stop_at_end, stop_locked
 

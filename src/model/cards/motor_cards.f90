@@ -144,8 +144,8 @@ contains
         if (value > 0.0_wp .and. value <= 1.0_wp) then
           motor%efficiency = value
         else
-          call add_error(diagnostics, word, "the efficiency of a gear is above 0 and at most 1, "// &
-            "not "//word%text)
+          call add_error(diagnostics, word, "the efficiency of a gear is above 0 and at most "// &
+            "1, not "//word%text)
         end if
       end associate
     end if
@@ -202,8 +202,8 @@ contains
     if (table > 0) then
       i = max(constant, line)
       if (constant > 0 .and. line > 0) i = min(constant, line)
-      call add_error(diagnostics, card%entries(i)%key, "the torque of this motor is that of its "// &
-        "table: '"//card%entries(i)%key%text//"=' has no meaning beside it", &
+      call add_error(diagnostics, card%entries(i)%key, "the torque of this motor is that of "// &
+        "its table: '"//card%entries(i)%key%text//"=' has no meaning beside it", &
         card%entries(table)%key, "'table=' is given here")
       return
     end if

@@ -12,8 +12,8 @@ module report_cards
   use transient_cards, only: read_transient, transient_card_t
   use units, only: dimension_angle, dimension_length, dimension_none, dimension_rate, &
     dimension_time, dimension_velocity, unit_system_t
-  use value_lists, only: empty_list, find_items, list_steps, read_entry_list, read_entry_pair, read_values, &
-    value_list_t
+  use value_lists, only: empty_list, find_items, list_steps, read_entry_list, read_entry_pair, &
+    read_values, value_list_t
   implicit none (type, external)
   private
 
@@ -47,8 +47,8 @@ module report_cards
     logical :: with_pins = .false.   !! with a table of the places of the pins
     logical :: through = .false.     !! straight through change points
     logical :: with_accelerations = .false., with_forces = .false., with_power = .false. !! columns
-    type(token_t) :: start_angle_word, start_speed_word, end_time_word, time_step_word, through_word, &
-      forces_word
+    type(token_t) :: start_angle_word, start_speed_word, end_time_word, time_step_word, &
+      through_word, forces_word
     type(transient_card_t) :: transient !! REPORT transient
     ! REPORT frame: about a place, about a pin, or without either about the point of reference.
     logical :: has_about = .false.   !! `about=x,y` is given

@@ -279,8 +279,8 @@ contains
         call add_warning(diagnostics, model%motor%keyword, &
           "MOTOR is used by REPORT motion only, which is not asked for")
       else if (report_number(model, "sizing") == 0) then
-        call add_warning(diagnostics, model%motor%keyword, "MOTOR is used by REPORT motion, and "// &
-          "its gear and rotor by REPORT sizing, neither of which is asked for")
+        call add_warning(diagnostics, model%motor%keyword, "MOTOR is used by REPORT motion, "// &
+          "and its gear and rotor by REPORT sizing, neither of which is asked for")
       end if
     end if
     if (report_of_masses(model) > 0 .or. needs_frequencies(model)) return
