@@ -86,7 +86,7 @@ contains
       "that over time; 0: none is "// &
       "needed; loads that depend on the speed are those at the mean speed")
     if (has_rotor) call append_string(notes, "flywheel: beside the rotor of the motor, which "// &
-      "acts as one")
+      "acts as one; without the losses in its gear")
     call append_string(notes, "energy_of_cycle: greatest less least of the integral of "// &
       "(mean_torque - torque of the loads); fluctuation_without: without a flywheel; "// &
       "greatest_rate, least_rate: with it")
