@@ -1,10 +1,10 @@
 !> Axial force in every element, from the equilibrium of the part of the link beyond it.
 !!
-!! At a mass along the link the force jumps. Jumps are kept apart from the smooth rest: each is a
-!! constant force from the first pin to the mass. When the cross-section that carries a mass at the
-!! offset e turns by θ, a force F across the link on it does the work `−½ F e θ²`, and the
-!! centrifugal forces about its own mass centre, whose moment of inertia is I, `−½ I ω² θ²`. This is
-!! kept as (F e + I ω²)/L, after the jumps.
+!! At a mass along the link, and at the place of a force, the axial force jumps. Jumps are kept apart
+!! from the smooth rest: each is a constant force from the first pin to the mass. When the
+!! cross-section that carries a mass at the offset e turns by θ, a force F across the link on it does
+!! the work `−½ F e θ²`, and the centrifugal forces about its own mass centre, whose moment of
+!! inertia is I, `−½ I ω² θ²`. This is kept as (F e + I ω²)/L, after the jumps.
 !!
 !! For a rigid link only the mean matters. When the link turns by ψ, its dead loads F at places r do
 !! the work `−½ ψ² Σ F·r`, and `Σ F·r`, which for a slender link is `∫ N dx`, is L times that mean.
@@ -15,9 +15,9 @@ module axial_forces
   use inertia_loads, only: load_t, lumped_masses, lumped_stations
   use joint_forces, only: find_joint_forces, joint_forces_t
   use kinds, only: wp
-  use linkages, only: linkage_t, normal_to
-  use load_cases, only: case_count, find_case_loads, unit_loads_t
-  use poses, only: pose_t
+  use linkages, only: forced_place_t, linkage_t, normal_to
+  use load_cases, only: case_count, find_case_loads, load_case_t, unit_loads_t
+  use poses, only: arm_to_place, pose_t
   use rigid_bodies, only: rigid_body, rigid_body_t
   implicit none (type, external)
   private
@@ -112,62 +112,84 @@ contains
     end associate
   end function link_axial_force
 
-  !> Contribution of every mass along a link to the axial force between the first pin and the mass,
-  !! from its inertia load: `−m e·a`.
-  pure function axial_jumps(linkage, body, pose, field) result(jump)
-    type(linkage_t), intent(in) :: linkage          !! masses along the links
-    integer, intent(in) :: body                     !! number of the link
-    type(pose_t), intent(in) :: pose                !! directions of the links
-    type(acceleration_field_t), intent(in) :: field !! of this load case
-    real(wp), allocatable :: jump(:)                !! (lumps) tension positive [N]
+  !> Contribution of every lump of a link to the axial force between the first pin and the lump:
+  !! `−m e·a` from the inertia load of a mass, `e·F` from a force.
+  pure function axial_jumps(linkage, body, pose, case) result(jump)
+    type(linkage_t), intent(in) :: linkage  !! masses and forces along the links
+    integer, intent(in) :: body             !! number of the link
+    type(pose_t), intent(in) :: pose        !! directions of the links
+    type(load_case_t), intent(in) :: case   !! accelerations, and forces at places
+    real(wp), allocatable :: jump(:)        !! (lumps) tension positive [N]
 
-    integer :: i
+    integer :: i, masses
 
     associate (this => linkage%bodies(body))
       allocate (jump(lump_count(this)))
-      do i = 1, size(jump)
+      masses = 0
+      if (allocated(this%lumps)) masses = size(this%lumps)
+      do i = 1, masses
         jump(i) = -this%lumps(i)%mass*dot_product(pose%direction(:, body), &
-          point_acceleration(field, body, this%lumps(i)%place(1), this%lumps(i)%place(2)))
+          point_acceleration(case%field, body, this%lumps(i)%place(1), this%lumps(i)%place(2)))
+      end do
+      do i = masses + 1, size(jump)
+        jump(i) = dot_product(pose%direction(:, body), force_at(case, this%forced(i - masses)))
       end do
     end associate
   end function axial_jumps
 
   !> What the inertia loads of masses do against the rotation of the cross-sections that carry them,
   !! divided by the length: `−(m e n·a + I e_x·slope)/L`, with the acceleration a of the mass and
-  !! its slope along the link, whose part in that direction is −ω².
-  pure function turning_forces(linkage, body, pose, field) result(force)
-    type(linkage_t), intent(in) :: linkage          !! masses along the links
-    integer, intent(in) :: body                     !! number of the link
-    type(pose_t), intent(in) :: pose                !! directions of the links
-    type(acceleration_field_t), intent(in) :: field !! of this load case
-    real(wp), allocatable :: force(:)               !! (lumps) positive if it turns them back [N]
+  !! its slope along the link, whose part in that direction is −ω²; and what forces do: `e n·F/L`.
+  pure function turning_forces(linkage, body, pose, case) result(force)
+    type(linkage_t), intent(in) :: linkage  !! masses and forces along the links
+    integer, intent(in) :: body             !! number of the link
+    type(pose_t), intent(in) :: pose        !! directions of the links
+    type(load_case_t), intent(in) :: case   !! accelerations, and forces at places
+    real(wp), allocatable :: force(:)       !! (lumps) positive if it turns them back [N]
 
-    integer :: i
+    integer :: i, masses
 
     associate (this => linkage%bodies(body), axis => pose%direction(:, body))
       allocate (force(lump_count(this)))
-      do i = 1, size(force)
+      masses = 0
+      if (allocated(this%lumps)) masses = size(this%lumps)
+      do i = 1, masses
         associate (lump => this%lumps(i))
           force(i) = -(lump%mass*lump%place(2)*dot_product(normal_to(axis), &
-            point_acceleration(field, body, lump%place(1), lump%place(2))) + &
-            lump%inertia*dot_product(axis, field%slope(:, body)))/this%length
+            point_acceleration(case%field, body, lump%place(1), lump%place(2))) + &
+            lump%inertia*dot_product(axis, case%field%slope(:, body)))/this%length
+        end associate
+      end do
+      do i = masses + 1, size(force)
+        associate (at => this%forced(i - masses))
+          force(i) = at%place(2)*dot_product(normal_to(axis), force_at(case, at))/this%length
         end associate
       end do
     end associate
   end function turning_forces
 
+  !> The force at a place of a body; 0 in load cases without forces.
+  pure function force_at(case, at) result(force)
+    type(load_case_t), intent(in) :: case
+    type(forced_place_t), intent(in) :: at
+    real(wp) :: force(2) !! [N]
+
+    force = 0.0_wp
+    if (allocated(case%place_force)) force = case%place_force(:, at%load)
+  end function force_at
+
   !> What the lumps of a link add to the functions of its axial force: jumps and, if one turns with
   !! its cross-section, `turning_forces`.
-  pure function lump_functions(linkage, body, pose, field) result(force)
-    type(linkage_t), intent(in) :: linkage          !! masses along the links
-    integer, intent(in) :: body                     !! number of the link
-    type(pose_t), intent(in) :: pose                !! directions of the links
-    type(acceleration_field_t), intent(in) :: field !! of this load case
-    real(wp), allocatable :: force(:)               !! (lumps, perhaps twice) [N]
+  pure function lump_functions(linkage, body, pose, case) result(force)
+    type(linkage_t), intent(in) :: linkage  !! masses and forces along the links
+    integer, intent(in) :: body             !! number of the link
+    type(pose_t), intent(in) :: pose        !! directions of the links
+    type(load_case_t), intent(in) :: case   !! accelerations, and forces at places
+    real(wp), allocatable :: force(:)       !! (lumps, perhaps twice) [N]
 
-    force = axial_jumps(linkage, body, pose, field)
+    force = axial_jumps(linkage, body, pose, case)
     if (has_turning_lumps(linkage%bodies(body))) force = [force, turning_forces(linkage, body, &
-      pose, field)]
+      pose, case)]
   end function lump_functions
 
   !> Mean axial force over the length of a rigid link: `Σ F·r/L`, r from its first pin.
@@ -175,24 +197,30 @@ contains
   !! Inertia loads act where the mass is: `−∫ a·r dm = −(a_first·S + (slope·e) I)` with the first
   !! moment S and the moment of inertia I about the first pin. The rotary inertia of cross-sections
   !! does not count, as in a slender link.
-  pure function mean_axial_force(linkage, body, elements, pose, field, joints) result(force)
+  pure function mean_axial_force(linkage, body, elements, pose, case, joints) result(force)
     type(linkage_t), intent(in) :: linkage          !! lengths and masses
     integer, intent(in) :: body                     !! number of the link
     integer, intent(in) :: elements                 !! on whose nodes the mass of the link sits; 0:
                                                     !! distributed
     type(pose_t), intent(in) :: pose                !! directions of the links
-    type(acceleration_field_t), intent(in) :: field !! of this load case
+    type(load_case_t), intent(in) :: case           !! accelerations, and forces at places
     type(joint_forces_t), intent(in) :: joints      !! in equilibrium with the same loads
     real(wp) :: force                               !! tension positive [N]
 
     type(rigid_body_t) :: whole
+    integer :: i
 
-    associate (e => pose%direction(:, body), this => linkage%bodies(body))
+    associate (e => pose%direction(:, body), this => linkage%bodies(body), field => case%field)
       whole = rigid_body(this, elements)
       if (elements == 0) whole%inertia = whole%inertia - this%rotary_inertia*this%length
       force = dot_product(e, joints%on_last(:, body)) - (whole%first_moment(1)*dot_product(e, &
         field%at_first(:, body)) + whole%first_moment(2)*dot_product(normal_to(e), &
         field%at_first(:, body)) + whole%inertia*dot_product(e, field%slope(:, body)))/this%length
+      if (.not. allocated(this%forced)) return
+      do i = 1, size(this%forced)
+        force = force + dot_product(force_at(case, this%forced(i)), arm_to_place(pose, body, &
+          this%forced(i)%place))/this%length
+      end do
     end associate
   end function mean_axial_force
 
@@ -238,10 +266,10 @@ contains
           if (linkage%bodies(b)%bends) then
             force(:3, b, i) = link_axial_force(linkage, b, pose, case%field, joints)
             if (lump_count(linkage%bodies(b)) == 0) cycle
-            jump = lump_functions(linkage, b, pose, case%field)
+            jump = lump_functions(linkage, b, pose, case)
             force(4:3 + size(jump), b, i) = jump
           else
-            force(1, b, i) = mean_axial_force(linkage, b, 0, pose, case%field, joints)
+            force(1, b, i) = mean_axial_force(linkage, b, 0, pose, case, joints)
           end if
         end do
       end associate

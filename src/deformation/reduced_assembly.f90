@@ -6,10 +6,11 @@
 module reduced_assembly
   use body_lumps, only: lump_offsets
   use bordered_matrix, only: bordered_matrix_t, layout_t, new_bordered_layout
+  use deformation_places, only: displacement_row, rotation_row
   use inertia_loads, only: distributed_load, load_t
   use kinds, only: wp
   use link_modes, only: clamp, link_modes_t, rigid, stations
-  use linkages, only: linkage_t, normal_to
+  use linkages, only: body_t, linkage_t, normal_to, turned_back
   use load_cases, only: load_case_t
   use pin_displacements, only: body_displacement, border_numbers, chords_t
   use poses, only: pose_t
@@ -194,6 +195,8 @@ contains
       else
         border = border + matmul(rigid_work(linkage, b, pose, case), body_displacement(chords, b))
       end if
+      if (has_forces(linkage%bodies(b), case)) call add_place_forces(linkage, links(b), b, chords, &
+        pose, case, border)
     end do
     do k = 1, size(linkage%pin_mass)
       border = border - linkage%pin_mass(k)*matmul(case%field%at_pin(:, k), chords%pin(:, k, :)) + &
@@ -210,6 +213,8 @@ contains
           links(b)%clamp_station(i)*ends(3) - dot_product(links(b)%sag(i, :), &
           load(:size(links(b)%sag, 2), b))
       end do
+      if (links(b)%bends .and. has_forces(linkage%bodies(b), case)) call add_sag_under_forces( &
+        linkage, links(b), b, pose, case, displacement(2, :, b))
     end do
   end subroutine reduced_deflection
 
@@ -240,6 +245,89 @@ contains
       matmul(transpose(along), matmul(transpose(link%cross_linear(1:2, :)), load(1:2))) - &
       matmul(transpose(across), matmul(transpose(link%at_mass), load(5:)))
   end subroutine add_coupled_loads
+
+  !> Whether forces act at places of a body in a load case.
+  pure function has_forces(body, case) result(has)
+    type(body_t), intent(in) :: body
+    type(load_case_t), intent(in) :: case
+    logical :: has
+
+    has = allocated(body%forced) .and. allocated(case%place_force)
+    if (has) has = size(body%forced) > 0
+  end function has_forces
+
+  !> Adds the work that forces at places of a link do on the border, beside that of their moments
+  !! about its first pin as the chord turns, which is among the torques.
+  pure subroutine add_place_forces(linkage, link, body, chords, pose, case, border)
+    type(linkage_t), intent(in) :: linkage
+    type(link_modes_t), intent(in) :: link
+    integer, intent(in) :: body
+    type(chords_t), intent(in) :: chords
+    type(pose_t), intent(in) :: pose
+    type(load_case_t), intent(in) :: case
+    real(wp), intent(inout) :: border(:)
+
+    real(wp) :: force(2), xi, bending(0:link%modes)
+    integer :: i
+
+    do i = 1, size(linkage%bodies(body)%forced)
+      associate (at => linkage%bodies(body)%forced(i))
+        force = turned_back(case%place_force(:, at%load), pose%direction(:, body))
+        border = border + force(1)*chords%along(1, :, body) + force(2)*chords%across(1, :, body)
+        if (.not. link%bends) cycle
+        xi = at%place(1)/link%length
+        bending = work_on_bending(link, at%place, force)
+        border = border + force(1)*xi*(chords%along(2, :, body) - chords%along(1, :, body)) + &
+          bending(0)*chords%across(3, :, body)
+      end associate
+    end do
+  end subroutine add_place_forces
+
+  !> Adds the deflection of a held link under the forces at its places.
+  pure subroutine add_sag_under_forces(linkage, link, body, pose, case, across)
+    type(linkage_t), intent(in) :: linkage
+    type(link_modes_t), intent(in) :: link
+    integer, intent(in) :: body
+    type(pose_t), intent(in) :: pose
+    type(load_case_t), intent(in) :: case
+    real(wp), intent(inout) :: across(:) !! (stations) [m]
+
+    real(wp) :: work(0:link%modes), row(link%bending_shapes%unknowns), force(2), &
+      along(link%axial_shapes%unknowns)
+    integer :: i, kept
+
+    work = 0.0_wp
+    do i = 1, size(linkage%bodies(body)%forced)
+      associate (at => linkage%bodies(body)%forced(i))
+        force = turned_back(case%place_force(:, at%load), pose%direction(:, body))
+        work = work + work_on_bending(link, at%place, force)
+        if (.not. link%coupled) cycle
+        along = displacement_row(link%axial_shapes, at%place(1)/link%length)
+        work(1:) = work(1:) + force(1)*matmul(along(:size(link%axial, 1)), link%axial)
+      end associate
+    end do
+    kept = size(link%bending, 1)
+    do i = 1, size(across)
+      row = displacement_row(link%bending_shapes, real(i - 1, wp)/(size(across) - 1))
+      across(i) = across(i) + dot_product(matmul(row(:kept), link%bending(:, 1:)), work(1:))
+    end do
+  end subroutine add_sag_under_forces
+
+  !> Work of a force at a place of a link that bends on the curve of its clamped end and its own
+  !! modes: `F_n v − F_x e θ` with the offset e of the place.
+  pure function work_on_bending(link, place, force) result(work)
+    type(link_modes_t), intent(in) :: link
+    real(wp), intent(in) :: place(2) !! [m]
+    real(wp), intent(in) :: force(2) !! along the link and across it [N]
+    real(wp) :: work(0:link%modes)
+
+    real(wp) :: row(link%bending_shapes%unknowns), xi
+
+    xi = place(1)/link%length
+    row = force(2)*displacement_row(link%bending_shapes, xi)
+    if (abs(place(2)) > 0.0_wp) row = row - force(1)*place(2)*rotation_row(link%bending_shapes, xi)
+    work = matmul(row(:size(link%bending, 1)), link%bending)
+  end function work_on_bending
 
   !> Work of the inertia loads of a rigid link on each of the three motions of `body_displacement`
   !! [N, N, N m].

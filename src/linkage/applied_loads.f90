@@ -6,7 +6,7 @@ module applied_loads
   use inertia_loads, only: load_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
-  use linkages, only: cross, linkage_t, turned
+  use linkages, only: cross, forced_place_t, linkage_t, turned
   use load_coordinates, only: load_axis, load_deflection, load_rate, place_in, velocity_at
   use load_tables, only: table_factor
   use pose_types, only: pose_t
@@ -15,6 +15,7 @@ module applied_loads
   private
 
   public :: add_conservative_loads, add_prescribed_loads, add_standing_loads, add_moving_loads, &
+    forced_places, forces_at_places, &
     applied_potential, generalised_force, has_standing_loads, has_moving_loads, spring_pulls, &
     damper_pulls, spring_scale
 
@@ -143,6 +144,50 @@ contains
     call add_conservative_loads(linkage, pose, body_load, pin_load)
     call add_prescribed_loads(linkage, pose, origin, body_load, pin_load)
   end subroutine add_standing_loads
+
+  !> Places of a body on which forces act that a pose determines.
+  pure function forced_places(loads, body) result(places)
+    type(applied_load_t), intent(in) :: loads(:) !! of the linkage
+    integer, intent(in) :: body                  !! its number
+    type(forced_place_t), allocatable :: places(:)
+
+    logical :: acts(size(loads))
+    integer :: i, n
+
+    acts = loads%kind == applies_force .and. (is_conservative(loads) .or. is_prescribed(loads))
+    do i = 1, size(loads)
+      acts(i) = acts(i) .and. loads(i)%at(1)%pin == 0 .and. loads(i)%at(1)%body == body
+    end do
+    allocate (places(count(acts)))
+    n = 0
+    do i = 1, size(loads)
+      if (.not. acts(i)) cycle
+      n = n + 1
+      places(n)%load = i
+      places(n)%place = loads(i)%at(1)%place
+    end do
+  end function forced_places
+
+  !> The forces at places of bodies that a pose determines; 0 of all other loads [N].
+  pure function forces_at_places(linkage, pose, origin) result(force)
+    type(linkage_t), intent(in) :: linkage           !! its loads, and places where forces act
+    type(pose_t), intent(in) :: pose                 !! with the coordinate of the first drive
+    real(wp), intent(in) :: origin(2)                !! from which its pins are counted [m]
+    real(wp) :: force(2, load_count(linkage))        !! (2, loads) in global axes
+
+    integer :: b, i
+
+    force = 0.0_wp
+    do b = 1, size(linkage%bodies)
+      if (.not. allocated(linkage%bodies(b)%forced)) cycle
+      do i = 1, size(linkage%bodies(b)%forced)
+        associate (number => linkage%bodies(b)%forced(i)%load)
+          force(:, number) = table_factor(linkage, pose, origin, linkage%loads(number))* &
+            force_of(pose, linkage%loads(number))
+        end associate
+      end do
+    end do
+  end function forces_at_places
 
   !> Adds what depends on the motion: dampers, resistances, and loads that act in one direction of
   !! the motion only.

@@ -1,8 +1,9 @@
-!> Masses along links that bend: their number and their places.
+!> Masses along links that bend, and places where forces act on them: their number and their places.
 !!
 !! A mass point bends a link sharply: the shear force jumps there, and so does the axial force.
 !! Where the program chooses the orders, an element ends at every mass. Deformations are then smooth
-!! inside each element, and polynomials converge as fast as without masses.
+!! inside each element, and polynomials converge as fast as without masses. The place of a force is
+!! a lump without mass, behind the masses in the order of lumps.
 module body_lumps
   use kinds, only: wp
   use linkages, only: body_t
@@ -18,53 +19,78 @@ module body_lumps
 
 contains
 
-  !> Number of lumps of a body.
+  !> Number of lumps of a body: its masses and the places of forces.
   pure function lump_count(body) result(number)
-    type(body_t), intent(in) :: body !! its lumps
+    type(body_t), intent(in) :: body !! its masses and forces
+    integer :: number
+
+    number = mass_count(body) + force_count(body)
+  end function lump_count
+
+  pure function mass_count(body) result(number)
+    type(body_t), intent(in) :: body
     integer :: number
 
     number = 0
     if (allocated(body%lumps)) number = size(body%lumps)
-  end function lump_count
+  end function mass_count
+
+  pure function force_count(body) result(number)
+    type(body_t), intent(in) :: body
+    integer :: number
+
+    number = 0
+    if (allocated(body%forced)) number = size(body%forced)
+  end function force_count
 
   !> Masses of the lumps of a body, in the order of its lumps [kg].
   pure function lump_masses(body) result(mass)
-    type(body_t), intent(in) :: body !! its lumps
+    type(body_t), intent(in) :: body !! its masses and forces
     real(wp), allocatable :: mass(:)
 
-    allocate (mass(0))
-    if (allocated(body%lumps)) mass = body%lumps%mass
+    allocate (mass(lump_count(body)), source=0.0_wp)
+    if (allocated(body%lumps)) mass(:size(body%lumps)) = body%lumps%mass
   end function lump_masses
 
   !> Places of the lumps along a body, from 0 to 1, in the order of its lumps.
   pure function lump_places(body) result(xi)
-    type(body_t), intent(in) :: body !! its lumps
+    type(body_t), intent(in) :: body !! its masses and forces
     real(wp), allocatable :: xi(:)
 
-    integer :: i
-
-    allocate (xi(0))
-    if (allocated(body%lumps)) xi = [(body%lumps(i)%place(1)/body%length, i=1, size(body%lumps))]
+    xi = coordinates(body, 1)/body%length
   end function lump_places
 
   !> Distances of the lumps of a body from its axis, to its left, in the order of its lumps [m].
   pure function lump_offsets(body) result(offset)
-    type(body_t), intent(in) :: body !! its lumps
+    type(body_t), intent(in) :: body !! its masses and forces
     real(wp), allocatable :: offset(:)
+
+    offset = coordinates(body, 2)
+  end function lump_offsets
+
+  pure function coordinates(body, axis) result(x)
+    type(body_t), intent(in) :: body
+    integer, intent(in) :: axis !! 1: along the body, 2: across it
+    real(wp), allocatable :: x(:)
 
     integer :: i
 
-    allocate (offset(0))
-    if (allocated(body%lumps)) offset = [(body%lumps(i)%place(2), i=1, size(body%lumps))]
-  end function lump_offsets
+    allocate (x(lump_count(body)))
+    do i = 1, mass_count(body)
+      x(i) = body%lumps(i)%place(axis)
+    end do
+    do i = 1, force_count(body)
+      x(mass_count(body) + i) = body%forced(i)%place(axis)
+    end do
+  end function coordinates
 
   !> Moments of inertia of the lumps of a body, each about its own mass centre [kg m²].
   pure function lump_inertias(body) result(inertia)
-    type(body_t), intent(in) :: body !! its lumps
+    type(body_t), intent(in) :: body !! its masses and forces
     real(wp), allocatable :: inertia(:)
 
-    allocate (inertia(0))
-    if (allocated(body%lumps)) inertia = body%lumps%inertia
+    allocate (inertia(lump_count(body)), source=0.0_wp)
+    if (allocated(body%lumps)) inertia(:size(body%lumps)) = body%lumps%inertia
   end function lump_inertias
 
   !> Whether a body has lumps that feel the rotation of its cross-sections: beside its axis, where

@@ -11,8 +11,8 @@ module linkages
   implicit none (type, external)
   private
 
-  public :: linkage_t, body_t, body_pin_t, lump_t, slider_t, turn_t, drive_t, drawing_t, &
-    equation_t, group_t, path_t, shaft_t
+  public :: linkage_t, body_t, body_pin_t, lump_t, forced_place_t, slider_t, turn_t, drive_t, &
+    drawing_t, equation_t, group_t, path_t, shaft_t
   public :: new_four_bar, mobility, reference_point, is_dyad_linkage, cross, normal_to, turned, &
     turned_back
   public :: drives_angle, drives_slider, drives_length
@@ -47,6 +47,12 @@ module linkages
     real(wp) :: inertia = 0.0_wp   !! moment of inertia about its own mass centre [kg m²]
   end type lump_t
 
+  !> A place of a body where a force acts that a pose determines.
+  type :: forced_place_t
+    integer :: load = 0            !! number among the loads of the linkage
+    real(wp) :: place(2) = 0.0_wp  !! from the first pin, in the axes of the body [m]
+  end type forced_place_t
+
   !> A further pin of a body.
   type :: body_pin_t
     integer :: pin = 0
@@ -71,6 +77,7 @@ module linkages
     logical :: bends = .true.             !! as a beam; else rigid
     type(lump_t), allocatable :: lumps(:) !! masses fixed to it
     type(body_pin_t), allocatable :: further(:) !! pins beside its first and its last
+    type(forced_place_t), allocatable :: forced(:) !! where forces act on it; not allocated: none
   end type body_t
 
   !> A pin that slides along a straight line: fixed, or of a body.

@@ -3,7 +3,7 @@
 !! speed is in `running_loads`.
 module load_cases
   use acceleration_fields, only: acceleration_field_t, find_unit_field
-  use applied_loads, only: add_standing_loads, has_standing_loads
+  use applied_loads, only: add_standing_loads, forces_at_places, has_standing_loads
   use inertia_loads, only: distributed_load, load_t, lumped_load, pin_load
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
@@ -27,6 +27,8 @@ module load_cases
                                              !! `body_force` about their first pins [N m]
     real(wp), allocatable :: body_force(:, :) !! (2, bodies) external forces on bodies beside their
                                              !! pins [N]; not allocated: none
+    real(wp), allocatable :: place_force(:, :) !! (2, loads of the linkage) those of them that act
+                                             !! at places of bodies, else 0 [N]; not allocated: none
   end type load_case_t
 
   !> The three cases at a pose, found once for all uses.
@@ -95,6 +97,7 @@ contains
 
     call add_standing_loads(linkage, pose, [0.0_wp, 0.0_wp], body_loads, constant%pin_force)
     constant%couple = constant%couple + body_loads%moment
+    constant%place_force = forces_at_places(linkage, pose, [0.0_wp, 0.0_wp])
     allocate (constant%body_force(2, size(body_loads)))
     do b = 1, size(body_loads)
       constant%body_force(:, b) = body_loads(b)%force

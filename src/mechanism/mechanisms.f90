@@ -1,5 +1,6 @@
 !> Model → mechanism: the linkage with its masses and loads, its beams and its mesh.
 module mechanisms
+  use applied_loads, only: forced_places
   use attached_parts, only: append_loads, apply_loads, attach_masses, body_point_t, points_of, &
     runs_against
   use beam_mesh, only: new_beam_mesh
@@ -63,6 +64,7 @@ contains
 
     type(link_t) :: links(size(assembly%link))
     type(name_index_t) :: pins
+    integer :: i
 
     mechanism%linkage = assembly%linkage
     mechanism%is_four_bar = is_four_bar(model)
@@ -76,6 +78,9 @@ contains
     call apply_loads(model, assembly%link, pins, mechanism%linkage)
     call append_loads(process_loads(model, assembly%link, pins, mechanism%linkage), &
       mechanism%linkage)
+    do i = 1, size(links)
+      mechanism%linkage%bodies(i)%forced = forced_places(mechanism%linkage%loads, i)
+    end do
     ! Springs are the last: `spring_words` finds them there.
     call append_loads(springs_of(model, assembly%link, pins, mechanism%linkage), mechanism%linkage)
     mechanism%linkage%frictions = frictions_of(model, assembly%link, pins, mechanism%linkage)

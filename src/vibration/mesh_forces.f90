@@ -60,7 +60,7 @@ contains
             else
               force(:smooth, b, i) = link_axial_force(linkage, b, state%pose, case%field, joints)
             end if
-            jump = lump_functions(linkage, b, state%pose, case%field)
+            jump = lump_functions(linkage, b, state%pose, case)
             force(smooth + 1:smooth + size(jump), b, i) = jump
           end do
         end associate
@@ -104,7 +104,7 @@ contains
       do b = 1, size(loads)
         if (linkage%bodies(b)%bends) cycle
         in_element(:, mesh%first_element(b)) = [mean_axial_force(linkage, b, elements(b), &
-          state%pose, case%field, joints), 0.0_wp, 0.0_wp]
+          state%pose, case, joints), 0.0_wp, 0.0_wp]
       end do
     end associate
   end subroutine find_element_forces

@@ -59,9 +59,9 @@ contains
           state%pose, in_element)
         do b = 1, size(structure%beams)
           call add_axial_jumps(structure%linkage, structure%mesh, state%pose, b, &
-            axial_jumps(structure%linkage, b, state%pose, case%field), unit_stiffness(i))
+            axial_jumps(structure%linkage, b, state%pose, case), unit_stiffness(i))
           call add_turning_forces(structure%linkage, structure%mesh, state%pose, b, &
-            turning_forces(structure%linkage, b, state%pose, case%field), unit_stiffness(i))
+            turning_forces(structure%linkage, b, state%pose, case), unit_stiffness(i))
         end do
       end associate
       result%counts%geometric_matrices = result%counts%geometric_matrices + 1

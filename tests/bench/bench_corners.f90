@@ -283,7 +283,7 @@ contains
           call find_element_forces(mechanism%structure_t, state, case, .false., in_element, joints)
           geometric = assemble_geometric_stiffness(linkage, mesh, state%pose, in_element)
           do b = 1, size(mechanism%beams)
-            call add_axial_jumps(linkage, mesh, state%pose, b, axial_jumps(linkage, b, state%pose, case%field), geometric)
+            call add_axial_jumps(linkage, mesh, state%pose, b, axial_jumps(linkage, b, state%pose, case), geometric)
           end do
           stiffness%entry = stiffness%entry + factor(i, 1)*geometric%entry
         end associate

@@ -39,7 +39,9 @@ module process_cards
     logical :: on_link = .false.           !! the subject is a link
     integer :: link = 0                    !! its number in the model's list; 0: a pin, or unknown
     real(wp) :: place(2) = 0.0_wp          !! on the link, from the first pin of its card [m]
+    type(token_t) :: place_word            !! value of `at=`
     logical :: in_link_axes = .false.      !! of the force
+    type(token_t) :: axes_word             !! value of `axes=`
     real(wp) :: force(2) = 0.0_wp          !! with a table its direction, of any length [N] or [-]
     real(wp) :: torque = 0.0_wp            !! counter-clockwise; of a LOAD taken from the link
                                            !! [N m]
@@ -75,7 +77,6 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(process_card_t), intent(out) :: process      !! as read; names are not looked up
 
-    type(token_t) :: word
     type(unit_t) :: none, measure
     logical :: fine, known_keys, read(2)
     integer :: i, choice
@@ -86,7 +87,8 @@ contains
     process%subject = card%words(1)
     process%on_link = has_key(card, "at")
     if (process%on_link) then
-      call read_place(card, "at", known_keys, system, diagnostics, process%place, word)
+      call read_place(card, "at", known_keys, system, diagnostics, process%place, &
+        process%place_word)
     else if (has_key(card, "offset")) then
       call add_error(diagnostics, card%entries(entry_number(card, "offset"))%key, &
         "'offset=' belongs to a place on a link, and 'at=' is missing")
@@ -95,6 +97,7 @@ contains
     if (i > 0) then
       call read_choice(card%entries(i)%value, "global link", diagnostics, choice)
       process%in_link_axes = choice == 2
+      process%axes_word = card%entries(i)%value
       if (process%in_link_axes .and. .not. process%on_link) call add_error(diagnostics, &
         card%entries(i)%value, "a force at a pin is in global axes; in those of a link it acts "// &
         "at a place of this link; expected: "//pattern_of("FORCE"))
@@ -187,6 +190,8 @@ contains
     process%kind = kind
     process%keyword = card%keyword
     process%subject = token_t("", 0, 0)
+    process%place_word = token_t("", 0, 0)
+    process%axes_word = token_t("", 0, 0)
     process%table_word = token_t("", 0, 0)
     process%over_word = token_t("", 0, 0)
     allocate (process%x(0), process%y(0))

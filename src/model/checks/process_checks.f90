@@ -142,8 +142,9 @@ contains
     end associate
   end subroutine find_variable
 
-  !> Refuses reports on links that bend: these loads do not act there. Constant torques and dampers
-  !! of LOAD, and forces at pins that a table gives, act on the axial forces of frequencies.
+  !> Refuses reports on links that bend. What the position determines of these loads acts on the
+  !! axial forces of frequencies, but a force that turns with its link is no dead load: its change
+  !! as the link vibrates has no potential, and would make the stiffness unsymmetric.
   pure subroutine refuse_reports(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
@@ -159,11 +160,11 @@ contains
               " takes constant forces on pins and constant torques only", report%keyword, &
               "it is asked for here")
             exit
-          else if (report%kind%frequencies .and. process%kind == process_force .and. &
-            process%on_link) then
-            call add_error(diagnostics, process%keyword, "REPORT "//trim(report%kind%name)// &
-              " takes forces at pins and points only; write a POINT for the place", &
-              report%keyword, "it is asked for here")
+          else if (report%kind%frequencies .and. process%in_link_axes .and. &
+            process%during == 0) then
+            call add_error(diagnostics, process%axes_word, "REPORT "//trim(report%kind%name)// &
+              " takes forces in global axes only: one that turns with its link as this "// &
+              "vibrates is not conservative", report%keyword, "it is asked for here")
             exit
           end if
         end associate
