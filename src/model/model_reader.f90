@@ -27,6 +27,7 @@ module model_reader
   use models, only: drives_length, has_law, is_four_bar, is_loaded, is_moving, model_t, &
     needs_mesh, report_number
   use motor_cards, only: read_motor
+  use motor_checks, only: find_motor_line
   use process_cards, only: is_process_form, process_card_t, read_process_force, &
     read_process_torque, read_resistance
   use process_checks, only: find_processes
@@ -81,6 +82,9 @@ contains
     model%solver_word = token_t("", 0, 0)
     model%gravity_word = token_t("", 0, 0)
     model%motor%keyword = token_t("", 0, 0)
+    model%motor%table_word = token_t("", 0, 0)
+    model%motor%line_word = token_t("", 0, 0)
+    allocate (model%motor%speed(0), model%motor%line_torque(0))
     model%balance%keyword = token_t("", 0, 0)
     model%without%keyword = token_t("", 0, 0)
     allocate (model%crank%value(0), model%crank%word(0), model%crank%words(0))
@@ -97,6 +101,7 @@ contains
     call read_frictions(cards, diagnostics, model)
     call check_tables(cards, diagnostics)
     call find_law(cards, diagnostics, model)
+    call find_motor_line(cards, diagnostics, model)
     call choose_reports(reports, diagnostics, model)
     if (has_law(model)) call refuse_reports_of_law(diagnostics, model)
     if (.not. chooses_rate) call take_rate_of_deck(model)
@@ -146,8 +151,10 @@ contains
         number = kind_of_linkage(reports, trim(report%kind%name), four_bar)
         if (number > 0) then
           report%kind = reports(number)
-          if (report%kind%name == "motion" .and. .not. report%with_pins) report%kind%tables(2) = &
-            table_kind_t()
+          if (report%kind%name == "motion") then
+            if (.not. report%with_pins) report%kind%tables(2) = table_kind_t()
+            if (.not. report%with_forces) report%kind%tables(3) = table_kind_t()
+          end if
           ! Harmonics are of a whole turn at constant speed.
           if (report%kind%name == "balance" .and. has_law(model)) then
             report%kind%tables(2) = table_kind_t()

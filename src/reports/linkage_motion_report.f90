@@ -4,8 +4,10 @@ module linkage_motion_report
   use kinds, only: wp
   use linkage_motion_study, only: free_drives, linkage_motion_tolerance
   use load_notes, only: potential_note, work_note
-  use models, only: drives_length, model_t
-  use motion_report, only: implicit_words, most_listed, steps_line, time_in_table
+  use models, only: drives_length, model_t, report_number
+  use motion_report, only: append_gear_notes, implicit_words, most_listed, power_columns, &
+    power_note, steps_line, time_in_table
+  use motion_study, only: undetermined_message
   use plan_words, only: group_names
   use table_columns, only: cells, table_factor, table_layout_t, table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
@@ -55,6 +57,9 @@ contains
     call append_string(notes, "torque: of the motor on the first drive"//line// &
       "; "//potential_note)
     call append_string(notes, work_note)
+    call append_gear_notes(variant%model%motor, notes)
+    if (variant%model%reports(report_number(variant%model, "motion"))%with_power) &
+      call append_string(notes, power_note)
     energy = table_unit("energy", variant%model%outputs)
     if (variant%found%linkage_motion%count > 0) call append_string(notes, "initial energy: "// &
       to_string(from_si(variant%found%linkage_motion%energy, energy))//" "//energy%name// &
@@ -112,6 +117,18 @@ contains
       columns = "time:time position*:deg rate*:rate torque:moment "
     end if
     columns = columns//"kinetic,potential,work,energy_error:energy"
+    associate (asked => model%reports(report_number(model, "motion")))
+      if (asked%with_accelerations) then
+        if (all(moves_along(model%drives(free)%kind))) then
+          columns = columns//" acceleration*:acceleration"
+        else if (any(moves_along(model%drives(free)%kind))) then
+          columns = columns//" acceleration*:see_head"
+        else
+          columns = columns//" acceleration*:rad/s2"
+        end if
+      end if
+      if (asked%with_power) columns = columns//power_columns
+    end associate
   end function linkage_motion_columns
 
   !> Appends one row per instant, and a failed row if the motion ends before its end time.
@@ -120,25 +137,30 @@ contains
     type(table_layout_t), intent(in) :: layout     !! of this table
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
-    real(wp), allocatable :: position(:), rate(:)
+    real(wp), allocatable :: position(:), rate(:), extra(:)
     real(wp) :: torque
     integer, allocatable :: free(:)
     logical :: mixed
     integer :: i, k
 
     free = free_drives(variant%model%drives%is_free)
-    associate (motion => variant%found%linkage_motion, model => variant%model)
+    associate (motion => variant%found%linkage_motion, model => variant%model, &
+        asked => variant%model%reports(report_number(variant%model, "motion")))
       mixed = are_mixed(model, free)
       do i = 1, motion%count
         associate (sample => motion%samples(i))
           position = sample%position
           rate = sample%rate
           torque = sample%torque
+          allocate (extra(0))
+          if (asked%with_accelerations) extra = motion%acceleration(:, i)
           if (mixed) then
             do k = 1, size(free)
               if (moves_along(model%drives(free(k))%kind)) then
                 position(k) = from_si(position(k), table_factor("length", model%outputs))
                 rate(k) = from_si(rate(k), table_factor("velocity", model%outputs))
+                if (asked%with_accelerations) extra(k) = from_si(extra(k), &
+                  table_factor("acceleration", model%outputs))
               else
                 rate(k) = from_si(rate(k), model%outputs%rate)
               end if
@@ -149,13 +171,35 @@ contains
               torque = from_si(torque, table_factor("moment", model%outputs))
             end if
           end if
-          call add_row(rows, decimal_cell(time_in_table(model, i))//cells(layout, 2, [position, &
-            rate, torque, sample%kinetic, sample%potential, sample%work, sample%energy_error]))
+          if (asked%with_power) extra = [extra, motion%power(:, i)]
+          if (.not. has_details(i)) then
+            call add_failed_row(rows, [time_in_table(model, i)], undetermined_message)
+          else
+            call add_row(rows, decimal_cell(time_in_table(model, i))//cells(layout, 2, [position, &
+              rate, torque, sample%kinetic, sample%potential, sample%work, sample%energy_error, &
+              extra]))
+          end if
+          deallocate (extra)
         end associate
       end do
       if (allocated(motion%error)) call add_failed_row(rows, [from_si(motion%last%time, &
         table_factor("time", model%outputs))], motion%error%text)
     end associate
+
+  contains
+
+    !> Whether an instant has the values that `columns=` adds to its row.
+    pure function has_details(instant) result(has)
+      integer, intent(in) :: instant
+      logical :: has
+
+      has = .true.
+      associate (asked => variant%model%reports(report_number(variant%model, "motion")))
+        if (asked%with_accelerations .or. asked%with_power) has = &
+          variant%found%linkage_motion%is_determined(instant)
+      end associate
+    end function has_details
+
   end subroutine add_linkage_motion
 
   !> Log lines: one for each dead point that was passed, then the numbers of steps and rows.

@@ -4,8 +4,10 @@ module motion_report
   use linkage_notes, only: angle_note
   use load_notes, only: potential_note, work_note
   use models, only: model_t, report_number
-  use motion_study, only: motion_result_t, motion_tolerance
+  use motion_study, only: motion_result_t, motion_tolerance, undetermined_message
+  use motor_cards, only: is_geared, motor_t
   use number_text, only: number_width
+  use report_cards, only: report_t
   use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
     table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
@@ -17,8 +19,27 @@ module motion_report
   implicit none (type, external)
   private
 
-  public :: motion_notes, motion_words, add_motion, motion_log, steps_line, &
-    implicit_words, time_in_table, most_listed
+  public :: motion_columns, motion_columns_of, motion_notes, motion_words, add_motion, motion_log, &
+    steps_line, implicit_words, time_in_table, most_listed, power_columns, power_note, &
+    append_gear_notes
+
+  !> What `columns=` adds. Forces are those of `reactions.dat`.
+  character(len=*), parameter :: acceleration_columns = " alpha2,alpha3,alpha4:rad/s2", &
+    power_columns = " motor_power,gear_loss,load_power:power", &
+    force_columns = " O2x,O2y,A2x,A2y,A3x,A3y,B3x,B3y,B4x,B4y,O4x,O4y:force"
+
+  !> All columns, which a table has if its card asks for them.
+  character(len=*), parameter :: always_columns = "time:time crank,theta3,theta4:deg "// &
+    "omega2,omega3,omega4:rate torque:moment kinetic,potential,work,energy_error:energy "// &
+    "closure:length branch:name", motion_columns = always_columns//acceleration_columns// &
+    power_columns//force_columns
+
+  !> Number of the column `branch`, the last that is always there.
+  integer, parameter :: branch_column = 14
+
+  character(len=*), parameter :: power_note = "motor_power: of the motor at its shaft; "// &
+    "gear_loss: in its gear; load_power: of all loads without a potential; motor_power - "// &
+    "gear_loss + load_power is the rate of kinetic + potential"
 
   character(len=*), parameter :: branch_names = "open crossed"
 
@@ -28,6 +49,19 @@ module motion_report
   character(len=*), parameter :: line_feed = achar(10)
 
 contains
+
+  !> The columns that a deck asks for.
+  pure function motion_columns_of(model) result(columns)
+    type(model_t), intent(in) :: model !! with REPORT motion
+    character(len=:), allocatable :: columns
+
+    associate (asked => model%reports(report_number(model, "motion")))
+      columns = always_columns
+      if (asked%with_accelerations) columns = columns//acceleration_columns
+      if (asked%with_power) columns = columns//power_columns
+      if (asked%with_forces) columns = columns//force_columns
+    end associate
+  end function motion_columns_of
 
   !> Meaning of the columns, initial energy, tolerance of the integration.
   pure subroutine motion_notes(variant, notes)
@@ -43,12 +77,28 @@ contains
       call append_string(notes, &
         "torque: of the motor; "//potential_note)
       call append_string(notes, work_note//"; closure: the gap of the loop")
+      call append_gear_notes(variant%model%motor, notes)
+      associate (asked => variant%model%reports(report_number(variant%model, "motion")))
+        if (asked%with_power) call append_string(notes, power_note)
+        if (asked%with_forces) call append_string(notes, "forces in global axes: A2 on link 2 "// &
+          "at A, and so on; O2 and O4 of the ground on links 2 and 4")
+      end associate
       if (motion%count == 0) return
       call append_string(notes, "initial energy: "//to_string(from_si(motion%energy, energy))// &
         " "//energy%name//"; steps of order 8"//implicit_words(motion%implicit_steps)// &
         ", each to "//to_string(motion_tolerance)//" of a radian and of the speed")
     end associate
   end subroutine motion_notes
+
+  !> What torque and energies are, if the motor has a gear or a rotor.
+  pure subroutine append_gear_notes(motor, notes)
+    type(motor_t), intent(in) :: motor                     !! of the deck
+    type(string_t), allocatable, intent(inout) :: notes(:) !! to which a line is added
+
+    if (is_geared(motor)) call append_string(notes, "torque: through the gear on the driven "// &
+      "link, less what turns the rotor; kinetic: with that of the rotor; work: less what the "// &
+      "gear takes")
+  end subroutine append_gear_notes
 
   !> What the head of a table says of implicit steps, if there are some.
   pure function implicit_words(steps) result(words)
@@ -74,6 +124,7 @@ contains
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
     character(len=number_width) :: crank, speed
+    real(wp), allocatable :: extra(:)
     integer :: i, report
 
     associate (motion => variant%found%motion, model => variant%model)
@@ -87,16 +138,37 @@ contains
             crank = real_cells([model%reports(report)%start_angle])
             speed = real_cells([model%shown_start])
           end if
+          extra = extra_values(model%reports(report), motion, i)
+          if (size(extra) > 0) then
+            if (.not. motion%is_determined(i)) then
+              call add_failed_row(rows, [time_in_table(model, i)], undetermined_message)
+              cycle
+            end if
+          end if
           call add_row(rows, decimal_cell(time_in_table(model, i))//crank// &
             cells(layout, 3, sample%angle(2:))//speed//cells(layout, 6, [sample%speed(2:), &
             sample%torque, sample%kinetic, sample%potential, sample%work, sample%energy_error, &
-            sample%closure])//name_cell(trim(branch_of(sample%is_open)), column_width(layout, 14)))
+            sample%closure])//name_cell(trim(branch_of(sample%is_open)), column_width(layout, &
+            branch_column))//cells(layout, branch_column + 1, extra))
         end associate
       end do
       if (allocated(motion%error)) call add_failed_row(rows, [from_si(motion%last%time, &
         table_factor("time", variant%model%outputs))], motion%error%text)
     end associate
   end subroutine add_motion
+
+  !> What `columns=` adds to the row of an instant.
+  pure function extra_values(asked, motion, instant) result(values)
+    type(report_t), intent(in) :: asked
+    type(motion_result_t), intent(in) :: motion
+    integer, intent(in) :: instant !! number
+    real(wp), allocatable :: values(:)
+
+    allocate (values(0))
+    if (asked%with_accelerations) values = [values, motion%acceleration(:, instant)]
+    if (asked%with_power) values = [values, motion%power(:, instant)]
+    if (asked%with_forces) values = [values, motion%force(:, instant)]
+  end function extra_values
 
   !> Time of an instant in the unit of the table: the number that the deck has or would have.
   pure function time_in_table(model, number) result(time)

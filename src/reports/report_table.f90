@@ -52,8 +52,9 @@ module report_table
   use loci_report, only: add_loci, loci_notes, locus_words
   use mesh_report, only: add_mesh, mesh_notes
   use models, only: balances, drives_length, has_law, is_four_bar, model_t, report_number
+  use motion_forces_report, only: add_motion_forces, motion_forces_notes
   use motion_pins_report, only: add_motion_pins, motion_pins_notes
-  use motion_report, only: add_motion, motion_notes, motion_words
+  use motion_report, only: add_motion, motion_columns, motion_columns_of, motion_notes, motion_words
   use peaks_report, only: add_peaks, peaks_notes
   use points_report, only: add_points, point_names, points_notes
   use points_study, only: find_points
@@ -63,7 +64,8 @@ module report_table
   use response_notes, only: add_failed_speed, has_response
   use response_report, only: add_response, response_notes_of, response_point_names
   use sizing_report, only: add_sizing, sizing_names, sizing_notes
-  use sizing_study, only: find_sizing, sizing_request_t
+  use sizing_requests, only: sizing_request_of
+  use sizing_study, only: find_sizing
   use stability_report, only: add_stability, stability_notes, stability_words
   use strains_report, only: add_strains, gauge_names, strains_notes
   use table_columns, only: name_list_t, new_table_layout, table_factor, table_layout_t
@@ -111,6 +113,10 @@ module report_table
   type(table_kind_t), parameter :: motion_pins = table_kind_t("motion_pins", &
     "time:time pin:name x,y:length")
 
+  !> Of linkages that are no four-bars, where the card asks for forces.
+  type(table_kind_t), parameter :: motion_forces = table_kind_t("motion_forces", &
+    "time:time pin,link:name fx,fy:force moment:moment")
+
   !> A record has name, pattern and default of its card, one line of help, studies, what it needs,
   !! tables with their columns.
   type(report_kind_t), parameter :: reports(*) = [ &
@@ -118,93 +124,93 @@ module report_table
       studies="kinematics", positions=.true., reserved=.true., linkages=four_bars, numbers=11, &
       tables=[ &
       table_kind_t("kinematics", "speed:speed crank,theta3,theta4:deg omega3,omega4:rate "// &
-      "alpha3,alpha4:rad/s2 Ax,Ay,Bx,By:length transmission_angle:deg"), no_table]), &
+      "alpha3,alpha4:rad/s2 Ax,Ay,Bx,By:length transmission_angle:deg"), no_table, no_table]), &
     report_kind_t(name="kinematics", help="of other linkages: how the links move", &
       studies="kinematics", positions=.true., reserved=.true., linkages=other_linkages, tables=[ &
       table_kind_t("kinematics", "speed:speed crank:deg link:name theta:deg omega:rate "// &
-      "alpha:rad/s2"), no_table]), &
+      "alpha:rad/s2"), no_table, no_table]), &
     report_kind_t(name="pins", help="paths, velocities and accelerations of the pins", &
       studies="kinematics", positions=.true., tables=[ &
       table_kind_t("pins", "speed:speed crank:deg pin:name x,y:length vx,vy:velocity "// &
-      "ax,ay:acceleration"), no_table]), &
+      "ax,ay:acceleration"), no_table, no_table]), &
     report_kind_t(name="inertia", help="masses, their accelerations and inertia forces", &
       studies="inertia", positions=.true., masses=.true., reserved=.true., numbers=46, &
       linkages=four_bars, tables=[ &
       table_kind_t("inertia", "speed:speed crank:deg mass:# link:name x,y:length "// &
-      "ax,ay:acceleration Fx,Fy:force m:mass moment?:moment"), no_table]), &
+      "ax,ay:acceleration Fx,Fy:force m:mass moment?:moment"), no_table, no_table]), &
     report_kind_t(name="inertia", help="of other linkages: masses and their inertia forces", &
       studies="inertia", positions=.true., masses=.true., reserved=.true., &
       linkages=other_linkages, tables=[ &
       table_kind_t("inertia", "speed:speed crank:deg mass:# link:name x,y:length "// &
-      "ax,ay:acceleration Fx,Fy:force m:mass moment:moment"), no_table]), &
+      "ax,ay:acceleration Fx,Fy:force m:mass moment:moment"), no_table, no_table]), &
     report_kind_t(name="mesh", help="the finite element model", &
       positions=.true., beams=.true., reserved=.true., linkages=four_bars, tables=[ &
       table_kind_t("mesh", "crank:deg link:name element,node_a,node_b:# xa,ya,xb,yb:length "// &
-      "mass_a,mass_b:mass"), no_table]), &
+      "mass_a,mass_b:mass"), no_table, no_table]), &
     report_kind_t(name="frequencies", help="natural frequencies with estimated errors", &
       studies="frequencies", positions=.true., beams=.true., frequencies=.true., &
       reserved=.true., linkages=four_bars, tables=[ &
-      table_kind_t("frequencies", "speed:speed crank:deg f*:Hz error*:-"), no_table]), &
+      table_kind_t("frequencies", "speed:speed crank:deg f*:Hz error*:-"), no_table, no_table]), &
     report_kind_t(name="shapes", help="mode shapes along the links", &
       pattern="REPORT shapes [crank=a,b,...] [speed=...] [points=]", default="points=21", &
       studies="frequencies", positions=.true., beams=.true., frequencies=.true., &
       reserved=.true., linkages=four_bars, tables=[ &
       table_kind_t("shapes", "speed:speed crank:deg mode:# frequency:Hz link:name "// &
-      "s,x,y:length ux,uy:mass^-1/2 rotation:rotation"), no_table]), &
+      "s,x,y:length ux,uy:mass^-1/2 rotation:rotation"), no_table, no_table]), &
     report_kind_t(name="branches", help="frequencies followed by their shapes", &
       studies="frequencies loci", positions=.true., beams=.true., frequencies=.true., &
       reserved=.true., linkages=four_bars, tables=[ &
       table_kind_t("branches", "speed:speed crank:deg branch,mode:# frequency:Hz mac:- "// &
-      "event:name"), no_table]), &
+      "event:name"), no_table, no_table]), &
     report_kind_t(name="reactions", help="forces in the pins, torque, shaking force and moment", &
       studies="reactions", positions=.true., masses=.true., linkages=four_bars, numbers=48, &
       tables=[ &
       table_kind_t("reactions", "speed:speed crank:deg "// &
       "O2x,O2y,A2x,A2y,A3x,A3y,B3x,B3y,B4x,B4y,O4x,O4y:force torque:moment "// &
-      "shaking_x,shaking_y:force shaking_moment:moment"), no_table]), &
+      "shaking_x,shaking_y:force shaking_moment:moment"), no_table, no_table]), &
     report_kind_t(name="reactions", help="of other linkages: forces and moments in all joints", &
       studies="joints", positions=.true., masses=.true., linkages=other_linkages, tables=[ &
       table_kind_t("reactions", "speed:speed crank:deg pin,link:name fx,fy:force "// &
-      "moment:moment"), no_table]), &
+      "moment:moment"), no_table, no_table]), &
     report_kind_t(name="bearings", help="forces in the joints, in the axes of the links too", &
       studies="joints", positions=.true., masses=.true., numbers=82, tables=[ &
       table_kind_t("bearings", "speed:speed crank:deg pin,link:name "// &
-      "fx,fy,axial,transverse,magnitude:force angle:deg"), no_table]), &
+      "fx,fy,axial,transverse,magnitude:force angle:deg"), no_table, no_table]), &
     report_kind_t(name="frame", help="shaking force, and force and moment on the frame", &
       pattern="REPORT frame [about=x,y|pin]", studies="joints", positions=.true., &
       masses=.true., numbers=82, tables=[ &
       table_kind_t("frame", "speed:speed crank:deg shaking_x,shaking_y:force "// &
-      "shaking_moment:moment frame_x,frame_y:force frame_moment:moment"), no_table]), &
+      "shaking_moment:moment frame_x,frame_y:force frame_moment:moment"), no_table, no_table]), &
     report_kind_t(name="friction", help="joints that rub: forces, losses, self-locking", &
       studies="friction", positions=.true., masses=.true., numbers=82, tables=[ &
       table_kind_t("friction", "speed:speed crank:deg pin,link:name force:force "// &
       "sliding:velocity friction:force moment:moment lost:power"), &
-      table_kind_t("holding", "crank:deg forward,backward:moment verdict:name")]), &
+      table_kind_t("holding", "crank:deg forward,backward:moment verdict:name"), no_table]), &
     report_kind_t(name="sizing", help="peaks and means of drives and bearings, the flywheel", &
       pattern="REPORT sizing [fluctuation=]", studies="sizing", masses=.true., tables=[ &
       table_kind_t("sizing", "speed:speed part,pin,quantity:name value:see_unit unit:name "// &
-      "crank:deg error:-"), no_table]), &
+      "crank:deg error:-"), no_table, no_table]), &
     report_kind_t(name="points", help="paths, velocities and accelerations of points", &
       studies="points", positions=.true., tables=[ &
       table_kind_t("points", "speed:speed crank:deg point:name x,y:length vx,vy:velocity "// &
-      "ax,ay:acceleration"), no_table]), &
+      "ax,ay:acceleration"), no_table, no_table]), &
     report_kind_t(name="lagrange", help="the torque from energies", &
       studies="lagrange", positions=.true., masses=.true., numbers=5, tables=[ &
       table_kind_t("lagrange", "speed:speed crank:deg M,dM:inertia "// &
-      "V,gravity,load,torque:moment kinetic,potential:energy"), no_table]), &
+      "V,gravity,load,torque:moment kinetic,potential:energy"), no_table, no_table]), &
     report_kind_t(name="equilibrium", help="where the linkage rests without its drive", &
       studies="equilibrium", masses=.true., tables=[ &
       table_kind_t("equilibrium", "crank:deg verdict:name potential:energy "// &
       "stiffness:turning_stiffness frequency:Hz error:-"), &
-      table_kind_t("potential", "crank:deg torque:moment potential:energy")]), &
+      table_kind_t("potential", "crank:deg torque:moment potential:energy"), no_table]), &
     report_kind_t(name="linkage", help="class, limits and special positions", &
       studies="linkage", linkages=four_bars, tables=[ &
       table_kind_t("linkage", "branch,event:name crank,theta3,theta4,transmission_angle:deg"), &
-      no_table]), &
+      no_table, no_table]), &
     report_kind_t(name="linkage", help="of other linkages: ranges, swings, strokes, time ratios", &
       studies="limits", linkages=other_linkages, tables=[ &
       table_kind_t("linkage", "part,quantity:name crank:deg value:see_unit unit:name"), &
-      no_table]), &
+      no_table, no_table]), &
     report_kind_t(name="balance", help="shaking force, counterweights, harmonics", &
       studies="reactions balance harmonics", positions=.true., masses=.true., numbers=98, &
       linkages=four_bars, tables=[ &
@@ -212,7 +218,7 @@ module report_table
       "shaking_moment,torque:moment balanced_x,balanced_y:force "// &
       "balanced_moment,balanced_torque:moment"), &
       table_kind_t("harmonics", "speed:speed linkage,quantity:name largest,rms,mean:- h*:- "// &
-      "phase*:deg")]), &
+      "phase*:deg"), no_table]), &
     report_kind_t(name="balance", help="of other linkages: shaking force, counterweights", &
       studies="joints balance harmonics", positions=.true., masses=.true., &
       linkages=other_linkages, tables=[ &
@@ -220,59 +226,60 @@ module report_table
       "shaking_moment,torque:moment balanced_x?,balanced_y?:force "// &
       "balanced_moment?,balanced_torque?:moment"), &
       table_kind_t("harmonics", "speed:speed linkage,quantity:name largest,rms,mean:- h*:- "// &
-      "phase*:deg")]), &
+      "phase*:deg"), no_table]), &
     report_kind_t(name="geometry", help="where pins, links and points are, for drawings", &
       pattern="REPORT geometry crank=a,b,...", offered=.false., studies="geometry", tables=[ &
-      table_kind_t("geometry", "crank:deg link,part,place:name x,y:length"), no_table]), &
+      table_kind_t("geometry", "crank:deg link,part,place:name x,y:length"), no_table, no_table]), &
     report_kind_t(name="response", help="how far pins and points are from where rigid links are", &
       pattern="REPORT response [accuracy=]", default="accuracy=1e-6", studies="response", &
       positions=.true., response=.true., linkages=four_bars, tables=[ &
       table_kind_t("response", "speed:speed crank:deg point:name ux,uy:length rotation:deg "// &
-      "error:-"), no_table]), &
+      "error:-"), no_table, no_table]), &
     report_kind_t(name="strains", help="strains, forces and stresses at gauges", &
       pattern="REPORT strains [accuracy=]", default="accuracy=1e-6", studies="response", &
       positions=.true., response=.true., linkages=four_bars, tables=[ &
       table_kind_t("strains", "speed:speed crank:deg gauge:name axial_strain,bending_strain:- "// &
-      "moment:moment axial_force,shear_force:force stress:stress error:-"), no_table]), &
+      "moment:moment axial_force,shear_force:force stress:stress error:-"), no_table, no_table]), &
     report_kind_t(name="peaks", help="largest strain, stress and deflection of every link", &
       pattern="REPORT peaks [accuracy=]", default="accuracy=1e-6", studies="response", &
       response=.true., linkages=four_bars, tables=[ &
       table_kind_t("peaks", "speed:speed link:name strain:- strain_at:length "// &
       "strain_crank:deg stress:stress stress_at:length stress_crank:deg "// &
-      "deflection,deflection_at:length deflection_crank:deg power:power error:-"), no_table]), &
+      "deflection,deflection_at:length deflection_crank:deg power:power error:-"), no_table, &
+      no_table]), &
     report_kind_t(name="drive", help="the driving torque with its parts, and the power", &
       pattern="REPORT drive [accuracy=]", default="accuracy=1e-6", studies="response", &
       positions=.true., response=.true., linkages=four_bars, tables=[ &
       table_kind_t("drive", "speed:speed crank:deg rigid,linear,quadratic,total:moment "// &
-      "power:power error:-"), no_table]), &
+      "power:power error:-"), no_table, no_table]), &
     report_kind_t(name="drive", help="of other linkages: the drives, shaking force and moment", &
       studies="joints", positions=.true., masses=.true., linkages=other_linkages, tables=[ &
       table_kind_t("drive", "speed:speed crank:deg drive:name position:deg rate:rate "// &
       "force:moment"), &
       table_kind_t("shaking", "speed:speed crank:deg shaking_x,shaking_y:force "// &
-      "shaking_moment:moment")]), &
+      "shaking_moment:moment"), no_table]), &
     report_kind_t(name="validity", help="whether the equations of the response hold", &
       pattern="REPORT validity [accuracy=]", default="accuracy=1e-6", studies="response", &
       response=.true., linkages=four_bars, tables=[ &
       table_kind_t("validity", "speed:speed link:name deflection,load,quadratic:- "// &
-      "out_of_plane:Hz distance,error:-"), no_table]), &
+      "out_of_plane:Hz distance,error:-"), no_table, no_table]), &
     report_kind_t(name="stability", help="whether vibrations of the running linkage grow", &
       pattern="REPORT stability [accuracy=]", default="accuracy=1e-6", studies="stability", &
       response=.true., linkages=four_bars, tables=[ &
       table_kind_t("stability", "speed:speed mode:# turns,growth:- frequency:Hz signature:# "// &
-      "error:- verdict:name"), no_table]), &
+      "error:- verdict:name"), no_table, no_table]), &
     report_kind_t(name="intervals", help="all speeds at which vibrations grow", &
       pattern="REPORT intervals [growth=] [accuracy=]", default="growth=1e-4 accuracy=1e-5", &
       studies="intervals", response=.true., linkages=four_bars, tables=[ &
       table_kind_t("intervals", "from,to:speed kind,modes:name largest_growth,growth_error:- "// &
-      "at,error:speed"), no_table]), &
+      "at,error:speed"), no_table, no_table]), &
     report_kind_t(name="campbell", help="frequencies against the speed, and critical speeds", &
       pattern="REPORT campbell [accuracy=]", default="accuracy=1e-6", studies="campbell", &
       response=.true., linkages=four_bars, tables=[ &
       table_kind_t("campbell", "speed:speed mode:# least,mean,greatest:Hz band_error:- "// &
       "floquet:Hz growth,error:- verdict:name"), &
       table_kind_t("critical", "speed:rate speed_error:- line,mode:# frequency:Hz "// &
-      "excitation:length amplitude?:length growth,error:-")]), &
+      "excitation:length amplitude?:length growth,error:-"), no_table]), &
     report_kind_t(name="transient", help="the elastic motion in time from a state", &
       pattern="REPORT transient turns= [crank=0] [start=rest|steady] [perturb=mode,amplitude] "// &
       "[instants=] [accuracy=]", default="crank=0 start=rest instants=72 accuracy=1e-3", &
@@ -280,22 +287,22 @@ module report_table
       table_kind_t("transient", "speed:speed time:time crank:deg point:name ux,uy:length "// &
       "rotation:deg error:-"), &
       table_kind_t("gauges", "speed:speed time:time crank:deg gauge:name "// &
-      "axial_strain,bending_strain:- moment:moment axial_force:force stress:stress error:-")]), &
+      "axial_strain,bending_strain:- moment:moment axial_force:force stress:stress error:-"), &
+      no_table]), &
     report_kind_t(name="motion", help="the motion under motor and loads", &
-      pattern="REPORT motion crank= [speed=0] end= step= [pins=no|yes] "// &
-      "[change_points=stop|through]", default="speed=0 pins=no change_points=stop", &
-      studies="motion", masses=.true., &
+      pattern="REPORT motion crank= [speed=0] end= step= "// &
+      "[columns=accelerations,forces,power] [pins=no|yes] [change_points=stop|through]", &
+      default="speed=0 pins=no change_points=stop", studies="motion", masses=.true., &
       linkages=four_bars, tables=[ &
-      table_kind_t("motion", "time:time crank,theta3,theta4:deg omega2,omega3,omega4:rate "// &
-      "torque:moment kinetic,potential,work,energy_error:energy closure:length branch:name"), &
-      motion_pins]), &
+      table_kind_t("motion", motion_columns), motion_pins, no_table]), &
     report_kind_t(name="motion", help="of other linkages: the motion under motor and loads", &
-      pattern="REPORT motion crank= [speed=0] end= step= [pins=no|yes] "// &
-      "[change_points=stop|through]", default="speed=0 pins=no change_points=stop", &
-      studies="motion", masses=.true., &
+      pattern="REPORT motion crank= [speed=0] end= step= "// &
+      "[columns=accelerations,forces,power] [pins=no|yes] [change_points=stop|through]", &
+      default="speed=0 pins=no change_points=stop", studies="motion", masses=.true., &
       linkages=other_linkages, tables=[ &
       table_kind_t("motion", "time:time position*:deg rate*:rate torque:moment "// &
-      "kinetic,potential,work,energy_error:energy"), motion_pins])]
+      "kinetic,potential,work,energy_error:energy acceleration*:rad/s2 "// &
+      "motor_power,gear_loss,load_power:power"), motion_pins, motion_forces])]
 
 contains
 
@@ -369,9 +376,7 @@ contains
       case ("linkage")
         call find_linkage(linkage, found%linkage)
       case ("sizing")
-        call find_sizing(linkage, elements, sizing_request_t(model%speed%value, &
-          model%acceleration, model%reports(report_number(model, "sizing"))%fluctuation), &
-          threads, found%sizing)
+        call find_sizing(linkage, elements, sizing_request_of(model), threads, found%sizing)
       case ("limits")
         call find_limits(linkage, positions_of_deck(model), found%limits)
       case ("equilibrium")
@@ -474,6 +479,10 @@ contains
       plan%items = 1
     case ("motion_pins")
       names(1) = pin_names(variant)
+      plan%items = 1
+    case ("motion_forces")
+      names(1) = pin_names(variant)
+      names(2) = joint_owners(variant)
       plan%items = 1
     case ("transient")
       names(1) = response_point_names(variant)
@@ -589,6 +598,8 @@ contains
       call motion_notes(variant, notes)
     case ("motion_pins")
       call motion_pins_notes(notes)
+    case ("motion_forces")
+      call motion_forces_notes(variant, notes)
     case ("transient")
       call transient_notes(variant, notes)
     case ("gauges")
@@ -646,6 +657,8 @@ contains
       end if
     case ("motion_pins")
       call add_motion_pins(variant, plan%layout, rows)
+    case ("motion_forces")
+      call add_motion_forces(variant, plan%layout, rows)
     case ("transient", "gauges")
       if (number > 1) call add_gap(rows, 2)
       call add_transient(plan%name, variant, plan%layout, number, rows)
@@ -826,8 +839,10 @@ contains
 
     fitted = table
     if (table%name == "drive" .and. .not. is_four_bar(model)) fitted%columns = drive_columns(model)
-    if (table%name == "motion" .and. .not. is_four_bar(model)) fitted%columns = &
-      linkage_motion_columns(model)
+    if (table%name == "motion") then
+      fitted%columns = linkage_motion_columns(model)
+      if (is_four_bar(model)) fitted%columns = motion_columns_of(model)
+    end if
     if (drives_length(model)) call use_lengths(model, fitted)
     ! Tables of positions, not those of speeds.
     if (has_law(model) .and. index(fitted%columns, "speed:") == 1 .and. &

@@ -7,6 +7,7 @@ module sizing_report
   use links_report, only: pin_names
   use load_notes, only: acceleration_note, append_load_notes
   use models, only: report_number
+  use motor_cards, only: is_geared
   use sizing_study, only: sized_t, sizing_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t, table_unit
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
@@ -29,7 +30,7 @@ module sizing_report
     "velocity", "power", "inertia", "energy"]
 
   !> In place of a pin in rows of drives.
-  character(len=*), parameter :: no_pin = "-", flywheel_word = "flywheel"
+  character(len=*), parameter :: no_pin = "-", flywheel_word = "flywheel", motor_word = "motor"
 
   !> What a row says of its part.
   type :: value_t
@@ -63,15 +64,20 @@ contains
         "angle_at_peak: of the force in the axes of the link")
       call append_string(notes, "power: of the drive on the linkage, positive where it drives; "// &
         "error: estimated, as a share of the peak, from half as many samples")
-      if (report%fluctuation > 0.0_wp) call append_flywheel_notes(report%fluctuation, notes)
+      if (is_geared(variant%model%motor)) call append_string(notes, "motor: at its shaft, "// &
+        "before its gear, with the losses there and, under an acceleration, its rotor; drive "// &
+        variant%model%drives(1)%subject%text//": behind the gear")
+      if (report%fluctuation > 0.0_wp) call append_flywheel_notes(report%fluctuation, &
+        variant%model%motor%rotor > 0.0_wp, notes)
     end associate
     call append_string(notes, acceleration_note(variant%model))
     call append_load_notes(notes, variant%model, variant%mechanism)
   end subroutine sizing_notes
 
   !> What the flywheel does.
-  pure subroutine append_flywheel_notes(fluctuation, notes)
+  pure subroutine append_flywheel_notes(fluctuation, has_rotor, notes)
     real(wp), intent(in) :: fluctuation
+    logical, intent(in) :: has_rotor !! the motor has a rotor
     type(string_t), allocatable, intent(inout) :: notes(:)
 
     call append_string(notes, "flywheel: moment of inertia on the first drive with which "// &
@@ -79,6 +85,8 @@ contains
       " while a constant torque, mean_torque, drives the linkage; the mean of the speed is "// &
       "that over time; 0: none is "// &
       "needed; loads that depend on the speed are those at the mean speed")
+    if (has_rotor) call append_string(notes, "flywheel: beside the rotor of the motor, which "// &
+      "acts as one; without the losses in its gear")
     call append_string(notes, "energy_of_cycle: greatest less least of the integral of "// &
       "(mean_torque - torque of the loads); fluctuation_without: without a flywheel; "// &
       "greatest_rate, least_rate: with it")
@@ -98,6 +106,7 @@ contains
       call append_string(lists(1)%names, variant%model%drives(i)%subject%text)
     end do
     call append_string(lists(1)%names, flywheel_word)
+    call append_string(lists(1)%names, motor_word)
     lists(2) = pin_names(variant)
     lists(2)%column = "pin"
     call append_string(lists(2)%names, no_pin)
@@ -162,7 +171,10 @@ contains
 
     character(len=6) :: word
     character(len=8) :: unit, unit_of_rate
+    character(len=:), allocatable :: part
 
+    part = variant%model%drives(sized%drive)%subject%text
+    if (sized%is_motor) part = motor_word
     word = "torque"
     unit = "moment"
     unit_of_rate = "rate"
@@ -171,8 +183,8 @@ contains
       unit = "force"
       unit_of_rate = "velocity"
     end if
-    call put_rows(variant, layout, speed, name_cell(variant%model%drives(sized%drive)%subject% &
-      text, column_width(layout, 2))//name_cell(no_pin, column_width(layout, 3)), &
+    call put_rows(variant, layout, speed, name_cell(part, column_width(layout, 2))// &
+      name_cell(no_pin, column_width(layout, 3)), &
       [value_t("peak_"//word, sized%peak, unit, sized%crank, sized%error), &
       value_t("rms_"//word, sized%rms, unit, error=sized%error), &
       value_t("mean_"//word, sized%mean, unit, error=sized%error), &

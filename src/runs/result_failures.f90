@@ -6,6 +6,7 @@ module result_failures
   use kinds, only: wp
   use locked_rows, only: is_locked_at, lock_at
   use models, only: drives_length, has_law, needs_frequencies, report_number, speed_in_words
+  use motion_study, only: undetermined_message
   use run_findings, only: add_failure, at_forces, at_frequencies, at_instant, at_position, &
     failure_t, findings_t, in_campbell, in_intervals, in_motion, in_response, in_stability, &
     in_transient, of_variant
@@ -107,6 +108,7 @@ contains
             in_transient, found%transient%at_speed(k)%strain_fault, 0.0_wp, k, 0.0_wp, findings)
         end do
       end if
+      call note_undetermined(variant, findings)
       if (allocated(found%motion%error)) call note_failure(variant, in_motion, found%motion%error, &
         found%motion%last%angle(1), 0, found%motion%last%time, findings)
       if (allocated(found%linkage_motion%error)) call note_failure(variant, in_motion, &
@@ -137,6 +139,31 @@ contains
       end if
     end do
   end subroutine note_locks
+
+  !> Instants of a motion without the accelerations and forces that its card asks for.
+  pure subroutine note_undetermined(variant, findings)
+    type(variant_results_t), intent(in) :: variant
+    type(findings_t), intent(inout) :: findings
+
+    type(error_t), allocatable :: error
+    integer :: i
+
+    call set_error(error, error_of_numerics, undetermined_message)
+    associate (motion => variant%found%motion, linkage_motion => variant%found%linkage_motion)
+      if (allocated(motion%is_determined)) then
+        do i = 1, motion%count
+          if (.not. motion%is_determined(i)) call note_failure(variant, in_motion, error, &
+            motion%samples(i)%angle(1), 0, motion%samples(i)%time, findings)
+        end do
+      end if
+      if (allocated(linkage_motion%is_determined)) then
+        do i = 1, linkage_motion%count
+          if (.not. linkage_motion%is_determined(i)) call note_failure(variant, in_motion, error, &
+            linkage_motion%samples(i)%position(1), 0, linkage_motion%samples(i)%time, findings)
+        end do
+      end if
+    end associate
+  end subroutine note_undetermined
 
   !> Where the first drive was at last: at the start, if the motion has not begun [deg] or [m].
   pure function last_crank(variant) result(crank)

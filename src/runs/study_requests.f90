@@ -1,7 +1,9 @@
 !> The requests of a model to the studies that are made step by step, in the terms of mechanics.
 module study_requests
+  use cubic_splines, only: ends_not_a_knot, new_cubic_spline
   use drives, only: motor_drive_t
   use elastic_equations, only: elastic_terms_t
+  use gears, only: gear_t
   use frequency_report, only: is_drawn
   use kinds, only: wp
   use load_cases, only: has_constant_loads
@@ -10,6 +12,7 @@ module study_requests
   use models, only: effects_static, inertia_lumped, model_t, needs_loads, needs_study, &
     report_number, accuracy_of_study, solver_band, solver_dense
   use motion_study, only: motion_request_t
+  use motor_cards, only: motor_t
   use positions, only: positions_t
   use response_parts, only: body_damping_t, damping_by_ratio, damping_by_time, dampings_of
   use response_types, only: damping_ratio, damping_time, gauge_t, link_damping_t, no_damping, &
@@ -96,8 +99,10 @@ contains
       request%instants = asked%instants%value
       request%with_pins = asked%with_pins
       request%through = asked%through
+      request%with_details = asked%with_accelerations .or. asked%with_forces .or. asked%with_power
     end associate
     request%drive = drive_of(model)
+    request%gear = gear_of(model%motor)
   end function motion_request_of
 
   !> The requested motion of a linkage that is no four-bar.
@@ -111,9 +116,12 @@ contains
       request%end_time = asked%end_time
       request%instants = asked%instants%value
       request%with_pins = asked%with_pins
+      request%with_forces = asked%with_forces
+      request%with_details = asked%with_accelerations .or. asked%with_forces .or. asked%with_power
     end associate
     request%is_free = model%drives%is_free
     request%drive = drive_of(model)
+    request%gear = gear_of(model%motor)
   end function linkage_motion_request_of
 
   !> Number of rows of a motion that reaches its end; 0 without REPORT motion.
@@ -282,7 +290,7 @@ contains
     end do
   end function link_dampings_of
 
-  !> The motor on the driven link; without MOTOR its torque is 0.
+  !> The motor, at its own shaft; without MOTOR its torque is 0.
   pure function drive_of(model) result(drive)
     type(model_t), intent(in) :: model
     type(motor_drive_t) :: drive
@@ -290,7 +298,18 @@ contains
     associate (motor => model%motor)
       drive%stall = merge(motor%stall, motor%torque, motor%is_line)
       if (motor%is_line) drive%slope = motor%stall/motor%noload
+      if (size(motor%speed) < 2) return
+      drive%line = new_cubic_spline(motor%speed, motor%line_torque, ends_not_a_knot)
+      drive%table_name = motor%table_word%text
     end associate
   end function drive_of
+
+  !> The gear of the motor, with its rotor.
+  pure function gear_of(motor) result(gear)
+    type(motor_t), intent(in) :: motor !! of the deck; without a card none
+    type(gear_t) :: gear
+
+    gear = gear_t(motor%ratio, motor%rotor, motor%efficiency, motor%smooth)
+  end function gear_of
 
 end module study_requests

@@ -18,8 +18,8 @@ module joint_study
   implicit none (type, external)
   private
 
-  public :: joint_t, joints_result_t, find_joints, joints_at_speed, bearings_at_speed, &
-    drives_at_speed, frame_at_speed, bearing_values
+  public :: joint_t, joints_result_t, list_joints, joint_values, find_joints, joints_at_speed, &
+    bearings_at_speed, drives_at_speed, frame_at_speed, bearing_values
 
   !> Values of a joint in `bearings_at_speed`: fx, fy, axial, transverse, magnitude, angle.
   integer, parameter :: bearing_values = 6
@@ -139,8 +139,8 @@ contains
 
   !> All joints: every body at every pin, then every slider.
   pure subroutine list_joints(linkage, joints)
-    type(linkage_t), intent(in) :: linkage
-    type(joint_t), allocatable, intent(out) :: joints(:)
+    type(linkage_t), intent(in) :: linkage               !! its bodies and sliders
+    type(joint_t), allocatable, intent(out) :: joints(:) !! pins in their order, then sliders
 
     type(joint_t), allocatable :: room(:)
     integer :: p, b, i, filled
@@ -161,6 +161,29 @@ contains
     allocate (joints(filled))
     joints = room(:filled)
   end subroutine list_joints
+
+  !> Force and moment of every joint of a linkage in a known motion, as of `joints_at_speed`.
+  pure function joint_values(linkage, joints, forces, direction, turning) result(values_of)
+    type(linkage_t), intent(in) :: linkage     !! its sliders and turns
+    type(joint_t), intent(in) :: joints(:)     !! of `list_joints`
+    type(joint_forces_t), intent(in) :: forces !! of this linkage
+    real(wp), intent(in) :: direction(:, :)    !! (2, bodies) unit vectors
+    real(wp), intent(in) :: turning(:)         !! (bodies) angular accelerations [rad/s²]
+    real(wp) :: values_of(3, size(joints))     !! fx, fy, moment [N, N m]
+
+    real(wp) :: force(3, size(joints), 1)
+    integer :: i
+
+    force = 0.0_wp
+    call take_forces(linkage, joints, forces, force(:, :, 1))
+    call turn_guides(linkage, joints, direction, force)
+    values_of = force(:, :, 1)
+    do i = 1, size(joints)
+      if (joints(i)%slider == 0 .or. joints(i)%body == 0) cycle
+      values_of(3, i) = values_of(3, i) - linkage%sliders(joints(i)%slider)%inertia* &
+        turning(joints(i)%body)
+    end do
+  end function joint_values
 
   !> Forces and moments of one unit load. That of a slider is along the normal of its line: its
   !! first component alone, until `turn_guides` turns it.

@@ -2,11 +2,13 @@
 module linkage_motion_study
   use drives, only: motor_drive_t
   use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error
+  use gears, only: gear_t
   use interruption, only: was_interrupted
+  use joint_study, only: joint_t, joint_values, list_joints
   use kinds, only: long, wp
-  use linkage_motions, only: change_point_message, end_linkage_motion, linkage_motion_t, &
-    linkage_motion_tolerance, linkage_sample_t, move_linkage_until, passage_t, &
-    sample_linkage_motion, start_linkage_motion
+  use linkage_motions, only: change_point_message, end_linkage_motion, find_linkage_details, &
+    linkage_details_t, linkage_motion_t, linkage_motion_tolerance, linkage_sample_t, &
+    move_linkage_until, passage_t, sample_linkage_motion, start_linkage_motion
   use linkage_rates, only: free_drives, no_stop, stop_change_point, stop_energy, stop_locked, &
     stop_many_steps, stop_misfit, stop_no_inertia, stop_too_fast
   use linkages, only: linkage_t
@@ -25,6 +27,9 @@ module linkage_motion_study
     real(wp), allocatable :: instants(:) !! of the samples, ascending from 0 to `end_time` [s]
     logical, allocatable :: is_free(:)   !! (drives) marked in the deck
     type(motor_drive_t) :: drive         !! motor on the first drive
+    type(gear_t) :: gear                 !! between them
+    logical :: with_details = .false.    !! accelerations and powers are wanted
+    logical :: with_forces = .false.     !! forces in the joints are wanted, and the former
     logical :: with_pins = .false.       !! the places of all pins are wanted
   end type linkage_motion_request_t
 
@@ -38,12 +43,23 @@ module linkage_motion_study
     real(wp) :: energy = 0.0_wp                        !! kinetic + potential, at the start [J]
     type(passage_t), allocatable :: passages(:)        !! dead points that it has passed
     logical :: has_begun = .false.                     !! the start was possible
+    ! Where details are wanted:
+    logical, allocatable :: is_determined(:)           !! (instants) else an instant has none
+    real(wp), allocatable :: acceleration(:, :)        !! (free drives, instants) [rad/s²] or
+                                                       !! [m/s²]
+    real(wp), allocatable :: power(:, :)               !! (3, instants) of the motor, lost in its
+                                                       !! gear, of loads without a potential [W]
+    type(joint_t), allocatable :: joints(:)            !! as in `joint_study`, where forces are
+                                                       !! wanted
+    real(wp), allocatable :: force(:, :, :)            !! (3, joints, instants) fx, fy, moment
+                                                       !! [N, N m]
   end type linkage_motion_result_t
 
   !> A motion that is being computed.
   type :: linkage_motion_under_way_t
     type(linkage_motion_request_t), private :: request
     type(linkage_motion_t), private :: motion
+    type(linkage_t), private :: linkage
     integer, private :: next = 1  !! number of the next instant
     logical :: is_over = .false.  !! at the end, stopped or interrupted
   end type linkage_motion_under_way_t
@@ -61,8 +77,17 @@ contains
 
     under_way%request = request
     allocate (result%samples(size(request%instants)))
+    if (request%with_details) allocate (result%is_determined(size(request%instants)), &
+      result%acceleration(size(free_drives(request%is_free)), size(request%instants)), &
+      result%power(3, size(request%instants)))
+    if (request%with_forces) then
+      under_way%linkage = linkage
+      call list_joints(linkage, result%joints)
+      allocate (result%force(3, size(result%joints), size(request%instants)))
+    end if
     call start_linkage_motion(linkage, rigid_bodies_of(linkage, elements), request%is_free, &
-      request%drive, request%start, request%speed, request%end_time, under_way%motion, result%error)
+      request%drive, request%start, request%speed, request%end_time, under_way%motion, &
+      result%error, request%gear)
     result%has_begun = .not. allocated(result%error)
     under_way%is_over = allocated(result%error)
   end subroutine begin_linkage_motion
@@ -85,11 +110,29 @@ contains
       under_way%is_over = under_way%motion%stop /= no_stop
       if (under_way%is_over) return
       result%samples(i) = result%last
+      if (under_way%request%with_details) call take_details(under_way, i, result)
       result%count = i
     end do
     under_way%next = i
     under_way%is_over = under_way%next > size(result%samples)
   end subroutine continue_linkage_motion
+
+  !> Accelerations, powers and forces of an instant.
+  subroutine take_details(under_way, number, result)
+    type(linkage_motion_under_way_t), intent(in) :: under_way
+    integer, intent(in) :: number !! of the instant
+    type(linkage_motion_result_t), intent(inout) :: result
+
+    type(linkage_details_t) :: details
+
+    call find_linkage_details(under_way%motion, under_way%request%with_forces, details, &
+      result%is_determined(number))
+    if (.not. result%is_determined(number)) return
+    result%acceleration(:, number) = details%acceleration
+    result%power(:, number) = [details%driven%power, details%driven%loss, details%load_power]
+    if (under_way%request%with_forces) result%force(:, :, number) = joint_values( &
+      under_way%linkage, result%joints, details%joints, details%direction, details%turning)
+  end subroutine take_details
 
   !> Ends a motion and completes its result.
   !!

@@ -3,23 +3,25 @@ module motion_study
   use constants, only: degree
   use drives, only: motor_drive_t
   use errors, only: error_of_dead_point, error_of_numerics, error_t, set_error
-  use forward_motions, only: end_motion, forward_motion_t, motion_sample_t, motion_tolerance, &
-    move_until, sample_motion, start_motion, turning_point_t
+  use forward_motions, only: end_motion, find_motion_details, forward_motion_t, motion_details_t, &
+    motion_sample_t, motion_tolerance, move_until, sample_motion, start_motion, turning_point_t
   use four_bar_rates, only: no_stop, stop_change_point, stop_locked, stop_many_steps, &
     stop_no_inertia, &
     stop_too_fast
+  use gears, only: gear_t
   use interruption, only: was_interrupted
   use kinds, only: long, wp
   use linkages, only: linkage_t, turned
   use loop_curves, only: change_point_message
   use pose_types, only: pins_of_body, place_of_pin
+  use reactions_study, only: pin_forces, pin_forces_of
   use rigid_bodies, only: rigid_bodies_of
   implicit none (type, external)
   private
 
   public :: motion_request_t, motion_result_t, motion_under_way_t, begin_motion, continue_motion, &
     finish_motion
-  public :: motion_tolerance
+  public :: motion_tolerance, undetermined_message
 
   type :: motion_request_t
     real(wp) :: start_angle = 0.0_wp !! of the crank [deg]
@@ -27,6 +29,8 @@ module motion_study
     real(wp) :: end_time = 0.0_wp    !! [s]
     real(wp), allocatable :: instants(:) !! of the samples, ascending from 0 to `end_time` [s]
     type(motor_drive_t) :: drive     !! motor on the crank
+    type(gear_t) :: gear             !! between them
+    logical :: with_details = .false. !! accelerations, powers and forces are wanted
     logical :: with_pins = .false.   !! the places of all pins are wanted
     logical :: through = .false.     !! straight through change points, in place of a stop there
   end type motion_request_t
@@ -44,7 +48,19 @@ module motion_study
     real(wp) :: energy = 0.0_wp                        !! kinetic + potential, at the start [J]
     real(wp), allocatable :: pin(:, :, :)              !! (2, pins, instants) in global axes, where
                                                        !! they are wanted [m]
+    ! Where details are wanted:
+    logical, allocatable :: is_determined(:)           !! (instants) else an instant has none
+    real(wp), allocatable :: acceleration(:, :)        !! (3, instants) crank, coupler, follower
+                                                       !! [rad/s²]
+    real(wp), allocatable :: power(:, :)               !! (3, instants) of the motor, lost in its
+                                                       !! gear, of loads without a potential [W]
+    real(wp), allocatable :: force(:, :)               !! (pin forces, instants) as in
+                                                       !! `reactions_study` [N]
   end type motion_result_t
+
+  !> What is said of an instant without details.
+  character(len=*), parameter :: undetermined_message = &
+    "forces do not determine the accelerations at this position"
 
   !> A motion that is being computed.
   type :: motion_under_way_t
@@ -71,6 +87,9 @@ contains
 
     under_way%request = request
     allocate (result%samples(size(request%instants)), result%turnings(0))
+    if (request%with_details) allocate (result%is_determined(size(request%instants)), &
+      result%acceleration(3, size(request%instants)), result%power(3, size(request%instants)), &
+      result%force(pin_forces, size(request%instants)))
     if (request%with_pins) then
       under_way%linkage = linkage
       allocate (result%pin(2, size(linkage%is_ground), size(request%instants)))
@@ -78,7 +97,7 @@ contains
     result%last%angle(1) = request%start_angle
     call start_motion(linkage, rigid_bodies_of(linkage, elements), request%drive, &
       request%start_angle, request%start_speed, request%end_time, under_way%motion, result%error, &
-      request%through)
+      request%through, request%gear)
     result%has_begun = .not. allocated(result%error)
     under_way%is_over = allocated(result%error)
   end subroutine begin_motion
@@ -100,6 +119,7 @@ contains
       under_way%is_over = under_way%motion%stop /= no_stop
       if (under_way%is_over) return
       result%samples(i) = result%last
+      if (under_way%request%with_details) call take_details(under_way%motion, i, result)
       if (under_way%request%with_pins) result%pin(:, :, i) = pins_at(under_way%linkage, &
         result%last%angle)
       result%count = i
@@ -107,6 +127,23 @@ contains
     under_way%next = i
     under_way%is_over = under_way%next > size(result%samples)
   end subroutine continue_motion
+
+  !> Accelerations, powers and forces of an instant.
+  subroutine take_details(motion, number, result)
+    type(forward_motion_t), intent(in) :: motion
+    integer, intent(in) :: number !! of the instant
+    type(motion_result_t), intent(inout) :: result
+
+    type(motion_details_t) :: details
+    real(wp) :: forces(pin_forces + 1)
+
+    call find_motion_details(motion, details, result%is_determined(number))
+    if (.not. result%is_determined(number)) return
+    result%acceleration(:, number) = details%acceleration
+    result%power(:, number) = [details%driven%power, details%driven%loss, details%load_power]
+    forces = pin_forces_of(details%joints)
+    result%force(:, number) = forces(:pin_forces)
+  end subroutine take_details
 
   !> Places of the pins of a four-bar whose links are at some angles.
   pure function pins_at(linkage, angle) result(pin)

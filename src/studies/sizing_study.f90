@@ -4,6 +4,7 @@ module sizing_study
   use constants, only: degree
   use errors, only: error_of_input, error_of_numerics, error_t, set_error
   use flywheels, only: flywheel_t, size_flywheel
+  use gears, only: gear_share, gear_t, is_direct
   use interruption, only: was_interrupted
   use joint_rates, only: joint_rate
   use joint_study, only: bearing_values, bearings_at_speed, drives_at_speed, find_joints, &
@@ -17,7 +18,7 @@ module sizing_study
   implicit none (type, external)
   private
 
-  public :: sizing_request_t, sized_t, sizing_t, sizing_result_t, find_sizing
+  public :: sizing_request_t, gear_t, sized_t, sizing_t, sizing_result_t, find_sizing
 
   !> Samples of a cycle: doubled until no result changes by more than `settled` of its peak.
   integer, parameter :: fewest_samples = 128, most_samples = 8192
@@ -36,17 +37,19 @@ module sizing_study
     real(wp) :: acceleration = 0.0_wp    !! of the first drive [rad/s²] or [m/s²]
     real(wp) :: fluctuation = 0.0_wp     !! of the speed, that a flywheel is to allow; 0: none is
                                          !! asked for [-]
+    type(gear_t) :: gear                 !! between a motor and the first drive
   end type sizing_request_t
 
-  !> A force over the cycle: of a drive its torque or force, with its sign; of a joint its
-  !! magnitude.
+  !> A force over the cycle: of a drive its torque or force, with its sign, of the motor likewise,
+  !! at its shaft; of a joint its magnitude.
   type :: sized_t
     integer :: drive = 0        !! number; 0: of a joint
     integer :: joint = 0        !! number; 0: of a drive
+    logical :: is_motor = .false. !! of the motor of the first drive
     real(wp) :: peak = 0.0_wp   !! greatest absolute value, with its sign [N m] or [N]
     real(wp) :: crank = 0.0_wp  !! position of the first drive there [deg]
     real(wp) :: angle = 0.0_wp  !! of a joint: of the force there, in the axes of its link [deg]
-    real(wp) :: rate = 0.0_wp   !! of a drive [rad/s] or [m/s]
+    real(wp) :: rate = 0.0_wp   !! of a drive or the motor [rad/s] or [m/s]
     real(wp) :: rms = 0.0_wp    !! [N m] or [N]
     real(wp) :: mean = 0.0_wp   !! [N m] or [N]
     real(wp) :: cubic = 0.0_wp  !! cubic mean of absolute values [N m] or [N]
@@ -58,7 +61,7 @@ module sizing_study
 
   !> At one speed.
   type :: sizing_t
-    type(sized_t), allocatable :: sized(:)  !! drives, then joints
+    type(sized_t), allocatable :: sized(:)  !! drives, the motor if it has a gear, then joints
     logical :: has_flywheel = .false.       !! `flywheel` is found
     type(flywheel_t) :: flywheel            !! on the first drive
     real(wp) :: flywheel_error = 0.0_wp     !! of its inertia, estimated [-]
@@ -152,7 +155,7 @@ contains
     real(wp) :: drives(3, size(linkage%drives))
     integer :: i, s, n, d
 
-    d = size(linkage%drives)
+    d = size(linkage%drives) + motors(request)
     n = d + size(joints%joints)
     allocate (found%sized(n), values(size(positions%states), n))
     do i = 1, size(values, 1)
@@ -162,9 +165,13 @@ contains
       request%acceleration)
     do s = 1, n
       associate (sized => found%sized(s))
-        if (s <= d) then
+        if (s <= size(linkage%drives)) then
           sized%drive = s
           sized%rate = drives(2, s)
+        else if (s <= d) then
+          sized%drive = 1
+          sized%is_motor = .true.
+          sized%rate = request%gear%ratio*drives(2, 1)
         else
           sized%joint = s - d
         end if
@@ -241,14 +248,38 @@ contains
     end do
   end function linkage_rate
 
-  !> Forces of the drives, then magnitudes of the joints.
+  !> Number of motors that differ from what the first drive is: 0 or 1.
+  pure function motors(request) result(number)
+    type(sizing_request_t), intent(in) :: request
+    integer :: number
+
+    number = merge(0, 1, is_direct(request%gear) .and. abs(request%gear%ratio - 1.0_wp) <= 0.0_wp)
+  end function motors
+
+  !> Torque at the shaft of the motor that gives a torque on the first drive: through the gear, with
+  !! its losses, and for the rotor [N m].
+  pure function motor_torque(gear, torque, rate, acceleration) result(motor)
+    type(gear_t), intent(in) :: gear
+    real(wp), intent(in) :: torque       !! on the driven body [N m]
+    real(wp), intent(in) :: rate         !! of it [rad/s]
+    real(wp), intent(in) :: acceleration !! of it [rad/s²]
+    real(wp) :: motor
+
+    real(wp) :: through
+
+    through = torque/gear%ratio
+    through = through/gear_share(gear, rate, through)
+    motor = through + gear%rotor*gear%ratio*acceleration
+  end function motor_torque
+
+  !> Forces of the drives, torque of the motor, then magnitudes of the joints.
   pure function values_at(linkage, joints, state, request, number) result(values)
     type(linkage_t), intent(in) :: linkage
     type(joints_result_t), intent(in) :: joints
     integer, intent(in) :: state
     type(sizing_request_t), intent(in) :: request
     integer, intent(in) :: number !! of the speed
-    real(wp) :: values(size(linkage%drives) + size(joints%joints))
+    real(wp) :: values(size(linkage%drives) + motors(request) + size(joints%joints))
 
     real(wp) :: drives(3, size(linkage%drives)), forces(3, size(joints%joints))
     integer :: d
@@ -258,7 +289,9 @@ contains
       request%acceleration, number)
     forces = joints_at_speed(joints, state, request%speed(number), request%acceleration, number)
     values(:d) = drives(3, :)
-    values(d + 1:) = norm2(forces(:2, :), dim=1)
+    if (motors(request) > 0) values(d + 1) = motor_torque(request%gear, drives(3, 1), drives(2, &
+      1), request%acceleration)
+    values(d + motors(request) + 1:) = norm2(forces(:2, :), dim=1)
   end function values_at
 
   !> The greatest absolute value: golden-section search around the highest samples.
@@ -374,7 +407,9 @@ contains
       load = lagrange%terms%gravity + lagrange%terms%load
       if (size(lagrange%running_load, 1) > 0) load = load + lagrange%running_load(k, :)
       found%at_speed(k)%has_flywheel = .true.
-      found%at_speed(k)%flywheel = size_flywheel(lagrange%terms%inertia, &
+      ! The rotor of the motor is a flywheel, too.
+      found%at_speed(k)%flywheel = size_flywheel(lagrange%terms%inertia + &
+        request%gear%ratio**2*request%gear%rotor, &
         lagrange%terms%inertia_slope, load, found%period*degree, request%speed(k), &
         request%fluctuation)
     end do

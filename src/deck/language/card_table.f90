@@ -116,8 +116,9 @@ module card_table
     card_kind_t("TORQUE", least=1, most=2, pattern="TORQUE link torque, or TORQUE link table= "// &
       "[over=], with [during= smooth=]", &
       help="a torque on a link"), &
-    card_kind_t("MOTOR", is_single=.true., pattern="MOTOR torque=, or MOTOR stall= noload=", &
-      help="what turns the driven link in REPORT motion"), &
+    card_kind_t("MOTOR", is_single=.true., pattern="MOTOR torque=, MOTOR stall= noload=, or "// &
+      "MOTOR table= [line=], with [ratio= rotor= efficiency= smooth=]", &
+      help="what turns the driven link in REPORT motion, and its gear"), &
     card_kind_t("LOAD", least=1, most=1, pattern="LOAD link [torque=] [damping=] "// &
       "[resisting= smooth=], or LOAD pin [damping=] [resisting= smooth=]", &
       help="what resists the motion of a link or a pin"), &

@@ -24,14 +24,14 @@ module report_kinds
   !! that ends with `*` stands for a series of numbered columns; one that ends with `?` is omitted
   !! in some tables.
   type :: table_kind_t
-    character(len=12) :: name = ""     !! of the table; blank: unused record
-    character(len=240) :: columns = "" !! with units, as above
+    character(len=16) :: name = ""     !! of the table; blank: unused record
+    character(len=320) :: columns = "" !! with units, as above
   end type table_kind_t
 
   type :: report_kind_t
     character(len=12) :: name = ""    !! in small letters
     character(len=64) :: help = ""    !! in one line
-    character(len=112) :: pattern = "" !! correct form of the card, its keys end with `=`; blank:
+    character(len=160) :: pattern = "" !! correct form of the card, its keys end with `=`; blank:
                                        !! the name alone
     character(len=64) :: default = "" !! default entries of its card; blank: none
     character(len=32) :: studies = "" !! that provide its rows, separated by blanks
@@ -45,7 +45,7 @@ module report_kinds
                                       !! without it
     integer :: linkages = any_linkage !! that it is about; two records may have one name
     integer :: numbers = 0            !! how many numbers its studies keep for each position
-    type(table_kind_t) :: tables(2)   !! those with a name
+    type(table_kind_t) :: tables(3)   !! those with a name
   end type report_kind_t
 
   !> One column, or a series of numbered columns.

@@ -15,7 +15,7 @@ module table_cards
   implicit none (type, external)
   private
 
-  public :: number_table_t, read_table, check_tables
+  public :: number_table_t, read_table, column_count, check_tables
 
   !> Columns of numbers with the words that they come from.
   type :: number_table_t
@@ -59,6 +59,23 @@ contains
     if (fine) call read_numbers(cards(card), dimensions, units, diagnostics, table, fine)
     if (fine) call refuse_falling(diagnostics, table, fine)
   end subroutine read_table
+
+  !> Number of the columns of a table: units behind its name; 0 if there is no such table.
+  pure function column_count(cards, name) result(columns)
+    type(card_t), intent(in) :: cards(:)     !! (cards) all of the deck
+    character(len=*), intent(in) :: name     !! value of `table=`
+    integer :: columns
+
+    integer :: card, i
+
+    columns = 0
+    card = table_number(cards, name)
+    if (card == 0) return
+    do i = 2, size(cards(card)%words)
+      if (number_length(cards(card)%words(i)%text) > 0) exit
+      columns = columns + 1
+    end do
+  end function column_count
 
   !> Number of the TABLE card with a name; 0 if there is none.
   pure function table_number(cards, name) result(number)

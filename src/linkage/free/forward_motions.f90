@@ -9,18 +9,24 @@ module forward_motions
   use applied_loads, only: applied_potential
   use constants, only: degree, two_pi
   use curve_dynamics, only: find_inertia, new_curve_dynamics, potential_energy
-  use drives, only: drive_t
+  use drives, only: drive_t, refuse_speed
   use errors, only: error_of_dead_point, error_t, set_error
   use four_bar_poses, only: find_curve_pose
-  use four_bar_rates, only: moving_four_bar_t, no_stop, rate_number, stop_at_end, &
-    stop_many_steps, stop_no_inertia, stop_steps, unknown_count, work_number
+  use four_bar_rates, only: find_instant, four_bar_instant_t, moving_four_bar_t, no_stop, &
+    rate_number, stop_at_end, stop_many_steps, stop_no_inertia, stop_steps, unknown_count, &
+    work_number
+  use free_forces, only: add_free_loads, forces_of_motion, free_equations_t, loads_t, &
+    new_free_equations
+  use gears, only: driven_by, driven_t, gear_share, gear_t, is_direct, rotor_energy
+  use inertia_loads, only: load_t
   use interruption, only: was_interrupted
+  use joint_forces, only: joint_forces_t
   use kinds, only: long, wp
   use kinematic_coefficients, only: kinematic_coefficients_t
-  use linkages, only: linkage_t
+  use linkages, only: linkage_t, normal_to
   use loop_curves, only: choose_branch, closure_error, curve_point_t, find_point, find_start, &
     new_loop_curve, place_from_crossing, project, reduce
-  use pose_types, only: pose_t
+  use pose_types, only: arm_to_pin, pins_of_body, pose_t
   use poses, only: dead_point_sine
   use rigid_bodies, only: rigid_body_t
   use whole_systems, only: new_whole_system
@@ -28,7 +34,7 @@ module forward_motions
   private
 
   public :: forward_motion_t, motion_sample_t, turning_point_t, start_motion, move_until, &
-    sample_motion, end_motion
+    sample_motion, motion_details_t, find_motion_details, end_motion
   public :: motion_tolerance
 
   !> Bound on the estimated error of a step, for the angles in radians and for the rate relative to
@@ -74,25 +80,36 @@ module forward_motions
     real(wp) :: time = 0.0_wp         !! [s]
     real(wp) :: angle(3) = 0.0_wp     !! with all whole turns [deg]
     real(wp) :: speed(3) = 0.0_wp     !! [rad/s]
-    real(wp) :: torque = 0.0_wp       !! of the drive [N m]
+    real(wp) :: torque = 0.0_wp       !! of the drive, through its gear, on the crank [N m]
     real(wp) :: kinetic = 0.0_wp      !! [J]
     real(wp) :: potential = 0.0_wp    !! of gravity and constant forces, 0 at the global origin, and
                                       !! of springs, 0 unloaded [J]
-    real(wp) :: work = 0.0_wp         !! of the drive and of all other loads since the start [J]
+    real(wp) :: work = 0.0_wp         !! of the drive and of all other loads since the start, less
+                                      !! what the gear takes [J]
     real(wp) :: energy_error = 0.0_wp !! kinetic + potential − work, less its value at the start [J]
     real(wp) :: closure = 0.0_wp      !! gap of the open loop [m]
     logical :: is_open = .true.       !! on the open branch; else crossed
   end type motion_sample_t
+
+  !> More about the linkage at an instant.
+  type :: motion_details_t
+    real(wp) :: acceleration(3) = 0.0_wp !! of crank, coupler, follower [rad/s²]
+    type(driven_t) :: driven             !! motor and gear
+    real(wp) :: load_power = 0.0_wp      !! of all loads without a potential [W]
+    type(joint_forces_t) :: joints       !! forces in the joints
+    real(wp) :: imbalance = 0.0_wp       !! of `forces_of_motion` [-]
+  end type motion_details_t
 
 contains
 
   !> Prepares a motion at its first instant.
   !!
   !! Errors: those of `find_start` (out of reach, change point); a speed at a limit position, where
-  !! the crank can only be at rest and its speed would not determine those of the other links; no
-  !! memory. Other reasons why a motion cannot begin are found by `move_until`.
+  !! the crank can only be at rest and its speed would not determine those of the other links; a
+  !! speed beyond the table of the motor; no memory. Other reasons why a motion cannot begin are
+  !! found by `move_until`.
   subroutine start_motion(linkage, rigid, drive, crank_degrees, speed, duration, motion, error, &
-      through)
+      through, gear)
     type(linkage_t), intent(in) :: linkage           !! a four-bar
     type(rigid_body_t), intent(in) :: rigid(:)       !! (bodies) of the linkage
     class(drive_t), intent(in) :: drive              !! torque on the crank
@@ -105,6 +122,7 @@ contains
     type(error_t), allocatable, intent(out) :: error !! why it cannot begin
     logical, intent(in), optional :: through         !! straight through change points, in place of
                                                      !! a stop there
+    type(gear_t), intent(in), optional :: gear       !! from the drive to the crank; absent: none
 
     type(curve_point_t) :: point
     type(motion_sample_t) :: first
@@ -114,6 +132,7 @@ contains
     motion%system%curve = new_loop_curve(linkage, through)
     motion%system%dynamics = new_curve_dynamics(linkage, rigid)
     allocate (motion%system%drive, source=drive)
+    if (present(gear)) motion%system%gear = gear
     motion%system%linkage = linkage
     motion%system%whole = new_whole_system(linkage, [1])
     motion%system%rigid = rigid
@@ -130,6 +149,8 @@ contains
         "speed; expected speed=0")
       if (allocated(error)) return
     end if
+    call refuse_speed(motion%system%drive, motion%system%gear%ratio*speed, error)
+    if (allocated(error)) return
     motion%state(rate_number) = 0.0_wp
     if (abs(speed) > 0.0_wp) motion%state(rate_number) = speed/point%tangent(1)
     call find_inertia(motion%system%dynamics, point, inertia, slope)
@@ -138,7 +159,8 @@ contains
     motion%energy = first%kinetic + first%potential
     ! Rates and work that are small against those of one radian in the whole duration do not matter.
     call open_integrator(motion%integrator, [1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp/duration, &
-      first%kinetic + inertia/duration**2], motion_tolerance, 0.01_wp*duration, error)
+      first%kinetic + (inertia + motion%system%gear%ratio**2*motion%system%gear%rotor* &
+      point%tangent(1)**2)/duration**2], motion_tolerance, 0.01_wp*duration, error)
   end subroutine start_motion
 
   !> Frees the integrator of a motion.
@@ -203,7 +225,9 @@ contains
 
     call find_point(motion%system%curve, motion%state(1:3), point, is_smooth)
     call find_inertia(motion%system%dynamics, point, inertia, slope)
-    inertia = inertia/sum(motion%system%dynamics%inertia)
+    associate (rotor => motion%system%gear%ratio**2*motion%system%gear%rotor)
+      inertia = (inertia + rotor*point%tangent(1)**2)/(sum(motion%system%dynamics%inertia) + rotor)
+    end associate
   end function inertia_of
 
   !> Whether the sign of `sin(θ4 − θ3)`, positive where B lies to the left of A → O4, shows a change
@@ -314,11 +338,12 @@ contains
   end subroutine append_turning_point
 
   !> Angles, speeds, torque and energies at the present instant.
-  pure function sample_motion(motion) result(sample)
+  function sample_motion(motion) result(sample)
     type(forward_motion_t), intent(in) :: motion !! begun by `start_motion`
     type(motion_sample_t) :: sample
 
     type(curve_point_t) :: point
+    type(driven_t) :: driven
     type(pose_t) :: pose
     type(kinematic_coefficients_t) :: per
     real(wp) :: inertia, slope
@@ -330,9 +355,10 @@ contains
       sample%time = motion%time
       sample%angle = angle/degree + 360.0_wp*system%turns
       sample%speed = point%tangent*motion%state(rate_number)
-      sample%torque = system%drive%torque(motion%time, angle(1) + two_pi*system%turns(1), &
+      driven = driven_now(motion, angle(1) + two_pi*system%turns(1), sample%speed(1))
+      sample%torque = driven%torque
+      sample%kinetic = 0.5_wp*inertia*motion%state(rate_number)**2 + rotor_energy(system%gear, &
         sample%speed(1))
-      sample%kinetic = 0.5_wp*inertia*motion%state(rate_number)**2
       sample%potential = potential_energy(system%dynamics, point)
       if (size(system%linkage%loads) > 0) then
         call find_curve_pose(system%linkage, point, angle(1) + two_pi*system%turns(1), pose, per)
@@ -345,5 +371,106 @@ contains
       sample%is_open = motion%is_open
     end associate
   end function sample_motion
+
+  !> Motor and gear at the present instant. Where there is no acceleration, that of the crank is
+  !! taken to be none.
+  function driven_now(motion, angle, speed) result(driven)
+    type(forward_motion_t), intent(in) :: motion
+    real(wp), intent(in) :: angle, speed !! of the crank [rad], [rad/s]
+    type(driven_t) :: driven
+
+    type(moving_four_bar_t) :: system
+    type(four_bar_instant_t) :: instant
+    real(wp) :: torque
+    logical :: found
+
+    found = .false.
+    if (.not. is_direct(motion%system%gear)) then
+      system = motion%system
+      call find_instant(system, motion%time, motion%state, instant, found)
+      driven = instant%driven
+    end if
+    if (found) return
+    associate (gear => motion%system%gear)
+      torque = motion%system%drive%torque(motion%time, gear%ratio*angle, gear%ratio*speed)
+      driven = driven_by(gear, torque, gear_share(gear, speed, torque), speed, 0.0_wp)
+    end associate
+  end function driven_now
+
+  !> Accelerations, powers and forces in the joints at the present instant. Not found where there
+  !! are no rates of the motion, at change points.
+  subroutine find_motion_details(motion, details, found)
+    type(forward_motion_t), intent(in) :: motion   !! begun by `start_motion`
+    type(motion_details_t), intent(out) :: details !! of this instant
+    logical, intent(out) :: found
+
+    type(moving_four_bar_t) :: system
+    type(four_bar_instant_t) :: instant
+    type(pose_t) :: pose
+    type(kinematic_coefficients_t) :: per, now
+    type(kinematic_coefficients_t), allocatable :: all_per(:)
+    type(free_equations_t) :: equations
+    type(loads_t) :: loads
+    real(wp), allocatable :: pin_load(:, :)
+
+    system = motion%system
+    call find_instant(system, motion%time, motion%state, instant, found)
+    if (.not. found) return
+    associate (rate => motion%state(rate_number), point => instant%point)
+      details%acceleration = point%tangent*instant%rate + point%tangent_slope*rate**2
+      details%driven = instant%driven
+      details%load_power = instant%loading*rate
+      call find_curve_pose(system%linkage, point, motion%state(1) + two_pi*system%turns(1), pose, &
+        per)
+      now = moving(system%linkage, pose, per, rate, details%acceleration)
+    end associate
+    ! An array constructor would copy no components in gfortran 12.
+    allocate (all_per(1))
+    all_per(1) = per
+    call new_free_equations(system%whole, system%rigid, pose, all_per, 0.0_wp, equations)
+    found = abs(equations%factor%determinant) > 0.0_wp
+    if (.not. found) return
+    allocate (pin_load(2, size(system%linkage%is_ground)), source=0.0_wp)
+    if (allocated(instant%pin_load)) pin_load = instant%pin_load
+    allocate (loads%body(size(system%rigid)))
+    allocate (loads%pin, source=0.0_wp*pin_load)
+    call add_free_loads(system%whole, system%rigid, pose, now, instant%body_load, pin_load, loads)
+    call forces_of_motion(system%whole, pose, equations, loads, details%driven%torque, &
+      details%joints, details%imbalance)
+  end subroutine find_motion_details
+
+  !> Velocities and accelerations of bodies and pins.
+  pure function moving(linkage, pose, per, rate, acceleration) result(now)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: per
+    real(wp), intent(in) :: rate            !! ṡ
+    real(wp), intent(in) :: acceleration(3) !! of crank, coupler, follower
+    type(kinematic_coefficients_t) :: now
+
+    integer, allocatable :: pins(:)
+    integer :: numbers(3), bases(3), b, i, k
+
+    now = per
+    now%turn = rate*per%turn
+    now%pin = rate*per%pin
+    associate (dyad => linkage%groups(1))
+      numbers = [1, dyad%body]
+      bases = [linkage%bodies(1)%first_pin, dyad%base]
+    end associate
+    do i = 1, 3
+      b = numbers(i)
+      now%turn_slope(b) = acceleration(i)
+      pins = pins_of_body(linkage%bodies(b))
+      do k = 1, size(pins)
+        if (pins(k) == bases(i)) cycle
+        associate (arm => arm_to_pin(linkage, pose, b, pins(k)) - arm_to_pin(linkage, pose, b, &
+            bases(i)))
+          now%pin_slope(:, pins(k)) = now%pin_slope(:, bases(i)) + acceleration(i)* &
+            normal_to(arm) - now%turn(b)**2*arm
+        end associate
+      end do
+    end do
+  end function moving
 
 end module forward_motions

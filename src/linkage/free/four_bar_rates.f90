@@ -6,10 +6,11 @@ module four_bar_rates
   use applied_loads, only: add_conservative_loads, add_moving_loads, add_prescribed_loads, &
     generalised_force
   use curve_dynamics, only: conservative_torques, curve_dynamics_t, find_inertia
-  use drives, only: drive_t
+  use drives, only: drive_t, refuse_speed
   use errors, only: error_t
   use four_bar_poses, only: find_curve_pose
   use free_friction, only: find_free_friction
+  use gears, only: driven_by, driven_t, gear_share, gear_t, reflected_inertia
   use inertia_loads, only: load_t
   use joint_friction, only: friction_t, has_friction, is_solved
   use kinds, only: wp
@@ -23,7 +24,8 @@ module four_bar_rates
   implicit none (type, external)
   private
 
-  public :: moving_four_bar_t, rate_number, work_number, unknown_count
+  public :: moving_four_bar_t, four_bar_instant_t, find_instant, rate_number, work_number, &
+    unknown_count
   public :: no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps, &
     stop_many_steps, stop_at_end, stop_locked
 
@@ -49,6 +51,7 @@ module four_bar_rates
     type(loop_curve_t) :: curve
     type(curve_dynamics_t) :: dynamics
     class(drive_t), allocatable :: drive
+    type(gear_t) :: gear          !! from the drive to the crank, with its rotor
     type(linkage_t) :: linkage    !! its loads
     type(whole_system_t) :: whole !! its equations, for friction
     type(rigid_body_t), allocatable :: rigid(:) !! (bodies) likewise
@@ -58,6 +61,19 @@ module four_bar_rates
   contains
     procedure :: find_rates => rates_of_motion
   end type moving_four_bar_t
+
+  !> A four-bar at an instant of its motion.
+  type :: four_bar_instant_t
+    type(curve_point_t) :: point
+    real(wp) :: rate = 0.0_wp          !! s̈ [rad/s²]
+    type(driven_t) :: driven           !! motor and gear
+    real(wp) :: driving = 0.0_wp       !! of drive and loads without a potential, along the curve
+                                       !! [N m]
+    real(wp) :: loading = 0.0_wp       !! of these loads alone [N m]
+    type(load_t) :: body_load(3)       !! of all loads of the linkage, but for weights, constant
+                                       !! forces on pins and constant torques
+    real(wp), allocatable :: pin_load(:, :) !! (2, pins) likewise; not allocated: there are none [N]
+  end type four_bar_instant_t
 
 contains
 
@@ -73,8 +89,32 @@ contains
     real(wp), intent(out) :: rates(:) !! of the state; defined only if found
     logical, intent(out) :: found     !! false: `stop` is set
 
-    type(curve_point_t) :: point
-    real(wp) :: inertia, slope, speed(3), torque, driving, restoring
+    type(four_bar_instant_t) :: instant
+
+    call find_instant(self, time, state, instant, found)
+    if (.not. found) return
+    rates(1:3) = instant%point%tangent*state(rate_number)
+    rates(rate_number) = instant%rate
+    rates(work_number) = instant%driving*state(rate_number) + instant%driven%to_rotor
+  end subroutine rates_of_motion
+
+  !> The motion at a state: s̈, motor, gear and loads.
+  !!
+  !! The torque through the gear depends on s̈, and the losses in the gear on its sign. With either
+  !! losses it has the same sign, so that a second trial at most finds those that there are: of M, Q
+  !! and the motor's torque Tm per coordinate of the driven body it is that of `M Tm − J n Q`.
+  !! Friction in joints may disturb this; then the losses of the second trial count.
+  subroutine find_instant(self, time, state, instant, found)
+    class(moving_four_bar_t), intent(inout) :: self
+    real(wp), intent(in) :: time      !! [s]
+    real(wp), intent(in) :: state(:)  !! θ2, θ3, θ4, ṡ, work
+    type(four_bar_instant_t), intent(out) :: instant
+    logical, intent(out) :: found     !! as of `rates_of_motion`
+
+    real(wp) :: inertia, slope, speed(3), torque, driving, restoring, motor, share, reflected, &
+      through
+    type(error_t), allocatable :: error
+    integer :: trial
 
     ! Written so that NaN is refused as well.
     found = maxval(abs(state(1:3))) < most_angle .and. abs(state(rate_number)) < most_rate
@@ -82,37 +122,62 @@ contains
       self%stop = stop_too_fast
       return
     end if
-    call find_point(self%curve, state(1:3), point, found)
-    if (.not. found) then
-      self%stop = stop_change_point
-      return
-    end if
-    call find_inertia(self%dynamics, point, inertia, slope)
-    found = inertia > least_inertia*sum(self%dynamics%inertia)
-    if (.not. found) then
-      self%stop = stop_no_inertia
-      return
-    end if
-    speed = point%tangent*state(rate_number)
-    torque = self%drive%torque(time, state(1) + two_pi*self%turns(1), speed(1))
-    driving = point%tangent(1)*torque + dot_product(self%dynamics%couple, point%tangent)
-    restoring = dot_product(conservative_torques(self%dynamics, point), point%tangent)
-    if (size(self%linkage%loads) > 0 .or. has_friction(self%linkage)) then
-      call add_loads(self, point, state, torque, restoring, driving, found)
-      if (.not. found) return
-    end if
-    rates(1:3) = speed
-    rates(rate_number) = (driving + restoring - 0.5_wp*slope*state(rate_number)**2)/inertia
-    rates(work_number) = driving*state(rate_number)
-  end subroutine rates_of_motion
+    associate (point => instant%point)
+      call find_point(self%curve, state(1:3), point, found)
+      if (.not. found) then
+        self%stop = stop_change_point
+        return
+      end if
+      call find_inertia(self%dynamics, point, inertia, slope)
+      found = inertia + self%gear%ratio**2*self%gear%rotor*point%tangent(1)**2 > &
+        least_inertia*(sum(self%dynamics%inertia) + self%gear%ratio**2*self%gear%rotor)
+      if (.not. found) then
+        self%stop = stop_no_inertia
+        return
+      end if
+      speed = point%tangent*state(rate_number)
+      call refuse_speed(self%drive, self%gear%ratio*speed(1), error)
+      found = .not. allocated(error)
+      if (.not. found) then
+        self%stop = stop_at_end
+        call move_alloc(error, self%ended)
+        return
+      end if
+      motor = self%drive%torque(time, self%gear%ratio*(state(1) + two_pi*self%turns(1)), &
+        self%gear%ratio*speed(1))
+      through = motor
+      do trial = 1, 2
+        share = gear_share(self%gear, speed(1), through)
+        reflected = reflected_inertia(self%gear, share)
+        torque = self%gear%ratio*share*motor
+        instant%loading = dot_product(self%dynamics%couple, point%tangent)
+        driving = point%tangent(1)*torque + instant%loading
+        restoring = dot_product(conservative_torques(self%dynamics, point), point%tangent)
+        if (size(self%linkage%loads) > 0 .or. has_friction(self%linkage)) then
+          call add_loads(self, state, torque, reflected, instant, restoring, driving, found)
+          if (.not. found) return
+        end if
+        instant%rate = (driving + restoring - (0.5_wp*slope + reflected*point%tangent(1)* &
+          point%tangent_slope(1))*state(rate_number)**2)/(inertia + reflected*point%tangent(1)**2)
+        instant%driven = driven_by(self%gear, motor, share, speed(1), point%tangent(1)* &
+          instant%rate + point%tangent_slope(1)*state(rate_number)**2)
+        instant%driving = driving - point%tangent(1)*(torque - instant%driven%torque)
+        if (self%gear%efficiency >= 1.0_wp) exit
+        if (through >= 0.0_wp .eqv. instant%driven%through >= 0.0_wp) exit
+        through = instant%driven%through
+      end do
+    end associate
+  end subroutine find_instant
 
   !> Adds the generalised forces of springs, dampers, processes and friction along the curve: those
-  !! with a potential to the first, all others to the second.
-  subroutine add_loads(self, point, state, torque, restoring, driving, found)
+  !! with a potential to the first, all others to the second and to the loading of the instant,
+  !! which gets the loads themselves, too.
+  subroutine add_loads(self, state, torque, reflected, instant, restoring, driving, found)
     class(moving_four_bar_t), intent(inout) :: self
-    type(curve_point_t), intent(in) :: point
     real(wp), intent(in) :: state(:)
-    real(wp), intent(in) :: torque                !! of the drive [N m]
+    real(wp), intent(in) :: torque                !! of the drive, but for the rotor [N m]
+    real(wp), intent(in) :: reflected             !! its inertia on the crank [kg m²]
+    type(four_bar_instant_t), intent(inout) :: instant
     real(wp), intent(inout) :: restoring, driving !! [N m]
     logical, intent(out) :: found                 !! false: a table has ended, or joints lock;
                                                   !! `stop` is set
@@ -125,9 +190,10 @@ contains
     type(error_t), allocatable :: error
     type(friction_t) :: friction
     real(wp), parameter :: origin(2) = 0.0_wp
+    real(wp) :: added
     integer :: b
 
-    associate (linkage => self%linkage)
+    associate (linkage => self%linkage, point => instant%point)
       call find_curve_pose(linkage, point, state(1) + two_pi*self%turns(1), pose, per)
       call refuse_beyond_tables(linkage, pose, origin, error)
       found = .not. allocated(error)
@@ -145,20 +211,33 @@ contains
       call add_prescribed_loads(linkage, pose, origin, body_load, pin_load)
       call add_moving_loads(linkage, pose, origin, now, body_load, pin_load)
       restoring = restoring + generalised_force(linkage, per, of_springs, spring_force)
-      driving = driving + generalised_force(linkage, per, body_load, pin_load)
-      if (.not. has_friction(linkage)) return
+      added = generalised_force(linkage, per, body_load, pin_load)
+      driving = driving + added
+      instant%loading = instant%loading + added
       do b = 1, 3
         body_load(b)%force = body_load(b)%force + of_springs(b)%force
         body_load(b)%moment = body_load(b)%moment + of_springs(b)%moment
       end do
-      ! An array constructor would copy no components in gfortran 12.
-      allocate (all_per(1))
-      all_per(1) = per
-      call find_free_friction(self%whole, self%rigid, pose, all_per, now, body_load, &
-        pin_load + spring_force, torque, friction)
-      found = friction%state == is_solved
-      if (.not. found) self%stop = stop_locked
-      driving = driving + generalised_force(linkage, per, friction%body_load, friction%pin_load)
+      pin_load = pin_load + spring_force
+      if (has_friction(linkage)) then
+        ! An array constructor would copy no components in gfortran 12.
+        allocate (all_per(1))
+        all_per(1) = per
+        call find_free_friction(self%whole, self%rigid, pose, all_per, now, body_load, pin_load, &
+          torque, friction, reflected)
+        found = friction%state == is_solved
+        if (.not. found) self%stop = stop_locked
+        added = generalised_force(linkage, per, friction%body_load, friction%pin_load)
+        driving = driving + added
+        instant%loading = instant%loading + added
+        do b = 1, 3
+          body_load(b)%force = body_load(b)%force + friction%body_load(b)%force
+          body_load(b)%moment = body_load(b)%moment + friction%body_load(b)%moment
+        end do
+        pin_load = pin_load + friction%pin_load
+      end if
+      instant%body_load = body_load
+      instant%pin_load = pin_load
     end associate
   end subroutine add_loads
 

@@ -1,42 +1,21 @@
 !> Friction in the joints of a linkage that moves freely, where the forces in the joints depend on
 !! the accelerations, and these on friction.
 module free_friction
-  use applied_loads, only: generalised_force
-  use body_points, only: find_point_coefficients, point_coefficients_t
-  use dense_factor, only: dense_factor_t, factorize, solve, solve_transposed
-  use group_equations, only: drive_rate, find_gradient, gradient_t
+  use free_forces, only: add_free_loads, bent_motion, forces_of_loads, free_equations_t, loads_t, &
+    new_free_equations
   use inertia_loads, only: load_t
-  use joint_forces, only: add_force, joint_forces_t
+  use joint_forces, only: joint_forces_t
   use joint_friction, only: coulomb_efforts, find_normal_forces, finish_friction, force_in_joint, &
     friction_rates, friction_t, put_friction
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
-  use linkages, only: cross, demands_angle, demands_drive, demands_length, demands_line, &
-    demands_turn, drives_length, equation_t, linkage_t
-  use plan_equations, only: drive_equation
   use pose_types, only: pose_t
-  use rigid_bodies, only: central_inertia, mass_centre, rigid_body_t
-  use whole_systems, only: curvatures, demands, drive_row, rate_along, unknown_count, whole_system_t
+  use rigid_bodies, only: rigid_body_t
+  use whole_systems, only: drive_acceleration, whole_system_t
   implicit none (type, external)
   private
 
   public :: find_free_friction
-
-  !> Loads on all bodies, about their first pins, and on all pins.
-  type :: loads_t
-    type(load_t), allocatable :: body(:)
-    real(wp), allocatable :: pin(:, :)   !! (2, pins) [N]
-  end type loads_t
-
-  !> Equations at a state.
-  type :: equations_t
-    type(gradient_t), allocatable :: gradient(:)  !! of all equations, of the first drive at last
-    real(wp), allocatable :: gear(:)              !! (equations) share of the first drive's in each
-    type(dense_factor_t) :: factor                !! of all gradients above the velocities
-    type(dense_factor_t) :: mass                  !! of M
-    type(loads_t), allocatable :: inertia(:)      !! (coordinates) `−m h_k`
-    real(wp), allocatable :: driven(:)            !! (coordinates) rate of the first drive
-  end type equations_t
 
 contains
 
@@ -48,7 +27,7 @@ contains
   !! system, which dead points do not disturb. Where joints lock there is no motion that balances
   !! the forces.
   pure subroutine find_free_friction(whole, rigid, pose, per, now, body_load, pin_load, &
-    drive_force, friction)
+    drive_force, friction, on_drive)
     type(whole_system_t), intent(in) :: whole      !! of a linkage that is not redundant
     type(rigid_body_t), intent(in) :: rigid(:)     !! (bodies)
     type(pose_t), intent(in) :: pose               !! pins and directions
@@ -56,32 +35,41 @@ contains
     type(kinematic_coefficients_t), intent(in) :: now !! velocities [m/s], [rad/s]
     type(load_t), intent(in) :: body_load(:)       !! (bodies) of springs, dampers and processes
     real(wp), intent(in) :: pin_load(:, :)         !! (2, pins) likewise [N]
-    real(wp), intent(in) :: drive_force            !! of the first drive [N m] or [N]
+    real(wp), intent(in) :: drive_force            !! of the first drive, but for the inertia there
+                                                   !! [N m] or [N]
     type(friction_t), intent(out) :: friction      !! its loads act beside those above
+    real(wp), intent(in), optional :: on_drive     !! moment of inertia on the first drive; absent:
+                                                   !! none [kg m²]
 
-    type(equations_t) :: equations
+    type(free_equations_t) :: equations
+    type(kinematic_coefficients_t) :: bent
     type(loads_t) :: loads
     type(joint_forces_t) :: joints
     real(wp), dimension(size(whole%linkage%frictions)) :: viscous, coulomb
     real(wp) :: base(2, size(viscous)), influence(2, size(viscous), size(viscous))
+    real(wp) :: inertia
     integer :: i, j, k
 
+    inertia = 0.0_wp
+    if (present(on_drive)) inertia = on_drive
     associate (linkage => whole%linkage, rubs => whole%linkage%frictions)
-      call new_equations(whole, rigid, pose, per, equations)
+      call new_free_equations(whole, rigid, pose, per, inertia, equations)
+      bent = bent_motion(whole, pose, now, equations)
       friction%rate = friction_rates(linkage, pose, now, 1.0_wp)
       coulomb = coulomb_efforts(rubs, friction%rate)
       viscous = -rubs%viscous*friction%rate
       allocate (loads%body(size(linkage%bodies)), loads%pin(2, size(linkage%is_ground)))
       call put_friction(linkage, pose, viscous, loads%body, loads%pin)
-      call add_all_loads(whole, rigid, pose, now, equations, body_load, pin_load, loads)
-      joints = forces_of(whole, pose, per, equations, loads, drive_force)
+      call add_free_loads(whole, rigid, pose, bent, body_load, pin_load, loads)
+      joints = forces_of_loads(whole, pose, per, equations, loads, drive_force - &
+        inertia*drive_acceleration(whole, pose, 1, bent))
       do k = 1, size(rubs)
         base(:, k) = force_in_joint(linkage, joints, rubs(k))
       end do
       do j = 1, size(rubs)
         call put_friction(linkage, pose, merge(coulomb, 0.0_wp, [(i == j, i=1, size(rubs))]), &
           loads%body, loads%pin)
-        joints = forces_of(whole, pose, per, equations, loads, 0.0_wp)
+        joints = forces_of_loads(whole, pose, per, equations, loads, 0.0_wp)
         do k = 1, size(rubs)
           influence(:, k, j) = force_in_joint(linkage, joints, rubs(k))
         end do
@@ -90,230 +78,5 @@ contains
       call finish_friction(linkage, pose, viscous, coulomb, friction)
     end associate
   end subroutine find_free_friction
-
-  !> Gradients, inertia and their factors.
-  pure subroutine new_equations(whole, rigid, pose, per, equations)
-    type(whole_system_t), intent(in) :: whole
-    type(rigid_body_t), intent(in) :: rigid(:)
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: per(:)
-    type(equations_t), intent(out) :: equations
-
-    type(point_coefficients_t) :: point
-    real(wp), allocatable :: rows(:, :), matrix(:, :), row(:)
-    real(wp) :: mass(size(per), size(per))
-    integer :: b, i, k, l, m, p
-
-    m = size(whole%equations)
-    rows = demands(whole, pose)
-    allocate (matrix(m + size(per), unknown_count(whole)))
-    matrix(:m, :) = rows
-    do k = 1, size(per)
-      row = as_unknowns(whole, per(k))
-      matrix(m + k, :) = row/norm2(row)
-    end do
-    call factorize(matrix, equations%factor)
-    allocate (equations%gradient(m + 1), equations%gear(m), equations%inertia(size(per)), &
-      equations%driven(size(per)))
-    do i = 1, m
-      call find_gradient(whole%linkage, whole%equations(i), pose, equations%gradient(i))
-      equations%gear(i) = 0.0_wp
-      if (whole%equations(i)%kind == demands_drive) equations%gear(i) = drive_rate(whole%linkage, &
-        whole%equations(i)%number)
-    end do
-    call find_gradient(whole%linkage, drive_equation(1), pose, equations%gradient(m + 1))
-    do k = 1, size(per)
-      equations%driven(k) = rate_along(whole, drive_row(whole, pose, 1), per(k)%turn, per(k)%pin)
-      associate (loads => equations%inertia(k))
-        allocate (loads%body(size(rigid)), loads%pin(2, size(pose%pin, 2)))
-        do b = 1, size(rigid)
-          point = find_point_coefficients(whole%linkage, pose, per(k), b, mass_centre(rigid(b)))
-          call load_mass(whole%linkage, pose, rigid(b), b, point%place, point%rate, &
-            per(k)%turn(b), loads%body(b))
-        end do
-        do p = 1, size(pose%pin, 2)
-          loads%pin(:, p) = -whole%linkage%pin_mass(p)*per(k)%pin(:, p)
-        end do
-        do l = 1, size(per)
-          mass(l, k) = -generalised_force(whole%linkage, per(l), loads%body, loads%pin)
-        end do
-      end associate
-    end do
-    call factorize(mass, equations%mass)
-  end subroutine new_equations
-
-  !> Velocities as a row of the unknowns.
-  pure function as_unknowns(whole, velocities) result(row)
-    type(whole_system_t), intent(in) :: whole
-    type(kinematic_coefficients_t), intent(in) :: velocities
-    real(wp), allocatable :: row(:)
-
-    integer :: i
-
-    allocate (row(unknown_count(whole)))
-    row(whole%at_body) = velocities%turn*whole%scale
-    do i = 1, size(whole%at_pin)
-      associate (at => whole%at_pin(i))
-        if (at >= 0) row(at + 1:at + 2) = velocities%pin(:, i)
-      end associate
-    end do
-  end function as_unknowns
-
-  !> Inertia of a body with an acceleration of its mass centre.
-  pure subroutine load_mass(linkage, pose, rigid, body, centre, acceleration, angular, load)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(rigid_body_t), intent(in) :: rigid
-    integer, intent(in) :: body             !! number
-    real(wp), intent(in) :: centre(2)       !! in global axes [m]
-    real(wp), intent(in) :: acceleration(2) !! of it
-    real(wp), intent(in) :: angular         !! acceleration
-    type(load_t), intent(inout) :: load     !! to which it is added
-
-    real(wp) :: force(2)
-
-    force = -rigid%mass*acceleration
-    load%force = load%force + force
-    load%moment = load%moment + cross(centre - pose%pin(:, linkage%bodies(body)%first_pin), force) &
-      - central_inertia(rigid)*angular
-  end subroutine load_mass
-
-  !> Adds applied loads, weights, constant forces and couples, and the inertia of present rates.
-  pure subroutine add_all_loads(whole, rigid, pose, now, equations, body_load, pin_load, loads)
-    type(whole_system_t), intent(in) :: whole
-    type(rigid_body_t), intent(in) :: rigid(:)
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: now
-    type(equations_t), intent(in) :: equations
-    type(load_t), intent(in) :: body_load(:)
-    real(wp), intent(in) :: pin_load(:, :)
-    type(loads_t), intent(inout) :: loads !! to which they are added
-
-    type(kinematic_coefficients_t) :: bent
-    type(point_coefficients_t) :: point
-    real(wp) :: right(unknown_count(whole)), slopes(unknown_count(whole))
-    integer :: b, m, p
-
-    associate (linkage => whole%linkage)
-      m = size(whole%equations)
-      right = 0.0_wp
-      right(:m) = -curvatures(whole, pose, now%turn, now%pin)
-      slopes = solve(equations%factor, right)
-      bent = now
-      bent%turn_slope = slopes(whole%at_body)/whole%scale
-      bent%pin_slope = 0.0_wp
-      do p = 1, size(whole%at_pin)
-        if (whole%at_pin(p) >= 0) bent%pin_slope(:, p) = slopes(whole%at_pin(p) + &
-          1:whole%at_pin(p) + 2)
-      end do
-      do b = 1, size(rigid)
-        point = find_point_coefficients(linkage, pose, bent, b, mass_centre(rigid(b)))
-        call load_mass(linkage, pose, rigid(b), b, point%place, point%slope - linkage%gravity, &
-          bent%turn_slope(b), loads%body(b))
-        loads%body(b)%force = loads%body(b)%force + body_load(b)%force
-        loads%body(b)%moment = loads%body(b)%moment + body_load(b)%moment + linkage%couple(b)
-      end do
-      do p = 1, size(linkage%is_ground)
-        loads%pin(:, p) = loads%pin(:, p) + pin_load(:, p) + linkage%pin_force(:, p) + &
-          linkage%pin_mass(p)*(linkage%gravity - bent%pin_slope(:, p))
-      end do
-    end associate
-  end subroutine add_all_loads
-
-  !> Forces in the joints of a linkage that moves freely under loads.
-  pure function forces_of(whole, pose, per, equations, loads, drive_force) result(joints)
-    type(whole_system_t), intent(in) :: whole
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: per(:)
-    type(equations_t), intent(in) :: equations
-    type(loads_t), intent(in) :: loads
-    real(wp), intent(in) :: drive_force
-    type(joint_forces_t) :: joints
-
-    type(loads_t) :: all
-    real(wp) :: along(size(per)), right(unknown_count(whole)), lambda(size(whole%equations) + 1)
-    integer :: b, i, k, m, further
-
-    associate (linkage => whole%linkage)
-      m = size(whole%equations)
-      do k = 1, size(per)
-        along(k) = generalised_force(linkage, per(k), loads%body, loads%pin) + &
-          drive_force*equations%driven(k)
-      end do
-      along = solve(equations%mass, along)
-      all = loads
-      do k = 1, size(per)
-        do b = 1, size(all%body)
-          all%body(b)%force = all%body(b)%force + along(k)*equations%inertia(k)%body(b)%force
-          all%body(b)%moment = all%body(b)%moment + along(k)*equations%inertia(k)%body(b)%moment
-        end do
-        all%pin = all%pin + along(k)*equations%inertia(k)%pin
-      end do
-      right = -drive_force*drive_row(whole, pose, 1)
-      further = 0
-      do b = 1, size(linkage%bodies)
-        further = further + size(linkage%bodies(b)%further)
-        call load_unknowns(whole, linkage%bodies(b)%first_pin, all%body(b)%force, right)
-        right(whole%at_body(b)) = right(whole%at_body(b)) - all%body(b)%moment/whole%scale(b)
-      end do
-      do i = 1, size(linkage%is_ground)
-        call load_unknowns(whole, i, all%pin(:, i), right)
-      end do
-      right = solve_transposed(equations%factor, right)
-      lambda(:m) = right(:m)
-      lambda(m + 1) = drive_force - dot_product(equations%gear, lambda(:m))
-      allocate (joints%on_first(2, size(linkage%bodies)), joints%on_last(2, size(linkage%bodies)), &
-        joints%on_further(2, further), joints%guide(size(linkage%sliders)), &
-        joints%couple(size(linkage%turns)))
-      do b = 1, size(linkage%bodies)
-        joints%on_first(:, b) = -all%body(b)%force
-      end do
-      joints%on_last = 0.0_wp
-      joints%on_further = 0.0_wp
-      joints%guide = 0.0_wp
-      joints%couple = 0.0_wp
-      do i = 1, m
-        call put_equation(linkage, whole%equations(i), equations%gradient(i), lambda(i), joints)
-      end do
-      call put_equation(linkage, drive_equation(1), equations%gradient(m + 1), lambda(m + 1), &
-        joints)
-    end associate
-  end function forces_of
-
-  !> Puts a load of a pin on the right-hand side; ground pivots bear theirs.
-  pure subroutine load_unknowns(whole, pin, force, right)
-    type(whole_system_t), intent(in) :: whole
-    integer, intent(in) :: pin
-    real(wp), intent(in) :: force(2)
-    real(wp), intent(inout) :: right(:)
-
-    associate (at => whole%at_pin(pin))
-      if (at >= 0) right(at + 1:at + 2) = right(at + 1:at + 2) - force
-    end associate
-  end subroutine load_unknowns
-
-  !> Puts the force that an equation stands for into the joints, as `find_joint_forces` does.
-  pure subroutine put_equation(linkage, equation, gradient, lambda, joints)
-    type(linkage_t), intent(in) :: linkage
-    type(equation_t), intent(in) :: equation
-    type(gradient_t), intent(in) :: gradient
-    real(wp), intent(in) :: lambda
-    type(joint_forces_t), intent(inout) :: joints
-
-    if (gradient%pin(2) > 0) joints%on_first(:, gradient%body(1)) = joints%on_first(:, &
-      gradient%body(1)) - lambda*gradient%by_pin(:, 2)
-    select case (equation%kind)
-    case (demands_length, demands_angle)
-      call add_force(linkage, equation%body, equation%pin, -lambda*gradient%by_pin(:, 1), joints)
-    case (demands_line)
-      joints%guide(equation%number) = lambda
-    case (demands_turn)
-      joints%couple(equation%number) = lambda
-    case (demands_drive)
-      if (linkage%drives(equation%number)%kind == drives_length) call add_force(linkage, &
-        linkage%drives(equation%number)%body, gradient%pin(1), -lambda*gradient%by_pin(:, 1), &
-        joints)
-    end select
-  end subroutine put_equation
 
 end module free_friction

@@ -8,8 +8,9 @@ module linkage_motions
   use adaptive_integration, only: advance, close_integrator, integrator_t, open_integrator, &
     reopen_integrator, step_by
   use constants, only: degree, two_pi
-  use drives, only: drive_t
+  use drives, only: drive_t, refuse_speed
   use errors, only: error_of_dead_point, error_t, set_error
+  use gears, only: gear_t
   use group_determinants, only: determinant_of, determinants_of
   use group_equations, only: drive_rate, drive_value
   use interruption, only: was_interrupted
@@ -19,7 +20,7 @@ module linkage_motions
   use linkage_rates, only: all_inertia, find_rates_of_coordinates, find_state, free_drives, &
     inertia_share, moving_linkage_t, no_stop, place_by_drives, rate_of_drive, stop_at_end, &
     stop_change_point, stop_energy, stop_many_steps, stop_misfit, stop_no_inertia, stop_steps
-  use linkage_samples, only: linkage_sample_t, sample_state
+  use linkage_samples, only: find_details, linkage_details_t, linkage_sample_t, sample_state
   use linkages, only: drives_angle, linkage_t
   use motion_charts, only: is_same_side, motion_chart_t, new_chart
   use pose_types, only: pose_t
@@ -31,7 +32,8 @@ module linkage_motions
   private
 
   public :: linkage_motion_t, linkage_sample_t, passage_t, start_linkage_motion, &
-    move_linkage_until, sample_linkage_motion, end_linkage_motion
+    move_linkage_until, sample_linkage_motion, linkage_details_t, find_linkage_details, &
+    end_linkage_motion
   public :: linkage_motion_tolerance, change_point_message
 
   !> Bound on the estimated error of a step: some forty roundings. Where equations nearly depend on
@@ -95,9 +97,10 @@ contains
   !> Prepares a motion at its first instant. Free drives start where the deck's affine relation with
   !! the first one puts them, with the rates of this relation.
   !!
-  !! Errors: the start is out of reach, a change point, or a dead point with a speed; no memory.
+  !! Errors: the start is out of reach, a change point, or a dead point with a speed; a speed beyond
+  !! the table of the motor; no memory.
   subroutine start_linkage_motion(linkage, rigid, is_free, drive, crank, speed, &
-    duration, motion, error)
+    duration, motion, error, gear)
     type(linkage_t), intent(in) :: linkage           !! of any kind, with loads and a path if it
                                                      !! needs one
     type(rigid_body_t), intent(in) :: rigid(:)       !! (bodies) of the linkage
@@ -110,6 +113,7 @@ contains
     type(linkage_motion_t), intent(out) :: motion    !! at its first instant; to be ended by
                                                      !! `end_linkage_motion`
     type(error_t), allocatable, intent(out) :: error !! why it cannot begin
+    type(gear_t), intent(in), optional :: gear       !! from the drive to the linkage; absent: none
 
     type(pose_t) :: pose
     type(linkage_sample_t) :: first
@@ -121,6 +125,9 @@ contains
       system%whole = new_whole_system(linkage, system%free)
       system%rigid = rigid
       allocate (system%drive, source=drive)
+      if (present(gear)) system%gear = gear
+      call refuse_speed(system%drive, system%gear%ratio*speed, error)
+      if (allocated(error)) return
       f = size(system%free)
       call place_links(linkage, crank, pose, error)
       if (allocated(error)) return
@@ -525,5 +532,16 @@ contains
     if (abs(sample%energy_error) > lost_energy*motion%most_energy .and. motion%stop == no_stop) &
       motion%stop = stop_energy
   end subroutine sample_linkage_motion
+
+  !> Accelerations, powers and forces in the joints at the present instant. Not found where there
+  !! are no rates of the motion.
+  subroutine find_linkage_details(motion, with_forces, details, found)
+    type(linkage_motion_t), intent(in) :: motion    !! begun
+    logical, intent(in) :: with_forces              !! those in the joints, too
+    type(linkage_details_t), intent(out) :: details !! of this instant
+    logical, intent(out) :: found
+
+    call find_details(motion%system, motion%time, motion%state, with_forces, details, found)
+  end subroutine find_linkage_details
 
 end module linkage_motions

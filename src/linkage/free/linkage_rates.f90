@@ -14,9 +14,10 @@ module linkage_rates
   use body_points, only: find_point_coefficients, point_coefficients_t
   use constants, only: degree
   use dense_factor, only: dense_factor_t, factorize, solve
-  use drives, only: drive_t
+  use drives, only: drive_t, refuse_speed
   use errors, only: error_of_dead_point, error_of_reach, error_t, set_error
   use free_friction, only: find_free_friction
+  use gears, only: driven_by, driven_t, gear_share, gear_t, reflected_inertia
   use group_equations, only: drive_rate
   use inertia_loads, only: load_t
   use joint_friction, only: friction_t, has_friction, is_solved
@@ -29,12 +30,12 @@ module linkage_rates
   use pose_types, only: pose_t
   use poses, only: dead_point_sine, place_groups, place_links
   use rigid_bodies, only: central_inertia, mass_centre, rigid_body_t
-  use whole_systems, only: drive_position, drive_row, rate_along, whole_system_t
+  use whole_systems, only: drive_acceleration, drive_position, drive_row, rate_along, whole_system_t
   implicit none (type, external)
   private
 
-  public :: moving_linkage_t, free_drives, find_state, place_by_drives, &
-    find_rates_of_coordinates, all_inertia, inertia_share, rate_of_drive
+  public :: moving_linkage_t, linkage_instant_t, find_instant, free_drives, find_state, &
+    place_by_drives, find_rates_of_coordinates, all_inertia, inertia_share, rate_of_drive
   public :: no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps, &
     stop_many_steps, stop_misfit, stop_energy, stop_at_end, stop_locked
 
@@ -60,6 +61,7 @@ module linkage_rates
     type(rigid_body_t), allocatable :: rigid(:) !! (bodies)
     integer, allocatable :: free(:)             !! numbers of the free drives; the first is 1
     class(drive_t), allocatable :: drive        !! torque or force on the first drive
+    type(gear_t) :: gear                        !! between them, with the rotor
     logical :: by_drives = .true.               !! the state has the coordinates of the drives
     real(wp) :: turned = 0.0_wp                 !! whole turns of the first drive that its
                                                 !! coordinate in the state does not contain [deg]
@@ -73,6 +75,21 @@ module linkage_rates
   contains
     procedure :: find_rates => rates_of_motion
   end type moving_linkage_t
+
+  !> A linkage at an instant of its motion.
+  type :: linkage_instant_t
+    type(pose_t) :: pose                         !! pins from `reference_point`
+    type(kinematic_coefficients_t), allocatable :: per(:) !! (coordinates) velocities per rate
+    type(kinematic_coefficients_t) :: motion     !! velocities, and accelerations
+    real(wp), allocatable :: acceleration(:)     !! (coordinates) ü
+    type(driven_t) :: driven                     !! motor and gear
+    real(wp) :: load_power = 0.0_wp              !! of all loads without a potential [W]
+    real(wp) :: power = 0.0_wp                   !! of these and of the drive, less what the gear
+                                                 !! takes [W]
+    type(load_t), allocatable :: body_load(:)    !! (bodies) of all loads, but for weights, constant
+                                                 !! forces on pins and constant torques
+    real(wp), allocatable :: pin_load(:, :)      !! (2, pins) likewise [N]
+  end type linkage_instant_t
 
 contains
 
@@ -245,98 +262,188 @@ contains
     real(wp), intent(out) :: rates(:) !! of the state; defined only if found
     logical, intent(out) :: found     !! false: `stop` is set
 
-    type(error_t), allocatable :: left
-    type(pose_t) :: pose
-    type(kinematic_coefficients_t) :: now
-    type(kinematic_coefficients_t), allocatable :: per(:)
-    type(dense_factor_t) :: factor
-    real(wp) :: inertia(size(self%free), size(self%free)), right(size(self%free)), &
-      driving(size(self%free)), torque
-    integer :: f, k
+    type(linkage_instant_t) :: instant
+    integer :: f
 
     f = size(self%free)
     rates = 0.0_wp
+    call find_instant(self, time, state, instant, found)
+    if (.not. found) return
+    rates(:f) = state(f + 1:2*f)
+    rates(f + 1:2*f) = instant%acceleration
+    rates(2*f + 1) = instant%power
+  end subroutine rates_of_motion
+
+  !> The motion at a state: ü, motor, gear and loads. Losses in the gear are found as by
+  !! `find_instant` of four-bars.
+  subroutine find_instant(self, time, state, instant, found)
+    class(moving_linkage_t), intent(inout) :: self
+    real(wp), intent(in) :: time      !! [s]
+    real(wp), intent(in) :: state(:)  !! coordinates, rates, work
+    type(linkage_instant_t), intent(out) :: instant
+    logical, intent(out) :: found     !! as of `rates_of_motion`
+
+    type(error_t), allocatable :: left
+    type(kinematic_coefficients_t) :: now
+    type(dense_factor_t) :: factor
+    real(wp), dimension(size(self%free)) :: right, driving, loading, driven, all_right
+    real(wp) :: inertia(size(self%free), size(self%free)), with_rotor(size(self%free), &
+      size(self%free)), torque, rate, bent, share, reflected, through, motor
+    integer :: f, k, trial
+
+    f = size(self%free)
     found = maxval(abs(state)) < most_rate
     if (.not. found) then
       self%stop = stop_too_fast
       return
     end if
-    call find_state(self, state, pose, per, now, found, left)
-    if (.not. found) then
-      self%stop = merge(stop_at_end, stop_steps, allocated(left))
-      if (allocated(left)) call move_alloc(left, self%left)
-      return
-    end if
-    call sum_up(self, pose, now, per, inertia, right)
-    call factorize(inertia, factor)
-    found = abs(factor%determinant) > least_inertia
-    if (.not. found) then
-      self%stop = stop_no_inertia
-      return
-    end if
-    driving = 0.0_wp
-    if (self%by_drives) then
-      torque = self%drive%torque(time, state(1), state(f + 1))
-      driving(1) = torque
-    else
-      torque = self%drive%torque(time, coordinate_of(self, pose), rate_of_drive(self, pose, now, 1))
-      driving = torque*[(rate_of_drive(self, pose, per(k), 1), k=1, f)]
-    end if
-    call add_loads(self, pose, now, per, torque, right, driving, found)
-    if (.not. found) then
-      self%stop = stop_locked
-      return
-    end if
-    rates(:f) = state(f + 1:2*f)
-    rates(f + 1:2*f) = solve(factor, right + driving)
-    rates(2*f + 1) = dot_product(driving, state(f + 1:2*f))
-  end subroutine rates_of_motion
+    associate (pose => instant%pose)
+      call find_state(self, state, pose, instant%per, now, found, left)
+      if (.not. found) then
+        self%stop = merge(stop_at_end, stop_steps, allocated(left))
+        if (allocated(left)) call move_alloc(left, self%left)
+        return
+      end if
+      ! Rate of the first drive, per rate of each coordinate, and its acceleration without ü.
+      if (self%by_drives) then
+        rate = state(f + 1)
+        driven = 0.0_wp
+        driven(1) = 1.0_wp
+        bent = 0.0_wp
+      else
+        rate = rate_of_drive(self, pose, now, 1)
+        driven = [(rate_of_drive(self, pose, instant%per(k), 1), k=1, f)]
+        bent = drive_acceleration(self%whole, pose, 1, now)
+      end if
+      call refuse_speed(self%drive, self%gear%ratio*rate, left)
+      found = .not. allocated(left)
+      if (.not. found) then
+        self%stop = stop_at_end
+        call move_alloc(left, self%left)
+        return
+      end if
+      if (self%by_drives) then
+        motor = self%drive%torque(time, self%gear%ratio*state(1), self%gear%ratio*rate)
+      else
+        motor = self%drive%torque(time, self%gear%ratio*coordinate_of(self, pose), &
+          self%gear%ratio*rate)
+      end if
+      call sum_up(self, pose, now, instant%per, inertia, right)
+      through = motor
+      do trial = 1, 2
+        share = gear_share(self%gear, rate, through)
+        reflected = reflected_inertia(self%gear, share)
+        do k = 1, f
+          with_rotor(:, k) = inertia(:, k) + reflected*driven(k)*driven
+        end do
+        call factorize(with_rotor, factor)
+        found = abs(factor%determinant) > least_inertia
+        if (.not. found) then
+          self%stop = stop_no_inertia
+          return
+        end if
+        torque = self%gear%ratio*share*motor
+        driving = torque*driven
+        loading = 0.0_wp
+        all_right = right
+        call add_loads(self, now, torque, reflected, instant, all_right, driving, loading, found)
+        if (.not. found) then
+          self%stop = stop_locked
+          return
+        end if
+        instant%acceleration = solve(factor, all_right + driving - (reflected*bent)*driven)
+        instant%driven = driven_by(self%gear, motor, share, rate, bent + dot_product(driven, &
+          instant%acceleration))
+        if (self%gear%efficiency >= 1.0_wp) exit
+        if (through >= 0.0_wp .eqv. instant%driven%through >= 0.0_wp) exit
+        through = instant%driven%through
+      end do
+      driving = driving - (torque - instant%driven%torque)*driven
+      associate (rates => state(f + 1:2*f))
+        instant%load_power = dot_product(loading, rates)
+        instant%power = dot_product(driving, rates) + instant%driven%to_rotor
+      end associate
+    end associate
+    instant%motion = now
+    do k = 1, f
+      instant%motion%turn_slope = instant%motion%turn_slope + instant%acceleration(k)* &
+        instant%per(k)%turn
+      instant%motion%pin_slope = instant%motion%pin_slope + instant%acceleration(k)* &
+        instant%per(k)%pin
+    end do
+  end subroutine find_instant
 
   !> Adds the generalised forces of springs, dampers, processes and friction: those with a potential
-  !! to the first sum, all others, with constant torques, to the second. Not found where joints
-  !! lock.
-  pure subroutine add_loads(self, pose, now, per, torque, right, driving, found)
+  !! to the first sum, all others, with constant torques, to the second and the third; the instant
+  !! gets the loads themselves. Not found where joints lock.
+  pure subroutine add_loads(self, now, torque, reflected, instant, right, driving, loading, found)
     class(moving_linkage_t), intent(in) :: self
-    type(pose_t), intent(in) :: pose
     type(kinematic_coefficients_t), intent(in) :: now
-    type(kinematic_coefficients_t), intent(in) :: per(:)
-    real(wp), intent(in) :: torque                  !! of the drive
-    real(wp), intent(inout) :: right(:), driving(:) !! (coordinates)
+    real(wp), intent(in) :: torque                  !! of the drive, but for the rotor
+    real(wp), intent(in) :: reflected               !! its inertia on the first drive
+    type(linkage_instant_t), intent(inout) :: instant !! with pose and velocities
+    real(wp), intent(inout) :: right(:), driving(:), loading(:) !! (coordinates)
     logical, intent(out) :: found
 
     type(load_t) :: body_load(size(self%rigid)), of_springs(size(self%rigid))
-    real(wp) :: pin_load(2, size(pose%pin, 2)), spring_force(2, size(pose%pin, 2))
+    real(wp), dimension(2, size(instant%pose%pin, 2)) :: pin_load, spring_force
     type(friction_t) :: friction
+    real(wp) :: added(size(instant%per))
     integer :: k
 
     found = .true.
-    associate (linkage => self%whole%linkage, origin => self%whole%origin)
+    pin_load = 0.0_wp
+    associate (linkage => self%whole%linkage, origin => self%whole%origin, pose => instant%pose, &
+        per => instant%per)
       do k = 1, size(per)
-        driving(k) = driving(k) + dot_product(linkage%couple, per(k)%turn)
+        added(k) = dot_product(linkage%couple, per(k)%turn)
       end do
-      if (size(linkage%loads) == 0 .and. .not. has_friction(linkage)) return
-      spring_force = 0.0_wp
-      pin_load = 0.0_wp
-      call add_conservative_loads(linkage, pose, of_springs, spring_force)
-      call add_prescribed_loads(linkage, pose, origin, body_load, pin_load)
-      call add_moving_loads(linkage, pose, origin, now, body_load, pin_load)
-      do k = 1, size(per)
-        right(k) = right(k) + generalised_force(linkage, per(k), of_springs, spring_force)
-        driving(k) = driving(k) + generalised_force(linkage, per(k), body_load, pin_load)
-      end do
-      if (.not. has_friction(linkage)) return
-      do k = 1, size(body_load)
-        body_load(k)%force = body_load(k)%force + of_springs(k)%force
-        body_load(k)%moment = body_load(k)%moment + of_springs(k)%moment
-      end do
-      call find_free_friction(self%whole, self%rigid, pose, per, now, body_load, &
-        pin_load + spring_force, torque, friction)
-      found = friction%state == is_solved
-      do k = 1, size(per)
-        driving(k) = driving(k) + generalised_force(linkage, per(k), friction%body_load, &
-          friction%pin_load)
-      end do
+      driving = driving + added
+      loading = loading + added
+      if (size(linkage%loads) > 0 .or. has_friction(linkage)) then
+        spring_force = 0.0_wp
+        call add_conservative_loads(linkage, pose, of_springs, spring_force)
+        call add_prescribed_loads(linkage, pose, origin, body_load, pin_load)
+        call add_moving_loads(linkage, pose, origin, now, body_load, pin_load)
+        do k = 1, size(per)
+          right(k) = right(k) + generalised_force(linkage, per(k), of_springs, spring_force)
+          added(k) = generalised_force(linkage, per(k), body_load, pin_load)
+        end do
+        driving = driving + added
+        loading = loading + added
+        call add_to(of_springs, body_load)
+        pin_load = pin_load + spring_force
+      end if
+      if (has_friction(linkage)) then
+        call find_free_friction(self%whole, self%rigid, pose, per, now, body_load, pin_load, &
+          torque, friction, reflected)
+        found = friction%state == is_solved
+        do k = 1, size(per)
+          added(k) = generalised_force(linkage, per(k), friction%body_load, friction%pin_load)
+        end do
+        driving = driving + added
+        loading = loading + added
+        call add_to(friction%body_load, body_load)
+        pin_load = pin_load + friction%pin_load
+      end if
     end associate
+    instant%body_load = body_load
+    instant%pin_load = pin_load
+
+  contains
+
+    pure subroutine add_to(more, loads)
+      type(load_t), intent(in) :: more(:)
+      type(load_t), intent(inout) :: loads(:)
+
+      integer :: b
+
+      do b = 1, size(loads)
+        loads(b)%force = loads(b)%force + more(b)%force
+        loads(b)%moment = loads(b)%moment + more(b)%moment
+      end do
+    end subroutine add_to
+
   end subroutine add_loads
 
   !> Coordinate of the first drive, with all whole turns [rad] or [m].
@@ -413,16 +520,21 @@ contains
     call find_state(self, state, pose, per, now, found)
     if (.not. found .or. .not. all_inertia(self) > 0.0_wp) return
     call sum_up(self, pose, now, per, inertia, right)
+    do k = 1, size(right)
+      inertia(k, k) = inertia(k, k) + self%gear%ratio**2*self%gear%rotor*rate_of_drive(self, pose, &
+        per(k), 1)**2
+    end do
     share = minval([(inertia(k, k), k=1, size(right))])/all_inertia(self)
   end subroutine inertia_share
 
-  !> All masses, and moments of inertia as masses at the length of their bodies [kg].
+  !> All masses, and moments of inertia as masses at the length of their bodies, the rotor's at
+  !! that of the first [kg].
   pure function all_inertia(self) result(all)
     class(moving_linkage_t), intent(in) :: self
     real(wp) :: all
 
     all = sum(self%rigid%mass + self%rigid%inertia/self%whole%scale**2) + &
-      sum(self%whole%linkage%pin_mass)
+      sum(self%whole%linkage%pin_mass) + self%gear%ratio**2*self%gear%rotor/self%whole%scale(1)**2
   end function all_inertia
 
 end module linkage_rates

@@ -3,30 +3,48 @@ module linkage_samples
   use applied_loads, only: applied_potential
   use body_points, only: find_point_coefficients, point_coefficients_t
   use constants, only: degree
+  use free_forces, only: add_free_loads, forces_of_motion, free_equations_t, loads_t, &
+    new_free_equations
+  use gears, only: driven_by, driven_t, gear_share, is_direct, rotor_energy
+  use joint_forces, only: joint_forces_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
-  use linkage_rates, only: find_state, moving_linkage_t, rate_of_drive
+  use linkage_rates, only: find_instant, find_state, linkage_instant_t, moving_linkage_t, &
+    rate_of_drive
   use linkages, only: drives_angle
   use pose_types, only: pose_t
   use rigid_bodies, only: central_inertia, mass_centre
+  use whole_systems, only: drive_acceleration
   implicit none (type, external)
   private
 
-  public :: linkage_sample_t, sample_state
+  public :: linkage_sample_t, linkage_details_t, sample_state, find_details
 
   type :: linkage_sample_t
     real(wp) :: time = 0.0_wp            !! [s]
     real(wp), allocatable :: position(:) !! (free drives) with all whole turns [deg] or [m]
     real(wp), allocatable :: rate(:)     !! (free drives) [rad/s] or [m/s]
     real(wp), allocatable :: pin(:, :)   !! (2, pins) in global axes [m]
-    real(wp) :: torque = 0.0_wp          !! of the drive [N m] or [N]
+    real(wp) :: torque = 0.0_wp          !! of the drive, through its gear [N m] or [N]
     real(wp) :: kinetic = 0.0_wp         !! [J]
     real(wp) :: potential = 0.0_wp       !! of gravity and constant forces, 0 at the global origin,
                                          !! and of springs, 0 unloaded [J]
-    real(wp) :: work = 0.0_wp            !! of the drive and of all other loads since the start [J]
+    real(wp) :: work = 0.0_wp            !! of the drive and of all other loads since the start,
+                                         !! less what the gear takes [J]
     real(wp) :: energy_error = 0.0_wp    !! kinetic + potential − work, less its value at the start
                                          !! [J]
   end type linkage_sample_t
+
+  !> More about the linkage at an instant.
+  type :: linkage_details_t
+    real(wp), allocatable :: acceleration(:) !! (free drives) [rad/s²] or [m/s²]
+    type(driven_t) :: driven                 !! motor and gear
+    real(wp) :: load_power = 0.0_wp          !! of all loads without a potential [W]
+    real(wp), allocatable :: direction(:, :) !! (2, bodies) unit vectors, first → last pin
+    real(wp), allocatable :: turning(:)      !! (bodies) angular accelerations [rad/s²]
+    type(joint_forces_t) :: joints           !! forces in the joints, where they are wanted
+    real(wp) :: imbalance = 0.0_wp           !! of `forces_of_motion` [-]
+  end type linkage_details_t
 
 contains
 
@@ -42,6 +60,7 @@ contains
     type(kinematic_coefficients_t), allocatable :: per(:)
     type(kinematic_coefficients_t) :: now
     type(point_coefficients_t) :: point
+    type(driven_t) :: driven
     real(wp) :: unit
     logical :: found
     integer :: b, k, p
@@ -52,7 +71,9 @@ contains
       sample%position = position
       sample%rate = [(rate_of_drive(system, pose, now, system%free(k)), k=1, size(system%free))]
       unit = merge(degree, 1.0_wp, linkage%drives(1)%kind == drives_angle)
-      sample%torque = system%drive%torque(time, unit*position(1), sample%rate(1))
+      driven = driven_now(system, time, state, unit*position(1), sample%rate(1))
+      sample%torque = driven%torque
+      sample%kinetic = rotor_energy(system%gear, sample%rate(1))
       sample%work = state(size(state))
       do b = 1, size(system%rigid)
         associate (rigid => system%rigid(b))
@@ -73,5 +94,71 @@ contains
         linkage, pose, origin)
     end associate
   end subroutine sample_state
+
+  !> Motor and gear at a state. Where there is no acceleration, that of the first drive is taken to
+  !! be none.
+  function driven_now(system, time, state, angle, rate) result(driven)
+    type(moving_linkage_t), intent(in) :: system
+    real(wp), intent(in) :: time, state(:)
+    real(wp), intent(in) :: angle, rate !! of the first drive [rad], [rad/s]; or [m], [m/s]
+    type(driven_t) :: driven
+
+    type(moving_linkage_t) :: same
+    type(linkage_instant_t) :: instant
+    real(wp) :: torque
+    logical :: found
+
+    found = .false.
+    if (.not. is_direct(system%gear)) then
+      same = system
+      call find_instant(same, time, state, instant, found)
+      driven = instant%driven
+    end if
+    if (found) return
+    associate (gear => system%gear)
+      torque = system%drive%torque(time, gear%ratio*angle, gear%ratio*rate)
+      driven = driven_by(gear, torque, gear_share(gear, rate, torque), rate, 0.0_wp)
+    end associate
+  end function driven_now
+
+  !> Accelerations, powers and forces in the joints of a state. Not found where there are no rates
+  !! of the motion.
+  subroutine find_details(system, time, state, with_forces, details, found)
+    type(moving_linkage_t), intent(in) :: system
+    real(wp), intent(in) :: time         !! [s]
+    real(wp), intent(in) :: state(:)     !! coordinates, rates, work
+    logical, intent(in) :: with_forces   !! those in the joints, too; of a linkage that is not
+                                         !! redundant
+    type(linkage_details_t), intent(out) :: details
+    logical, intent(out) :: found
+
+    type(moving_linkage_t) :: same
+    type(linkage_instant_t) :: instant
+    type(free_equations_t) :: equations
+    type(loads_t) :: loads
+    integer :: k
+
+    same = system
+    call find_instant(same, time, state, instant, found)
+    if (.not. found) return
+    associate (whole => system%whole, pose => instant%pose, motion => instant%motion)
+      details%acceleration = [(drive_acceleration(whole, pose, system%free(k), motion), k=1, &
+        size(system%free))]
+      details%driven = instant%driven
+      details%load_power = instant%load_power
+      details%direction = pose%direction
+      details%turning = motion%turn_slope
+      if (.not. with_forces) return
+      call new_free_equations(whole, system%rigid, pose, instant%per, 0.0_wp, equations)
+      found = abs(equations%factor%determinant) > 0.0_wp
+      if (.not. found) return
+      allocate (loads%body(size(system%rigid)))
+      allocate (loads%pin, source=0.0_wp*instant%pin_load)
+      call add_free_loads(whole, system%rigid, pose, motion, instant%body_load, instant%pin_load, &
+        loads)
+      call forces_of_motion(whole, pose, equations, loads, details%driven%torque, &
+        details%joints, details%imbalance)
+    end associate
+  end subroutine find_details
 
 end module linkage_samples

@@ -8,6 +8,7 @@ module whole_systems
   use group_equations, only: curvature_of, drive_rate, farthest_arm, find_gradient, &
     gradient_t, misfit_of
   use kinds, only: wp
+  use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: demands_angle, demands_drive, demands_length, drives_angle, equation_t, &
     linkage_t, normal_to, reference_point
   use plan_equations, only: append_equation, drive_equation, drive_of_length, line_equation, &
@@ -17,7 +18,7 @@ module whole_systems
   private
 
   public :: whole_system_t, new_whole_system, unknown_count, displaced, demands, misfits, &
-    curvatures, drive_row, drive_position, rate_along
+    curvatures, drive_row, drive_position, drive_acceleration, rate_along
 
   type :: whole_system_t
     type(linkage_t) :: linkage
@@ -217,6 +218,19 @@ contains
         drive_equation(1), pose, turn, pin)
     end do
   end function curvatures
+
+  !> Acceleration of the coordinate of a drive [rad/s²] or [m/s²].
+  pure function drive_acceleration(system, pose, drive, motion) result(acceleration)
+    type(whole_system_t), intent(in) :: system !! its drives
+    type(pose_t), intent(in) :: pose           !! pins and directions
+    integer, intent(in) :: drive               !! number, from 1
+    type(kinematic_coefficients_t), intent(in) :: motion !! velocities and accelerations
+    real(wp) :: acceleration
+
+    acceleration = rate_along(system, drive_row(system, pose, drive), motion%turn_slope, &
+      motion%pin_slope) + curvature_of(system%linkage, drive_equation(drive), pose, motion%turn, &
+      motion%pin)
+  end function drive_acceleration
 
   !> Coordinate of a drive at a pose: the one within half a turn of a value near by [deg] or [m].
   pure function drive_position(system, pose, drive, near) result(position)

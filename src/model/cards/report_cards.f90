@@ -12,8 +12,8 @@ module report_cards
   use transient_cards, only: read_transient, transient_card_t
   use units, only: dimension_angle, dimension_length, dimension_none, dimension_rate, &
     dimension_time, dimension_velocity, unit_system_t
-  use value_lists, only: empty_list, list_steps, read_entry_list, read_entry_pair, read_values, &
-    value_list_t
+  use value_lists, only: empty_list, find_items, list_steps, read_entry_list, read_entry_pair, &
+    read_values, value_list_t
   implicit none (type, external)
   private
 
@@ -46,7 +46,9 @@ module report_cards
     type(value_list_t) :: instants   !! of the rows [s]
     logical :: with_pins = .false.   !! with a table of the places of the pins
     logical :: through = .false.     !! straight through change points
-    type(token_t) :: start_angle_word, start_speed_word, end_time_word, time_step_word, through_word
+    logical :: with_accelerations = .false., with_forces = .false., with_power = .false. !! columns
+    type(token_t) :: start_angle_word, start_speed_word, end_time_word, time_step_word, &
+      through_word, forces_word
     type(transient_card_t) :: transient !! REPORT transient
     ! REPORT frame: about a place, about a pin, or without either about the point of reference.
     logical :: has_about = .false.   !! `about=x,y` is given
@@ -90,6 +92,7 @@ contains
     report%time_step_word = token_t("", 0, 0)
     report%about_pin = token_t("", 0, 0)
     report%through_word = token_t("", 0, 0)
+    report%forces_word = token_t("", 0, 0)
     pattern = "REPORT "//joined(word_list(report_names(reports)), "|")
     number = 0
     if (size(card%words) > 0) then
@@ -264,7 +267,8 @@ contains
       system, diagnostics, report%crank)
   end subroutine read_geometry
 
-  !> Reads `REPORT motion crank= [speed=0] end= step= [pins=no|yes] [change_points=stop|through]`.
+  !> Reads `REPORT motion crank= [speed=0] end= step= [columns=] [pins=no|yes]
+  !! [change_points=stop|through]`.
   pure subroutine read_motion(card, known_keys, by_length, system, diagnostics, report)
     type(card_t), intent(in) :: card
     logical, intent(in) :: known_keys !! no key is unknown: missing ones are an error
@@ -302,6 +306,7 @@ contains
       call read_choice(card%entries(i)%value, "no yes", diagnostics, choice)
       report%with_pins = choice == 2
     end if
+    call read_columns(card, diagnostics, report)
     i = entry_number(card, "change_points")
     if (i > 0) then
       report%through_word = card%entries(i)%value
@@ -328,5 +333,35 @@ contains
         report%instants)
     end if
   end subroutine read_motion
+
+  !> Reads `columns=` of REPORT motion: what stands in its tables beside what always does.
+  pure subroutine read_columns(card, diagnostics, report)
+    type(card_t), intent(in) :: card
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(report_t), intent(inout) :: report
+
+    type(token_t), allocatable :: words(:)
+    integer :: first(3), choice, i !! `first`: number of each word in the list, 0: absent
+    logical :: fine
+
+    if (entry_number(card, "columns") == 0) return
+    call find_items(card, "columns", diagnostics, words, fine)
+    if (.not. fine) return
+    first = 0
+    do i = 1, size(words)
+      call read_choice(words(i), "accelerations forces power", diagnostics, choice)
+      if (choice == 0) cycle
+      if (first(choice) > 0) then
+        call add_error(diagnostics, words(i), "'"//lower_case(words(i)%text)// &
+          "' is given twice", words(first(choice)), "first given here")
+        cycle
+      end if
+      first(choice) = i
+      if (choice == 2) report%forces_word = words(i)
+    end do
+    report%with_accelerations = first(1) > 0
+    report%with_forces = first(2) > 0
+    report%with_power = first(3) > 0
+  end subroutine read_columns
 
 end module report_cards

@@ -6,6 +6,7 @@ module request_checks
   use kinds, only: wp
   use models, only: effects_static, has_law, is_loaded, is_moving, model_t, needs_frequencies, &
     needs_positions, needs_response, needs_study, report_number, report_of_masses
+  use motor_cards, only: is_geared
   use name_checks, only: pin_names
   use name_index, only: find_name, name_index_t, new_name_index
   use report_kinds, only: report_kind_t, report_names
@@ -273,9 +274,15 @@ contains
 
     integer :: i
 
-    if (report_number(model, "motion") == 0 .and. model%motor%keyword%line > 0) call add_warning( &
-      diagnostics, model%motor%keyword, &
-      "MOTOR is used by REPORT motion only, which is not asked for")
+    if (report_number(model, "motion") == 0 .and. model%motor%keyword%line > 0) then
+      if (.not. is_geared(model%motor)) then
+        call add_warning(diagnostics, model%motor%keyword, &
+          "MOTOR is used by REPORT motion only, which is not asked for")
+      else if (report_number(model, "sizing") == 0) then
+        call add_warning(diagnostics, model%motor%keyword, "MOTOR is used by REPORT motion, "// &
+          "and its gear and rotor by REPORT sizing, neither of which is asked for")
+      end if
+    end if
     if (report_of_masses(model) > 0 .or. needs_frequencies(model)) return
     do i = 1, size(model%processes)
       associate (keyword => model%processes(i)%keyword)

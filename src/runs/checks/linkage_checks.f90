@@ -68,6 +68,13 @@ contains
         "the forces in '"//mechanism%names(max(1, body_of_redundancy(mechanism%linkage, &
         1)))%text//"' and the links that hold the same pins cannot be told apart while all are "// &
         "rigid; REPORT drive, frame and lagrange do not need them")
+      report = report_number(model, "motion")
+      if (report > 0) then
+        if (model%reports(report)%with_forces) call add_error(diagnostics, &
+          model%reports(report)%forces_word, "the forces in '"//mechanism%names(max(1, &
+          body_of_redundancy(mechanism%linkage, 1)))%text//"' and the links that hold the same "// &
+          "pins cannot be told apart while all are rigid; accelerations and power do not need them")
+      end if
     end if
     if (drives_length(model) .and. model%motor%keyword%line > 0) call add_error(diagnostics, &
       model%motor%keyword, "a MOTOR turns a link, and the first DRIVE moves a slider or a ram; "// &

@@ -100,16 +100,24 @@ contains
     type(memory_need_t), intent(inout) :: need
 
     integer, parameter :: numbers = 16 !! of a sample, rounded up
-    integer :: report, pins, i
+    integer, parameter :: of_joint = 3 !! numbers of a joint
+    integer :: report, pins, columns, i
 
     report = report_number(model, "motion")
     if (report == 0) return
     pins = 0
     if (model%reports(report)%with_pins) pins = sum([(size(model%links(i)%pins), &
       i=1, size(model%links))])
+    columns = 0
+    associate (asked => model%reports(report))
+      if (asked%with_accelerations) columns = max(3, size(model%drives))
+      if (asked%with_power) columns = columns + 3
+      if (asked%with_forces) columns = columns + of_joint*(sum([(size(model%links(i)%pins), &
+        i=1, size(model%links))]) + size(model%sliders))
+    end associate
     need%place = model%reports(report)%keyword
     need%what = "the "//plural(motion_instants_of(model), "instant")//" of the motion"
-    need%bytes = (numbers + 2*pins)*number*motion_instants_of(model)
+    need%bytes = (numbers + 2*pins + columns)*number*motion_instants_of(model)
   end subroutine add_needs_of_motion
 
   !> The terms of the equations at the crank angles of a turn, for several orders; vectors of the

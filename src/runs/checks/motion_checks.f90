@@ -37,7 +37,8 @@ contains
           to_string(report%start_angle, 10)//" deg is out of reach; the linkage closes "// &
           reachable, kind=error_of_reach)
       end if
-      if (has_moving_mass(mechanism%linkage, mechanism%load_elements)) return
+      if (has_moving_mass(mechanism%linkage, mechanism%load_elements) .or. &
+        model%motor%rotor > 0.0_wp) return
       call add_error(diagnostics, report%keyword, &
         "nothing that moves has a mass: forces do not determine its motion")
     end associate

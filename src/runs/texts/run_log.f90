@@ -9,12 +9,13 @@ module run_log
   use mechanisms, only: mechanism_t
   use models, only: branch_crossed, has_law, inertia_distributed, inertia_lumped, link_mass, &
     model_t, needs_frequencies
+  use motor_cards, only: is_geared
   use pose_types, only: pins_of_body
   use friction_words, only: friction_lines
   use spring_words, only: spring_lines
   use text, only: plural, string_t, to_string
   use units, only: coherent_unit, dimension_acceleration, dimension_length, &
-    dimension_mass, from_si, unit_t
+    dimension_inertia, dimension_mass, from_si, unit_t
   implicit none (type, external)
   private
 
@@ -150,12 +151,33 @@ contains
         text = "motor: torque "//to_string(from_si(model%motor%stall, moment), 12)//" "// &
           moment%name//" at rest, none at "//to_string(from_si(model%motor%noload, &
           model%outputs%rate), 12)//" "//model%outputs%rate%name//line_feed
+      else if (model%motor%table_word%line > 0) then
+        text = "motor: torque by the table "//model%motor%table_word%text//", line "// &
+          to_string(model%motor%line)//line_feed
       else
         text = "motor: torque "//to_string(from_si(model%motor%torque, moment), 12)//" "// &
           moment%name//line_feed
       end if
+      if (is_geared(model%motor)) text = text//gear_line(model)//line_feed
     end if
   end function motor_lines
+
+  !> `gear of the motor: ratio 40, efficiency 0.7, rotor 1.2e-05 kg.m2, on the driven link 0.0192`
+  pure function gear_line(model) result(line)
+    type(model_t), intent(in) :: model
+    character(len=:), allocatable :: line
+
+    type(unit_t) :: inertia
+
+    inertia = coherent_unit(model%units, dimension_inertia)
+    associate (motor => model%motor)
+      line = "gear of the motor: ratio "//to_string(motor%ratio, 12)//", efficiency "// &
+        to_string(motor%efficiency, 12)
+      if (motor%rotor > 0.0_wp) line = line//", rotor "//to_string(from_si(motor%rotor, inertia), &
+        12)//" "//inertia%name//", on the driven link "//to_string(from_si(motor%ratio**2* &
+        motor%rotor, inertia), 12)//" "//inertia%name
+    end associate
+  end function gear_line
 
   !> `0, -9810 mm/s2`
   pure function pair_text(pair, measure) result(text)
