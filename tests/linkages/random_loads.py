@@ -32,9 +32,6 @@ class Case(Bare):
         super().__init__(seed, links, reports)
         self.loaded = True
 
-    def _count(self, kind):
-        self.kinds[kind] = self.kinds.get(kind, 0) + 1
-
     def _loads(self):
         """The constant loads of other decks, and these."""
         drawing = self.drawing
@@ -72,7 +69,6 @@ class Case(Bare):
         length = self.units.split()[0]
         numbers = " ".join(f"{x:.9g} {y!r}" for x, y in zip(places, values))
         self.cards_of_tables.append((name, f"TABLE {name} {'deg' if angular else length} {unit} {numbers}"))
-        self._count("table")
         return name
 
     def _course(self, own_pin, turns):
@@ -90,13 +86,10 @@ class Case(Bare):
             elif over == "angle":
                 keys = f" over={drawing.pick(self._links())} table={self._table(True, unit)}"
             else:
-                over = "drive"
                 keys = f" table={self._table(not self.linear, unit)}"
-            self._count("over_" + over)
         if drawing.chance(0.4):
             smooth = f"{self._number(0.1, 3)}rad/s" if turns else self._number(0.1, 3, scale)
             keys += f" during={drawing.pick(('with', 'against'))} smooth={smooth}"
-            self._count("during")
         return has_table, keys
 
     def _place(self):
@@ -104,7 +97,6 @@ class Case(Bare):
 
     def _force(self):
         drawing = self.drawing
-        self._count("force")
         if drawing.chance(0.5):
             axes = " axes=link" if drawing.chance(0.5) else ""
             has_table, keys = self._course(None, False)
@@ -121,13 +113,11 @@ class Case(Bare):
         has_table, keys = self._course(None, True)
         if not keys:
             return None
-        self._count("torque")
         value = "" if has_table else f" {self._number(-5, 5)}N*m"
         return f"TORQUE {self.drawing.pick(self._links())}{value}{keys}"
 
     def _resistance(self):
         drawing, scale = self.drawing, self.scale
-        self._count("load")
         on_link = drawing.chance(0.5)
         subject = drawing.pick(self._links() if on_link else self._ends())
         if any(line and line.startswith(f"LOAD {subject} ") for line in self.loads_so_far):
@@ -144,11 +134,19 @@ class Case(Bare):
         self.loads_so_far.append(line)
         return line
 
+    def _bodies(self, pin):
+        """Links with a pin, and those welded to them."""
+        bodies = self.drawing.holders(pin)
+        for _, links in self.drawing.welds:
+            if bodies & set(links):
+                bodies = bodies | set(links)
+        return bodies
+
     def _spring(self):
         """Along a line between pins, points or pivots."""
         drawing, scale = self.drawing, self.scale
         one = drawing.pick(self._ends())
-        other = drawing.pick([pin for pin in drawing.places if not drawing.holders(pin) & drawing.holders(one)] or [None])
+        other = drawing.pick([pin for pin in drawing.places if not self._bodies(pin) & self._bodies(one)] or [None])
         if other is None or other == one:
             return None
         if drawing.chance(0.5):
@@ -156,9 +154,7 @@ class Case(Bare):
         number = len(self.loads_so_far) + 1
         self.loads_so_far.append("spring")
         if drawing.chance(0.35):
-            self._count("damper")
             return f"DAMPER damper{number} {one} {other} damping={self._number(0, 30)}N*s/m"
-        self._count("spring")
         draw, stiffness = drawing.random(), drawing.uniform(1, 300)
         if draw > 0.85:
             return f"SPRING spring{number} {one} {other} stiffness=0 force={self._number(-20, 20)}N"
@@ -181,7 +177,6 @@ class Case(Bare):
         values = f" coefficient={self._number(0.02, 0.3)}"
         if blocks and (pin in drawing.grounds or len(blocks) > 1 or drawing.chance(0.6)):
             block = drawing.pick(blocks)
-            self._count("friction_of_block")
             if block[2]:
                 values += f" length={self._number(0.3, 0.8, scale)}"
             if drawing.chance(0.4):
@@ -195,12 +190,10 @@ class Case(Bare):
         elif pin not in drawing.grounds:
             if len(links) < 2:
                 return None
-            self._count("friction_of_pin")
             links = links[::-1] if drawing.chance(0.5) else links
             return f"FRICTION {pin} {links[0]} {links[1]}{values}"
         if not links:
             return None
-        self._count("friction_of_pin")
         return f"FRICTION {pin}{values}"
 
     def _coil(self):
@@ -220,9 +213,7 @@ class Case(Bare):
         self.loads_so_far.append("coil")
         words = f"coil{number} {pin} " + " ".join(links)
         if drawing.chance(0.3):
-            self._count("torsional_damper")
             return f"DAMPER {words} damping={self._number(0, 2)}N*m*s/rad"
-        self._count("torsional_spring")
         angles = []
         for link in links:
             pins = drawing.links[link]
@@ -252,7 +243,19 @@ class Case(Bare):
                 fine = fine and all(one.is_fine(state) for one in model.applied) and self._settles(model, state)
             if fine:
                 cards = self.cards
+                self._count(load)
         self.cards = cards
+
+    def _count(self, load):
+        """What kinds of loads there are."""
+        words, keys = [word for word in load.split() if "=" not in word], dict(word.split("=") for word in load.split() if "=" in word)
+        kinds = [words[0].lower()]
+        if words[0] in ("SPRING", "DAMPER") and words[-1] in self.drawing.links:
+            kinds = ["torsional_" + kinds[0]]
+        if words[0] == "FRICTION":
+            kinds = ["friction_of_pin" if "radius" in keys else "friction_of_block"]
+        for kind in kinds + [key for key in ("table", "during") if key in keys]:
+            self.kinds[kind] = self.kinds.get(kind, 0) + 1
 
 
     @staticmethod
