@@ -1,10 +1,12 @@
 !> Model → springs and dampers of the linkage.
 module spring_parts
   use applied_load_types, only: applied_load_t, applies_along, applies_between, load_place_t
+  use constants, only: degree
   use kinds, only: wp
   use link_shapes, only: find_drawn_place
   use linkages, only: body_t, linkage_t, turned
-  use models, only: model_t
+  use load_coordinates, only: counts_turns
+  use models, only: model_t, report_number
   use name_index, only: find_name, name_index_t
   use spring_cards, only: spring_t
   use text, only: same_word
@@ -12,6 +14,9 @@ module spring_parts
   private
 
   public :: springs_of
+
+  !> Of a turn: an angle drawn at the first position is there.
+  real(wp), parameter :: rounding = 1.0e-9_wp
 
 contains
 
@@ -71,6 +76,7 @@ contains
       load%rest = drawn_angle(model, pins, linkage%bodies(load%body(2)))
       if (load%body(1) > 0) load%rest = load%rest - drawn_angle(model, pins, &
         linkage%bodies(load%body(1)))
+      if (counts_turns(linkage, load)) load%rest = turn_of_deck(model, load%rest)
       load%rest = load%rest - spring%load/spring%stiffness
     else
       do k = 1, 2
@@ -108,6 +114,32 @@ contains
         linkage%ground_position(:, at%pin)
     end do
   end function place_of
+
+  !> The drawn angle of a crank with the whole turns that bring it among the positions of the deck,
+  !! or next to them: a spring on the crank counts them [rad].
+  pure function turn_of_deck(model, angle) result(turned_angle)
+    type(model_t), intent(in) :: model
+    real(wp), intent(in) :: angle      !! [rad]
+    real(wp) :: turned_angle
+
+    real(wp), allocatable :: positions(:)
+    real(wp) :: drawn
+    integer :: motion
+
+    positions = model%crank%value
+    motion = report_number(model, "motion")
+    if (motion > 0 .and. size(positions) == 0) positions = [model%reports(motion)%start_angle]
+    turned_angle = angle
+    if (size(positions) == 0) return
+    drawn = angle/degree
+    associate (least => minval(positions), greatest => maxval(positions))
+      ! The first turn from the least position on.
+      drawn = drawn + 360.0_wp*ceiling((least - drawn)/360.0_wp - rounding)
+      if (drawn > greatest .and. least - (drawn - 360.0_wp) < drawn - greatest) drawn = drawn - &
+        360.0_wp
+    end associate
+    turned_angle = drawn*degree
+  end function turn_of_deck
 
   !> Angle of a body in the drawing, as `body_angle` has it at a pose [rad].
   pure function drawn_angle(model, pins, body) result(angle)
