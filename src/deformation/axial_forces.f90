@@ -1,9 +1,9 @@
 !> Axial force in every element, from the equilibrium of the part of the link beyond it.
 !!
-!! At a mass along the link, and at the place of a force, the axial force jumps. Jumps are kept apart
-!! from the smooth rest: each is a constant force from the first pin to the mass. When the
-!! cross-section that carries a mass at the offset e turns by θ, a force F across the link on it does
-!! the work `−½ F e θ²`, and the centrifugal forces about its own mass centre, whose moment of
+!! At a mass along the link, and at the place of a force, the axial force jumps. Jumps are kept
+!! apart from the smooth rest: each is a constant force from the first pin to the mass. When the
+!! cross-section that carries a mass at the offset e turns by θ, a force F across the link on it
+!! does the work `−½ F e θ²`, and the centrifugal forces about its own mass centre, whose moment of
 !! inertia is I, `−½ I ω² θ²`. This is kept as (F e + I ω²)/L, after the jumps.
 !!
 !! For a rigid link only the mean matters. When the link turns by ψ, its dead loads F at places r do
