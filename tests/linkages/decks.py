@@ -10,7 +10,7 @@ from decimal import Decimal
 from fields import Digits
 from units import Units, unit_factor
 
-IGNORED = {"TITLE", "MESH", "REPORT", "INERTIA", "EFFECTS", "END", "MODES", "SOLVER", "MOTOR", "GAUGE", "DAMPING"}
+IGNORED = {"TITLE", "MESH", "INERTIA", "EFFECTS", "END", "MODES", "SOLVER", "MOTOR", "GAUGE", "DAMPING"}
 
 
 class Deck:
@@ -26,6 +26,7 @@ class Deck:
         self.gravity = (Decimal(0), Decimal(0))
         self.materials, self.sections = {}, {}
         self.cranks, self.speeds, self.alpha_text = [], [Decimal(0)], "0"
+        self.start = None                                      # of a motion
         cards = list(_cards(text))
         self.units = Units(next(words[1:] for words in cards if words[0].upper() == "UNITS"))
         for words in cards:
@@ -156,6 +157,10 @@ class Deck:
         self.cranks, unit = _ranged(bare)
         if unit == "rad":
             self.cranks = [crank * 180 / Digits.pi for crank in self.cranks]
+
+    def _report(self, bare, keys):
+        if bare == ["motion"] and re.fullmatch(r"[-+.\de]+", keys["crank"]):
+            self.start = Decimal(keys["crank"])
 
     def _speed(self, bare, keys):
         self.speeds, unit = _ranged(bare)

@@ -300,7 +300,17 @@ class Spring(Load):
             start = next((k for k, pin in enumerate(pins) if pin in model.ground), 0)
             (x0, y0), (x1, y1) = model.drawn[pins[start]], model.drawn[pins[(start + 1) % len(pins)]]
             angles.append(model.field.arctan2(y1 - y0, x1 - x0) + self.turn(link))
+        if self.on_crank:
+            return self._among_positions(angles[0])
         return angles[-1] - (angles[0] if len(angles) > 1 else 0)
+
+    def _among_positions(self, angle):
+        """The drawn angle of a crank with the turns that bring it among the positions, at first, or nearest to them."""
+        field, deck = self.model.field, self.model.deck
+        places = [field.number(place) * field.pi / 180 for place in deck.cranks or [deck.start]]
+        turned = [angle + 2 * field.pi * turn for turn in range(-6, 7)]
+        outside = [max(min(places) - place, place - max(places), self.zero) for place in turned]
+        return turned[outside.index(min(outside))]
 
     def stretch(self, s):
         """x less its value without load, and the rate of x."""

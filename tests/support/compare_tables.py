@@ -36,8 +36,10 @@ TOLERANCES = [
 
 # Columns by name: absolute tolerance in their own unit. Bounds of rounding may differ by a factor.
 # What is left of a shaking force that counterweights cancel, of an energy that is kept and of a loop that is closed is nothing
-# but rounding too: of forces of some 100 N, energies of some 10 N m, lengths of some 0.1 m.
-ROUNDING = {r"error\d+": 2e-13, r"error": 1e-11, r"balanced_[xy]": 1e-10, r"energy_error": 1e-11, r"closure": 1e-14}
+# but rounding too: of forces of some 100 N, energies of some 10 N m, lengths of some 0.1 m, and of the angular velocity of a coupler
+# that does not turn, of some rad/s.
+ROUNDING = {r"error\d+": 2e-13, r"error": 1e-11, r"balanced_[xy]": 1e-10, r"energy_error": 1e-11, r"closure": 1e-14,
+            r"omega\d": 1e-14}
 
 # Errors of the elastic response also hold what its iterations leave, up to this share of the accuracy asked for: rounding decides
 # after which of them that is reached, and so how far below.
