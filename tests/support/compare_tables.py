@@ -53,6 +53,7 @@ EXPONENTS_SHARE = 0.1
 # holds within its errors, and these agree to a factor.
 OWN_ERROR = {"intervals": {"from": "error", "to": "error", "at": "error", "largest_growth": "growth_error"}}
 ERROR_FACTOR = 10.0
+CLOSURE_FACTOR = 2.0
 EXACT = r"speed|mode|line|signature|least|mean|greatest|kind|modes|verdict"
 
 
@@ -113,6 +114,8 @@ def difference(kept_path, new_path):
     for field, name in enumerate(names, 1):
         relative, absolute = next((r, a) for pattern, r, a in TOLERANCES if re.fullmatch(pattern, name))
         rounding = next((a for pattern, a in ROUNDING.items() if re.fullmatch(pattern, name)), 0.0)
+        if name == "closure":                      # in mm there is more of it: a factor of the greatest
+            rounding = max(rounding, CLOSURE_FACTOR * largest.get(name, 0.0))
         if name == "error":
             rounding = max(rounding, LEFT_BY_ITERATIONS * asked)
         if name in own:
