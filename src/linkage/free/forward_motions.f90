@@ -424,7 +424,7 @@ contains
         per)
       now = moving(system%linkage, pose, per, rate, details%acceleration)
     end associate
-    ! An array constructor would copy no components in gfortran 12.
+    ! An array constructor would leak the memory of components in gfortran 12.
     allocate (all_per(1))
     all_per(1) = per
     call new_free_equations(system%whole, system%rigid, pose, all_per, 0.0_wp, equations)

@@ -220,7 +220,7 @@ contains
       end do
       pin_load = pin_load + spring_force
       if (has_friction(linkage)) then
-        ! An array constructor would copy no components in gfortran 12.
+        ! An array constructor would leak the memory of components in gfortran 12.
         allocate (all_per(1))
         all_per(1) = per
         call find_free_friction(self%whole, self%rigid, pose, all_per, now, body_load, pin_load, &
