@@ -9,12 +9,12 @@ module friction_report
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_row, rows_t
   use tables, only: name_cell
-  use text, only: append_string, plural, string_t, word_list
+  use text, only: append_string, plural, string_t, to_string, word_list
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
 
-  public :: friction_notes, holding_notes, friction_owners, holding_words, add_friction, add_holding
+  public :: friction_notes, holding_notes, holding_words, add_friction, add_holding
 
   !> What a linkage at rest does without its drive, or that no drive can move it.
   character(len=*), parameter :: verdicts(6) = [character(len=14) :: "holds", "runs_forward", &
@@ -65,33 +65,11 @@ contains
     end associate
     line = "of "//plural(positions, "position")//":"
     do i = 1, size(verdicts)
-      if (counts(i) > 0) line = line//" "//trim(verdicts(i))//" at "//plural_count(counts(i))//","
+      if (counts(i) > 0) line = line//" "//trim(verdicts(i))//" at "//to_string(counts(i))//","
     end do
     call append_string(notes, line(:len(line) - 1))
     call append_load_notes(notes, variant%model, variant%mechanism)
   end subroutine holding_notes
-
-  pure function plural_count(number) result(words)
-    integer, intent(in) :: number
-    character(len=:), allocatable :: words
-
-    words = plural(number, "position")
-    words = words(:index(words, " ") - 1)
-  end function plural_count
-
-  !> The names in the column `link`: links, and what blocks slide along.
-  pure function friction_owners(variant) result(list)
-    type(variant_results_t), intent(in) :: variant !! with its mechanism
-    type(name_list_t) :: list
-
-    integer :: i
-
-    list%column = "link"
-    list%names = variant%mechanism%names
-    do i = 1, size(variant%model%guides)
-      call append_string(list%names, variant%model%guides(i)%name%text)
-    end do
-  end function friction_owners
 
   !> The words in the column `verdict`.
   pure function holding_words() result(list)

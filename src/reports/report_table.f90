@@ -22,7 +22,7 @@ module report_table
   use equilibrium_study, only: find_equilibria
   use frame_report, only: add_frame, frame_notes
   use frequency_report, only: add_frequencies, add_shapes, drawn_rows, frequency_notes, shape_notes
-  use friction_report, only: add_friction, add_holding, friction_notes, friction_owners, &
+  use friction_report, only: add_friction, add_holding, friction_notes, &
     holding_notes, holding_words
   use friction_study, only: find_joint_friction
   use friction_words, only: lock_words
@@ -448,7 +448,7 @@ contains
       names(2) = joint_owners(variant)
     case ("friction")
       names(1) = pin_names(variant)
-      names(2) = friction_owners(variant)
+      names(2) = joint_owners(variant)
     case ("holding")
       names(1) = holding_words()
       plan%items = plan%positions
