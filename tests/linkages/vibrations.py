@@ -108,7 +108,7 @@ class Beam:
         self.rotary = density * second if "rotary" in deck.effects else ZERO
         self.shear = elastic / (2 * (1 + poisson)) * coefficient * area if "shear" in deck.effects else None
         self.tension = None                    # N0, N1, N2
-        self.polynomials = None
+        self.polynomials = self.still = None
         self.is_slender = not (self.rotary or self.shear)
 
     def prepare(self, order):
@@ -135,7 +135,7 @@ class Structure:
         self.model, self.q, self.deck, self.held, self.order = model, q, model.deck, held, order
         self.count, self.names = 0, {}
         self.beams, self.masses, self.inertias, self.rows, self.springs = [], [], [], [], []
-        self.bodies, self.contacts, self.extra = [], [], []
+        self.bodies, self.contacts, self.second_order = [], [], []
         self.turn_at = {}                      # (link, pin): rotation
         self.contact_of = {}                   # index of a slider: node on its guide
         for pin in self.deck.grounds:
@@ -154,9 +154,9 @@ class Structure:
                 self._equal(self.turn(links[0], pin), self.turn(link, pin))
         for drive in self.deck.drives:
             self._hold(drive)
-        for keyword, words, keys in self.deck.applied:
-            if keyword == "spring":
-                self._add_spring(words, keys)
+        for load in model.applied:
+            if load.keyword == "spring":
+                self._add_spring(load)
         self._eliminate()
 
     # unknowns
@@ -349,50 +349,39 @@ class Structure:
                 add_form(row, other, -factor)
             self.rows.append(row)
 
-    def spring_ends(self, words):
-        """None of a torsional spring; else places of both ends."""
-        pins = self.model.pins_by_name | set(self.deck.points)
-        return None if words[2] in self.deck.links and words[2] not in pins else words[1:3]
-
-    def _add_spring(self, words, keys):
-        units, ends = self.deck.units, self.spring_ends(words)
-        if ends is None:
+    def _add_spring(self, load):
+        words = load.words
+        if load.turns:
             one = self.turn(words[2], words[1])
             other = self.turn(words[3], words[1]) if len(words) > 3 else {}
-            self.springs.append((add_form(dict(other), one, -ONE), units.value(keys["stiffness"], "turning_stiffness")))
+            form = add_form(dict(other), one, -ONE) if other else one
+            self.springs.append((form, load.stiffness, load, None))
             return
-        places = [self.model.pin_place(self.q, end)[:2] for end in ends]
+        places = [self.model.pin_place(self.q, end)[:2] for end in words[1:3]]
         dx, dy = places[1][0] - places[0][0], places[1][1] - places[0][1]
         length = (dx * dx + dy * dy).sqrt()
         forms = []
         for factors in ((dx / length, dy / length), (-dy / length, dx / length)):
             form = {}
-            for one, other, factor in zip(self.node(ends[0]), self.node(ends[1]), factors):
+            for one, other, factor in zip(self.node(words[1]), self.node(words[2]), factors):
                 add_form(form, other, factor)
                 add_form(form, one, -factor)
             forms.append(form)
-        stiffness = units.value(keys["stiffness"], "stiffness")
-        self.springs.append((forms[0], stiffness))
-        tension = None
-        if "free_length" in keys:
-            tension = stiffness * (length - units.value(keys["free_length"], "length"))
-        self.extra.append({"forms": forms, "tension": tension, "length": length, "words": words})
+        self.springs.append((forms[0], load.stiffness, load, (forms[1], length)))
 
     # equations
 
     def _eliminate(self):
         """Every unknown as a form in those that stay free."""
-        rows = [{k: v for k, v in row.items() if v} for row in self.rows]
-        solved = {}                            # unknown: form in others
-        waiting = [row for row in rows if row]
-        while waiting:
-            row = waiting.pop(0)
+        solved, self.follow = {}, []           # unknown: form in others; rows that follow from others
+        for number, row in enumerate(self.rows):
             reduced = {}
             for k, value in row.items():
                 add_form(reduced, solved[k], value) if k in solved else add_form(reduced, {k: value})
             size = max(abs(value) for value in reduced.values()) if reduced else ZERO
             if size < TINY:
-                continue                       # follows from others
+                self.follow.append(number)
+                continue
             pivot = max(reduced, key=lambda k: abs(reduced[k]))
             factor = reduced.pop(pivot)
             form = {k: -value / factor for k, value in reduced.items() if abs(value) > TINY * size}
@@ -440,10 +429,10 @@ class Structure:
             if inertia:
                 form = free(turn)
                 add(self.m0, form, form, inertia)
-        for form, stiffness in self.springs:
+        for form, stiffness, _, _ in self.springs:
             form = free(form)
             add(self.k0, form, form, stiffness)
-        for one, other, value in getattr(self, "second_order", []):
+        for one, other, value in self.second_order:
             one, other = free(one), free(other)
             add(self.k0, one, other, value)
             add(self.k0, other, one, value)
@@ -498,6 +487,172 @@ class Structure:
                             into[j] -= factor * row[j]
         return below, function
 
+    # loads
+
+    def load(self, state):
+        """Axial forces and terms of second order under the loads of a motion; `state` of the model, whose numbers are decimals.
+
+        Rigid links move, the elastic linkage carries their inertia forces, weights, forces on pins and springs: a static solution
+        with all drives held.
+        """
+        held = self if all(not drive["free"] for drive in self.deck.drives) else Structure(self.model, self.q, True, self.order)
+        forces, loads = held._loads(state)
+        if not any(forces) and not any(any(load) for load in loads):
+            return self
+        displacements = held._static(forces, loads)
+        residual, tensions = held._residual(displacements, forces, loads)
+        for beam, tension in zip(self.beams, tensions):
+            beam.tension = tension if any(tension) else None
+        self.second_order = self._second_order(state, held._multipliers(residual))
+        return self
+
+    def _loads(self, state):
+        """Work of the loads on all unknowns but those of the beams, and on each beam (p0, p1 along, q0, q1 across, couple) a length."""
+        model, forces = self.model, [ZERO] * self.count
+        gx, gy = model.gravity
+
+        def work(form, value):
+            for k, factor in form.items():
+                forces[k] += factor * value
+
+        loads = []
+        for beam in self.beams:
+            body = model.bodies[beam.link]
+            if body.ram is not None:
+                raise Failure("a ram that bends under loads")
+            ex, ey = beam.direction
+            parts = []
+            for along, offset in beam.places:
+                (_, _, (ax, ay)), _ = model.point_motion(state, body, along, offset)
+                parts.append((beam.mass * ((gx - ax) * ex + (gy - ay) * ey), beam.mass * ((gy - ay) * ex - (gx - ax) * ey)))
+            loads.append((parts[0][0], parts[1][0], parts[0][1], parts[1][1], -beam.rotary * state.a[body.angle]))
+        for place, mass, where in self.masses:
+            ax, ay = self._acceleration(state, where)
+            work(place[0], mass * (gx - ax))
+            work(place[1], mass * (gy - ay))
+        for turn, inertia, link in self.inertias:
+            work(turn, -inertia * state.a[model.bodies[link].angle])
+        for pin, force in model.forces.items():
+            for form, value in zip(self.node(pin), force):
+                work(form, value)
+        for form, _, load, _ in self.springs:
+            work(form, -self._pull(load, state))
+        return forces, loads
+
+    def _acceleration(self, state, where):
+        if where[0] == "pin":
+            return self.model.pin_motion(state, where[1])[2]
+        return self.model.point_motion(state, self.model.bodies[where[1]], *where[2:])[0][2]
+
+    @staticmethod
+    def _pull(load, state):
+        """Tension or torque of a spring."""
+        return load.tension + load.stiffness * load.stretch(state)[0]
+
+    @staticmethod
+    def _end_loads(beam, load):
+        """Work of loads along a beam on its ends, all else in equilibrium: along, across, turning at both."""
+        p0, p1, q0, q1, couple = load
+        if beam.still is None:
+            beam.still = Polynomials(12, beam.length, beam.stiffness, beam.mass, beam.rotary, beam.shear)
+        across = beam.still.condensed(ZERO, beam.still.loads(q0, q1, couple))[2]
+        return [beam.length * (2 * p0 + p1) / 6, across[0], across[1], beam.length * (p0 + 2 * p1) / 6, across[2], across[3]]
+
+    def _static(self, forces, loads):
+        """Displacements of all unknowns."""
+        self.prepare()
+        rows, _, _ = self.matrix(ZERO)
+        full = [[rows[max(i, j)][min(i, j)] for j in range(self.size)] for i in range(self.size)]
+        right = [ZERO] * self.size
+
+        def work(form, value):
+            for k, factor in self.free(form).items():
+                right[k] += factor * value
+
+        for k, value in enumerate(forces):
+            if value:
+                work({k: ONE}, value)
+        for beam, load in zip(self.beams, loads):
+            for form, value in zip(self._end_forms(beam), self._end_loads(beam, load)):
+                work(form, value)
+        solution = dense.solve(dense.factor(full), right)
+        return [sum((value * solution[self.place_of[j]] for j, value in form.items()), ZERO) for form in self.forms]
+
+    def _residual(self, displacements, forces, loads):
+        """What equations carry on every unknown, and the axial forces N0, N1, N2 of beams."""
+        residual, tensions = [-force for force in forces], []
+
+        def value(form):
+            return sum((factor * displacements[k] for k, factor in form.items()), ZERO)
+
+        for form, stiffness, _, _ in self.springs:
+            pull = stiffness * value(form)
+            for k, factor in form.items():
+                residual[k] += factor * pull
+        for beam, load in zip(self.beams, loads):
+            forms = self._end_forms(beam)
+            ends = [value(form) for form in forms]
+            a = beam.axial / beam.length
+            bent = beam.still.condensed(ZERO)[0]
+            across = [ends[k] for k in (1, 2, 4, 5)]
+            reaction = [a * (ends[0] - ends[3]), ZERO, ZERO, a * (ends[3] - ends[0]), ZERO, ZERO]
+            for i, row in zip((1, 2, 4, 5), bent):
+                reaction[i] = sum(factor * end for factor, end in zip(row, across))
+            reaction = [one - other for one, other in zip(reaction, self._end_loads(beam, load))]
+            for form, force in zip(forms, reaction):
+                for k, factor in form.items():
+                    residual[k] += factor * force
+            p0, p1 = load[:2]
+            tension = (-reaction[0], -beam.length * p0, -beam.length * (p1 - p0) / 2)
+            if abs(sum(tension) - reaction[3]) > Decimal("1e-25") * (abs(reaction[0]) + abs(reaction[3]) + Decimal("1e-9")):
+                raise Failure("axial forces out of balance")
+            tensions.append(tension)
+        return residual, tensions
+
+    def _multipliers(self, residual):
+        """Of the equations; those that follow from others have none."""
+        numbers = [k for k in range(len(self.rows)) if k not in self.follow]
+        rows = [self.rows[k] for k in numbers]
+        products = [[sum((value * other[k] for k, value in row.items() if k in other), ZERO) for other in rows] for row in rows]
+        right = [sum((value * residual[k] for k, value in row.items()), ZERO) for row in rows]
+        found = dense.solve(dense.factor(products), right) if rows else []
+        return dict(zip(numbers, found))
+
+    def _second_order(self, state, multipliers):
+        """(form, form, value): value times the product, both ways, is added to the stiffness."""
+        terms, (gx, gy) = [], self.model.gravity
+
+        def force_of(row):
+            if row not in multipliers:
+                raise Failure("forces that only elasticity of rigid links could tell")
+            return multipliers[row]
+
+        for contact in self.contacts:
+            if self.deck.sliders[contact["slider"]]["link"] and "arm" not in contact:
+                raise Failure("a block that does not turn on a guide that bends")
+            cosine, sine = contact["direction"]
+            slip = {}
+            for form, other, factor in zip(contact["pin"], contact["node"], (cosine, sine)):
+                add_form(slip, form, factor)
+                add_form(slip, other, -factor)
+            terms.append((slip, contact["turn"], force_of(contact["row"])))
+        for record in self.bodies:
+            total = record["inertia"] * state.v[self.model.bodies[record["link"]].angle]**2
+            for (rx, ry), row in record["pins"]:
+                total -= force_of(row) * rx + force_of(row + 1) * ry
+            for contact in record.get("contacts", ()):
+                cosine, sine = contact["direction"]
+                force = force_of(contact["row"])
+                total -= force * (cosine * contact["arm"][1] - sine * contact["arm"][0])
+            for (rx, ry), mass, (link, along, offset) in record["loads"]:
+                ax, ay = self._acceleration(state, ("body", link, along, offset))
+                total += mass * ((gx - ax) * rx + (gy - ay) * ry)
+            terms.append((record["turn"], record["turn"], total / 2))
+        for _, _, load, line in self.springs:
+            if line:
+                terms.append((line[0], line[0], self._pull(load, state) / (2 * line[1])))
+        return [term for term in terms if term[2]]
+
     # eigenvalues
 
     def eigenvalue(self, number, start, relative=Decimal("1e-27")):
@@ -549,6 +704,8 @@ class Structure:
     def frequencies(self, modes, guess=None):
         """The lowest in Hz; free motions are 0."""
         free = self.free_motions()
+        if self.count_below(Decimal("-1e-20"))[0]:
+            raise Failure("negative eigenvalues")
         result, start = [ZERO] * min(free, modes), Decimal(guess or 10000)
         for number in range(len(result) + 1, modes + 1):
             start = self.eigenvalue(number, start * Decimal("1.0001"))
