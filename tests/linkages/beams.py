@@ -121,13 +121,13 @@ def slender_tables(order):
 
 @functools.lru_cache(maxsize=None)
 def thick_tables(order):
-    """The same of beams with shear: v_i, turn_i, v_j, turn_j, then bubbles of v and of the rotation."""
+    """The same of beams with shear: v_i, turn_i, v_j, turn_j, then bubbles of v and of the rotation in turn."""
     steps = [Series({0: -1}), Series({0: 1})]
     bubbles = [Series({j: 1}) for j in range(1, order)]
     none = Series({})
     # (v', rotation') of each shape
     rates = [(steps[0], none), (none, steps[0]), (steps[1], none), (none, steps[1])]
-    rates += [(b, none) for b in bubbles] + [(none, b) for b in bubbles[:-1]]
+    rates += [rate for b in bubbles for rate in ((b, none), (none, b))][:-1]
     starts = [(1, 0), (0, 1)] + [(0, 0)] * (len(rates) - 2)
     v = [rate[0].integral(start[0]) for rate, start in zip(rates, starts)]
     turn = [rate[1].integral(start[1]) for rate, start in zip(rates, starts)]
@@ -177,12 +177,17 @@ class Polynomials:
                 m_row.append(m * scale[i] * scale[j])
             self.k.append(k_row)
             self.m.append(m_row)
+        self.entries = [[(j, k, m) for j, (k, m) in enumerate(zip(*pair)) if k or m] for pair in zip(self.k, self.m)]
         self.norms = [abs(self.k[i][i]) or ONE for i in range(count)]
 
     def condensed(self, c, forces=None):
         """4x4 matrix for c, number of clamped modes below c, function; with forces on all shapes those at the ends in place of it."""
         count = len(self.k)
-        rows = [[k - c * m for k, m in zip(*pair)] if c else list(pair[0]) for pair in zip(self.k, self.m)]
+        rows = []
+        for i, entries in enumerate(self.entries):
+            rows.append([ZERO] * (i + 1))
+            for j, k, m in entries:
+                rows[i][j] = k - c * m if m else k
         forces = list(forces) if forces else None
         below, function = 0, ONE
         for p in range(count - 1, 3, -1):
@@ -190,15 +195,14 @@ class Polynomials:
             pivot = row[p]
             below += pivot < 0
             function *= pivot / self.norms[p]
-            for i in range(p):
-                if row[i]:
-                    factor = row[i] / pivot
-                    into = rows[i]
-                    for j in range(i + 1):
-                        if row[j]:
-                            into[j] -= factor * row[j]
-                    if forces:
-                        forces[i] -= factor * forces[p]
+            filled = [(j, row[j]) for j in range(p) if row[j]]
+            for place, (i, value) in enumerate(filled):
+                factor = value / pivot
+                into = rows[i]
+                for j, other in filled[:place + 1]:
+                    into[j] -= factor * other
+                if forces:
+                    forces[i] -= factor * forces[p]
         full = [[rows[max(i, j)][min(i, j)] for j in range(4)] for i in range(4)]
         return full, below, forces[:4] if forces else function
 

@@ -478,13 +478,12 @@ class Structure:
                 raise ZeroDivisionError("at an eigenvalue")
             below += pivot < 0
             function *= pivot
-            for i in range(p):
-                if row[i]:
-                    factor = row[i] / pivot
-                    into = rows[i]
-                    for j in range(i + 1):
-                        if row[j]:
-                            into[j] -= factor * row[j]
+            filled = [(j, row[j]) for j in range(p) if row[j]]
+            for place, (i, value) in enumerate(filled):
+                factor = value / pivot
+                into = rows[i]
+                for j, other in filled[:place + 1]:
+                    into[j] -= factor * other
         return below, function
 
     # loads
