@@ -25,6 +25,13 @@ module pin_displacements
                                              !! and last pin [m/√J]
     real(wp), allocatable :: turn(:, :)      !! (border, bodies) rotation of the chord [rad/√J]
     real(wp), allocatable :: pin(:, :, :)    !! (2, pins, border) displacement of the pins [m/√J]
+    ! Of linkages that are more than binary links and pins:
+    real(wp), allocatable :: rotation(:, :)  !! (rotations, border) [rad/√J]
+    real(wp), allocatable :: weighted(:, :)  !! (rows, border) border deformations of parts and
+                                             !! springs, in units of a unit unknown; the border's
+                                             !! unknowns may turn from position to position, these
+                                             !! do not
+    integer :: free = 0                      !! the last border unknowns, which deform nothing
   end type chords_t
 
 contains

@@ -78,6 +78,10 @@ module linkages
     type(lump_t), allocatable :: lumps(:) !! masses fixed to it
     type(body_pin_t), allocatable :: further(:) !! pins beside its first and its last
     type(forced_place_t), allocatable :: forced(:) !! where forces act on it; not allocated: none
+    integer, allocatable :: corners(:)    !! of a link that bends and has more than two pins: these
+                                          !! in order along it, each two the ends of a straight
+                                          !! part; of a closed frame the last is the first. Not
+                                          !! allocated: straight from its first pin to its last
   end type body_t
 
   !> A pin that slides along a straight line: fixed, or of a body.
@@ -111,6 +115,7 @@ module linkages
     real(wp) :: ratio = 1.0_wp        !! to the first drive's [-], or between angle and length
                                       !! [m/deg], [deg/m]
     real(wp) :: phase = 0.0_wp        !! [deg] or [m]
+    logical :: is_free = .false.      !! it gives the position, but does not hold it in vibration
   end type drive_t
 
   !> Rough places of pins.

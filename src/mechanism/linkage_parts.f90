@@ -411,6 +411,7 @@ contains
         if (card%against_link > 0 .and. drive%kind == drives_angle) drive%against = findloc(link, &
           card%against_link, dim=1)
         if (drive%kind == drives_slider) drive%slider = card%slider
+        drive%is_free = card%is_free
         if (i == 1) cycle
         unit = 1.0_wp
         if (.not. moves_along(card%kind)) unit = 1.0_wp/degree
