@@ -67,18 +67,15 @@ contains
   end function needs_parts
 
   !> Divides a linkage into parts.
-  pure function new_elastic_linkage(linkage, beams, line_density, rotary_inertia, own_lumps) &
-    result(elastic)
+  pure function new_elastic_linkage(linkage, beams, line_density, rotary_inertia) result(elastic)
     type(linkage_t), intent(in) :: linkage        !! planned, with masses and loads
     type(beam_t), intent(in) :: beams(:)          !! (bodies) of links that bend
     real(wp), intent(in) :: line_density(:)       !! (bodies) of links that bend [kg/m]
     real(wp), intent(in) :: rotary_inertia(:)     !! (bodies) ρI of the same [kg m]
-    integer, intent(in) :: own_lumps(:)           !! (bodies) lumps that stand for the link itself,
-                                                  !! the first of all
     type(elastic_linkage_t) :: elastic
 
     call add_points(linkage, elastic)
-    call add_parts(linkage, beams, line_density, rotary_inertia, own_lumps, elastic)
+    call add_parts(linkage, beams, line_density, rotary_inertia, elastic)
     call add_rotations(linkage, elastic)
   end function new_elastic_linkage
 
@@ -142,11 +139,10 @@ contains
   end function corners_of
 
   !> Rigid links, and the straight parts of all others.
-  pure subroutine add_parts(linkage, beams, line_density, rotary_inertia, own_lumps, elastic)
+  pure subroutine add_parts(linkage, beams, line_density, rotary_inertia, elastic)
     type(linkage_t), intent(in) :: linkage
     type(beam_t), intent(in) :: beams(:)
     real(wp), intent(in) :: line_density(:), rotary_inertia(:)
-    integer, intent(in) :: own_lumps(:)
     type(elastic_linkage_t), intent(inout) :: elastic
 
     integer, allocatable :: corners(:), cut(:)
@@ -197,7 +193,7 @@ contains
         elastic%linkage%bodies(k)%line_density = line_density(b)
         elastic%linkage%bodies(k)%rotary_inertia = rotary_inertia(b)
       end do
-      call share_lumps(linkage, b, own_lumps(b), first, n, elastic)
+      call share_lumps(linkage, b, first, n, elastic)
     end do
     elastic%linkage%bodies = elastic%linkage%bodies(:n)
     elastic%linkage%couple = elastic%linkage%couple(:n)
@@ -275,10 +271,9 @@ contains
   end function cross_of
 
   !> Masses and places of forces of a link go to the straight part that they are nearest to.
-  pure subroutine share_lumps(linkage, b, own_lumps, first, last, elastic)
+  pure subroutine share_lumps(linkage, b, first, last, elastic)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: b           !! number of the link
-    integer, intent(in) :: own_lumps   !! that stand for the link itself
     integer, intent(in) :: first, last !! its parts
     type(elastic_linkage_t), intent(inout) :: elastic
 
@@ -288,7 +283,7 @@ contains
     ! Blocks turn with the part under them.
     blocks = count(linkage%sliders%body == b .and. linkage%sliders%inertia > 0.0_wp)
     associate (lumps => linkage%bodies(b)%lumps, parts => elastic%linkage%bodies)
-      do i = own_lumps + 1, size(lumps) - blocks
+      do i = linkage%bodies(b)%own_lumps + 1, size(lumps) - blocks
         call nearest_part(lumps(i)%place, elastic, first, last, k, place)
         parts(k)%lumps = [parts(k)%lumps, lump_t(lumps(i)%mass, place, lumps(i)%inertia)]
       end do

@@ -11,7 +11,7 @@ module border_rows
   use graded_rows, only: graded_rows_t
   use kinds, only: wp
   use link_modes, only: link_modes_t
-  use linkages, only: drives_slider, normal_to, turned
+  use linkages, only: body_t, drives_slider, normal_to, turned
   use poses, only: pose_t
   implicit none (type, external)
   private
@@ -155,8 +155,7 @@ contains
           cycle
         end if
         i = numbers%elongation(k)
-        call add_point(numbers, part%last_pin, axis, rows%row(:, i))
-        call add_point(numbers, part%first_pin, -axis, rows%row(:, i))
+        call add_chord(numbers, part, axis, rows%row(:, i))
         rows%weight(i) = 1.0_wp/links(k)%elongation
         normal = normal_to(axis)/part%length
         do i = 1, links(k)%curves
@@ -165,11 +164,11 @@ contains
               call add_rotation(numbers, elastic%rotation(1, k), 1.0_wp, row)
               call add_rotation(numbers, elastic%rotation(2, k), merge(1.0_wp, -1.0_wp, i == 1), &
                 row)
-              if (i == 1) call add_chord(-2.0_wp)
+              if (i == 1) call add_chord(numbers, part, -2.0_wp*normal, row)
             else
               call add_rotation(numbers, elastic%rotation(merge(1, 2, links(k)%held(1)), k), &
                 1.0_wp, row)
-              call add_chord(-1.0_wp)
+              call add_chord(numbers, part, -normal, row)
             end if
           end associate
           rows%weight(numbers%curve(i, k)) = 1.0_wp/links(k)%curve_rotation(i)
@@ -190,20 +189,18 @@ contains
         elastic%linkage%drives(i)%slider, line_direction(elastic, pose, &
         elastic%linkage%drives(i)%slider), rows%constraint(:, numbers%drive_constraint(i)))
     end do
-
-  contains
-
-    !> Adds the rotation of the chord, times a factor.
-    pure subroutine add_chord(factor)
-      real(wp), intent(in) :: factor
-
-      associate (part => elastic%linkage%bodies(k), row => rows%row(:, numbers%curve(i, k)))
-        call add_point(numbers, part%last_pin, factor*normal, row)
-        call add_point(numbers, part%first_pin, -factor*normal, row)
-      end associate
-    end subroutine add_chord
-
   end subroutine find_border_rows
+
+  !> Adds `a·(U_j − U_i)` of a part.
+  pure subroutine add_chord(numbers, part, a, row)
+    type(border_unknowns_t), intent(in) :: numbers
+    type(body_t), intent(in) :: part
+    real(wp), intent(in) :: a(2)
+    real(wp), intent(inout) :: row(:)
+
+    call add_point(numbers, part%last_pin, a, row)
+    call add_point(numbers, part%first_pin, -a, row)
+  end subroutine add_chord
 
   !> Adds `a·U` of a point.
   pure subroutine add_point(numbers, point, a, row)

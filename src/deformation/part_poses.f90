@@ -118,6 +118,7 @@ contains
       if (loads%occurs(i)) call take_couples(linkage, pose, loads%of_case(i), elastic, placed, &
         merge(1.0_wp, 0.0_wp, i == constant_case)*of_parts%pull, of_parts%unit%of_case(i))
     end do
+    call add_blocks(linkage, loads, elastic, of_parts%moment)
     do i = 1, size(elastic%springs)
       associate (spring => elastic%springs(i))
         if (.not. spring%turns) cycle
@@ -129,6 +130,25 @@ contains
       end associate
     end do
   end subroutine find_part_loads
+
+  !> Adds what turns blocks on links that bend: `−I α`.
+  pure subroutine add_blocks(linkage, loads, elastic, moment)
+    type(linkage_t), intent(in) :: linkage
+    type(unit_loads_t), intent(in) :: loads
+    type(elastic_linkage_t), intent(in) :: elastic
+    real(wp), intent(inout) :: moment(:, :) !! (rotations, cases)
+
+    integer :: i, k
+
+    do i = 1, size(elastic%contact)
+      if (elastic%contact(i) == 0 .or. elastic%guide_rotation(i) <= 0) cycle
+      do k = 1, case_count
+        if (loads%occurs(k)) moment(elastic%guide_rotation(i), k) = &
+          moment(elastic%guide_rotation(i), k) - linkage%sliders(i)%inertia* &
+          loads%of_case(k)%field%angular(linkage%sliders(i)%body)
+      end do
+    end do
+  end subroutine add_blocks
 
   !> Accelerations of points and parts.
   pure subroutine take_field(linkage, pose, of_links, elastic, placed, field)

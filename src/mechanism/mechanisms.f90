@@ -1,8 +1,8 @@
 !> Model → mechanism: the linkage with its masses and loads, its beams and its mesh.
 module mechanisms
   use applied_loads, only: forced_places
-  use attached_parts, only: append_loads, apply_loads, attach_masses, body_point_t, own_lumps_of, &
-    points_of, runs_against
+  use attached_parts, only: append_loads, apply_loads, attach_masses, body_point_t, points_of, &
+    runs_against
   use beam_mesh, only: new_beam_mesh
   use elastic_linkages, only: needs_parts, new_elastic_linkage
   use friction_parts, only: frictions_of
@@ -113,8 +113,7 @@ contains
     logical :: beams
     integer :: i
 
-    beams = is_dyad_linkage(mechanism%linkage) .and. any(.not. links%rigid) .and. &
-      all(links%rigid .or. is_solid(links))
+    beams = any(.not. links%rigid) .and. all(links%rigid .or. is_solid(links))
     allocate (mechanism%beams(merge(size(links), 0, beams)))
     do i = 1, size(links)
       if (.not. is_solid(links(i))) cycle
@@ -149,8 +148,7 @@ contains
       density(i) = link_line_density(model, mechanism%links(i))
       rotary(i) = link_rotary_inertia(model, mechanism%links(i))
     end do
-    mechanism%elastic = new_elastic_linkage(mechanism%linkage, mechanism%beams, density, rotary, &
-      own_lumps_of(model, mechanism%links, mechanism%linkage))
+    mechanism%elastic = new_elastic_linkage(mechanism%linkage, mechanism%beams, density, rotary)
   end subroutine add_parts
 
   !> Sets the mesh, and the elements on whose nodes lumped loads sit. No mesh if a bending link

@@ -141,7 +141,7 @@ contains
 
     first = waypoint_on_row(positions, sweep, from)
     second = waypoint_on_row(positions, sweep, to)
-    call match(linkage, sweep%models, sweep%request, first, second, most_halvings, work, &
+    call match(structure, sweep%models, sweep%request, first, second, most_halvings, work, &
       sweep%counts, next, clear)
     mac = likeness(first%prints, second%prints)
     do j = 1, size(next)

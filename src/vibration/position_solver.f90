@@ -21,7 +21,7 @@ module position_solver
   use position_assembly, only: assemble_position, assembled_t, new_assembled
   use position_results, only: largest_error, of_frequency, position_result_t, position_work_t
   use positions, only: state_t
-  use reduced_assembly, only: reduced_deflection
+  use reduced_deflections, only: reduced_deflection
   use shape_samples, only: sample_reduced
   use speed_solver, only: new_speed_work, solve_speeds
   use structures, only: structure_t

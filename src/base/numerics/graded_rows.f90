@@ -83,45 +83,34 @@ contains
     type(graded_rows_t), intent(in) :: rows
     real(wp), intent(in) :: scale(:)
     real(wp), intent(inout) :: work(:, :)  !! rows become those of L and U
-    integer, intent(out) :: pivot(:), column(:) !! row and unknown of every step
+    integer, intent(inout) :: pivot(:), column(:) !! row and unknown of every step
     integer, intent(out) :: pivots         !! number of steps
 
     logical :: is_used(size(work, 2)), is_taken(size(work, 1))
     real(wp) :: left, size_of, largest
-    integer :: i, r, last, first
+    integer :: i, r, stage, constraints
 
     is_used = .false.
     is_taken = .false.
     pivots = 0
-    first = 1
-    last = size(rows%constraint, 2)
-    do
-      largest = 0.0_wp
-      r = 0
-      do i = first, last
-        if (is_used(i)) cycle
-        left = maxval(abs(work(:, i)), mask=.not. is_taken)
-        if (left < least_rest) cycle
-        size_of = left
-        if (first > 1) size_of = left*scale(i)*rows%weight(i - first + 1)
-        if (size_of <= largest) cycle
-        largest = size_of
-        r = i
-      end do
-      if (r > 0 .and. pivots < size(work, 1)) then
-        is_used(r) = .true.
-        pivots = pivots + 1
-        pivot(pivots) = r
-        column(pivots) = maxloc(abs(work(:, r)), dim=1, mask=.not. is_taken)
-        is_taken(column(pivots)) = .true.
-        do i = first, size(work, 2)
-          if (.not. is_used(i)) call subtract(work(:, r), column(pivots), is_taken, work(:, i))
+    constraints = size(rows%constraint, 2)
+    do stage = 1, 2
+      do while (pivots < size(work, 1))
+        largest = 0.0_wp
+        r = 0
+        do i = merge(1, constraints + 1, stage == 1), merge(constraints, size(work, 2), stage == 1)
+          if (is_used(i)) cycle
+          left = maxval(abs(work(:, i)), mask=.not. is_taken)
+          if (left < least_rest) cycle
+          size_of = left
+          if (stage == 2) size_of = left*scale(i)*rows%weight(i - constraints)
+          if (size_of <= largest) cycle
+          largest = size_of
+          r = i
         end do
-        cycle
-      end if
-      if (first > 1) exit
-      first = last + 1
-      last = size(work, 2)
+        if (r == 0) exit
+        call take(r, work, is_used, is_taken, pivot, column, pivots)
+      end do
     end do
   end subroutine eliminate_largest
 
@@ -130,7 +119,7 @@ contains
     type(graded_rows_t), intent(in) :: rows
     integer, intent(in) :: primary(:)
     real(wp), intent(inout) :: work(:, :)
-    integer, intent(out) :: pivot(:), column(:)
+    integer, intent(inout) :: pivot(:), column(:)
     integer, intent(out) :: pivots
     logical, intent(out) :: found          !! false: they are bad pivots, and `work` is as before
 
@@ -155,8 +144,7 @@ contains
         r = i
       end do
       if (r == 0) exit
-      is_used(r) = .true.
-      call take(r)
+      call take(r, work, is_used, is_taken, pivot, column, pivots)
     end do
     order = by_weight(rows%weight(primary))
     do k = 1, size(primary)
@@ -166,8 +154,7 @@ contains
         work = before
         return
       end if
-      is_used(r) = .true.
-      call take(r)
+      call take(r, work, is_used, is_taken, pivot, column, pivots)
     end do
     ! Every other row has to be a combination of these.
     do i = constraints + 1, size(work, 2)
@@ -179,25 +166,26 @@ contains
       end if
     end do
     found = .true.
-
-  contains
-
-    !> Makes a row the next pivot.
-    pure subroutine take(row)
-      integer, intent(in) :: row
-
-      integer :: j
-
-      pivots = pivots + 1
-      pivot(pivots) = row
-      column(pivots) = maxloc(abs(work(:, row)), dim=1, mask=.not. is_taken)
-      is_taken(column(pivots)) = .true.
-      do j = 1, size(work, 2)
-        if (.not. is_used(j)) call subtract(work(:, row), column(pivots), is_taken, work(:, j))
-      end do
-    end subroutine take
-
   end subroutine eliminate_given
+
+  !> Makes a row the next pivot.
+  pure subroutine take(row, work, is_used, is_taken, pivot, column, pivots)
+    integer, intent(in) :: row
+    real(wp), intent(inout) :: work(:, :)
+    logical, intent(inout) :: is_used(:), is_taken(:) !! rows, unknowns
+    integer, intent(inout) :: pivot(:), column(:), pivots
+
+    integer :: i
+
+    is_used(row) = .true.
+    pivots = pivots + 1
+    pivot(pivots) = row
+    column(pivots) = maxloc(abs(work(:, row)), dim=1, mask=.not. is_taken)
+    is_taken(column(pivots)) = .true.
+    do i = 1, size(work, 2)
+      if (.not. is_used(i)) call subtract(work(:, row), column(pivots), is_taken, work(:, i))
+    end do
+  end subroutine take
 
   !> Numbers of the weights, the largest first.
   pure function by_weight(weight) result(order)

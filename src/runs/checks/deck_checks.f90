@@ -11,8 +11,8 @@ module deck_checks
   use linkage_checks, only: check_linkage
   use linkage_parts, only: assemble_linkage, assembly_t
   use mechanisms, only: mechanism_of, mechanism_t
-  use models, only: has_law, model_t, needs_frequencies, pivots, report_number, solver_band, &
-    solver_dense, steady_state_report
+  use models, only: has_law, is_four_bar, model_t, needs_frequencies, pivots, report_number, &
+    solver_band, solver_dense, steady_state_report
   use motion_checks, only: check_motion
   use nodal_eigensolver, only: most_round_off
   use plan_faults, only: report_problem
