@@ -9,12 +9,12 @@ module mechanisms
   use link_cards, only: has_own_mass, link_t
   use linkage_parts, only: assemble_linkage, assembly_t
   use linkages, only: is_dyad_linkage
-  use models, only: inertia_lumped, is_four_bar, model_t
+  use models, only: inertia_lumped, is_four_bar, link_line_density, model_t
   use name_index, only: name_index_t, new_name_index
   use pose_types, only: pins_of_body
   use process_parts, only: process_loads
   use response_parts, only: body_gauge_t, gauges_of, response_points_of
-  use shear, only: link_shear_stiffness
+  use shear, only: link_rotary_inertia, link_shear_stiffness
   use spring_parts, only: springs_of
   use structures, only: structure_t
   use text, only: string_t
@@ -100,8 +100,8 @@ contains
     is = link%material > 0 .and. link%section > 0
   end function is_solid
 
-  !> Sets the stiffnesses of beams. No beams if a bending link lacks material or section, or no link
-  !! bends.
+  !> Sets the stiffnesses of beams, of a link with corners those of all its segments. No beams if a
+  !! bending link lacks material or section, or no link bends.
   pure subroutine add_beams(model, links, mechanism)
     type(model_t), intent(in) :: model
     type(link_t), intent(in) :: links(:) !! (bodies)
@@ -110,8 +110,7 @@ contains
     logical :: beams
     integer :: i
 
-    beams = is_dyad_linkage(mechanism%linkage) .and. any(.not. links%rigid) .and. &
-      all(links%rigid .or. is_solid(links))
+    beams = any(.not. links%rigid) .and. all(links%rigid .or. is_solid(links))
     allocate (mechanism%beams(merge(size(links), 0, beams)))
     do i = 1, size(links)
       if (.not. is_solid(links(i))) cycle
@@ -124,6 +123,10 @@ contains
         beam%out_of_plane_stiffness = material%youngs_modulus*out_of_plane_second_moment(section)
         if (material%has_ratio) beam%torsional_stiffness = material%youngs_modulus/ &
           (2.0_wp*(1.0_wp + material%poissons_ratio))*torsion_constant(section)
+        if (allocated(mechanism%linkage%bodies(i)%corners)) then
+          beam%line_density = link_line_density(model, mechanism%links(i))
+          beam%rotary_inertia = link_rotary_inertia(model, mechanism%links(i))
+        end if
         if (.not. has_own_mass(links(i))) beam%polar_inertia = &
           material%density*(section%second_moment + out_of_plane_second_moment(section))
       end associate
