@@ -103,8 +103,8 @@ contains
     is = link%material > 0 .and. link%section > 0
   end function is_solid
 
-  !> Sets the stiffnesses of beams. No beams if a bending link lacks material or section, or no link
-  !! bends.
+  !> Sets the stiffnesses of beams, of a link with corners those of all its segments. No beams if a
+  !! bending link lacks material or section, or no link bends.
   pure subroutine add_beams(model, links, mechanism)
     type(model_t), intent(in) :: model
     type(link_t), intent(in) :: links(:) !! (bodies)
@@ -126,6 +126,10 @@ contains
         beam%out_of_plane_stiffness = material%youngs_modulus*out_of_plane_second_moment(section)
         if (material%has_ratio) beam%torsional_stiffness = material%youngs_modulus/ &
           (2.0_wp*(1.0_wp + material%poissons_ratio))*torsion_constant(section)
+        if (allocated(mechanism%linkage%bodies(i)%corners)) then
+          beam%line_density = link_line_density(model, mechanism%links(i))
+          beam%rotary_inertia = link_rotary_inertia(model, mechanism%links(i))
+        end if
         if (.not. has_own_mass(links(i))) beam%polar_inertia = &
           material%density*(section%second_moment + out_of_plane_second_moment(section))
       end associate
