@@ -8,10 +8,12 @@ module linkage_parts
   use errors, only: error_t
   use group_equations, only: direction_at
   use kinds, only: wp
+  use link_axis, only: foot_on_axis, foot_t, lies_on_axis
+  use link_cards, only: has_own_mass, segment_count
   use link_shapes, only: find_drawn_link, find_drawn_pin, find_link_shape
   use linkage_paths, only: follow_path
   use linkages, only: body_t, drives_angle, drives_length, drives_slider, linkage_t
-  use models, only: is_four_bar, model_t
+  use models, only: is_four_bar, is_pin, model_t
   use name_index, only: find_name, name_index_t, new_name_index
   use plan_problems, only: plan_problem_t
   use plan_sides, only: side_t
@@ -62,7 +64,7 @@ contains
   end subroutine assemble_linkage
 
   !> The pins of all links in the order of the deck, points of links that other cards use as pins,
-  !! and ground pivots that only sliders or springs use.
+  !! springs of frequencies among them, and ground pivots that only sliders or springs use.
   pure subroutine list_pins(model, pins)
     type(model_t), intent(in) :: model
     type(string_t), allocatable, intent(out) :: pins(:)
@@ -90,7 +92,8 @@ contains
     if (is_four_bar(model)) return
     do i = 1, size(model%springs)
       do k = 1, 2
-        if (is_ground(model, model%springs(i)%ends(k))) call add_pin(model%springs(i)%ends(k), pins)
+        if (is_ground(model, model%springs(i)%ends(k)) .or. is_pin(model, &
+          model%springs(i)%ends(k)%text)) call add_pin(model%springs(i)%ends(k), pins)
       end do
     end do
     do i = 1, size(model%drawn_pins)
@@ -232,6 +235,8 @@ contains
         body%further(k)%pin = find_name(pins, model%points(points(i))%name%text)
         body%further(k)%place = model%points(points(i))%place
       end do
+      if (body%bends .and. .not. has_own_mass(link)) call take_corners(model, pins, number, &
+        places, points, body)
       ! Its angle is that of the way from its ground pivot to the next pin of the card.
       grounded = 0
       do i = size(link%pins), 1, -1
@@ -243,6 +248,41 @@ contains
       end if
     end associate
   end subroutine take_body
+
+  !> The corners of a link that bends, if it has more than two pins: its pins in the order of the
+  !! card, and between them points on its axis that are pins.
+  pure subroutine take_corners(model, pins, number, places, points, body)
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: pins
+    integer, intent(in) :: number          !! of the link in the model
+    real(wp), intent(in) :: places(:, :)   !! (2, pins) of its pins, in the axes of the card [m]
+    integer, intent(in) :: points(:)       !! numbers of the points in the model
+    type(body_t), intent(inout) :: body
+
+    type(foot_t) :: feet(size(points))
+    integer :: segment, i, next
+
+    associate (link => model%links(number))
+      if (size(link%pins) + size(points) == 2) return
+      do i = 1, size(points)
+        feet(i) = foot_on_axis(places, link%is_closed, model%points(points(i))%place)
+        if (.not. lies_on_axis(places, feet(i))) feet(i)%segment = 0
+      end do
+      allocate (body%corners(0))
+      do segment = 1, segment_count(link)
+        body%corners = [body%corners, find_name(pins, link%pins(segment)%text)]
+        do
+          next = findloc(feet%segment, segment, dim=1)
+          if (next == 0) exit
+          next = minloc(feet%along, dim=1, mask=feet%segment == segment)
+          body%corners = [body%corners, find_name(pins, model%points(points(next))%name%text)]
+          feet(next)%segment = 0
+        end do
+      end do
+      next = mod(segment_count(link), size(link%pins)) + 1
+      body%corners = [body%corners, find_name(pins, link%pins(next)%text)]
+    end associate
+  end subroutine take_corners
 
   !> The points of a link that are pins: other cards name them.
   pure function points_as_pins(model, pins, number) result(points)
@@ -405,6 +445,7 @@ contains
     do i = 1, size(model%drives)
       associate (card => model%drives(i), drive => linkage%drives(i))
         drive%kind = drives_angle
+        drive%is_free = card%is_free
         if (card%kind == drive_slider) drive%kind = drives_slider
         if (card%kind == drive_ram) drive%kind = drives_length
         if (card%link > 0) drive%body = findloc(link, card%link, dim=1)

@@ -24,8 +24,8 @@ module model_reader
   use load_cards, only: force_card_t, read_force, read_gravity, read_torque, torque_card_t
   use materials, only: read_material
   use mesh_checks, only: check_meshes
-  use models, only: drives_length, has_law, is_four_bar, is_loaded, is_moving, model_t, &
-    needs_mesh, report_number
+  use models, only: drives_length, has_law, is_four_bar, is_loaded, is_moving, is_sprung, &
+    model_t, needs_mesh, report_number
   use motor_cards, only: read_motor
   use motor_checks, only: find_motor_line
   use process_cards, only: is_process_form, process_card_t, read_process_force, &
@@ -108,7 +108,7 @@ contains
     call choose_speed_unit(model)
     call show_speeds(model)
     if (model%effects == 0) model%effects = merge(effects_axial, effects_static, &
-      is_moving(model) .or. is_loaded(model))
+      is_moving(model) .or. is_loaded(model) .or. is_sprung(model))
     if (size(model%meshes) == 0 .and. needs_mesh(model)) then
       deallocate (model%meshes)
       allocate (model%meshes(1))

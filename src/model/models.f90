@@ -29,11 +29,11 @@ module models
   implicit none (type, external)
   private
 
-  public :: model_t, report_number, needs_study, needs_positions, is_moving, is_loaded, &
+  public :: model_t, report_number, needs_study, needs_positions, is_moving, is_loaded, is_sprung, &
     needs_loads, needs_inertia, needs_frequencies, needs_response, report_in_motion, &
     steady_state_report, accuracy_of_study, needs_beams, &
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
-    link_line_density, speed_in_table, speed_in_words, is_four_bar, pivots, drives_length, &
+    link_line_density, speed_in_table, speed_in_words, is_four_bar, is_pin, pivots, drives_length, &
     balances, has_law
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
@@ -159,7 +159,8 @@ contains
     is = forms_loop(model)
   end function is_four_bar
 
-  !> Whether links, PINMASS or FORCE cards take a name for that of a pin.
+  !> Whether links, PINMASS or FORCE cards take a name for that of a pin; and springs on a link that
+  !! bends, where frequencies are asked for.
   pure function is_pin(model, name) result(is)
     type(model_t), intent(in) :: model
     character(len=*), intent(in) :: name
@@ -183,8 +184,38 @@ contains
       if (.not. model%processes(i)%on_link .and. same_word(model%processes(i)%subject%text, name)) &
         return
     end do
-    is = .false.
+    is = holds_spring(model, name)
   end function is_pin
+
+  !> Whether frequencies are asked for, and a name is that of a point at which a spring holds a link
+  !! that bends.
+  pure function holds_spring(model, name) result(holds)
+    type(model_t), intent(in) :: model
+    character(len=*), intent(in) :: name
+    logical :: holds
+
+    integer :: i, k
+
+    holds = .false.
+    if (.not. needs_frequencies(model) .or. .not. allocated(model%springs)) return
+    do i = 1, size(model%springs)
+      do k = 1, 2
+        if (model%springs(i)%ends(k)%line > 0) holds = holds .or. &
+          same_word(model%springs(i)%ends(k)%text, name)
+      end do
+    end do
+    if (.not. holds) return
+    do i = 1, size(model%points)
+      if (.not. same_word(model%points(i)%name%text, name)) cycle
+      do k = 1, size(model%links)
+        holds = same_word(model%points(i)%link_name%text, model%links(k)%name%text)
+        if (.not. holds) cycle
+        holds = .not. model%links(k)%rigid
+        return
+      end do
+    end do
+    holds = .false.
+  end function holds_spring
 
   !> Whether three links of two pins lead from one ground pivot to the other: each ground pivot
   !! carries one link, each other pin joins two, and no link joins the ground pivots.
@@ -318,6 +349,15 @@ contains
       end associate
     end do
   end function is_loaded
+
+  !> Whether springs load the links: all SPRING cards do.
+  pure function is_sprung(model) result(is)
+    type(model_t), intent(in) :: model !! as read
+    logical :: is
+
+    is = .false.
+    if (allocated(model%springs)) is = any(.not. model%springs%damps)
+  end function is_sprung
 
   !> Whether frequencies are requested: alone, with mode shapes or as loci.
   pure function needs_frequencies(model) result(needs)
@@ -455,13 +495,13 @@ contains
       any(bears_lumped_masses(model%links))
   end function needs_mesh
 
-  !> Whether requested frequencies depend on loads, of the motion or external ones.
+  !> Whether requested frequencies depend on loads, of the motion, of springs or external ones.
   pure function needs_loads(model) result(needs)
     type(model_t), intent(in) :: model !! as read
     logical :: needs
 
     needs = needs_frequencies(model) .and. model%effects == effects_axial .and. &
-      (is_moving(model) .or. is_loaded(model))
+      (is_moving(model) .or. is_loaded(model) .or. is_sprung(model))
   end function needs_loads
 
   !> Whether results depend on INERTIA, which determines how the mass of links makes loads.

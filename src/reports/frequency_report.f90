@@ -4,9 +4,10 @@ module frequency_report
   use errors, only: error_t
   use frequency_study, only: failure_at, frequency_values, has_result, station_on_link
   use kinds, only: wp
+  use links_report, only: shown_crank
   use load_notes, only: acceleration_note
   use models, only: effects_static, inertia_distributed, inertia_lumped, is_loaded, is_moving, &
-    model_t, needs_loads, report_number, speed_in_table
+    is_sprung, model_t, needs_loads, report_number, speed_in_table
   use report_cards, only: report_t
   use table_columns, only: cells, column_width, table_factor, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
@@ -67,9 +68,11 @@ contains
     type(model_t), intent(in) :: model
     character(len=:), allocatable :: words
 
-    words = "motion"
-    if (is_loaded(model)) words = "motion and of constant loads"
-    if (.not. is_moving(model)) words = "constant loads"
+    words = ""
+    if (is_moving(model)) words = " and of motion"
+    if (is_loaded(model)) words = words//" and of constant loads"
+    if (is_sprung(model)) words = words//" and of springs"
+    words = words(9:)
     if (model%inertia == inertia_lumped) words = words//"; lumped inertia"
     if (model%inertia == inertia_distributed) words = words//"; distributed inertia"
   end function loads_in_words
@@ -83,7 +86,8 @@ contains
     type(rows_t), intent(inout) :: rows            !! to which it is appended
 
     associate (found => variant%found, state => variant%found%positions%state(position))
-      associate (place => [shown_speed(variant, speed), found%positions%crank(position)])
+      associate (place => [shown_speed(variant, speed), shown_crank(variant, &
+          found%positions%crank(position))])
         if (has_result(found%positions, found%sweep, state, speed)) then
           call add_row(rows, cells(layout, 1, [place, frequency_values(found%sweep, state, speed)]))
         else
@@ -103,8 +107,8 @@ contains
 
     associate (found => variant%found)
       error = failure_at(found%positions, found%sweep, found%positions%state(position), speed)
-      call add_failed_row(rows, [shown_speed(variant, speed), found%positions%crank(position)], &
-        error%text)
+      call add_failed_row(rows, [shown_speed(variant, speed), shown_crank(variant, &
+        found%positions%crank(position))], error%text)
     end associate
   end subroutine add_failed
 
@@ -212,7 +216,8 @@ contains
     scale = sqrt(to_si(1.0_wp, table_factor("mass", variant%model%outputs)))
     length = table_factor("length", variant%model%outputs)
     state = variant%found%positions%state(position)
-    place = [shown_speed(variant, speed), variant%found%positions%crank(position)]
+    place = [shown_speed(variant, speed), shown_crank(variant, &
+      variant%found%positions%crank(position))]
     associate (shape => variant%found%sweep%results(state)%shapes(speed)%displacement)
       do body = 1, size(variant%mechanism%names)
         if (body > 1) call add_gap(rows, 1)

@@ -6,6 +6,7 @@ module loci_report
   use errors, only: error_t
   use frequency_report, only: effects_notes, shown_speed
   use frequency_study, only: failure_at
+  use links_report, only: shown_crank
   use loci_study, only: event_ambiguous, event_crossing, event_start, event_veering, failed_rows, &
     is_empty, locus_row_t, rows_of_locus
   use table_columns, only: cells, name_list_t, table_layout_t
@@ -84,8 +85,8 @@ contains
       failed = failed_rows(found%positions, found%sweep, speed)
       do i = 1, size(failed)
         error = failure_at(found%positions, found%sweep, found%positions%state(failed(i)), speed)
-        call add_failed_row(rows, [shown_speed(variant, speed), &
-          found%positions%crank(failed(i))], error%text)
+        call add_failed_row(rows, [shown_speed(variant, speed), shown_crank(variant, &
+          found%positions%crank(failed(i)))], error%text)
       end do
     end associate
   end subroutine add_failures
@@ -108,8 +109,8 @@ contains
           call add_gap(rows, 1)
           cycle
         end if
-        call add_row(rows, cells(layout, 1, [shown_speed(variant, speed), &
-          found%positions%crank(list(i)%position)])//integer_cell(locus, "branch")// &
+        call add_row(rows, cells(layout, 1, [shown_speed(variant, speed), shown_crank(variant, &
+          found%positions%crank(list(i)%position))])//integer_cell(locus, "branch")// &
           integer_cell(list(i)%mode, "mode")//cells(layout, 5, [list(i)%frequency, &
           list(i)%mac])//name_cell(trim(event_name(list(i)%event, list(i)%partner)), &
           event_width))

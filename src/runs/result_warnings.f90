@@ -5,16 +5,18 @@ module result_warnings
   use harmonics_study, only: harmonics_result_t, has_settled
   use kinds, only: wp
   use mechanisms, only: mechanism_t
-  use models, only: accuracy_of_study, model_t, needs_frequencies, needs_study, speed_in_words
+  use models, only: accuracy_of_study, drives_length, model_t, needs_frequencies, needs_study, &
+    speed_in_words
   use position_results, only: error_of_divergence, error_of_orders, error_of_position
   use positions, only: positions_t
   use response_parts, only: body_damping_t, damping_none, dampings_of
   use response_study, only: largest_deflection
   use response_types, only: response_t
-  use run_findings, only: add_warning_of_run, findings_t, place_in_words
+  use run_findings, only: add_warning_of_run, findings_t
   use sweeps, only: has_result, sweep_t
+  use table_columns, only: table_unit
   use text, only: plural, to_string
-  use units, only: from_si
+  use units, only: from_si, unit_t
   use variant_results, only: variant_results_t
   use vibration_models, only: by_orders
   use warnings, only: grade_meaningless, warning_t
@@ -116,9 +118,11 @@ contains
     type(warning_t) :: warning             !! without a text if there is none
 
     character(len=:), allocatable :: ranges
+    type(unit_t) :: unit
     integer :: i, first
 
     warning%kind = warning_of_divergence
+    unit = unit_of_positions(model)
     ranges = ""
     first = 0
     do i = 1, size(positions%crank)
@@ -131,15 +135,39 @@ contains
         if (diverges(positions, sweep, i + 1, speed)) cycle
       end if
       if (len(ranges) > 0) ranges = ranges//", "
-      ranges = ranges//to_string(positions%crank(first), 10)
-      if (i > first) ranges = ranges//" to "//to_string(positions%crank(i), 10)
+      ranges = ranges//to_string(from_si(positions%crank(first), unit), 10)
+      if (i > first) ranges = ranges//" to "//to_string(from_si(positions%crank(i), unit), 10)
       first = 0
     end do
     if (len(ranges) == 0) return
     warning%text = "static divergence at speed "// &
       speed_in_words(model, speed, sweep%request%speed(speed))//", crank "//ranges// &
-      " deg: an eigenvalue is negative, and so is the frequency written"
+      " "//unit%name//": an eigenvalue is negative, and so is the frequency written"
   end function divergences
+
+  !> Degrees, of a slider or a ram the unit of lengths.
+  pure function unit_of_positions(model) result(unit)
+    type(model_t), intent(in) :: model
+    type(unit_t) :: unit
+
+    unit%name = "deg"
+    if (drives_length(model)) unit = table_unit("length", model%outputs)
+  end function unit_of_positions
+
+  !> `speed 20 rad/s, crank 45 deg`
+  pure function place_of_row(model, sweep, crank, speed) result(place)
+    type(model_t), intent(in) :: model
+    type(sweep_t), intent(in) :: sweep
+    real(wp), intent(in) :: crank !! [deg] or [m]
+    integer, intent(in) :: speed  !! number
+    character(len=:), allocatable :: place
+
+    type(unit_t) :: unit
+
+    unit = unit_of_positions(model)
+    place = "speed "//speed_in_words(model, speed, sweep%request%speed(speed))//", crank "// &
+      to_string(from_si(crank, unit), 12)//" "//unit%name
+  end function place_of_row
 
   !> Whether the lowest eigenvalue at a position and speed is negative.
   pure function diverges(positions, sweep, position, speed)
@@ -189,9 +217,8 @@ contains
     warning%amount = largest
     warning%text = "the "//trim(merge("loads        ", "inertia loads", &
       sweep%request%constant))//" at "// &
-      place_in_words(positions%crank(at_position), speed_in_words(model, at_speed, &
-      sweep%request%speed(at_speed)))// &
-      " deflect link '"//mechanism%names(at_body)%text//"' by "//to_string(100.0_wp*largest, 3)// &
+      place_of_row(model, sweep, positions%crank(at_position), at_speed)//" deflect link '"// &
+      mechanism%names(at_body)%text//"' by "//to_string(100.0_wp*largest, 3)// &
       " % of its length: "
     if (largest > impossible_deflection) then
       warning%grade = grade_meaningless
@@ -235,8 +262,7 @@ contains
     warning%amount = worst
     warning%text = "the accuracy "//to_string(sweep%request%accuracy)// &
       " is not reached in "//plural(rows, "row")//": the error is up to "//to_string(worst, 2)// &
-      ", at "//place_in_words(positions%crank(at_position), speed_in_words(model, at_speed, &
-      sweep%request%speed(at_speed)))// &
+      ", at "//place_of_row(model, sweep, positions%crank(at_position), at_speed)// &
       " ("//reason_of(sweep%results(positions%state(at_position))%cause(at_speed))//")"
   end function missed_accuracy
 

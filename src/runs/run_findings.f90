@@ -11,7 +11,7 @@ module run_findings
   private
 
   public :: findings_t, failure_t, add_failure, add_warning_of_run, add_findings, put_findings, &
-    get_findings, warnings_of_grade, place_in_words, place_of_failure
+    get_findings, warnings_of_grade, place_of_failure
   public :: at_position, at_frequencies, in_motion, of_variant, in_response, in_stability, &
     in_intervals, in_transient, in_campbell, at_instant, at_forces
 
@@ -140,22 +140,12 @@ contains
     end do
   end function warnings_of_grade
 
-  !> `speed 20 rad/s, crank 45 deg`, or without the speed
-  pure function place_in_words(crank, speed) result(place)
-    real(wp), intent(in) :: crank                   !! [deg]
-    character(len=*), intent(in), optional :: speed !! with its unit
-    character(len=:), allocatable :: place
-
-    place = "crank "//to_string(crank, 12)//" deg"
-    if (present(speed)) place = "speed "//speed//", "//place
-  end function place_in_words
-
   !> `crank 45 deg`, or `crank 180 mm` of a slider or a ram.
   pure function place_of_failure(failure) result(place)
     type(failure_t), intent(in) :: failure !! at a position
     character(len=:), allocatable :: place
 
-    place = place_in_words(failure%crank)
+    place = "crank "//to_string(failure%crank, 12)//" deg"
     if (.not. allocated(failure%crank_words)) return
     if (len(failure%crank_words) > 0) place = "crank "//failure%crank_words
   end function place_of_failure

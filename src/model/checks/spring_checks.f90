@@ -323,18 +323,24 @@ contains
       "' is not in the drawing: expected '"//key//"=' or a PIN card")
   end subroutine refuse_undrawn
 
-  !> Refuses frequencies and all of the elastic linkage in motion.
+  !> Refuses all of the elastic linkage in motion, and frequencies with dampers.
   pure subroutine refuse_reports(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
-    integer :: i
+    integer :: i, damper
 
+    damper = findloc(model%springs%damps, .true., dim=1)
     do i = 1, size(model%reports)
       associate (report => model%reports(i))
-        if (.not. report%kind%frequencies .and. .not. report%kind%response) cycle
-        call add_error(diagnostics, report%keyword, "springs and dampers do not act in REPORT "// &
-          trim(report%kind%name)//" yet", model%springs(1)%keyword, "the first one is here")
+        if (report%kind%response) then
+          call add_error(diagnostics, report%keyword, "springs and dampers do not act in "// &
+            "REPORT "//trim(report%kind%name)//" yet", model%springs(1)%keyword, &
+            "the first one is here")
+        else if (report%kind%frequencies .and. damper > 0) then
+          call add_error(diagnostics, report%keyword, "dampers do not act in REPORT "// &
+            trim(report%kind%name)//" yet", model%springs(damper)%keyword, "the first one is here")
+        end if
       end associate
     end do
   end subroutine refuse_reports

@@ -11,8 +11,8 @@ module deck_checks
   use linkage_checks, only: check_linkage
   use linkage_parts, only: assemble_linkage, assembly_t
   use mechanisms, only: mechanism_of, mechanism_t
-  use models, only: has_law, model_t, needs_frequencies, pivots, report_number, solver_band, &
-    solver_dense, steady_state_report
+  use models, only: has_law, is_four_bar, model_t, needs_frequencies, pivots, report_number, &
+    solver_band, solver_dense, steady_state_report
   use motion_checks, only: check_motion
   use nodal_eigensolver, only: most_round_off
   use plan_faults, only: report_problem
@@ -49,6 +49,7 @@ contains
     type(assembly_t) :: assembly
     integer :: pivot(2)
 
+    call refuse_unbuilt(model, diagnostics)
     call check_drawing(model, diagnostics)
     call assemble_linkage(model, assembly)
     if (allocated(assembly%problem)) then
@@ -95,6 +96,20 @@ contains
     if (has_errors(diagnostics) .or. all(model%solver /= [solver_dense, solver_band])) return
     call check_round_off(model, mechanism, diagnostics)
   end subroutine check_mechanics
+
+  !> Frequencies of linkages other than four-bars, and of springs, have no equations yet.
+  subroutine refuse_unbuilt(model, diagnostics)
+    type(model_t), intent(in) :: model
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: report
+
+    if (.not. needs_frequencies(model)) return
+    if (is_four_bar(model) .and. size(model%springs) == 0) return
+    report = findloc(model%reports%kind%frequencies, .true., dim=1)
+    call add_error(diagnostics, model%reports(report)%keyword, "REPORT "// &
+      trim(model%reports(report)%kind%name)//" takes four-bars without springs only, yet")
+  end subroutine refuse_unbuilt
 
   !> One link is longer than all the others together.
   subroutine report_open_linkage(model, mechanism, diagnostics)

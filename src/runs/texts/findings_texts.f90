@@ -4,7 +4,7 @@ module findings_texts
   use diagnostics, only: diagnostics_t, warning_texts
   use run_findings, only: at_forces, at_instant, at_position, failure_t, findings_t, in_motion, &
     in_response, in_campbell, in_intervals, in_stability, in_transient, of_variant, &
-    place_in_words, place_of_failure, warnings_of_grade
+    place_of_failure, warnings_of_grade
   use text, only: string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use warnings, only: grade_doubt, grade_meaningless
@@ -49,7 +49,7 @@ contains
       line = failure%variant//": "//failure%error%text//line_feed
       return
     case default
-      line = place_in_words(failure%crank, failure%speed_words)
+      line = "speed "//failure%speed_words//", "//place_of_failure(failure)
     end select
     line = line//": "//failure%error%text//line_feed
     if (len(failure%variant) > 0) line = failure%variant//", "//line
