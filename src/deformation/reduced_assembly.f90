@@ -1,6 +1,6 @@
 !> Mass and geometric stiffness of a linkage in the own modes of its links.
 !!
-!! Unknowns: the border (the clamped end's rotation and the elongations of the links), then the
+!! Unknowns: the border (the rotations of held ends and the elongations of the links), then the
 !! transverse own modes link by link (the blocks), then the axial own modes. The elastic stiffness
 !! is the unit matrix in all of them. A rigid link has no unknowns.
 module reduced_assembly
@@ -9,7 +9,7 @@ module reduced_assembly
   use deformation_places, only: displacement_row, rotation_row
   use inertia_loads, only: distributed_load, load_t
   use kinds, only: wp
-  use link_modes, only: clamp, link_modes_t, rigid, stations
+  use link_modes, only: link_modes_t, rigid, stations
   use linkages, only: body_t, linkage_t, normal_to, turned_back
   use load_cases, only: load_case_t
   use pin_displacements, only: body_displacement, border_numbers, chords_t
@@ -50,17 +50,18 @@ contains
     type(chords_t), intent(in) :: chords           !! of this position
     type(bordered_matrix_t), intent(inout) :: mass !! of this layout, without blocks [s²]
 
-    real(wp) :: across(3, layout%border), along(2, layout%border)
-    integer :: b, i, k, first
+    real(wp) :: along(2, layout%border), motion(3, layout%border)
+    real(wp), allocatable :: across(:, :)
+    integer :: b, i, j, k, first
 
     mass%border = 0.0_wp
     do b = 1, size(links)
       if (.not. links(b)%bends) then
-        across = body_displacement(chords, b)
-        mass%border = mass%border + matmul(transpose(across), matmul(links(b)%rigid_mass, across))
+        motion = body_displacement(chords, b)
+        mass%border = mass%border + matmul(transpose(motion), matmul(links(b)%rigid_mass, motion))
         cycle
       end if
-      across = chords%across(:, :, b)
+      across = chords%across(:2 + links(b)%curves, :, b)
       along = chords%along(:, :, b)
       mass%border = mass%border + matmul(transpose(across), matmul(links(b)%linear, across)) + &
         matmul(transpose(along), matmul(links(b)%axial_linear, along))
@@ -69,7 +70,13 @@ contains
         mass%diagonal(first + k) = links(b)%square(k)
         do i = 1, layout%border
           mass%coupling(i, first + k) = across(1, i)*links(b)%participation(1, k) + &
-            across(2, i)*links(b)%participation(2, k) + across(3, i)*links(b)%participation(3, k)
+            across(2, i)*links(b)%participation(2, k)
+        end do
+        do j = 3, 2 + links(b)%curves
+          do i = 1, layout%border
+            mass%coupling(i, first + k) = mass%coupling(i, first + k) + &
+              across(j, i)*links(b)%participation(j, k)
+          end do
         end do
       end do
       if (links(b)%coupled) call add_coupled_mass(links(b), across, along, first, mass)
@@ -112,7 +119,7 @@ contains
   end subroutine add_coupled_mass
 
   !> `K_G = ∫ N v'² dx` of all links: full blocks between own modes, and a border for the rotation
-  !! of the chords.
+  !! of the chords and the curves of held ends.
   pure subroutine reduced_geometric_stiffness(links, layout, chords, force, stiffness)
     type(link_modes_t), intent(in) :: links(:)          !! (bodies)
     type(layout_t), intent(in) :: layout                !! of these links
@@ -121,9 +128,9 @@ contains
                                                         !! tension positive [N]
     type(bordered_matrix_t), intent(inout) :: stiffness !! of this layout, with blocks [-]
 
-    real(wp) :: on_chord, on_curve
     real(wp), allocatable :: slopes(:, :)
-    integer :: b, i, j, k, m, first
+    real(wp) :: added(layout%border)
+    integer :: b, c, i, j, k, m, n, first
 
     stiffness%border = 0.0_wp
     do b = 1, size(links)
@@ -133,22 +140,43 @@ contains
         slopes = slopes + force(j, b)*links(b)%geometric(:, :, j)
       end do
       first = layout%first(b) - 1
+      n = rigid + links(b)%curves
       do k = 1, m
-        stiffness%block(:m, k, b) = slopes(clamp + 1:, clamp + k)
+        stiffness%block(:m, k, b) = slopes(n + 1:, n + k)
         do i = 1, layout%border
-          stiffness%coupling(i, first + k) = chords%turn(i, b)*slopes(rigid, clamp + k) + &
-            chords%across(3, i, b)*slopes(clamp, clamp + k)
+          stiffness%coupling(i, first + k) = chords%turn(i, b)*slopes(rigid, n + k)
+        end do
+        do c = 1, links(b)%curves
+          do i = 1, layout%border
+            stiffness%coupling(i, first + k) = stiffness%coupling(i, first + k) + &
+              chords%across(2 + c, i, b)*slopes(rigid + c, n + k)
+          end do
         end do
       end do
       do i = 1, layout%border
-        on_chord = chords%turn(i, b)*slopes(rigid, rigid) + chords%across(3, i, b)*slopes(clamp, &
-          rigid)
-        on_curve = chords%turn(i, b)*slopes(rigid, clamp) + chords%across(3, i, b)*slopes(clamp, &
-          clamp)
-        stiffness%border(:, i) = stiffness%border(:, i) + on_chord*chords%turn(:, b) + &
-          on_curve*chords%across(3, :, b)
+        added = stiffness%border(:, i) + moment_on(rigid)*chords%turn(:, b)
+        do c = 1, links(b)%curves
+          added = added + moment_on(rigid + c)*chords%across(2 + c, :, b)
+        end do
+        stiffness%border(:, i) = added
       end do
     end do
+
+  contains
+
+    !> What a unit of border unknown i does to the chord or a curve of body b.
+    pure function moment_on(row) result(moment)
+      integer, intent(in) :: row
+      real(wp) :: moment
+
+      integer :: j
+
+      moment = chords%turn(i, b)*slopes(rigid, row)
+      do j = 1, links(b)%curves
+        moment = moment + chords%across(2 + j, i, b)*slopes(rigid + j, row)
+      end do
+    end function moment_on
+
   end subroutine reduced_geometric_stiffness
 
   !> Static displacements along and across every link, at its stations, under the loads of a load
@@ -167,7 +195,7 @@ contains
     real(wp), intent(out) :: displacement(:, :, :) !! (along and across, stations, bodies) [m]
 
     real(wp) :: border(layout%border), load(load_count(links), size(links)), along(2), &
-      at_ends(2, 2), ends(3), axial_ends(2), xi
+      at_ends(2, 2), ends(size(chords%across, 1)), axial_ends(2), xi
     integer :: b, i, k, n
 
     border = 0.0_wp
@@ -181,16 +209,17 @@ contains
         load(i, b) = dot_product(normal_to(pose%direction(:, b)), at_ends(:, i))
       end do
       if (links(b)%bends) then
-        border = border - matmul(transpose(chords%across(:, :, b)), &
+        n = 2 + links(b)%curves
+        border = border - matmul(transpose(chords%across(:n, :, b)), &
           matmul(links(b)%linear(:, 1:2), load(:2, b))) - &
           matmul(transpose(chords%along(:, :, b)), matmul(links(b)%axial_linear, along))
         if (links(b)%coupled) then
           load(3:4, b) = along
-          n = size(links(b)%at_mass, 1)
-          load(5:4 + n, b) = lump_offsets(linkage%bodies(b))*dot_product(pose%direction(:, b), &
+          k = size(links(b)%at_mass, 1)
+          load(5:4 + k, b) = lump_offsets(linkage%bodies(b))*dot_product(pose%direction(:, b), &
             case%field%slope(:, b))
-          call add_coupled_loads(links(b), chords%across(:, :, b), chords%along(:, :, b), &
-            load(:4 + n, b), border)
+          call add_coupled_loads(links(b), chords%across(:n, :, b), chords%along(:, :, b), &
+            load(:4 + k, b), border)
         end if
       else
         border = border + matmul(rigid_work(linkage, b, pose, case), body_displacement(chords, b))
@@ -209,9 +238,10 @@ contains
         xi = real(i - 1, wp)/(stations - 1)
         displacement(1, i, b) = (1.0_wp - xi)*axial_ends(1) + xi*axial_ends(2)
         displacement(2, i, b) = (1.0_wp - xi)*ends(1) + xi*ends(2)
-        if (links(b)%bends) displacement(2, i, b) = displacement(2, i, b) + &
-          links(b)%clamp_station(i)*ends(3) - dot_product(links(b)%sag(i, :), &
-          load(:size(links(b)%sag, 2), b))
+        if (.not. links(b)%bends) cycle
+        displacement(2, i, b) = displacement(2, i, b) + dot_product(links(b)%curve_station(i, :), &
+          ends(3:2 + links(b)%curves)) - dot_product(links(b)%sag(i, :), load(:size(links(b)%sag, &
+          2), b))
       end do
       if (links(b)%bends .and. has_forces(linkage%bodies(b), case)) call add_sag_under_forces( &
         linkage, links(b), b, pose, case, displacement(2, :, b))
@@ -267,8 +297,8 @@ contains
     type(load_case_t), intent(in) :: case
     real(wp), intent(inout) :: border(:)
 
-    real(wp) :: force(2), xi, bending(0:link%modes)
-    integer :: i
+    real(wp) :: force(2), xi, bending(1 - link%curves:link%modes)
+    integer :: c, i
 
     do i = 1, size(linkage%bodies(body)%forced)
       associate (at => linkage%bodies(body)%forced(i))
@@ -277,8 +307,10 @@ contains
         if (.not. link%bends) cycle
         xi = at%place(1)/link%length
         bending = work_on_bending(link, at%place, force)
-        border = border + force(1)*xi*(chords%along(2, :, body) - chords%along(1, :, body)) + &
-          bending(0)*chords%across(3, :, body)
+        border = border + force(1)*xi*(chords%along(2, :, body) - chords%along(1, :, body))
+        do c = 1, link%curves
+          border = border + bending(c - link%curves)*chords%across(2 + c, :, body)
+        end do
       end associate
     end do
   end subroutine add_place_forces
@@ -292,7 +324,7 @@ contains
     type(load_case_t), intent(in) :: case
     real(wp), intent(inout) :: across(:) !! (stations) [m]
 
-    real(wp) :: work(0:link%modes), row(link%bending_shapes%unknowns), force(2), &
+    real(wp) :: work(1 - link%curves:link%modes), row(link%bending_shapes%unknowns), force(2), &
       along(link%axial_shapes%unknowns)
     integer :: i, kept
 
@@ -313,13 +345,13 @@ contains
     end do
   end subroutine add_sag_under_forces
 
-  !> Work of a force at a place of a link that bends on the curve of its clamped end and its own
+  !> Work of a force at a place of a link that bends on the curves of its held ends and its own
   !! modes: `F_n v − F_x e θ` with the offset e of the place.
   pure function work_on_bending(link, place, force) result(work)
     type(link_modes_t), intent(in) :: link
     real(wp), intent(in) :: place(2) !! [m]
     real(wp), intent(in) :: force(2) !! along the link and across it [N]
-    real(wp) :: work(0:link%modes)
+    real(wp) :: work(1 - link%curves:link%modes)
 
     real(wp) :: row(link%bending_shapes%unknowns), xi
 
