@@ -67,15 +67,13 @@ contains
   end function needs_parts
 
   !> Divides a linkage into parts.
-  pure function new_elastic_linkage(linkage, beams, line_density, rotary_inertia) result(elastic)
+  pure function new_elastic_linkage(linkage, beams) result(elastic)
     type(linkage_t), intent(in) :: linkage        !! planned, with masses and loads
     type(beam_t), intent(in) :: beams(:)          !! (bodies) of links that bend
-    real(wp), intent(in) :: line_density(:)       !! (bodies) of links that bend [kg/m]
-    real(wp), intent(in) :: rotary_inertia(:)     !! (bodies) ρI of the same [kg m]
     type(elastic_linkage_t) :: elastic
 
     call add_points(linkage, elastic)
-    call add_parts(linkage, beams, line_density, rotary_inertia, elastic)
+    call add_parts(linkage, beams, elastic)
     call add_rotations(linkage, elastic)
   end function new_elastic_linkage
 
@@ -139,10 +137,9 @@ contains
   end function corners_of
 
   !> Rigid links, and the straight parts of all others.
-  pure subroutine add_parts(linkage, beams, line_density, rotary_inertia, elastic)
+  pure subroutine add_parts(linkage, beams, elastic)
     type(linkage_t), intent(in) :: linkage
     type(beam_t), intent(in) :: beams(:)
-    real(wp), intent(in) :: line_density(:), rotary_inertia(:)
     type(elastic_linkage_t), intent(inout) :: elastic
 
     integer, allocatable :: corners(:), cut(:)
@@ -190,8 +187,8 @@ contains
       end do
       do k = first, n
         elastic%beams(k) = beams(b)
-        elastic%linkage%bodies(k)%line_density = line_density(b)
-        elastic%linkage%bodies(k)%rotary_inertia = rotary_inertia(b)
+        elastic%linkage%bodies(k)%line_density = beams(b)%line_density
+        elastic%linkage%bodies(k)%rotary_inertia = beams(b)%rotary_inertia
       end do
       call share_lumps(linkage, b, first, n, elastic)
     end do

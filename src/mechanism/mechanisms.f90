@@ -85,8 +85,8 @@ contains
     ! Springs are the last: `spring_words` finds them there.
     call append_loads(springs_of(model, assembly%link, pins, mechanism%linkage), mechanism%linkage)
     mechanism%linkage%frictions = frictions_of(model, assembly%link, pins, mechanism%linkage)
-    if (size(mechanism%beams) > 0 .and. needs_parts(mechanism%linkage)) call add_parts(model, &
-      links, mechanism)
+    if (size(mechanism%beams) > 0 .and. needs_parts(mechanism%linkage)) mechanism%elastic = &
+      new_elastic_linkage(mechanism%linkage, mechanism%beams)
     mechanism%points = points_of(model, assembly%link, mechanism%linkage)
     mechanism%response_points = response_points_of(model, assembly%link, assembly%pins, &
       mechanism%linkage)
@@ -126,7 +126,7 @@ contains
         beam%out_of_plane_stiffness = material%youngs_modulus*out_of_plane_second_moment(section)
         if (material%has_ratio) beam%torsional_stiffness = material%youngs_modulus/ &
           (2.0_wp*(1.0_wp + material%poissons_ratio))*torsion_constant(section)
-        if (allocated(mechanism%linkage%bodies(i)%corners)) then
+        if (.not. links(i)%rigid) then
           beam%line_density = link_line_density(model, mechanism%links(i))
           beam%rotary_inertia = link_rotary_inertia(model, mechanism%links(i))
         end if
@@ -135,25 +135,6 @@ contains
       end associate
     end do
   end subroutine add_beams
-
-  !> Divides the links that bend into parts.
-  pure subroutine add_parts(model, links, mechanism)
-    type(model_t), intent(in) :: model
-    type(link_t), intent(in) :: links(:) !! (bodies)
-    type(mechanism_t), intent(inout) :: mechanism
-
-    real(wp), dimension(size(links)) :: density, rotary
-    integer :: i
-
-    density = 0.0_wp
-    rotary = 0.0_wp
-    do i = 1, size(links)
-      if (links(i)%rigid .or. .not. is_solid(links(i))) cycle
-      density(i) = link_line_density(model, mechanism%links(i))
-      rotary(i) = link_rotary_inertia(model, mechanism%links(i))
-    end do
-    mechanism%elastic = new_elastic_linkage(mechanism%linkage, mechanism%beams, density, rotary)
-  end subroutine add_parts
 
   !> Sets the mesh, and the elements on whose nodes lumped loads sit. No mesh if a bending link
   !! lacks one, or no link has one.

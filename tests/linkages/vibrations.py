@@ -527,7 +527,7 @@ class Structure:
         residual, tensions = held._residual(displacements, forces, loads)
         for beam, tension in zip(self.beams, tensions):
             beam.tension = tension if any(tension) else None
-        self.second_order = self._second_order(state, held._multipliers(residual))
+        self.second_order = self._second_order(state, held._multipliers(residual), displacements)
         return self
 
     def _loads(self, state):
@@ -642,7 +642,7 @@ class Structure:
         found = dense.solve(dense.factor(products), right) if rows else []
         return dict(zip(numbers, found))
 
-    def _second_order(self, state, multipliers):
+    def _second_order(self, state, multipliers, displacements):
         """(form, form, value): value times the product, both ways, is added to the stiffness."""
         terms, (gx, gy) = [], self.model.gravity
 
@@ -672,9 +672,10 @@ class Structure:
                 ax, ay = self._acceleration(state, ("body", link, along, offset))
                 total += mass * ((gx - ax) * rx + (gy - ay) * ry)
             terms.append((record["turn"], record["turn"], total / 2))
-        for _, _, load, line in self.springs:
+        for form, stiffness, load, line in self.springs:
             if line:
-                terms.append((line[0], line[0], self._pull(load, state) / (2 * line[1])))
+                yields = sum((factor * displacements[k] for k, factor in form.items()), ZERO)
+                terms.append((line[0], line[0], (self._pull(load, state) + stiffness * yields) / (2 * line[1])))
         return [term for term in terms if term[2]]
 
     # eigenvalues
