@@ -238,6 +238,8 @@ class Case:
             else:
                 pin = drawing.pick(drawing.places)
                 links = [link for link, pins in drawing.links.items() if pin in pins and link != drawing.driven_length]
+                if any(pin == welded for welded, _ in drawing.welds):
+                    continue
                 if pin in drawing.grounds and links:
                     at = drawing.pick(links)
                 elif len(links) > 1:
@@ -413,19 +415,23 @@ def main():
     scratch = options.scratch or tempfile.mkdtemp(prefix="vibrations")
     os.makedirs(scratch, exist_ok=True)
     jobs = [(seed, options.kind, options.program, scratch) for seed in range(options.seed, options.seed + options.count)]
-    total, reasons, refusals, skips = collections.Counter(), collections.Counter(), collections.Counter(), collections.Counter()
+    total, reasons, refusals, skips = (collections.Counter() for _ in range(4))
+    examples = {}
     with multiprocessing.Pool(max(1, options.jobs)) as pool:
         for result in pool.imap(examine, jobs):
             for line in result.lines:
                 print(line, flush=True)
             total.update({name: getattr(result, name) for name in ("frequencies", "rows", "failed", "violations")})
             reasons += result.reasons
-            refusals[result.refused and result.refused.split("error: ")[-1].split(" | ")[0]] += 1
+            refusal = result.refused and result.refused.split("error: ")[-1].split(" | ")[0]
+            refusals[refusal] += 1
             skips[result.skipped] += 1
+            for reason in list(result.reasons) + [refusal, result.skipped]:
+                examples.setdefault(reason, result.seed)
     refused, skipped = sum(refusals.values()) - refusals.pop(None, 0), sum(skips.values()) - skips.pop(None, 0)
     for title, counts in (("failed rows", reasons), ("refused", refusals), ("not drawn", skips)):
         for reason, count in counts.most_common(12):
-            print(f"# {count:5d} {title}: {reason}")
+            print(f"# {count:5d} {title}: {reason} (the first is linkage {examples[reason]})")
     wrong = total["violations"] + (0 if options.skip_refused else refused)
     print(f"{options.count} linkages, {skipped} not drawn, {refused} refused; {total['rows']} rows and {total['failed']} failed; "
           f"{total['frequencies']} frequencies, {total['violations']} violations")

@@ -135,7 +135,7 @@ class Structure:
         self.model, self.q, self.deck, self.held, self.order = model, q, model.deck, held, order
         self.count, self.names = 0, {}
         self.beams, self.masses, self.inertias, self.rows, self.springs = [], [], [], [], []
-        self.bodies, self.contacts, self.second_order = [], [], []
+        self.bodies, self.contacts, self.blocks, self.second_order = [], [], [], []
         self.turn_at = {}                      # (link, pin): rotation
         self.contact_of = {}                   # index of a slider: node on its guide
         for pin in self.deck.grounds:
@@ -323,7 +323,8 @@ class Structure:
         if slider["mass"]:
             self.masses.append((place, slider["mass"], ("pin", pin)))
         if slider["inertia"]:
-            self.inertias.append((turn if turn else self.turn(slider["link"], pin), slider["inertia"], slider["guide"]))
+            self.inertias.append((turn, slider["inertia"], slider["guide"]))
+            self.blocks.append((turn, slider["inertia"], slider["guide"]))
 
     def _hold(self, drive):
         if drive["free"] and not self.held:
@@ -672,6 +673,8 @@ class Structure:
                 ax, ay = self._acceleration(state, ("body", link, along, offset))
                 total += mass * ((gx - ax) * rx + (gy - ay) * ry)
             terms.append((record["turn"], record["turn"], total / 2))
+        for turn, inertia, link in self.blocks:    # centrifugal forces of a block's own parts turn with it
+            terms.append((turn, turn, inertia * state.v[self.model.bodies[link].angle]**2 / 2))
         for form, stiffness, load, line in self.springs:
             if line:
                 yields = sum((factor * displacements[k] for k, factor in form.items()), ZERO)
