@@ -69,6 +69,9 @@ class Chain(Drawing):
             tops.append(self.new_pin((round(foot[0] + dx, 4), round(foot[1] + dy, 4))))
             self.new_link(ground, tops[-1], keep_order=True)
             x += self.uniform(0.3, 0.8)
+        for one, other in zip(tops, tops[1:]):
+            if abs(math.sin(self.direction(one, other) - math.atan2(dy, dx))) < 0.25:
+                raise Retry                    # a change point is near
         self.angle = math.degrees(math.atan2(dy, dx))
         self.links["coupler"] = tops
         self.drives.append(("link1", [], ""))
