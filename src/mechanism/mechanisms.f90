@@ -9,12 +9,12 @@ module mechanisms
   use link_cards, only: has_own_mass, link_t
   use linkage_parts, only: assemble_linkage, assembly_t
   use linkages, only: is_dyad_linkage
-  use models, only: inertia_lumped, is_four_bar, link_line_density, model_t
+  use models, only: inertia_lumped, is_four_bar, model_t
   use name_index, only: name_index_t, new_name_index
   use pose_types, only: pins_of_body
   use process_parts, only: process_loads
   use response_parts, only: body_gauge_t, gauges_of, response_points_of
-  use shear, only: link_rotary_inertia, link_shear_stiffness
+  use shear, only: link_shear_stiffness
   use spring_parts, only: springs_of
   use structures, only: structure_t
   use text, only: string_t
@@ -123,10 +123,6 @@ contains
         beam%out_of_plane_stiffness = material%youngs_modulus*out_of_plane_second_moment(section)
         if (material%has_ratio) beam%torsional_stiffness = material%youngs_modulus/ &
           (2.0_wp*(1.0_wp + material%poissons_ratio))*torsion_constant(section)
-        if (allocated(mechanism%linkage%bodies(i)%corners)) then
-          beam%line_density = link_line_density(model, mechanism%links(i))
-          beam%rotary_inertia = link_rotary_inertia(model, mechanism%links(i))
-        end if
         if (.not. has_own_mass(links(i))) beam%polar_inertia = &
           material%density*(section%second_moment + out_of_plane_second_moment(section))
       end associate

@@ -6,13 +6,14 @@ module frequency_report
   use kinds, only: wp
   use links_report, only: shown_crank
   use load_notes, only: acceleration_note
+  use mechanisms, only: mechanism_t
   use models, only: effects_static, inertia_distributed, inertia_lumped, is_loaded, is_moving, &
     is_sprung, model_t, needs_loads, report_number, speed_in_table
   use report_cards, only: report_t
   use table_columns, only: cells, column_width, table_factor, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: integer_cell, name_cell
-  use text, only: append_string, string_t
+  use text, only: append_string, string_t, to_string
   use units, only: to_si, unit_t
   use value_lists, only: value_list_t, value_number
   use variant_results, only: variant_results_t
@@ -30,9 +31,21 @@ contains
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     notes = effects_notes(variant%model)
+    if (variant%found%sweep%free_motions > 0) call append_string(notes, &
+      free_motions_note(variant))
     call append_string(notes, &
       "error1, error2, ...: estimated relative errors of f1, f2, ...: of mesh and round-off")
   end subroutine frequency_notes
+
+  !> `free motions: 2 (frequency 0)`: so many lowest frequencies are zero; under loads they need not
+  !! be.
+  pure function free_motions_note(variant) result(note)
+    type(variant_results_t), intent(in) :: variant
+    character(len=:), allocatable :: note
+
+    note = "free motions: "//to_string(variant%found%sweep%free_motions)// &
+      trim(merge(" (held by loads alone)", " (frequency 0)        ", needs_loads(variant%model)))
+  end function free_motions_note
 
   !> Effects in the equations of the frequencies: axial forces of which loads, rotary inertia,
   !! shear.
@@ -126,12 +139,43 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with its mechanism
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
+    integer :: b
+
     notes = effects_notes(variant%model)
-    associate (pins => variant%mechanism%pin_names)
-      call append_string(notes, "shapes are normalised: phi' M phi = 1; s runs along each link "// &
-        "round the loop from "//pins(1)%text//" to "//pins(4)%text)
+    associate (mechanism => variant%mechanism)
+      if (mechanism%is_four_bar) then
+        call append_string(notes, "shapes are normalised: phi' M phi = 1; s runs along each "// &
+          "link round the loop from "//mechanism%pin_names(1)%text//" to "// &
+          mechanism%pin_names(4)%text)
+        return
+      end if
+      call append_string(notes, "shapes are normalised: phi' M phi = 1; s runs along the pins "// &
+        "of each link")
+      do b = 1, size(mechanism%names)
+        call append_string(notes, "s along link "//mechanism%names(b)%text//": "// &
+          way_along(mechanism, b))
+      end do
     end associate
   end subroutine shape_notes
+
+  !> `A - B - C`: the pins along a link.
+  pure function way_along(mechanism, body) result(words)
+    type(mechanism_t), intent(in) :: mechanism
+    integer, intent(in) :: body !! number
+    character(len=:), allocatable :: words
+
+    integer, allocatable :: pins(:)
+    integer :: i
+
+    associate (link => mechanism%linkage%bodies(body))
+      pins = [link%first_pin, link%last_pin]
+      if (allocated(link%corners)) pins = link%corners
+    end associate
+    words = mechanism%pin_names(pins(1))%text
+    do i = 2, size(pins)
+      words = words//" - "//mechanism%pin_names(pins(i))%text
+    end do
+  end function way_along
 
   !> Positions and speeds whose shapes are requested, in the order of the table.
   pure function drawn_rows(variant) result(list)
