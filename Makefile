@@ -21,7 +21,7 @@ unit_tests = $(if $(PFUNIT_DIR),pfunit,funit)/unit_tests
 
 ifndef kind
 # ---------------------------------------------------------------------------------------------- what a person types
-.PHONY: all debug quad thesis run figures animate check documents bench bench-pictures stress stress-responses stress-stability accuracies linkages loads references fuzz memory golden \
+.PHONY: all debug quad thesis run figures animate check documents bench bench-pictures stress stress-responses stress-stability accuracies linkages loads vibrations references fuzz memory golden \
         install setup clean help
 
 all: setup
@@ -137,6 +137,12 @@ loads: all
 	@python3 -B tests/linkages/random_loads.py $(SEED) $(LOADS) --program $(program)
 	@python3 -B tests/linkages/random_load_motions.py $(SEED) $(LOADS) --program $(program)
 
+# Decks with exact frequencies, and random linkages that vibrate against counts of eigenvalues, likewise.
+VIBRATIONS ?= 1000
+vibrations: all
+	@python3 -B tests/linkages/exact_frequencies.py --program $(program)
+	@python3 -B tests/linkages/random_vibrations.py $(SEED) $(VIBRATIONS) --program $(program)
+
 # Quadruple precision for every case of `make stress`: some minutes.
 references: all quad
 	@python3 -B tests/stress/make_references.py $(program) build/quad/flexmech
@@ -189,6 +195,7 @@ help:
 	@echo "make accuracies         random decks at several accuracies, each against the finest; FREQUENCIES=5000 SEED=7"
 	@echo "make linkages           known linkages, 300 random ones against an independent solver, and in motion; LINKAGES=5000 SEED=7"
 	@echo "make loads              1,000 random linkages with loads, springs and friction against it, and in motion; LOADS=100 SEED=7"
+	@echo "make vibrations         known frequencies of linkages, and those of 1,000 random ones; VIBRATIONS=100 SEED=7"
 	@echo "make references         regenerate the quadruple-precision values of make stress (hours)"
 	@echo "make quad               build build/quad/flexmech, the program in quadruple precision (slow)"
 	@echo "make golden CASE=NAME   regenerate tests/golden/NAME/ from inputs/NAME.deck"

@@ -25,6 +25,8 @@ module beam_mesh
     real(wp) :: torsional_stiffness = 0.0_wp    !! GJ [N m²]; 0: not known
     real(wp) :: polar_inertia = 0.0_wp          !! moment of inertia about the axis of the link per
                                                 !! length [kg m]
+    real(wp) :: line_density = 0.0_wp           !! mass per length of its parts [kg/m]
+    real(wp) :: rotary_inertia = 0.0_wp         !! ρI of their cross-sections [kg m]; 0: neglected
   end type beam_t
 
   !> Division of all bodies into elements, and the numbers of their unknowns.

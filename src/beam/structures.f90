@@ -2,6 +2,7 @@
 !! link clamped.
 module structures
   use beam_mesh, only: beam_mesh_t, beam_t, new_beam_mesh
+  use elastic_linkages, only: elastic_linkage_t
   use linkages, only: linkage_t
   implicit none (type, external)
   private
@@ -18,6 +19,8 @@ module structures
     integer, allocatable :: load_elements(:) !! (bodies) elements whose nodes carry the lumped mass
                                              !! in inertia loads; 0: distributed mass, and links
                                              !! without nodes
+    type(elastic_linkage_t), allocatable :: elastic !! the parts that vibrate; not allocated: binary
+                                             !! links and pins, each link is a part
   end type structure_t
 
 contains

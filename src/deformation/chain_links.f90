@@ -7,7 +7,7 @@ module chain_links
   use deformation_shapes, only: bending_unknowns, shear_scale
   use kinds, only: wp
   use legendre, only: gauss_rule, legendre_values, once_integrated, twice_integrated
-  use link_modes, only: end_rotation
+  use link_modes, only: curve_rotations
   use linkages, only: body_t
   use long_sums, only: long_dot
   implicit none (type, external)
@@ -71,7 +71,7 @@ contains
     integer, intent(in) :: axial_degree !! that of the axial displacement
     type(chain_t) :: link
 
-    real(wp) :: h
+    real(wp) :: h, rotation(2)
     integer :: j, coefficients
 
     h = body%length/elements
@@ -89,7 +89,9 @@ contains
     ! Curvatures of degree 0 and 1 and, between them in the numbering, a uniform shear strain.
     link%at_end = merge(3, 2, link%sheared)
     link%strains = axial_degree
-    link%end_rotation = end_rotation(body%length, beam%bending_stiffness, beam%shear_stiffness)
+    rotation = curve_rotations(body%length, beam%bending_stiffness, beam%shear_stiffness, &
+      [.true., .false.])
+    link%end_rotation = rotation(1)
     call fill_bending(link, beam, order, coefficients)
     allocate (link%stretch(coefficients, axial_degree))
     link%stretch = 0.0_wp

@@ -31,7 +31,7 @@ contains
     slopes%pin = 0.0_wp
     associate (driven => linkage%bodies(1), e => pose%direction(:, 1))
       if (driven%bends) then
-        slopes%pin(:, driven%last_pin, number(0)) = links(1)%end_rotation*driven%length*e
+        slopes%pin(:, driven%last_pin, number(0)) = links(1)%curve_rotation(1)*driven%length*e
         slopes%pin(:, driven%last_pin, number(1)) = links(1)%elongation*normal_to(e)
       end if
     end associate
@@ -48,7 +48,7 @@ contains
             slopes%pin(:, body%first_pin, j))
           slopes%across(2, j, b) = -h*chords%along(2, j, b) + dot_product(normal_to(e), &
             slopes%pin(:, body%last_pin, j))
-          slopes%across(3, j, b) = 0.0_wp
+          slopes%across(3:, j, b) = 0.0_wp
           slopes%along(1, j, b) = h*chords%across(1, j, b) + dot_product(e, &
             slopes%pin(:, body%first_pin, j))
           slopes%along(2, j, b) = h*chords%across(2, j, b) + dot_product(e, &

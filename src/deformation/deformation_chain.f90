@@ -70,7 +70,7 @@ contains
       chain%links(b) = new_chain(linkage%bodies(b), beams(b), elements(b), order(b), &
         axial_degree(b))
       if (.not. linkage%bodies(b)%bends) then
-        rigid_link = new_rigid_link(linkage%bodies(b), b == 1)
+        rigid_link = new_rigid_link(linkage%bodies(b))
         chain%rigid_mass(:, :, b) = rigid_link%rigid_mass
       end if
       chain%links(b)%first_bending = number

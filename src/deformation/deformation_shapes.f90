@@ -53,6 +53,8 @@ module deformation_shapes
                                                 !! element [√kg m]
     real(wp), allocatable :: start_slope(:)     !! (unknowns) θ at the link's first end; bending
                                                 !! only [rad/√J]
+    real(wp), allocatable :: end_slope(:)       !! (unknowns) θ at its last end; bending only
+                                                !! [rad/√J]
     real(wp), allocatable :: slope(:, :)        !! (Gauss points, unknowns) v' times √(Gauss
                                                 !! weight); bending only [√m/√J]
     integer, allocatable :: first_point(:)      !! (elements + 1) number of the first Gauss point of
@@ -169,7 +171,7 @@ contains
       sum(bending_unknowns(own + more, sheared)), rotary_inertia, ends)
     call number_unknowns(shapes, 0, own - 1, more, merge(2, 1, sheared), 0)
     if (sheared) shapes%shear_stiffness = shear_stiffness
-    allocate (shapes%start_slope(shapes%unknowns))
+    allocate (shapes%start_slope(shapes%unknowns), shapes%end_slope(shapes%unknowns))
     allocate (coefficient(0:maxval(own) + more), slope_coefficient(0:maxval(own) + more))
     call place_gauss_points(shapes, own + more + 1, cuts)
     allocate (shapes%slope(size(shapes%place), shapes%unknowns))
@@ -217,6 +219,7 @@ contains
     h = shapes%length/shapes%elements
     chord = (end_value + end_slope*h*(shapes%elements - shapes%last(e)))/shapes%length
     shapes%start_slope(column) = -chord
+    shapes%end_slope(column) = end_slope - chord
     do k = 1, shapes%elements
       line = -chord*h*[shapes%middle(k), 0.5_wp*shapes%part(k)]
       if (k > e) line = line + [end_value + end_slope*h*(shapes%middle(k) - shapes%last(e)), &

@@ -2,7 +2,7 @@
 !! it with motion across it as it turns.
 !!
 !! The displacement of a link, `d = e u + n v` with its directions e and n, is a sum of functions:
-!! those of its chord (1 − ξ and ξ across, the curve of a clamped end; 1 − ξ and ξ along; of a rigid
+!! those of its chord (1 − ξ and ξ across, the curves of held ends; 1 − ξ and ξ along; of a rigid
 !! link its motion along and across at the first pin and its rotation), then its own modes. With
 !! `e' = h n`, `n' = −h e` the acceleration per ω2² of a link whose functions have the amplitudes Q
 !! is `m Q'' + J (2 h Q' + h' Q) − h² m_t Q` as forces on the functions: the displacement is that of
@@ -18,9 +18,6 @@ module moving_integrals
 
   public :: moving_integrals_t, new_moving_integrals, chord_functions
 
-  !> Functions of the chord: of a link that bends, and of a rigid one.
-  integer, parameter :: chord_functions(2) = [5, 3]
-
   type :: moving_integrals_t
     integer :: chord = 0                  !! functions of the chord
     integer :: own = 0                    !! own modes, transverse, then axial
@@ -33,6 +30,14 @@ module moving_integrals
   end type moving_integrals_t
 
 contains
+
+  !> Number of functions of the chord of a link.
+  elemental function chord_functions(link) result(number)
+    type(link_modes_t), intent(in) :: link !! bends or is rigid
+    integer :: number
+
+    number = merge(4 + link%curves, 3, link%bends)
+  end function chord_functions
 
   !> The integrals of a link.
   pure function new_moving_integrals(body, link) result(integrals)
@@ -54,7 +59,7 @@ contains
 
     real(wp) :: mass, first(2)
 
-    integrals%chord = chord_functions(2)
+    integrals%chord = chord_functions(link)
     integrals%mass = link%rigid_mass
     mass = link%rigid_mass(1, 1)
     first = [link%rigid_mass(2, 3), -link%rigid_mass(1, 3)]
@@ -76,11 +81,12 @@ contains
 
     type(lump_arms_t) :: arms
     real(wp), allocatable :: v(:, :), u(:, :), spin(:, :), shape(:, :), shape_along(:, :)
-    integer :: kept, kept_along, all_functions, coefficients, rows, e, i, first, lumps, &
+    integer :: curves, kept, kept_along, all_functions, coefficients, rows, e, i, first, lumps, &
       turning, across_rows, along_rows, own_first, along_first
 
     associate (bending => link%bending_shapes, axial => link%axial_shapes)
-      integrals%chord = chord_functions(1)
+      integrals%chord = chord_functions(link)
+      curves = link%curves
       integrals%own = link%modes + link%axial_modes
       all_functions = integrals%chord + integrals%own
       kept = size(link%bending, 1)
@@ -105,10 +111,11 @@ contains
         associate (to => (e - 1)*coefficients, from => (e - 1)*across_rows, &
           from_along => (e - 1)*along_rows)
           v(to + 1:to + across_rows, 1:2) = bending%linear(from + 1:from + across_rows, :)
-          v(to + 1:to + across_rows, 3) = shape(from + 1:from + across_rows, 1)
+          v(to + 1:to + across_rows, 3:2 + curves) = shape(from + 1:from + across_rows, :curves)
           v(to + 1:to + across_rows, own_first:own_first + link%modes - 1) = &
-            shape(from + 1:from + across_rows, 2:)
-          u(to + 1:to + along_rows, 4:5) = axial%linear(from_along + 1:from_along + along_rows, :)
+            shape(from + 1:from + across_rows, curves + 1:)
+          u(to + 1:to + along_rows, curves + 3:curves + 4) = &
+            axial%linear(from_along + 1:from_along + along_rows, :)
           u(to + 1:to + along_rows, along_first:along_first + size(shape_along, 2) - 1) = &
             shape_along(from_along + 1:from_along + along_rows, :)
         end associate
@@ -121,15 +128,15 @@ contains
       call copy_across(spin(first - across_rows*bending%elements + 1:, :), first + lumps)
       call copy_across(v(rows + 1:, :), first)
       i = along_rows*axial%elements
-      u(rows + 1:, 4:5) = axial%linear(i + 1:, :)
+      u(rows + 1:, curves + 3:curves + 4) = axial%linear(i + 1:, :)
       u(rows + 1:, along_first:along_first + size(shape_along, 2) - 1) = shape_along(i + 1:, :)
       if (link%coupled) then
         arms = new_lump_arms(body, bending)
         u(rows + 1:, 1:2) = u(rows + 1:, 1:2) + arms%linear
         shape = matmul(arms%displacement(:, :kept), link%bending)
-        u(rows + 1:, 3) = u(rows + 1:, 3) + shape(:, 1)
+        u(rows + 1:, 3:2 + curves) = u(rows + 1:, 3:2 + curves) + shape(:, :curves)
         u(rows + 1:, own_first:own_first + link%modes - 1) = u(rows + 1:, &
-          own_first:own_first + link%modes - 1) + shape(:, 2:)
+          own_first:own_first + link%modes - 1) + shape(:, curves + 1:)
       end if
       integrals%mass = matmul(transpose(v), v) + matmul(transpose(u), u) + &
         matmul(transpose(spin), spin)
@@ -171,8 +178,8 @@ contains
       associate (from => link%bending_shapes%linear)
         rows_of(:, 1:2) = from(before + 1:before + n, :)
       end associate
-      rows_of(:, 3) = shape(before + 1:before + n, 1)
-      rows_of(:, own_first:own_first + link%modes - 1) = shape(before + 1:before + n, 2:)
+      rows_of(:, 3:2 + curves) = shape(before + 1:before + n, :curves)
+      rows_of(:, own_first:own_first + link%modes - 1) = shape(before + 1:before + n, curves + 1:)
     end subroutine copy_across
 
   end function integrals_of_beam

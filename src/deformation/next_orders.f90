@@ -25,11 +25,11 @@ module next_orders
     real(wp), allocatable :: mass(:, :)             !! (modes, unknowns of all pieces) with the own
                                                     !! modes [s²]
     real(wp), allocatable :: participation(:, :)    !! (functions, unknowns) with 1 − ξ, ξ and,
-                                                    !! across, the curve of the clamped end
+                                                    !! across, the curves of held ends
     real(wp), allocatable :: mass_square(:, :, :)   !! (number, number, pieces) between each other
                                                     !! [s²]
-    real(wp), allocatable :: geometric(:, :, :)     !! (2 + modes, unknowns, 1 ξ ξ²) `∫ b v' v'`;
-                                                    !! across only
+    real(wp), allocatable :: geometric(:, :, :)     !! (1 + curves + modes, unknowns, 1 ξ ξ²) `∫ b
+                                                    !! v' v'`; across only
     real(wp), allocatable :: geometric_square(:, :, :, :) !! (number, number, pieces, 1 ξ ξ²)
     !> Frobenius norms of the parts of `mass`, `participation` and `geometric` in each piece
     real(wp), allocatable :: mass_norm(:)           !! (pieces) [s²]
@@ -46,8 +46,8 @@ contains
     type(deformation_shapes_t), intent(in) :: shapes !! ordered by degree
     real(wp), intent(in) :: displacement(:, :)  !! (coefficients, modes) of the own modes
     real(wp), intent(in) :: functions(:, :)     !! (coefficients, functions) imposed by the pins
-    real(wp), intent(in) :: slope(:, :)         !! (Gauss points, 2 + modes) with the root of the
-                                                !! weight; no columns: axial
+    real(wp), intent(in) :: slope(:, :)         !! (Gauss points, 1 + curves + modes) with the root
+                                                !! of the weight; no columns: axial
     real(wp), intent(in) :: jumps(:)            !! ξ where the axial force jumps
     type(next_orders_t) :: next
 

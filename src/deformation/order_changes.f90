@@ -8,7 +8,7 @@
 module order_changes
   use bordered_matrix, only: layout_t
   use kinds, only: wp
-  use link_modes, only: clamp, link_modes_t, rigid
+  use link_modes, only: link_modes_t, rigid
   use next_orders, only: next_orders_t, smooth_functions
   use pin_displacements, only: chords_t
   use reduced_assembly, only: first_axial
@@ -78,8 +78,8 @@ contains
         along = across + link%next%pieces
         if (link%next%pieces > 0) then
           first = layout%first(b)
-          call find_changes_of_link(link%next, vectors, first, chords%across(:, :, b), &
-            chords%turn(:, b), force(:, b), link%square, force(:, b), link%geometric, &
+          call find_changes_of_link(link%next, vectors, first, chords%across(:2 + link%curves, :, &
+            b), chords%turn(:, b), force(:, b), link%square, force(:, b), link%geometric, &
             border_mass, lambda, change(across + 1:along, :))
         end if
         across = along + link%axial_next%pieces
@@ -111,18 +111,19 @@ contains
     real(wp), intent(in) :: force(:)          !! 1, ξ, ξ², jumps; none: static, or along [N]
     real(wp), intent(in), contiguous :: own_mass(:) !! (own modes) [s²]
     real(wp), intent(in) :: own_force(:)      !! on the own modes; none: static, or along [N]
-    real(wp), intent(in) :: own_geometric(:, :, :) !! (2 + own modes, 2 + own modes, force
+    real(wp), intent(in) :: own_geometric(:, :, :) !! (1 + curves + own modes, the same, force
                                                    !! functions) `∫ b v' v'`
     real(wp), intent(in) :: border_mass(:, :)
     real(wp), intent(in) :: lambda(:)         !! (modes) [1/s²]
     type(order_change_t), intent(inout) :: change(:, :) !! (pieces, modes) at first none
 
-    real(wp) :: residual(next%number), matrix(next%number, next%number), ends(3), &
-      slopes(2 + size(own_mass), merge(next%number, 0, size(force) > 0)), &
+    real(wp) :: residual(next%number), matrix(next%number, next%number), ends(size(moved, 1)), &
+      slopes(rigid + size(moved, 1) - 2 + size(own_mass), merge(next%number, 0, size(force) > 0)), &
       square(next%number, next%number), turn, slope_reach, ends_norm
     real(wp), allocatable :: stiffness(:)
-    integer :: e, i, k, low, high
+    integer :: e, i, k, low, high, own_row
 
+    own_row = rigid + size(moved, 1) - 2
     ends_norm = norm2(moved)
     square = 0.0_wp
     slope_reach = 0.0_wp
@@ -137,14 +138,15 @@ contains
             ends(k) = dot_product(moved(k, :), border)
           end do
           do k = 1, next%number
-            residual(k) = -lambda(i)*(dot_product(ends(:size(moved, 1)), next%participation(:, low &
+            residual(k) = -lambda(i)*(dot_product(ends, next%participation(:, low &
               + k - 1)) + dot_product(own, next%mass(:, low + k - 1)))
           end do
           if (size(force) > 0) then
             turn = dot_product(turned, border)
             do k = 1, next%number
-              residual(k) = residual(k) + turn*slopes(rigid, k) + ends(3)*slopes(clamp, k) + &
-                dot_product(own, slopes(clamp + 1:, k))
+              residual(k) = residual(k) + turn*slopes(rigid, k) + &
+                dot_product(ends(3:), slopes(rigid + 1:own_row, k)) + &
+                dot_product(own, slopes(own_row + 1:, k))
             end do
           end if
         end associate
@@ -191,17 +193,18 @@ contains
 
   !> Diagonal of `K + K_G` of the own modes of a link.
   pure function own_stiffness(geometric, force, modes) result(stiffness)
-    real(wp), intent(in) :: geometric(:, :, :) !! (2 + modes, 2 + modes, force functions)
+    real(wp), intent(in) :: geometric(:, :, :) !! (1 + curves + modes, the same, force functions)
     real(wp), intent(in) :: force(:)           !! [N]
     integer, intent(in) :: modes
     real(wp) :: stiffness(modes)
 
-    integer :: j, k
+    integer :: j, k, before
 
     stiffness = 1.0_wp
+    before = size(geometric, 1) - modes
     do j = 1, min(size(force), size(geometric, 3))
       do k = 1, modes
-        stiffness(k) = stiffness(k) + force(j)*geometric(clamp + k, clamp + k, j)
+        stiffness(k) = stiffness(k) + force(j)*geometric(before + k, before + k, j)
       end do
     end do
   end function own_stiffness
@@ -270,8 +273,8 @@ contains
   !> What the own modes of the link add by yielding, each by itself.
   pure subroutine add_echo(mass, slopes, square, stiffness, lambda, response, echo)
     real(wp), intent(in) :: mass(:, :)   !! (modes, unknowns) of a piece
-    real(wp), intent(in) :: slopes(:, :) !! (2 + modes, unknowns) its geometric stiffness; no rows:
-                                         !! none
+    real(wp), intent(in) :: slopes(:, :) !! (1 + curves + modes, unknowns) its geometric stiffness;
+                                         !! no columns: none
     real(wp), intent(in) :: square(:)    !! (modes) own inertia
     real(wp), intent(in) :: stiffness(:) !! (modes) diagonal of K + K_G
     real(wp), intent(in) :: lambda
@@ -279,8 +282,9 @@ contains
     real(wp), intent(inout) :: echo
 
     real(wp) :: acting
-    integer :: i, k
+    integer :: i, k, before
 
+    before = size(slopes, 1) - size(square)
     do k = 1, size(square)
       acting = 0.0_wp
       do i = 1, size(response)
@@ -288,7 +292,7 @@ contains
       end do
       if (size(slopes) > 0) then
         do i = 1, size(response)
-          acting = acting + slopes(clamp + k, i)*response(i)
+          acting = acting + slopes(before + k, i)*response(i)
         end do
       end if
       echo = echo + acting**2/max(abs(stiffness(k) - lambda*square(k)), least_stiffness)

@@ -13,21 +13,38 @@ module pin_displacements
   implicit none (type, external)
   private
 
-  public :: chords_t, find_chords, border_numbers, body_displacement
+  public :: chords_t, find_chords, held_ends, border_numbers, body_displacement
 
   !> Effect of the border unknowns on the chords of all links. The border unknowns are the clamped
   !! end's rotation, then the elongation of every link that bends.
   type :: chords_t
-    real(wp), allocatable :: across(:, :, :) !! (3, border, bodies) transverse displacement at the
-                                             !! first and last pin [m/√J], and 1 for the clamped
-                                             !! end's curve
+    real(wp), allocatable :: across(:, :, :) !! (2 + curves, border, bodies) transverse displacement
+                                             !! at the first and last pin [m/√J], and 1 for the
+                                             !! unknown of each curve of a held end; as many rows as
+                                             !! the link with most curves needs
     real(wp), allocatable :: along(:, :, :)  !! (2, border, bodies) axial displacement at the first
                                              !! and last pin [m/√J]
     real(wp), allocatable :: turn(:, :)      !! (border, bodies) rotation of the chord [rad/√J]
     real(wp), allocatable :: pin(:, :, :)    !! (2, pins, border) displacement of the pins [m/√J]
+    ! Of linkages that are more than binary links and pins:
+    real(wp), allocatable :: rotation(:, :)  !! (rotations, border) [rad/√J]
+    real(wp), allocatable :: weighted(:, :)  !! (rows, border) border deformations of parts and
+                                             !! springs, in units of a unit unknown; the border's
+                                             !! unknowns may turn from position to position, these
+                                             !! do not
+    integer :: free = 0                      !! the last border unknowns, which deform nothing
   end type chords_t
 
 contains
+
+  !> Ends of bodies that are held, all others being pinned: the first end of the driven body.
+  pure function held_ends(bodies) result(held)
+    integer, intent(in) :: bodies !! number; the first is driven
+    logical :: held(2, bodies)    !! first and last end
+
+    held = .false.
+    held(1, 1) = .true.
+  end function held_ends
 
   !> Numbers of the border unknowns; 0 where a rigid link has none.
   pure function border_numbers(linkage) result(number)
@@ -66,7 +83,7 @@ contains
     associate (driven => linkage%bodies(1))
       if (driven%bends) then
         chords%pin(:, driven%last_pin, number(0)) = &
-          -links(1)%end_rotation*driven%length*normal_to(pose%direction(:, 1))
+          -links(1)%curve_rotation(1)*driven%length*normal_to(pose%direction(:, 1))
         chords%pin(:, driven%last_pin, number(1)) = links(1)%elongation*pose%direction(:, 1)
       end if
     end associate
@@ -92,7 +109,7 @@ contains
         do j = 1, border
           chords%across(1, j, b) = dot_product(normal_to(axis), chords%pin(:, body%first_pin, j))
           chords%across(2, j, b) = dot_product(normal_to(axis), chords%pin(:, body%last_pin, j))
-          chords%across(3, j, b) = merge(1.0_wp, 0.0_wp, j == number(0) .and. links(b)%clamped)
+          chords%across(3, j, b) = merge(1.0_wp, 0.0_wp, j == number(0) .and. links(b)%curves > 0)
           chords%along(1, j, b) = dot_product(axis, chords%pin(:, body%first_pin, j))
           chords%along(2, j, b) = dot_product(axis, chords%pin(:, body%last_pin, j))
         end do

@@ -27,7 +27,8 @@ contains
     real(wp), intent(in) :: xi                 !! from 0 at the body's first pin to 1 at its last
     real(wp) :: displacement(3)                !! [m, m, rad]
 
-    real(wp) :: ends(3), axial_ends(2), own(0:links(body)%modes), across, along
+    real(wp) :: ends(size(chords%across, 1)), axial_ends(2), &
+      own(1 - links(body)%curves:links(body)%modes), across, along
     real(wp), allocatable :: unknown(:), row(:)
     integer :: first
     logical :: inside
@@ -42,17 +43,19 @@ contains
         border)]
       if (.not. link%bends) return
       first = layout%first(body)
-      own(0) = ends(3)
+      own(:0) = ends(3:2 + link%curves)
       own(1:) = vector(first:first + link%modes - 1)
       unknown = matmul(link%bending, own)
-      ! At its ends a link has no displacement of its own, and at the clamp no rotation: set
-      ! exactly, without rounding.
+      ! At its ends a link has no displacement of its own: set exactly, without rounding.
       inside = xi > 0.0_wp .and. xi < 1.0_wp
       row = displacement_row(link%bending_shapes, xi)
       if (inside) across = across + dot_product(row(:size(unknown)), unknown)
       row = rotation_row(link%bending_shapes, xi)
       displacement(3) = displacement(3) + dot_product(row(:size(unknown)), unknown)
-      if (link%clamped .and. xi <= 0.0_wp) displacement(3) = 0.0_wp
+      if (xi <= 0.0_wp .and. link%held(1)) displacement(3) = end_rotation(chords%turn(:, body), &
+        border, held_rotation(link, own(:0), 1))
+      if (xi >= 1.0_wp .and. link%held(2)) displacement(3) = end_rotation(chords%turn(:, body), &
+        border, held_rotation(link, own(:0), 2))
       if (link%coupled) then
         unknown = matmul(link%axial, own(1:))
       else
@@ -64,5 +67,33 @@ contains
       displacement(:2) = along*axis + across*normal_to(axis)
     end associate
   end function reduced_shape_point
+
+  !> Rotation of a held end against the chord: own modes do not turn it.
+  pure function held_rotation(link, curves, which) result(rotation)
+    type(link_modes_t), intent(in) :: link
+    real(wp), intent(in) :: curves(:) !! (curves) unknowns of the curves [√J]
+    integer, intent(in) :: which      !! 1: the first end, 2: the last
+    real(wp) :: rotation
+
+    rotation = link%curve_rotation(1)*curves(1)
+    if (link%curves == 1) return
+    rotation = 0.5_wp*(rotation + merge(1.0_wp, -1.0_wp, which == 1)*link%curve_rotation(2)* &
+      curves(2))
+  end function held_rotation
+
+  !> Rotation of a held end: 0 where it is clamped and the chord turns back by as much, without
+  !! rounding.
+  pure function end_rotation(turn, border, against_chord) result(rotation)
+    real(wp), intent(in) :: turn(:), border(:) !! (border) of the chord
+    real(wp), intent(in) :: against_chord      !! [rad]
+    real(wp) :: rotation
+
+    !> Rounding of the sum, in units of ε times its terms.
+    real(wp), parameter :: multiple = 8.0_wp
+
+    rotation = dot_product(turn, border) + against_chord
+    if (abs(rotation) <= multiple*epsilon(1.0_wp)*(dot_product(abs(turn), abs(border)) + &
+      abs(against_chord))) rotation = 0.0_wp
+  end function end_rotation
 
 end module reduced_shapes

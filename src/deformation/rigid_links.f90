@@ -14,26 +14,23 @@ contains
   !> A link without deformations of its own, with the mass of its body.
   !!
   !! Its axial force is a single number, the mean over its length, so its only force function is 1.
-  pure function new_rigid_link(body, clamped) result(link)
+  pure function new_rigid_link(body) result(link)
     type(body_t), intent(in) :: body !! length and masses
-    logical, intent(in) :: clamped   !! to its shaft at the first pin
     type(link_modes_t) :: link
 
     type(rigid_body_t) :: whole
 
     whole = rigid_body(body, 0)
     link%bends = .false.
-    link%clamped = clamped
     link%length = body%length
     link%rigid_mass = reshape([whole%mass, 0.0_wp, -whole%first_moment(2), &
       0.0_wp, whole%mass, whole%first_moment(1), &
       -whole%first_moment(2), whole%first_moment(1), whole%inertia], [3, 3])
-    allocate (link%square(0), link%participation(3, 0), link%axial_square(0), &
+    allocate (link%square(0), link%participation(2, 0), link%axial_square(0), &
       link%axial_participation(2, 0))
-    allocate (link%bending(0, 0:0), link%axial(0, 0), link%sag(stations, 2))
+    allocate (link%bending(0, 1:0), link%axial(0, 0), link%sag(stations, 2))
     link%sag = 0.0_wp
-    allocate (link%geometric(2, 2, 1))
-    link%geometric = 0.0_wp
+    allocate (link%geometric(1, 1, 1))
     link%geometric(rigid, rigid, 1) = body%length
   end function new_rigid_link
 

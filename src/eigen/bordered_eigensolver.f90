@@ -1,15 +1,20 @@
-!> The lowest modes of `(I + G) y = λ M y` for bordered matrices, each with an error bound, and a
-!! proof that none is missing.
+!> The lowest modes of `K y = λ M y` with `K = I + G` for bordered matrices, each with an error
+!! bound, and a proof that none is missing.
+!!
+!! Free motions, which have 0 in place of 1 in K, are modes as others under loads. Without loads
+!! they are the lowest modes, with an eigenvalue of exactly zero, and all others are orthogonal to
+!! them.
 module bordered_eigensolver
   use band_matrix, only: band_matrix_t, full_band
   use bordered_matrix, only: all_unknowns, bordered_matrix_t, bordered_times_vector, dense_form, &
     layout_t
-  use bordered_pencil, only: bordered_pencil_t
+  use bordered_pencil, only: bordered_pencil_t, elastic_square, stiffness_times_vector
   use bordered_solver, only: solve_shifted
   use completeness_proof, only: count_limit, count_margin, is_complete, rest_norm
   use dense_eigensolver, only: solve_dense
-  use eigenvalue_gaps, only: relative_gap
+  use eigenvalue_gaps, only: relative_error, relative_gap
   use errors, only: error_of_numerics, error_t, set_error
+  use free_motions, only: balanced_pencil, balancing_factors, eigenvalue_scale, rest_modes
   use kinds, only: wp
   use nodal_eigensolver, only: find_definite_shift
   use sorting, only: ascending_order
@@ -33,11 +38,13 @@ module bordered_eigensolver
                                                    !! than requested [1/s²]
     real(wp), allocatable :: vector(:, :)          !! (unknowns, modes) with yᵀMy = 1
     real(wp), allocatable :: mass_times(:, :)      !! (unknowns, modes) M y
-    real(wp), allocatable :: stiffness_times(:, :) !! (unknowns, modes) (I + G) y
+    real(wp), allocatable :: stiffness_times(:, :) !! (unknowns, modes) K y
     real(wp), allocatable :: error(:)              !! (modes) bound of the relative error of λ, for
                                                    !! these matrices
     integer, allocatable :: origin(:)              !! (modes) number of the mode of the start that
                                                    !! led to it
+    integer :: zeros = 0                           !! free motions at rest: the first modes, with λ
+                                                   !! and error exactly 0
     integer :: near = 0                            !! modes wanted, and those within the clearance
                                                    !! above them
     real(wp) :: clear = 0.0_wp                     !! relative distance above the last wanted mode
@@ -59,6 +66,10 @@ module bordered_eigensolver
 
   !> Relative distance of eigenvalues below which a mode is kept orthogonal to those found before.
   real(wp), parameter :: same_eigenvalue = 1.0e-3_wp
+
+  !> A start whose eigenvalue is below this share of those of modes that deform is that of a free
+  !! motion.
+  real(wp), parameter :: same_zero = 1.0e-8_wp
 
   !> Rounding error of an eigenvalue, in units of ε times the terms that cancel in its Rayleigh
   !! quotient.
@@ -106,7 +117,7 @@ contains
   !! modes wanted than unknowns; the dense eigenproblem fails; no start leads to enough modes that
   !! are proven to be complete.
   subroutine find_bordered_modes(pencil, wanted, accurate_vectors, start, found, error, clearance)
-    type(bordered_pencil_t), intent(in) :: pencil    !! G and M
+    type(bordered_pencil_t), intent(in) :: pencil    !! G and M; free motions in any unit
     integer, intent(in) :: wanted                    !! number of modes
     logical, intent(in) :: accurate_vectors          !! all digits in the vectors, too, not only in
                                                      !! the eigenvalues
@@ -118,38 +129,104 @@ contains
                                                      !! within which modes are to be found, too;
                                                      !! absent: 0
 
+    real(wp) :: distance
+
+    distance = 0.0_wp
+    if (present(clearance)) distance = clearance
+    if (pencil%layout%free == 0) then
+      call search(pencil, wanted, accurate_vectors, start, distance, 0.0_wp, found, error)
+    else
+      call search_balanced(pencil, wanted, accurate_vectors, start, distance, found, error)
+    end if
+  end subroutine find_bordered_modes
+
+  !> The search with free motions, in units in which they have about the mass of the others.
+  subroutine search_balanced(pencil, wanted, accurate_vectors, start, distance, found, error)
+    type(bordered_pencil_t), intent(in) :: pencil
+    integer, intent(in) :: wanted
+    logical, intent(in) :: accurate_vectors
+    type(start_t), intent(in) :: start
+    real(wp), intent(in) :: distance !! the clearance
+    type(bordered_modes_t), intent(inout) :: found
+    type(error_t), allocatable, intent(out) :: error
+
+    type(bordered_pencil_t) :: balanced
+    type(start_t) :: balanced_start
+    real(wp) :: factor(pencil%layout%free)
+    integer :: i, stiff
+
+    stiff = pencil%layout%border - pencil%layout%free
+    factor = balancing_factors(pencil)
+    balanced = balanced_pencil(pencil, factor)
+    balanced_start = start
+    do i = 1, size(factor)
+      associate (k => stiff + i)
+        if (start%modes > 0) balanced_start%direction(k, :) = factor(i)*start%direction(k, :)
+      end associate
+    end do
+    call search(balanced, wanted, accurate_vectors, balanced_start, distance, &
+      eigenvalue_scale(balanced), found, error)
+    if (allocated(error)) return
+    do i = 1, size(factor)
+      associate (k => stiff + i)
+        found%vector(k, :) = factor(i)*found%vector(k, :)
+        found%mass_times(k, :) = found%mass_times(k, :)/factor(i)
+        found%stiffness_times(k, :) = found%stiffness_times(k, :)/factor(i)
+      end associate
+    end do
+  end subroutine search_balanced
+
+  !> The search of `find_bordered_modes`.
+  subroutine search(pencil, wanted, accurate_vectors, start, distance, scale, found, error)
+    type(bordered_pencil_t), intent(in) :: pencil
+    integer, intent(in) :: wanted
+    logical, intent(in) :: accurate_vectors
+    type(start_t), intent(in) :: start
+    real(wp), intent(in) :: distance !! the clearance
+    real(wp), intent(in) :: scale    !! of eigenvalues, with free motions; else 0 [1/s²]
+    type(bordered_modes_t), intent(inout) :: found
+    type(error_t), allocatable, intent(out) :: error
+
     type(start_t) :: dense_start
     type(bordered_modes_t) :: proven_modes
     integer, allocatable :: leading(:)
     integer :: guards, attempt
-    real(wp) :: distance
     logical :: proven, known
 
     found%factorizations = 0
     found%full_solutions = 0
     found%reduced_solutions = 0
+    found%zeros = merge(0, pencil%layout%free, pencil%loaded)
     if (wanted > pencil%layout%unknowns) then
       call set_error(error, error_of_numerics, to_string(wanted)// &
         " modes are asked for, and there are only "//to_string(pencil%layout%unknowns)//" unknowns")
       return
     end if
-    distance = 0.0_wp
-    if (present(clearance)) distance = clearance
+    if (wanted <= found%zeros) then
+      ! Without loads nothing has an eigenvalue below zero, and nothing else that of zero.
+      call make_room(found, pencil%layout%unknowns, found%zeros)
+      call place_rest_modes(pencil, start%modes, found)
+      found%near = found%zeros
+      found%clear = huge(found%clear)
+      found%rest = 0.0_wp
+      return
+    end if
     known = .false.
     if (start%modes >= wanted) then
-      call improve_all(pencil, wanted, accurate_vectors, distance, start, found, proven)
+      call improve_all(pencil, wanted, accurate_vectors, distance, scale, start, found, proven)
       if (is_enough(found, proven, distance, proven_modes, known)) return
     end if
     leading = leading_unknowns(pencil, wanted)
-    guards = first_guards
+    guards = first_guards + pencil%layout%free
     attempt = 0
     ! Nearly all unknowns are as expensive as all of them.
     do while (4*size(leading) < 3*pencil%layout%unknowns)
-      call solve_dense_start(pencil, leading, wanted + guards, dense_start, found%factorizations, &
-        error)
+      call solve_dense_start(pencil, leading, wanted + guards, scale, dense_start, &
+        found%factorizations, error)
       if (.not. allocated(error)) then
         found%reduced_solutions = found%reduced_solutions + 1
-        call improve_all(pencil, wanted, accurate_vectors, distance, dense_start, found, proven)
+        call improve_all(pencil, wanted, accurate_vectors, distance, scale, dense_start, found, &
+          proven)
         if (is_enough(found, proven, distance, proven_modes, known)) return
       end if
       attempt = attempt + 1
@@ -158,14 +235,15 @@ contains
       guards = min(2*guards, most_guards)
     end do
     if (.not. (known .and. attempt >= most_attempts)) then
-      guards = first_guards
+      guards = first_guards + pencil%layout%free
       do
         guards = min(2*guards, pencil%layout%unknowns - wanted)
-        call solve_dense_start(pencil, all_unknowns(pencil%layout), wanted + guards, dense_start, &
-          found%factorizations, error)
+        call solve_dense_start(pencil, all_unknowns(pencil%layout), wanted + guards, scale, &
+          dense_start, found%factorizations, error)
         found%full_solutions = found%full_solutions + 1
         if (allocated(error)) exit
-        call improve_all(pencil, wanted, accurate_vectors, distance, dense_start, found, proven)
+        call improve_all(pencil, wanted, accurate_vectors, distance, scale, dense_start, found, &
+          proven)
         if (is_enough(found, proven, distance, proven_modes, known)) return
         attempt = attempt + 1
         if (known .and. attempt >= most_attempts) exit
@@ -190,7 +268,7 @@ contains
     else
       call set_error(error, error_of_numerics, "fewer modes were found than requested")
     end if
-  end subroutine find_bordered_modes
+  end subroutine search
 
   !> Whether the modes are proven and reach far enough; if they are proven only, they are kept.
   logical function is_enough(found, proven, distance, proven_modes, known)
@@ -217,26 +295,29 @@ contains
   end subroutine keep_counts
 
   !> Improves every mode of a start, sorts them, and checks that they are complete.
-  subroutine improve_all(pencil, wanted, accurate_vectors, distance, start, found, proven)
+  subroutine improve_all(pencil, wanted, accurate_vectors, distance, scale, start, found, proven)
     type(bordered_pencil_t), intent(in) :: pencil
     integer, intent(in) :: wanted
     logical, intent(in) :: accurate_vectors
     real(wp), intent(in) :: distance
+    real(wp), intent(in) :: scale
     type(start_t), intent(in) :: start
     type(bordered_modes_t), intent(inout) :: found
     logical, intent(out) :: proven
 
-    integer :: i, number, order(start%modes)
+    integer :: i, number, order(found%zeros + start%modes)
     logical :: converged
 
     proven = .false.
-    call make_room(found, pencil%layout%unknowns, start%modes)
-    number = 0
+    call make_room(found, pencil%layout%unknowns, size(order))
+    if (found%zeros > 0) call place_rest_modes(pencil, start%modes, found)
+    number = found%zeros
     do i = 1, start%modes
+      if (found%zeros > 0 .and. start%lambda(i) <= same_zero*scale) cycle
       found%lambda(number + 1) = start%lambda(i)
       found%mass_times(:, number + 1) = start%direction(:, i)
-      call improve(pencil, accurate_vectors, relative_gap(start%lambda, i), number + 1, found, &
-        converged)
+      call improve(pencil, accurate_vectors, relative_gap(start%lambda, i), scale, number + 1, &
+        found, converged)
       if (.not. converged) cycle
       ! Two starts may converge to one mode. If a requested mode is lost that way, the proof fails.
       if (overlaps(found%vector(:, number + 1), found%mass_times(:, :number))) cycle
@@ -248,11 +329,29 @@ contains
       return
     end if
     order(:number) = ascending_order(found%lambda(:number))
-    if (number < start%modes .or. any(order(2:number) < order(:number - 1))) then
+    if (number < size(order) .or. any(order(2:number) < order(:number - 1))) then
       call choose_modes(found, order(:number))
     end if
-    call check(pencil, wanted, distance, found, proven)
+    call check(pencil, wanted, distance, scale, found, proven)
   end subroutine improve_all
+
+  !> The free motions at rest, in the first columns.
+  pure subroutine place_rest_modes(pencil, starts, found)
+    type(bordered_pencil_t), intent(in) :: pencil !! without loads
+    integer, intent(in) :: starts                 !! modes of the start
+    type(bordered_modes_t), intent(inout) :: found
+
+    integer :: i
+
+    call rest_modes(pencil, found%vector(:, :found%zeros), found%mass_times(:, :found%zeros))
+    do i = 1, found%zeros
+      found%lambda(i) = 0.0_wp
+      found%error(i) = 0.0_wp
+      found%stiffness_times(:, i) = 0.0_wp
+      ! Where the start was that of a loaded linkage, it has no mode that leads to this one.
+      found%origin(i) = max(1, min(i, starts))
+    end do
+  end subroutine place_rest_modes
 
   !> Allocates arrays for this many modes; previous contents are lost.
   pure subroutine make_room(found, unknowns, modes)
@@ -304,18 +403,20 @@ contains
   !! relative gap, this is the relative error of λ.
   !!
   !! Modes with nearly the same eigenvalue in the columns before are projected out in every step.
-  !! Without that, rounding alone would decide to which of them the iteration converges.
-  pure subroutine improve(pencil, accurate_vector, gap_guess, mode, found, converged)
+  !! Without that, rounding alone would decide to which of them the iteration converges. So are the
+  !! free motions at rest.
+  pure subroutine improve(pencil, accurate_vector, gap_guess, least_size, mode, found, converged)
     type(bordered_pencil_t), intent(in) :: pencil
     logical, intent(in) :: accurate_vector
-    real(wp), intent(in) :: gap_guess !! relative distance of the nearest other eigenvalue
-    integer, intent(in) :: mode       !! number of its column
+    real(wp), intent(in) :: gap_guess  !! relative distance of the nearest other eigenvalue
+    real(wp), intent(in) :: least_size !! lesser eigenvalues are compared as if of this size [1/s²]
+    integer, intent(in) :: mode        !! number of its column
     type(bordered_modes_t), intent(inout) :: found
     logical, intent(out) :: converged
 
     !> Beyond this exponent, squares overflow or underflow.
     integer, parameter :: most_exponent = maxexponent(1.0_wp)/2 - digits(1.0_wp)
-    real(wp) :: residual, square, scale, error, previous, largest
+    real(wp) :: residual, square, scale, error, previous, largest, apart
     integer :: i, j, pass
 
     associate (lambda => found%lambda(mode), vector => found%vector(:, mode), &
@@ -333,20 +434,17 @@ contains
         if (.not. (largest > 0.0_wp .and. largest <= huge(largest))) exit
         if (abs(exponent(largest)) > most_exponent) vector = vector/largest
         vector = vector/sqrt(dot_product(vector, vector))
+        apart = same_eigenvalue*max(abs(lambda), least_size)
         ! Twice: the second pass restores the orthogonality that the first loses to rounding.
         do pass = 1, 2
           do j = 1, mode - 1
-            if (abs(found%lambda(j) - lambda) > same_eigenvalue*abs(lambda)) cycle
+            if (abs(found%lambda(j) - lambda) > apart .and. j > found%zeros) cycle
             vector = vector - dot_product(found%mass_times(:, j), vector)*found%vector(:, j)
             vector = vector/sqrt(dot_product(vector, vector))
           end do
         end do
         call bordered_times_vector(pencil%layout, pencil%mass, vector, mass_times)
-        stiffness_times = vector
-        if (pencil%loaded) then
-          call bordered_times_vector(pencil%layout, pencil%geometric, vector, stiffness_times)
-          stiffness_times = stiffness_times + vector
-        end if
+        call stiffness_times_vector(pencil, vector, stiffness_times)
         square = dot_product(vector, mass_times)
         if (.not. square > 0.0_wp) exit
         scale = 1.0_wp/sqrt(square)
@@ -381,6 +479,18 @@ contains
     real(wp), intent(in) :: vector(:), stiffness_times(:), lambda
     real(wp) :: cancellation
 
+    cancellation = mass_terms(mass, layout, vector) + &
+      (dot_product(vector, vector) + sum(abs(vector*(stiffness_times - vector))))/max(abs(lambda), &
+      tiny(lambda))
+  end function cancellation
+
+  !> A bound of the terms of `yᵀMy`.
+  pure function mass_terms(mass, layout, vector) result(terms)
+    type(bordered_matrix_t), intent(in) :: mass
+    type(layout_t), intent(in) :: layout
+    real(wp), intent(in) :: vector(:)
+    real(wp) :: terms
+
     real(wp) :: size_of
     integer :: i
 
@@ -391,22 +501,22 @@ contains
     do i = layout%border + 1, layout%unknowns
       size_of = size_of + abs(vector(i))*sqrt(mass%diagonal(i))
     end do
-    cancellation = size_of**2 + &
-      (dot_product(vector, vector) + sum(abs(vector*(stiffness_times - vector))))/max(abs(lambda), &
-      tiny(lambda))
-  end function cancellation
+    terms = size_of**2
+  end function mass_terms
 
   !> Proves that the modes are complete up to the last requested one, and bounds their errors.
   !!
   !! Let μ lie just above the last of k modes, Q be an orthonormal basis of their K y, and P the
   !! projection on its complement. If `‖P (μM − G) P‖ < 1`, then `K − μM` is positive on the
   !! complement, so no more than k modes lie below μ: those found. The norm is the Frobenius norm,
-  !! from sums of squares. Where it is not below 1, and for many modes, a Cholesky factorization may
-  !! still prove completeness.
-  subroutine check(pencil, wanted, distance, found, proven)
+  !! from sums of squares. Where it is not below 1, with free motions, and for many modes, a
+  !! Cholesky factorization may still prove completeness.
+  subroutine check(pencil, wanted, distance, scale, found, proven)
     type(bordered_pencil_t), intent(in) :: pencil
     integer, intent(in) :: wanted
     real(wp), intent(in) :: distance !! relative, above the last requested mode, to be cleared
+    real(wp), intent(in) :: scale    !! of eigenvalues, with free motions: what is added to that of
+                                     !! the last requested mode before distances are taken
     type(bordered_modes_t), intent(inout) :: found
     logical, intent(out) :: proven
 
@@ -415,7 +525,7 @@ contains
 
     proven = .false.
     found%rest = 0.0_wp
-    if (wanted <= most_by_norm) then
+    if (wanted <= most_by_norm .and. pencil%layout%free == 0) then
       rest = huge(1.0_wp)
       do i = wanted, size(rest)
         rest(i) = rest_norm(pencil, count_limit(found%lambda(i)), &
@@ -442,7 +552,8 @@ contains
       end do
     end if
     if (.not. proven) return
-    do i = 1, kept
+    if (pencil%layout%free > 0) call bound_errors(pencil, wanted, margin, scale, kept, found)
+    do i = merge(1, kept + 1, pencil%layout%free == 0), kept
       found%error(i) = found%error(i)/true_gap(found%lambda, i, wanted, margin) + &
         rounding*epsilon(1.0_wp)*cancellation(pencil%mass, pencil%layout, found%vector(:, i), &
         found%stiffness_times(:, i), found%lambda(i))
@@ -462,7 +573,7 @@ contains
       real(wp) :: limit
       logical :: is_clear
 
-      limit = found%lambda(wanted) + reach*abs(found%lambda(wanted))
+      limit = found%lambda(wanted) + reach*(abs(found%lambda(wanted)) + scale)
       below = count(found%lambda < limit)
       call is_complete(pencil, limit, found%lambda(:below), found%mass_times(:, :below), is_clear)
       found%factorizations = found%factorizations + 1
@@ -474,6 +585,58 @@ contains
     end subroutine clear_up_to
 
   end subroutine check
+
+  !> Error bounds with free motions, whose eigenvalues may be of any size and sign.
+  !!
+  !! With a shift σ that makes `B = K + σM` positive definite, and θ = 1/(λ + σ), the modes are
+  !! those of `M y = θ B y`. A Rayleigh quotient with the residual `r = K y − λ M y` differs from
+  !! the nearest eigenvalue by `rᵀ B⁻¹ r` times `(λ_j + σ)/|λ_j − λ|` at most, with the next
+  !! eigenvalue λ_j (Kato and Temple). To this the rounding of the terms of the quotient is added.
+  subroutine bound_errors(pencil, wanted, margin, scale, kept, found)
+    type(bordered_pencil_t), intent(in) :: pencil
+    integer, intent(in) :: wanted
+    real(wp), intent(in) :: margin !! of `check`
+    real(wp), intent(in) :: scale  !! of eigenvalues [1/s²]
+    integer, intent(in) :: kept    !! modes that are complete
+    type(bordered_modes_t), intent(inout) :: found
+
+    type(bordered_matrix_t) :: magnitude
+    real(wp), dimension(pencil%layout%unknowns) :: residual, solution, products
+    real(wp) :: shift, terms, beyond, distance
+    integer :: i, j
+
+    shift = scale + 2.0_wp*max(0.0_wp, -found%lambda(1))
+    beyond = margin*(abs(found%lambda(wanted)) + scale)
+    if (pencil%loaded) then
+      magnitude = pencil%geometric
+      magnitude%border = abs(magnitude%border)
+      magnitude%coupling = abs(magnitude%coupling)
+      magnitude%block = abs(magnitude%block)
+    end if
+    do i = found%zeros + 1, kept
+      associate (lambda => found%lambda(i), y => found%vector(:, i))
+        distance = 1.0_wp
+        do j = 1, size(found%lambda)
+          if (j == i) cycle
+          distance = min(distance, abs(found%lambda(j) - lambda)/(max(abs(found%lambda(j)), &
+            abs(lambda)) + shift))
+        end do
+        ! The next mode may not be known.
+        if (i >= wanted) distance = min(distance, beyond/(abs(lambda) + beyond + shift))
+        residual = found%stiffness_times(:, i) - lambda*found%mass_times(:, i)
+        call solve_shifted(pencil, -shift, residual, solution)
+        found%factorizations = found%factorizations + 1
+        terms = abs(lambda)*mass_terms(pencil%mass, pencil%layout, y) + &
+          elastic_square(pencil%layout, y)
+        if (pencil%loaded) then
+          call bordered_times_vector(pencil%layout, magnitude, abs(y), products)
+          terms = terms + dot_product(abs(y), products)
+        end if
+        found%error(i) = relative_error(max(0.0_wp, dot_product(residual, solution))/ &
+          max(distance, epsilon(1.0_wp)) + rounding*epsilon(1.0_wp)*terms, lambda)
+      end associate
+    end do
+  end subroutine bound_errors
 
   !> Relative distance of an eigenvalue to the nearest other one. From the last wanted mode on, the
   !! next mode may not be known; the proof then limits how near it can be.
@@ -488,10 +651,11 @@ contains
   end function true_gap
 
   !> Start from the dense eigenproblem of some unknowns, with the others fixed at zero.
-  subroutine solve_dense_start(pencil, chosen, modes, start, factorizations, error)
+  subroutine solve_dense_start(pencil, chosen, modes, scale, start, factorizations, error)
     type(bordered_pencil_t), intent(in) :: pencil
-    integer, intent(in) :: chosen(:) !! numbers of unknowns
+    integer, intent(in) :: chosen(:) !! numbers of unknowns; all free motions
     integer, intent(in) :: modes
+    real(wp), intent(in) :: scale    !! of eigenvalues, with free motions [1/s²]
     type(start_t), intent(out) :: start
     integer, intent(inout) :: factorizations !! counter
     type(error_t), allocatable, intent(out) :: error
@@ -511,11 +675,16 @@ contains
     dense = 0.0_wp
     if (pencil%loaded) dense = dense_form(pencil%layout, pencil%geometric, chosen)
     do i = 1, size(chosen)
+      if (is_free(pencil%layout, chosen(i))) cycle
       dense(i, i) = dense(i, i) + 1.0_wp
     end do
     k = full_band(dense)
     shift = 0.0_wp
-    if (pencil%loaded) call find_definite_shift(k, m, shift, factorizations)
+    if (pencil%layout%free > 0) then
+      call find_definite_shift(k, m, shift, factorizations, scale)
+    else if (pencil%loaded) then
+      call find_definite_shift(k, m, shift, factorizations)
+    end if
     ! Quotients of the diagonals approximate the eigenvalues, and so the size of the last one
     ! wanted.
     diagonal = m%entry(1, :)/(k%entry(1, :) + shift*m%entry(1, :))
@@ -532,6 +701,14 @@ contains
       call bordered_times_vector(pencil%layout, pencil%mass, full, start%direction(:, i))
     end do
   end subroutine solve_dense_start
+
+  !> Whether an unknown is a free motion.
+  pure logical function is_free(layout, unknown)
+    type(layout_t), intent(in) :: layout
+    integer, intent(in) :: unknown
+
+    is_free = unknown > layout%border - layout%free .and. unknown <= layout%border
+  end function is_free
 
   !> The border and the first own modes of every link: a cheap basis that gives good starts for the
   !! lowest modes. Where that is more than enough, only the softest of them.

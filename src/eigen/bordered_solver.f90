@@ -1,5 +1,5 @@
 !> Solves `(K − μ M) x = b` with the stiffness `K = I + G` and bordered matrices G and M: the step
-!! of every inverse iteration.
+!! of every inverse iteration. Free motions have 0 in place of 1 in I.
 module bordered_solver
   use bordered_pencil, only: bordered_pencil_t
   use kinds, only: fineness, wp
@@ -29,7 +29,7 @@ contains
         geometric => pencil%geometric, loaded => pencil%loaded)
       border(:n, :) = -shift*mass%border
       if (loaded) border(:n, :) = border(:n, :) + geometric%border
-      do i = 1, n
+      do i = 1, n - layout%free
         border(i, i) = border(i, i) + 1.0_wp
       end do
       border(n + 1, :) = right_side(:n)

@@ -32,7 +32,7 @@ contains
   end function count_limit
 
   !> Frobenius norm of `P E P`, where `E = μM − G` and P projects on the complement of the given
-  !! directions.
+  !! directions. It proves nothing where there are free motions, for which K is not near I.
   !!
   !! `‖P E P‖² = ‖E‖² − 2 ‖E Q‖² + ‖Qᵀ E Q‖²` for an orthonormal basis Q of these directions.
   pure function rest_norm(pencil, limit, directions) result(norm)
@@ -175,7 +175,7 @@ contains
 
     !> Share of the unit diagonal that must be left.
     real(wp), parameter :: least = 0.5_wp
-    real(wp) :: left(maxval(pencil%layout%size))
+    real(wp) :: left(maxval(pencil%layout%size)), single
     real(wp), dimension(maxval(pencil%layout%size)) :: others, with_this
     integer :: b, i, k, m, first
 
@@ -204,8 +204,8 @@ contains
         end do
       end do
       do k = layout%border + sum(layout%size) + 1, layout%unknowns
-        left(1) = 1.0_wp - max(0.0_wp, limit*pencil%mass%diagonal(k))
-        if (left(1) >= least) dominance(k) = left(1) - 4.0_wp*epsilon(1.0_wp)
+        single = 1.0_wp - max(0.0_wp, limit*pencil%mass%diagonal(k))
+        if (single >= least) dominance(k) = single - 4.0_wp*epsilon(1.0_wp)
       end do
     end associate
   end subroutine find_tail
@@ -236,6 +236,7 @@ contains
       ! Magnitudes of all terms of a diagonal entry: rounding is proportional to them, in an entry
       ! (i, j) to the root of those of i times those of j. Where G has no such bound, to its rows.
       terms = 1.0_wp
+      terms(layout%border - layout%free + 1:layout%border) = 0.0_wp
       do k = 1, layout%border
         dense(:layout%border, k) = -limit*mass%border(:, k)
         terms(k) = terms(k) + abs(limit*mass%border(k, k))
@@ -244,7 +245,7 @@ contains
           terms(k) = terms(k) + sum(abs(geometric%border(:, k))) + sum(abs(geometric%coupling(k, &
             layout%border + 1:)))
         end if
-        dense(k, k) = dense(k, k) + 1.0_wp
+        if (k <= layout%border - layout%free) dense(k, k) = dense(k, k) + 1.0_wp
       end do
       do b = 1, size(layout%size)
         first = layout%first(b) - 1

@@ -1,10 +1,10 @@
-!> Distances between eigenvalues.
+!> Distances between eigenvalues, and of eigenvalues from their true values.
 module eigenvalue_gaps
   use kinds, only: wp
   implicit none (type, external)
   private
 
-  public :: relative_gap
+  public :: relative_gap, relative_error
 
 contains
 
@@ -23,5 +23,16 @@ contains
       gap = min(gap, abs(lambda(j) - lambda(i))/max(abs(lambda(i)), abs(lambda(j)), tiny(gap)))
     end do
   end function relative_gap
+
+  !> An error relative to its eigenvalue; at most 1e30, where no digit of the eigenvalue is left.
+  elemental function relative_error(absolute, lambda) result(error)
+    real(wp), intent(in) :: absolute !! error of the eigenvalue, not negative [1/s²]
+    real(wp), intent(in) :: lambda   !! [1/s²]
+    real(wp) :: error                !! [-]
+
+    real(wp), parameter :: most = 1.0e30_wp
+
+    error = absolute/max(abs(lambda), absolute/most, tiny(lambda))
+  end function relative_error
 
 end module eigenvalue_gaps

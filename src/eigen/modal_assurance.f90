@@ -23,21 +23,32 @@ contains
 
   !> Takes the prints of the first modes. If too little of a mode is kept (links that buckle many
   !! times over) its print is zero: it resembles no other mode.
-  pure function new_mode_prints(layout, found, modes) result(prints)
+  pure function new_mode_prints(layout, found, modes, border) result(prints)
     type(layout_t), intent(in) :: layout        !! of the unknowns
     type(bordered_modes_t), intent(in) :: found !! at least these modes
     integer, intent(in) :: modes                !! how many
+    real(wp), intent(in), optional :: border(:, :) !! (components, border) with orthonormal columns:
+                                                !! what is kept of the border's unknowns; absent:
+                                                !! these themselves
     type(mode_prints_t) :: prints
 
     real(wp) :: kept
-    integer :: i, first, slot
+    integer :: i, first, slot, components
 
-    allocate (prints%vector(layout%border + size(layout%size)*across_kept(modes) + &
+    components = layout%border
+    if (present(border)) components = size(border, 1)
+    allocate (prints%vector(components + size(layout%size)*across_kept(modes) + &
       size(layout%group)*modes, modes))
     prints%vector = 0.0_wp
     prints%mass_times = prints%vector
     slot = 0
-    call keep(found, 1, layout%border, layout%border, slot, prints)
+    if (present(border)) then
+      prints%vector(:components, :) = matmul(border, found%vector(:layout%border, :modes))
+      prints%mass_times(:components, :) = matmul(border, found%mass_times(:layout%border, :modes))
+      slot = components
+    else
+      call keep(found, 1, layout%border, layout%border, slot, prints)
+    end if
     do i = 1, size(layout%size)
       call keep(found, layout%first(i), min(layout%size(i), across_kept(modes)), &
         across_kept(modes), slot, prints)

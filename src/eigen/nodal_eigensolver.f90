@@ -95,23 +95,27 @@ contains
   end subroutine find_modes
 
   !> A shift σ for which `K + σM` is definite: four times the first of σ0, 4σ0, 16σ0, … that makes
-  !! it so; 0 if K is definite.
-  pure subroutine find_definite_shift(stiffness, mass, shift, factorizations)
+  !! it so; 0 if K is definite and no least shift is given.
+  pure subroutine find_definite_shift(stiffness, mass, shift, factorizations, least)
     type(band_matrix_t), intent(in) :: stiffness !! K
     type(band_matrix_t), intent(in) :: mass      !! M
     real(wp), intent(out) :: shift               !! σ [1/s²]
     integer, intent(inout) :: factorizations     !! counter, raised by those made here
+    real(wp), intent(in), optional :: least      !! of σ0, for a K that may be singular [1/s²]
 
     real(wp), parameter :: small = 1.0e-8_wp
 
     shift = 0.0_wp
-    factorizations = factorizations + 1
-    if (count_below(stiffness, mass, 0.0_wp) == 0) return
+    if (.not. present(least)) then
+      factorizations = factorizations + 1
+      if (count_below(stiffness, mass, 0.0_wp) == 0) return
+    end if
     ! A diagonal entry may vanish by chance; the largest entry of the matrix does not.
     shift = max(small*minval(abs(stiffness%entry(1, :))/mass%entry(1, :)), &
       small**2*maxval(abs(stiffness%entry))/maxval(mass%entry(1, :)))
     ! No lesser shift makes the diagonal positive.
     shift = max(shift, maxval(-stiffness%entry(1, :)/mass%entry(1, :)))
+    if (present(least)) shift = max(shift, least)
     do
       factorizations = factorizations + 1
       ! If rounding has made M indefinite, there is no such shift: factorizing K + σM then fails.

@@ -38,7 +38,8 @@ module applied_load_types
   !! resistance to the motion of its place or body.
   type :: applied_load_t
     integer :: kind = applies_force       !! one of the applies_… constants
-    type(load_place_t) :: at(2)           !! of a force the first; of a line both ends
+    type(load_place_t) :: at(2)           !! of a force the first; of a line both ends; of two
+                                          !! bodies the first: the pin where they turn
     integer :: body(2) = 0                !! on which a couple acts, the first; of two bodies the
                                           !! second turns against the first; 0: the ground
     logical :: is_carried = .false.       !! the force turns with its body

@@ -75,13 +75,17 @@ module linkages
     real(wp) :: rotary_inertia = 0.0_wp   !! ρI of its cross-sections per length [kg m];
                                           !! 0: neglected
     logical :: bends = .true.             !! as a beam; else rigid
+    integer, allocatable :: corners(:)    !! pins in their order along the axis of one that bends
+                                          !! and is no straight way from its first to its last pin:
+                                          !! straight from each to the next, which are welded there;
+                                          !! of a closed frame the last is the first. Not allocated:
+                                          !! that way, or a rigid body
     type(lump_t), allocatable :: lumps(:) !! masses fixed to it
+    integer :: own_lumps = 0              !! how many of them, the first, are the link itself: none
+                                          !! of a uniform link, one of a link with a mass of its
+                                          !! own, else one per segment
     type(body_pin_t), allocatable :: further(:) !! pins beside its first and its last
     type(forced_place_t), allocatable :: forced(:) !! where forces act on it; not allocated: none
-    integer, allocatable :: corners(:)    !! of a link that bends and has more than two pins: these
-                                          !! in order along it, each two the ends of a straight
-                                          !! part; of a closed frame the last is the first. Not
-                                          !! allocated: straight from its first pin to its last
   end type body_t
 
   !> A pin that slides along a straight line: fixed, or of a body.
@@ -115,7 +119,8 @@ module linkages
     real(wp) :: ratio = 1.0_wp        !! to the first drive's [-], or between angle and length
                                       !! [m/deg], [deg/m]
     real(wp) :: phase = 0.0_wp        !! [deg] or [m]
-    logical :: is_free = .false.      !! it gives the position, but does not hold it in vibration
+    logical :: is_free = .false.      !! its coordinate is given, but nothing holds it there when
+                                      !! the linkage vibrates
   end type drive_t
 
   !> Rough places of pins.

@@ -13,7 +13,7 @@ module attached_parts
   implicit none (type, external)
   private
 
-  public :: body_point_t, attach_masses, own_lumps_of, apply_loads, append_loads, points_of, &
+  public :: body_point_t, attach_masses, apply_loads, append_loads, points_of, &
     place_on_body, place_on_card, runs_against
 
   !> A point fixed to a body.
@@ -50,6 +50,7 @@ contains
         else
           call attach_segments(model, links(i), body)
         end if
+        body%own_lumps = size(body%lumps)
         do k = 1, size(model%masses)
           if (model%masses(k)%link /= links(i)) cycle
           call append_lump(body, lump_t(model%masses(k)%mass, place_on_body(body, &
@@ -73,22 +74,6 @@ contains
     end do
     where (linkage%is_ground) linkage%pin_mass = 0.0_wp
   end subroutine attach_masses
-
-  !> How many lumps of every body are the link itself, before MASS cards and blocks: none of a
-  !! uniform link, one of a link with a mass of its own, else one per segment.
-  pure function own_lumps_of(model, links, linkage) result(counts)
-    type(model_t), intent(in) :: model     !! without errors
-    integer, intent(in) :: links(:)        !! (bodies) numbers of their links in the model
-    type(linkage_t), intent(in) :: linkage !! with its masses
-    integer :: counts(size(links))
-
-    integer :: b
-
-    do b = 1, size(links)
-      counts(b) = size(linkage%bodies(b)%lumps) - count(model%masses%link == links(b)) - &
-        count(model%sliders%link == links(b) .and. model%sliders%inertia > 0.0_wp)
-    end do
-  end function own_lumps_of
 
   !> Whether a body is the straight way between the two pins of its card.
   pure function is_uniform(link, body) result(is)

@@ -445,13 +445,13 @@ contains
     do i = 1, size(model%drives)
       associate (card => model%drives(i), drive => linkage%drives(i))
         drive%kind = drives_angle
+        drive%is_free = card%is_free
         if (card%kind == drive_slider) drive%kind = drives_slider
         if (card%kind == drive_ram) drive%kind = drives_length
         if (card%link > 0) drive%body = findloc(link, card%link, dim=1)
         if (card%against_link > 0 .and. drive%kind == drives_angle) drive%against = findloc(link, &
           card%against_link, dim=1)
         if (drive%kind == drives_slider) drive%slider = card%slider
-        drive%is_free = card%is_free
         if (i == 1) cycle
         unit = 1.0_wp
         if (.not. moves_along(card%kind)) unit = 1.0_wp/degree

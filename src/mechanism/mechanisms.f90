@@ -4,17 +4,18 @@ module mechanisms
   use attached_parts, only: append_loads, apply_loads, attach_masses, body_point_t, points_of, &
     runs_against
   use beam_mesh, only: new_beam_mesh
+  use elastic_linkages, only: needs_parts, new_elastic_linkage
   use friction_parts, only: frictions_of
   use kinds, only: wp
   use link_cards, only: has_own_mass, link_t
   use linkage_parts, only: assemble_linkage, assembly_t
   use linkages, only: is_dyad_linkage
-  use models, only: inertia_lumped, is_four_bar, model_t
+  use models, only: inertia_lumped, is_four_bar, link_line_density, model_t
   use name_index, only: name_index_t, new_name_index
   use pose_types, only: pins_of_body
   use process_parts, only: process_loads
   use response_parts, only: body_gauge_t, gauges_of, response_points_of
-  use shear, only: link_shear_stiffness
+  use shear, only: link_rotary_inertia, link_shear_stiffness
   use spring_parts, only: springs_of
   use structures, only: structure_t
   use text, only: string_t
@@ -84,6 +85,8 @@ contains
     ! Springs are the last: `spring_words` finds them there.
     call append_loads(springs_of(model, assembly%link, pins, mechanism%linkage), mechanism%linkage)
     mechanism%linkage%frictions = frictions_of(model, assembly%link, pins, mechanism%linkage)
+    if (size(mechanism%beams) > 0 .and. needs_parts(mechanism%linkage)) mechanism%elastic = &
+      new_elastic_linkage(mechanism%linkage, mechanism%beams)
     mechanism%points = points_of(model, assembly%link, mechanism%linkage)
     mechanism%response_points = response_points_of(model, assembly%link, assembly%pins, &
       mechanism%linkage)
@@ -123,6 +126,10 @@ contains
         beam%out_of_plane_stiffness = material%youngs_modulus*out_of_plane_second_moment(section)
         if (material%has_ratio) beam%torsional_stiffness = material%youngs_modulus/ &
           (2.0_wp*(1.0_wp + material%poissons_ratio))*torsion_constant(section)
+        if (.not. links(i)%rigid) then
+          beam%line_density = link_line_density(model, mechanism%links(i))
+          beam%rotary_inertia = link_rotary_inertia(model, mechanism%links(i))
+        end if
         if (.not. has_own_mass(links(i))) beam%polar_inertia = &
           material%density*(section%second_moment + out_of_plane_second_moment(section))
       end associate

@@ -42,6 +42,7 @@ contains
           else
             load%body(2) = findloc(links, spring%link(1), dim=1)
           end if
+          load%at(1)%pin = find_name(pins, spring%ends(1)%text)
         else
           load%kind = applies_along
           do k = 1, 2

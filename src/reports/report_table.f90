@@ -7,7 +7,6 @@
 !! on several threads at a time; therefore nothing that `add_item_rows` calls has a result of
 !! deferred length, for which gfortran 12 has one place for all threads.
 module report_table
-  use attached_parts, only: own_lumps_of
   use balance_report, only: add_balance, add_harmonics, add_hung_balance, append_balanced_notes, &
     append_harmonics_notes, append_hung_notes, balance_notes, harmonics_notes, harmonics_words
   use balance_requests, only: balance_request_of
@@ -332,9 +331,7 @@ contains
         if (variant%mechanism%is_four_bar) call find_kinematics(linkage, found%positions, threads, &
           found%kinematics)
       case ("inertia")
-        call find_inertia_loads(linkage, elements, &
-          own_lumps_of(model, variant%mechanism%links, linkage), found%positions, threads, &
-          found%inertia)
+        call find_inertia_loads(linkage, elements, found%positions, threads, found%inertia)
       case ("points")
         call find_points(linkage, points%body, &
           reshape([(points(i)%place, i=1, size(points))], [2, size(points)]), found%positions, &

@@ -17,8 +17,8 @@ module deformed_links
   !> Points in an element above the degree of its displacement.
   integer, parameter :: more_points = 3
 
-  !> Strains and rotations at points along a link, per unit of its unknowns: the rotation of the
-  !! clamped end (0), own modes. Rotations are those against the first end.
+  !> Strains and rotations at points along a link, per unit of its unknowns: the curves of held
+  !! ends, own modes. Rotations are those against the first end.
   type :: link_points_t
     integer :: elements = 0
     type(collocation_t) :: rule                    !! of an element
@@ -27,11 +27,11 @@ module deformed_links
                                                    !! element [m]
     real(wp), allocatable :: node_place(:)         !! (0:elements) [m]
     real(wp) :: elongation = 0.0_wp                !! axial strain of the elongation unknown
-    real(wp), allocatable :: axial(:, :)           !! (points, 0:own) axial strain
-    real(wp), allocatable :: curvature(:, :)       !! (points, 0:own) [1/m]
-    real(wp), allocatable :: shear(:, :)           !! (points, 0:own) shear strain
-    real(wp), allocatable :: turn(:, :)            !! (points, 0:own) [rad]
-    real(wp), allocatable :: node_turn(:, :)       !! (0:elements, 0:own) [rad]
+    real(wp), allocatable :: axial(:, :)           !! (points, 1 − curves:own) axial strain
+    real(wp), allocatable :: curvature(:, :)       !! (points, 1 − curves:own) [1/m]
+    real(wp), allocatable :: shear(:, :)           !! (points, 1 − curves:own) shear strain
+    real(wp), allocatable :: turn(:, :)            !! (points, 1 − curves:own) [rad]
+    real(wp), allocatable :: node_turn(:, :)       !! (0:elements, 1 − curves:own) [rad]
   end type link_points_t
 
   !> The shape at many instants.
@@ -62,9 +62,9 @@ contains
       points%length = shapes%part*(shapes%length/shapes%elements)
       allocate (points%node_place(0:shapes%elements), points%place(n*shapes%elements))
       points%node_place = shapes%last*(shapes%length/shapes%elements)
-      allocate (points%axial(size(points%place), 0:own))
+      allocate (points%axial(size(points%place), 1 - link%curves:own))
       allocate (points%curvature, points%shear, points%turn, mold=points%axial)
-      allocate (points%node_turn(0:shapes%elements, 0:own))
+      allocate (points%node_turn(0:shapes%elements, 1 - link%curves:own))
       start = strain_rows(link, 0.0_wp)
       points%elongation = start%elongation
       points%axial = 0.0_wp
@@ -93,7 +93,7 @@ contains
   pure function deformed_link(points, elongation, own) result(shape_of)
     type(link_points_t), intent(in) :: points
     real(wp), intent(in) :: elongation(:) !! (samples) its elongation unknown [√J]
-    real(wp), intent(in) :: own(:, 0:)    !! (samples, 0:own) rotation of its clamped end, own modes
+    real(wp), intent(in) :: own(:, :)     !! (samples, curves + own) curves of held ends, own modes
                                           !! [√J]
     type(deformed_link_t) :: shape_of
 

@@ -421,7 +421,7 @@ contains
     end do
   end subroutine swept_force
 
-  !> Slopes of a body that axial forces act on: rotation of its chord, that of its clamped end, its
+  !> Slopes of a body that axial forces act on: rotation of its chord, curves of its held ends, its
   !! own modes.
   pure function slopes_of(grid, body, y) result(slope)
     type(turn_grid_t), intent(in) :: grid
@@ -429,15 +429,17 @@ contains
     real(wp), intent(in) :: y(:, :) !! (samples, unknowns)
     real(wp) :: slope(size(y, 1), size(grid%model%links(body)%geometric, 1))
 
-    integer :: j
+    integer :: c, j
 
     associate (link => grid%model%links(body), first => grid%first(body))
-      slope(:, :2) = 0.0_wp
+      slope(:, :1 + link%curves) = 0.0_wp
       do j = 1, grid%border
         slope(:, 1) = slope(:, 1) + grid%turn(:, j, body)*y(:, j)
-        if (link%bends) slope(:, 2) = slope(:, 2) + grid%chord(:, 3, j, body)*y(:, j)
+        do c = 1, link%curves
+          slope(:, 1 + c) = slope(:, 1 + c) + grid%chord(:, 2 + c, j, body)*y(:, j)
+        end do
       end do
-      slope(:, 3:) = y(:, first:first + link%modes - 1)
+      slope(:, 2 + link%curves:) = y(:, first:first + link%modes - 1)
     end associate
   end function slopes_of
 
@@ -449,7 +451,7 @@ contains
     real(wp), intent(inout) :: force(:, :)    !! (samples, unknowns)
 
     real(wp), allocatable :: slope(:, :), pulled(:, :), stacked(:, :), total(:, :)
-    integer :: b, i, j, n
+    integer :: b, c, i, j, n
 
     do b = 1, size(grid%integrals)
       associate (link => grid%model%links(b), first => grid%first(b))
@@ -467,10 +469,12 @@ contains
         total = matmul(pulled, stacked)
         do j = 1, grid%border
           force(:, j) = force(:, j) + grid%turn(:, j, b)*total(:, 1)
-          if (link%bends) force(:, j) = force(:, j) + grid%chord(:, 3, j, b)*total(:, 2)
+          do c = 1, link%curves
+            force(:, j) = force(:, j) + grid%chord(:, 2 + c, j, b)*total(:, 1 + c)
+          end do
         end do
         force(:, first:first + link%modes - 1) = force(:, first:first + link%modes - 1) + &
-          total(:, 3:)
+          total(:, 2 + link%curves:)
         deallocate (slope, pulled, stacked, total)
       end associate
     end do

@@ -118,8 +118,8 @@ contains
         if (.not. linkage%bodies(b)%bends) cycle
         q = functions_of(grid, b, y)
         body%points = new_link_points(link)
-        body%link = deformed_link(body%points, y(:, grid%elongation(b)), q(:, [3, (k, &
-          k=grid%integrals(b)%chord + 1, size(q, 2))]))
+        body%link = deformed_link(body%points, y(:, grid%elongation(b)), q(:, [(k, k=3, &
+          2 + link%curves), (k, k=grid%integrals(b)%chord + 1, size(q, 2))]))
         associate (last => body%link%node_place(:, :, body%points%elements))
           body%chord = hypot(last(:, 1), last(:, 2))
           chord_angle(:, b) = atan2(last(:, 2), last(:, 1))
@@ -347,8 +347,9 @@ contains
     real(wp), intent(inout) :: force(:, :)   !! (samples, unknowns)
 
     real(wp), dimension(size(on_last, 1), size(motion%points%place)) :: axial, shear, moment
-    real(wp) :: here(size(on_last, 1), 2), work(size(on_last, 1), 0:ubound(motion%points%axial, 2))
-    real(wp) :: weight
+    real(wp) :: here(size(on_last, 1), 2), weight
+    real(wp) :: work(size(on_last, 1), &
+      lbound(motion%points%axial, 2):ubound(motion%points%axial, 2))
     integer :: i, m, n
 
     associate (points => motion%points, link => motion%link, modes => grid%model%links(b)%modes)
@@ -366,7 +367,7 @@ contains
         points%curvature)
       m = grid%elongation(b)
       force(:, m) = force(:, m) + points%elongation*sum(axial, dim=2)
-      if (grid%model%links(b)%clamped) force(:, 1) = force(:, 1) + work(:, 0)
+      if (grid%model%links(b)%curves > 0) force(:, 1) = force(:, 1) + work(:, 0)
       force(:, grid%first(b):grid%first(b) + modes - 1) = work(:, 1:modes)
       force(:, grid%first_along(b):grid%first_along(b) + grid%model%links(b)%axial_modes - 1) = &
         work(:, modes + 1:)

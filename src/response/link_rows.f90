@@ -8,15 +8,18 @@ module link_rows
   implicit none (type, external)
   private
 
-  public :: displacement_rows, strain_rows, strain_rows_t
+  public :: displacement_rows, strain_rows, strain_rows_t, sums_of_rows
 
   !> Strains at a place per unit of the functions of a link that bends.
   type :: strain_rows_t
     real(wp) :: elongation = 0.0_wp          !! axial strain per unit of the elongation unknown
     real(wp), allocatable :: axial(:)       !! (own) axial strain
-    real(wp), allocatable :: curvature(:)   !! (0:own) curve of the clamped end, own modes [1/m]
-    real(wp), allocatable :: shear(:)       !! (0:own) −EI dκ/dx, or with shear strains kGA γ [N]
-    real(wp), allocatable :: rotation(:)    !! (0:own) of the cross-section against the chord [rad]
+    real(wp), allocatable :: curvature(:)   !! (1 − curves:own) curves of held ends, own
+                                            !! modes [1/m]
+    real(wp), allocatable :: shear(:)       !! (1 − curves:own) −EI dκ/dx, or with shear strains
+                                            !! kGA γ [N]
+    real(wp), allocatable :: rotation(:)    !! (1 − curves:own) of the cross-section against the
+                                            !! chord [rad]
   end type strain_rows_t
 
 contains
@@ -30,7 +33,7 @@ contains
 
     real(wp) :: xi
     real(wp), allocatable :: row(:)
-    integer :: own, along
+    integer :: curves, chord, own, along
 
     if (.not. link%bends) then
       rows = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, -place(2), place(1), &
@@ -39,24 +42,26 @@ contains
     end if
     xi = place(1)/link%length
     own = link%modes + link%axial_modes
-    along = 6
-    if (.not. link%coupled) along = 6 + link%modes
-    allocate (rows(3, 5 + own))
+    curves = link%curves
+    chord = 4 + curves
+    along = chord + 1
+    if (.not. link%coupled) along = along + link%modes
+    allocate (rows(3, chord + own))
     rows = 0.0_wp
     rows(2:3, 1) = [1.0_wp - xi, -1.0_wp/link%length]
     rows(2:3, 2) = [xi, 1.0_wp/link%length]
-    rows(1, 4:5) = [1.0_wp - xi, xi]
+    rows(1, chord - 1:chord) = [1.0_wp - xi, xi]
     row = displacement_row(link%bending_shapes, xi)
     row = matmul(row(:size(link%bending, 1)), link%bending)
     ! At its ends a link has no displacement of its own.
     if (xi > 0.0_wp .and. xi < 1.0_wp) then
-      rows(2, 3) = row(1)
-      rows(2, 6:5 + link%modes) = row(2:)
+      rows(2, 3:2 + curves) = row(:curves)
+      rows(2, chord + 1:chord + link%modes) = row(curves + 1:)
     end if
     row = rotation_row(link%bending_shapes, xi)
     row = matmul(row(:size(link%bending, 1)), link%bending)
-    rows(3, 3) = row(1)
-    rows(3, 6:5 + link%modes) = row(2:)
+    rows(3, 3:2 + curves) = row(:curves)
+    rows(3, chord + 1:chord + link%modes) = row(curves + 1:)
     if (xi > 0.0_wp .and. xi < 1.0_wp) then
       row = displacement_row(link%axial_shapes, xi)
       row = matmul(row(:size(link%axial, 1)), link%axial)
@@ -72,12 +77,14 @@ contains
     type(strain_rows_t) :: rows
 
     real(wp), allocatable :: row(:)
-    integer :: own, kept
+    integer :: own, kept, first
 
     own = link%modes + link%axial_modes
     kept = size(link%bending, 1)
     rows%elongation = link%elongation/link%length
-    allocate (rows%axial(own), rows%curvature(0:own), rows%shear(0:own), rows%rotation(0:own))
+    first = 1 - link%curves
+    allocate (rows%axial(own), rows%curvature(first:own), rows%shear(first:own), &
+      rows%rotation(first:own))
     rows%axial = 0.0_wp
     rows%curvature = 0.0_wp
     rows%shear = 0.0_wp
@@ -94,6 +101,22 @@ contains
     row = rotation_row(link%bending_shapes, xi)
     rows%rotation(:link%modes) = matmul(row(:kept), link%bending)
   end function strain_rows
+
+  !> Sums over the curves of held ends and the own modes, at every sample.
+  pure function sums_of_rows(q, chord, row) result(sums)
+    real(wp), intent(in) :: q(:, :)  !! (samples, functions) amplitudes, as in `moving_integrals`
+    integer, intent(in) :: chord     !! functions of the chord, curves among them
+    real(wp), intent(in) :: row(:)   !! (curves + own) of `strain_rows_t`
+    real(wp) :: sums(size(q, 1))
+
+    integer :: c, curves
+
+    curves = chord - 4
+    sums = matmul(q(:, chord + 1:), row(curves + 1:))
+    do c = 1, curves
+      sums = sums + row(c)*q(:, 2 + c)
+    end do
+  end function sums_of_rows
 
   !> Curvature at a place per unit of the unknowns of the shapes.
   pure function curvature_row(link, xi, kept) result(row)

@@ -7,7 +7,7 @@ module response_peaks
   use fourier_transform, only: close_fourier, coefficients_of, fourier_plan_t, open_fourier, &
     resampled, value_at, values_of
   use kinds, only: wp
-  use link_rows, only: displacement_rows, strain_rows, strain_rows_t
+  use link_rows, only: displacement_rows, strain_rows, strain_rows_t, sums_of_rows
   use response_types, only: peak_t, response_request_t, speed_response_t
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
@@ -149,8 +149,7 @@ contains
       rows = strain_rows(grid%model%links(b), place)
       chord = grid%integrals(b)%chord
       strain = abs(stretched(:, 1)*rows%elongation + matmul(q(:, chord + 1:), rows%axial)) + &
-        request%section(b)%outer*abs(matmul(q(:, chord + 1:), rows%curvature(1:)) + &
-        rows%curvature(0)*q(:, 3))
+        request%section(b)%outer*abs(sums_of_rows(q, chord, rows%curvature))
     end function strains_at
 
     !> The largest value: of all sampled maxima in a piece that may hide it, the largest between
@@ -257,7 +256,7 @@ contains
         drawn = value_at(elongation, theta)
         value = abs(drawn(1)*rows%elongation + dot_product(here(chord + 1:), rows%axial)) + &
           request%section(b)%outer*abs(dot_product(here(chord + 1:), rows%curvature(1:)) + &
-          rows%curvature(0)*here(3))
+          dot_product(here(3:chord - 2), rows%curvature(:0)))
       else
         associate (displacement => displacement_rows(grid%model%links(b), &
           [place*grid%model%links(b)%length, 0.0_wp]))

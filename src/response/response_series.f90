@@ -4,7 +4,7 @@ module response_series
   use elastic_equations, only: elastic_terms_t, functions_of, geometric_force, times_mass
   use fourier_transform, only: derivatives, fourier_plan_t
   use kinds, only: wp
-  use link_rows, only: displacement_rows, strain_rows, strain_rows_t
+  use link_rows, only: displacement_rows, strain_rows, strain_rows_t, sums_of_rows
   use load_cases, only: case_count, constant_case
   use response_types, only: response_request_t
   use row_products, only: products_of_rows
@@ -119,14 +119,13 @@ contains
     q = functions_of(grid, body, y)
     series(:, 1) = elongation_of(grid, body, y)*rows%elongation + matmul(q(:, chord + 1:), &
       rows%axial)
-    series(:, 2) = matmul(q(:, chord + 1:), rows%curvature(1:)) + rows%curvature(0)*q(:, 3)
-    series(:, 3) = matmul(q(:, chord + 1:), rows%shear(1:)) + rows%shear(0)*q(:, 3)
+    series(:, 2) = sums_of_rows(q, chord, rows%curvature)
+    series(:, 3) = sums_of_rows(q, chord, rows%shear)
     ! Without shear strains the rotary inertia of the cross-sections takes part in the balance of
     ! moments.
     if (grid%model%links(body)%bending_shapes%shear_stiffness > 0.0_wp .or. &
       grid%rotary_inertia(body) <= 0.0_wp) return
-    rotation(:, 1) = matmul(q(:, chord + 1:), rows%rotation(1:)) + rows%rotation(0)*q(:, 3) + &
-      (q(:, 2) - q(:, 1))/grid%model%links(body)%length
+    rotation(:, 1) = sums_of_rows(q, chord, rows%rotation) + (q(:, 2) - q(:, 1))/grid%model%links(body)%length
     call derivatives(plan, rotation, first, second)
     series(:, 3) = series(:, 3) + grid%rotary_inertia(body)*speed**2*(second(:, 1) + &
       grid%rate_slope(:, body))
@@ -161,7 +160,7 @@ contains
       rows = strain_rows(grid%model%links(body), xi(i))
       axial(:, i) = elongation_of(grid, body, y)*rows%elongation + matmul(q(:, chord + 1:), &
         rows%axial)
-      curvature(:, i) = matmul(q(:, chord + 1:), rows%curvature(1:)) + rows%curvature(0)*q(:, 3)
+      curvature(:, i) = sums_of_rows(q, chord, rows%curvature)
     end do
   end subroutine strains_along
 

@@ -12,6 +12,7 @@ module turn_grids
   use inertia_loads, only: distributed_load, load_t
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
+  use link_modes, only: link_modes_t
   use linkages, only: linkage_t, normal_to
   use load_cases, only: case_count, find_unit_loads, load_case_t, unit_loads_t
   use moving_integrals, only: chord_functions, moving_integrals_t, new_moving_integrals
@@ -32,7 +33,7 @@ module turn_grids
     logical :: backwards = .false. !! the crank turns clockwise: crank angles 0, −360°/n, …, and
                                    !! derivatives, rates and loads per α2 are with respect to −θ2
     integer :: unknowns = 0
-    integer :: border = 0    !! first unknowns: rotation of the clamped end, elongations
+    integer :: border = 0    !! first unknowns: rotations of held ends, elongations
     type(deformation_model_t) :: model
     type(moving_integrals_t), allocatable :: integrals(:) !! (bodies)
     integer, allocatable :: first(:)       !! (bodies) number of the first transverse own mode
@@ -131,7 +132,7 @@ contains
       call take_pose(linkage, pose, coefficients, chords, k, grid)
       grid%pin_slope(k, :, :, :) = slopes%pin
       do b = 1, size(grid%integrals)
-        call take_chord(grid%model%links(b)%bends, slopes, b, grid%chord_slope(k, :, :, b))
+        call take_chord(grid%model%links(b), slopes, b, grid%chord_slope(k, :, :, b))
       end do
     end do
   end subroutine place_grid
@@ -158,7 +159,7 @@ contains
     do b = 1, bodies
       grid%integrals(b) = new_moving_integrals(linkage%bodies(b), model%links(b))
     end do
-    allocate (grid%chord(samples, chord_functions(1), grid%border, bodies))
+    allocate (grid%chord(samples, maxval(chord_functions(model%links)), grid%border, bodies))
     allocate (grid%turn(samples, grid%border, bodies), grid%pin(samples, 2, pins, grid%border))
     allocate (grid%place(samples, 2, pins), grid%direction(samples, 2, bodies))
     allocate (grid%rate(samples, bodies), grid%rate_slope(samples, bodies))
@@ -188,7 +189,7 @@ contains
     grid%turn(k, :, :) = chords%turn
     grid%pin(k, :, :, :) = chords%pin
     do b = 1, size(grid%integrals)
-      call take_chord(grid%model%links(b)%bends, chords, b, grid%chord(k, :, :, b))
+      call take_chord(grid%model%links(b), chords, b, grid%chord(k, :, :, b))
     end do
     loads = find_unit_loads(linkage, pose, coefficients)
     force = distributed_unit_forces(linkage, pose, loads)
@@ -203,15 +204,15 @@ contains
   end subroutine take_pose
 
   !> Functions of the chord of a body for every border unknown.
-  pure subroutine take_chord(bends, chords, body, functions)
-    logical, intent(in) :: bends
+  pure subroutine take_chord(link, chords, body, functions)
+    type(link_modes_t), intent(in) :: link
     type(chords_t), intent(in) :: chords
     integer, intent(in) :: body
     real(wp), intent(inout) :: functions(:, :) !! (functions, border)
 
-    if (bends) then
-      functions(:3, :) = chords%across(:, :, body)
-      functions(4:5, :) = chords%along(:, :, body)
+    if (link%bends) then
+      functions(:2 + link%curves, :) = chords%across(:2 + link%curves, :, body)
+      functions(3 + link%curves:4 + link%curves, :) = chords%along(:, :, body)
     else
       functions(:3, :) = body_displacement(chords, body)
     end if
@@ -280,8 +281,8 @@ contains
     do b = 1, size(linkage%bodies)
       associate (integrals => grid%integrals(b), axis => pose%direction(:, b))
         if (grid%model%links(b)%bends) then
-          work = -matmul(integrals%mass(:, [1, 2, 4, 5]), ends_of(case, b, axis, &
-            linkage%bodies(b)%length))
+          work = -matmul(integrals%mass(:, [1, 2, integrals%chord - 1, integrals%chord]), &
+            ends_of(case, b, axis, linkage%bodies(b)%length))
           ! The accelerations of the axis, as displacements, move a mass beside it but for the
           ! centripetal part of its offset, across the link.
           if (size(integrals%at_mass, 2) > 0) then

@@ -70,7 +70,7 @@ contains
     type(ledger_t) :: before
     integer :: i, k
 
-    work = new_position_work(models, sweep%request)
+    work = new_position_work(structure, models, sweep%request)
     do k = 1, size(states)
       i = states(k)
       if (was_interrupted()) return

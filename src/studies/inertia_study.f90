@@ -46,19 +46,17 @@ contains
 
   !> Masses and unit accelerations, once for all speeds: Ulker 2010 (2.39) to (2.46), and (3.1) to
   !! (3.18) for lumped masses.
-  subroutine find_inertia_loads(linkage, elements, own_lumps, positions, threads, found)
+  subroutine find_inertia_loads(linkage, elements, positions, threads, found)
     type(linkage_t), intent(in) :: linkage       !! of any kind, with masses
     integer, intent(in) :: elements(:)           !! (bodies) on whose nodes the masses are lumped;
                                                  !! 0: distributed
-    integer, intent(in) :: own_lumps(:)          !! (bodies) how many lumps are the link itself, the
-                                                 !! first ones
     type(positions_t), intent(in) :: positions   !! of the run
     integer, intent(in) :: threads               !! number of OpenMP threads
     type(inertia_result_t), intent(out) :: found !! for all positions and speeds
 
     integer :: i
 
-    found%masses = masses_of(linkage, elements, own_lumps)
+    found%masses = masses_of(linkage, elements)
     found%pins = size(linkage%is_ground)
     found%bodies = size(linkage%bodies)
     allocate (found%unit(2*found%pins + 5*found%bodies, 2, size(positions%states)))
@@ -73,9 +71,9 @@ contains
 
   !> All masses: body after body its uniform mass and its lumps, then the pin masses and blocks. The
   !! last lumps of a body are the blocks that slide along it.
-  pure function masses_of(linkage, elements, own_lumps) result(masses)
+  pure function masses_of(linkage, elements) result(masses)
     type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: elements(:), own_lumps(:)
+    integer, intent(in) :: elements(:)
     type(mass_t), allocatable :: masses(:)
 
     integer :: b, i, pin
@@ -87,7 +85,7 @@ contains
         do i = 1, size(body%lumps) - count(linkage%sliders%body == b .and. &
           linkage%sliders%inertia > 0.0_wp)
           associate (lump => body%lumps(i))
-            masses = [masses, mass_t(merge(of_body, on_link, i <= own_lumps(b)), b, &
+            masses = [masses, mass_t(merge(of_body, on_link, i <= body%own_lumps), b, &
               lump%mass, lump%place, lump%inertia)]
           end associate
         end do

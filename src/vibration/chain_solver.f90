@@ -124,7 +124,7 @@ contains
         associate (link => near%links(b), mode => modes%vector(:, i))
           first = near%layout%first(b)
           own = matmul(link%bending(:, 1:), mode(first:first + link%modes - 1))
-          if (link%clamped) own = own + mode(1)*link%bending(:, 0)
+          if (link%curves > 0) own = own + mode(1)*link%bending(:, 0)
           if (.not. link%coupled) first = first_axial(near%layout, near%links, b)
           own_strain = matmul(link%axial, mode(first:first + size(link%axial, 2) - 1))
           own_strain = element_strains(link%axial_shapes, mode(chain%number(b)), own_strain)

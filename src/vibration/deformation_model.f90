@@ -15,13 +15,14 @@ module deformation_model
   use lump_displacements, only: add_lump_displacements, add_lump_rotations, lump_arms_t, &
     new_lump_arms
   use next_orders, only: orders_beyond
+  use pin_displacements, only: held_ends
   use reduced_assembly, only: reduced_layout
   use rigid_links, only: new_rigid_link
   use singular_vectors, only: find_right_singular_vectors
   implicit none (type, external)
   private
 
-  public :: deformation_model_t, new_deformation_model
+  public :: deformation_model_t, new_deformation_model, renew_link
 
   !> Masses nearer to each other than this share of the length turn together.
   real(wp), parameter :: least_distance = 1.0e-9_wp
@@ -45,8 +46,8 @@ contains
   !!
   !! Errors: the singular value decomposition that gives the own modes of a link fails.
   subroutine new_deformation_model(linkage, beams, elements, order, lumped, model, error, store, &
-      degrees)
-    type(linkage_t), intent(in) :: linkage  !! its first body is clamped to the crankshaft
+      degrees, held)
+    type(linkage_t), intent(in) :: linkage  !! which links bend, their masses
     type(beam_t), intent(in) :: beams(:)    !! (bodies) stiffnesses
     integer, intent(in) :: elements(:)      !! (bodies) as in `deformation_model_t`
     integer, intent(in) :: order(:)         !! (bodies) as in `deformation_model_t`
@@ -57,11 +58,16 @@ contains
                                                          !! decompose all
     type(link_degrees_t), intent(in), optional :: degrees(:) !! (bodies) for continuous links, in
                                                              !! place of `order`
+    logical, intent(in), optional :: held(:, :) !! (2, bodies) first and last ends that are held,
+                                                !! all others being pinned; absent: the first end
+                                                !! of the first body, which is driven
 
     type(link_key_t) :: key
     integer :: b
-    logical :: known
+    logical :: known, ends(2, size(beams))
 
+    ends = held_ends(size(beams))
+    if (present(held)) ends = held
     model%elements = elements
     model%order = order
     model%lumped = lumped
@@ -72,21 +78,37 @@ contains
       if (present(degrees) .and. elements(b) == 0) model%degrees(b) = degrees(b)
       model%order(b) = maxval(model%degrees(b)%across)
       if (.not. linkage%bodies(b)%bends) then
-        model%links(b) = new_rigid_link(linkage%bodies(b), b == 1)
+        model%links(b) = new_rigid_link(linkage%bodies(b))
         cycle
       end if
-      key = new_link_key(linkage%bodies(b), beams(b), elements(b), model%degrees(b), b == 1, &
-        lumped(b))
+      key = new_link_key(linkage%bodies(b), beams(b), elements(b), model%degrees(b), &
+        ends(:, b), lumped(b))
       known = .false.
       if (present(store)) call find_link(store, key, model%links(b), known)
       if (known) cycle
-      call find_own_modes(linkage, beams(b), b, elements(b), model%degrees(b), lumped(b), &
-        model%links(b), error)
+      call find_own_modes(linkage%bodies(b), beams(b), elements(b), model%degrees(b), lumped(b), &
+        ends(:, b), model%links(b), error)
       if (allocated(error)) return
       if (present(store)) call keep_link(store, key, model%links(b))
     end do
     model%layout = reduced_layout(linkage, model%links)
   end subroutine new_deformation_model
+
+  !> The own modes of a continuous link whose length has changed.
+  !!
+  !! Errors: the singular value decomposition fails.
+  subroutine renew_link(model, number, body, beam, held, link, error)
+    type(deformation_model_t), intent(in) :: model   !! with the link at another length
+    integer, intent(in) :: number                    !! of the link
+    type(body_t), intent(in) :: body                 !! with its new length
+    type(beam_t), intent(in) :: beam                 !! stiffnesses
+    logical, intent(in) :: held(2)                   !! its ends
+    type(link_modes_t), intent(inout) :: link        !! becomes that of the new length
+    type(error_t), allocatable, intent(out) :: error !! why it has no own modes
+
+    if (abs(link%length - body%length) <= 0.0_wp) return
+    call find_own_modes(body, beam, 0, model%degrees(number), .false., held, link, error)
+  end subroutine renew_link
 
   !> Number of elements of a link.
   pure function pieces_in(body, elements) result(pieces)
@@ -107,12 +129,13 @@ contains
   !! everywhere. They have no entries in M and K_G and are left out. The continuous displacements of
   !! the given degrees that vanish at both ends remain, and the rotations of masses beside the axis
   !! or with a moment of inertia of their own.
-  subroutine find_own_modes(linkage, beam, b, mesh_elements, degrees, lumped, link, error)
-    type(linkage_t), intent(in) :: linkage
+  subroutine find_own_modes(body, beam, mesh_elements, degrees, lumped, held, link, error)
+    type(body_t), intent(in) :: body
     type(beam_t), intent(in) :: beam
-    integer, intent(in) :: b, mesh_elements
+    integer, intent(in) :: mesh_elements
     type(link_degrees_t), intent(in) :: degrees
     logical, intent(in) :: lumped
+    logical, intent(in) :: held(2)
     type(link_modes_t), intent(out) :: link
     type(error_t), allocatable, intent(out) :: error
 
@@ -121,40 +144,36 @@ contains
     real(wp), allocatable :: basis(:, :), axial_basis(:, :), displacement(:, :), own(:, :), &
       axial_own(:, :), along(:, :), ends(:)
     integer :: elements, beyond, highest, furthest, independent
-    logical :: clamped, sheared
+    logical :: sheared
 
-    clamped = b == 1
     sheared = beam%shear_stiffness > 0.0_wp
     beyond = merge(orders_beyond, 0, mesh_elements <= 1)
     elements = size(degrees%across)
     highest = maxval(degrees%across)
     furthest = maxval(degrees%along)
-    associate (body => linkage%bodies(b))
-      if (mesh_elements == 0) then
-        ends = pieces_of(body)
-        bending = bending_shapes(body%length, body%line_density, beam%bending_stiffness, elements, &
-          highest, beam%shear_stiffness, body%rotary_inertia, ends=ends, orders=degrees%across, &
-          beyond=beyond)
-        axial = axial_shapes(body%length, body%line_density, beam%axial_stiffness, elements, &
-          furthest, ends, degrees%along, beyond)
-      else
-        bending = bending_shapes(body%length, body%line_density, beam%bending_stiffness, elements, &
-          highest, beam%shear_stiffness, body%rotary_inertia, cuts=lump_places(body), beyond=beyond)
-        axial = axial_shapes(body%length, body%line_density, beam%axial_stiffness, elements, &
-          furthest, beyond=beyond)
-      end if
-      call add_lump_displacements(body, bending)
-      call add_lump_displacements(body, axial)
-      call add_lump_rotations(body, bending)
-      arms = new_lump_arms(body, bending)
-    end associate
-    call held_shapes(bending, bending%kept, clamped, basis, displacement)
+    if (mesh_elements == 0) then
+      ends = pieces_of(body)
+      bending = bending_shapes(body%length, body%line_density, beam%bending_stiffness, elements, &
+        highest, beam%shear_stiffness, body%rotary_inertia, ends=ends, orders=degrees%across, &
+        beyond=beyond)
+      axial = axial_shapes(body%length, body%line_density, beam%axial_stiffness, elements, &
+        furthest, ends, degrees%along, beyond)
+    else
+      bending = bending_shapes(body%length, body%line_density, beam%bending_stiffness, elements, &
+        highest, beam%shear_stiffness, body%rotary_inertia, cuts=lump_places(body), beyond=beyond)
+      axial = axial_shapes(body%length, body%line_density, beam%axial_stiffness, elements, &
+        furthest, beyond=beyond)
+    end if
+    call add_lump_displacements(body, bending)
+    call add_lump_displacements(body, axial)
+    call add_lump_rotations(body, bending)
+    arms = new_lump_arms(body, bending)
+    call held_shapes(bending, bending%kept, held, basis, displacement)
     independent = size(basis, 2)
-    if (sheared .and. linkage%bodies(b)%rotary_inertia <= 0.0_wp) independent = &
-      min(sum(degrees%across) - 1 + free_turns(linkage%bodies(b), bending, degrees%across, &
-      clamped), independent)
-    call held_shapes(axial, axial%kept, .false., axial_basis, along)
-    if (has_turning_lumps(linkage%bodies(b))) then
+    if (sheared .and. body%rotary_inertia <= 0.0_wp) independent = &
+      min(sum(degrees%across) - 1 + free_turns(body, bending, degrees%across, held), independent)
+    call held_shapes(axial, axial%kept, [.false., .false.], axial_basis, along)
+    if (has_turning_lumps(body)) then
       displacement = coupled_shapes(displacement, along, matmul(arms%displacement(:, &
         :bending%kept), basis))
       call find_right_singular_vectors(displacement, own, error, independent + axial%kept)
@@ -167,18 +186,18 @@ contains
       call find_right_singular_vectors(along, axial_own, error)
       if (allocated(error)) return
     end if
-    call new_link_modes(bending, axial, clamped, [beam%axial_stiffness, beam%bending_stiffness], &
-      lumped, lump_places(linkage%bodies(b)), matmul(basis, own), axial_own, link, arms)
+    call new_link_modes(bending, axial, held, [beam%axial_stiffness, beam%bending_stiffness], &
+      lumped, lump_places(body), matmul(basis, own), axial_own, link, arms)
   end subroutine find_own_modes
 
   !> Number of independent rotations of cross-sections that move or turn masses of a body while its
   !! axis stays where it is: those of piecewise polynomials, continuous, of one degree less than the
   !! slopes of its elements, at the places of the masses.
-  pure function free_turns(body, shapes, across, clamped) result(number)
+  pure function free_turns(body, shapes, across, held) result(number)
     type(body_t), intent(in) :: body
     type(deformation_shapes_t), intent(in) :: shapes !! its elements
     integer, intent(in) :: across(:)                 !! (elements) degrees of the displacement
-    logical, intent(in) :: clamped                   !! at its first end
+    logical, intent(in) :: held(2)                   !! first and last end
     integer :: number
 
     real(wp), allocatable :: xi(:), turning(:)
@@ -187,10 +206,11 @@ contains
 
     xi = lump_places(body)
     turning = pack(xi, abs(lump_offsets(body)) > 0.0_wp .or. lump_inertias(body) > 0.0_wp)
+    if (held(2)) turning = pack(turning, turning < 1.0_wp - least_distance)
     last = -1.0_wp
-    if (clamped) last = 0.0_wp
+    if (held(1)) last = 0.0_wp
     number = 0
-    free = merge(0, 1, clamped)
+    free = merge(0, 1, held(1))
     do e = 1, shapes%elements
       here = 0
       do
@@ -202,6 +222,7 @@ contains
       end do
       ! An element shares its first rotation with the element before it.
       free = free + across(e) - 2
+      if (e == shapes%elements .and. held(2)) free = free - 1
       here = min(here, free)
       number = number + here
       free = min(1, free - here)

@@ -1,21 +1,20 @@
 !> Modes followed by their shapes along crank angle and speed.
 module frequency_loci
-  use axial_forces, only: distributed_unit_forces
-  use axial_limits, only: refuse_crushed
   use bordered_eigensolver, only: bordered_modes_t
   use errors, only: error_t, outcome_t
   use kinds, only: wp
-  use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
+  use kinematic_coefficients, only: find_kinematic_coefficients
   use ledger, only: ledger_t
-  use linkages, only: linkage_t
-  use load_cases, only: case_count, find_unit_loads, unit_loads_t
-  use modal_assurance, only: likeness, mode_prints_t, new_mode_prints
+  use load_cases, only: case_count
+  use modal_assurance, only: likeness, mode_prints_t
+  use mode_prints, only: prints_of
   use poses, only: find_pose, pose_t
-  use position_equations, only: assemble_equations
+  use position_assembly, only: assemble_position, assembled_t, new_assembled
   use position_results, only: frequency_of
   use positions, only: positions_t
   use sorting, only: ascending_order
   use speed_solver, only: new_speed_work, solve_speeds, speed_work_t
+  use structures, only: structure_t
   use sweeps, only: has_result, sweep_t
   use vibration_models, only: load_factors, mode_request_t, vibration_models_t
   implicit none (type, external)
@@ -61,8 +60,8 @@ contains
 
   !> Follows every mode from row to row in the order of crank angles, block after block of speeds;
   !! the first row of a block continues that of the block before.
-  subroutine follow_loci(linkage, positions, sweep, loci)
-    type(linkage_t), intent(in) :: linkage
+  subroutine follow_loci(structure, positions, sweep, loci)
+    type(structure_t), intent(in) :: structure
     type(positions_t), intent(in) :: positions !! the rows, in any order
     type(sweep_t), intent(inout) :: sweep      !! with the prints of all modes; its ledger counts
                                                !! what is found between the rows
@@ -95,9 +94,9 @@ contains
         if (apart) then
           call start_loci(loci, order(i), k)
         else if (last > 0) then
-          call follow_step(linkage, positions, [last, k], [order(i), k], work, sweep, loci)
+          call follow_step(structure, positions, [last, k], [order(i), k], work, sweep, loci)
         else if (first_row > 0 .and. k > 1) then
-          call follow_step(linkage, positions, [first_row, k - 1], [order(i), k], work, sweep, &
+          call follow_step(structure, positions, [first_row, k - 1], [order(i), k], work, sweep, &
             loci)
         else
           call start_loci(loci, order(i), k)
@@ -127,8 +126,8 @@ contains
 
   !> One step: every mode of a row gets the locus of the mode that it continues, or begins a new
   !! one.
-  subroutine follow_step(linkage, positions, from, to, work, sweep, loci)
-    type(linkage_t), intent(in) :: linkage
+  subroutine follow_step(structure, positions, from, to, work, sweep, loci)
+    type(structure_t), intent(in) :: structure
     type(positions_t), intent(in) :: positions
     integer, intent(in) :: from(2), to(2)     !! row and speed
     type(speed_work_t), intent(inout) :: work !! for what lies between them
@@ -142,7 +141,7 @@ contains
 
     first = waypoint_on_row(positions, sweep, from)
     second = waypoint_on_row(positions, sweep, to)
-    call match(linkage, sweep%models, sweep%request, first, second, most_halvings, work, &
+    call match(structure, sweep%models, sweep%request, first, second, most_halvings, work, &
       sweep%counts, next, clear)
     mac = likeness(first%prints, second%prints)
     do j = 1, size(next)
@@ -178,9 +177,9 @@ contains
   !!
   !! Where the shape of a mode is neither the same as that of another nor different from all, the
   !! step is cut in two. What is unclear after the last cut stays unclear.
-  recursive subroutine match(linkage, models, request, first, second, halvings, work, counts, &
+  recursive subroutine match(structure, models, request, first, second, halvings, work, counts, &
     next, clear)
-    type(linkage_t), intent(in) :: linkage
+    type(structure_t), intent(in) :: structure
     type(vibration_models_t), intent(in) :: models
     type(mode_request_t), intent(in) :: request
     type(waypoint_t), intent(in) :: first, second
@@ -205,13 +204,13 @@ contains
     end do
     if (all(clear) .or. halvings == 0) return
     middle%place = first%place + cut*(second%place - first%place)
-    call prints_at(linkage, models, request, middle%place, work, counts, middle%prints, found)
+    call prints_at(structure, models, request, middle%place, work, counts, middle%prints, found)
     if (.not. found) return
-    call match(linkage, models, request, first, middle, halvings - 1, work, counts, to_middle, &
+    call match(structure, models, request, first, middle, halvings - 1, work, counts, to_middle, &
       to_middle_clear)
     ! If no doubtful mode reaches the middle, the second half decides nothing.
     if (any(to_middle > 0 .and. .not. clear)) then
-      call match(linkage, models, request, middle, second, halvings - 1, work, counts, &
+      call match(structure, models, request, middle, second, halvings - 1, work, counts, &
         from_middle, from_middle_clear)
     end if
     do i = 1, size(next)
@@ -230,8 +229,8 @@ contains
   end subroutine match
 
   !> Modes between two rows.
-  subroutine prints_at(linkage, models, request, place, work, counts, prints, found)
-    type(linkage_t), intent(in) :: linkage
+  subroutine prints_at(structure, models, request, place, work, counts, prints, found)
+    type(structure_t), intent(in) :: structure
     type(vibration_models_t), intent(in) :: models
     type(mode_request_t), intent(in) :: request
     real(wp), intent(in) :: place(2) !! crank angle and speed [deg, rad/s]
@@ -241,34 +240,30 @@ contains
     logical, intent(out) :: found
 
     type(pose_t) :: pose
-    type(kinematic_coefficients_t) :: coefficients
-    type(unit_loads_t) :: loads
+    type(assembled_t) :: here
     type(error_t), allocatable :: error
-    type(mode_request_t) :: here
+    type(mode_request_t) :: here_requested
     type(bordered_modes_t) :: modes(1)
     type(outcome_t) :: outcome(1)
-    real(wp), allocatable :: unit_force(:, :, :)
     real(wp) :: factor(case_count, 1)
 
     found = .false.
-    call find_pose(linkage, place(1), pose, error)
+    call find_pose(structure%linkage, place(1), pose, error)
     counts%kinematic_solutions = counts%kinematic_solutions + 1
     if (allocated(error)) return
-    here = request
-    here%speed = place(2:2)
-    factor = load_factors(here)
+    here_requested = request
+    here_requested%speed = place(2:2)
+    factor = load_factors(here_requested)
     ! Places between two rows come in no order, and may differ in speed alone: no track leads there.
     work%tracks(1)%length = 0
-    coefficients = find_kinematic_coefficients(linkage, pose)
-    loads = find_unit_loads(linkage, pose, coefficients, abs(factor(:, 1)) > 0.0_wp)
-    unit_force = distributed_unit_forces(linkage, pose, loads)
-    call refuse_crushed(linkage, models%continuum, unit_force, factor, outcome)
-    if (allocated(outcome(1)%error)) return
-    call assemble_equations(linkage, models%continuum, pose, unit_force, factor, work%equations, &
+    here = new_assembled(structure, models%continuum)
+    call assemble_position(structure, models%continuum, pose, &
+      find_kinematic_coefficients(structure%linkage, pose), factor, work%equations, here, outcome, &
       counts)
+    if (allocated(outcome(1)%error)) return
     call solve_speeds(place(1), factor, request%modes, [.false.], work, modes, outcome, counts)
     found = .not. allocated(outcome(1)%error)
-    if (found) prints = new_mode_prints(models%continuum%layout, modes(1), request%modes)
+    if (found) prints = prints_of(models%continuum, work%equations%chords, modes(1), request%modes)
   end subroutine prints_at
 
   !> Two loci that have changed places since the row before have crossed.

@@ -26,7 +26,7 @@ module link_store
     type(beam_t) :: beam                !! stiffnesses
     integer :: elements = 0             !! 0: one between masses along the link
     type(link_degrees_t) :: degrees     !! of its elements
-    logical :: clamped = .false.        !! at its first end
+    logical :: held(2) = .false.        !! first and last end, else pinned
     logical :: lumped = .false.         !! axial force constant in each element
     real(wp), allocatable :: lumps(:)   !! (4 × masses) masses along the link, their places ξ,
                                         !! offsets and moments of inertia [kg, -, m, kg m²]
@@ -42,12 +42,12 @@ module link_store
 contains
 
   !> The key of a link that bends.
-  pure function new_link_key(body, beam, elements, degrees, clamped, lumped) result(key)
+  pure function new_link_key(body, beam, elements, degrees, held, lumped) result(key)
     type(body_t), intent(in) :: body    !! length, masses
     type(beam_t), intent(in) :: beam    !! stiffnesses
     integer, intent(in) :: elements     !! 0: one between masses along the link
     type(link_degrees_t), intent(in) :: degrees !! of its elements
-    logical, intent(in) :: clamped      !! at its first end
+    logical, intent(in) :: held(2)      !! first and last end, else pinned
     logical, intent(in) :: lumped       !! axial force constant in each element
     type(link_key_t) :: key
 
@@ -57,7 +57,7 @@ contains
     key%beam = beam
     key%elements = elements
     key%degrees = degrees
-    key%clamped = clamped
+    key%held = held
     key%lumped = lumped
     key%lumps = [lump_masses(body), lump_places(body), lump_offsets(body), lump_inertias(body)]
   end function new_link_key
@@ -100,7 +100,7 @@ contains
     logical :: is_same
 
     is_same = a%elements == b%elements .and. same_degrees(a%degrees, b%degrees) .and. &
-      (a%clamped .eqv. b%clamped) .and. (a%lumped .eqv. b%lumped)
+      all(a%held .eqv. b%held) .and. (a%lumped .eqv. b%lumped)
     if (is_same) is_same = size(a%lumps) == size(b%lumps)
     if (is_same) is_same = all(abs(a%lumps - b%lumps) <= 0.0_wp)
     if (is_same) is_same = all(abs(key_numbers(a) - key_numbers(b)) <= 0.0_wp)

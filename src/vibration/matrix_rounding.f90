@@ -7,7 +7,7 @@ module matrix_rounding
   use bordered_eigensolver, only: bordered_modes_t
   use deformation_model, only: deformation_model_t
   use kinds, only: wp
-  use link_modes, only: clamp, rigid
+  use link_modes, only: rigid
   use pin_displacements, only: body_displacement, chords_t
   use reduced_assembly, only: first_axial
   implicit none (type, external)
@@ -86,25 +86,28 @@ contains
     real(wp), intent(inout) :: mass_error, slope_error
     real(wp), intent(inout) :: slopes !! bound of `∫ v'² dx`
 
-    real(wp) :: ends(3), turn, norm, terms, along
-    integer :: i, first
+    real(wp) :: ends(max(3, size(chords%across, 1))), turn, norm, terms, along
+    integer :: i, first, own
 
     associate (link => model%links(b), border => vector(:model%layout%border))
       if (.not. link%bends) then
-        ends = abs(matmul(body_displacement(chords, b), border))
-        mass_error = mass_error + dot_product(ends, matmul(abs(link%rigid_mass), ends))
+        ends(:3) = abs(matmul(body_displacement(chords, b), border))
+        mass_error = mass_error + dot_product(ends(:3), matmul(abs(link%rigid_mass), ends(:3)))
         turn = link%length*dot_product(chords%turn(:, b), border)**2
         slope_error = slope_error + force_size*turn
         slopes = slopes + turn
         return
       end if
-      do i = 1, 3
+      do i = 1, 2 + link%curves
         ends(i) = abs(dot_product(chords%across(i, :, b), border))
       end do
       turn = abs(dot_product(chords%turn(:, b), border))
       norm = sqrt(link%linear(1, 1))*ends(1) + sqrt(link%linear(2, 2))*ends(2)
-      terms = norm + link%terms(0)*ends(3)
-      norm = norm + sqrt(link%linear(3, 3))*ends(3)
+      terms = norm
+      do i = 1, link%curves
+        terms = terms + link%terms(i - link%curves)*ends(2 + i)
+        norm = norm + sqrt(link%linear(2 + i, 2 + i))*ends(2 + i)
+      end do
       first = model%layout%first(b) - 1
       do i = 1, link%modes
         norm = norm + sqrt(link%square(i))*abs(vector(first + i))
@@ -122,11 +125,16 @@ contains
       if (link%bending_shapes%lumps > 0) terms = multiple_of_lumps*terms
       mass_error = mass_error + norm*terms
       if (force_size > 0.0_wp) then
-        norm = link%slope_norm(rigid)*turn + link%slope_norm(clamp)*ends(3)
-        terms = link%slope_terms(rigid)*turn + link%slope_terms(clamp)*ends(3)
+        norm = link%slope_norm(rigid)*turn
+        terms = link%slope_terms(rigid)*turn
+        do i = 1, link%curves
+          norm = norm + link%slope_norm(rigid + i)*ends(2 + i)
+          terms = terms + link%slope_terms(rigid + i)*ends(2 + i)
+        end do
+        own = rigid + link%curves
         do i = 1, link%modes
-          norm = norm + link%slope_norm(clamp + i)*abs(vector(first + i))
-          terms = terms + link%slope_terms(clamp + i)*abs(vector(first + i))
+          norm = norm + link%slope_norm(own + i)*abs(vector(first + i))
+          terms = terms + link%slope_terms(own + i)*abs(vector(first + i))
         end do
         slope_error = slope_error + force_size*norm*terms
         slopes = slopes + norm**2

@@ -58,7 +58,7 @@ contains
       call take_mesh_value(found(k)%lambda(:request%modes), found(k)%error(:request%modes), &
         result%lambda(:, k), result%error(:, k))
       if (.not. want_shapes(k)) cycle
-      call sample_reduced(structure%linkage, model, work%equations%chords, state, found(k), &
+      call sample_reduced(structure%linkage, model, work%equations%chords, state%pose, found(k), &
         request, result%shapes(k))
       result%counts%shapes = result%counts%shapes + request%modes
     end do

@@ -1,7 +1,7 @@
 !> Choice of the polynomial orders that reach a given accuracy, link by link.
 module order_choice
-  use axial_forces, only: distributed_unit_forces, total_force
-  use axial_limits, only: least_axial_force, refuse_crushed
+  use axial_forces, only: total_force
+  use axial_limits, only: least_axial_force
   use beam_element, only: axial_degree
   use beam_mesh, only: beam_t
   use body_lumps, only: pieces_of
@@ -13,10 +13,9 @@ module order_choice
   use link_degrees, only: link_degrees_t, uniform_degrees
   use link_store, only: link_store_t
   use linkages, only: body_t, linkage_t
-  use load_cases, only: find_unit_loads, unit_loads_t
   use order_changes, only: part_count, part_of
   use order_errors, only: order_error
-  use position_equations, only: assemble_equations
+  use position_assembly, only: assemble_position, assembled_t, new_assembled, set_border
   use positions, only: positions_t
   use speed_solver, only: new_speed_work, solve_speeds, speed_work_t
   use structures, only: structure_t
@@ -92,14 +91,35 @@ contains
     type(ledger_t), intent(inout) :: counts          !! of the work done
     type(error_t), allocatable, intent(out) :: error !! why there is no model
 
+    if (allocated(structure%elastic)) then
+      call choose(structure, structure%elastic%linkage, structure%elastic%beams, positions, &
+        demand, store, model, counts, error)
+    else
+      call choose(structure, structure%linkage, structure%beams, positions, demand, store, model, &
+        counts, error)
+    end if
+  end subroutine choose_orders
+
+  !> Chooses the orders of the links of a model, which are the bodies of a linkage.
+  subroutine choose(structure, linkage, beams, positions, demand, store, model, counts, error)
+    type(structure_t), intent(in) :: structure
+    type(linkage_t), intent(in) :: linkage
+    type(beam_t), intent(in) :: beams(:)
+    type(positions_t), intent(in) :: positions
+    type(order_demand_t), intent(in) :: demand
+    type(link_store_t), intent(inout) :: store
+    type(deformation_model_t), intent(out) :: model
+    type(ledger_t), intent(inout) :: counts
+    type(error_t), allocatable, intent(out) :: error
+
     type(sample_t) :: sample
-    type(link_degrees_t) :: degrees(size(structure%beams)), highest(size(structure%beams))
+    type(link_degrees_t) :: degrees(size(beams)), highest(size(beams))
     integer, allocatable :: chosen(:)
     real(wp) :: part_bound
     integer :: b, pieces, bending, first
     logical :: raised
 
-    associate (linkage => structure%linkage, beams => structure%beams, modes => demand%modes)
+    associate (modes => demand%modes)
       part_bound = share*demand%bound
       chosen = sample_states(positions, demand%states)
       bending = count(linkage%bodies%bends)
@@ -112,8 +132,8 @@ contains
       call make_model(model, error)
       if (allocated(error) .or. size(chosen) == 0) return
       ! One position is enough to estimate the shortest wave.
-      call try_samples(linkage, model, positions, chosen(size(chosen)/2 + 1:size(chosen)/2 + 1), &
-        demand, sample, counts)
+      call try_samples(structure, linkage, model, positions, chosen(size(chosen)/2 + &
+        1:size(chosen)/2 + 1), demand, sample, counts)
       do b = 1, size(beams)
         if (linkage%bodies(b)%bends) degrees(b) = &
           guessed_degrees(waves_in(linkage%bodies(b), beams(b), sample, b), part_bound, highest(b))
@@ -126,7 +146,7 @@ contains
       do
         call make_model(model, error)
         if (allocated(error)) return
-        call try_samples(linkage, model, positions, chosen, demand, sample, counts)
+        call try_samples(structure, linkage, model, positions, chosen, demand, sample, counts)
         raised = .false.
         do b = 1, size(beams)
           if (linkage%bodies(b)%bends) call raise_degrees(waves_in(linkage%bodies(b), &
@@ -142,12 +162,21 @@ contains
       type(deformation_model_t), intent(out) :: model
       type(error_t), allocatable, intent(out) :: error
 
-      call new_deformation_model(structure%linkage, structure%beams, spread(0, 1, &
-        size(degrees)), spread(0, 1, size(degrees)), spread(.false., 1, size(degrees)), model, &
-        error, store, degrees)
+      integer :: i
+
+      if (allocated(structure%elastic)) then
+        call new_deformation_model(linkage, beams, spread(0, 1, size(degrees)), spread(0, 1, &
+          size(degrees)), spread(.false., 1, size(degrees)), model, error, store, degrees, &
+          structure%elastic%held)
+        if (allocated(error)) return
+        call set_border(structure, [(positions%states(chosen(i))%crank, i=1, size(chosen))], model)
+      else
+        call new_deformation_model(linkage, beams, spread(0, 1, size(degrees)), spread(0, 1, &
+          size(degrees)), spread(.false., 1, size(degrees)), model, error, store, degrees)
+      end if
     end subroutine make_model
 
-  end subroutine choose_orders
+  end subroutine choose
 
   !> The limits of the degrees of a link.
   pure function highest_degrees(pieces, modes, bending, sheared) result(highest)
@@ -334,7 +363,8 @@ contains
   end function raised_order
 
   !> Solves the samples at the lowest and the highest speed.
-  subroutine try_samples(linkage, model, positions, chosen, demand, sample, counts)
+  subroutine try_samples(structure, linkage, model, positions, chosen, demand, sample, counts)
+    type(structure_t), intent(in) :: structure
     type(linkage_t), intent(in) :: linkage
     type(deformation_model_t), intent(in) :: model
     type(positions_t), intent(in) :: positions
@@ -344,10 +374,10 @@ contains
     type(ledger_t), intent(inout) :: counts
 
     type(speed_work_t) :: work
-    type(unit_loads_t) :: loads
+    type(assembled_t) :: here
     type(bordered_modes_t), allocatable :: found(:)
     type(outcome_t), allocatable :: outcome(:)
-    real(wp), allocatable :: force(:, :, :), tried(:, :), present_force(:, :)
+    real(wp), allocatable :: tried(:, :), present_force(:, :)
     integer :: i, k
 
     tried = demand%factor(:, [minloc(demand%factor(1, :), dim=1), maxloc(demand%factor(1, :), &
@@ -355,6 +385,7 @@ contains
     if (all(abs(tried(:, 1) - tried(:, 2)) <= 0.0_wp)) tried = tried(:, :1)
     allocate (found(size(tried, 2)), outcome(size(tried, 2)))
     work = new_speed_work(model, size(tried, 2), demand%bound)
+    here = new_assembled(structure, model)
     allocate (sample%error(part_count(model%links)))
     allocate (sample%least_force(size(model%links)), sample%most_force(size(model%links)))
     sample%error = 0.0_wp
@@ -362,22 +393,25 @@ contains
     sample%most_force = 0.0_wp
     do i = 1, size(chosen)
       associate (state => positions%states(chosen(i)))
-        loads = find_unit_loads(linkage, state%pose, state%coefficients, &
-          any(abs(tried) > 0.0_wp, dim=2))
-        force = distributed_unit_forces(linkage, state%pose, loads)
         call clear_outcome(outcome)
-        call refuse_crushed(linkage, model, force, tried, outcome)
-        call assemble_equations(linkage, model, state%pose, force, tried, work%equations, counts)
+        call assemble_position(structure, model, state%pose, state%coefficients, tried, &
+          work%equations, here, outcome, counts)
+        if (here%border%is_new) work%tracks%length = 0
         call solve_speeds(state%crank, tried, demand%modes, spread(.false., 1, size(found)), work, &
           found, outcome, counts)
       end associate
       do k = 1, size(found)
         if (allocated(outcome(k)%error)) cycle
-        present_force = total_force(force, tried(:, k))
+        present_force = total_force(here%unit_force, tried(:, k))
         call add_force_range(linkage, present_force, sample)
         sample%highest = max(sample%highest, maxval(abs(found(k)%lambda(:demand%modes))))
-        sample%error = max(sample%error, maxval(order_error(model, work%equations, &
-          present_force, found(k), found(k)%near), dim=2))
+        if (allocated(structure%elastic)) then
+          sample%error = max(sample%error, maxval(order_error(here%model, work%equations, &
+            present_force, found(k), found(k)%near), dim=2))
+        else
+          sample%error = max(sample%error, maxval(order_error(model, work%equations, &
+            present_force, found(k), found(k)%near), dim=2))
+        end if
       end do
     end do
   end subroutine try_samples

@@ -3,20 +3,21 @@
 !! The crank angle itself is rounded, and the nearer a dead point, the less accurately it determines
 !! the rest of the linkage.
 module pose_rounding
-  use axial_forces, only: distributed_unit_forces, total_force
   use bordered_eigensolver, only: bordered_modes_t
   use deformation_model, only: deformation_model_t
   use eigenvalue_sensitivity, only: eigenvalue_change, residual_work
-  use errors, only: error_t
+  use elastic_linkages, only: scaled_link
+  use errors, only: error_t, outcome_t
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use ledger, only: ledger_t
-  use linkages, only: linkage_t
-  use load_cases, only: case_count, find_unit_loads, unit_loads_t
+  use linkages, only: groups_dyad, linkage_t
+  use load_cases, only: case_count
   use poses, only: find_pose, pose_t
-  use position_equations, only: assemble_mass_at, assemble_stiffness_of, new_position_equations, &
-    position_equations_t
+  use position_assembly, only: assemble_position, assembled_t, new_assembled
+  use position_equations, only: new_position_equations, position_equations_t, set_speed
   use positions, only: state_t
+  use structures, only: structure_t
   implicit none (type, external)
   private
 
@@ -49,9 +50,9 @@ contains
   !! sine, others do not depend on it, and loads grow like powers of 1/sin. There each length is
   !! changed a little, and `yᵀ(ΔK_G − λ ΔM) y` is the effect. If the linkage closes with neither a
   !! longer nor a shorter link, the error is at least 1.
-  subroutine pose_error(linkage, model, state, factor, load_work, found, modes, error, counts)
-    type(linkage_t), intent(in) :: linkage         !! of the structure
-    type(deformation_model_t), intent(in) :: model !! of continuous links
+  subroutine pose_error(structure, model, state, factor, load_work, found, modes, error, counts)
+    type(structure_t), intent(in) :: structure     !! whose position it is
+    type(deformation_model_t), intent(in) :: model !! of continuous links at this position
     type(state_t), intent(in) :: state             !! with a pose
     real(wp), intent(in) :: factor(case_count)     !! of the unit loads: ω2², α2, 1
     real(wp), intent(in) :: load_work(:)           !! (modes) of `find_matrix_errors` [1/s²]
@@ -62,12 +63,15 @@ contains
 
     real(wp) :: sine, least_sine, spread, energy, own_work(modes)
     type(position_equations_t) :: equations
-    type(linkage_t) :: other
+    type(assembled_t) :: here
+    type(structure_t) :: other
     integer :: b, i, side
     logical :: reached
 
-    spread = max(1.0_wp, length_spread(linkage, state%pose)/usual_spread)
-    sine = minval(abs(state%pose%sine))/spread
+    spread = max(1.0_wp, length_spread(structure%linkage, state%pose)/usual_spread)
+    sine = 1.0_wp
+    if (size(state%pose%sine) > 0) sine = minval(abs(state%pose%sine))
+    sine = sine/spread
     least_sine = near_sine
     ! Loads also contain the accelerations of short links: where lengths differ much no multiple of
     ! ε/sin² is known.
@@ -81,15 +85,16 @@ contains
       return
     end if
     equations = new_position_equations(model)
-    call assemble_lengths(linkage, model, state%crank, factor, equations, reached, counts)
+    here = new_assembled(structure, model)
+    call assemble_lengths(structure, model, state%crank, factor, here, equations, reached, counts)
     own_work = 0.0_wp
     if (reached) own_work = residual_work(equations%pencil, found, modes)
     error = 0.0_wp
-    do b = 1, size(linkage%bodies)
+    do b = 1, size(structure%linkage%bodies)
       do side = 1, -1, -2
-        other = linkage
-        other%bodies(b)%length = linkage%bodies(b)%length*(1.0_wp + side*small_change*sine**2)
-        call assemble_lengths(other, model, state%crank, factor, equations, reached, counts)
+        other = structure
+        call scale_link(other, b, 1.0_wp + side*small_change*sine**2)
+        call assemble_lengths(other, model, state%crank, factor, here, equations, reached, counts)
         if (reached) exit
       end do
       if (.not. reached) then
@@ -103,8 +108,24 @@ contains
     error = 2.0_wp*error
   end subroutine pose_error
 
+  !> Makes a link longer or shorter.
+  pure subroutine scale_link(structure, body, factor)
+    type(structure_t), intent(inout) :: structure
+    integer, intent(in) :: body
+    real(wp), intent(in) :: factor
+
+    if (allocated(structure%elastic)) then
+      call scaled_link(structure%linkage, structure%elastic, body, factor)
+      ! A redundant link that has become longer would not fit.
+      deallocate (structure%linkage%redundancies)
+      allocate (structure%linkage%redundancies(0))
+    else
+      structure%linkage%bodies(body)%length = structure%linkage%bodies(body)%length*factor
+    end if
+  end subroutine scale_link
+
   !> Ratio of the largest of all lengths and distances between the bases of dyads to the shortest
-  !! link of a dyad.
+  !! link of a group.
   pure function length_spread(linkage, pose) result(spread)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
@@ -116,43 +137,47 @@ contains
     largest = maxval(linkage%bodies%length)
     shortest = huge(shortest)
     do i = 1, size(linkage%groups)
-      associate (dyad => linkage%groups(i))
-        largest = max(largest, norm2(pose%pin(:, dyad%base(2)) - pose%pin(:, dyad%base(1))))
-        shortest = min(shortest, minval(linkage%bodies(dyad%body)%length))
+      associate (group => linkage%groups(i))
+        if (group%kind == groups_dyad) then
+          largest = max(largest, norm2(pose%pin(:, group%base(2)) - pose%pin(:, group%base(1))))
+          shortest = min(shortest, minval(linkage%bodies(group%body)%length))
+        else if (allocated(group%bodies)) then
+          if (size(group%bodies) > 0) shortest = min(shortest, &
+            minval(linkage%bodies(group%bodies)%length))
+        end if
       end associate
     end do
-    spread = largest/shortest
+    spread = 1.0_wp
+    if (shortest < huge(shortest)) spread = largest/shortest
   end function length_spread
 
   !> Assembles M, and K_G of one speed, of a linkage whose lengths may differ slightly from those of
   !! the model.
-  subroutine assemble_lengths(linkage, model, crank, factor, equations, reached, counts)
-    type(linkage_t), intent(in) :: linkage
+  subroutine assemble_lengths(structure, model, crank, factor, here, equations, reached, counts)
+    type(structure_t), intent(in) :: structure
     type(deformation_model_t), intent(in) :: model
     real(wp), intent(in) :: crank              !! [deg]
     real(wp), intent(in) :: factor(case_count) !! of the unit loads: ω2², α2, 1
+    type(assembled_t), intent(inout) :: here   !! of the model
     type(position_equations_t), intent(inout) :: equations !! of the model
     logical, intent(out) :: reached            !! whether the linkage closes there
     type(ledger_t), intent(inout) :: counts
 
     type(pose_t) :: pose
     type(kinematic_coefficients_t) :: coefficients
-    type(unit_loads_t) :: loads
     type(error_t), allocatable :: error
-    real(wp), allocatable :: force(:, :, :)
+    type(outcome_t) :: outcome(1)
 
-    call find_pose(linkage, crank, pose, error)
+    call find_pose(structure%linkage, crank, pose, error)
     counts%kinematic_solutions = counts%kinematic_solutions + 1
     reached = .not. allocated(error)
     if (.not. reached) return
-    call assemble_mass_at(linkage, model, pose, equations)
-    counts%mass_matrices = counts%mass_matrices + 1
-    if (all(abs(factor) <= 0.0_wp)) return
-    coefficients = find_kinematic_coefficients(linkage, pose)
-    loads = find_unit_loads(linkage, pose, coefficients, abs(factor) > 0.0_wp)
-    force = distributed_unit_forces(linkage, pose, loads)
-    call assemble_stiffness_of(model, total_force(force, factor), equations)
-    counts%geometric_matrices = counts%geometric_matrices + 1
+    coefficients = find_kinematic_coefficients(structure%linkage, pose)
+    if (allocated(structure%elastic)) here%elastic = structure%elastic
+    call assemble_position(structure, model, pose, coefficients, reshape(factor, [case_count, 1]), &
+      equations, here, outcome, counts)
+    reached = .not. allocated(outcome(1)%error)
+    if (reached) call set_speed(equations, factor)
   end subroutine assemble_lengths
 
 end module pose_rounding

@@ -19,7 +19,8 @@ module position_equations
   private
 
   public :: position_equations_t, new_position_equations
-  public :: assemble_equations, assemble_mass_at, assemble_stiffness_of, set_speed
+  public :: assemble_equations, assemble_mass_at, assemble_mass, assemble_unit_loads, &
+    assemble_stiffness_of, set_speed
 
   !> Allocated once for a model, filled at every position.
   type :: position_equations_t
@@ -56,18 +57,33 @@ contains
     type(position_equations_t), intent(inout) :: equations !! of this model
     type(ledger_t), intent(inout) :: counts        !! of matrices assembled
 
-    integer :: i
-
     call assemble_mass_at(linkage, model, pose, equations)
     counts%mass_matrices = counts%mass_matrices + 1
+    call assemble_unit_loads(model, unit_force, factor, equations, counts)
+  end subroutine assemble_equations
+
+  !> Assembles K_G of every unit load that occurs at any speed.
+  pure subroutine assemble_unit_loads(model, unit_force, factor, equations, counts, second_order)
+    type(deformation_model_t), intent(in) :: model !! its links' own deformations
+    real(wp), intent(in) :: unit_force(:, :, :)    !! as of `assemble_equations`
+    real(wp), intent(in) :: factor(:, :)           !! (cases, speeds) of the unit loads: ω2², α2, 1
+    type(position_equations_t), intent(inout) :: equations !! with the chords of this position
+    type(ledger_t), intent(inout) :: counts        !! of matrices assembled
+    real(wp), intent(in), optional :: second_order(:, :, :) !! (border, border, cases) what is added
+                                                   !! between border unknowns [-]; absent: nothing
+
+    integer :: i
+
     do i = 1, case_count
       equations%occurs(i) = size(unit_force, 1) > 0 .and. any(abs(factor(i, :)) > 0.0_wp)
       if (.not. equations%occurs(i)) cycle
       call reduced_geometric_stiffness(model%links, model%layout, equations%chords, &
         unit_force(:, :, i), equations%unit_stiffness(i))
+      if (present(second_order)) equations%unit_stiffness(i)%border = &
+        equations%unit_stiffness(i)%border + second_order(:, :, i)
       counts%geometric_matrices = counts%geometric_matrices + 1
     end do
-  end subroutine assemble_equations
+  end subroutine assemble_unit_loads
 
   !> Assembles chords and mass matrix at a pose, for a structure without loads.
   pure subroutine assemble_mass_at(linkage, model, pose, equations)
@@ -77,10 +93,19 @@ contains
     type(position_equations_t), intent(inout) :: equations !! of this model
 
     equations%chords = find_chords(linkage, model%links, pose)
+    call assemble_mass(linkage, model, equations)
+  end subroutine assemble_mass_at
+
+  !> Assembles the mass matrix from the chords of a position, for a structure without loads.
+  pure subroutine assemble_mass(linkage, model, equations)
+    type(linkage_t), intent(in) :: linkage                 !! of the structure
+    type(deformation_model_t), intent(in) :: model         !! its links' own deformations
+    type(position_equations_t), intent(inout) :: equations !! of this model, with chords
+
     call reduced_mass(linkage, model%links, model%layout, equations%chords, equations%pencil%mass)
     equations%occurs = .false.
     equations%pencil%loaded = .false.
-  end subroutine assemble_mass_at
+  end subroutine assemble_mass
 
   !> Assembles K_G of given axial forces, in place of that of a speed.
   pure subroutine assemble_stiffness_of(model, force, equations)

@@ -6,6 +6,7 @@ module position_results
   use kinds, only: wp
   use ledger, only: ledger_t
   use modal_assurance, only: mode_prints_t
+  use position_assembly, only: assembled_t
   use shape_samples, only: shapes_t
   use speed_solver, only: speed_work_t
   implicit none (type, external)
@@ -44,6 +45,7 @@ module position_results
 
   !> Matrices of the models, and the modes of the last positions of a sweep.
   type :: position_work_t
+    type(assembled_t) :: here          !! the present position
     type(speed_work_t) :: continuum    !! for the continuous links
     type(speed_work_t) :: mesh         !! for the deck's mesh, or its near model if it is long
     type(deformation_chain_t) :: chain !! the long mesh

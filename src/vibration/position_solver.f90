@@ -1,26 +1,27 @@
 !> Frequencies of the instantaneous structure at one position, for all speeds, each with its
 !! estimated error.
 module position_solver
-  use axial_forces, only: distributed_unit_forces, total_force
-  use axial_limits, only: refuse_crushed
+  use axial_forces, only: total_force
+  use border_loads, only: border_work
   use bordered_eigensolver, only: bordered_modes_t
   use deformation_model, only: deformation_model_t
+  use errors, only: outcome_t
   use kinds, only: wp
   use link_modes, only: stations
   use linkages, only: linkage_t
-  use load_cases, only: case_count, find_unit_loads, unit_loads_t
+  use load_cases, only: case_count
   use matrix_rounding, only: find_matrix_errors, force_sizes
   use mesh_solver, only: solve_long_mesh, solve_mesh
-  use modal_assurance, only: new_mode_prints
+  use mode_prints, only: prints_of
   use nodal_solver, only: solve_nodal
   use order_errors, only: order_error, with_modes_above
   use pin_displacements, only: chords_t
   use pose_rounding, only: pose_error
   use poses, only: pose_t
-  use position_equations, only: assemble_equations
+  use position_assembly, only: assemble_position, assembled_t, new_assembled
   use position_results, only: largest_error, of_frequency, position_result_t, position_work_t
   use positions, only: state_t
-  use reduced_assembly, only: reduced_deflection
+  use reduced_deflections, only: reduced_deflection
   use shape_samples, only: sample_reduced
   use speed_solver, only: new_speed_work, solve_speeds
   use structures, only: structure_t
@@ -37,11 +38,13 @@ module position_solver
 contains
 
   !> Work space for the positions of a block; no modes are remembered yet.
-  pure function new_position_work(models, request) result(work)
+  pure function new_position_work(structure, models, request) result(work)
+    type(structure_t), intent(in) :: structure     !! with beams
     type(vibration_models_t), intent(in) :: models !! to be solved
     type(mode_request_t), intent(in) :: request    !! method and speeds
     type(position_work_t) :: work
 
+    work%here = new_assembled(structure, models%continuum)
     work%continuum = new_speed_work(models%continuum, size(request%speed), request%accuracy)
     if (any(request%method == [by_link_modes, by_long_mesh])) work%mesh = &
       new_speed_work(models%mesh, size(request%speed))
@@ -66,12 +69,7 @@ contains
     type(position_work_t), intent(inout) :: work   !! from the positions before
     type(position_result_t), intent(out) :: result !! for all speeds
 
-    type(bordered_modes_t), allocatable :: found(:)
-    type(unit_loads_t) :: loads
-    real(wp), allocatable :: unit_force(:, :, :)
-    real(wp) :: factor(case_count, size(request%speed))
-    real(wp), dimension(request%modes) :: discretisation, rounding, of_matrices, load_work
-    integer :: k, n
+    integer :: n
 
     n = size(request%speed)
     allocate (result%lambda(request%modes, n), result%error(request%modes, n), result%outcome(n), &
@@ -82,31 +80,72 @@ contains
     result%deflection = 0.0_wp
     allocate (result%cause(n))
     result%cause = 0
+    call assemble_position(structure, models%continuum, state%pose, state%coefficients, &
+      load_factors(request), work%continuum%equations, work%here, result%outcome, result%counts)
+    if (allocated(structure%elastic)) then
+      if (all_failed(result%outcome)) return
+      ! The basis of the border has turned: modes of the last positions are in another one.
+      if (work%here%border%is_new) work%continuum%tracks%length = 0
+      call solve_assembled(structure, models, work%here%elastic%linkage, work%here%model, &
+        work%here%pose, state, request, want_shapes, work, result)
+    else
+      call solve_assembled(structure, models, structure%linkage, models%continuum, state%pose, &
+        state, request, want_shapes, work, result)
+    end if
+  end subroutine solve_position
+
+  !> Whether there are errors at all speeds.
+  pure function all_failed(outcome)
+    type(outcome_t), intent(in) :: outcome(:)
+    logical :: all_failed
+
+    integer :: k
+
+    all_failed = .true.
+    do k = 1, size(outcome)
+      all_failed = all_failed .and. allocated(outcome(k)%error)
+    end do
+  end function all_failed
+
+  !> Solves a position that is assembled.
+  subroutine solve_assembled(structure, models, linkage, model, pose, state, request, want_shapes, &
+    work, result)
+    type(structure_t), intent(in) :: structure
+    type(vibration_models_t), intent(in) :: models
+    type(linkage_t), intent(in) :: linkage          !! whose bodies are the links of the model
+    type(deformation_model_t), intent(in) :: model  !! of continuous links at this position
+    type(pose_t), intent(in) :: pose                !! of this linkage
+    type(state_t), intent(in) :: state              !! of the linkage that moves
+    type(mode_request_t), intent(in) :: request
+    logical, intent(in) :: want_shapes(:)
+    type(position_work_t), intent(inout) :: work
+    type(position_result_t), intent(inout) :: result
+
+    type(bordered_modes_t), allocatable :: found(:)
+    real(wp) :: factor(case_count, size(request%speed))
+    real(wp), dimension(request%modes) :: discretisation, rounding, of_matrices, load_work
+    integer :: k, n
+
+    n = size(request%speed)
     factor = load_factors(request)
-    loads = find_unit_loads(structure%linkage, state%pose, state%coefficients, &
-      any(abs(factor) > 0.0_wp, dim=2))
-    unit_force = distributed_unit_forces(structure%linkage, state%pose, loads)
-    call refuse_crushed(structure%linkage, models%continuum, unit_force, factor, result%outcome)
-    call assemble_equations(structure%linkage, models%continuum, state%pose, unit_force, factor, &
-      work%continuum%equations, result%counts)
     call move_alloc(work%continuum%found, found)
     call solve_speeds(state%crank, factor, request%modes, &
       want_shapes .and. request%method == by_orders, work%continuum, found, result%outcome, &
       result%counts)
-    associate (chords => work%continuum%equations%chords)
-      if (size(unit_force) > 0) call find_deflection(structure%linkage, models%continuum, chords, &
-        state%pose, loads, factor, result%deflection)
+    associate (chords => work%continuum%equations%chords, unit_force => work%here%unit_force)
+      if (size(unit_force) > 0) call find_deflection(structure, linkage, model, chords, pose, &
+        work%here, factor, result%deflection)
       do k = 1, n
         if (allocated(result%outcome(k)%error)) cycle
-        discretisation = with_modes_above(found(k)%lambda, sum(order_error(models%continuum, &
+        discretisation = with_modes_above(found(k)%lambda, sum(order_error(model, &
           work%continuum%equations, total_force(unit_force, factor(:, k)), found(k), &
           found(k)%near), dim=1), request%modes)
         result%order_error = max(result%order_error, maxval(discretisation))
         result%lambda(:, k) = found(k)%lambda(:request%modes)
-        call find_matrix_errors(models%continuum, chords, force_sizes(unit_force, factor(:, k)), &
-          found(k), request%modes, of_matrices, load_work)
-        call pose_error(structure%linkage, models%continuum, state, factor(:, k), load_work, &
-          found(k), request%modes, rounding, result%counts)
+        call find_matrix_errors(model, chords, force_sizes(unit_force, factor(:, k)), found(k), &
+          request%modes, of_matrices, load_work)
+        call pose_error(structure, model, state, factor(:, k), load_work, found(k), &
+          request%modes, rounding, result%counts)
         of_matrices = of_matrices + found(k)%error(:request%modes)
         result%error(:, k) = of_frequency*(discretisation + (rounding + of_matrices))
         if (maxval(result%error(:, k)) > request%accuracy) result%cause(k) = &
@@ -117,30 +156,30 @@ contains
     if (request%follow) then
       allocate (result%prints(n))
       do k = 1, n
-        if (.not. allocated(result%outcome(k)%error)) result%prints(k) = &
-          new_mode_prints(models%continuum%layout, found(k), request%modes)
+        if (.not. allocated(result%outcome(k)%error)) result%prints(k) = prints_of(model, &
+          work%continuum%equations%chords, found(k), request%modes)
       end do
     end if
     select case (request%method)
     case (by_orders)
       do k = 1, n
         if (want_shapes(k) .and. .not. allocated(result%outcome(k)%error)) then
-          call sample_reduced(structure%linkage, models%continuum, &
-            work%continuum%equations%chords, state, found(k), request, result%shapes(k))
+          call sample_reduced(linkage, model, work%continuum%equations%chords, pose, found(k), &
+            request, result%shapes(k))
           result%counts%shapes = result%counts%shapes + request%modes
         end if
       end do
     case (by_link_modes)
-      call solve_mesh(structure, models%mesh, state, loads, request, factor, want_shapes, &
-        work%mesh, result)
+      call solve_mesh(structure, models%mesh, state, work%here%loads, request, factor, &
+        want_shapes, work%mesh, result)
     case (by_long_mesh)
-      call solve_long_mesh(structure, models%mesh, state, loads, request, factor, want_shapes, &
-        work, result)
+      call solve_long_mesh(structure, models%mesh, state, work%here%loads, request, factor, &
+        want_shapes, work, result)
     case (by_dense, by_band)
-      call solve_nodal(structure, state, loads, request, factor, want_shapes, result)
+      call solve_nodal(structure, state, work%here%loads, request, factor, want_shapes, result)
     end select
     call move_alloc(found, work%continuum%found)
-  end subroutine solve_position
+  end subroutine solve_assembled
 
   !> Elastic energies of modes of unit mass, twice [1/s²].
   pure function energies(found, modes) result(energy)
@@ -153,13 +192,15 @@ contains
     energy = [(dot_product(found%vector(:, i), found%vector(:, i)), i=1, modes)]
   end function energies
 
-  !> Largest static deflection of every link / its length, at every speed.
-  subroutine find_deflection(linkage, model, chords, pose, loads, factor, ratio)
-    type(linkage_t), intent(in) :: linkage
+  !> Largest static deflection of every link / its length, or that of one of its parts, at every
+  !! speed.
+  subroutine find_deflection(structure, linkage, model, chords, pose, here, factor, ratio)
+    type(structure_t), intent(in) :: structure
+    type(linkage_t), intent(in) :: linkage !! whose bodies are the links of the model
     type(deformation_model_t), intent(in) :: model
     type(chords_t), intent(in) :: chords   !! at this pose
-    type(pose_t), intent(in) :: pose
-    type(unit_loads_t), intent(in) :: loads !! at this pose
+    type(pose_t), intent(in) :: pose       !! of this linkage
+    type(assembled_t), intent(in) :: here  !! loads at this pose
     real(wp), intent(in) :: factor(:, :)   !! (cases, speeds) of the unit loads
     real(wp), intent(out) :: ratio(:, :)   !! (bodies, speeds) [-]
 
@@ -168,10 +209,16 @@ contains
 
     unit = 0.0_wp
     do i = 1, case_count
-      if (.not. loads%occurs(i)) cycle
-      call reduced_deflection(linkage, model%links, model%layout, chords, pose, loads%of_case(i), &
-        unit(:, :, :, i))
+      if (.not. here%loads%occurs(i)) cycle
+      if (allocated(structure%elastic)) then
+        call reduced_deflection(linkage, model%links, chords, pose, &
+          here%part_loads%unit%of_case(i), here%part_forces%border(:, i), unit(:, :, :, i))
+      else
+        call reduced_deflection(linkage, model%links, chords, pose, here%loads%of_case(i), &
+          border_work(linkage, model%links, chords, pose, here%loads%of_case(i)), unit(:, :, :, i))
+      end if
     end do
+    ratio = 0.0_wp
     do k = 1, size(factor, 2)
       do b = 1, size(linkage%bodies)
         squared = 0.0_wp
@@ -182,9 +229,21 @@ contains
           end do
           squared = max(squared, sum(displacement**2))
         end do
-        ratio(b, k) = sqrt(squared)/linkage%bodies(b)%length
+        associate (share => ratio(link_of(structure, b), k))
+          share = max(share, sqrt(squared)/linkage%bodies(b)%length)
+        end associate
       end do
     end do
   end subroutine find_deflection
+
+  !> The link of a part.
+  pure function link_of(structure, part) result(link)
+    type(structure_t), intent(in) :: structure
+    integer, intent(in) :: part
+    integer :: link
+
+    link = part
+    if (allocated(structure%elastic)) link = structure%elastic%body(part)
+  end function link_of
 
 end module position_solver

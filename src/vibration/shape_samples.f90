@@ -36,11 +36,11 @@ module shape_samples
 contains
 
   !> Shapes of a model in deformation coordinates.
-  pure subroutine sample_reduced(linkage, model, chords, state, found, request, shapes)
+  pure subroutine sample_reduced(linkage, model, chords, pose, found, request, shapes)
     type(linkage_t), intent(in) :: linkage         !! of the structure
     type(deformation_model_t), intent(in) :: model !! its links' own deformations
     type(chords_t), intent(in) :: chords           !! at this position
-    type(state_t), intent(in) :: state             !! with a pose
+    type(pose_t), intent(in) :: pose               !! of its links
     type(bordered_modes_t), intent(in) :: found    !! modes at this position
     type(mode_request_t), intent(in) :: request    !! modes, points along each link
     type(shapes_t), intent(out) :: shapes          !! of the modes requested
@@ -53,14 +53,14 @@ contains
       do b = 1, size(model%links)
         do i = 1, request%points
           shapes%displacement(:, i, b, mode) = reduced_shape_point(model%links, model%layout, &
-            chords, state%pose, found%vector(:, mode), b, real(i - 1, wp)/(request%points - 1))
+            chords, pose, found%vector(:, mode), b, real(i - 1, wp)/(request%points - 1))
         end do
         do i = 1, size(place)
-          at(:, i, b) = reduced_shape_point(model%links, model%layout, chords, state%pose, &
+          at(:, i, b) = reduced_shape_point(model%links, model%layout, chords, pose, &
             found%vector(:, mode), b, place(i))
         end do
       end do
-      shapes%displacement(:, :, :, mode) = sign_of(linkage, state%pose, &
+      shapes%displacement(:, :, :, mode) = sign_of(linkage, pose, &
         at)*shapes%displacement(:, :, :, mode)
     end do
   end subroutine sample_reduced

@@ -10,7 +10,7 @@ from decimal import Decimal
 from fields import Digits
 from units import Units, unit_factor
 
-IGNORED = {"TITLE", "MESH", "INERTIA", "EFFECTS", "END", "MODES", "SOLVER", "MOTOR", "GAUGE", "DAMPING"}
+IGNORED = {"TITLE", "MESH", "INERTIA", "END", "MODES", "SOLVER", "MOTOR", "GAUGE", "DAMPING"}
 
 
 class Deck:
@@ -24,7 +24,8 @@ class Deck:
         self.masses, self.pin_masses, self.forces, self.torques = [], [], {}, {}
         self.applied, self.tables, self.frictions = [], {}, []  # all other loads: (keyword, words, keys)
         self.gravity = (Decimal(0), Decimal(0))
-        self.materials, self.sections = {}, {}
+        self.materials, self.sections = {}, {}                 # density, area
+        self.moduli, self.bending, self.effects = {}, {}, set()  # (E, nu), (second moment, shear coefficient), words of EFFECTS
         self.cranks, self.speeds, self.alpha_text = [], [Decimal(0)], "0"
         self.start = None                                      # of a motion
         cards = list(_cards(text))
@@ -48,14 +49,20 @@ class Deck:
 
     def _material(self, bare, keys):
         self.materials[bare[0]] = self._keys(keys, density="density")["density"]
+        elastic = self._keys(keys, E="stress", nu="number")
+        self.moduli[bare[0]] = (elastic.get("E"), elastic.get("nu"))
 
     def _section(self, bare, keys):
-        """The area."""
+        """The area, and its second moment about the axis normal to the plane."""
         name, kind = bare
-        size = self._keys(keys, thickness="length", width="length", diameter="length", outer="length", inner="length", A="area")
+        size = self._keys(keys, thickness="length", width="length", diameter="length", outer="length", inner="length", A="area",
+                          I="second_moment", shear_coefficient="number")
         self.sections[name] = {
             "rectangle": lambda: size["thickness"] * size["width"], "circle": lambda: Digits.pi * size["diameter"]**2 / 4,
             "tube": lambda: Digits.pi * (size["outer"]**2 - size["inner"]**2) / 4, "general": lambda: size["A"]}[kind]()
+        second = {"rectangle": lambda: size["width"] * size["thickness"]**3 / 12, "circle": lambda: Digits.pi * size["diameter"]**4 / 64,
+                  "tube": lambda: Digits.pi * (size["outer"]**4 - size["inner"]**4) / 64, "general": lambda: size["I"]}[kind]()
+        self.bending[name] = (second, size.get("shear_coefficient"))
 
     def _ground(self, bare, _):
         self.grounds[bare[0]] = self._pair(bare[1:3], "length")
@@ -67,7 +74,7 @@ class Deck:
         self.guides[bare[0]] = self._pair(bare[1:3], "length") + (self.units.value(keys["angle"], "angle"),)
 
     def _link(self, bare, keys):
-        link = {"pins": [word for word in bare[1:] if word.lower() != "rigid"]}
+        link = {"pins": [word for word in bare[1:] if word.lower() != "rigid"], "rigid": len(bare) > 1 and "rigid" in map(str.lower, bare)}
         for key in ("length", "lengths"):
             if key in keys:
                 link["lengths"] = self._pair(keys[key].split(","), "length")
@@ -96,7 +103,7 @@ class Deck:
         linear = len(drive["words"]) == 1                      # `DRIVE pin guide` or `DRIVE link length`
         quantity = "length" if linear else "angle"
         drive.update(self._keys(keys, at=quantity, ratio="number", phase=quantity))
-        drive["linear"] = linear
+        drive["linear"], drive["free"] = linear, "free" in (word.lower() for word in bare[1:])
         self.drives.append(drive)
 
     def _branch(self, bare, _):
@@ -109,6 +116,10 @@ class Deck:
         place = self._keys(keys, at="length", offset="length", inertia="inertia")
         self.masses.append((bare[0], self.units.value(bare[1], "mass"), place["at"], place.get("offset", Decimal(0)),
                             place.get("inertia", Decimal(0))))
+
+    def _effects(self, bare, keys):
+        if not keys:
+            self.effects = {word.lower() for word in bare}
 
     def _gravity(self, bare, _):
         self.gravity = self._pair(bare, "acceleration")

@@ -203,11 +203,14 @@ class Model:
                 kind, data = "place", (drive["words"][0], None)
             rows.append(("drive", drive, kind, data))
         self.rows = rows
-        equations = sum(2 if row[0] == "pin" else 1 for row in rows)
-        if equations != self.count:
-            raise Failure(f"{self.count} unknowns and {equations} equations")
+        self._compare_counts(sum(2 if row[0] == "pin" else 1 for row in rows))
         self.offsets = {name: self.angle_offset(body) for name, body in self.bodies.items() if body.name}
         self.zero = number(0)
+
+    def _compare_counts(self, equations):
+        """Nothing here is redundant."""
+        if equations != self.count:
+            raise Failure(f"{self.count} unknowns and {equations} equations")
 
     def _find_size(self):
         """The largest distance between pins of a link."""

@@ -181,6 +181,19 @@ def random_loads():
     group.end()
 
 
+def linkages_that_vibrate():
+    """Exact frequencies, and a few random linkages; `make vibrations` compares more."""
+    group = Group("vibrations, release")
+    folder = os.path.join("tests", "linkages")
+    common = ["--program", program("release"), "--skip-refused", "--scratch"]
+    group.lines(execute([sys.executable, "-B", os.path.join(folder, "exact_frequencies.py")] + common + [fresh("vibrations", "exact")]))
+    run = execute([sys.executable, "-B", os.path.join(folder, "random_vibrations.py"), "1", "24", "--jobs", "1"] + common
+                  + [fresh("vibrations", "random")])
+    said = run.stdout.strip() + run.stderr.strip()
+    group.result(f"{folder}/random_vibrations.py 1 24", None if run.returncode == 0 else said)
+    group.end()
+
+
 def run_deck(group, build, deck, out):
     """Run a deck; status 1 (some rows could not be computed) is no failure here, for the tables tell."""
     run = execute([program(build), "--out", out, deck])
@@ -271,7 +284,8 @@ def main(tests):
     of_assertions = BUILDS if tests.startswith("funit") else ("release",)
     jobs = [(unit_tests, build, tests) for build in BUILDS]
     jobs += [(assertions, build, tests) for build in of_assertions] + [(layers,), (documents,)]
-    jobs += [(refused_decks, build) for build in BUILDS] + [(goldens, build) for build in BUILDS] + [(repeated_runs,), (random_loads,)]
+    jobs += [(refused_decks, build) for build in BUILDS] + [(goldens, build) for build in BUILDS] + [(repeated_runs,)]
+    jobs += [(random_loads,), (linkages_that_vibrate,)]
     jobs += [(scripts, build) for build in BUILDS]
     # Two at once: unit tests take one processor, and decks of one speed, too.
     with multiprocessing.Pool(min(2, os.cpu_count())) as pool:

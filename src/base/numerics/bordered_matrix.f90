@@ -19,6 +19,8 @@ module bordered_matrix
     integer, allocatable :: size(:)  !! (blocks) unknowns of a block
     integer, allocatable :: group(:) !! (groups) unknowns of each group after the blocks
     integer :: unknowns = 0          !! all of them
+    integer :: free = 0              !! free motions: so many of the last unknowns of the border
+                                     !! deform nothing
   end type layout_t
 
   type :: bordered_matrix_t
@@ -34,10 +36,12 @@ module bordered_matrix
 contains
 
   !> The order of unknowns from the sizes of its parts.
-  pure function new_bordered_layout(border, blocks, singles) result(layout)
-    integer, intent(in) :: border     !! unknowns of the border
-    integer, intent(in) :: blocks(:)  !! (blocks) unknowns of each block
-    integer, intent(in) :: singles(:) !! (groups) unknowns of each group after the blocks
+  pure function new_bordered_layout(border, blocks, singles, free) result(layout)
+    integer, intent(in) :: border         !! unknowns of the border
+    integer, intent(in) :: blocks(:)      !! (blocks) unknowns of each block
+    integer, intent(in) :: singles(:)     !! (groups) unknowns of each group after the blocks
+    integer, intent(in), optional :: free !! the last unknowns of the border that are free motions;
+                                          !! absent: none
     type(layout_t) :: layout
 
     integer :: i
@@ -47,6 +51,7 @@ contains
     layout%group = singles
     layout%first = [(border + 1 + sum(blocks(:i - 1)), i=1, size(blocks))]
     layout%unknowns = border + sum(blocks) + sum(singles)
+    if (present(free)) layout%free = free
   end function new_bordered_layout
 
   !> A zero matrix.

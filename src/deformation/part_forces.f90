@@ -1,0 +1,284 @@
+!> Forces in the parts of a linkage by its elasticity, whether statics alone determines them or not.
+!!
+!! The stiffness is the unit matrix: the border unknowns of the static solution are the work that the
+!! loads do on their displacements, `z = Sᵀ f`, and `y = Q z` are the forces in parts and springs.
+!! The force in a constraint is the work on what violates it, less that of the parts and springs
+!! that this strains. Drives that are free bear what the motion asks for, as loads.
+module part_forces
+  use axial_forces, only: lump_functions, most_lump_functions
+  use border_loads, only: border_work
+  use border_rows, only: add_stretch, line_direction, spring_way
+  use dense_factor, only: dense_factor_t, factorize, solve
+  use drive_rates, only: find_drive_rates, slide_of
+  use elastic_linkages, only: elastic_linkage_t
+  use kinds, only: wp
+  use link_modes, only: link_modes_t
+  use linkages, only: linkage_t, normal_to, turned
+  use load_cases, only: case_count, load_case_t
+  use part_displacements, only: border_t, chords_of
+  use part_poses, only: part_loads_t
+  use pin_displacements, only: chords_t
+  use poses, only: pose_t
+  implicit none (type, external)
+  private
+
+  public :: part_forces_t, find_part_forces
+
+  !> Forces of the unit loads.
+  type :: part_forces_t
+    real(wp), allocatable :: axial(:, :, :)   !! (1, ξ, ξ², lumps; parts; cases) as of
+                                              !! `distributed_unit_forces` [N]
+    real(wp), allocatable :: second_order(:, :, :) !! (border, border, cases) what blocks on guides
+                                              !! and springs add to K_G [-]
+    real(wp), allocatable :: border(:, :)     !! (border, cases) static solution; zero of free motions
+    real(wp), allocatable :: guide(:, :)      !! (sliders, cases) force of the guide on the block,
+                                              !! along the normal of its line [N]
+    real(wp), allocatable :: spring(:, :)     !! (springs, cases) [N] or [N m]
+  end type part_forces_t
+
+contains
+
+  !> The forces at a position.
+  pure subroutine find_part_forces(linkage, elastic, links, pose, loads, border, chords, forces)
+    type(linkage_t), intent(in) :: linkage          !! that moves: its drives
+    type(elastic_linkage_t), intent(in) :: elastic  !! at this position
+    type(link_modes_t), intent(in) :: links(:)      !! (parts) of these lengths
+    type(pose_t), intent(in) :: pose                !! of points and parts
+    type(part_loads_t), intent(in) :: loads         !! of this position
+    type(border_t), intent(in) :: border            !! with violations of constraints
+    type(chords_t), intent(in) :: chords            !! of the border unknowns
+    type(part_forces_t), intent(out) :: forces
+
+    type(chords_t) :: of_constraints
+    real(wp), allocatable :: on_drives(:, :), drives_of_constraints(:, :), held(:)
+    real(wp) :: work(size(chords%turn, 1)), weighted(size(border%rows%weight)), &
+      lambda(border%numbers%constraints), mean
+    integer :: i, j, k, n
+
+    n = size(chords%turn, 1) - chords%free
+    allocate (forces%axial(merge(3 + most_lump_functions(elastic%linkage), 0, &
+      any(loads%unit%occurs)), size(links), case_count))
+    allocate (forces%second_order(n + chords%free, n + chords%free, case_count), &
+      forces%guide(size(elastic%contact), case_count), forces%spring(size(elastic%springs), &
+      case_count))
+    forces%axial = 0.0_wp
+    forces%second_order = 0.0_wp
+    allocate (forces%border(n + chords%free, case_count), source=0.0_wp)
+    forces%guide = 0.0_wp
+    forces%spring = 0.0_wp
+    if (.not. any(loads%unit%occurs)) return
+    of_constraints = chords_of(elastic, links, pose, border%numbers, border%basis%violation, &
+      border%basis%weighted_violation)
+    call find_drive_rates(linkage, elastic, links, pose, chords, on_drives)
+    call find_drive_rates(linkage, elastic, links, pose, of_constraints, drives_of_constraints)
+    do i = 1, case_count
+      if (.not. loads%unit%occurs(i)) cycle
+      associate (case => loads%unit%of_case(i))
+        work = border_work(elastic%linkage, links, chords, pose, case) + &
+          matmul(loads%moment(:, i), chords%rotation)
+        lambda = border_work(elastic%linkage, links, of_constraints, pose, case) + &
+          matmul(loads%moment(:, i), of_constraints%rotation)
+        if (size(on_drives, 1) > 0 .and. chords%free > 0) then
+          held = held_by_drives(on_drives(:, n + 1:), work(n + 1:))
+          work = work + matmul(held, on_drives)
+          lambda = lambda + matmul(held, drives_of_constraints)
+        end if
+        forces%border(:n, i) = work(:n)
+        weighted = matmul(border%basis%weighted, work(:n))
+        lambda = lambda - matmul(weighted, border%basis%weighted_violation)
+        do k = 1, size(links)
+          if (.not. elastic%linkage%bodies(k)%bends) then
+            forces%axial(1, k, i) = turning_load(elastic, pose, case, k, lambda, border, &
+              loads, weighted, merge(1.0_wp, 0.0_wp, i == case_count))/ &
+              elastic%linkage%bodies(k)%length
+            cycle
+          end if
+          mean = weighted(border%numbers%elongation(k))/links(k)%elongation
+          call add_distribution(elastic%linkage, k, pose, case, mean, forces%axial(:, k, i))
+        end do
+        do k = 1, size(elastic%contact)
+          j = border%numbers%line_constraint(k)
+          if (j > 0) forces%guide(k, i) = -lambda(j)
+        end do
+        do k = 1, size(elastic%springs)
+          forces%spring(k, i) = sqrt(elastic%springs(k)%stiffness)* &
+            weighted(border%numbers%spring(k))
+          if (i == case_count) forces%spring(k, i) = forces%spring(k, i) + loads%pull(k)
+        end do
+        call add_second_order(elastic, pose, border, chords, forces%guide(:, i), &
+          forces%spring(:, i), forces%second_order(:, :, i))
+      end associate
+    end do
+  end subroutine find_part_forces
+
+  !> `N(ξ)` of a part from its mean and the loads along it.
+  pure subroutine add_distribution(linkage, part, pose, case, mean, force)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: part
+    type(pose_t), intent(in) :: pose
+    type(load_case_t), intent(in) :: case
+    real(wp), intent(in) :: mean
+    real(wp), intent(inout) :: force(:)
+
+    real(wp), allocatable :: jump(:)
+    real(wp) :: mass, place
+    integer :: i
+
+    associate (body => linkage%bodies(part), e => pose%direction(:, part))
+      mass = body%line_density*body%length
+      force(2) = mass*dot_product(e, case%field%at_first(:, part))
+      force(3) = 0.5_wp*mass*body%length*dot_product(e, case%field%slope(:, part))
+      jump = lump_functions(linkage, part, pose, case)
+      force(4:3 + size(jump)) = jump
+      force(1) = mean - force(2)/2.0_wp - force(3)/3.0_wp
+      do i = 1, size(body%lumps)
+        place = body%lumps(i)%place(1)/body%length
+        force(1) = force(1) - place*jump(i)
+      end do
+      if (.not. allocated(body%forced)) return
+      do i = 1, size(body%forced)
+        place = body%forced(i)%place(1)/body%length
+        force(1) = force(1) - place*jump(size(body%lumps) + i)
+      end do
+    end associate
+  end subroutine add_distribution
+
+  !> `Σ F·r` of a rigid link, r from its first point: forces at its points, of blocks on it, and its
+  !! loads [N m].
+  pure function turning_load(elastic, pose, case, part, lambda, border, loads, weighted, &
+    constant) result(total)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(pose_t), intent(in) :: pose
+    type(load_case_t), intent(in) :: case
+    integer, intent(in) :: part
+    real(wp), intent(in) :: lambda(:)
+    type(border_t), intent(in) :: border
+    type(part_loads_t), intent(in) :: loads
+    real(wp), intent(in) :: weighted(:) !! (rows)
+    real(wp), intent(in) :: constant    !! 1 of loads that are there at rest, else 0
+    real(wp) :: total
+
+    real(wp) :: arm(2), way(2), pull
+    integer :: i, k, row
+
+    associate (body => elastic%linkage%bodies(part), e => pose%direction(:, part))
+      total = 0.0_wp
+      do k = 0, size(body%further)
+        arm = e*body%length
+        if (k > 0) arm = turned(body%further(k)%place, e)
+        row = border%numbers%body_constraint(part) + 2*k
+        total = total + dot_product(lambda(row + 1:row + 2), arm)
+      end do
+      do i = 1, size(elastic%contact)
+        row = border%numbers%line_constraint(i)
+        if (elastic%linkage%sliders(i)%body /= elastic%body(part) .or. row == 0) cycle
+        arm = pose%pin(:, elastic%linkage%sliders(i)%pin) - pose%pin(:, body%first_pin)
+        total = total + lambda(row)*dot_product(normal_to(line_direction(elastic, pose, i)), arm)
+      end do
+      do i = 1, size(border%numbers%drive_constraint)
+        row = border%numbers%drive_constraint(i)
+        if (row == 0) cycle
+        k = elastic%linkage%drives(i)%slider
+        if (elastic%linkage%sliders(k)%body /= elastic%body(part)) cycle
+        arm = pose%pin(:, elastic%linkage%sliders(k)%pin) - pose%pin(:, body%first_pin)
+        total = total + lambda(row)*dot_product(line_direction(elastic, pose, k), arm)
+      end do
+      total = total - inertia_turning(elastic, pose, case, part)
+      if (allocated(body%forced) .and. allocated(case%place_force)) then
+        do i = 1, size(body%forced)
+          total = total + dot_product(case%place_force(:, body%forced(i)%load), &
+            turned(body%forced(i)%place, e))
+        end do
+      end if
+      ! Springs at places that are no pins.
+      do i = 1, size(elastic%springs)
+        if (elastic%springs(i)%turns) cycle
+        pull = constant*loads%pull(i) + sqrt(elastic%springs(i)%stiffness)* &
+          weighted(border%numbers%spring(i))
+        way = spring_way(elastic, pose, i)
+        if (norm2(way) > 0.0_wp) way = way/norm2(way)
+        do k = 1, 2
+          associate (at => elastic%linkage%loads(elastic%springs(i)%load)%at(k))
+            if (at%pin > 0 .or. at%body /= elastic%body(part)) cycle
+            total = total + merge(pull, -pull, k == 1)*dot_product(way, turned(at%place, e))
+          end associate
+        end do
+      end do
+    end associate
+  end function turning_load
+
+  !> `∫ a·r dm` of a rigid link. The rotary inertia of cross-sections does not count.
+  pure function inertia_turning(elastic, pose, case, part) result(total)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(pose_t), intent(in) :: pose
+    type(load_case_t), intent(in) :: case
+    integer, intent(in) :: part
+    real(wp) :: total
+
+    real(wp) :: mass
+    integer :: i
+
+    associate (body => elastic%linkage%bodies(part), e => pose%direction(:, part), &
+        first => case%field%at_first(:, part), slope => case%field%slope(:, part))
+      mass = body%line_density*body%length
+      total = mass*body%length*(0.5_wp*dot_product(e, first) + body%length/3.0_wp*dot_product(e, &
+        slope))
+      do i = 1, size(body%lumps)
+        associate (lump => body%lumps(i))
+          total = total + lump%mass*dot_product(turned(lump%place, e), first) + &
+            (lump%mass*dot_product(lump%place, lump%place) + lump%inertia)*dot_product(e, slope)
+        end associate
+      end do
+    end associate
+  end function inertia_turning
+
+  !> What blocks on guides that turn and springs add to K_G: `R s θ` and `½ (T/l) (n·ΔU)²`.
+  pure subroutine add_second_order(elastic, pose, border, chords, guide, tension, stiffness)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(pose_t), intent(in) :: pose
+    type(border_t), intent(in) :: border
+    type(chords_t), intent(in) :: chords
+    real(wp), intent(in) :: guide(:)   !! (sliders) [N]
+    real(wp), intent(in) :: tension(:) !! (springs) [N] or [N m]
+    real(wp), intent(inout) :: stiffness(:, :)
+
+    real(wp) :: along(size(stiffness, 1)), turn(size(stiffness, 1)), way(2), &
+      row(border%numbers%unknowns)
+    integer :: i, j
+
+    do i = 1, size(guide)
+      if (elastic%guide_rotation(i) <= 0) cycle
+      turn = chords%rotation(elastic%guide_rotation(i), :)
+      along = slide_of(elastic, pose, chords, i)
+      do j = 1, size(turn)
+        stiffness(:, j) = stiffness(:, j) + guide(i)*(along*turn(j) + turn*along(j))
+      end do
+    end do
+    do i = 1, size(tension)
+      if (elastic%springs(i)%turns) cycle
+      way = spring_way(elastic, pose, i)
+      if (.not. norm2(way) > 0.0_wp) cycle
+      row = 0.0_wp
+      call add_stretch(elastic, border%numbers, pose, i, normal_to(way)/norm2(way), row)
+      along = matmul(row, border%basis%unknown)
+      do j = 1, size(along)
+        stiffness(:, j) = stiffness(:, j) + tension(i)/norm2(way)*along*along(j)
+      end do
+    end do
+  end subroutine add_second_order
+
+  !> Torques and forces of free drives that leave no work on the free motions.
+  pure function held_by_drives(rate, work) result(held)
+    real(wp), intent(in) :: rate(:, :) !! (drives, free motions)
+    real(wp), intent(in) :: work(:)    !! (free motions)
+    real(wp) :: held(size(rate, 1))
+
+    type(dense_factor_t) :: factor
+
+    held = 0.0_wp
+    if (size(rate, 1) /= size(rate, 2)) return
+    call factorize(transpose(rate), factor)
+    if (abs(factor%determinant) > 0.0_wp) held = solve(factor, -work)
+  end function held_by_drives
+
+end module part_forces

@@ -1,0 +1,247 @@
+!> Pose and loads of the parts of a vibrating linkage, from those of the linkage that moves.
+module part_poses
+  use acceleration_fields, only: acceleration_field_t, point_acceleration
+  use applied_load_types, only: applies_between
+  use applied_loads, only: spring_pulls
+  use constants, only: degree
+  use elastic_linkages, only: elastic_linkage_t, fixed_rotation
+  use errors, only: error_of_reach, error_t, set_error
+  use kinds, only: wp
+  use linkages, only: drives_length, linkage_t, normal_to, turned, turned_back
+  use load_cases, only: case_count, constant_case, load_case_t, unit_loads_t
+  use poses, only: arm_to_place, pose_t
+  implicit none (type, external)
+  private
+
+  public :: part_loads_t, place_parts_of, find_part_loads
+
+  !> Loads of the parts, and what acts on rotations and lines of springs.
+  type :: part_loads_t
+    type(unit_loads_t) :: unit                      !! on parts and points
+    real(wp), allocatable :: moment(:, :)           !! (rotations, cases) [N m]
+    real(wp), allocatable :: pull(:)                !! (springs) at the pose, before the linkage
+                                                    !! yields [N] or [N m]
+  end type part_loads_t
+
+  !> The least part of a cut one, as a share of it.
+  real(wp), parameter :: least_share = 1.0e-9_wp
+
+contains
+
+  !> Places points and parts. Lengths of parts that change with the position are set.
+  !!
+  !! Errors: a block is at an end of the straight part that it slides along, or beyond.
+  pure subroutine place_parts_of(linkage, pose, elastic, placed, error)
+    type(linkage_t), intent(in) :: linkage              !! that moves
+    type(pose_t), intent(in) :: pose                    !! of it
+    type(elastic_linkage_t), intent(inout) :: elastic   !! of this linkage
+    type(pose_t), intent(inout) :: placed               !! of its points and parts
+    type(error_t), allocatable, intent(out) :: error    !! its place has link and pin
+
+    real(wp) :: along, whole, way(2)
+    integer :: i, k, n
+
+    if (.not. allocated(placed%pin)) allocate (placed%pin(2, size(elastic%is_fixed)), &
+      placed%direction(2, size(elastic%body)))
+    placed%crank = pose%crank
+    placed%sine = pose%sine
+    placed%pin(:, :size(pose%pin, 2)) = pose%pin
+    do k = 1, size(elastic%body)
+      placed%direction(:, k) = turned(elastic%axis(:, k), pose%direction(:, elastic%body(k)))
+    end do
+    do i = 1, size(elastic%contact)
+      if (elastic%contact(i) == 0) cycle
+      k = elastic%cut_part(i)
+      placed%pin(:, elastic%contact(i)) = pose%pin(:, linkage%sliders(i)%pin)
+      associate (first => elastic%linkage%bodies(k)%first_pin, &
+          last => elastic%linkage%bodies(k + 1)%last_pin)
+        whole = norm2(pose%pin(:, last) - pose%pin(:, first))
+        along = dot_product(placed%direction(:, k), pose%pin(:, linkage%sliders(i)%pin) - &
+          pose%pin(:, first))
+      end associate
+      if (along < least_share*whole .or. along > (1.0_wp - least_share)*whole) then
+        call set_error(error, error_of_reach, "the block is at an end of its link", &
+          body=linkage%sliders(i)%body, pin=linkage%sliders(i)%pin)
+        return
+      end if
+      elastic%linkage%bodies(k)%length = along
+      elastic%linkage%bodies(k + 1)%length = dot_product(placed%direction(:, k), pose%pin(:, &
+        elastic%linkage%bodies(k + 1)%last_pin) - pose%pin(:, linkage%sliders(i)%pin))
+      elastic%place(:, k + 1) = elastic%place(:, k) + along*elastic%axis(:, k)
+    end do
+    do i = 1, size(linkage%drives)
+      if (linkage%drives(i)%kind /= drives_length) cycle
+      n = findloc(elastic%body, linkage%drives(i)%body, dim=1)
+      associate (part => elastic%linkage%bodies(n))
+        way = pose%pin(:, part%last_pin) - pose%pin(:, part%first_pin)
+        part%length = norm2(way)
+      end associate
+    end do
+  end subroutine place_parts_of
+
+  !> The loads of the parts.
+  pure subroutine find_part_loads(linkage, pose, loads, elastic, placed, of_parts)
+    type(linkage_t), intent(in) :: linkage           !! that moves
+    type(pose_t), intent(in) :: pose                 !! of it
+    type(unit_loads_t), intent(in) :: loads          !! of this pose
+    type(elastic_linkage_t), intent(in) :: elastic   !! at this position
+    type(pose_t), intent(in) :: placed               !! its points and parts
+    type(part_loads_t), intent(out) :: of_parts
+
+    real(wp), allocatable :: pull(:)
+    integer :: i, k
+
+    allocate (of_parts%moment(elastic%rotations, case_count), of_parts%pull(size(elastic%springs)))
+    of_parts%moment = 0.0_wp
+    of_parts%pull = 0.0_wp
+    of_parts%unit%occurs = loads%occurs
+    do i = 1, case_count
+      if (.not. loads%occurs(i)) cycle
+      associate (of_links => loads%of_case(i), parts => of_parts%unit%of_case(i))
+        call take_field(linkage, pose, of_links%field, elastic, placed, parts%field)
+        allocate (parts%pin_force(2, size(elastic%is_fixed)), parts%couple(size(elastic%body)))
+        parts%pin_force = 0.0_wp
+        parts%pin_force(:, :size(of_links%pin_force, 2)) = of_links%pin_force
+        parts%couple = 0.0_wp
+        if (allocated(of_links%place_force)) parts%place_force = of_links%place_force
+        if (allocated(of_links%body_force)) allocate (parts%body_force(2, size(elastic%body)), &
+          source=0.0_wp)
+      end associate
+    end do
+    if (loads%occurs(constant_case)) then
+      pull = spring_pulls(linkage, pose)
+      do i = 1, size(elastic%springs)
+        of_parts%pull(i) = pull(elastic%springs(i)%load)
+      end do
+    end if
+    do i = 1, case_count
+      if (loads%occurs(i)) call take_couples(linkage, pose, loads%of_case(i), elastic, placed, &
+        merge(1.0_wp, 0.0_wp, i == constant_case)*of_parts%pull, of_parts%unit%of_case(i))
+    end do
+    call add_blocks(linkage, loads, elastic, of_parts%moment)
+    do i = 1, size(elastic%springs)
+      associate (spring => elastic%springs(i))
+        if (.not. spring%turns) cycle
+        do k = 1, 2
+          if (spring%rotation(k) > 0) of_parts%moment(spring%rotation(k), constant_case) = &
+            of_parts%moment(spring%rotation(k), constant_case) + merge(1.0_wp, -1.0_wp, k == &
+            1)*of_parts%pull(i)
+        end do
+      end associate
+    end do
+  end subroutine find_part_loads
+
+  !> Adds what turns blocks on links that bend: `−I α`.
+  pure subroutine add_blocks(linkage, loads, elastic, moment)
+    type(linkage_t), intent(in) :: linkage
+    type(unit_loads_t), intent(in) :: loads
+    type(elastic_linkage_t), intent(in) :: elastic
+    real(wp), intent(inout) :: moment(:, :) !! (rotations, cases)
+
+    integer :: i, k
+
+    do i = 1, size(elastic%contact)
+      if (elastic%contact(i) == 0 .or. elastic%guide_rotation(i) <= 0) cycle
+      do k = 1, case_count
+        if (loads%occurs(k)) moment(elastic%guide_rotation(i), k) = &
+          moment(elastic%guide_rotation(i), k) - linkage%sliders(i)%inertia* &
+          loads%of_case(k)%field%angular(linkage%sliders(i)%body)
+      end do
+    end do
+  end subroutine add_blocks
+
+  !> Accelerations of points and parts.
+  pure subroutine take_field(linkage, pose, of_links, elastic, placed, field)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(acceleration_field_t), intent(in) :: of_links
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(pose_t), intent(in) :: placed
+    type(acceleration_field_t), intent(out) :: field
+
+    real(wp) :: place(2)
+    integer :: b, i, k
+
+    allocate (field%at_pin(2, size(elastic%is_fixed)), field%at_first(2, size(elastic%body)), &
+      field%slope(2, size(elastic%body)), field%angular(size(elastic%body)))
+    field%at_pin(:, :size(of_links%at_pin, 2)) = of_links%at_pin
+    do i = 1, size(elastic%contact)
+      if (elastic%contact(i) == 0) cycle
+      b = linkage%sliders(i)%body
+      place = turned_back(placed%pin(:, elastic%contact(i)) - pose%pin(:, &
+        linkage%bodies(b)%first_pin), pose%direction(:, b))
+      field%at_pin(:, elastic%contact(i)) = point_acceleration(of_links, b, place(1), place(2))
+    end do
+    do k = 1, size(elastic%body)
+      b = elastic%body(k)
+      field%at_first(:, k) = point_acceleration(of_links, b, elastic%place(1, k), &
+        elastic%place(2, k))
+      field%slope(:, k) = elastic%axis(1, k)*of_links%slope(:, b) + elastic%axis(2, &
+        k)*normal_to(of_links%slope(:, b))
+      field%angular(k) = of_links%angular(b)
+    end do
+  end subroutine take_field
+
+  !> Couples and forces of links: of a rigid link as they are; of one that bends its couples act on
+  !! its first part, forces at places with their moments where they are, springs on its ends.
+  pure subroutine take_couples(linkage, pose, of_links, elastic, placed, pull, parts)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(load_case_t), intent(in) :: of_links
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(pose_t), intent(in) :: placed
+    real(wp), intent(in) :: pull(:) !! (springs) that turn or pull in this case
+    type(load_case_t), intent(inout) :: parts
+
+    real(wp) :: couple(size(linkage%bodies)), arm(2)
+    logical :: is_first
+    integer :: b, i, k
+
+    couple = of_links%couple
+    do i = 1, size(pull)
+      associate (load => linkage%loads(elastic%springs(i)%load))
+        if (load%kind /= applies_between) cycle
+        do k = 1, 2
+          b = load%body(k)
+          if (b > 0) couple(b) = couple(b) - merge(1.0_wp, -1.0_wp, k == 1)*pull(i)
+        end do
+      end associate
+    end do
+    do k = 1, size(elastic%body)
+      b = elastic%body(k)
+      associate (part => elastic%linkage%bodies(k))
+        is_first = findloc(elastic%body, b, dim=1) == k
+        if (is_first) parts%couple(k) = couple(b)
+        if (.not. allocated(parts%place_force)) cycle
+        if (.not. part%bends) then
+          parts%body_force(:, k) = of_links%body_force(:, b)
+          cycle
+        end if
+        if (is_first .and. allocated(linkage%bodies(b)%forced)) then
+          do i = 1, size(linkage%bodies(b)%forced)
+            arm = arm_to_place(pose, b, linkage%bodies(b)%forced(i)%place)
+            parts%couple(k) = parts%couple(k) - moment_of(arm, of_links%place_force(:, &
+              linkage%bodies(b)%forced(i)%load))
+          end do
+        end if
+        if (.not. allocated(part%forced)) cycle
+        do i = 1, size(part%forced)
+          arm = arm_to_place(placed, k, part%forced(i)%place)
+          associate (force => of_links%place_force(:, part%forced(i)%load))
+            parts%couple(k) = parts%couple(k) + moment_of(arm, force)
+            parts%body_force(:, k) = parts%body_force(:, k) + force
+          end associate
+        end do
+      end associate
+    end do
+  end subroutine take_couples
+
+  !> Moment of a force.
+  pure function moment_of(arm, force) result(moment)
+    real(wp), intent(in) :: arm(2), force(2)
+    real(wp) :: moment
+
+    moment = arm(1)*force(2) - arm(2)*force(1)
+  end function moment_of
+
+end module part_poses

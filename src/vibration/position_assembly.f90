@@ -1,0 +1,189 @@
+!> Everything about a linkage at a position that its vibration needs, for a number of speeds: of binary
+!! links and pins from closed forms, of any other linkage from its parts.
+module position_assembly
+  use axial_forces, only: distributed_unit_forces
+  use axial_limits, only: refuse_crushed
+  use bordered_matrix, only: new_bordered_layout
+  use deformation_model, only: deformation_model_t, renew_link
+  use elastic_linkages, only: elastic_linkage_t
+  use errors, only: error_t, outcome_t
+  use kinds, only: wp
+  use kinematic_coefficients, only: kinematic_coefficients_t
+  use ledger, only: ledger_t
+  use linkages, only: linkage_t
+  use load_cases, only: case_count, find_unit_loads, unit_loads_t
+  use part_displacements, only: border_size, border_t, find_part_chords, new_border
+  use part_forces, only: find_part_forces, part_forces_t
+  use part_poses, only: find_part_loads, part_loads_t, place_parts_of
+  use poses, only: find_pose, pose_t
+  use position_equations, only: assemble_equations, assemble_mass, assemble_unit_loads, &
+    position_equations_t
+  use structures, only: structure_t
+  implicit none (type, external)
+  private
+
+  public :: assembled_t, new_assembled, assemble_position, vibrating_linkage, set_border
+
+  !> A linkage at a position. Of binary links and pins only `loads` and `unit_force` are used.
+  type :: assembled_t
+    type(unit_loads_t) :: loads                  !! of this pose
+    real(wp), allocatable :: unit_force(:, :, :) !! (force functions, parts, cases) axial forces of
+                                                 !! the unit loads [N]
+    type(elastic_linkage_t) :: elastic           !! its parts here
+    type(deformation_model_t) :: model           !! their own modes here
+    type(pose_t) :: pose                         !! of points and parts
+    type(part_loads_t) :: part_loads
+    type(part_forces_t) :: part_forces
+    type(border_t) :: border
+  end type assembled_t
+
+contains
+
+  !> The linkage whose bodies are the links of the deformation models.
+  pure function vibrating_linkage(structure) result(linkage)
+    type(structure_t), intent(in) :: structure !! with beams
+    type(linkage_t) :: linkage
+
+    if (allocated(structure%elastic)) then
+      linkage = structure%elastic%linkage
+    else
+      linkage = structure%linkage
+    end if
+  end function vibrating_linkage
+
+  !> Storage for the positions of a model.
+  pure function new_assembled(structure, model) result(here)
+    type(structure_t), intent(in) :: structure     !! with beams
+    type(deformation_model_t), intent(in) :: model !! of its parts
+    type(assembled_t) :: here
+
+    if (.not. allocated(structure%elastic)) return
+    here%elastic = structure%elastic
+    here%model = model
+    here%border = new_border(structure%elastic, model%links)
+  end function new_assembled
+
+  !> Gives a model the border of its linkage, as it is at most of some positions.
+  subroutine set_border(structure, crank, model)
+    type(structure_t), intent(in) :: structure         !! of parts
+    real(wp), intent(in) :: crank(:)                   !! coordinates of the first drive [deg] or [m]
+    type(deformation_model_t), intent(inout) :: model  !! whose layout has no border yet
+
+    type(assembled_t) :: here
+    type(pose_t) :: pose
+    type(error_t), allocatable :: error
+    integer :: i, unknowns, free, least
+
+    here = new_assembled(structure, model)
+    least = huge(least)
+    do i = 1, size(crank)
+      call find_pose(structure%linkage, crank(i), pose, error)
+      if (allocated(error)) cycle
+      call place_parts(structure, model, pose, here, error)
+      if (allocated(error)) cycle
+      call border_size(here%border, here%elastic, here%model%links, here%pose, unknowns, free)
+      if (free >= least) cycle
+      least = free
+      model%layout = new_bordered_layout(unknowns, model%links%modes, model%links%axial_modes, free)
+    end do
+  end subroutine set_border
+
+  !> Assembles a position: displacements of points, M, and K_G of every unit load that occurs at any
+  !! of the speeds.
+  !!
+  !! Errors, speed by speed in `outcome`: a block is at an end of the part that it slides along; the
+  !! linkage has other free motions than elsewhere; a link has no own modes; a link is compressed by
+  !! more than its shear stiffness.
+  subroutine assemble_position(structure, model, pose, coefficients, factor, equations, here, &
+    outcome, counts)
+    type(structure_t), intent(in) :: structure                  !! with beams
+    type(deformation_model_t), intent(in) :: model              !! of its parts
+    type(pose_t), intent(in) :: pose                            !! away from dead points
+    type(kinematic_coefficients_t), intent(in) :: coefficients  !! of this pose
+    real(wp), intent(in) :: factor(:, :)          !! (cases, speeds) of the unit loads: ω2², α2, 1
+    type(position_equations_t), intent(inout) :: equations      !! of this model
+    type(assembled_t), intent(inout) :: here                    !! of this model
+    type(outcome_t), intent(inout) :: outcome(:)                !! (speeds) errors are kept
+    type(ledger_t), intent(inout) :: counts                     !! of the work done
+
+    type(error_t), allocatable :: error
+    integer :: i, k
+
+    here%loads = find_unit_loads(structure%linkage, pose, coefficients, any(abs(factor) > 0.0_wp, &
+      dim=2))
+    if (.not. allocated(structure%elastic)) then
+      here%unit_force = distributed_unit_forces(structure%linkage, pose, here%loads)
+      call refuse_crushed(structure%linkage, model, here%unit_force, factor, outcome)
+      call assemble_equations(structure%linkage, model, pose, here%unit_force, factor, equations, &
+        counts)
+      return
+    end if
+    call place_parts(structure, model, pose, here, error)
+    if (.not. allocated(error)) call find_part_chords(structure%linkage, here%elastic, &
+      here%model%links, here%pose, model%layout%border, model%layout%free, &
+      any(here%loads%occurs), here%border, equations%chords, error)
+    if (allocated(error)) then
+      do i = 1, size(outcome)
+        if (.not. allocated(outcome(i)%error)) outcome(i)%error = error
+      end do
+      return
+    end if
+    call find_part_loads(structure%linkage, pose, here%loads, here%elastic, here%pose, &
+      here%part_loads)
+    call find_part_forces(structure%linkage, here%elastic, here%model%links, here%pose, &
+      here%part_loads, here%border, equations%chords, here%part_forces)
+    here%unit_force = here%part_forces%axial
+    call refuse_crushed(here%elastic%linkage, here%model, here%unit_force, factor, outcome)
+    do i = 1, size(outcome)
+      if (.not. allocated(outcome(i)%error)) cycle
+      associate (body => outcome(i)%error%place%body)
+        if (body > 0) body = here%elastic%body(body)
+      end associate
+    end do
+    call assemble_mass(here%elastic%linkage, here%model, equations)
+    do k = 1, size(equations%chords%rotation, 1)
+      call add_block(here%elastic%rotation_inertia(k), equations%chords%rotation(k, :), &
+        equations%pencil%mass%border)
+    end do
+    counts%mass_matrices = counts%mass_matrices + 1
+    call assemble_unit_loads(here%model, here%unit_force, factor, equations, counts, &
+      here%part_forces%second_order)
+  end subroutine assemble_position
+
+  !> Adds `I θ²` of a block.
+  pure subroutine add_block(inertia, turn, mass)
+    real(wp), intent(in) :: inertia, turn(:)
+    real(wp), intent(inout) :: mass(:, :)
+
+    integer :: j
+
+    if (.not. inertia > 0.0_wp) return
+    do j = 1, size(turn)
+      mass(:, j) = mass(:, j) + inertia*turn*turn(j)
+    end do
+  end subroutine add_block
+
+  !> Places the parts, and renews the own modes of those whose lengths have changed.
+  subroutine place_parts(structure, model, pose, here, error)
+    type(structure_t), intent(in) :: structure
+    type(deformation_model_t), intent(in) :: model
+    type(pose_t), intent(in) :: pose
+    type(assembled_t), intent(inout) :: here
+    type(error_t), allocatable, intent(out) :: error
+
+    integer :: i, k, part
+
+    call place_parts_of(structure%linkage, pose, here%elastic, here%pose, error)
+    if (allocated(error)) return
+    do i = 1, size(here%elastic%cut_part)
+      if (here%elastic%cut_part(i) == 0) cycle
+      do k = 0, 1
+        part = here%elastic%cut_part(i) + k
+        call renew_link(model, part, here%elastic%linkage%bodies(part), here%elastic%beams(part), &
+          here%elastic%held(:, part), here%model%links(part), error)
+        if (allocated(error)) return
+      end do
+    end do
+  end subroutine place_parts
+
+end module position_assembly
