@@ -80,19 +80,19 @@ contains
           first = layout%first(b)
           call find_changes_of_link(link%next, vectors, first, chords%across(:2 + link%curves, :, &
             b), chords%turn(:, b), force(:, b), link%square, force(:, b), link%geometric, &
-            border_mass, lambda, change(across + 1:along, :))
+            border_mass, layout%free, lambda, change(across + 1:along, :))
         end if
         across = along + link%axial_next%pieces
         if (link%axial_next%pieces > 0 .and. link%coupled) then
           first = layout%first(b)
           call find_changes_of_link(link%axial_next, vectors, first, chords%along(:, :, b), &
             chords%turn(:, b), force(:0, b), link%square, force(:, b), link%geometric, &
-            border_mass, lambda, change(along + 1:across, :))
+            border_mass, layout%free, lambda, change(along + 1:across, :))
         else if (link%axial_next%pieces > 0) then
           axial = first_axial(layout, links, b)
           call find_changes_of_link(link%axial_next, vectors, axial, chords%along(:, :, b), &
             chords%turn(:, b), force(:0, b), link%axial_square, force(:0, b), no_stiffness, &
-            border_mass, lambda, change(along + 1:across, :))
+            border_mass, layout%free, lambda, change(along + 1:across, :))
         end if
       end associate
     end do
@@ -101,7 +101,7 @@ contains
   !> The changes by the next orders of all pieces of a link in one direction: across, with the
   !! geometric stiffness of its axial forces, or along, without.
   pure subroutine find_changes_of_link(next, vectors, first, moved, turned, force, own_mass, &
-      own_force, own_geometric, border_mass, lambda, change)
+      own_force, own_geometric, border_mass, free, lambda, change)
     type(next_orders_t), intent(in) :: next
     real(wp), intent(in) :: vectors(:, :)     !! (unknowns, modes), the border's first
     integer, intent(in) :: first              !! number of the first own mode among them
@@ -114,6 +114,7 @@ contains
     real(wp), intent(in) :: own_geometric(:, :, :) !! (1 + curves + own modes, the same, force
                                                    !! functions) `∫ b v' v'`
     real(wp), intent(in) :: border_mass(:, :)
+    integer, intent(in) :: free               !! so many of the last of the border deform nothing
     real(wp), intent(in) :: lambda(:)         !! (modes) [1/s²]
     type(order_change_t), intent(inout) :: change(:, :) !! (pieces, modes) at first none
 
@@ -158,7 +159,7 @@ contains
           own_force, size(own_mass))
         call add_echo(next%mass(:, low:high), slopes, own_mass, stiffness, lambda(i), residual, &
           change(e, i)%echo)
-        call add_border_echo(moved, next%participation(:, low:high), border_mass, lambda(i), &
+        call add_border_echo(moved, next%participation(:, low:high), border_mass, free, lambda(i), &
           residual, change(e, i)%echo)
       end do
     end do
@@ -300,11 +301,12 @@ contains
   end subroutine add_echo
 
   !> What the border adds by yielding to the inertia of the new unknowns.
-  pure subroutine add_border_echo(ends, participation, border_mass, lambda, response, echo)
+  pure subroutine add_border_echo(ends, participation, border_mass, free, lambda, response, echo)
     real(wp), intent(in) :: ends(:, :)          !! (functions, border) what the border does to the
                                                 !! link
     real(wp), intent(in) :: participation(:, :) !! (functions, unknowns)
     real(wp), intent(in) :: border_mass(:, :)
+    integer, intent(in) :: free
     real(wp), intent(in) :: lambda
     real(wp), intent(in) :: response(:)
     real(wp), intent(inout) :: echo
@@ -322,8 +324,27 @@ contains
       residual(i) = dot_product(acting, ends(:, i))
     end do
     matrix = -lambda*border_mass
+    do i = size(residual) - free + 1, size(residual)
+      call take_free(matrix, residual, i)
+    end do
     call eliminate(matrix, residual, least_stiffness, yielding)
     echo = echo + yielding%all
   end subroutine add_border_echo
+
+  !> Gives a free motion, whose unit is arbitrary, the inertia 1, and takes away the stiffness 1
+  !! that `eliminate` adds.
+  pure subroutine take_free(matrix, residual, k)
+    real(wp), intent(inout) :: matrix(:, :), residual(:)
+    integer, intent(in) :: k !! its number
+
+    real(wp) :: factor
+
+    factor = 0.0_wp
+    if (abs(matrix(k, k)) > tiny(factor)) factor = 1.0_wp/sqrt(abs(matrix(k, k)))
+    matrix(:, k) = factor*matrix(:, k)
+    matrix(k, :) = factor*matrix(k, :)
+    residual(k) = factor*residual(k)
+    if (factor > 0.0_wp) matrix(k, k) = matrix(k, k) - 1.0_wp
+  end subroutine take_free
 
 end module order_changes

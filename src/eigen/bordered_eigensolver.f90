@@ -305,6 +305,7 @@ contains
     type(bordered_modes_t), intent(inout) :: found
     logical, intent(out) :: proven
 
+    real(wp) :: gap
     integer :: i, number, order(found%zeros + start%modes)
     logical :: converged
 
@@ -316,8 +317,10 @@ contains
       if (found%zeros > 0 .and. start%lambda(i) <= same_zero*scale) cycle
       found%lambda(number + 1) = start%lambda(i)
       found%mass_times(:, number + 1) = start%direction(:, i)
-      call improve(pencil, accurate_vectors, relative_gap(start%lambda, i), scale, number + 1, &
-        found, converged)
+      gap = relative_gap(start%lambda, i, scale)
+      ! Those near zero are separated afterwards.
+      if (abs(start%lambda(i)) <= same_eigenvalue*scale) gap = max(gap, same_eigenvalue)
+      call improve(pencil, accurate_vectors, gap, scale, number + 1, found, converged)
       if (.not. converged) cycle
       ! Two starts may converge to one mode. If a requested mode is lost that way, the proof fails.
       if (overlaps(found%vector(:, number + 1), found%mass_times(:, :number))) cycle
@@ -328,12 +331,51 @@ contains
       call choose_modes(found, [(i, i=1, number)])
       return
     end if
+    if (scale > 0.0_wp .and. pencil%loaded) call separate(pencil, same_eigenvalue*scale, number, &
+      found)
     order(:number) = ascending_order(found%lambda(:number))
     if (number < size(order) .or. any(order(2:number) < order(:number - 1))) then
       call choose_modes(found, order(:number))
     end if
     call check(pencil, wanted, distance, scale, found, proven)
   end subroutine improve_all
+
+  !> Separates modes with eigenvalues near zero, be they as near to each other as rounding: the
+  !! modes of the matrix `yᵢᵀKyⱼ`.
+  subroutine separate(pencil, near_zero, number, found)
+    type(bordered_pencil_t), intent(in) :: pencil
+    real(wp), intent(in) :: near_zero !! [1/s²]
+    integer, intent(in) :: number     !! modes so far
+    type(bordered_modes_t), intent(inout) :: found
+
+    real(wp), allocatable :: products(:, :), unit(:, :), mixed(:, :), inverse(:)
+    integer, allocatable :: alike(:)
+    type(error_t), allocatable :: error
+    integer :: i, n
+
+    alike = pack([(i, i=1, number)], abs(found%lambda(:number)) <= near_zero)
+    n = size(alike)
+    if (n < 2) return
+    allocate (unit(n, n), inverse(n))
+    unit = 0.0_wp
+    do i = 1, n
+      unit(i, i) = 1.0_wp
+    end do
+    products = matmul(transpose(found%vector(:, alike)), found%stiffness_times(:, alike))
+    products = 0.5_wp*(products + transpose(products))
+    call solve_dense(full_band(unit), full_band(products), n, .true., inverse, mixed, error)
+    ! Without it the modes are as they were, and their bounds say how good that is.
+    if (allocated(error)) return
+    found%vector(:, alike) = matmul(found%vector(:, alike), mixed)
+    do i = 1, n
+      associate (mode => alike(i))
+        call bordered_times_vector(pencil%layout, pencil%mass, found%vector(:, mode), &
+          found%mass_times(:, mode))
+        call stiffness_times_vector(pencil, found%vector(:, mode), found%stiffness_times(:, mode))
+        found%lambda(mode) = dot_product(found%vector(:, mode), found%stiffness_times(:, mode))
+      end associate
+    end do
+  end subroutine separate
 
   !> The free motions at rest, in the first columns.
   pure subroutine place_rest_modes(pencil, starts, found)
@@ -460,7 +502,7 @@ contains
         if (converged) exit
         ! The residual no longer falls because of rounding: this accuracy is final.
         if (i > 2 .and. residual >= 0.25_wp*previous) then
-          converged = error <= 1.0e-10_wp*max(abs(lambda), 1.0e-6_wp*scale**2)
+          converged = error <= 1.0e-10_wp*max(abs(lambda), 1.0e-6_wp*scale**2, least_size)
           exit
         end if
         previous = residual
@@ -592,6 +634,8 @@ contains
   !! those of `M y = θ B y`. A Rayleigh quotient with the residual `r = K y − λ M y` differs from
   !! the nearest eigenvalue by `rᵀ B⁻¹ r` times `(λ_j + σ)/|λ_j − λ|` at most, with the next
   !! eigenvalue λ_j (Kato and Temple). To this the rounding of the terms of the quotient is added.
+  !! Of modes with eigenvalues near zero, which are separated in the space of all of them, the
+  !! residuals add up, and the next eigenvalue is the next to them.
   subroutine bound_errors(pencil, wanted, margin, scale, kept, found)
     type(bordered_pencil_t), intent(in) :: pencil
     integer, intent(in) :: wanted
@@ -602,8 +646,10 @@ contains
 
     type(bordered_matrix_t) :: magnitude
     real(wp), dimension(pencil%layout%unknowns) :: residual, solution, products
-    real(wp) :: shift, terms, beyond, distance
-    integer :: i, j
+    real(wp), dimension(size(found%lambda)) :: square, terms, distance
+    logical :: alike(size(found%lambda))
+    real(wp) :: shift, beyond
+    integer :: i
 
     shift = scale + 2.0_wp*max(0.0_wp, -found%lambda(1))
     beyond = margin*(abs(found%lambda(wanted)) + scale)
@@ -613,29 +659,46 @@ contains
       magnitude%coupling = abs(magnitude%coupling)
       magnitude%block = abs(magnitude%block)
     end if
-    do i = found%zeros + 1, kept
+    alike = pencil%loaded .and. abs(found%lambda) <= same_eigenvalue*scale
+    square = 0.0_wp
+    terms = 0.0_wp
+    do i = found%zeros + 1, size(alike)
+      if (i > kept .and. .not. alike(i)) cycle
       associate (lambda => found%lambda(i), y => found%vector(:, i))
-        distance = 1.0_wp
-        do j = 1, size(found%lambda)
-          if (j == i) cycle
-          distance = min(distance, abs(found%lambda(j) - lambda)/(max(abs(found%lambda(j)), &
-            abs(lambda)) + shift))
-        end do
+        distance(i) = relative_gap([lambda, pack(found%lambda, others(i))], 1, shift)
         ! The next mode may not be known.
-        if (i >= wanted) distance = min(distance, beyond/(abs(lambda) + beyond + shift))
+        if (i >= wanted) distance(i) = min(distance(i), beyond/(abs(lambda) + beyond + shift))
         residual = found%stiffness_times(:, i) - lambda*found%mass_times(:, i)
         call solve_shifted(pencil, -shift, residual, solution)
         found%factorizations = found%factorizations + 1
-        terms = abs(lambda)*mass_terms(pencil%mass, pencil%layout, y) + &
+        square(i) = max(0.0_wp, dot_product(residual, solution))
+        terms(i) = abs(lambda)*mass_terms(pencil%mass, pencil%layout, y) + &
           elastic_square(pencil%layout, y)
         if (pencil%loaded) then
           call bordered_times_vector(pencil%layout, magnitude, abs(y), products)
-          terms = terms + dot_product(abs(y), products)
+          terms(i) = terms(i) + dot_product(abs(y), products)
         end if
-        found%error(i) = relative_error(max(0.0_wp, dot_product(residual, solution))/ &
-          max(distance, epsilon(1.0_wp)) + rounding*epsilon(1.0_wp)*terms, lambda)
       end associate
     end do
+    do i = found%zeros + 1, kept
+      associate (together => alike .and. alike(i))
+        found%error(i) = relative_error(max(square(i), sum(square, mask=together))/ &
+          max(distance(i), epsilon(1.0_wp)) + rounding*epsilon(1.0_wp)*max(terms(i), sum(terms, &
+          mask=together)), found%lambda(i))
+      end associate
+    end do
+
+  contains
+
+    !> The modes from which one is to be told apart.
+    pure function others(mode)
+      integer, intent(in) :: mode
+      logical :: others(size(alike))
+
+      others = .not. (alike .and. alike(mode))
+      others(mode) = .false.
+    end function others
+
   end subroutine bound_errors
 
   !> Relative distance of an eigenvalue to the nearest other one. From the last wanted mode on, the

@@ -10,17 +10,23 @@ contains
 
   !> Distance of an eigenvalue to the nearest other one, relative to the larger magnitude of the
   !! two; at most 1, and 1 without another.
-  pure function relative_gap(lambda, i) result(gap)
-    real(wp), intent(in) :: lambda(:) !! (modes)
-    integer, intent(in) :: i          !! its number
+  pure function relative_gap(lambda, i, added) result(gap)
+    real(wp), intent(in) :: lambda(:)       !! (modes)
+    integer, intent(in) :: i                !! its number
+    real(wp), intent(in), optional :: added !! to the larger magnitude, where eigenvalues may
+                                            !! vanish; absent: 0
     real(wp) :: gap
 
+    real(wp) :: more
     integer :: j
 
+    more = 0.0_wp
+    if (present(added)) more = added
     gap = 1.0_wp
     do j = 1, size(lambda)
       if (j == i) cycle
-      gap = min(gap, abs(lambda(j) - lambda(i))/max(abs(lambda(i)), abs(lambda(j)), tiny(gap)))
+      gap = min(gap, abs(lambda(j) - lambda(i))/(max(abs(lambda(i)), abs(lambda(j)), tiny(gap)) + &
+        more))
     end do
   end function relative_gap
 

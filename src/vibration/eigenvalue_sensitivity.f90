@@ -1,12 +1,12 @@
 !> Sensitivity of eigenvalues to changes of the matrices at a position.
 !!
-!! The eigenvalue of a mode of `(I + K_G) y = λ M y` with yᵀMy = 1 changes, to first order, by
-!! `yᵀ(ΔK_G − λ ΔM) y`. This is found as the difference of the works `yᵀ(I + K_G − λM) y` in two
+!! The eigenvalue of a mode of `(K + K_G) y = λ M y` with yᵀMy = 1 changes, to first order, by
+!! `yᵀ(ΔK_G − λ ΔM) y`. This is found as the difference of the works `yᵀ(K + K_G − λM) y` in two
 !! sets of matrices, so that the original matrices need not be kept.
 module eigenvalue_sensitivity
   use bordered_eigensolver, only: bordered_modes_t
   use bordered_matrix, only: bordered_times_vector
-  use bordered_pencil, only: bordered_pencil_t
+  use bordered_pencil, only: bordered_pencil_t, elastic_square
   use kinds, only: wp
   implicit none (type, external)
   private
@@ -15,7 +15,7 @@ module eigenvalue_sensitivity
 
 contains
 
-  !> `yᵀ(I + K_G − λM) y` of the lowest modes [1/s²]. In the matrices of the modes themselves it is
+  !> `yᵀ(K + K_G − λM) y` of the lowest modes [1/s²]. In the matrices of the modes themselves it is
   !! zero except for rounding.
   pure function residual_work(pencil, found, modes) result(work)
     type(bordered_pencil_t), intent(in) :: pencil !! matrices, possibly other than those of the
@@ -30,7 +30,7 @@ contains
     do i = 1, modes
       associate (y => found%vector(:, i))
         call bordered_times_vector(pencil%layout, pencil%mass, y, product)
-        work(i) = dot_product(y, y) - found%lambda(i)*dot_product(y, product)
+        work(i) = elastic_square(pencil%layout, y) - found%lambda(i)*dot_product(y, product)
         if (.not. pencil%loaded) cycle
         call bordered_times_vector(pencil%layout, pencil%geometric, y, product)
         work(i) = work(i) + dot_product(y, product)

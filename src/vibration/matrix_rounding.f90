@@ -6,6 +6,7 @@
 module matrix_rounding
   use bordered_eigensolver, only: bordered_modes_t
   use deformation_model, only: deformation_model_t
+  use eigenvalue_gaps, only: relative_error
   use kinds, only: wp
   use link_modes, only: rigid
   use pin_displacements, only: body_displacement, chords_t
@@ -70,8 +71,10 @@ contains
         call add_link(model, chords, found%vector(:, i), b, force_size(b), mass_error, &
           slope_error, slopes)
       end do
-      error(i) = multiple*epsilon(1.0_wp)*(mass_error + slope_error/max(abs(found%lambda(i)), &
-        tiny(1.0_wp)))
+      error(i) = multiple*epsilon(1.0_wp)*(mass_error + relative_error(slope_error, &
+        found%lambda(i)))
+      ! Whatever their mass, free motions at rest have the eigenvalue zero.
+      if (i <= found%zeros) error(i) = 0.0_wp
       load_work(i) = maxval(force_size)*slopes
     end do
   end subroutine find_matrix_errors

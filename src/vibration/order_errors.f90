@@ -2,6 +2,7 @@
 module order_errors
   use bordered_eigensolver, only: bordered_modes_t
   use deformation_model, only: deformation_model_t
+  use eigenvalue_gaps, only: relative_error
   use kinds, only: wp
   use order_changes, only: find_order_changes, order_change_t, part_count
   use position_equations, only: position_equations_t
@@ -42,8 +43,9 @@ contains
 
     call find_order_changes(model%links, model%layout, equations%chords, &
       equations%pencil%mass%border, force, found%vector(:, :modes), found%lambda(:modes), change)
-    do i = 1, modes
-      error(:, i) = remainder(change(:, i))/max(abs(found%lambda(i)), tiny(1.0_wp))
+    error(:, :min(found%zeros, modes)) = 0.0_wp
+    do i = found%zeros + 1, modes
+      error(:, i) = relative_error(remainder(change(:, i)), found%lambda(i))
       if (any(.not. change(:, i)%definite)) then
         error(:, i) = indefinite_margin*error(:, i)
       else if (sum(error(:, i)) >= rough_change) then
@@ -57,18 +59,22 @@ contains
   !!
   !! Where eigenvalues are so near that the next orders mix their modes, the lower one falls to the
   !! lesser eigenvalue of `[λ_i − c_i, √(c_i c_j); √(c_i c_j), λ_j − c_j]` at most, with c what
-  !! orders change each by itself.
-  pure function with_modes_above(lambda, error, modes) result(whole)
+  !! orders change each by itself. Below free motions at rest nothing falls.
+  pure function with_modes_above(lambda, error, modes, zeros) result(whole)
     real(wp), intent(in) :: lambda(:) !! (modes found) ascending [1/s²]
     real(wp), intent(in) :: error(:)  !! (modes, and those near above them) relative
     integer, intent(in) :: modes      !! number, lowest first
+    integer, intent(in), optional :: zeros !! free motions at rest, the first modes; absent: none
     real(wp) :: whole(modes)
 
     real(wp) :: change(size(error)), least, apart, mixed
-    integer :: i, j
+    integer :: i, j, first
 
     change = abs(lambda(:size(error)))*error
-    do i = 1, modes
+    first = 1
+    if (present(zeros)) first = zeros + 1
+    whole(:min(first - 1, modes)) = 0.0_wp
+    do i = first, modes
       least = lambda(i) - change(i)
       do j = i + 1, size(error)
         apart = 0.5_wp*((lambda(j) - change(j)) - (lambda(i) - change(i)))
@@ -81,7 +87,7 @@ contains
           least = min(least, lambda(i) - change(i) + apart - mixed)
         end if
       end do
-      whole(i) = max(error(i), (lambda(i) - least)/max(abs(lambda(i)), tiny(least)))
+      whole(i) = max(error(i), relative_error(lambda(i) - least, lambda(i)))
     end do
   end function with_modes_above
 

@@ -4,7 +4,9 @@
 !! the rest of the linkage.
 module pose_rounding
   use bordered_eigensolver, only: bordered_modes_t
+  use bordered_pencil, only: elastic_square
   use deformation_model, only: deformation_model_t
+  use eigenvalue_gaps, only: relative_error
   use eigenvalue_sensitivity, only: eigenvalue_change, residual_work
   use elastic_linkages, only: scaled_link
   use errors, only: error_t, outcome_t
@@ -78,10 +80,11 @@ contains
     if (any(abs(factor) > 0.0_wp)) least_sine = merge(loaded_near_sine, 1.0_wp, spread <= 1.0_wp)
     if (sine >= least_sine) then
       do i = 1, modes
-        energy = dot_product(found%vector(:, i), found%vector(:, i)) + load_work(i)
-        error(i) = 2.0_wp*far_multiple*epsilon(1.0_wp)/sine**2*(1.0_wp + &
-          energy/max(abs(found%lambda(i)), tiny(energy)))
+        energy = elastic_square(model%layout, found%vector(:, i)) + load_work(i)
+        error(i) = 2.0_wp*far_multiple*epsilon(1.0_wp)/sine**2*(1.0_wp + relative_error(energy, &
+          found%lambda(i)))
       end do
+      error(:min(found%zeros, modes)) = 0.0_wp
       return
     end if
     equations = new_position_equations(model)
@@ -106,6 +109,7 @@ contains
         (small_change*sine**2*max(abs(found%lambda(:modes)), tiny(1.0_wp)))
     end do
     error = 2.0_wp*error
+    error(:min(found%zeros, modes)) = 0.0_wp
   end subroutine pose_error
 
   !> Makes a link longer or shorter.

@@ -4,6 +4,8 @@ module position_solver
   use axial_forces, only: total_force
   use border_loads, only: border_work
   use bordered_eigensolver, only: bordered_modes_t
+  use bordered_matrix, only: layout_t
+  use bordered_pencil, only: elastic_square
   use deformation_model, only: deformation_model_t
   use errors, only: outcome_t
   use kinds, only: wp
@@ -139,7 +141,7 @@ contains
         if (allocated(result%outcome(k)%error)) cycle
         discretisation = with_modes_above(found(k)%lambda, sum(order_error(model, &
           work%continuum%equations, total_force(unit_force, factor(:, k)), found(k), &
-          found(k)%near), dim=1), request%modes)
+          found(k)%near), dim=1), request%modes, found(k)%zeros)
         result%order_error = max(result%order_error, maxval(discretisation))
         result%lambda(:, k) = found(k)%lambda(:request%modes)
         call find_matrix_errors(model, chords, force_sizes(unit_force, factor(:, k)), found(k), &
@@ -150,7 +152,8 @@ contains
         result%error(:, k) = of_frequency*(discretisation + (rounding + of_matrices))
         if (maxval(result%error(:, k)) > request%accuracy) result%cause(k) = &
           largest_error(discretisation, rounding, of_matrices, &
-          energies(found(k), request%modes) > many_times*abs(found(k)%lambda(:request%modes)))
+          energies(models%continuum%layout, found(k), request%modes) > &
+          many_times*abs(found(k)%lambda(:request%modes)))
       end do
     end associate
     if (request%follow) then
@@ -182,14 +185,15 @@ contains
   end subroutine solve_assembled
 
   !> Elastic energies of modes of unit mass, twice [1/s²].
-  pure function energies(found, modes) result(energy)
+  pure function energies(layout, found, modes) result(energy)
+    type(layout_t), intent(in) :: layout
     type(bordered_modes_t), intent(in) :: found
     integer, intent(in) :: modes
     real(wp) :: energy(modes)
 
     integer :: i
 
-    energy = [(dot_product(found%vector(:, i), found%vector(:, i)), i=1, modes)]
+    energy = [(elastic_square(layout, found%vector(:, i)), i=1, modes)]
   end function energies
 
   !> Largest static deflection of every link / its length, or that of one of its parts, at every

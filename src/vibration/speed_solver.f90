@@ -45,7 +45,7 @@ contains
     allocate (work%tracks(speeds), work%found(speeds))
   end function new_speed_work
 
-  !> Solves `(I + K_G) y = λ M y` for every speed, starting from the modes of the last positions.
+  !> Solves `(K + K_G) y = λ M y` for every speed, starting from the modes of the last positions.
   !!
   !! Errors, speed by speed in `outcome`: no start leads to modes that are proven complete. The
   !! modes of the last positions are then forgotten.
@@ -84,7 +84,8 @@ contains
         cycle
       end if
       counts%proofs = counts%proofs + 1
-      from_track = found(k)%reduced_solutions + found(k)%full_solutions == 0
+      from_track = start%modes > 0 .and. &
+        found(k)%reduced_solutions + found(k)%full_solutions == 0
       if (from_track) counts%extrapolated = counts%extrapolated + 1
       call remember(work%tracks(k), place, found(k), from_track)
     end do
