@@ -2,7 +2,8 @@
 !! shapes.
 module frequency_report
   use errors, only: error_t
-  use frequency_study, only: failure_at, frequency_values, has_result, station_on_link
+  use frequency_study, only: failure_at, find_stations, frequency_values, has_result, &
+    link_of_part
   use kinds, only: wp
   use links_report, only: shown_crank
   use load_notes, only: acceleration_note
@@ -229,7 +230,7 @@ contains
     integer, intent(in) :: speed                   !! number in the sweep's list
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
-    real(wp), allocatable :: frequencies(:)
+    real(wp), allocatable :: frequencies(:), station(:, :, :)
     integer :: mode
 
     associate (found => variant%found, state => variant%found%positions%state(position))
@@ -238,23 +239,28 @@ contains
         return
       end if
       frequencies = frequency_values(found%sweep, state, speed)
+      call find_stations(variant%mechanism%structure_t, found%positions%states(state), &
+        found%sweep%request%points, station)
       do mode = 1, variant%model%modes
         if (mode > 1) call add_gap(rows, 2)
-        call add_mode(variant, layout, position, speed, mode, frequencies(mode), rows)
+        call add_mode(variant, layout, position, speed, mode, frequencies(mode), station, rows)
       end do
     end associate
   end subroutine add_shapes
 
-  subroutine add_mode(variant, layout, position, speed, mode, frequency, rows)
+  !> The rows of a mode. A corner of a link stands twice, as the end of one part and the beginning of
+  !! the next.
+  subroutine add_mode(variant, layout, position, speed, mode, frequency, station, rows)
     type(variant_results_t), intent(in) :: variant
     type(table_layout_t), intent(in) :: layout
     integer, intent(in) :: position, speed, mode
     real(wp), intent(in) :: frequency !! [Hz]
+    real(wp), intent(in) :: station(:, :, :) !! (3, points, parts) by `find_stations` [m]
     type(rows_t), intent(inout) :: rows
 
     type(unit_t) :: length
-    real(wp) :: displacement(3), scale, station(3), place(2)
-    integer :: body, i, state
+    real(wp) :: displacement(3), scale, place(2)
+    integer :: part, link, before, i, state
 
     ! Displacements of a normalised mode have the unit mass^(-1/2).
     scale = sqrt(to_si(1.0_wp, table_factor("mass", variant%model%outputs)))
@@ -263,16 +269,17 @@ contains
     place = [shown_speed(variant, speed), shown_crank(variant, &
       variant%found%positions%crank(position))]
     associate (shape => variant%found%sweep%results(state)%shapes(speed)%displacement)
-      do body = 1, size(variant%mechanism%names)
-        if (body > 1) call add_gap(rows, 1)
+      before = 0
+      do part = 1, size(shape, 3)
+        link = link_of_part(variant%mechanism%structure_t, part)
+        if (before > 0 .and. link /= before) call add_gap(rows, 1)
+        before = link
         do i = 1, size(shape, 2)
-          displacement = scale*shape(:, i, body, mode)
+          displacement = scale*shape(:, i, part, mode)
           displacement(3) = to_si(displacement(3), length)
-          station = station_on_link(variant%mechanism%structure_t, &
-            variant%found%positions%states(state), body, i, size(shape, 2))
           call add_row(rows, cells(layout, 1, place)//integer_cell(mode, "mode")// &
-            cells(layout, 4, [frequency])//name_cell(variant%mechanism%names(body)%text, &
-            column_width(layout, 5))//cells(layout, 6, [station, displacement]))
+            cells(layout, 4, [frequency])//name_cell(variant%mechanism%names(link)%text, &
+            column_width(layout, 5))//cells(layout, 6, [station(:, i, part), displacement]))
         end do
       end do
     end associate
