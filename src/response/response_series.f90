@@ -125,7 +125,8 @@ contains
     ! moments.
     if (grid%model%links(body)%bending_shapes%shear_stiffness > 0.0_wp .or. &
       grid%rotary_inertia(body) <= 0.0_wp) return
-    rotation(:, 1) = sums_of_rows(q, chord, rows%rotation) + (q(:, 2) - q(:, 1))/grid%model%links(body)%length
+    rotation(:, 1) = sums_of_rows(q, chord, rows%rotation) + (q(:, 2) - q(:, &
+      1))/grid%model%links(body)%length
     call derivatives(plan, rotation, first, second)
     series(:, 3) = series(:, 3) + grid%rotary_inertia(body)*speed**2*(second(:, 1) + &
       grid%rate_slope(:, body))

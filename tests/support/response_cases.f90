@@ -342,7 +342,7 @@ contains
     do i = 1, size(xi)
       rows = strain_rows(grid%model%links(body), xi(i))
       axial(:, i) = y(:, grid%elongation(body))*rows%elongation + matmul(q(:, chord + 1:), rows%axial)
-      curvature(:, i) = matmul(q(:, [3, (chord + j, j=1, size(q, 2) - chord)]), rows%curvature)
+      curvature(:, i) = matmul(q(:, [(j, j=3, chord - 2), (j, j=chord + 1, size(q, 2))]), rows%curvature)
     end do
   end subroutine strains_along
 

@@ -49,7 +49,6 @@ contains
     type(assembly_t) :: assembly
     integer :: pivot(2)
 
-    call refuse_unbuilt(model, diagnostics)
     call check_drawing(model, diagnostics)
     call assemble_linkage(model, assembly)
     if (allocated(assembly%problem)) then
@@ -106,20 +105,6 @@ contains
     if (has_errors(diagnostics) .or. all(model%solver /= [solver_dense, solver_band])) return
     call check_round_off(model, mechanism, diagnostics)
   end subroutine check_matrices
-
-  !> Frequencies of linkages other than four-bars, and of springs, have no equations yet.
-  subroutine refuse_unbuilt(model, diagnostics)
-    type(model_t), intent(in) :: model
-    type(diagnostics_t), intent(inout) :: diagnostics
-
-    integer :: report
-
-    if (.not. needs_frequencies(model)) return
-    if (is_four_bar(model) .and. size(model%springs) == 0) return
-    report = findloc(model%reports%kind%frequencies, .true., dim=1)
-    call add_error(diagnostics, model%reports(report)%keyword, "REPORT "// &
-      trim(model%reports(report)%kind%name)//" takes four-bars without springs only, yet")
-  end subroutine refuse_unbuilt
 
   !> One link is longer than all the others together.
   subroutine report_open_linkage(model, mechanism, diagnostics)
