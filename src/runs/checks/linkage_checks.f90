@@ -7,13 +7,15 @@ module linkage_checks
   use errors, only: error_of_dead_point, error_of_reach, error_t
   use kinds, only: wp
   use linkage_parts, only: assembly_t
-  use linkages, only: linkage_t, reference_point
+  use linkages, only: groups_dyad, is_dyad_linkage, linkage_t, reference_point
   use mechanisms, only: mechanism_t, pins_of_body
-  use models, only: drives_length, model_t, report_number
+  use models, only: drives_length, model_t, needs_frequencies, report_number, solver_band, &
+    solver_dense
+  use plan_words, only: group_names
   use pose_types, only: pose_t
   use poses, only: place_links, place_parts
   use redundancies, only: body_of_redundancy, largest_misfit
-  use text, only: plural, to_string
+  use text, only: lower_case, plural, to_string
   use tokens, only: token_t
   implicit none (type, external)
   private
@@ -42,7 +44,8 @@ module linkage_checks
 
 contains
 
-  !> Whether a planned linkage assembles near its drawing, fits, and reaches the positions.
+  !> Whether a planned linkage assembles near its drawing, fits, reaches the positions, and can be
+  !! divided into the elements of the deck.
   pure subroutine check_linkage(model, assembly, mechanism, diagnostics)
     type(model_t), intent(in) :: model                !! without errors so far
     type(assembly_t), intent(in) :: assembly          !! with a plan
@@ -87,7 +90,34 @@ contains
     end if
     call check_reach(model, mechanism, leaving, diagnostics)
     if (leaving > 0) call check_blocks(model, mechanism, diagnostics)
+    if (needs_frequencies(model) .and. .not. has_errors(diagnostics)) call check_mesh(model, &
+      mechanism, diagnostics)
   end subroutine check_linkage
+
+  !> A mesh of the deck, and its nodal matrices, are of links that are placed two by two.
+  pure subroutine check_mesh(model, mechanism, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=:), allocatable :: reason
+    integer :: i
+
+    if (mechanism%accuracy > 0.0_wp .or. is_dyad_linkage(mechanism%linkage)) return
+    reason = " is for links that are placed two by two"
+    do i = 1, size(mechanism%linkage%groups)
+      if (mechanism%linkage%groups(i)%kind == groups_dyad) cycle
+      reason = reason//", not "//group_names(mechanism, mechanism%linkage%groups(i))
+      exit
+    end do
+    if (model%solver == solver_dense .or. model%solver == solver_band) then
+      call add_error(diagnostics, model%solver_word, "SOLVER "// &
+        lower_case(model%solver_word%text)//reason//"; expected SOLVER auto or deformation")
+    else
+      call add_error(diagnostics, model%meshes(1)%keyword, "MESH with 'elements='"//reason// &
+        "; expected 'accuracy='")
+    end if
+  end subroutine check_mesh
 
   !> The drawing does not assemble: the nearest assembly as PIN cards, if there is one.
   pure subroutine report_assembly(model, assembly, diagnostics)
