@@ -1,6 +1,7 @@
 !> Checks of linkages that are no four-bars and have a plan: whether they assemble near the drawing,
 !! fit, and reach the positions of the deck.
 module linkage_checks
+  use applied_loads, only: has_moving_loads
   use block_checks, only: check_blocks
   use deck_lengths, only: crank_text, in_deck, length_text
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
@@ -61,8 +62,9 @@ contains
     if (size(mechanism%linkage%redundancies) > 0) then
       call check_fit(model, mechanism, diagnostics)
       if (has_errors(diagnostics)) return
-      report = max(report_number(model, "reactions"), report_number(model, "bearings"), &
-        report_number(model, "sizing"))
+      report = report_number(model, "sizing")
+      if (.not. divides_forces(model, mechanism)) report = max(report_number(model, "reactions"), &
+        report_number(model, "bearings"), report)
       if (report == 0 .and. size(model%frictions) > 0) call add_error(diagnostics, &
         model%frictions(1)%keyword, "friction depends on the forces in the joints, and those "// &
         "in '"//mechanism%names(max(1, body_of_redundancy(mechanism%linkage, 1)))%text// &
@@ -93,6 +95,17 @@ contains
     if (needs_frequencies(model) .and. .not. has_errors(diagnostics)) call check_mesh(model, &
       mechanism, diagnostics)
   end subroutine check_linkage
+
+  !> Whether the elasticity of bending links divides the forces in the joints: those of the motion
+  !! with masses along the links, and of loads that do not depend on the speed.
+  pure function divides_forces(model, mechanism) result(divides)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    logical :: divides
+
+    divides = allocated(mechanism%elastic) .and. all(mechanism%load_elements == 0) .and. &
+      .not. has_moving_loads(mechanism%linkage) .and. size(model%frictions) == 0
+  end function divides_forces
 
   !> A mesh of the deck, and its nodal matrices, are of links that are placed two by two.
   pure subroutine check_mesh(model, mechanism, diagnostics)
