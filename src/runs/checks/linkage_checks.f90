@@ -10,7 +10,7 @@ module linkage_checks
   use linkage_parts, only: assembly_t
   use linkages, only: groups_dyad, is_dyad_linkage, linkage_t, reference_point
   use mechanisms, only: mechanism_t, pins_of_body
-  use models, only: drives_length, model_t, needs_frequencies, report_number, solver_band, &
+  use models, only: drives_length, effects_axial, model_t, needs_frequencies, report_number, solver_band, &
     solver_dense
   use plan_words, only: group_names
   use pose_types, only: pose_t
@@ -90,11 +90,31 @@ contains
         model%reports(report)%through_word, "only a four-bar, of three LINKs and no SLIDER, is "// &
         "followed straight through change points; expected change_points=stop")
     end if
+    if (needs_frequencies(model) .and. model%effects == effects_axial) call &
+      warn_of_held_blocks(model, diagnostics)
     call check_reach(model, mechanism, leaving, diagnostics)
     if (leaving > 0) call check_blocks(model, mechanism, diagnostics)
     if (needs_frequencies(model) .and. .not. has_errors(diagnostics)) call check_mesh(model, &
       mechanism, diagnostics)
   end subroutine check_linkage
+
+  !> The moment in the contact of a block that does not turn on a link that bends does work of the
+  !! second order on its curvature, which jumps there: a block without length has no such term.
+  pure subroutine warn_of_held_blocks(model, diagnostics)
+    type(model_t), intent(in) :: model
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: i
+
+    do i = 1, size(model%sliders)
+      if (model%sliders(i)%turned_link == 0 .or. model%sliders(i)%link == 0) cycle
+      if (model%links(model%sliders(i)%link)%rigid) cycle
+      call add_warning(diagnostics, model%sliders(i)%turned, "link '"// &
+        model%links(model%sliders(i)%turned_link)%name%text//"' does not turn on a block without "// &
+        "length on link '"//model%links(model%sliders(i)%link)%name%text//"', which bends: what "// &
+        "the moment between them adds to the stiffness is left out")
+    end do
+  end subroutine warn_of_held_blocks
 
   !> Whether the elasticity of bending links divides the forces in the joints: those of the motion
   !! with masses along the links, and of loads that do not depend on the speed.
