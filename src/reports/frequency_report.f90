@@ -100,8 +100,7 @@ contains
     type(rows_t), intent(inout) :: rows            !! to which it is appended
 
     associate (found => variant%found, state => variant%found%positions%state(position))
-      associate (place => [shown_speed(variant, speed), shown_crank(variant, &
-          found%positions%crank(position))])
+      associate (place => [shown_speed(variant, speed), found%positions%crank(position)])
         if (has_result(found%positions, found%sweep, state, speed)) then
           call add_row(rows, cells(layout, 1, [place, frequency_values(found%sweep, state, speed)]))
         else
@@ -248,8 +247,8 @@ contains
     end associate
   end subroutine add_shapes
 
-  !> The rows of a mode. A corner of a link stands twice, as the end of one part and the beginning of
-  !! the next.
+  !> The rows of a mode. A corner of a link stands twice, as the end of one part and the beginning
+  !! of the next.
   subroutine add_mode(variant, layout, position, speed, mode, frequency, station, rows)
     type(variant_results_t), intent(in) :: variant
     type(table_layout_t), intent(in) :: layout
@@ -266,8 +265,7 @@ contains
     scale = sqrt(to_si(1.0_wp, table_factor("mass", variant%model%outputs)))
     length = table_factor("length", variant%model%outputs)
     state = variant%found%positions%state(position)
-    place = [shown_speed(variant, speed), shown_crank(variant, &
-      variant%found%positions%crank(position))]
+    place = [shown_speed(variant, speed), variant%found%positions%crank(position)]
     associate (shape => variant%found%sweep%results(state)%shapes(speed)%displacement)
       before = 0
       do part = 1, size(shape, 3)
