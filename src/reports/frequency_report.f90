@@ -2,17 +2,19 @@
 !! shapes.
 module frequency_report
   use errors, only: error_t
-  use frequency_study, only: failure_at, frequency_values, has_result, station_on_link
+  use frequency_study, only: failure_at, find_stations, frequency_values, has_result, &
+    link_of_part
   use kinds, only: wp
   use links_report, only: shown_crank
   use load_notes, only: acceleration_note
+  use mechanisms, only: mechanism_t
   use models, only: effects_static, inertia_distributed, inertia_lumped, is_loaded, is_moving, &
     is_sprung, model_t, needs_loads, report_number, speed_in_table
   use report_cards, only: report_t
   use table_columns, only: cells, column_width, table_factor, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: integer_cell, name_cell
-  use text, only: append_string, string_t
+  use text, only: append_string, string_t, to_string
   use units, only: to_si, unit_t
   use value_lists, only: value_list_t, value_number
   use variant_results, only: variant_results_t
@@ -30,9 +32,21 @@ contains
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     notes = effects_notes(variant%model)
+    if (variant%found%sweep%free_motions > 0) call append_string(notes, &
+      free_motions_note(variant))
     call append_string(notes, &
       "error1, error2, ...: estimated relative errors of f1, f2, ...: of mesh and round-off")
   end subroutine frequency_notes
+
+  !> `free motions: 2 (frequency 0)`: so many lowest frequencies are zero; under loads they need not
+  !! be.
+  pure function free_motions_note(variant) result(note)
+    type(variant_results_t), intent(in) :: variant
+    character(len=:), allocatable :: note
+
+    note = "free motions: "//to_string(variant%found%sweep%free_motions)// &
+      trim(merge(" (held by loads alone)", " (frequency 0)        ", needs_loads(variant%model)))
+  end function free_motions_note
 
   !> Effects in the equations of the frequencies: axial forces of which loads, rotary inertia,
   !! shear.
@@ -86,8 +100,7 @@ contains
     type(rows_t), intent(inout) :: rows            !! to which it is appended
 
     associate (found => variant%found, state => variant%found%positions%state(position))
-      associate (place => [shown_speed(variant, speed), shown_crank(variant, &
-          found%positions%crank(position))])
+      associate (place => [shown_speed(variant, speed), found%positions%crank(position)])
         if (has_result(found%positions, found%sweep, state, speed)) then
           call add_row(rows, cells(layout, 1, [place, frequency_values(found%sweep, state, speed)]))
         else
@@ -126,12 +139,43 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with its mechanism
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
+    integer :: b
+
     notes = effects_notes(variant%model)
-    associate (pins => variant%mechanism%pin_names)
-      call append_string(notes, "shapes are normalised: phi' M phi = 1; s runs along each link "// &
-        "round the loop from "//pins(1)%text//" to "//pins(4)%text)
+    associate (mechanism => variant%mechanism)
+      if (mechanism%is_four_bar) then
+        call append_string(notes, "shapes are normalised: phi' M phi = 1; s runs along each "// &
+          "link round the loop from "//mechanism%pin_names(1)%text//" to "// &
+          mechanism%pin_names(4)%text)
+        return
+      end if
+      call append_string(notes, "shapes are normalised: phi' M phi = 1; s runs along the pins "// &
+        "of each link")
+      do b = 1, size(mechanism%names)
+        call append_string(notes, "s along link "//mechanism%names(b)%text//": "// &
+          way_along(mechanism, b))
+      end do
     end associate
   end subroutine shape_notes
+
+  !> `A - B - C`: the pins along a link.
+  pure function way_along(mechanism, body) result(words)
+    type(mechanism_t), intent(in) :: mechanism
+    integer, intent(in) :: body !! number
+    character(len=:), allocatable :: words
+
+    integer, allocatable :: pins(:)
+    integer :: i
+
+    associate (link => mechanism%linkage%bodies(body))
+      pins = [link%first_pin, link%last_pin]
+      if (allocated(link%corners)) pins = link%corners
+    end associate
+    words = mechanism%pin_names(pins(1))%text
+    do i = 2, size(pins)
+      words = words//" - "//mechanism%pin_names(pins(i))%text
+    end do
+  end function way_along
 
   !> Positions and speeds whose shapes are requested, in the order of the table.
   pure function drawn_rows(variant) result(list)
@@ -185,7 +229,7 @@ contains
     integer, intent(in) :: speed                   !! number in the sweep's list
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
-    real(wp), allocatable :: frequencies(:)
+    real(wp), allocatable :: frequencies(:), station(:, :, :)
     integer :: mode
 
     associate (found => variant%found, state => variant%found%positions%state(position))
@@ -194,41 +238,46 @@ contains
         return
       end if
       frequencies = frequency_values(found%sweep, state, speed)
+      call find_stations(variant%mechanism%structure_t, found%positions%states(state), &
+        found%sweep%request%points, station)
       do mode = 1, variant%model%modes
         if (mode > 1) call add_gap(rows, 2)
-        call add_mode(variant, layout, position, speed, mode, frequencies(mode), rows)
+        call add_mode(variant, layout, position, speed, mode, frequencies(mode), station, rows)
       end do
     end associate
   end subroutine add_shapes
 
-  subroutine add_mode(variant, layout, position, speed, mode, frequency, rows)
+  !> The rows of a mode. A corner of a link stands twice, as the end of one part and the beginning
+  !! of the next.
+  subroutine add_mode(variant, layout, position, speed, mode, frequency, station, rows)
     type(variant_results_t), intent(in) :: variant
     type(table_layout_t), intent(in) :: layout
     integer, intent(in) :: position, speed, mode
     real(wp), intent(in) :: frequency !! [Hz]
+    real(wp), intent(in) :: station(:, :, :) !! (3, points, parts) by `find_stations` [m]
     type(rows_t), intent(inout) :: rows
 
     type(unit_t) :: length
-    real(wp) :: displacement(3), scale, station(3), place(2)
-    integer :: body, i, state
+    real(wp) :: displacement(3), scale, place(2)
+    integer :: part, link, before, i, state
 
     ! Displacements of a normalised mode have the unit mass^(-1/2).
     scale = sqrt(to_si(1.0_wp, table_factor("mass", variant%model%outputs)))
     length = table_factor("length", variant%model%outputs)
     state = variant%found%positions%state(position)
-    place = [shown_speed(variant, speed), shown_crank(variant, &
-      variant%found%positions%crank(position))]
+    place = [shown_speed(variant, speed), variant%found%positions%crank(position)]
     associate (shape => variant%found%sweep%results(state)%shapes(speed)%displacement)
-      do body = 1, size(variant%mechanism%names)
-        if (body > 1) call add_gap(rows, 1)
+      before = 0
+      do part = 1, size(shape, 3)
+        link = link_of_part(variant%mechanism%structure_t, part)
+        if (before > 0 .and. link /= before) call add_gap(rows, 1)
+        before = link
         do i = 1, size(shape, 2)
-          displacement = scale*shape(:, i, body, mode)
+          displacement = scale*shape(:, i, part, mode)
           displacement(3) = to_si(displacement(3), length)
-          station = station_on_link(variant%mechanism%structure_t, &
-            variant%found%positions%states(state), body, i, size(shape, 2))
           call add_row(rows, cells(layout, 1, place)//integer_cell(mode, "mode")// &
-            cells(layout, 4, [frequency])//name_cell(variant%mechanism%names(body)%text, &
-            column_width(layout, 5))//cells(layout, 6, [station, displacement]))
+            cells(layout, 4, [frequency])//name_cell(variant%mechanism%names(link)%text, &
+            column_width(layout, 5))//cells(layout, 6, [station(:, i, part), displacement]))
         end do
       end do
     end associate

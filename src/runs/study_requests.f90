@@ -19,8 +19,10 @@ module study_requests
     response_point_t, response_request_t
   use sections, only: outer_distance
   use stability_types, only: stability_request_t
+  use structures, only: has_mesh
   use transient_types, only: from_rest, from_steady, transient_request_t
-  use vibration_models, only: any_method, by_band, by_dense, chosen_method, mode_request_t
+  use vibration_models, only: any_method, by_band, by_dense, by_orders, chosen_method, &
+    mode_request_t
   implicit none (type, external)
   private
 
@@ -43,8 +45,11 @@ contains
     request%axial = needs_loads(model)
     request%constant = has_constant_loads(mechanism%linkage)
     request%lumped = model%inertia == inertia_lumped
-    request%method = chosen_method(method_wanted(model), mechanism%accuracy > 0.0_wp, &
-      mechanism%mesh%elements, mechanism%mesh%order, mechanism%mesh%sheared)
+    ! Links that cannot be divided into elements have orders that the program chooses.
+    request%method = by_orders
+    if (has_mesh(mechanism)) request%method = chosen_method(method_wanted(model), &
+      mechanism%accuracy > 0.0_wp, mechanism%mesh%elements, mechanism%mesh%order, &
+      mechanism%mesh%sheared)
     if (mechanism%accuracy > 0.0_wp) request%accuracy = mechanism%accuracy
     request%follow = needs_study(model, "loci")
     number = report_number(model, "shapes")

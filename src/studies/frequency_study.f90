@@ -1,8 +1,13 @@
 !> Frequencies at every position and speed, in blocks of neighbouring positions.
 module frequency_study
+  use elastic_linkages, only: elastic_linkage_t
+  use errors, only: error_t
   use interruption, only: was_interrupted
   use kinds, only: wp
   use ledger, only: add_ledger, ledger_t
+  use linkages, only: linkage_t
+  use part_poses, only: place_parts_of
+  use pose_types, only: pose_t
   use position_results, only: frequency_of, position_work_t
   use position_solver, only: new_position_work, solve_position
   use positions, only: positions_t, state_t
@@ -13,7 +18,7 @@ module frequency_study
   private
 
   public :: begin_sweep, solve_block, finish_sweep, block_count, block_of, missed_states
-  public :: station_on_link, frequency_values, has_result, failure_at, most_attempts
+  public :: find_stations, link_of_part, frequency_values, has_result, failure_at, most_attempts
 
   !> Number of neighbouring positions that are solved one after another. The division into blocks,
   !! and with it the results, does not depend on the number of threads.
@@ -114,22 +119,68 @@ contains
     end associate
   end function frequency_values
 
-  !> A point on a link at which mode shapes are written.
-  pure function station_on_link(structure, state, body, number, points) result(station)
-    type(structure_t), intent(in) :: structure !! whose links are drawn
-    type(state_t), intent(in) :: state         !! with a pose
-    integer, intent(in) :: body                !! number
-    integer, intent(in) :: number              !! of the point, from 1
-    integer, intent(in) :: points              !! on each link, equally spaced, ends included
-    real(wp) :: station(3)                     !! distance from the first pin, then x and y in
-                                               !! global axes [m]
+  !> The points of links at which mode shapes are written: on every part that vibrates equally
+  !! spaced, its ends included.
+  subroutine find_stations(structure, state, points, station)
+    type(structure_t), intent(in) :: structure   !! whose links are drawn
+    type(state_t), intent(in) :: state           !! with a pose
+    integer, intent(in) :: points                !! on every part
+    real(wp), allocatable, intent(out) :: station(:, :, :) !! (3, points, parts) distance along the
+                                                 !! link from where its first part begins, then x
+                                                 !! and y in global axes [m]
+
+    type(elastic_linkage_t) :: elastic
+    type(pose_t) :: placed
+    type(error_t), allocatable :: error
+    real(wp) :: before
+    integer :: part
+
+    if (.not. allocated(structure%elastic)) then
+      allocate (station(3, points, size(structure%linkage%bodies)))
+      do part = 1, size(station, 3)
+        call place_stations(structure%linkage, state%pose, part, 0.0_wp, station(:, :, part))
+      end do
+      return
+    end if
+    elastic = structure%elastic
+    call place_parts_of(structure%linkage, state%pose, elastic, placed, error)
+    allocate (station(3, points, size(elastic%body)))
+    before = 0.0_wp
+    do part = 1, size(station, 3)
+      if (link_of_part(structure, part) /= link_of_part(structure, max(1, part - 1))) &
+        before = 0.0_wp
+      call place_stations(elastic%linkage, placed, part, before, station(:, :, part))
+      before = before + elastic%linkage%bodies(part)%length
+    end do
+  end subroutine find_stations
+
+  !> The points of a part.
+  pure subroutine place_stations(linkage, pose, part, before, station)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    integer, intent(in) :: part
+    real(wp), intent(in) :: before         !! where it begins along its link [m]
+    real(wp), intent(out) :: station(:, :) !! (3, points)
 
     real(wp) :: s
+    integer :: i
 
-    associate (this => structure%linkage%bodies(body))
-      s = this%length*(number - 1)/(points - 1)
-      station = [s, state%pose%pin(:, this%first_pin) + s*state%pose%direction(:, body)]
+    associate (this => linkage%bodies(part))
+      do i = 1, size(station, 2)
+        s = this%length*(i - 1)/(size(station, 2) - 1)
+        station(:, i) = [before + s, pose%pin(:, this%first_pin) + s*pose%direction(:, part)]
+      end do
     end associate
-  end function station_on_link
+  end subroutine place_stations
+
+  !> Number of the link that a part belongs to.
+  pure function link_of_part(structure, part) result(link)
+    type(structure_t), intent(in) :: structure !! with beams
+    integer, intent(in) :: part                !! number, from 1
+    integer :: link
+
+    link = part
+    if (allocated(structure%elastic)) link = structure%elastic%body(part)
+  end function link_of_part
 
 end module frequency_study

@@ -59,6 +59,7 @@ contains
     if (.not. mechanism%is_four_bar) then
       call check_linkage(model, assembly, mechanism, diagnostics)
       if (.not. allocated(assembly%error)) call check_balance_turn(model, mechanism, diagnostics)
+      call check_matrices(model, mechanism, diagnostics)
       return
     end if
     pivot = pivots(model)
@@ -86,6 +87,15 @@ contains
     call check_turn(model, mechanism, reach, diagnostics)
     call check_balance_turn(model, mechanism, diagnostics)
     call check_motion(model, mechanism, reach, reachable_text(reach), diagnostics)
+    call check_matrices(model, mechanism, diagnostics)
+  end subroutine check_mechanics
+
+  !> Whether a mesh of the deck has as many unknowns as modes, and keeps enough digits.
+  subroutine check_matrices(model, mechanism, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(diagnostics_t), intent(inout) :: diagnostics
+
     if (.not. needs_frequencies(model) .or. .not. has_mesh(mechanism) .or. &
       .not. has_beams(mechanism)) return
     ! Where the program chooses the orders there are enough unknowns, and deformation coordinates
@@ -94,7 +104,7 @@ contains
     call check_unknowns(model, mechanism, diagnostics)
     if (has_errors(diagnostics) .or. all(model%solver /= [solver_dense, solver_band])) return
     call check_round_off(model, mechanism, diagnostics)
-  end subroutine check_mechanics
+  end subroutine check_matrices
 
   !> One link is longer than all the others together.
   subroutine report_open_linkage(model, mechanism, diagnostics)

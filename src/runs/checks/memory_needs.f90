@@ -8,8 +8,9 @@ module memory_needs
   use deformation_shapes, only: bending_unknowns
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
-  use models, only: accuracy_of_study, effects_static, model_t, needs_frequencies, needs_response, &
-    report_number
+  use link_cards, only: segment_count
+  use models, only: accuracy_of_study, effects_static, is_four_bar, model_t, needs_frequencies, &
+    needs_response, report_number
   use response_types, only: drive_values, strain_values
   use study_requests, only: method_wanted, motion_instants_of
   use text, only: plural, to_string
@@ -165,9 +166,23 @@ contains
       need%place = asked%keyword
       need%what = "the shapes of "//plural(model%modes, "mode")//" at "//to_string(drawn, 9)// &
         " positions and speeds"
-      need%bytes = drawn*model%modes*3*number*size(model%links)*asked%points
+      need%bytes = drawn*model%modes*3*number*most_parts(model)*asked%points
     end associate
   end subroutine add_needs_of_shapes
+
+  !> Straight parts of all links, at most: pins, points and blocks divide them.
+  pure function most_parts(model) result(parts)
+    type(model_t), intent(in) :: model
+    integer :: parts
+
+    integer :: i
+
+    parts = size(model%sliders)
+    if (.not. is_four_bar(model)) parts = parts + size(model%points)
+    do i = 1, size(model%links)
+      parts = parts + segment_count(model%links(i))
+    end do
+  end function most_parts
 
   !> Loci: the prints by which modes are recognised from position to position (components of y and
   !! M y for the border and the first own modes of every link), and the rows of the table.
@@ -182,7 +197,7 @@ contains
 
     report = report_number(model, "branches")
     if (report == 0) return
-    kept = size(model%links) + 1 + size(model%links)*(2.0_wp*model%modes + 2)
+    kept = most_parts(model) + 1 + most_parts(model)*(2.0_wp*model%modes + 2)
     need%place = model%reports(report)%keyword
     need%what = "the branches of "//plural(model%modes, "mode")//" through "//to_string(rows, 9)// &
       " positions and speeds"
