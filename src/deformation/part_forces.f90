@@ -114,6 +114,7 @@ contains
         end do
         call add_second_order(elastic, pose, border, chords, forces%guide(:, i), &
           forces%spring(:, i), forces%second_order(:, :, i))
+        call add_blocks(elastic, pose, case, chords, forces%second_order(:, :, i))
       end associate
     end do
   end subroutine find_part_forces
@@ -273,6 +274,29 @@ contains
       end do
     end do
   end subroutine add_second_order
+
+  !> Adds what the centrifugal forces of blocks about their own mass centres do as they turn with
+  !! links that bend, `½ I ω² θ²`, as those of masses along links.
+  pure subroutine add_blocks(elastic, pose, case, chords, stiffness)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(pose_t), intent(in) :: pose
+    type(load_case_t), intent(in) :: case
+    type(chords_t), intent(in) :: chords
+    real(wp), intent(inout) :: stiffness(:, :)
+
+    real(wp) :: turn(size(stiffness, 1)), squared
+    integer :: i, j, part
+
+    do i = 1, size(elastic%contact)
+      if (elastic%contact(i) == 0 .or. elastic%guide_rotation(i) <= 0) cycle
+      part = elastic%cut_part(i)
+      squared = -dot_product(pose%direction(:, part), case%field%slope(:, part))
+      turn = chords%rotation(elastic%guide_rotation(i), :)
+      do j = 1, size(turn)
+        stiffness(:, j) = stiffness(:, j) + elastic%linkage%sliders(i)%inertia*squared*turn*turn(j)
+      end do
+    end do
+  end subroutine add_blocks
 
   !> Torques and forces of free drives that leave no work on the free motions.
   pure function held_by_drives(rate, work) result(held)
