@@ -110,7 +110,8 @@ def compare(name, program, scratch):
             error = abs(value - frequency) / frequency if frequency else abs(value)
             largest[k], most = max(largest[k], error), max(most, estimate)
             if not error <= min(estimate, accuracy):
-                wrong.append(f"speed {speed} crank {crank} f{k + 1} {value:.17g}, exact {frequency}: off by {error:.1e}, estimated {estimate:.1e}")
+                wrong.append(f"speed {speed} crank {crank} f{k + 1} {value:.17g}, exact {frequency}: off by {error:.1e}, "
+                             f"estimated {estimate:.1e}")
     return wrong, count, largest, most
 
 

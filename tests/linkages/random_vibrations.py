@@ -214,7 +214,8 @@ class Case:
                 continue
             if name in self.bending:
                 reach = math.dist(drawing.places[pins[0]], drawing.places[pins[1]])
-                at, beside = reach * drawing.uniform(0.2, 0.8), drawing.chance(0.5) and ("shear" not in self.thick or "rotary" in self.thick)
+                at = reach * drawing.uniform(0.2, 0.8)
+                beside = drawing.chance(0.5) and ("shear" not in self.thick or "rotary" in self.thick)
             else:
                 at, beside = drawing.uniform(-0.3, 0.8), True
             line = f"MASS {name} {self.power(-2, 0.5)}kg at={at * self.scale:.6g}"
@@ -222,6 +223,14 @@ class Case:
                 line += f" offset={self.number(-0.1, 0.1, self.scale)} inertia={self.power(-5, -2)}kg*m2"
             lines.append(line)
         return lines
+
+    def _bodies(self, pin):
+        """Links that have a pin, and those welded to them."""
+        found = self.drawing.holders(pin)
+        for _, welded in self.drawing.welds:
+            if found & set(welded):
+                found = found | set(welded)
+        return found
 
     def _springs(self):
         """Over many decades at rest; softer ones where they load the linkage."""
@@ -232,7 +241,7 @@ class Case:
                 places = list(drawing.places)
                 one, other = drawing.pick(places), drawing.pick(places)
                 near = math.dist(drawing.places[one], drawing.places[other]) < 0.15
-                if near or drawing.holders(one) & drawing.holders(other) or {one, other} <= set(drawing.grounds):
+                if near or self._bodies(one) & self._bodies(other) or {one, other} <= set(drawing.grounds):
                     continue
                 stiffness = self.power(-1, 3) if self.loaded else self.power(-6, 12)
                 most = min(20.0, 0.5 * float(stiffness) * math.dist(drawing.places[one], drawing.places[other]))
@@ -257,8 +266,10 @@ class Case:
     def text(self, cranks, speed=None):
         """The deck at positions, with a speed besides rest."""
         drawing, scale = self.drawing, self.scale
-        pins = [f"PIN {pin} {x * scale if scale == 1.0 else round(x * scale, 9)!r} {y * scale if scale == 1.0 else round(y * scale, 9)!r}"
-                for pin, (x, y) in drawing.places.items() if pin not in drawing.grounds]
+        def shown(value):
+            return repr(value if scale == 1.0 else round(value * scale, 9))
+
+        pins = [f"PIN {pin} {shown(x)} {shown(y)}" for pin, (x, y) in drawing.places.items() if pin not in drawing.grounds]
         lines = self.cards + pins + ["CRANK " + ",".join(cranks)]
         if speed:
             lines.append(f"SPEED 0,{speed}")
@@ -303,7 +314,8 @@ def claims_of(row, structure):
         except ZeroDivisionError:
             continue
         if not below < number <= above:
-            wrong.append(f"f{number} = {value:.17g} with error {estimate:.1e}: {below} below, {above} up to it{true_value(structure, number, value)}")
+            wrong.append(f"f{number} = {value:.17g} with error {estimate:.1e}: {below} below, {above} up to it"
+                         + true_value(structure, number, value))
     return wrong, number
 
 

@@ -314,7 +314,8 @@ class Structure:
         return self.deck.materials[card["material"]] * self.deck.bending[card["section"]][0] * total
 
     def _contact(self, number, link, node, turn, along):
-        return {"slider": number, "link": link, "node": node, "turn": turn, "along": along, "direction": self._axes(self.model.bodies[link])}
+        return {"slider": number, "link": link, "node": node, "turn": turn, "along": along,
+                "direction": self._axes(self.model.bodies[link])}
 
     def _line(self, slider, number):
         """Direction of a slider's line, displacement and rotation of the guide there."""
