@@ -78,6 +78,11 @@ contains
     ! Loads also contain the accelerations of short links: where lengths differ much no multiple of
     ! ε/sin² is known.
     if (any(abs(factor) > 0.0_wp)) least_sine = merge(loaded_near_sine, 1.0_wp, spread <= 1.0_wp)
+    ! Links that are more than needed share their loads by their stiffnesses: a change of direction
+    ! counts many times.
+    if (any(abs(factor) > 0.0_wp) .and. allocated(structure%elastic)) then
+      if (size(structure%linkage%redundancies) > 0) least_sine = huge(least_sine)
+    end if
     if (sine >= least_sine) then
       do i = 1, modes
         energy = elastic_square(model%layout, found%vector(:, i)) + load_work(i)
