@@ -51,8 +51,8 @@ module damped_eigensolver
   !> Roots nearer than this, relative to their size, may be one and the same, found twice.
   real(wp), parameter :: same_root = 1.0e-6_wp
 
-  !> Roots below this share of those of modes that deform may be free motions at rest.
-  real(wp), parameter :: small_root = 1.0e-6_wp
+  !> Roots below this share of those of modes that deform are zero, those of free motions at rest.
+  real(wp), parameter :: no_root = 1.0e-13_wp
 
   !> Two vectors of unit length are the same if the one without its part along the other is shorter.
   real(wp), parameter :: same_vector = 1.0e-4_wp
@@ -150,7 +150,7 @@ contains
         known = number
       end if
       call build_shapes(pencil, dampers, undamped, known, shapes, response)
-      call solve_reduced(pencil, dampers, shapes, s, vector)
+      call solve_reduced(pencil, dampers, shapes, undamped%zeros, s, vector)
       call improve_all(pencil, dampers, wanted, s, vector, undamped, response, found, proven)
       if (proven) return
       if (known == pencil%layout%unknowns) exit
@@ -302,10 +302,14 @@ contains
 
   !> All roots of the reduced equations, with s = σ0 + 1/μ: those near a positive σ0 do not suffer
   !! from others that are far away. Where LAPACK fails, none.
-  subroutine solve_reduced(pencil, dampers, shapes, s, vector)
+  !!
+  !! Of a free motion at rest the velocity is the unknown, so that its position has no root: those
+  !! at zero would be multiple and spoil small ones.
+  subroutine solve_reduced(pencil, dampers, shapes, zeros, s, vector)
     type(bordered_pencil_t), intent(in) :: pencil
     real(wp), intent(in) :: dampers(:, :)
     real(wp), intent(in) :: shapes(:, :)              !! (unknowns, shapes)
+    integer, intent(in) :: zeros                      !! the first shapes: free motions at rest
     complex(wp), allocatable, intent(out) :: s(:)     !! (roots) with Im s ≥ 0
     complex(wp), allocatable, intent(out) :: vector(:, :) !! (unknowns, roots)
 
@@ -315,7 +319,7 @@ contains
       2*size(shapes, 2)), shape(2*size(shapes, 2), 2*size(shapes, 2))
     real(wp) :: re(2*size(shapes, 2)), im(2*size(shapes, 2)), work(32*size(shapes, 2)), none(1, 1)
     real(wp) :: near
-    complex(wp) :: mu
+    complex(wp) :: mu, part(size(shapes, 2))
     integer :: pivot(size(shapes, 2)), i, n, number, info
 
     n = size(shapes, 2)
@@ -330,6 +334,9 @@ contains
     near = sqrt(2.0_wp*max(0.0_wp, -minval([(stiffness(i, i), i=1, n)])) + &
       0.1_wp*minval([(abs(stiffness(i, i)), i=1, n)], mask=[(abs(stiffness(i, i)) > &
       1.0e-6_wp*maxval(abs(stiffness)), i=1, n)]))
+    stiffness(:, :zeros) = damping(:, :zeros)
+    damping(:, :zeros) = mass(:, :zeros)
+    mass(:, :zeros) = 0.0_wp
     factor = stiffness + near*(damping + near*mass)
     right(:, :n) = -mass
     right(:, n + 1:) = -(damping + 2.0_wp*near*mass)
@@ -353,12 +360,10 @@ contains
         if (abs(mu) <= tiny(near)) cycle
         number = number + 1
         s(number) = near + 1.0_wp/mu
-        if (im(i) < 0.0_wp) then
-          vector(:, number) = cmplx(matmul(shapes, shape(:n, i - 1)), -matmul(shapes, shape(:n, &
-            i)), wp)
-        else
-          vector(:, number) = matmul(shapes, shape(:n, i))
-        end if
+        part = shape(:n, i)
+        if (im(i) < 0.0_wp) part = cmplx(shape(:n, i - 1), -shape(:n, i), wp)
+        if (zeros > 0) part(zeros + 1:) = s(number)*part(zeros + 1:)
+        vector(:, number) = cmplx(matmul(shapes, real(part, wp)), matmul(shapes, aimag(part)), wp)
       end do
     end if
     s = s(:number)
@@ -396,9 +401,7 @@ contains
       if (number >= wanted + size(dampers, 2) + 3) exit
       s = start(order(i))
       y = direction(:, order(i))
-      if (zeros > 0) then
-        if (is_zero()) cycle
-      end if
+      if (zeros > 0 .and. abs(s) <= no_root*sqrt(response%shift)) cycle
       if (aimag(s) > 0.0_wp .and. aimag(s) <= hardly_swings*abs(s)) then
         call improve_pair(s, y)
       else
@@ -438,20 +441,6 @@ contains
 
   contains
 
-    !> Whether a start is that of a free motion at rest. A free motion that a damper slows down has
-    !> `|s| yᴴMy = yᴴCy`.
-    logical function is_zero()
-      real(wp) :: slow, damped
-
-      is_zero = .false.
-      if (undamped%zeros < size(undamped%lambda)) then
-        if (abs(s)**2 > small_root**2*undamped%lambda(undamped%zeros + 1)) return
-      end if
-      slow = abs(s)*real(dot_product(y, mass_times_complex(pencil, y)), wp)
-      damped = sum(abs(matmul(y(:size(dampers, 1)), dampers))**2)
-      is_zero = damped <= 0.5_wp*slow .or. damped >= 2.0_wp*slow
-    end function is_zero
-
     !> Keeps a root unless it is there already.
     subroutine keep(root, shape)
       complex(wp), intent(in) :: root, shape(:)
@@ -461,6 +450,8 @@ contains
 
       s = root
       y = shape
+      ! A start that is zero but for rounding falls to zero.
+      if (zeros > 0 .and. abs(s) <= no_root*sqrt(response%shift)) return
       if (aimag(s) < 0.0_wp) then
         s = conjg(s)
         y = conjg(y)
