@@ -13,7 +13,8 @@ module elastic_linkages
   use linkages, only: body_t, drives_angle, drives_length, drives_slider, &
     forced_place_t, is_dyad_linkage, linkage_t, lump_t
   use pose_types, only: pins_of_body, place_of_pin
-  use turning_ends, only: add_end, join_ends, new_turning_ends, number_of, number_ends, turning_ends_t
+  use turning_ends, only: add_end, join_ends, new_turning_ends, number_of, number_ends, &
+    turning_ends_t
   implicit none (type, external)
   private
 
@@ -36,8 +37,8 @@ module elastic_linkages
     type(linkage_t) :: linkage                !! bodies: parts; pins: points
     type(beam_t), allocatable :: beams(:)     !! (parts)
     integer, allocatable :: body(:)           !! (parts) number of the link
-    real(wp), allocatable :: place(:, :)      !! (2, parts) of the first point, from the first pin of
-                                              !! the link, in its axes [m]
+    real(wp), allocatable :: place(:, :)      !! (2, parts) of the first point, from the first pin
+                                              !! of the link, in its axes [m]
     real(wp), allocatable :: axis(:, :)       !! (2, parts) direction in the axes of the link
     logical, allocatable :: held(:, :)        !! (2, parts) ends of parts that bend
     integer, allocatable :: rotation(:, :)    !! (2, parts) of held ends, of a rigid part twice its
@@ -47,7 +48,7 @@ module elastic_linkages
     logical, allocatable :: is_fixed(:)       !! (points) that do not move
     integer, allocatable :: contact(:)        !! (sliders) point of a link that bends under the
                                               !! block; 0: none
-    integer, allocatable :: cut_part(:)       !! (sliders) that ends there; the next one begins there
+    integer, allocatable :: cut_part(:)       !! (sliders) that ends there; the next one begins
     integer, allocatable :: guide_rotation(:) !! (sliders) of the guide at the block; 0: it is fixed
     type(spring_t), allocatable :: springs(:) !! with a stiffness
     logical :: changes_lengths = .false.      !! of some parts from position to position
@@ -250,7 +251,8 @@ contains
     real(wp), parameter :: near = 1.0e-6_wp
     real(wp) :: first(2), last(2), off(2)
 
-    associate (line => linkage%sliders(slider), body => linkage%bodies(linkage%sliders(slider)%body))
+    associate (line => linkage%sliders(slider), &
+        body => linkage%bodies(linkage%sliders(slider)%body))
       first = place_of_pin(body, pins(1))
       last = place_of_pin(body, pins(2))
       length = norm2(last - first)

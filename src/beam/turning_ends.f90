@@ -1,5 +1,5 @@
-!> Which ends of links turn together: the corners of links that bend, welds, blocks that do not turn,
-!! drives that hold an angle.
+!> Which ends of links turn together: the corners of links that bend, welds, blocks that do not
+!! turn, drives that hold an angle.
 module turning_ends
   use linkages, only: linkage_t
   implicit none (type, external)

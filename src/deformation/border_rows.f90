@@ -1,7 +1,7 @@
 !> Rows of the border: how the points and rotations of a linkage deform its parts and springs.
 !!
-!! Unknowns p: two displacements of every point that can move, then the rotations. A part between the
-!! points i and j with the unit vector e, its normal n, and the rotation of its chord
+!! Unknowns p: two displacements of every point that can move, then the rotations. A part between
+!! the points i and j with the unit vector e, its normal n, and the rotation of its chord
 !! `ψ = n·(U_j − U_i)/L` has the border deformations `e·(U_j − U_i)`, and at its held ends `θ − ψ`,
 !! or `θ_i + θ_j − 2 ψ` and `θ_i − θ_j`; in units of those of a unit unknown they are the border's
 !! share of y. A spring has `√k` times its stretch or turn. Constraints: points of a rigid link,
@@ -43,7 +43,7 @@ module border_rows
     integer, allocatable :: body_constraint(:) !! (parts) number of the one before the first of a
                                                !! rigid part
     integer, allocatable :: line_constraint(:) !! (sliders) across the line; 0: none
-    integer, allocatable :: drive_constraint(:) !! (drives) along the line of a moving guide; 0: none
+    integer, allocatable :: drive_constraint(:) !! (drives) along the line of a moving guide, or 0
     real(wp) :: size_of = 1.0_wp             !! by which rotations are multiplied [m]
   end type border_unknowns_t
 

@@ -1,8 +1,8 @@
 !> Displacements of points and parts caused by the border unknowns, for any linkage.
 !!
-!! The border unknowns z make twice the elastic energy of the border `|z|²`; free motions follow them.
-!! Everything is linear in the displacements p of points and rotations, so one procedure serves the
-!! basis of p and what violates a constraint, which gives the forces in it.
+!! The border unknowns z make twice the elastic energy of the border `|z|²`; free motions follow
+!! them. Everything is linear in the displacements p of points and rotations, so one procedure
+!! serves the basis of p and what violates a constraint, which gives the forces in it.
 module part_displacements
   use border_rows, only: border_unknowns_t, find_border_rows, new_border_unknowns
   use dense_factor, only: dense_factor_t, factorize, solve
@@ -62,8 +62,8 @@ contains
   !> The basis at a position, and what its unknowns do to points and parts.
   !!
   !! Errors: more or fewer free motions than the linkage has elsewhere: a dead point.
-  pure subroutine find_part_chords(linkage, elastic, links, pose, unknowns, free, with_forces, border, &
-    chords, error)
+  pure subroutine find_part_chords(linkage, elastic, links, pose, unknowns, free, with_forces, &
+    border, chords, error)
     type(linkage_t), intent(in) :: linkage         !! that moves: its drives
     type(elastic_linkage_t), intent(in) :: elastic !! at this position
     type(link_modes_t), intent(in) :: links(:)     !! (parts) of these lengths

@@ -1,9 +1,9 @@
 !> Forces in the parts of a linkage by its elasticity, whether statics alone determines them or not.
 !!
-!! The stiffness is the unit matrix: the border unknowns of the static solution are the work that the
-!! loads do on their displacements, `z = Sᵀ f`, and `y = Q z` are the forces in parts and springs.
-!! The force in a constraint is the work on what violates it, less that of the parts and springs
-!! that this strains. Drives that are free bear what the motion asks for, as loads.
+!! The stiffness is the unit matrix: the border unknowns of the static solution are the work that
+!! the loads do on their displacements, `z = Sᵀ f`, and `y = Q z` are the forces in parts and
+!! springs. The force in a constraint is the work on what violates it, less that of the parts and
+!! springs that this strains. Drives that are free bear what the motion asks for, as loads.
 module part_forces
   use axial_forces, only: lump_functions, most_lump_functions
   use border_loads, only: border_work
@@ -30,7 +30,7 @@ module part_forces
                                               !! `distributed_unit_forces` [N]
     real(wp), allocatable :: second_order(:, :, :) !! (border, border, cases) what blocks on guides
                                               !! and springs add to K_G [-]
-    real(wp), allocatable :: border(:, :)     !! (border, cases) static solution; zero of free motions
+    real(wp), allocatable :: border(:, :)     !! (border, cases) static solution; 0 of free motions
     real(wp), allocatable :: guide(:, :)      !! (sliders, cases) force of the guide on the block,
                                               !! along the normal of its line [N]
     real(wp), allocatable :: spring(:, :)     !! (springs, cases) [N] or [N m]
@@ -143,8 +143,8 @@ contains
     end associate
   end subroutine add_distribution
 
-  !> `Σ F·r` of a rigid link, r from its first point: forces at its points, of blocks on it, and its
-  !! loads [N m].
+  !> `Σ F·r` of a rigid link, r from its first point: forces at its points, of blocks on it, and
+  !! its loads [N m].
   pure function turning_load(elastic, pose, case, part, lambda, border, loads, weighted, &
     constant) result(total)
     type(elastic_linkage_t), intent(in) :: elastic

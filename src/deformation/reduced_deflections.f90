@@ -24,7 +24,7 @@ contains
     type(chords_t), intent(in) :: chords           !! of this position
     type(pose_t), intent(in) :: pose               !! directions of the links
     type(load_case_t), intent(in) :: case          !! acceleration field, forces
-    real(wp), intent(in) :: border(:)              !! (border) static solution, as `border_work` [√J]
+    real(wp), intent(in) :: border(:)              !! (border) static solution: `border_work` [√J]
     real(wp), intent(out) :: displacement(:, :, :) !! (along and across, stations, bodies) [m]
 
     real(wp), allocatable :: load(:)

@@ -121,7 +121,8 @@ contains
           call compute_sweep(run, threads, journal, group, store, error)
           if (allocated(error)) return
         case ("loci")
-          call follow_loci(run%results%mechanism%structure_t, found%positions, found%sweep, found%loci)
+          call follow_loci(run%results%mechanism%structure_t, found%positions, found%sweep, &
+            found%loci)
         case default
           call find_study(study_names(i), threads, run%results)
         end select

@@ -1,5 +1,5 @@
-!> Excerpts of modes from which they are recognised at other positions, in unknowns that mean the same
-!! at all of them.
+!> Excerpts of modes from which they are recognised at other positions, in unknowns that mean the
+!! same at all of them.
 module mode_prints
   use bordered_eigensolver, only: bordered_modes_t
   use deformation_model, only: deformation_model_t

@@ -1,5 +1,5 @@
-!> Everything about a linkage at a position that its vibration needs, for a number of speeds: of binary
-!! links and pins from closed forms, of any other linkage from its parts.
+!> Everything about a linkage at a position that its vibration needs, for a number of speeds: of
+!! binary links and pins from closed forms, of any other linkage from its parts.
 module position_assembly
   use axial_forces, only: distributed_unit_forces
   use axial_limits, only: refuse_crushed
@@ -66,7 +66,7 @@ contains
   !> Gives a model the border of its linkage, as it is at most of some positions.
   subroutine set_border(structure, crank, model)
     type(structure_t), intent(in) :: structure         !! of parts
-    real(wp), intent(in) :: crank(:)                   !! coordinates of the first drive [deg] or [m]
+    real(wp), intent(in) :: crank(:)                   !! of the first drive [deg] or [m]
     type(deformation_model_t), intent(inout) :: model  !! whose layout has no border yet
 
     type(assembled_t) :: here

@@ -235,7 +235,7 @@ contains
     setup = seconds_since(start)
     if (allocated(error)) return
     call system_clock(start)
-    work = new_position_work(models, this%request)
+    work = new_position_work(mechanism%structure_t, models, this%request)
     do i = 1, size(this%timed)
       work%continuum%tracks%length = 0
       if (allocated(work%mesh%tracks)) work%mesh%tracks%length = 0

@@ -3,9 +3,9 @@
 !! Rows b_i with weights w_i and rows that must vanish, `g_k·p = 0`, in n unknowns p. Wanted are the
 !! p for which `Σ (w_i b_i·p)² = |z|²`: the columns of `p = S z`, and the weighted rows `y = Q z`.
 !! Rows are eliminated by size, each relative to itself, so that weights may differ by any number of
-!! decades (Powell and Reid 1969; Cox and Higham, BIT 38 (1998) 34): LU of the sorted rows, and where
-!! there are more rows than unknowns Cholesky factors of `I + FᵀF` with the other rows F in terms of
-!! the pivot rows (Peters and Wilkinson, Comp. J. 13 (1970) 309).
+!! decades (Powell and Reid 1969; Cox and Higham, BIT 38 (1998) 34): LU of the sorted rows, and
+!! where there are more rows than unknowns Cholesky factors of `I + FᵀF` with the other rows F in
+!! terms of the pivot rows (Peters and Wilkinson, Comp. J. 13 (1970) 309).
 module graded_rows
   use kinds, only: wp
   implicit none (type, external)
@@ -216,8 +216,8 @@ contains
     row(column) = factor
   end subroutine subtract
 
-  !> Solves `row_i·p = right_i` of the pivot rows, scaled as they were eliminated; other unknowns are
-  !! given in p.
+  !> Solves `row_i·p = right_i` of the pivot rows, scaled as they were eliminated; other unknowns
+  !! are given in p.
   pure subroutine solve(work, pivot, column, pivots, right, p)
     real(wp), intent(in) :: work(:, :)
     integer, intent(in) :: pivot(:), column(:), pivots
