@@ -241,8 +241,8 @@ contains
     end associate
   end subroutine add_shapes
 
-  !> The rows of a mode. A corner of a link stands twice, as the end of one part and the beginning of
-  !! the next.
+  !> The rows of a mode. A corner of a link stands twice, as the end of one part and where the next
+  !! begins.
   subroutine add_mode(variant, layout, position, speed, mode, frequency, station, rows)
     type(variant_results_t), intent(in) :: variant
     type(table_layout_t), intent(in) :: layout
