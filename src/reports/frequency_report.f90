@@ -93,8 +93,7 @@ contains
     type(rows_t), intent(inout) :: rows            !! to which it is appended
 
     associate (found => variant%found, state => variant%found%positions%state(position))
-      associate (place => [shown_speed(variant, speed), shown_crank(variant, &
-          found%positions%crank(position))])
+      associate (place => [shown_speed(variant, speed), found%positions%crank(position)])
         if (has_result(found%positions, found%sweep, state, speed)) then
           call add_row(rows, cells(layout, 1, [place, frequency_values(found%sweep, state, speed)]))
         else
@@ -259,8 +258,7 @@ contains
     scale = sqrt(to_si(1.0_wp, table_factor("mass", variant%model%outputs)))
     length = table_factor("length", variant%model%outputs)
     state = variant%found%positions%state(position)
-    place = [shown_speed(variant, speed), shown_crank(variant, &
-      variant%found%positions%crank(position))]
+    place = [shown_speed(variant, speed), variant%found%positions%crank(position)]
     associate (shape => variant%found%sweep%results(state)%shapes(speed)%displacement)
       before = 0
       do part = 1, size(shape, 3)

@@ -109,8 +109,8 @@ contains
           call add_gap(rows, 1)
           cycle
         end if
-        call add_row(rows, cells(layout, 1, [shown_speed(variant, speed), shown_crank(variant, &
-          found%positions%crank(list(i)%position))])//integer_cell(locus, "branch")// &
+        call add_row(rows, cells(layout, 1, [shown_speed(variant, speed), &
+          found%positions%crank(list(i)%position)])//integer_cell(locus, "branch")// &
           integer_cell(list(i)%mode, "mode")//cells(layout, 5, [list(i)%frequency, &
           list(i)%mac])//name_cell(trim(event_name(list(i)%event, list(i)%partner)), &
           event_width))
