@@ -17,7 +17,7 @@ module border_rows
   private
 
   public :: border_unknowns_t, border_row_t, new_border_unknowns, find_border_rows, &
-    line_direction, spring_way, add_stretch
+    line_direction, spring_way, add_stretch, part_rows
   public :: row_elongation, row_curve, row_spring
 
   !> What a row is.
@@ -190,6 +190,34 @@ contains
         elastic%linkage%drives(i)%slider), rows%constraint(:, numbers%drive_constraint(i)))
     end do
   end subroutine find_border_rows
+
+  !> The weighted rows of a part that bends in its own displacements.
+  pure function part_rows(link, length, axis) result(rows)
+    type(link_modes_t), intent(in) :: link !! its ends
+    real(wp), intent(in) :: length         !! [m]
+    real(wp), intent(in) :: axis(2)        !! its direction
+    real(wp) :: rows(6, 1 + link%curves)   !! (displacements of its first point, of its last, rotation
+                                           !! of its first end, of its last; elongation, curves)
+
+    real(wp) :: chord(4)
+    integer :: i
+
+    rows = 0.0_wp
+    rows(:4, 1) = [-axis, axis]/link%elongation
+    chord = [-normal_to(axis), normal_to(axis)]/length
+    do i = 1, link%curves
+      associate (row => rows(:, 1 + i))
+        if (link%curves == 2) then
+          row(5:6) = [1.0_wp, merge(1.0_wp, -1.0_wp, i == 1)]
+          if (i == 1) row(:4) = -2.0_wp*chord
+        else
+          row(merge(5, 6, link%held(1))) = 1.0_wp
+          row(:4) = -chord
+        end if
+        row = row/link%curve_rotation(i)
+      end associate
+    end do
+  end function part_rows
 
   !> Adds `a·(U_j − U_i)` of a part.
   pure subroutine add_chord(numbers, part, a, row)
@@ -371,15 +399,15 @@ contains
     integer, intent(in) :: slider                  !! number
     real(wp) :: direction(2)                       !! unit vector
 
+    integer :: part
+
     associate (line => elastic%linkage%sliders(slider))
-      if (line%body == 0) then
-        direction = line%direction
-      else if (elastic%contact(slider) > 0) then
-        direction = pose%direction(:, elastic%cut_part(slider))
-      else
-        direction = turned(line%direction, pose%direction(:, findloc(elastic%body, line%body, &
-          dim=1)))
-      end if
+      direction = line%direction
+      if (line%body == 0) return
+      part = findloc(elastic%body, line%body, dim=1)
+      associate (axis => elastic%axis(:, part))
+        direction = turned(direction, turned([axis(1), -axis(2)], pose%direction(:, part)))
+      end associate
     end associate
   end function line_direction
 

@@ -33,6 +33,9 @@ module part_forces
     real(wp), allocatable :: border(:, :)     !! (border, cases) static solution; 0 of free motions
     real(wp), allocatable :: guide(:, :)      !! (sliders, cases) force of the guide on the block,
                                               !! along the normal of its line [N]
+    real(wp), allocatable :: weighted(:, :)   !! (rows, cases) forces of parts and springs in units
+                                              !! of y [√J]
+    real(wp), allocatable :: constraint(:, :) !! (constraints, cases) multipliers [N]
     real(wp), allocatable :: spring(:, :)     !! (springs, cases) [N] or [N m]
   end type part_forces_t
 
@@ -64,6 +67,8 @@ contains
     forces%axial = 0.0_wp
     forces%second_order = 0.0_wp
     allocate (forces%border(n + chords%free, case_count), source=0.0_wp)
+    allocate (forces%weighted(size(border%rows%weight), case_count), source=0.0_wp)
+    allocate (forces%constraint(border%numbers%constraints, case_count), source=0.0_wp)
     forces%guide = 0.0_wp
     forces%spring = 0.0_wp
     if (.not. any(loads%unit%occurs)) return
@@ -86,6 +91,8 @@ contains
         forces%border(:n, i) = work(:n)
         weighted = matmul(border%basis%weighted, work(:n))
         lambda = lambda - matmul(weighted, border%basis%weighted_violation)
+        forces%weighted(:, i) = weighted
+        forces%constraint(:, i) = lambda
         do k = 1, size(links)
           if (.not. elastic%linkage%bodies(k)%bends) then
             forces%axial(1, k, i) = turning_load(elastic, pose, case, k, lambda, border, &

@@ -345,7 +345,13 @@ contains
           speeds, accelerations)
       case ("joints")
         call find_joints(linkage, elements, found%positions, threads, found%joints, &
-          speeds, accelerations)
+          speeds, accelerations, variant%mechanism%structure_t)
+        if (allocated(found%joints%outcome)) then
+          do i = 1, size(found%joints%outcome)
+            if (allocated(found%joints%outcome(i)%error)) found%positions%states(i)%error = &
+              found%joints%outcome(i)%error
+          end do
+        end if
       case ("friction")
         call find_joint_friction(linkage, elements, found%positions, threads, speeds, &
           accelerations, found%friction)

@@ -3,6 +3,9 @@
 module joint_study
   use applied_loads, only: spring_pulls
   use constants, only: degree
+  use deformation_model, only: deformation_model_t
+  use elastic_reactions, only: divide_by_elasticity, has_elastic_reactions, new_elastic_model
+  use errors, only: error_t, outcome_t
   use frame_forces, only: find_frame_load
   use ground_loads, only: pulls_on_ground
   use group_equations, only: drive_rate, drive_value
@@ -15,6 +18,7 @@ module joint_study
   use positions, only: positions_t
   use reactions, only: find_unit_reactions, unit_reactions_t
   use running_loads, only: depends_on_speed, find_running_loads, lock_of, lock_t, running_t
+  use structures, only: structure_t
   implicit none (type, external)
   private
 
@@ -48,12 +52,15 @@ module joint_study
                                                !! about `reference_point` [N, N m]
     real(wp), allocatable :: running_frame(:, :, :)    !! (3, speeds, states), as `frame`
     type(lock_t), allocatable :: lock(:, :)    !! (speeds, states) where friction locks the linkage
+    type(outcome_t), allocatable :: outcome(:) !! (states) why elasticity does not divide the forces
+                                               !! there; not allocated: it is not asked to
   end type joints_result_t
 
 contains
 
   !> Forces at all positions, once for all speeds.
-  subroutine find_joints(linkage, elements, positions, threads, found, speeds, accelerations)
+  subroutine find_joints(linkage, elements, positions, threads, found, speeds, accelerations, &
+    structure)
     type(linkage_t), intent(in) :: linkage      !! of any kind
     integer, intent(in) :: elements(:)          !! (bodies) on whose nodes the masses are lumped;
                                                 !! 0: distributed
@@ -65,7 +72,13 @@ contains
                                                    !! without these
     real(wp), intent(in), optional :: accelerations(:, :) !! (speeds, states) likewise, for friction
                                                    !! [rad/s²] or [m/s²]; absent: none
+    class(structure_t), intent(in), optional :: structure !! of this linkage, whose elasticity
+                                                   !! divides the forces of links that are more than
+                                                   !! needed; absent: there are none
 
+    type(deformation_model_t) :: model
+    type(error_t), allocatable :: failure
+    logical :: divides
     type(unit_reactions_t) :: unit
     type(running_t) :: running
     real(wp) :: acceleration
@@ -88,12 +101,29 @@ contains
     found%running_force = 0.0_wp
     found%running_drive = 0.0_wp
     found%running_frame = 0.0_wp
+    divides = .false.
+    if (present(structure)) divides = has_elastic_reactions(structure)
+    if (divides) then
+      allocate (found%outcome(n))
+      call new_elastic_model(structure, positions%states%crank, model, failure)
+      if (allocated(failure)) then
+        do i = 1, n
+          found%outcome(i)%error = failure
+        end do
+        return
+      end if
+    end if
     !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) &
     !$omp   private(i, k, acceleration, unit, running)
     do i = 1, n
       associate (state => positions%states(i))
         if (allocated(state%error)) cycle
         call find_unit_reactions(linkage, elements, state%pose, state%coefficients, unit)
+        if (divides) then
+          call divide_by_elasticity(structure, model, state%pose, state%coefficients, unit, &
+            found%outcome(i)%error)
+          if (allocated(found%outcome(i)%error)) cycle
+        end if
         do k = 1, case_count
           associate (part => unit%of_case(k))
             call take_forces(linkage, found%joints, part%joints, found%force(:, :, k, i))

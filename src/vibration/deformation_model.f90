@@ -17,6 +17,7 @@ module deformation_model
   use next_orders, only: orders_beyond
   use pin_displacements, only: held_ends
   use reduced_assembly, only: reduced_layout
+  use rescaled_links, only: can_be_rescaled, rescale_link
   use rigid_links, only: new_rigid_link
   use singular_vectors, only: find_right_singular_vectors
   implicit none (type, external)
@@ -103,10 +104,15 @@ contains
     type(body_t), intent(in) :: body                 !! with its new length
     type(beam_t), intent(in) :: beam                 !! stiffnesses
     logical, intent(in) :: held(2)                   !! its ends
-    type(link_modes_t), intent(inout) :: link        !! becomes that of the new length
+    type(link_modes_t), intent(inout) :: link        !! a copy of that of the model, of any length;
+                                                     !! becomes that of the new one
     type(error_t), allocatable, intent(out) :: error !! why it has no own modes
 
     if (abs(link%length - body%length) <= 0.0_wp) return
+    if (can_be_rescaled(model%links(number))) then
+      call rescale_link(model%links(number), body%length, link)
+      return
+    end if
     call find_own_modes(body, beam, 0, model%degrees(number), .false., held, link, error)
   end subroutine renew_link
 

@@ -10,7 +10,6 @@ module position_assembly
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use ledger, only: ledger_t
-  use linkages, only: linkage_t
   use load_cases, only: case_count, find_unit_loads, unit_loads_t
   use part_displacements, only: border_size, border_t, find_part_chords, new_border
   use part_forces, only: find_part_forces, part_forces_t
@@ -22,7 +21,7 @@ module position_assembly
   implicit none (type, external)
   private
 
-  public :: assembled_t, new_assembled, assemble_position, vibrating_linkage, set_border
+  public :: assembled_t, new_assembled, assemble_position, set_border, place_parts
 
   !> A linkage at a position. Of binary links and pins only `loads` and `unit_force` are used.
   type :: assembled_t
@@ -39,21 +38,9 @@ module position_assembly
 
 contains
 
-  !> The linkage whose bodies are the links of the deformation models.
-  pure function vibrating_linkage(structure) result(linkage)
-    type(structure_t), intent(in) :: structure !! with beams
-    type(linkage_t) :: linkage
-
-    if (allocated(structure%elastic)) then
-      linkage = structure%elastic%linkage
-    else
-      linkage = structure%linkage
-    end if
-  end function vibrating_linkage
-
   !> Storage for the positions of a model.
   pure function new_assembled(structure, model) result(here)
-    type(structure_t), intent(in) :: structure     !! with beams
+    class(structure_t), intent(in) :: structure     !! with beams
     type(deformation_model_t), intent(in) :: model !! of its parts
     type(assembled_t) :: here
 
@@ -65,7 +52,7 @@ contains
 
   !> Gives a model the border of its linkage, as it is at most of some positions.
   subroutine set_border(structure, crank, model)
-    type(structure_t), intent(in) :: structure         !! of parts
+    class(structure_t), intent(in) :: structure         !! of parts
     real(wp), intent(in) :: crank(:)                   !! of the first drive [deg] or [m]
     type(deformation_model_t), intent(inout) :: model  !! whose layout has no border yet
 
@@ -96,7 +83,7 @@ contains
   !! more than its shear stiffness.
   subroutine assemble_position(structure, model, pose, coefficients, factor, equations, here, &
     outcome, counts)
-    type(structure_t), intent(in) :: structure                  !! with beams
+    class(structure_t), intent(in) :: structure                  !! with beams
     type(deformation_model_t), intent(in) :: model              !! of its parts
     type(pose_t), intent(in) :: pose                            !! away from dead points
     type(kinematic_coefficients_t), intent(in) :: coefficients  !! of this pose
@@ -164,11 +151,13 @@ contains
   end subroutine add_block
 
   !> Places the parts, and renews the own modes of those whose lengths have changed.
+  !!
+  !! Errors: those of `place_parts_of`; a link has no own modes.
   subroutine place_parts(structure, model, pose, here, error)
-    type(structure_t), intent(in) :: structure
-    type(deformation_model_t), intent(in) :: model
-    type(pose_t), intent(in) :: pose
-    type(assembled_t), intent(inout) :: here
+    class(structure_t), intent(in) :: structure      !! with parts
+    type(deformation_model_t), intent(in) :: model   !! of these
+    type(pose_t), intent(in) :: pose                 !! of the linkage that moves
+    type(assembled_t), intent(inout) :: here         !! of this model
     type(error_t), allocatable, intent(out) :: error
 
     integer :: i, k, part

@@ -471,20 +471,45 @@ class Structure:
     def count_below(self, c):
         """(number of eigenvalues below c, a function of c that vanishes at eigenvalues only)."""
         rows, below, function = self.matrix(c)
-        for p in range(self.size - 1, -1, -1):
+        best = None
+        for shift in range(min(4, self.size)):
+            found = self._eliminate_symmetric(rows, shift)
+            if best is None or found[2] > best[2]:
+                best = found
+            if best[2] > Decimal("1e-12"):
+                break
+        negative, product, _ = best
+        if product == 0:
+            raise ZeroDivisionError("at an eigenvalue")
+        return below + negative, function * product
+
+    def _eliminate_symmetric(self, lower, shift):
+        """Number of negative pivots, their product, and the least of them, relative to its row: a part of the linkage may have the
+        frequency of the whole, and then another order of the unknowns keeps the digits."""
+        count = self.size
+        if shift == 0:
+            rows = [list(row) for row in lower]
+        else:
+            order = [(k * (count - 1) + shift) % count if shift % 2 else (k + shift) % count for k in range(count)]
+            rows = [[lower[max(i, j)][min(i, j)] for j in order[:place + 1]] for place, i in enumerate(order)]
+        sizes = [max(map(abs, row)) or ONE for row in rows]
+        negative, product, least = 0, ONE, ONE
+        for p in range(count - 1, -1, -1):
             row = rows.pop()
             pivot = row[p]
             if pivot == 0:
-                raise ZeroDivisionError("at an eigenvalue")
-            below += pivot < 0
-            function *= pivot
+                return 0, ZERO, ZERO if p else least
+            if p:                              # the last one may vanish
+                least = min(least, abs(pivot) / sizes[p])
+            negative += pivot < 0
+            product *= pivot
             filled = [(j, row[j]) for j in range(p) if row[j]]
             for place, (i, value) in enumerate(filled):
                 factor = value / pivot
                 into = rows[i]
                 for j, other in filled[:place + 1]:
                     into[j] -= factor * other
-        return below, function
+        return negative, product, least
 
     # loads
 
@@ -681,9 +706,11 @@ class Structure:
             else:
                 low = middle
         a, b, (fa, fb) = low, high, (counts[0][1], counts[1][1])
-        for _ in range(40):
-            c = b - fb * (b - a) / (fb - fa)
-            if not low <= c <= high:
+        for _ in range(60):
+            c = b - fb * (b - a) / (fb - fa) if fb != fa else b
+            if abs(c - b) < b * relative / 1000:
+                break
+            if not low < c < high:
                 c = (low + high) / 2
             try:
                 below, fc = self.count_below(c)
@@ -694,9 +721,7 @@ class Structure:
                 high = c
             else:
                 low = c
-            step, a, fa, b, fb = abs(c - b), b, fb, c, fc
-            if step < c * relative / 100:
-                break
+            a, fa, b, fb = b, fb, c, fc
         if self.count_below(b * (1 - relative))[0] != number - 1 or self.count_below(b * (1 + relative))[0] != number:
             raise Failure("an eigenvalue whose count is not proven")
         return b

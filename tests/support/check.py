@@ -186,11 +186,13 @@ def linkages_that_vibrate():
     group = Group("vibrations, release")
     folder = os.path.join("tests", "linkages")
     common = ["--program", program("release"), "--skip-refused", "--scratch"]
-    group.lines(execute([sys.executable, "-B", os.path.join(folder, "exact_frequencies.py")] + common + [fresh("vibrations", "exact")]))
-    run = execute([sys.executable, "-B", os.path.join(folder, "random_vibrations.py"), "1", "24", "--jobs", "1"] + common
+    group.lines(execute([sys.executable, "-B", os.path.join(folder, "vibration_checks.py")]))
+    group.lines(execute([sys.executable, "-B", os.path.join(folder, "exact_frequencies.py")] + common
+                        + [fresh("vibrations", "exact")]))
+    run = execute([sys.executable, "-B", os.path.join(folder, "random_vibrations.py"), "1", "48", "--jobs", "1"] + common
                   + [fresh("vibrations", "random")])
     said = run.stdout.strip() + run.stderr.strip()
-    group.result(f"{folder}/random_vibrations.py 1 24", None if run.returncode == 0 else said)
+    group.result(f"{folder}/random_vibrations.py 1 48", None if run.returncode == 0 else said)
     group.end()
 
 

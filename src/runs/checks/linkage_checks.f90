@@ -1,6 +1,7 @@
 !> Checks of linkages that are no four-bars and have a plan: whether they assemble near the drawing,
 !! fit, and reach the positions of the deck.
 module linkage_checks
+  use applied_loads, only: has_moving_loads
   use block_checks, only: check_blocks
   use deck_lengths, only: crank_text, in_deck, length_text
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
@@ -9,7 +10,7 @@ module linkage_checks
   use linkage_parts, only: assembly_t
   use linkages, only: groups_dyad, is_dyad_linkage, linkage_t, reference_point
   use mechanisms, only: mechanism_t, pins_of_body
-  use models, only: drives_length, model_t, needs_frequencies, report_number, solver_band, &
+  use models, only: drives_length, effects_axial, model_t, needs_frequencies, report_number, solver_band, &
     solver_dense
   use plan_words, only: group_names
   use pose_types, only: pose_t
@@ -61,8 +62,9 @@ contains
     if (size(mechanism%linkage%redundancies) > 0) then
       call check_fit(model, mechanism, diagnostics)
       if (has_errors(diagnostics)) return
-      report = max(report_number(model, "reactions"), report_number(model, "bearings"), &
-        report_number(model, "sizing"))
+      report = report_number(model, "sizing")
+      if (.not. divides_forces(model, mechanism)) report = max(report_number(model, "reactions"), &
+        report_number(model, "bearings"), report)
       if (report == 0 .and. size(model%frictions) > 0) call add_error(diagnostics, &
         model%frictions(1)%keyword, "friction depends on the forces in the joints, and those "// &
         "in '"//mechanism%names(max(1, body_of_redundancy(mechanism%linkage, 1)))%text// &
@@ -88,11 +90,42 @@ contains
         model%reports(report)%through_word, "only a four-bar, of three LINKs and no SLIDER, is "// &
         "followed straight through change points; expected change_points=stop")
     end if
+    if (needs_frequencies(model) .and. model%effects == effects_axial) call &
+      warn_of_held_blocks(model, diagnostics)
     call check_reach(model, mechanism, leaving, diagnostics)
     if (leaving > 0) call check_blocks(model, mechanism, diagnostics)
     if (needs_frequencies(model) .and. .not. has_errors(diagnostics)) call check_mesh(model, &
       mechanism, diagnostics)
   end subroutine check_linkage
+
+  !> The moment in the contact of a block that does not turn on a link that bends does work of the
+  !! second order on its curvature, which jumps there: a block without length has no such term.
+  pure subroutine warn_of_held_blocks(model, diagnostics)
+    type(model_t), intent(in) :: model
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: i
+
+    do i = 1, size(model%sliders)
+      if (model%sliders(i)%turned_link == 0 .or. model%sliders(i)%link == 0) cycle
+      if (model%links(model%sliders(i)%link)%rigid) cycle
+      call add_warning(diagnostics, model%sliders(i)%turned, "link '"// &
+        model%links(model%sliders(i)%turned_link)%name%text//"' does not turn on a block without "// &
+        "length on link '"//model%links(model%sliders(i)%link)%name%text//"', which bends: what "// &
+        "the moment between them adds to the stiffness is left out")
+    end do
+  end subroutine warn_of_held_blocks
+
+  !> Whether the elasticity of bending links divides the forces in the joints: those of the motion
+  !! with masses along the links, and of loads that do not depend on the speed.
+  pure function divides_forces(model, mechanism) result(divides)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    logical :: divides
+
+    divides = allocated(mechanism%elastic) .and. all(mechanism%load_elements == 0) .and. &
+      .not. has_moving_loads(mechanism%linkage) .and. size(model%frictions) == 0
+  end function divides_forces
 
   !> A mesh of the deck, and its nodal matrices, are of links that are placed two by two.
   pure subroutine check_mesh(model, mechanism, diagnostics)
