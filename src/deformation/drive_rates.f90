@@ -12,7 +12,7 @@ module drive_rates
   implicit none (type, external)
   private
 
-  public :: find_drive_rates, slide_of
+  public :: find_drive_rates, slide_of, turn_of_end, end_at_joint
 
 contains
 
@@ -53,32 +53,35 @@ contains
     integer, intent(in) :: body, other
     real(wp) :: turn(size(chords%turn, 1))
 
-    real(wp), allocatable :: row(:)
-    integer :: i, k, kept, last
-    logical :: is_here(2)
+    integer :: k, last
 
     do k = 1, size(elastic%body)
       if (elastic%body(k) /= body) cycle
       turn = chords%turn(:, k)
       if (.not. elastic%linkage%bodies(k)%bends) return
-      is_here = [is_joint(elastic%linkage%bodies(k)%first_pin), &
-        is_joint(elastic%linkage%bodies(k)%last_pin)]
-      if (.not. any(is_here)) cycle
-      last = merge(1, 2, is_here(1))
+      last = end_at_joint(linkage, elastic, k, other)
+      if (last == 0) cycle
       if (elastic%rotation(last, k) > 0) then
         turn = chords%rotation(elastic%rotation(last, k), :)
-        return
+      else
+        turn = turn_of_end(links(k), chords, k, last)
       end if
-      kept = size(links(k)%bending, 1)
-      row = rotation_row(links(k)%bending_shapes, &
-        real(last - 1, wp))
-      do i = 1, links(k)%curves
-        turn = turn + dot_product(row(:kept), links(k)%bending(:, i - links(k)%curves))* &
-          chords%across(2 + i, :, k)
-      end do
       return
     end do
     turn = 0.0_wp
+  end function turn_at_joint
+
+  !> The end of a part where its link is joined to another one, or to the ground.
+  pure function end_at_joint(linkage, elastic, part, other) result(number)
+    type(linkage_t), intent(in) :: linkage         !! that moves: pins of its links
+    type(elastic_linkage_t), intent(in) :: elastic !! its parts
+    integer, intent(in) :: part                    !! number
+    integer, intent(in) :: other                   !! number of the link; 0: the ground
+    integer :: number                              !! 1: the first, 2: the last; 0: none
+
+    number = 0
+    if (is_joint(elastic%linkage%bodies(part)%last_pin)) number = 2
+    if (is_joint(elastic%linkage%bodies(part)%first_pin)) number = 1
 
   contains
 
@@ -94,7 +97,27 @@ contains
       end if
     end function is_joint
 
-  end function turn_at_joint
+  end function end_at_joint
+
+  !> Rotation of a hinged end of a part that bends: that of its chord, and what the curves of the
+  !! other end add.
+  pure function turn_of_end(link, chords, part, number) result(turn)
+    type(link_modes_t), intent(in) :: link   !! of the part
+    type(chords_t), intent(in) :: chords     !! what some displacements do to it
+    integer, intent(in) :: part              !! its number in these
+    integer, intent(in) :: number            !! 1: the first end, 2: the last
+    real(wp) :: turn(size(chords%turn, 1))   !! (displacements)
+
+    real(wp) :: row(link%bending_shapes%unknowns)
+    integer :: i
+
+    turn = chords%turn(:, part)
+    row = rotation_row(link%bending_shapes, real(number - 1, wp))
+    do i = 1, link%curves
+      turn = turn + dot_product(row(:size(link%bending, 1)), link%bending(:, i - link%curves))* &
+        chords%across(2 + i, :, part)
+    end do
+  end function turn_of_end
 
   !> Slide of a block along the line of its guide.
   pure function slide_of(elastic, pose, chords, slider) result(along)

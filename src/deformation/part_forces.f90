@@ -37,6 +37,8 @@ module part_forces
                                               !! of y [√J]
     real(wp), allocatable :: constraint(:, :) !! (constraints, cases) multipliers [N]
     real(wp), allocatable :: spring(:, :)     !! (springs, cases) [N] or [N m]
+    real(wp), allocatable :: drive(:, :)      !! (drives, cases) of free ones; 0 of others [N m] or
+                                              !! [N]
   end type part_forces_t
 
 contains
@@ -54,6 +56,7 @@ contains
 
     type(chords_t) :: of_constraints
     real(wp), allocatable :: on_drives(:, :), drives_of_constraints(:, :), held(:)
+    integer, allocatable :: free(:)
     real(wp) :: work(size(chords%turn, 1)), weighted(size(border%rows%weight)), &
       lambda(border%numbers%constraints), mean
     integer :: i, j, k, n
@@ -71,6 +74,8 @@ contains
     allocate (forces%constraint(border%numbers%constraints, case_count), source=0.0_wp)
     forces%guide = 0.0_wp
     forces%spring = 0.0_wp
+    allocate (forces%drive(size(linkage%drives), case_count), source=0.0_wp)
+    free = pack([(i, i=1, size(linkage%drives))], linkage%drives%is_free)
     if (.not. any(loads%unit%occurs)) return
     of_constraints = chords_of(elastic, links, pose, border%numbers, border%basis%violation, &
       border%basis%weighted_violation)
@@ -85,6 +90,7 @@ contains
           matmul(loads%moment(:, i), of_constraints%rotation)
         if (size(on_drives, 1) > 0 .and. chords%free > 0) then
           held = held_by_drives(on_drives(:, n + 1:), work(n + 1:))
+          forces%drive(free, i) = held
           work = work + matmul(held, on_drives)
           lambda = lambda + matmul(held, drives_of_constraints)
         end if
@@ -96,7 +102,7 @@ contains
         do k = 1, size(links)
           if (.not. elastic%linkage%bodies(k)%bends) then
             forces%axial(1, k, i) = turning_load(elastic, pose, case, k, lambda, border, &
-              loads, weighted, merge(1.0_wp, 0.0_wp, i == case_count))/ &
+              loads, weighted, forces%drive(:, i), merge(1.0_wp, 0.0_wp, i == case_count))/ &
               elastic%linkage%bodies(k)%length
             cycle
           end if
@@ -152,7 +158,7 @@ contains
 
   !> `Σ F·r` of a rigid link, r from its first point: forces at its points, of blocks on it, and
   !! its loads [N m].
-  pure function turning_load(elastic, pose, case, part, lambda, border, loads, weighted, &
+  pure function turning_load(elastic, pose, case, part, lambda, border, loads, weighted, drive, &
     constant) result(total)
     type(elastic_linkage_t), intent(in) :: elastic
     type(pose_t), intent(in) :: pose
@@ -162,6 +168,7 @@ contains
     type(border_t), intent(in) :: border
     type(part_loads_t), intent(in) :: loads
     real(wp), intent(in) :: weighted(:) !! (rows)
+    real(wp), intent(in) :: drive(:)    !! (drives) of free ones
     real(wp), intent(in) :: constant    !! 1 of loads that are there at rest, else 0
     real(wp) :: total
 
@@ -189,6 +196,13 @@ contains
         if (elastic%linkage%sliders(k)%body /= elastic%body(part)) cycle
         arm = pose%pin(:, elastic%linkage%sliders(k)%pin) - pose%pin(:, body%first_pin)
         total = total + lambda(row)*dot_product(line_direction(elastic, pose, k), arm)
+      end do
+      do i = 1, size(drive)
+        k = elastic%linkage%drives(i)%slider
+        if (k == 0 .or. .not. elastic%linkage%drives(i)%is_free) cycle
+        if (elastic%linkage%sliders(k)%body /= elastic%body(part)) cycle
+        arm = pose%pin(:, elastic%linkage%sliders(k)%pin) - pose%pin(:, body%first_pin)
+        total = total - drive(i)*dot_product(line_direction(elastic, pose, k), arm)
       end do
       total = total - inertia_turning(elastic, pose, case, part)
       if (allocated(body%forced) .and. allocated(case%place_force)) then
