@@ -12,7 +12,7 @@ module drive_rates
   implicit none (type, external)
   private
 
-  public :: find_drive_rates, slide_of, turn_of_end, end_at_joint
+  public :: find_drive_rates, own_drive_rates, slide_of, turn_of_end, end_at_joint
 
 contains
 
@@ -53,23 +53,32 @@ contains
     integer, intent(in) :: body, other
     real(wp) :: turn(size(chords%turn, 1))
 
-    integer :: k, last
+    integer :: part, end
 
-    do k = 1, size(elastic%body)
-      if (elastic%body(k) /= body) cycle
-      turn = chords%turn(:, k)
-      if (.not. elastic%linkage%bodies(k)%bends) return
-      last = end_at_joint(linkage, elastic, k, other)
-      if (last == 0) cycle
-      if (elastic%rotation(last, k) > 0) then
-        turn = chords%rotation(elastic%rotation(last, k), :)
-      else
-        turn = turn_of_end(links(k), chords, k, last)
-      end if
-      return
-    end do
-    turn = 0.0_wp
+    call find_joint_end(linkage, elastic, body, other, part, end)
+    if (elastic%rotation(end, part) > 0) then
+      turn = chords%rotation(elastic%rotation(end, part), :)
+    else if (elastic%linkage%bodies(part)%bends) then
+      turn = turn_of_end(links(part), chords, part, end)
+    else
+      turn = chords%turn(:, part)
+    end if
   end function turn_at_joint
+
+  !> The part of a link that is joined to another, or to the ground, and its end there.
+  pure subroutine find_joint_end(linkage, elastic, body, other, part, end)
+    type(linkage_t), intent(in) :: linkage
+    type(elastic_linkage_t), intent(in) :: elastic
+    integer, intent(in) :: body, other
+    integer, intent(out) :: part, end
+
+    do part = findloc(elastic%body, body, dim=1), findloc(elastic%body, body, dim=1, back=.true.)
+      end = end_at_joint(linkage, elastic, part, other)
+      if (end > 0) return
+    end do
+    part = findloc(elastic%body, body, dim=1)
+    end = 1
+  end subroutine find_joint_end
 
   !> The end of a part where its link is joined to another one, or to the ground.
   pure function end_at_joint(linkage, elastic, part, other) result(number)
@@ -99,6 +108,48 @@ contains
 
   end function end_at_joint
 
+  !> Rotations of an end of a part that bends against its chord: of curves, then own modes.
+  pure function end_slopes(link, end) result(slopes)
+    type(link_modes_t), intent(in) :: link
+    integer, intent(in) :: end !! 1: the first, 2: the last
+    real(wp) :: slopes(link%curves + link%modes)
+
+    real(wp) :: row(link%bending_shapes%unknowns)
+
+    row = rotation_row(link%bending_shapes, real(end - 1, wp))
+    slopes = matmul(row(:size(link%bending, 1)), link%bending)
+  end function end_slopes
+
+  !> Rotations at the joints of free drives that are due to own modes of one part.
+  pure function own_drive_rates(linkage, elastic, links, part) result(rate)
+    type(linkage_t), intent(in) :: linkage           !! that moves: its drives
+    type(elastic_linkage_t), intent(in) :: elastic   !! of it
+    type(link_modes_t), intent(in) :: links(:)       !! (parts)
+    integer, intent(in) :: part                      !! that bends
+    real(wp) :: rate(count(linkage%drives%is_free), links(part)%modes) !! (free drives, own modes)
+
+    real(wp) :: slopes(links(part)%curves + links(part)%modes)
+    integer :: bodies(2), d, i, k, at, end
+
+    rate = 0.0_wp
+    i = 0
+    do d = 1, size(linkage%drives)
+      associate (drive => linkage%drives(d))
+        if (.not. drive%is_free) cycle
+        i = i + 1
+        if (drive%kind /= drives_angle) cycle
+        bodies = [drive%body, drive%against]
+        do k = 1, 2
+          if (bodies(k) == 0) cycle
+          call find_joint_end(linkage, elastic, bodies(k), bodies(3 - k), at, end)
+          if (at /= part .or. elastic%rotation(end, at) /= 0) cycle
+          slopes = end_slopes(links(part), end)
+          rate(i, :) = rate(i, :) + merge(1.0_wp, -1.0_wp, k == 1)*slopes(links(part)%curves + 1:)
+        end do
+      end associate
+    end do
+  end function own_drive_rates
+
   !> Rotation of a hinged end of a part that bends: that of its chord, and what the curves of the
   !! other end add.
   pure function turn_of_end(link, chords, part, number) result(turn)
@@ -108,14 +159,13 @@ contains
     integer, intent(in) :: number            !! 1: the first end, 2: the last
     real(wp) :: turn(size(chords%turn, 1))   !! (displacements)
 
-    real(wp) :: row(link%bending_shapes%unknowns)
+    real(wp) :: slopes(link%curves + link%modes)
     integer :: i
 
     turn = chords%turn(:, part)
-    row = rotation_row(link%bending_shapes, real(number - 1, wp))
+    slopes = end_slopes(link, number)
     do i = 1, link%curves
-      turn = turn + dot_product(row(:size(link%bending, 1)), link%bending(:, i - link%curves))* &
-        chords%across(2 + i, :, part)
+      turn = turn + slopes(i)*chords%across(2 + i, :, part)
     end do
   end function turn_of_end
 
