@@ -132,8 +132,8 @@ contains
     is_same = one%body == other%body .and. one%pin == other%pin
   end function is_same
 
-  !> Moment that the couples of turns put on the end of a link that bends: what the parts there bear,
-  !! less the moments of springs, drives and of a block.
+  !> Moment that the couples of turns put on the end of a link that bends: what the parts there
+  !! bear, less the moments of springs, drives and of a block.
   pure function moment_on_end(linkage, elastic, loads, forces, case, on_part, body, point, joints) &
     result(moment)
     type(linkage_t), intent(in) :: linkage

@@ -1,5 +1,5 @@
-!> What acts on a rigid link of a vibrating linkage beside its pins: inertia, forces at places, blocks
-!! that slide along it, springs.
+!> What acts on a rigid link of a vibrating linkage beside its pins: inertia, forces at places,
+!! blocks that slide along it, springs.
 module rigid_part_loads
   use border_rows, only: line_direction, spring_way
   use elastic_linkages, only: elastic_linkage_t
@@ -20,7 +20,8 @@ contains
 
   !> The resultant of all but the forces at its pins, and the couples of turns, of drives and of
   !! springs that turn.
-  pure function load_on_rigid(linkage, elastic, pose, loads, border, forces, case, part) result(load)
+  pure function load_on_rigid(linkage, elastic, pose, loads, border, forces, case, part) &
+    result(load)
     type(linkage_t), intent(in) :: linkage         !! that moves: its sliders and drives
     type(elastic_linkage_t), intent(in) :: elastic !! at this position
     type(pose_t), intent(in) :: pose               !! of points and parts
