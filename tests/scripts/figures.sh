@@ -256,14 +256,14 @@ square_corners() {
       NF && ($1 - x)^2 + ($2 - y)^2 < 1e-12 && ($3 - u)^2 + ($4 - v)^2 < 1e-12 { if (NR == last + 1) twice = 1; last = NR }
       END { exit !twice }' "$scratch/curves" || { echo "the curve does not meet $x $y twice"; return 1; }
   done <"$scratch/corners"
-  # At rest a link is straight between its corners: no curve turns back.
+  # At rest a link is straight between its corners, and a corner stops the curve.
   awk '
     !NF { n = 0; next }
     {
       n++; x[n] = $1; y[n] = $2
       if (n < 3) next
       a = x[n - 1] - x[n - 2]; b = y[n - 1] - y[n - 2]; c = x[n] - x[n - 1]; d = y[n] - y[n - 1]
-      if (a*c + b*d < 0 && (a*d - b*c)^2 < 1e-6*(a*a + b*b)*(c*c + d*d)) { print "back and forth at", x[n - 1], y[n - 1]; exit 1 }
+      if ((a*d - b*c)^2 > 1e-8*(a*a + b*b)*(c*c + d*d)) { print "it bends at", x[n - 1], y[n - 1]; exit 1 }
     }' "$scratch/curves"
 }
 
