@@ -75,9 +75,9 @@ contains
       model%layout%border, model%layout%free, .true., here%border, chords, error)
     if (allocated(error)) return
     if (here%border%basis%idle_constraints > 0) then
-      call set_error(error, error_of_input, "the forces in links that hold the same pins cannot "// &
-        "be told apart while too many of them are rigid", body=body_of_redundancy( &
-        structure%linkage, 1))
+      call set_error(error, error_of_input, "the forces in links that hold the same pins "// &
+        "cannot be told apart while too many of them are rigid", &
+        body=body_of_redundancy(structure%linkage, 1))
       return
     end if
     here%loads = find_unit_loads(structure%linkage, pose, coefficients)
