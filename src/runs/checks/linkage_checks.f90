@@ -70,10 +70,18 @@ contains
         model%frictions(1)%keyword, "friction depends on the forces in the joints, and those "// &
         "in '"//mechanism%names(max(1, body_of_redundancy(mechanism%linkage, 1)))%text// &
         "' and the links that hold the same pins cannot be told apart while all are rigid")
-      if (report > 0) call add_error(diagnostics, model%reports(report)%keyword, &
-        "the forces in '"//mechanism%names(max(1, body_of_redundancy(mechanism%linkage, &
-        1)))%text//"' and the links that hold the same pins cannot be told apart while all are "// &
-        "rigid; REPORT drive, frame and lagrange do not need them")
+      if (report > 0 .and. allocated(mechanism%elastic)) then
+        call add_error(diagnostics, model%reports(report)%keyword, "the forces in '"// &
+          mechanism%names(max(1, body_of_redundancy(mechanism%linkage, 1)))%text// &
+          "' and the links that hold the same pins are divided by how links bend in "// &
+          "reactions and bearings only, and not with springs, dampers, friction or INERTIA lumped; REPORT "// &
+          "drive, frame and lagrange do not need them")
+      else if (report > 0) then
+        call add_error(diagnostics, model%reports(report)%keyword, "the forces in '"// &
+          mechanism%names(max(1, body_of_redundancy(mechanism%linkage, 1)))%text// &
+          "' and the links that hold the same pins cannot be told apart while all are rigid; "// &
+          "REPORT drive, frame and lagrange do not need them")
+      end if
       report = report_number(model, "motion")
       if (report > 0) then
         if (model%reports(report)%with_forces) call add_error(diagnostics, &
@@ -149,14 +157,16 @@ contains
   end subroutine warn_of_held_blocks
 
   !> Whether the elasticity of bending links divides the forces in the joints: those of the motion
-  !! with masses along the links, and of loads that do not depend on the speed.
+  !! with masses along the links, and of loads that do not depend on the speed; not of springs, of
+  !! which other columns know what they pull at the position only.
   pure function divides_forces(model, mechanism) result(divides)
     type(model_t), intent(in) :: model
     type(mechanism_t), intent(in) :: mechanism
     logical :: divides
 
     divides = allocated(mechanism%elastic) .and. all(mechanism%load_elements == 0) .and. &
-      .not. has_moving_loads(mechanism%linkage) .and. size(model%frictions) == 0
+      .not. has_moving_loads(mechanism%linkage) .and. size(model%frictions) == 0 .and. &
+      size(model%springs) == 0
   end function divides_forces
 
   !> A mesh of the deck, and its nodal matrices, are of links that are placed two by two.
