@@ -74,8 +74,8 @@ contains
         call add_error(diagnostics, model%reports(report)%keyword, "the forces in '"// &
           mechanism%names(max(1, body_of_redundancy(mechanism%linkage, 1)))%text// &
           "' and the links that hold the same pins are divided by how links bend in "// &
-          "reactions and bearings only, and not with springs, dampers, friction or INERTIA lumped; REPORT "// &
-          "drive, frame and lagrange do not need them")
+          "reactions and bearings only, and not with springs, dampers, friction or INERTIA "// &
+          "lumped; REPORT drive, frame and lagrange do not need them")
       else if (report > 0) then
         call add_error(diagnostics, model%reports(report)%keyword, "the forces in '"// &
           mechanism%names(max(1, body_of_redundancy(mechanism%linkage, 1)))%text// &
