@@ -129,6 +129,8 @@ contains
     demand%modes = request%modes
     if (request%method == by_long_mesh) demand%modes = request%modes + long_mesh_guards
     demand%bound = bound
+    ! Dampers that hold fast raise so many modes.
+    if (allocated(structure%elastic)) demand%modes = demand%modes + size(structure%elastic%dampers)
     call choose_orders(structure, positions, demand, store, models%continuum, counts, error)
     if (allocated(error)) return
     if (request%method /= by_link_modes .and. request%method /= by_long_mesh) return
