@@ -7,7 +7,7 @@
 !! other parts may share (a corner, a weld, a block that does not turn, a spring), or not at all (at
 !! a drive).
 module elastic_linkages
-  use applied_load_types, only: applies_between
+  use applied_load_types, only: applied_load_t, applies_along, applies_between
   use beam_mesh, only: beam_t
   use kinds, only: wp
   use linkages, only: body_t, drives_angle, drives_length, drives_slider, &
@@ -24,12 +24,13 @@ module elastic_linkages
   !> Of an end that cannot turn.
   integer, parameter :: fixed_rotation = -1
 
-  !> A spring of the linkage.
+  !> A spring or a damper of the linkage.
   type :: spring_t
     integer :: load = 0             !! its number among the loads
     logical :: turns = .false.      !! between two rotations; else along a line
     integer :: rotation(2) = 0      !! numbers; the ground is a `fixed_rotation`
     real(wp) :: stiffness = 0.0_wp  !! [N/m] or [N m/rad]
+    real(wp) :: damping = 0.0_wp    !! of a damper [N s/m] or [N m s/rad]
   end type spring_t
 
   !> Parts, points and rotations.
@@ -51,6 +52,7 @@ module elastic_linkages
     integer, allocatable :: cut_part(:)       !! (sliders) that ends there; the next one begins
     integer, allocatable :: guide_rotation(:) !! (sliders) of the guide at the block; 0: it is fixed
     type(spring_t), allocatable :: springs(:) !! with a stiffness
+    type(spring_t), allocatable :: dampers(:) !! with a damping
     logical :: changes_lengths = .false.      !! of some parts from position to position
   end type elastic_linkage_t
 
@@ -64,8 +66,17 @@ contains
 
     needs = .not. is_dyad_linkage(linkage)
     if (.not. needs) needs = any(linkage%drives%is_free)
-    if (.not. needs .and. allocated(linkage%loads)) needs = any(linkage%loads%stiffness > 0.0_wp)
+    if (.not. needs .and. allocated(linkage%loads)) needs = any(linkage%loads%stiffness > 0.0_wp &
+      .or. is_damper(linkage%loads))
   end function needs_parts
+
+  !> Whether a load is a damper along a line or between two bodies.
+  elemental function is_damper(load) result(is)
+    type(applied_load_t), intent(in) :: load
+    logical :: is
+
+    is = load%damping > 0.0_wp .and. (load%kind == applies_along .or. load%kind == applies_between)
+  end function is_damper
 
   !> Divides a linkage into parts.
   pure function new_elastic_linkage(linkage, beams) result(elastic)
@@ -365,7 +376,12 @@ contains
         call join_ends(ends, [drive%body, drive%against], [n, n])
       end associate
     end do
-    call add_springs(linkage, ends, elastic)
+    if (allocated(linkage%loads)) then
+      call add_springs(linkage, linkage%loads%stiffness > 0.0_wp, ends, elastic%springs)
+      call add_springs(linkage, is_damper(linkage%loads), ends, elastic%dampers)
+    else
+      allocate (elastic%springs(0), elastic%dampers(0))
+    end if
     do i = 1, size(linkage%sliders)
       if (elastic%contact(i) > 0) call add_end(ends, linkage%sliders(i)%body, elastic%contact(i))
     end do
@@ -395,35 +411,47 @@ contains
       if (elastic%contact(i) > 0 .and. k > 0) elastic%rotation_inertia(k) = &
         elastic%rotation_inertia(k) + linkage%sliders(i)%inertia
     end do
-    do i = 1, size(elastic%springs)
-      if (.not. elastic%springs(i)%turns) cycle
-      associate (load => linkage%loads(elastic%springs(i)%load))
+    call number_springs(linkage, ends, elastic%springs)
+    call number_springs(linkage, ends, elastic%dampers)
+  end subroutine add_rotations
+
+  !> Rotations of springs or dampers that turn.
+  pure subroutine number_springs(linkage, ends, springs)
+    type(linkage_t), intent(in) :: linkage
+    type(turning_ends_t), intent(in) :: ends
+    type(spring_t), intent(inout) :: springs(:)
+
+    integer :: i, k
+
+    do i = 1, size(springs)
+      if (.not. springs(i)%turns) cycle
+      associate (load => linkage%loads(springs(i)%load))
         do k = 1, 2
-          elastic%springs(i)%rotation(k) = fixed_rotation
-          if (load%body(k) > 0) elastic%springs(i)%rotation(k) = number_of(ends, load%body(k), &
-            spring_pin(linkage, elastic%springs(i)%load))
+          springs(i)%rotation(k) = fixed_rotation
+          if (load%body(k) > 0) springs(i)%rotation(k) = number_of(ends, load%body(k), &
+            spring_pin(linkage, springs(i)%load))
         end do
       end associate
     end do
-  end subroutine add_rotations
+  end subroutine number_springs
 
-  !> Springs; those that turn hold the ends that they turn.
-  pure subroutine add_springs(linkage, ends, elastic)
+  !> Springs or dampers; those that turn hold the ends that they turn.
+  pure subroutine add_springs(linkage, is_one, ends, springs)
     type(linkage_t), intent(in) :: linkage
+    logical, intent(in) :: is_one(:) !! (loads)
     type(turning_ends_t), intent(inout) :: ends
-    type(elastic_linkage_t), intent(inout) :: elastic
+    type(spring_t), allocatable, intent(out) :: springs(:)
 
     integer, allocatable :: loads(:)
     integer :: i, k
 
-    allocate (loads(0))
-    if (allocated(linkage%loads)) loads = pack([(i, i=1, size(linkage%loads))], &
-      linkage%loads%stiffness > 0.0_wp)
-    allocate (elastic%springs(size(loads)))
+    loads = pack([(i, i=1, size(is_one))], is_one)
+    allocate (springs(size(loads)))
     do i = 1, size(loads)
-      associate (spring => elastic%springs(i), load => linkage%loads(loads(i)))
+      associate (spring => springs(i), load => linkage%loads(loads(i)))
         spring%load = loads(i)
         spring%stiffness = load%stiffness
+        spring%damping = load%damping
         spring%turns = load%kind == applies_between
         if (.not. spring%turns) cycle
         do k = 1, 2

@@ -7,7 +7,7 @@
 !! share of y. A spring has `√k` times its stretch or turn. Constraints: points of a rigid link,
 !! blocks on guides, a ram that is held.
 module border_rows
-  use elastic_linkages, only: elastic_linkage_t, fixed_rotation
+  use elastic_linkages, only: elastic_linkage_t, fixed_rotation, spring_t
   use graded_rows, only: graded_rows_t
   use kinds, only: wp
   use link_modes, only: link_modes_t
@@ -17,7 +17,7 @@ module border_rows
   private
 
   public :: border_unknowns_t, border_row_t, new_border_unknowns, find_border_rows, &
-    line_direction, spring_way, add_stretch, part_rows
+    damper_rows, line_direction, spring_way, add_stretch, part_rows
   public :: row_elongation, row_curve, row_spring
 
   !> What a row is.
@@ -176,7 +176,8 @@ contains
       end associate
     end do
     do i = 1, size(elastic%springs)
-      call add_spring(elastic, numbers, pose, i, rows%row(:, numbers%spring(i)))
+      call add_spring(elastic, numbers, pose, elastic%springs(i), &
+        rows%row(:, numbers%spring(i)))
       rows%weight(numbers%spring(i)) = sqrt(elastic%springs(i)%stiffness)
     end do
     do i = 1, size(numbers%line_constraint)
@@ -312,48 +313,62 @@ contains
     end associate
   end subroutine add_line
 
+  !> What the dampers feel: stretch or turn.
+  pure function damper_rows(elastic, numbers, pose) result(rows)
+    type(elastic_linkage_t), intent(in) :: elastic !! its dampers
+    type(border_unknowns_t), intent(in) :: numbers !! of the unknowns
+    type(pose_t), intent(in) :: pose               !! of points and parts
+    real(wp) :: rows(numbers%unknowns, size(elastic%dampers)) !! [-] or [1/m]
+
+    integer :: i
+
+    rows = 0.0_wp
+    do i = 1, size(elastic%dampers)
+      call add_spring(elastic, numbers, pose, elastic%dampers(i), rows(:, i))
+    end do
+  end function damper_rows
+
   !> Stretch or turn of a spring.
-  pure subroutine add_spring(elastic, numbers, pose, number, row)
+  pure subroutine add_spring(elastic, numbers, pose, spring, row)
     type(elastic_linkage_t), intent(in) :: elastic
     type(border_unknowns_t), intent(in) :: numbers
     type(pose_t), intent(in) :: pose
-    integer, intent(in) :: number
+    type(spring_t), intent(in) :: spring
     real(wp), intent(inout) :: row(:)
 
     real(wp) :: way(2)
 
-    associate (spring => elastic%springs(number))
-      if (spring%turns) then
-        call add_rotation(numbers, spring%rotation(2), 1.0_wp, row)
-        call add_rotation(numbers, spring%rotation(1), -1.0_wp, row)
-        return
-      end if
-      way = spring_way(elastic, pose, number)
-      if (norm2(way) > 0.0_wp) way = way/norm2(way)
-      call add_stretch(elastic, numbers, pose, number, way, row)
-    end associate
+    if (spring%turns) then
+      call add_rotation(numbers, spring%rotation(2), 1.0_wp, row)
+      call add_rotation(numbers, spring%rotation(1), -1.0_wp, row)
+      return
+    end if
+    way = spring_way(elastic, pose, spring)
+    if (norm2(way) > 0.0_wp) way = way/norm2(way)
+    call add_stretch(elastic, numbers, pose, spring, way, row)
   end subroutine add_spring
 
   !> The way between the ends of a spring along a line [m].
-  pure function spring_way(elastic, pose, number) result(way)
-    type(elastic_linkage_t), intent(in) :: elastic !! its springs
+  pure function spring_way(elastic, pose, spring) result(way)
+    type(elastic_linkage_t), intent(in) :: elastic !! its parts
     type(pose_t), intent(in) :: pose               !! of points and parts
-    integer, intent(in) :: number                  !! of the spring
+    type(spring_t), intent(in) :: spring           !! or a damper
     real(wp) :: way(2)                             !! from its first end to its second
 
-    way = end_place(elastic, pose, number, 2) - end_place(elastic, pose, number, 1)
+    way = end_place(elastic, pose, spring, 2) - end_place(elastic, pose, spring, 1)
   end function spring_way
 
   !> Where an end of a spring is [m].
-  pure function end_place(elastic, pose, number, k) result(place)
+  pure function end_place(elastic, pose, spring, k) result(place)
     type(elastic_linkage_t), intent(in) :: elastic
     type(pose_t), intent(in) :: pose
-    integer, intent(in) :: number, k
+    type(spring_t), intent(in) :: spring
+    integer, intent(in) :: k
     real(wp) :: place(2)
 
     integer :: part
 
-    associate (at => elastic%linkage%loads(elastic%springs(number)%load)%at(k))
+    associate (at => elastic%linkage%loads(spring%load)%at(k))
       if (at%pin > 0) then
         place = pose%pin(:, at%pin) + at%place
       else
@@ -365,11 +380,11 @@ contains
   end function end_place
 
   !> Adds `a·(U_2 − U_1)` of the ends of a spring.
-  pure subroutine add_stretch(elastic, numbers, pose, number, a, row)
-    type(elastic_linkage_t), intent(in) :: elastic  !! its springs
+  pure subroutine add_stretch(elastic, numbers, pose, spring, a, row)
+    type(elastic_linkage_t), intent(in) :: elastic  !! its parts
     type(border_unknowns_t), intent(in) :: numbers  !! of the unknowns
     type(pose_t), intent(in) :: pose                !! of points and parts
-    integer, intent(in) :: number                   !! of the spring
+    type(spring_t), intent(in) :: spring            !! or a damper
     real(wp), intent(in) :: a(2)                    !! a direction
     real(wp), intent(inout) :: row(:)               !! (unknowns)
 
@@ -378,7 +393,7 @@ contains
 
     do k = 1, 2
       sense = merge(-1.0_wp, 1.0_wp, k == 1)
-      associate (at => elastic%linkage%loads(elastic%springs(number)%load)%at(k))
+      associate (at => elastic%linkage%loads(spring%load)%at(k))
         if (at%pin > 0) then
           call add_point(numbers, at%pin, sense*a, row)
         else

@@ -225,7 +225,7 @@ contains
         if (elastic%springs(i)%turns) cycle
         pull = constant*loads%pull(i) + sqrt(elastic%springs(i)%stiffness)* &
           weighted(border%numbers%spring(i))
-        way = spring_way(elastic, pose, i)
+        way = spring_way(elastic, pose, elastic%springs(i))
         if (norm2(way) > 0.0_wp) way = way/norm2(way)
         do k = 1, 2
           associate (at => elastic%linkage%loads(elastic%springs(i)%load)%at(k))
@@ -286,10 +286,11 @@ contains
     end do
     do i = 1, size(tension)
       if (elastic%springs(i)%turns) cycle
-      way = spring_way(elastic, pose, i)
+      way = spring_way(elastic, pose, elastic%springs(i))
       if (.not. norm2(way) > 0.0_wp) cycle
       row = 0.0_wp
-      call add_stretch(elastic, border%numbers, pose, i, normal_to(way)/norm2(way), row)
+      call add_stretch(elastic, border%numbers, pose, elastic%springs(i), &
+        normal_to(way)/norm2(way), row)
       along = matmul(row, border%basis%unknown)
       do j = 1, size(along)
         stiffness(:, j) = stiffness(:, j) + tension(i)/norm2(way)*along*along(j)

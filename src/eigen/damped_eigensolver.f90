@@ -22,7 +22,7 @@ module damped_eigensolver
   implicit none (type, external)
   private
 
-  public :: damped_modes_t, find_damped_modes
+  public :: damped_modes_t, find_damped_modes, first_guards
 
   !> Roots with Im s ≥ 0, by |s|: one of every conjugate pair, and the real ones, each by itself. A
   !! mode that does not swing (overdamped) has two real roots, which need not be neighbours.

@@ -30,7 +30,7 @@ module models
   private
 
   public :: model_t, report_number, needs_study, needs_positions, is_moving, is_loaded, is_sprung, &
-    needs_loads, needs_inertia, needs_frequencies, needs_response, report_in_motion, &
+    is_damped, needs_loads, needs_inertia, needs_frequencies, needs_response, report_in_motion, &
     steady_state_report, accuracy_of_study, needs_beams, &
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
     link_line_density, speed_in_table, speed_in_words, is_four_bar, is_pin, pivots, drives_length, &
@@ -358,6 +358,15 @@ contains
     is = .false.
     if (allocated(model%springs)) is = any(.not. model%springs%damps)
   end function is_sprung
+
+  !> Whether the linkage has dampers.
+  pure function is_damped(model) result(is)
+    type(model_t), intent(in) :: model !! as read
+    logical :: is
+
+    is = .false.
+    if (allocated(model%springs)) is = any(model%springs%damps)
+  end function is_damped
 
   !> Whether frequencies are requested: alone, with mode shapes or as loci.
   pure function needs_frequencies(model) result(needs)

@@ -2,14 +2,14 @@
 !! shapes.
 module frequency_report
   use errors, only: error_t
-  use frequency_study, only: failure_at, find_stations, frequency_values, has_result, &
+  use frequency_study, only: damping_values, failure_at, find_stations, frequency_values, has_result, &
     link_of_part
   use kinds, only: wp
   use links_report, only: shown_crank
   use load_notes, only: acceleration_note
   use mechanisms, only: mechanism_t
-  use models, only: effects_static, inertia_distributed, inertia_lumped, is_loaded, is_moving, &
-    is_sprung, model_t, needs_loads, report_number, speed_in_table
+  use models, only: effects_static, inertia_distributed, inertia_lumped, is_damped, is_loaded, &
+    is_moving, is_sprung, model_t, needs_loads, report_number, speed_in_table
   use report_cards, only: report_t
   use table_columns, only: cells, column_width, table_factor, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
@@ -39,7 +39,23 @@ contains
       trim(merge(" (held by loads alone)", " (frequency 0)        ", needs_loads(variant%model))))
     call append_string(notes, &
       "error1, error2, ...: estimated relative errors of f1, f2, ...: of mesh and round-off")
+    if (is_damped(variant%model)) call add_damper_notes(variant%model, notes)
   end subroutine frequency_notes
+
+  !> What frequencies are with dampers.
+  pure subroutine add_damper_notes(model, notes)
+    type(model_t), intent(in) :: model
+    type(string_t), allocatable, intent(inout) :: notes(:)
+
+    call append_string(notes, "with dampers, motions like exp(s t): f1, f2, ... are |s|/(2 pi), "// &
+      "ascending by size, of every complex pair s = 2 pi f (-zeta +- i sqrt(1 - zeta^2)) and of "// &
+      "every real s by itself")
+    call append_string(notes, "zeta1, zeta2, ...: their damping ratios -Re s/|s|: 1 of a real s "// &
+      "< 0, which does not swing, of which a mode has two; -1 of s > 0; 0 of s = 0; each is off "// &
+      "by its error at most")
+    if (needs_loads(model) .and. is_moving(model)) call append_string(notes, &
+      "the forces by which dampers resist the motion of the linkage are not among the loads")
+  end subroutine add_damper_notes
 
   !> Effects in the equations of the frequencies: axial forces of which loads, rotary inertia,
   !! shear.
@@ -95,7 +111,13 @@ contains
     associate (found => variant%found, state => variant%found%positions%state(position))
       associate (place => [shown_speed(variant, speed), found%positions%crank(position)])
         if (has_result(found%positions, found%sweep, state, speed)) then
-          call add_row(rows, cells(layout, 1, [place, frequency_values(found%sweep, state, speed)]))
+          if (is_damped(variant%model)) then
+            call add_row(rows, cells(layout, 1, [place, frequency_values(found%sweep, state, &
+              speed), damping_values(found%sweep, state, speed)]))
+          else
+            call add_row(rows, cells(layout, 1, [place, frequency_values(found%sweep, state, &
+              speed)]))
+          end if
         else
           call add_failed(variant, position, speed, rows)
         end if

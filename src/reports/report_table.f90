@@ -50,7 +50,8 @@ module report_table
   use locked_rows, only: is_locked_at, lock_at
   use loci_report, only: add_loci, loci_notes, locus_words
   use mesh_report, only: add_mesh, mesh_notes
-  use models, only: balances, drives_length, has_law, is_four_bar, model_t, report_number
+  use models, only: balances, drives_length, has_law, is_damped, is_four_bar, model_t, &
+    report_number
   use motion_forces_report, only: add_motion_forces, motion_forces_notes
   use motion_pins_report, only: add_motion_pins, motion_pins_notes
   use motion_report, only: add_motion, motion_columns, motion_columns_of, motion_notes, motion_words
@@ -841,6 +842,8 @@ contains
     type(table_kind_t) :: fitted
 
     fitted = table
+    if (table%name == "frequencies" .and. is_damped(model)) fitted%columns = &
+      trim(fitted%columns)//" zeta*:-"
     if (table%name == "drive" .and. .not. is_four_bar(model)) fitted%columns = drive_columns(model)
     if (table%name == "motion") then
       fitted%columns = linkage_motion_columns(model)

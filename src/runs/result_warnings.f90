@@ -127,7 +127,8 @@ contains
     first = 0
     do i = 1, size(positions%crank)
       if (diverges(positions, sweep, i, speed)) then
-        warning%amount = max(warning%amount, -sweep%results(positions%state(i))%lambda(1, speed))
+        warning%amount = max(warning%amount, &
+          -minval(sweep%results(positions%state(i))%lambda(:, speed)))
         if (first == 0) first = i
       end if
       if (first == 0) cycle
@@ -178,7 +179,7 @@ contains
 
     associate (state => positions%state(position))
       diverges = has_result(positions, sweep, state, speed)
-      if (diverges) diverges = sweep%results(state)%lambda(1, speed) < 0.0_wp
+      if (diverges) diverges = any(sweep%results(state)%lambda(:, speed) < 0.0_wp)
     end associate
   end function diverges
 

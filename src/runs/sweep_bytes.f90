@@ -23,11 +23,13 @@ contains
 
     integer :: k
 
-    call put_logicals(buffer, [allocated(result%lambda), allocated(result%prints)])
+    call put_logicals(buffer, [allocated(result%lambda), allocated(result%prints), &
+      allocated(result%damping)])
     if (.not. allocated(result%lambda)) return ! no pose
     call put_integers(buffer, [shape(result%lambda), size(result%deflection, 1)])
     call put_ledger(buffer, result%counts)
     call put_reals(buffer, [result%lambda, result%error, result%deflection, [result%order_error]])
+    if (allocated(result%damping)) call put_reals(buffer, [result%damping])
     call put_integers(buffer, result%cause)
     do k = 1, size(result%outcome)
       call put_error(buffer, result%outcome(k)%error)
@@ -53,7 +55,7 @@ contains
 
     real(wp) :: order_error(1)
     integer :: n(3), k
-    logical :: is_there(2)
+    logical :: is_there(3)
 
     call get_logicals(bytes, at, is_there)
     if (.not. is_there(1)) return
@@ -70,6 +72,10 @@ contains
     call get_matrix(bytes, at, result%deflection)
     call get_reals(bytes, at, order_error)
     result%order_error = order_error(1)
+    if (is_there(3)) then
+      allocate (result%damping(n(1), n(2)))
+      call get_matrix(bytes, at, result%damping)
+    end if
     call get_integers(bytes, at, result%cause)
     do k = 1, size(result%outcome)
       call get_error(bytes, at, result%outcome(k)%error)

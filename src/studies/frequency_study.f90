@@ -18,7 +18,7 @@ module frequency_study
   private
 
   public :: begin_sweep, solve_block, finish_sweep, block_count, block_of, missed_states
-  public :: find_stations, link_of_part, frequency_values, has_result, failure_at, most_attempts
+  public :: find_stations, link_of_part, frequency_values, damping_values, has_result, failure_at, most_attempts
 
   !> Number of neighbouring positions that are solved one after another. The division into blocks,
   !! and with it the results, does not depend on the number of threads.
@@ -118,6 +118,21 @@ contains
       values = [frequency_of(result%lambda(:, speed)), result%error(:, speed)]
     end associate
   end function frequency_values
+
+  !> Damping ratios at a position and speed. Where all dampers have the constant 0: none.
+  pure function damping_values(sweep, state, speed) result(values)
+    type(sweep_t), intent(in) :: sweep      !! with results
+    integer, intent(in) :: state, speed     !! numbers; with a result
+    real(wp) :: values(sweep%request%modes) !! [-]
+
+    associate (result => sweep%results(state))
+      if (allocated(result%damping)) then
+        values = result%damping(:, speed)
+      else
+        values = merge(-1.0_wp, 0.0_wp, result%lambda(:, speed) < 0.0_wp)
+      end if
+    end associate
+  end function damping_values
 
   !> The points of links at which mode shapes are written: on every part that vibrates equally
   !! spaced, its ends included.

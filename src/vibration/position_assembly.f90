@@ -3,6 +3,7 @@
 module position_assembly
   use axial_forces, only: distributed_unit_forces
   use axial_limits, only: refuse_crushed
+  use border_rows, only: damper_rows
   use bordered_matrix, only: new_bordered_layout
   use deformation_model, only: deformation_model_t, renew_link
   use elastic_linkages, only: elastic_linkage_t
@@ -34,6 +35,8 @@ module position_assembly
     type(part_loads_t) :: part_loads
     type(part_forces_t) :: part_forces
     type(border_t) :: border
+    real(wp), allocatable :: damper_rows(:, :)   !! (border, dampers) velocity of each for unit
+                                                 !! velocities of the border
   end type assembled_t
 
 contains
@@ -115,6 +118,8 @@ contains
       end do
       return
     end if
+    here%damper_rows = matmul(transpose(here%border%basis%unknown), damper_rows(here%elastic, &
+      here%border%numbers, here%pose))
     call find_part_loads(structure%linkage, pose, here%loads, here%elastic, here%pose, &
       here%part_loads)
     call find_part_forces(structure%linkage, here%elastic, here%model%links, here%pose, &

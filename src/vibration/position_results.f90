@@ -26,7 +26,10 @@ module position_results
   real(wp), parameter :: of_frequency = 0.5_wp
 
   type :: position_result_t
-    real(wp), allocatable :: lambda(:, :)      !! (modes, speeds) ω² [1/s²]
+    real(wp), allocatable :: lambda(:, :)      !! (modes, speeds) ω² [1/s²]; with dampers |s|² of a
+                                               !! root s, -s² where it is real and positive
+    real(wp), allocatable :: damping(:, :)     !! (modes, speeds) damping ratios [-]; unallocated
+                                               !! without dampers
     real(wp), allocatable :: error(:, :)       !! (modes, speeds) estimated relative error of the
                                                !! frequency
     type(outcome_t), allocatable :: outcome(:) !! (speeds) the error where there is no result

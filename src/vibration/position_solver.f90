@@ -6,6 +6,7 @@ module position_solver
   use bordered_eigensolver, only: bordered_modes_t
   use bordered_matrix, only: layout_t
   use bordered_pencil, only: elastic_square
+  use damped_frequencies, only: has_dampers, modes_for_dampers, solve_damped_speed
   use deformation_model, only: deformation_model_t
   use errors, only: outcome_t
   use kinds, only: wp
@@ -79,6 +80,7 @@ contains
     allocate (result%deflection(size(structure%beams), n))
     result%lambda = 0.0_wp
     result%error = 0.0_wp
+    if (has_dampers(structure)) allocate (result%damping(request%modes, n), source=0.0_wp)
     result%deflection = 0.0_wp
     allocate (result%cause(n))
     result%cause = 0
@@ -131,14 +133,19 @@ contains
     n = size(request%speed)
     factor = load_factors(request)
     call move_alloc(work%continuum%found, found)
-    call solve_speeds(state%crank, factor, request%modes, &
-      want_shapes .and. request%method == by_orders, work%continuum, found, result%outcome, &
-      result%counts)
+    call solve_speeds(state%crank, factor, modes_for_dampers(structure, model, request%modes), &
+      want_shapes .and. request%method == by_orders .or. has_dampers(structure), work%continuum, &
+      found, result%outcome, result%counts)
     associate (chords => work%continuum%equations%chords, unit_force => work%here%unit_force)
       if (size(unit_force) > 0) call find_deflection(structure, linkage, model, chords, pose, &
         work%here, factor, result%deflection)
       do k = 1, n
         if (allocated(result%outcome(k)%error)) cycle
+        if (has_dampers(structure)) then
+          call solve_damped_speed(structure, model, state, request, factor(:, k), k, found(k), &
+            work, result)
+          cycle
+        end if
         discretisation = with_modes_above(found(k)%lambda, sum(order_error(model, &
           work%continuum%equations, total_force(unit_force, factor(:, k)), found(k), &
           found(k)%near), dim=1), request%modes, found(k)%zeros)

@@ -2,6 +2,7 @@
 module vibration_models
   use beam_element, only: axial_degree
   use deformation_chain, only: deformation_chain_t, new_deformation_chain
+  use damped_eigensolver, only: first_guards
   use deformation_model, only: deformation_model_t, new_deformation_model
   use deformation_shapes, only: bending_unknowns
   use errors, only: error_t
@@ -129,6 +130,11 @@ contains
     demand%modes = request%modes
     if (request%method == by_long_mesh) demand%modes = request%modes + long_mesh_guards
     demand%bound = bound
+    ! Dampers that hold fast raise so many modes; and damped ones are found from more undamped ones.
+    if (allocated(structure%elastic)) then
+      if (size(structure%elastic%dampers) > 0) demand%modes = demand%modes + first_guards + &
+        size(structure%elastic%dampers)
+    end if
     call choose_orders(structure, positions, demand, store, models%continuum, counts, error)
     if (allocated(error)) return
     if (request%method /= by_link_modes .and. request%method /= by_long_mesh) return

@@ -23,7 +23,8 @@ contains
     type(model_t), intent(in) :: model                !! whose links have their meshes
 
     character(len=*), parameter :: kind = &
-      " is for links with two pins each, one of them driven, without springs; expected "
+      " is for links with two pins each, one of them driven, without springs and dampers; "// &
+      "expected "
     type(token_t) :: card
     character(len=:), allocatable :: what
     integer :: i
@@ -74,7 +75,7 @@ contains
       what = "links are welded here"
     else if (size(model%springs) > 0) then
       card = model%springs(1)%keyword
-      what = "the first spring is here"
+      what = "the first "//trim(merge("damper", "spring", model%springs(1)%damps))//" is here"
     else if (size(model%drives) > 1) then
       card = model%drives(2)%keyword
       what = "the second drive is here"

@@ -326,7 +326,7 @@ contains
       "' is not in the drawing: expected '"//key//"=' or a PIN card")
   end subroutine refuse_undrawn
 
-  !> Refuses all of the elastic linkage in motion, and frequencies with dampers.
+  !> Refuses all of the elastic linkage in motion, and shapes with dampers, which are complex.
   pure subroutine refuse_reports(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
@@ -340,9 +340,11 @@ contains
           call add_error(diagnostics, report%keyword, "springs and dampers do not act in "// &
             "REPORT "//trim(report%kind%name)//" yet", model%springs(1)%keyword, &
             "the first one is here")
-        else if (report%kind%frequencies .and. damper > 0) then
-          call add_error(diagnostics, report%keyword, "dampers do not act in REPORT "// &
-            trim(report%kind%name)//" yet", model%springs(damper)%keyword, "the first one is here")
+        else if (report%kind%frequencies .and. report%kind%name /= "frequencies" .and. &
+          damper > 0) then
+          call add_error(diagnostics, report%keyword, "with dampers the shapes of modes are "// &
+            "complex: REPORT "//trim(report%kind%name)//" takes none", &
+            model%springs(damper)%keyword, "the first one is here")
         end if
       end associate
     end do
