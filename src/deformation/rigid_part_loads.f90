@@ -50,7 +50,7 @@ contains
       if (elastic%springs(i)%turns) cycle
       change = forces%spring(i, case)
       if (case == constant_case) change = change - loads%pull(i)
-      way = spring_way(elastic, pose, i)
+      way = spring_way(elastic, pose, elastic%springs(i))
       if (norm2(way) > 0.0_wp) way = way/norm2(way)
       do k = 1, 2
         associate (at => elastic%linkage%loads(elastic%springs(i)%load)%at(k))

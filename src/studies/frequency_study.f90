@@ -18,7 +18,8 @@ module frequency_study
   private
 
   public :: begin_sweep, solve_block, finish_sweep, block_count, block_of, missed_states
-  public :: find_stations, link_of_part, frequency_values, damping_values, has_result, failure_at, most_attempts
+  public :: find_stations, link_of_part, frequency_values, damping_values
+  public :: has_result, failure_at, most_attempts
 
   !> Number of neighbouring positions that are solved one after another. The division into blocks,
   !! and with it the results, does not depend on the number of threads.

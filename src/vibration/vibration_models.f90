@@ -1,8 +1,8 @@
 !> The models with which a run finds frequencies at any position; made once.
 module vibration_models
   use beam_element, only: axial_degree
-  use deformation_chain, only: deformation_chain_t, new_deformation_chain
   use damped_eigensolver, only: first_guards
+  use deformation_chain, only: deformation_chain_t, new_deformation_chain
   use deformation_model, only: deformation_model_t, new_deformation_model
   use deformation_shapes, only: bending_unknowns
   use errors, only: error_t
