@@ -14,7 +14,7 @@ module elastic_equations
 
   public :: elastic_terms_t, inertia_force, inertia_parts, slope_force, swept_force, &
     apply_equation, equation_parts, load_at_speed, functions_of, geometric_force, slopes_of, &
-    mass_force, times_mass, spread_over_unknowns
+    mass_force, times_mass, spread_over_unknowns, unit_geometric_force
 
   !> Terms of the equation and of the torque; false: omitted.
   type :: elastic_terms_t
@@ -480,6 +480,48 @@ contains
     end do
   end subroutine geometric_force
 
+  !> Adds `K_G y` at a constant speed.
+  pure subroutine geometric_force_at(grid, speed, y, force)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp), intent(in) :: speed          !! ω2 [rad/s]
+    real(wp), intent(in) :: y(:, :)        !! (samples, unknowns)
+    real(wp), intent(inout) :: force(:, :) !! (samples, unknowns)
+
+    call geometric_force(grid, speed**2*grid%force(:, :, :, 1) + grid%force(:, :, :, &
+      constant_case), y, force)
+    call add_second_order(grid, 1, speed**2, y, force)
+    call add_second_order(grid, constant_case, 1.0_wp, y, force)
+  end subroutine geometric_force_at
+
+  !> Adds `K_G y` of a unit load.
+  pure subroutine unit_geometric_force(grid, case, y, force)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: case            !! its number
+    real(wp), intent(in) :: y(:, :)        !! (samples, unknowns)
+    real(wp), intent(inout) :: force(:, :) !! (samples, unknowns)
+
+    call geometric_force(grid, grid%force(:, :, :, case), y, force)
+    call add_second_order(grid, case, 1.0_wp, y, force)
+  end subroutine unit_geometric_force
+
+  !> Adds what K_G of a unit load, times a factor, has between border unknowns alone.
+  pure subroutine add_second_order(grid, case, factor, y, force)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: case
+    real(wp), intent(in) :: factor
+    real(wp), intent(in) :: y(:, :)
+    real(wp), intent(inout) :: force(:, :)
+
+    integer :: i, j
+
+    if (.not. allocated(grid%second_order)) return
+    do j = 1, grid%border
+      do i = 1, grid%border
+        force(:, i) = force(:, i) + factor*grid%second_order(:, i, j, case)*y(:, j)
+      end do
+    end do
+  end subroutine add_second_order
+
   !> The left side of the equation: that of Ulker 2010 (2.85) in deformation coordinates.
   subroutine apply_equation(grid, plan, speed, damping, terms, y, force)
     type(turn_grid_t), intent(in) :: grid
@@ -505,8 +547,7 @@ contains
         force(:, i) = force(:, i) + speed*damping(i)*first(:, i)
       end do
     end if
-    if (terms%axial) call geometric_force(grid, speed**2*grid%force(:, :, :, 1) + &
-      grid%force(:, :, :, constant_case), y, force)
+    if (terms%axial) call geometric_force_at(grid, speed, y, force)
   end subroutine apply_equation
 
   !> The left side of the equation for `e^{σ θ} y` over `e^{σ θ}`, in powers of σ:
@@ -534,8 +575,7 @@ contains
         parts(:, i, 1) = parts(:, i, 1) + speed*damping(i)*y(:, i)
       end do
     end if
-    if (terms%axial) call geometric_force(grid, speed**2*grid%force(:, :, :, 1) + &
-      grid%force(:, :, :, constant_case), y, parts(:, :, 0))
+    if (terms%axial) call geometric_force_at(grid, speed, y, parts(:, :, 0))
   end subroutine equation_parts
 
   !> The right side of the equation [√J].

@@ -1,7 +1,7 @@
 !> Quantities of a periodic elastic motion over the turn: displacements of points, strains, and the
 !! driving torque.
 module response_series
-  use elastic_equations, only: elastic_terms_t, functions_of, geometric_force, times_mass
+  use elastic_equations, only: elastic_terms_t, functions_of, times_mass, unit_geometric_force
   use fourier_transform, only: derivatives, fourier_plan_t
   use kinds, only: wp
   use link_rows, only: displacement_rows, strain_rows, strain_rows_t, sums_of_rows
@@ -215,7 +215,7 @@ contains
     if (.not. terms%axial) return
     do c = 1, case_count
       force = 0.0_wp
-      call geometric_force(grid, grid%force(:, :, :, c), y, force)
+      call unit_geometric_force(grid, c, y, force)
       energy(:, c) = products_of_rows(y, force)
       rate_work(:, c) = products_of_rows(first, force)
     end do

@@ -271,7 +271,32 @@ contains
     do b = 1, size(grid%integrals)
       call add_axial(grid, b, shape, sums)
     end do
+    if (allocated(grid%second_order)) call add_second_order(grid, shape, sums)
   end subroutine find_matrices
+
+  !> Adds what K_G has between border unknowns alone to XᵀK_GX.
+  pure subroutine add_second_order(grid, shape, sums)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp), intent(in) :: shape(:, :, :)
+    real(wp), intent(inout) :: sums(:, :, :)
+
+    real(wp) :: work(size(shape, 1))
+    integer :: at, i, j, k, l
+
+    do j = 1, size(shape, 3)
+      do i = 1, size(shape, 3)
+        at = (j - 1)*size(shape, 3) + i
+        do l = 1, grid%border
+          do k = 1, grid%border
+            work = shape(:, k, i)*shape(:, l, j)
+            sums(:, at, of_speed) = sums(:, at, of_speed) + grid%second_order(:, k, l, 1)*work
+            sums(:, at, of_loads) = sums(:, at, of_loads) + grid%second_order(:, k, l, &
+              constant_case)*work
+          end do
+        end do
+      end do
+    end do
+  end subroutine add_second_order
 
   !> Adds what the axial forces of a body contribute to XᵀK_GX.
   pure subroutine add_axial(grid, b, shape, sums)
