@@ -7,12 +7,14 @@ eval smaller(0.6)
 load plots."drawing.gp"
 
 eval answer(table, "facts")
-load plots."mode_page.gp"
 pictures = 40
+parts = ""
+do for [picture=1:pictures] { parts = parts.sprintf(" %.9g", sin(2*pi*(picture - 1)/pictures)) }
+load plots."mode_page.gp"
 do for [picture=1:pictures] {
     if (picture == 1) { eval mode_frame } else { eval open_page(page_width, page_height) }
     set output sprintf("%s_%03d", out, picture)
-    eval mode_shape(sin(2*pi*(picture - 1)/pictures))
+    eval mode_shape(picture)
 }
 unset output
 call plots."gif.gp" out pictures 5

@@ -260,8 +260,12 @@ plan_frequencies() {
     done
 }
 
-# All modes on a page for each speed, and every one alone.
+# All modes on a page for each speed, and every one alone. Where a linkage is no plain chain of links the program places what stands
+# still, blocks and springs.
 plan_modes() {
+    if [ $other = yes ] || grep -q '^\(SPRING\|DAMPER\) ' echo.deck 2> /dev/null; then
+        can_place && settings="$settings; is_placed = 1"
+    fi
     [ -n "${animate-}" ] || [ "$(ask 'distinct mode crank' shapes.dat | wc -l)" -eq 1 ] || plan_speeds modes shapes.dat
     ask 'distinct mode crank speed' shapes.dat | named | while read -r mode _ crank crank_name speed speed_name; do
         add "mode_${mode}_crank_${crank_name}_speed_$speed_name" "${animate:-mode_shape.gp}" shapes.dat "$mode" "$crank" "$speed"

@@ -7,6 +7,7 @@ table = ARG1; out = ARG2; mode = ARG3 + 0; crank = ARG4 + 0; speed = ARG5 + 0; f
 
 load plots."drawing.gp"
 eval answer(table, "facts")
+parts = "1"
 load plots."mode_page.gp"
 eval mode_frame
 eval mode_shape(1)

@@ -1,7 +1,7 @@
 # Any linkage drawn as bodies: from geometry.dat, on standard input, to files in a folder, and facts as gnuplot assignments on
 # standard output.
 #   awk -v folder=FOLDER -v share=0.014 -f springs.awk -f shapes.awk < geometry.dat
-# share is half the width of a bar, as a share of the larger side of what the linkage sweeps. Files:
+# share is half the width of a bar, as a share of the larger side of what the linkage sweeps; bar, in its place, that width itself. Files:
 #   FOLDER/pose_1, pose_2 …   the polygons of a position; an index (two empty lines) has those of one colour, in the order in which they
 #                             are drawn: layers, layer_fill[k], layer_pale[k]; bodies are the first body_layers, pins the others
 #   FOLDER/skeleton_1 …       the same as lines from pin to pin, for labels that keep clear of them
@@ -69,7 +69,7 @@ $3 == "ahead" {
 END {
     if (!first) exit 1
     span = x_max - x_min > y_max - y_min ? x_max - x_min : y_max - y_min
-    bar = share * span
+    if (!bar) bar = share * span
     block_length = 3.0 * bar
     block_height = 1.9 * bar
     rim = 0.28 * bar

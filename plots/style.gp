@@ -131,6 +131,8 @@ capital(text) = substr("ABCDEFGHIJKLMNOPQRSTUVWXYZ", strstrt("abcdefghijklmnopqr
     strstrt("abcdefghijklmnopqrstuvwxyz", text[1:1])).text[2:*]
 at_crank(crank) = of_cycle ? drive_subject.sprintf(" at %.10g", crank).(unit_crank eq "deg" ? "°" : " ".unit_crank) : sprintf("θ₂ = %.10g°", crank)
 at_speed(speed, unit) = by_law ? (law_name eq "" ? "by its law" : "by law ".law_name) : of_cycle ? drive_subject.sprintf(" at %.6g %s", speed, typeset(unit)) : sprintf("ω₂ = %.6g %s", speed, typeset(unit))
+at_place(crank, speed, unit) = of_cycle && !by_law ? at_crank(crank).sprintf(" and %.6g %s", speed, typeset(unit)) \
+    : (of_cycle ? "" : "at ").at_crank(crank).", ".at_speed(speed, unit)
 
 # Of a drive with a law (law_name, which draw_figures.sh hands over) tables are over time.
 by_law = exists("law_name")

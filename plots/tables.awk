@@ -457,19 +457,28 @@ function print_crossing(i, j,    before, now, t, height) {
 }
 
 # The rows of one link, with three points put between each two by the cubic through the four nearest rows: a high mode
-# then stays a smooth curve, and every row is still met.
-function print_link(    i, k, j, first, t) {
-    for (j = 1; j <= points; j++) {
-        first = j - 1 < 1 ? 1 : j - 1
-        if (first > points - 3) first = points - 3
-        for (k = 0; k < (j < points && points > 3 ? 4 : 1); k++) {
+# then stays a smooth curve, and every row is still met. A corner stands twice, and is no place of such a curve.
+function print_link(    first, last) {
+    for (first = 1; first <= points; first = last + 1) {
+        for (last = first; last < points && !is_corner(last); ) last++
+        print_part(first, last)
+    }
+    if (points) print ""
+    points = 0
+}
+
+function is_corner(j) { return same(shape[1, j], shape[1, j + 1]) && same(shape[2, j], shape[2, j + 1]) }
+
+function print_part(from, to,    i, k, j, first, t) {
+    for (j = from; j <= to; j++) {
+        first = j - 1 < from ? from : j - 1
+        if (first > to - 3) first = to - 3
+        for (k = 0; k < (j < to && to - from > 2 ? 4 : 1); k++) {
             t = j + k / 4 - first
             for (i = 1; i <= 4; i++) printf "%.9g ", k == 0 ? shape[i, j] : cubic(i, first, t)
             print k == 0 && (j == 1 || j == points), frequency tail
         }
     }
-    if (points) print ""
-    points = 0
 }
 
 function cubic(i, j, t) {

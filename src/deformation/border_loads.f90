@@ -13,7 +13,7 @@ module border_loads
   implicit none (type, external)
   private
 
-  public :: border_work, accelerations_along, has_forces, work_on_bending
+  public :: border_work, own_work, accelerations_along, has_forces, work_on_bending
 
 contains
 
@@ -54,6 +54,31 @@ contains
         matmul(case%pin_force(:, k), chords%pin(:, k, :))
     end do
   end function border_work
+
+  !> Work of a load case on the own modes across a link that bends.
+  pure function own_work(linkage, link, body, pose, case) result(work)
+    type(linkage_t), intent(in) :: linkage   !! masses
+    type(link_modes_t), intent(in) :: link   !! that bends
+    integer, intent(in) :: body              !! its number
+    type(pose_t), intent(in) :: pose         !! its direction
+    type(load_case_t), intent(in) :: case    !! acceleration field, forces
+    real(wp) :: work(link%modes)             !! [√J]
+
+    real(wp) :: along(2), across(2), bending(1 - link%curves:link%modes)
+    integer :: i
+
+    call accelerations_along(link, body, pose, case, along, across)
+    work = -matmul(across, link%participation(1:2, :))
+    if (link%coupled) work = work - matmul(along, link%along_participation)
+    if (.not. has_forces(linkage%bodies(body), case)) return
+    do i = 1, size(linkage%bodies(body)%forced)
+      associate (at => linkage%bodies(body)%forced(i))
+        bending = work_on_bending(link, at%place, turned_back(case%place_force(:, at%load), &
+          pose%direction(:, body)))
+        work = work + bending(1:)
+      end associate
+    end do
+  end function own_work
 
   !> Accelerations of both ends of a link along it and across it.
   pure subroutine accelerations_along(link, body, pose, case, along, across)

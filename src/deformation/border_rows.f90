@@ -16,7 +16,7 @@ module border_rows
   implicit none (type, external)
   private
 
-  public :: border_unknowns_t, border_row_t, new_border_unknowns, excess_rows, find_border_rows, &
+  public :: border_unknowns_t, border_row_t, new_border_unknowns, find_border_rows, &
     line_direction, spring_way, add_stretch, part_rows
   public :: row_elongation, row_curve, row_spring
 
@@ -94,21 +94,6 @@ contains
     call number_constraints(elastic, numbers)
     numbers%size_of = maxval(elastic%linkage%bodies%length)
   end function new_border_unknowns
-
-  !> How many rows and constraints there are beyond those that determine the displacements.
-  pure function excess_rows(elastic) result(excess)
-    type(elastic_linkage_t), intent(in) :: elastic !! parts, points, rotations
-    integer :: excess                              !! below 0: it moves freely
-
-    type(border_unknowns_t) :: numbers
-    type(link_modes_t), allocatable :: links(:)
-
-    ! Of the links only the curves of their held ends count.
-    allocate (links(size(elastic%body)))
-    links%curves = count(elastic%held, dim=1)
-    numbers = new_border_unknowns(elastic, links)
-    excess = size(numbers%rows) + numbers%constraints - numbers%unknowns
-  end function excess_rows
 
   pure subroutine number_constraints(elastic, numbers)
     type(elastic_linkage_t), intent(in) :: elastic

@@ -12,7 +12,7 @@ module drive_rates
   implicit none (type, external)
   private
 
-  public :: find_drive_rates, slide_of
+  public :: find_drive_rates, own_drive_rates, slide_of
 
 contains
 
@@ -53,32 +53,38 @@ contains
     integer, intent(in) :: body, other
     real(wp) :: turn(size(chords%turn, 1))
 
-    real(wp), allocatable :: row(:)
-    integer :: i, k, kept, last
-    logical :: is_here(2)
+    real(wp), allocatable :: slopes(:)
+    integer :: i, part, end
 
-    do k = 1, size(elastic%body)
-      if (elastic%body(k) /= body) cycle
-      turn = chords%turn(:, k)
-      if (.not. elastic%linkage%bodies(k)%bends) return
-      is_here = [is_joint(elastic%linkage%bodies(k)%first_pin), &
-        is_joint(elastic%linkage%bodies(k)%last_pin)]
-      if (.not. any(is_here)) cycle
-      last = merge(1, 2, is_here(1))
-      if (elastic%rotation(last, k) > 0) then
-        turn = chords%rotation(elastic%rotation(last, k), :)
-        return
-      end if
-      kept = size(links(k)%bending, 1)
-      row = rotation_row(links(k)%bending_shapes, &
-        real(last - 1, wp))
-      do i = 1, links(k)%curves
-        turn = turn + dot_product(row(:kept), links(k)%bending(:, i - links(k)%curves))* &
-          chords%across(2 + i, :, k)
-      end do
+    call find_joint_end(linkage, elastic, body, other, part, end)
+    if (elastic%rotation(end, part) > 0) then
+      turn = chords%rotation(elastic%rotation(end, part), :)
       return
+    end if
+    turn = chords%turn(:, part)
+    if (.not. elastic%linkage%bodies(part)%bends) return
+    slopes = end_slopes(links(part), end)
+    do i = 1, links(part)%curves
+      turn = turn + slopes(i)*chords%across(2 + i, :, part)
     end do
-    turn = 0.0_wp
+  end function turn_at_joint
+
+  !> The part of a link that is joined to another, or to the ground, and its end there.
+  pure subroutine find_joint_end(linkage, elastic, body, other, part, end)
+    type(linkage_t), intent(in) :: linkage
+    type(elastic_linkage_t), intent(in) :: elastic
+    integer, intent(in) :: body, other
+    integer, intent(out) :: part, end
+
+    do part = findloc(elastic%body, body, dim=1), findloc(elastic%body, body, dim=1, back=.true.)
+      do end = 1, 2
+        associate (here => elastic%linkage%bodies(part))
+          if (is_joint(merge(here%first_pin, here%last_pin, end == 1))) return
+        end associate
+      end do
+    end do
+    part = findloc(elastic%body, body, dim=1)
+    end = 1
 
   contains
 
@@ -94,7 +100,49 @@ contains
       end if
     end function is_joint
 
-  end function turn_at_joint
+  end subroutine find_joint_end
+
+  !> Rotations of an end of a part that bends against its chord: of curves, then own modes.
+  pure function end_slopes(link, end) result(slopes)
+    type(link_modes_t), intent(in) :: link
+    integer, intent(in) :: end !! 1: the first, 2: the last
+    real(wp) :: slopes(link%curves + link%modes)
+
+    real(wp) :: row(link%bending_shapes%unknowns)
+
+    row = rotation_row(link%bending_shapes, real(end - 1, wp))
+    slopes = matmul(row(:size(link%bending, 1)), link%bending)
+  end function end_slopes
+
+  !> Rotations at the joints of free drives that are due to own modes of one part.
+  pure function own_drive_rates(linkage, elastic, links, part) result(rate)
+    type(linkage_t), intent(in) :: linkage           !! that moves: its drives
+    type(elastic_linkage_t), intent(in) :: elastic   !! of it
+    type(link_modes_t), intent(in) :: links(:)       !! (parts)
+    integer, intent(in) :: part                      !! that bends
+    real(wp) :: rate(count(linkage%drives%is_free), links(part)%modes) !! (free drives, own modes)
+
+    real(wp) :: slopes(links(part)%curves + links(part)%modes)
+    integer :: bodies(2), d, i, k, at, end
+
+    rate = 0.0_wp
+    i = 0
+    do d = 1, size(linkage%drives)
+      associate (drive => linkage%drives(d))
+        if (.not. drive%is_free) cycle
+        i = i + 1
+        if (drive%kind /= drives_angle) cycle
+        bodies = [drive%body, drive%against]
+        do k = 1, 2
+          if (bodies(k) == 0) cycle
+          call find_joint_end(linkage, elastic, bodies(k), bodies(3 - k), at, end)
+          if (at /= part .or. elastic%rotation(end, at) /= 0) cycle
+          slopes = end_slopes(links(part), end)
+          rate(i, :) = rate(i, :) + merge(1.0_wp, -1.0_wp, k == 1)*slopes(links(part)%curves + 1:)
+        end do
+      end associate
+    end do
+  end function own_drive_rates
 
   !> Slide of a block along the line of its guide.
   pure function slide_of(elastic, pose, chords, slider) result(along)

@@ -6,10 +6,10 @@
 !! springs that this strains. Drives that are free bear what the motion asks for, as loads.
 module part_forces
   use axial_forces, only: lump_functions, most_lump_functions
-  use border_loads, only: border_work
+  use border_loads, only: border_work, own_work
   use border_rows, only: add_stretch, line_direction, spring_way
   use dense_factor, only: dense_factor_t, factorize, solve
-  use drive_rates, only: find_drive_rates, slide_of
+  use drive_rates, only: find_drive_rates, own_drive_rates, slide_of
   use elastic_linkages, only: elastic_linkage_t
   use kinds, only: wp
   use link_modes, only: link_modes_t
@@ -39,6 +39,11 @@ module part_forces
     real(wp), allocatable :: spring(:, :)     !! (springs, cases) [N] or [N m]
   end type part_forces_t
 
+  !> What own modes of a part do to the joints of free drives.
+  type :: own_rates_t
+    real(wp), allocatable :: rate(:, :) !! (free drives, own modes)
+  end type own_rates_t
+
 contains
 
   !> The forces at a position.
@@ -53,7 +58,8 @@ contains
     type(part_forces_t), intent(out) :: forces
 
     type(chords_t) :: of_constraints
-    real(wp), allocatable :: on_drives(:, :), drives_of_constraints(:, :), held(:)
+    type(own_rates_t) :: on_own(size(links))
+    real(wp), allocatable :: on_drives(:, :), drives_of_constraints(:, :), held(:), compliance(:, :)
     real(wp) :: work(size(chords%turn, 1)), weighted(size(border%rows%weight)), &
       lambda(border%numbers%constraints), mean
     integer :: i, j, k, n
@@ -76,6 +82,7 @@ contains
       border%basis%weighted_violation)
     call find_drive_rates(linkage, elastic, links, pose, chords, on_drives)
     call find_drive_rates(linkage, elastic, links, pose, of_constraints, drives_of_constraints)
+    call find_own_drive_rates(linkage, elastic, links, on_own, compliance)
     do i = 1, case_count
       if (.not. loads%unit%occurs(i)) cycle
       associate (case => loads%unit%of_case(i))
@@ -83,8 +90,9 @@ contains
           matmul(loads%moment(:, i), chords%rotation)
         lambda = border_work(elastic%linkage, links, of_constraints, pose, case) + &
           matmul(loads%moment(:, i), of_constraints%rotation)
-        if (size(on_drives, 1) > 0 .and. chords%free > 0) then
-          held = held_by_drives(on_drives(:, n + 1:), work(n + 1:))
+        if (size(on_drives, 1) > 0) then
+          held = held_by_drives(on_drives(:, :n), on_drives(:, n + 1:), work, compliance, &
+            own_turns(elastic, links, pose, case, on_own))
           work = work + matmul(held, on_drives)
           lambda = lambda + matmul(held, drives_of_constraints)
         end if
@@ -114,6 +122,7 @@ contains
         end do
         call add_second_order(elastic, pose, border, chords, forces%guide(:, i), &
           forces%spring(:, i), forces%second_order(:, :, i))
+        call add_blocks(elastic, pose, case, chords, forces%second_order(:, :, i))
       end associate
     end do
   end subroutine find_part_forces
@@ -274,18 +283,96 @@ contains
     end do
   end subroutine add_second_order
 
-  !> Torques and forces of free drives that leave no work on the free motions.
-  pure function held_by_drives(rate, work) result(held)
-    real(wp), intent(in) :: rate(:, :) !! (drives, free motions)
-    real(wp), intent(in) :: work(:)    !! (free motions)
-    real(wp) :: held(size(rate, 1))
+  !> Adds what the centrifugal forces of blocks about their own mass centres do as they turn with
+  !! links that bend, `½ I ω² θ²`, as those of masses along links.
+  pure subroutine add_blocks(elastic, pose, case, chords, stiffness)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(pose_t), intent(in) :: pose
+    type(load_case_t), intent(in) :: case
+    type(chords_t), intent(in) :: chords
+    real(wp), intent(inout) :: stiffness(:, :)
 
+    real(wp) :: turn(size(stiffness, 1)), squared
+    integer :: i, j, part
+
+    do i = 1, size(elastic%contact)
+      if (elastic%contact(i) == 0 .or. elastic%guide_rotation(i) <= 0) cycle
+      part = elastic%cut_part(i)
+      squared = -dot_product(pose%direction(:, part), case%field%slope(:, part))
+      turn = chords%rotation(elastic%guide_rotation(i), :)
+      do j = 1, size(turn)
+        stiffness(:, j) = stiffness(:, j) + elastic%linkage%sliders(i)%inertia*squared*turn*turn(j)
+      end do
+    end do
+  end subroutine add_blocks
+
+  !> What own modes of all parts do to the joints of free drives, and how they yield to these.
+  pure subroutine find_own_drive_rates(linkage, elastic, links, on_own, compliance)
+    type(linkage_t), intent(in) :: linkage
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(link_modes_t), intent(in) :: links(:)
+    type(own_rates_t), intent(out) :: on_own(:) !! (parts) empty of rigid ones
+    real(wp), allocatable, intent(out) :: compliance(:, :)
+
+    integer :: k, d
+
+    d = count(linkage%drives%is_free)
+    allocate (compliance(d, d), source=0.0_wp)
+    if (d == 0) return
+    do k = 1, size(links)
+      if (.not. links(k)%bends) cycle
+      on_own(k)%rate = own_drive_rates(linkage, elastic, links, k)
+      compliance = compliance + matmul(on_own(k)%rate, transpose(on_own(k)%rate))
+    end do
+  end subroutine find_own_drive_rates
+
+  !> Turns of the joints of free drives by own modes under the loads.
+  pure function own_turns(elastic, links, pose, case, on_own) result(turns)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(link_modes_t), intent(in) :: links(:)
+    type(pose_t), intent(in) :: pose
+    type(load_case_t), intent(in) :: case
+    type(own_rates_t), intent(in) :: on_own(:)
+    real(wp), allocatable :: turns(:)
+
+    integer :: k
+
+    do k = 1, size(links)
+      if (.not. allocated(on_own(k)%rate)) cycle
+      if (.not. allocated(turns)) allocate (turns(size(on_own(k)%rate, 1)), source=0.0_wp)
+      turns = turns + matmul(on_own(k)%rate, own_work(elastic%linkage, links(k), k, pose, case))
+    end do
+  end function own_turns
+
+  !> Torques and forces with which free drives hold the linkage at its position while it yields to
+  !! the loads, `z = f_z + R_zᵀ m`: no drive moves, `R_z z + R_w w = 0`, and nothing is left that
+  !! works on the free motions w, `f_w + R_wᵀ m = 0`.
+  pure function held_by_drives(yields, moves, work, compliance, turns) result(held)
+    real(wp), intent(in) :: yields(:, :) !! (drives, unknowns) R_z
+    real(wp), intent(in) :: moves(:, :)  !! (drives, free motions) R_w
+    real(wp), intent(in) :: work(:)      !! (unknowns, then free motions) f
+    real(wp), intent(in) :: compliance(:, :) !! (drives, drives) of own modes, R Rᵀ
+    real(wp), intent(in) :: turns(:)     !! (drives) of own modes under the loads
+    real(wp) :: held(size(yields, 1))
+
+    real(wp) :: matrix(size(yields, 1) + size(moves, 2), size(yields, 1) + size(moves, 2))
+    real(wp) :: right(size(matrix, 1)), solution(size(matrix, 1))
     type(dense_factor_t) :: factor
+    integer :: d, n
 
+    d = size(yields, 1)
+    n = size(yields, 2)
+    matrix = 0.0_wp
+    matrix(:d, :d) = matmul(yields, transpose(yields)) + compliance
+    matrix(:d, d + 1:) = moves
+    matrix(d + 1:, :d) = transpose(moves)
+    right(:d) = -matmul(yields, work(:n)) - turns
+    right(d + 1:) = -work(n + 1:)
     held = 0.0_wp
-    if (size(rate, 1) /= size(rate, 2)) return
-    call factorize(transpose(rate), factor)
-    if (abs(factor%determinant) > 0.0_wp) held = solve(factor, -work)
+    call factorize(matrix, factor)
+    if (.not. abs(factor%determinant) > 0.0_wp) return
+    solution = solve(factor, right)
+    held = solution(:d)
   end function held_by_drives
 
 end module part_forces

@@ -44,9 +44,9 @@ contains
     type(chords_t), intent(in) :: chords           !! of this position
     type(bordered_matrix_t), intent(inout) :: mass !! of this layout, without blocks [s²]
 
-    real(wp) :: along(2, layout%border), motion(3, layout%border)
-    real(wp), allocatable :: across(:, :)
-    integer :: b, i, j, k, first
+    real(wp) :: across(size(chords%across, 1), layout%border), along(2, layout%border), &
+      motion(3, layout%border), moved
+    integer :: b, i, j, k, n, first
 
     mass%border = 0.0_wp
     do b = 1, size(links)
@@ -55,25 +55,24 @@ contains
         mass%border = mass%border + matmul(transpose(motion), matmul(links(b)%rigid_mass, motion))
         cycle
       end if
-      across = chords%across(:2 + links(b)%curves, :, b)
+      n = 2 + links(b)%curves
+      across = chords%across(:, :, b)
       along = chords%along(:, :, b)
-      mass%border = mass%border + matmul(transpose(across), matmul(links(b)%linear, across)) + &
+      mass%border = mass%border + form_of(links(b)%linear, across(:n, :)) + &
         matmul(transpose(along), matmul(links(b)%axial_linear, along))
       first = layout%first(b) - 1
       do k = 1, links(b)%modes
         mass%diagonal(first + k) = links(b)%square(k)
         do i = 1, layout%border
-          mass%coupling(i, first + k) = across(1, i)*links(b)%participation(1, k) + &
+          moved = across(1, i)*links(b)%participation(1, k) + &
             across(2, i)*links(b)%participation(2, k)
-        end do
-        do j = 3, 2 + links(b)%curves
-          do i = 1, layout%border
-            mass%coupling(i, first + k) = mass%coupling(i, first + k) + &
-              across(j, i)*links(b)%participation(j, k)
+          do j = 3, n
+            moved = moved + across(j, i)*links(b)%participation(j, k)
           end do
+          mass%coupling(i, first + k) = moved
         end do
       end do
-      if (links(b)%coupled) call add_coupled_mass(links(b), across, along, first, mass)
+      if (links(b)%coupled) call add_coupled_mass(links(b), across(:n, :), along, first, mass)
       first = first_axial(layout, links, b) - 1
       do k = 1, links(b)%axial_modes
         mass%diagonal(first + k) = links(b)%axial_square(k)
@@ -91,6 +90,25 @@ contains
       end do
     end do
   end subroutine reduced_mass
+
+  !> `FᵀAF` of a symmetric matrix A.
+  pure function form_of(matrix, functions) result(form)
+    real(wp), intent(in) :: matrix(:, :)    !! (functions, functions)
+    real(wp), intent(in) :: functions(:, :) !! (functions, border)
+    real(wp) :: form(size(functions, 2), size(functions, 2))
+
+    real(wp) :: product(size(functions, 1))
+    integer :: i, j, k
+
+    do j = 1, size(functions, 2)
+      do k = 1, size(functions, 1)
+        product(k) = dot_product(matrix(:, k), functions(:, j))
+      end do
+      do i = 1, size(functions, 2)
+        form(i, j) = dot_product(functions(:, i), product)
+      end do
+    end do
+  end function form_of
 
   !> Adds what couples the motions of a link across and along: masses beside its axis.
   pure subroutine add_coupled_mass(link, across, along, first, mass)

@@ -26,27 +26,20 @@ module frequency_report
 
 contains
 
-  !> Effects in the equations, and the meaning of the error columns.
+  !> Effects in the equations, motions that nothing holds, and the meaning of the error columns.
   pure subroutine frequency_notes(variant, notes)
-    type(variant_results_t), intent(in) :: variant       !! with its model
+    type(variant_results_t), intent(in) :: variant       !! with its sweep computed
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
+    integer :: free
+
     notes = effects_notes(variant%model)
-    if (variant%found%sweep%free_motions > 0) call append_string(notes, &
-      free_motions_note(variant))
+    free = variant%found%sweep%models%continuum%layout%free
+    if (free > 0) call append_string(notes, "free motions: "//to_string(free)// &
+      trim(merge(" (held by loads alone)", " (frequency 0)        ", needs_loads(variant%model))))
     call append_string(notes, &
       "error1, error2, ...: estimated relative errors of f1, f2, ...: of mesh and round-off")
   end subroutine frequency_notes
-
-  !> `free motions: 2 (frequency 0)`: so many lowest frequencies are zero; under loads they need not
-  !! be.
-  pure function free_motions_note(variant) result(note)
-    type(variant_results_t), intent(in) :: variant
-    character(len=:), allocatable :: note
-
-    note = "free motions: "//to_string(variant%found%sweep%free_motions)// &
-      trim(merge(" (held by loads alone)", " (frequency 0)        ", needs_loads(variant%model)))
-  end function free_motions_note
 
   !> Effects in the equations of the frequencies: axial forces of which loads, rotary inertia,
   !! shear.
@@ -247,8 +240,8 @@ contains
     end associate
   end subroutine add_shapes
 
-  !> The rows of a mode. A corner of a link stands twice, as the end of one part and the beginning
-  !! of the next.
+  !> The rows of a mode. A corner of a link stands twice, as the end of one part and where the next
+  !! begins.
   subroutine add_mode(variant, layout, position, speed, mode, frequency, station, rows)
     type(variant_results_t), intent(in) :: variant
     type(table_layout_t), intent(in) :: layout

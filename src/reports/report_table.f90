@@ -257,9 +257,9 @@ module report_table
       "force:moment"), &
       table_kind_t("shaking", "speed:speed crank:deg shaking_x,shaking_y:force "// &
       "shaking_moment:moment"), no_table]), &
-    report_kind_t(name="torque", help="of other linkages: the torque of the elastic linkage", &
+    report_kind_t(name="torque", help="the torque of the elastic linkage, with its parts", &
       pattern="REPORT torque [accuracy=]", default="accuracy=1e-6", studies="response", &
-      positions=.true., response=.true., linkages=other_linkages, tables=[ &
+      positions=.true., response=.true., tables=[ &
       table_kind_t("torque", "speed:speed crank:deg rigid,linear,quadratic,total:moment "// &
       "power:power error:-"), no_table, no_table]), &
     report_kind_t(name="validity", help="whether the equations of the response hold", &
@@ -287,7 +287,7 @@ module report_table
     report_kind_t(name="transient", help="the elastic motion in time from a state", &
       pattern="REPORT transient turns= [crank=0] [start=rest|steady] [perturb=mode,amplitude] "// &
       "[instants=] [accuracy=]", default="crank=0 start=rest instants=72 accuracy=1e-3", &
-      studies="transient", response=.true., tables=[ &
+      studies="transient", response=.true., linkages=four_bars, tables=[ &
       table_kind_t("transient", "speed:speed time:time crank:deg point:name ux,uy:length "// &
       "rotation:deg error:-"), &
       table_kind_t("gauges", "speed:speed time:time crank:deg gauge:name "// &

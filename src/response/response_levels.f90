@@ -192,11 +192,13 @@ contains
   pure function damping_of(dampings, grid) result(c)
     type(link_damping_t), intent(in) :: dampings(:) !! (bodies)
     type(turn_grid_t), intent(in) :: grid
-    real(wp) :: c(grid%unknowns) !! [s]
+    real(wp), allocatable :: c(:) !! (unknowns) [s]; where there are more deformations of parts
+                                  !! than border unknowns, of these the mean, behind all unknowns
+                                  !! that of every deformation
 
-    integer :: b
+    integer :: b, i
 
-    c = 0.0_wp
+    allocate (c(grid%unknowns), source=0.0_wp)
     do b = 1, size(dampings)
       if (.not. grid%model%links(b)%bends) cycle
       associate (damping => dampings(b), link => grid%model%links(b))
@@ -211,6 +213,27 @@ contains
         end select
       end associate
     end do
+    if (.not. allocated(grid%weighted)) return
+    c = [c, [(damping_of_deformation(grid, dampings, i), i=1, size(grid%weighted, 2))]]
+    do b = 1, grid%border
+      c(b) = sum(matmul(grid%weighted(:, :, b)**2, c(grid%unknowns + 1:)))/grid%samples
+    end do
   end function damping_of
+
+  !> Damping of a deformation of a part or a spring [s].
+  pure function damping_of_deformation(grid, dampings, number) result(c)
+    type(turn_grid_t), intent(in) :: grid
+    type(link_damping_t), intent(in) :: dampings(:)
+    integer, intent(in) :: number
+    real(wp) :: c
+
+    c = 0.0_wp
+    associate (b => grid%deformed(number))
+      if (b == 0) return
+      if (dampings(b)%kind == damping_time) c = dampings(b)%value
+      if (dampings(b)%kind == damping_ratio) c = 2.0_wp*dampings(b)%value* &
+        sqrt(maxval(grid%model%links(b)%square))
+    end associate
+  end function damping_of_deformation
 
 end module response_levels

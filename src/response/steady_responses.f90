@@ -8,7 +8,7 @@
 module steady_responses
   use beam_mesh, only: beam_t
   use constants, only: degree, two_pi
-  use elastic_equations, only: load_at_speed
+  use elastic_equations, only: deformations_of, load_at_speed
   use errors, only: error_of_numerics, error_t, set_error
   use floquet_exponents, only: find_nearest_mode, floquet_mode_t
   use fourier_transform, only: close_fourier, coefficients_of, fourier_plan_t, open_fourier, &
@@ -805,19 +805,39 @@ contains
       real(wp), intent(in) :: y(:, :)
       real(wp) :: power(size(grid%integrals))
 
-      real(wp) :: coefficients(size(y, 1), size(y, 2)), c(size(y, 2))
-      integer :: i, j
+      real(wp), allocatable :: c(:)
 
       c = damping_of(request%damping, grid)
-      call coefficients_of(plan, y, coefficients)
       power = 0.0_wp
+      if (.not. allocated(grid%weighted)) then
+        call add_power(plan, y, c, grid%owner, power)
+        return
+      end if
+      associate (first => grid%border + 1, last => grid%unknowns)
+        call add_power(plan, y(:, first:), c(first:last), grid%owner(first:), power)
+        call add_power(plan, deformations_of(grid, y), c(last + 1:), grid%deformed, power)
+      end associate
+    end function power_of
+
+    !> Adds that of some motions, each with its damping, to those of the links they belong to.
+    subroutine add_power(plan, y, c, owner, power)
+      type(fourier_plan_t), intent(in) :: plan
+      real(wp), intent(in) :: y(:, :), c(:)   !! (samples, motions), (motions)
+      integer, intent(in) :: owner(:)         !! (motions); 0: a spring, which is not damped
+      real(wp), intent(inout) :: power(:)
+
+      real(wp) :: coefficients(size(y, 1), size(y, 2))
+      integer :: i, j
+
+      call coefficients_of(plan, y, coefficients)
       do i = 1, size(y, 2)
+        if (owner(i) == 0) cycle
         do j = 1, (size(y, 1) - 1)/2
-          power(grid%owner(i)) = power(grid%owner(i)) + 2.0_wp*c(i)*real(j, wp)**2* &
+          power(owner(i)) = power(owner(i)) + 2.0_wp*c(i)*real(j, wp)**2* &
             sum(coefficients(2*j:2*j + 1, i)**2)
         end do
       end do
-    end function power_of
+    end subroutine add_power
 
   end subroutine evaluate
 

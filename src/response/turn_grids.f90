@@ -4,10 +4,12 @@
 !! Arrays run over the crank angles first, so that loops over them are long.
 module turn_grids
   use axial_forces, only: distributed_unit_forces
+  use band_matrix, only: full_band
   use body_lumps, only: lump_offsets
   use border_rows, only: row_spring
   use chord_slopes, only: find_chord_slopes
   use deformation_model, only: deformation_model_t
+  use dense_eigensolver, only: solve_dense
   use errors, only: error_of_dead_point, error_of_numerics, error_t, set_error
   use fourier_transform, only: close_fourier, derivatives, fourier_plan_t, open_fourier
   use inertia_loads, only: distributed_load, load_t
@@ -31,6 +33,13 @@ module turn_grids
 
   public :: turn_grid_t, new_turn_grid, new_parts_grid, new_path_grid, place_grid
 
+  !> Positions of a turn at which deformations are tried as unknowns, and turns until these are
+  !! taken for good.
+  integer, parameter :: pivot_positions = 72, most_turns = 8
+
+  character(len=*), parameter :: no_choice = "links hold each other more than statics needs, "// &
+    "and no choice of their deformations determines all others at every position of the turn"
+
   !> Number of the load case of α2.
   integer, parameter :: of_acceleration = 2
 
@@ -45,7 +54,16 @@ module turn_grids
     integer, allocatable :: first(:)       !! (bodies) number of the first transverse own mode
     integer, allocatable :: first_along(:) !! (bodies) of the first axial own mode
     integer, allocatable :: elongation(:)  !! (bodies) number of its elongation; 0: rigid
-    integer, allocatable :: owner(:)       !! (unknowns) body to whose elastic energy it belongs
+    integer, allocatable :: owner(:)       !! (unknowns) body to whose elastic energy it belongs;
+                                           !! 0: to several
+    !> (samples, deformations, border) deformations of the ends of parts, and of springs, in units
+    !! of those of a unit unknown, where there are more of them than border unknowns: then `elongation`
+    !! is a number among them. Not allocated: they are the border unknowns
+    real(wp), allocatable :: weighted(:, :, :)
+    integer, allocatable :: deformed(:)    !! (deformations) body; 0: a spring
+    real(wp), allocatable :: rotation(:, :) !! (border, border) orthogonal: border unknowns as those
+                                           !! of the basis, from those of the grid, which are
+                                           !! nearly modes then. Not allocated: the same
     !> (samples, functions of the chord, border, bodies)
     real(wp), allocatable :: chord(:, :, :, :)
     real(wp), allocatable :: turn(:, :, :)      !! (samples, border, bodies) rotation of the chord
@@ -108,7 +126,7 @@ contains
   !! are its parts, pins its points.
   !!
   !! Errors: the crank cannot reach one of the angles; the parts and springs do not determine the
-  !! displacements, or there are more of them than do.
+  !! displacements; there are more of them than do, and no choice among them serves at all angles.
   subroutine new_parts_grid(structure, model, samples, grid, error, backwards)
     class(structure_t), intent(in) :: structure      !! with parts
     type(deformation_model_t), intent(in) :: model   !! their own deformations, with a border
@@ -128,16 +146,27 @@ contains
     sense = merge(-1.0_wp, 1.0_wp, grid%backwards)
     here = new_assembled(structure, model)
     call start_grid(structure%elastic%linkage, model, samples, grid)
+    if (model%layout%free > 0) then
+      call set_error(error, error_of_dead_point, "the linkage moves freely, its drives at rest")
+      return
+    end if
     allocate (grid%second_order(samples, grid%border, grid%border, case_count))
+    call number_deformations(here%border, grid)
+    if (allocated(grid%weighted)) then
+      call choose_pivots(structure, model, here, error)
+      if (.not. allocated(error)) call find_rotation(structure, here, grid, error)
+    end if
+    if (allocated(error)) return
     do k = 1, samples
       call find_pose(structure%linkage, sense*(360.0_wp*(k - 1))/samples, pose, error)
       if (.not. allocated(error)) call place_parts(structure, model, pose, here, error)
       if (.not. allocated(error)) call find_part_chords(structure%linkage, here%elastic, &
         here%model%links, here%pose, grid%border, model%layout%free, .true., here%border, chords, &
         error)
+      if (.not. allocated(error) .and. allocated(grid%weighted) .and. here%border%is_new) &
+        call set_error(error, error_of_numerics, no_choice)
       if (allocated(error)) return
-      if (k == 1) call take_owners(here%border, grid, error)
-      if (allocated(error)) return
+      if (allocated(grid%weighted)) grid%weighted(k, :, :) = chords%weighted
       coefficients = find_kinematic_coefficients(structure%linkage, pose)
       call take_parts(structure, pose, coefficients, chords, k, here, grid)
     end do
@@ -145,9 +174,75 @@ contains
     grid%force(:, :, :, of_acceleration) = sense*grid%force(:, :, :, of_acceleration)
     grid%load(:, :, of_acceleration) = sense*grid%load(:, :, of_acceleration)
     grid%second_order(:, :, :, of_acceleration) = sense*grid%second_order(:, :, :, of_acceleration)
+    if (allocated(grid%rotation)) call turn_unknowns(grid)
     if (.not. any(abs(grid%second_order) > 0.0_wp)) deallocate (grid%second_order)
     call find_slopes(grid)
   end subroutine new_parts_grid
+
+  !> The modes of the border by itself, with the mean of its mass matrix over the turn, the slowest
+  !! first. The basis of deformations may mix slow ones with fast ones; these do little.
+  subroutine find_rotation(structure, here, grid, error)
+    class(structure_t), intent(in) :: structure
+    type(assembled_t), intent(inout) :: here  !! with pivots for its border
+    type(turn_grid_t), intent(inout) :: grid
+    type(error_t), allocatable, intent(out) :: error
+
+    type(pose_t) :: pose
+    type(chords_t) :: chords
+    real(wp) :: mass(grid%border, grid%border), unit(grid%border, grid%border), &
+      inverse(grid%border), functions(size(grid%chord, 2), grid%border)
+    integer :: b, i, p
+
+    mass = 0.0_wp
+    do i = 0, pivot_positions - 1
+      call find_pose(structure%linkage, (360.0_wp*i)/pivot_positions, pose, error)
+      if (.not. allocated(error)) call place_parts(structure, grid%model, pose, here, error)
+      if (.not. allocated(error)) call find_part_chords(structure%linkage, here%elastic, &
+        here%model%links, here%pose, grid%border, 0, .false., here%border, chords, error)
+      if (allocated(error)) return
+      do b = 1, size(grid%integrals)
+        associate (chord => grid%integrals(b)%chord, of_body => grid%integrals(b)%mass)
+          call take_chord(grid%model%links(b), chords, b, functions)
+          mass = mass + matmul(transpose(functions(:chord, :)), matmul(of_body(:chord, :chord), &
+            functions(:chord, :)))
+        end associate
+      end do
+      do p = 1, size(grid%pin_mass)
+        mass = mass + grid%pin_mass(p)*matmul(transpose(chords%pin(:, p, :)), chords%pin(:, p, :))
+      end do
+    end do
+    unit = 0.0_wp
+    do i = 1, grid%border
+      unit(i, i) = 1.0_wp
+    end do
+    call solve_dense(full_band(unit), full_band(mass), grid%border, .true., inverse, &
+      grid%rotation, error)
+  end subroutine find_rotation
+
+  !> The terms in unknowns that are turned.
+  pure subroutine turn_unknowns(grid)
+    type(turn_grid_t), intent(inout) :: grid
+
+    integer :: b, c, i, k
+
+    associate (rotation => grid%rotation, border => grid%border)
+      do k = 1, grid%samples
+        do b = 1, size(grid%integrals)
+          grid%chord(k, :, :, b) = matmul(grid%chord(k, :, :, b), rotation)
+          grid%turn(k, :, b) = matmul(grid%turn(k, :, b), rotation)
+        end do
+        do i = 1, size(grid%pin, 3)
+          grid%pin(k, :, i, :) = matmul(grid%pin(k, :, i, :), rotation)
+        end do
+        grid%weighted(k, :, :) = matmul(grid%weighted(k, :, :), rotation)
+        do c = 1, case_count
+          grid%load(k, :border, c) = matmul(grid%load(k, :border, c), rotation)
+          grid%second_order(k, :, :, c) = matmul(transpose(rotation), &
+            matmul(grid%second_order(k, :, :, c), rotation))
+        end do
+      end do
+    end associate
+  end subroutine turn_unknowns
 
   !> Room for the terms at crank angles anywhere, which `place_grid` gives: the crank need not turn
   !! fully.
@@ -365,28 +460,51 @@ contains
     grid%elongation = number(1:)
   end subroutine number_border
 
-  !> To which parts the border unknowns belong: with as many rows as unknowns, each is the
-  !! deformation of a row.
-  pure subroutine take_owners(border, grid, error)
+  !> To which parts the deformations belong: where there are as many as unknowns, each is one.
+  pure subroutine number_deformations(border, grid)
     type(border_t), intent(in) :: border
     type(turn_grid_t), intent(inout) :: grid
-    type(error_t), allocatable, intent(inout) :: error
 
-    integer :: i
+    integer :: n
 
-    if (grid%model%layout%free > 0) then
-      call set_error(error, error_of_dead_point, "the deformations of the links do not "// &
-        "determine where the pins go")
-    else if (size(border%numbers%rows) > grid%border .or. any(border%numbers%rows%kind == &
-      row_spring)) then
-      call set_error(error, error_of_numerics, "statically indeterminate")
-    end if
-    if (allocated(error)) return
+    n = size(border%numbers%rows)
     grid%elongation = border%numbers%elongation
-    do i = 1, grid%border
-      grid%owner(i) = border%numbers%rows(i)%number
+    grid%deformed = merge(0, border%numbers%rows%number, border%numbers%rows%kind == row_spring)
+    if (n == grid%border .and. all(grid%deformed > 0)) then
+      grid%owner(:n) = grid%deformed
+    else
+      grid%owner(:grid%border) = 0
+      allocate (grid%weighted(grid%samples, n, grid%border))
+    end if
+  end subroutine number_deformations
+
+  !> Deformations that determine all others at every position: the border unknowns are then smooth
+  !! functions of the crank angle. From a position on where they do not, others are taken, until a
+  !! whole turn needs no more.
+  subroutine choose_pivots(structure, model, here, error)
+    class(structure_t), intent(in) :: structure
+    type(deformation_model_t), intent(in) :: model
+    type(assembled_t), intent(inout) :: here !! its border gets them
+    type(error_t), allocatable, intent(out) :: error
+
+    type(pose_t) :: pose
+    type(chords_t) :: chords
+    integer :: i, kept
+
+    kept = 0
+    do i = 0, most_turns*pivot_positions - 1
+      call find_pose(structure%linkage, (360.0_wp*modulo(i, pivot_positions))/pivot_positions, &
+        pose, error)
+      if (.not. allocated(error)) call place_parts(structure, model, pose, here, error)
+      if (.not. allocated(error)) call find_part_chords(structure%linkage, here%elastic, &
+        here%model%links, here%pose, model%layout%border, model%layout%free, .false., here%border, &
+        chords, error)
+      if (allocated(error)) return
+      kept = merge(1, kept + 1, here%border%is_new)
+      if (kept > pivot_positions) return
     end do
-  end subroutine take_owners
+    call set_error(error, error_of_numerics, no_choice)
+  end subroutine choose_pivots
 
   !> Numbers of the own modes of every body, and the body to which they belong.
   pure subroutine number_own_modes(grid)

@@ -19,8 +19,6 @@ module sweeps
     logical, allocatable :: drawn(:, :)                !! (states, speeds) whether shapes are
                                                        !! requested
     type(ledger_t) :: counts                           !! of the work done, models included
-    integer :: free_motions = 0                        !! that neither drives nor links hold: so
-                                                       !! many frequencies are 0 at rest
   end type sweep_t
 
 contains

@@ -90,12 +90,12 @@ def is_near(value, exact):
 
 
 def compare(name, program, scratch):
-    """(why it fails or None, number of frequencies, largest error by mode)."""
+    """(why it fails, number of frequencies, largest error by mode, largest estimate)."""
     path = os.path.join(FOLDER, name + ".deck")
     with open(path, encoding="utf-8") as file:
         accuracy = Decimal(re.search(r"accuracy=(\S+)", file.read())[1])
     table = run(program, path, scratch)["frequencies"]
-    wrong, count, largest = list(table.failed), 0, [Decimal(0)] * MODES
+    wrong, count, largest, most = list(table.failed), 0, [Decimal(0)] * MODES, Decimal(0)
     exact = read(name)
     if len(table.rows) + len(table.failed) != len(exact):
         wrong.append(f"{len(table.rows)} rows, not {len(exact)}")
@@ -108,10 +108,11 @@ def compare(name, program, scratch):
             count += 1
             value, estimate = Decimal(row[f"f{k + 1}"]), Decimal(row[f"error{k + 1}"])
             error = abs(value - frequency) / frequency if frequency else abs(value)
-            largest[k] = max(largest[k], error)
+            largest[k], most = max(largest[k], error), max(most, estimate)
             if not error <= min(estimate, accuracy):
-                wrong.append(f"speed {speed} crank {crank} f{k + 1} {value:.17g}, exact {frequency}: off by {error:.1e}, estimated {estimate:.1e}")
-    return wrong, count, largest
+                wrong.append(f"speed {speed} crank {crank} f{k + 1} {value:.17g}, exact {frequency}: off by {error:.1e}, "
+                             f"estimated {estimate:.1e}")
+    return wrong, count, largest, most
 
 
 def check(names, program, scratch, skip_refused):
@@ -119,17 +120,18 @@ def check(names, program, scratch, skip_refused):
     failures, counted, violations, largest = 0, 0, 0, [Decimal(0)] * MODES
     for name in names:
         try:
-            wrong, count, errors = compare(name, program, scratch)
+            wrong, count, errors, most = compare(name, program, scratch)
         except RuntimeError as error:
             if skip_refused and str(error).startswith("exit 2"):
                 print(f"ok {name} # skip: {error}")
                 continue
-            wrong, count, errors = [str(error)], 0, largest
+            wrong, count, errors, most = [str(error)], 0, largest, Decimal(0)
         failures += bool(wrong)
         violations += len(wrong)
         counted += count
         largest = [max(pair) for pair in zip(largest, errors)]
-        print(f"not ok {name}: {wrong[0]}" + (f" (and {len(wrong) - 1} more)" if len(wrong) > 1 else "") if wrong else f"ok {name}")
+        print(f"not ok {name}: {wrong[0]}" + (f" (and {len(wrong) - 1} more)" if len(wrong) > 1 else "") if wrong
+              else f"ok {name}: " + " ".join(f"{error:.1e}" for error in errors + [most]))
     print(f"# {counted} frequencies, {violations} violations; largest errors of f1 to f{MODES}: " + " ".join(f"{e:.1e}" for e in largest))
     return failures
 

@@ -42,7 +42,8 @@ class Extreme:
         return [repr(self.crank)]
 
     def text(self, cranks, _=None):
-        return HEAD.format(seed=self.seed, family=self.family, modulus=self.modulus) + self.cards + f"""MESH * accuracy=1e-{3 + int(self.uniform(0, 9.9))}
+        head = HEAD.format(seed=self.seed, family=self.family, modulus=self.modulus)
+        return head + self.cards + f"""MESH * accuracy=1e-{3 + int(self.uniform(0, 9.9))}
 CRANK {','.join(cranks)}
 EFFECTS static
 MODES 4

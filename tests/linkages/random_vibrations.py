@@ -69,6 +69,9 @@ class Chain(Drawing):
             tops.append(self.new_pin((round(foot[0] + dx, 4), round(foot[1] + dy, 4))))
             self.new_link(ground, tops[-1], keep_order=True)
             x += self.uniform(0.3, 0.8)
+        for one, other in zip(tops, tops[1:]):
+            if abs(math.sin(self.direction(one, other) - math.atan2(dy, dx))) < 0.25:
+                raise Retry                    # a change point is near
         self.angle = math.degrees(math.atan2(dy, dx))
         self.links["coupler"] = tops
         self.drives.append(("link1", [], ""))
@@ -211,7 +214,8 @@ class Case:
                 continue
             if name in self.bending:
                 reach = math.dist(drawing.places[pins[0]], drawing.places[pins[1]])
-                at, beside = reach * drawing.uniform(0.2, 0.8), drawing.chance(0.5) and ("shear" not in self.thick or "rotary" in self.thick)
+                at = reach * drawing.uniform(0.2, 0.8)
+                beside = drawing.chance(0.5) and ("shear" not in self.thick or "rotary" in self.thick)
             else:
                 at, beside = drawing.uniform(-0.3, 0.8), True
             line = f"MASS {name} {self.power(-2, 0.5)}kg at={at * self.scale:.6g}"
@@ -219,6 +223,14 @@ class Case:
                 line += f" offset={self.number(-0.1, 0.1, self.scale)} inertia={self.power(-5, -2)}kg*m2"
             lines.append(line)
         return lines
+
+    def _bodies(self, pin):
+        """Links that have a pin, and those welded to them."""
+        found = self.drawing.holders(pin)
+        for _, welded in self.drawing.welds:
+            if found & set(welded):
+                found = found | set(welded)
+        return found
 
     def _springs(self):
         """Over many decades at rest; softer ones where they load the linkage."""
@@ -229,7 +241,7 @@ class Case:
                 places = list(drawing.places)
                 one, other = drawing.pick(places), drawing.pick(places)
                 near = math.dist(drawing.places[one], drawing.places[other]) < 0.15
-                if near or drawing.holders(one) & drawing.holders(other) or {one, other} <= set(drawing.grounds):
+                if near or self._bodies(one) & self._bodies(other) or {one, other} <= set(drawing.grounds):
                     continue
                 stiffness = self.power(-1, 3) if self.loaded else self.power(-6, 12)
                 most = min(20.0, 0.5 * float(stiffness) * math.dist(drawing.places[one], drawing.places[other]))
@@ -238,6 +250,8 @@ class Case:
             else:
                 pin = drawing.pick(drawing.places)
                 links = [link for link, pins in drawing.links.items() if pin in pins and link != drawing.driven_length]
+                if any(pin == welded for welded, _ in drawing.welds):
+                    continue
                 if pin in drawing.grounds and links:
                     at = drawing.pick(links)
                 elif len(links) > 1:
@@ -252,8 +266,10 @@ class Case:
     def text(self, cranks, speed=None):
         """The deck at positions, with a speed besides rest."""
         drawing, scale = self.drawing, self.scale
-        pins = [f"PIN {pin} {x * scale if scale == 1.0 else round(x * scale, 9)!r} {y * scale if scale == 1.0 else round(y * scale, 9)!r}"
-                for pin, (x, y) in drawing.places.items() if pin not in drawing.grounds]
+        def shown(value):
+            return repr(value if scale == 1.0 else round(value * scale, 9))
+
+        pins = [f"PIN {pin} {shown(x)} {shown(y)}" for pin, (x, y) in drawing.places.items() if pin not in drawing.grounds]
         lines = self.cards + pins + ["CRANK " + ",".join(cranks)]
         if speed:
             lines.append(f"SPEED 0,{speed}")
@@ -298,7 +314,8 @@ def claims_of(row, structure):
         except ZeroDivisionError:
             continue
         if not below < number <= above:
-            wrong.append(f"f{number} = {value:.17g} with error {estimate:.1e}: {below} below, {above} up to it{true_value(structure, number, value)}")
+            wrong.append(f"f{number} = {value:.17g} with error {estimate:.1e}: {below} below, {above} up to it"
+                         + true_value(structure, number, value))
     return wrong, number
 
 
@@ -413,19 +430,23 @@ def main():
     scratch = options.scratch or tempfile.mkdtemp(prefix="vibrations")
     os.makedirs(scratch, exist_ok=True)
     jobs = [(seed, options.kind, options.program, scratch) for seed in range(options.seed, options.seed + options.count)]
-    total, reasons, refusals, skips = collections.Counter(), collections.Counter(), collections.Counter(), collections.Counter()
+    total, reasons, refusals, skips = (collections.Counter() for _ in range(4))
+    examples = {}
     with multiprocessing.Pool(max(1, options.jobs)) as pool:
         for result in pool.imap(examine, jobs):
             for line in result.lines:
                 print(line, flush=True)
             total.update({name: getattr(result, name) for name in ("frequencies", "rows", "failed", "violations")})
             reasons += result.reasons
-            refusals[result.refused and result.refused.split("error: ")[-1].split(" | ")[0]] += 1
+            refusal = result.refused and result.refused.split("error: ")[-1].split(" | ")[0]
+            refusals[refusal] += 1
             skips[result.skipped] += 1
+            for reason in list(result.reasons) + [refusal, result.skipped]:
+                examples.setdefault(reason, result.seed)
     refused, skipped = sum(refusals.values()) - refusals.pop(None, 0), sum(skips.values()) - skips.pop(None, 0)
     for title, counts in (("failed rows", reasons), ("refused", refusals), ("not drawn", skips)):
         for reason, count in counts.most_common(12):
-            print(f"# {count:5d} {title}: {reason}")
+            print(f"# {count:5d} {title}: {reason} (the first is linkage {examples[reason]})")
     wrong = total["violations"] + (0 if options.skip_refused else refused)
     print(f"{options.count} linkages, {skipped} not drawn, {refused} refused; {total['rows']} rows and {total['failed']} failed; "
           f"{total['frequencies']} frequencies, {total['violations']} violations")

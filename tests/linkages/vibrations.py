@@ -135,7 +135,7 @@ class Structure:
         self.model, self.q, self.deck, self.held, self.order = model, q, model.deck, held, order
         self.count, self.names = 0, {}
         self.beams, self.masses, self.inertias, self.rows, self.springs = [], [], [], [], []
-        self.bodies, self.contacts, self.second_order = [], [], []
+        self.bodies, self.contacts, self.blocks, self.second_order = [], [], [], []
         self.turn_at = {}                      # (link, pin): rotation
         self.contact_of = {}                   # index of a slider: node on its guide
         for pin in self.deck.grounds:
@@ -206,7 +206,8 @@ class Structure:
         self.turn_at[name, names[0]] = last_turn = first_turn
         extra = [(point, *body.places[point], "pin") for point in body.places if point not in pins and point in self.deck.points]
         extra += [(number, along, ZERO, "contact") for number, along in self._contact_places(name, body)]
-        extra += [(particle, particle[1], ZERO, "mass") for particle in body.particles[1:]]
+        extra += [(number, particle[1], particle[2], "mass") for number, particle in enumerate(body.particles) if number]
+        nearest = {number: self._nearest_part(route, x, y) for number, x, y, kind in extra if kind == "mass"}
         placed = []
         for k in range(len(route) - 1):
             (x0, y0), (x1, y1) = route[k], route[k + 1]
@@ -215,7 +216,11 @@ class Structure:
             stops = []
             for item, x, y, kind in extra:
                 at = (x - x0) * ex + (y - y0) * ey
-                if abs((y - y0) * ex - (x - x0) * ey) < TINY and 0 < at < length:
+                if kind == "mass":
+                    is_here = nearest[item] == k
+                else:
+                    is_here = abs((y - y0) * ex - (x - x0) * ey) < TINY
+                if is_here and 0 < at < length:
                     stops.append((at, kind, item))
                     placed.append(item)
             stops.sort(key=lambda stop: stop[0])
@@ -236,16 +241,28 @@ class Structure:
                 if kind == "contact":
                     self.contacts.append(self._contact(item, name, last_node, last_turn, at))
                 elif kind == "mass":
-                    self._attach(name, last_node, last_turn, item, direction)
+                    particle = body.particles[item]
+                    beside = (particle[2] - y0) * ex - (particle[1] - x0) * ey
+                    self._attach(name, last_node, last_turn, particle, (-beside * direction[1], beside * direction[0]))
                 else:
                     self.turn_at[name, item] = last_turn
         if len(placed) != len(extra):
             raise Failure("a place beyond the ends of a link, or on a corner")
 
-    def _attach(self, link, node, turn, particle, direction):
-        """A mass beside the axis of a link that bends, fixed to its cross-section."""
+    @staticmethod
+    def _nearest_part(route, x, y):
+        """Of a link with corners, the straight part to which a mass is fixed."""
+        distances = []
+        for (x0, y0), (x1, y1) in zip(route, route[1:]):
+            length = ((x1 - x0)**2 + (y1 - y0)**2).sqrt()
+            at = ((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / length**2
+            at = min(max(at, ZERO), ONE)
+            distances.append((x - x0 - at * (x1 - x0))**2 + (y - y0 - at * (y1 - y0))**2)
+        return distances.index(min(distances))
+
+    def _attach(self, link, node, turn, particle, arm):
+        """A mass of a link that bends, fixed to its cross-section, with its arm from the axis."""
         mass, along, offset, inertia = particle
-        arm = (-offset * direction[1], offset * direction[0])
         place = self._rigid(node, turn, arm)
         self.masses.append((place, mass, ("body", link, along, offset)))
         self.inertias.append((turn, inertia, link))
@@ -297,7 +314,8 @@ class Structure:
         return self.deck.materials[card["material"]] * self.deck.bending[card["section"]][0] * total
 
     def _contact(self, number, link, node, turn, along):
-        return {"slider": number, "link": link, "node": node, "turn": turn, "along": along, "direction": self._axes(self.model.bodies[link])}
+        return {"slider": number, "link": link, "node": node, "turn": turn, "along": along,
+                "direction": self._axes(self.model.bodies[link])}
 
     def _line(self, slider, number):
         """Direction of a slider's line, displacement and rotation of the guide there."""
@@ -323,7 +341,8 @@ class Structure:
         if slider["mass"]:
             self.masses.append((place, slider["mass"], ("pin", pin)))
         if slider["inertia"]:
-            self.inertias.append((turn if turn else self.turn(slider["link"], pin), slider["inertia"], slider["guide"]))
+            self.inertias.append((turn, slider["inertia"], slider["guide"]))
+            self.blocks.append((turn, slider["inertia"], slider["guide"]))
 
     def _hold(self, drive):
         if drive["free"] and not self.held:
@@ -672,6 +691,8 @@ class Structure:
                 ax, ay = self._acceleration(state, ("body", link, along, offset))
                 total += mass * ((gx - ax) * rx + (gy - ay) * ry)
             terms.append((record["turn"], record["turn"], total / 2))
+        for turn, inertia, link in self.blocks:    # centrifugal forces of a block's own parts turn with it
+            terms.append((turn, turn, inertia * state.v[self.model.bodies[link].angle]**2 / 2))
         for form, stiffness, load, line in self.springs:
             if line:
                 yields = sum((factor * displacements[k] for k, factor in form.items()), ZERO)

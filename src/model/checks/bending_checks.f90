@@ -20,7 +20,8 @@ module bending_checks
 contains
 
   !> Checks the links that bend. Errors: a driven length; a point that is a pin beside the axis,
-  !! beyond an end or where another pin is; a mass or a force beyond an end; a force beside the axis
+  !! beyond an end or where another pin is; a point that makes it longer for a block; a mass or a
+  !! force beyond an end; a force beside the axis
   !! with shear and without rotary inertia.
   pure subroutine check_bending(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
@@ -38,7 +39,11 @@ contains
       end associate
     end do
     do i = 1, size(model%points)
-      if (carries_pin(model, i)) call check_point(diagnostics, model, i)
+      if (carries_pin(model, i)) then
+        call check_point(diagnostics, model, i)
+      else
+        call check_reach(diagnostics, model, i)
+      end if
     end do
     do i = 1, size(model%masses)
       call check_mass(diagnostics, model, i)
@@ -132,6 +137,30 @@ contains
       end associate
     end associate
   end subroutine check_point
+
+  !> A point beyond an end of a link along which a block slides says how far this reaches. One that
+  !! bends ends at its pins.
+  pure subroutine check_reach(diagnostics, model, number)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: number !! of the point
+
+    type(foot_t) :: foot
+    real(wp), allocatable :: places(:, :)
+    logical :: known
+
+    associate (point => model%points(number))
+      if (.not. any(model%sliders%link == point%link)) return
+      call find_foot(model, point%link, point%place, places, foot, known)
+      if (.not. known) return
+      if (foot%beyond <= least_distance*model%links(point%link)%length .or. &
+        abs(point%place(2)) > 0.0_wp) return
+      call add_error(diagnostics, point%name, "point '"//point%name%text//"' is beyond the end "// &
+        "of link '"//model%links(point%link)%name%text//"', which bends between its pins; "// &
+        "expected this pin on the LINK card, or a rigid link", model%links(point%link)%name, &
+        "the link is here")
+    end associate
+  end subroutine check_reach
 
   !> A mass is fixed to a cross-section of the beam that carries it, so there must be one at its
   !! place along the link.

@@ -4,7 +4,7 @@ module joint_checks
   use joint_cards, only: slider_t, weld_t
   use kinds, only: wp
   use link_shapes, only: find_drawn_pin
-  use models, only: model_t
+  use models, only: bends_links, model_t
   use name_checks, only: look_up, pin_names
   use name_index, only: find_name, name_index_t, new_name_index
   use spelling, only: suggestion
@@ -18,9 +18,9 @@ module joint_checks
 contains
 
   !> Looks up what these cards name. Errors: an unknown pin, link or guide, a PIN of a ground pivot,
-  !! a weld of a link that is not at the pin, of one link twice, of all links at a pin, or of links
-  !! that are not in the drawing, a guide with the name of a link where either may stand, a block on
-  !! its own link or twice on one, a fixed one, an inertia that cannot turn.
+  !! a weld of a link that is not at the pin, of one link twice, of all links at a pin where nothing
+  !! bends, or of links that are not in the drawing, a guide with the name of a link where either
+  !! may stand, a block on its own link or twice on one, a fixed one, an inertia that cannot turn.
   pure subroutine check_joints(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(model_t), intent(inout) :: model             !! numbers of links and guides are set
@@ -141,7 +141,9 @@ contains
       end associate
     end do
     if (.not. known .or. any(weld%link == 0)) return
-    if (leaves_joint(model, grounds, weld)) then
+    ! Links that bend may differ in section, and branch.
+    if (leaves_joint(model, grounds, weld) .or. bends_links(model) .and. any(.not. &
+      model%links(weld%link)%rigid)) then
       call require_drawn_weld(diagnostics, model, weld)
     else
       call add_error(diagnostics, weld%pin, "weld of all links at pin '"//weld%pin%text// &

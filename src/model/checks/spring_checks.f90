@@ -7,7 +7,7 @@ module spring_checks
   use kinds, only: wp
   use link_checks, only: is_ram
   use link_shapes, only: compare_lengths, find_drawn_place
-  use models, only: model_t
+  use models, only: model_t, needs_frequencies
   use name_checks, only: look_up, pin_names
   use name_index, only: find_name, name_index_t, new_name_index
   use spring_cards, only: is_spring_card, read_spring, spring_t
@@ -73,10 +73,10 @@ contains
   end function count_springs
 
   !> Looks up what these cards name. Errors: an unknown link, pin or point; ends that are one place,
-  !! on one link or on welded ones, or both fixed; a link that does not turn about the pin; one link
-  !! at a pin that moves; links that are welded there; no drawing, or a rough one, where the free
-  !! length follows from it, or a negative free length that does; reports in which springs do not
-  !! act.
+  !! on one link or on welded ones that do not bend, or both fixed; a link that does not turn about
+  !! the pin; one link at a pin that moves; links that are welded there; no drawing, or a rough one,
+  !! where the free length follows from it, or a negative free length that does; reports in which
+  !! springs do not act.
   pure subroutine check_springs(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(model_t), intent(inout) :: model             !! has its links; link numbers of springs are
@@ -161,6 +161,7 @@ contains
       end if
       do i = 1, size(model%links)
         if (.not. is_on_link(model, i, one) .or. .not. is_on_link(model, i, other)) cycle
+        if (needs_frequencies(model) .and. .not. model%links(i)%rigid) cycle
         if (any(model%drives%link == i) .and. .not. model%links(i)%has_length .and. &
           size(model%links(i)%lengths) == 0) cycle
         call add_error(diagnostics, other, "both ends are on link '"//model%links(i)%name%text// &
@@ -169,6 +170,8 @@ contains
         return
       end do
       do i = 1, size(model%welds)
+        if (needs_frequencies(model) .and. any(.not. model%links(pack(model%welds(i)%link, &
+          model%welds(i)%link > 0))%rigid)) cycle
         if (.not. is_on_weld(model, i, one) .or. .not. is_on_weld(model, i, other)) cycle
         call add_error(diagnostics, other, "both ends are on links that are welded: nothing "// &
           "moves between them", model%welds(i)%pin, "they are welded here")
@@ -323,19 +326,28 @@ contains
       "' is not in the drawing: expected '"//key//"=' or a PIN card")
   end subroutine refuse_undrawn
 
-  !> Refuses all of the elastic linkage in motion, and frequencies with dampers.
+  !> Refuses motions in time of the elastic linkage, and with dampers all of it; constant tensions
+  !! where it runs.
   pure subroutine refuse_reports(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
-    integer :: i, damper
+    integer :: i, damper, tension
 
     damper = findloc(model%springs%damps, .true., dim=1)
+    tension = findloc(.not. model%springs%damps .and. model%springs%stiffness <= 0.0_wp, .true., &
+      dim=1)
     do i = 1, size(model%reports)
       associate (report => model%reports(i))
-        if (report%kind%response) then
+        if (report%kind%name == "transient") then
           call add_error(diagnostics, report%keyword, "springs and dampers do not act in "// &
-            "REPORT "//trim(report%kind%name)//" yet", model%springs(1)%keyword, &
+            "REPORT transient yet", model%springs(1)%keyword, "the first one is here")
+        else if (report%kind%response .and. damper > 0) then
+          call add_error(diagnostics, report%keyword, "dampers do not act in REPORT "// &
+            trim(report%kind%name)//" yet", model%springs(damper)%keyword, "the first one is here")
+        else if (report%kind%response .and. tension > 0) then
+          call add_error(diagnostics, report%keyword, "constant tensions do not act in REPORT "// &
+            trim(report%kind%name)//" yet", model%springs(tension)%keyword, &
             "the first one is here")
         else if (report%kind%frequencies .and. damper > 0) then
           call add_error(diagnostics, report%keyword, "dampers do not act in REPORT "// &

@@ -7,7 +7,7 @@ module block_checks
   use kinds, only: wp
   use linkages, only: linkage_t
   use mechanisms, only: mechanism_t
-  use models, only: model_t
+  use models, only: model_t, needs_frequencies
   use pose_types, only: pose_t
   use poses, only: place_links
   use sorting, only: ascending_order
@@ -20,9 +20,11 @@ module block_checks
   !> Kind of the warning, apart from other warnings at the same word.
   integer, parameter :: warning_of_block = 1
 
-  !> What a user may do whose link is longer than the way between its pins.
-  character(len=*), parameter :: remedy = &
-    " (if the link is longer, a POINT on its line says how far it reaches)"
+  !> What a user may do whose link is longer than the way between its pins, of a link that bends
+  !! too.
+  character(len=*), parameter :: remedies(2) = [character(len=78) :: &
+    " (if the link is longer, a POINT on its line says how far it reaches)", &
+    " (if the link is longer, a further pin on its card says how far it reaches)"]
 
   !> Intervals that a message names.
   integer, parameter :: most_named = 3
@@ -37,7 +39,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics !! to which errors and warnings are added
 
     real(wp) :: crank(size(model%crank%value)), excess(size(model%crank%value)), way
-    character(len=:), allocatable :: words
+    character(len=:), allocatable :: words, remedy
     integer :: number, i
 
     crank = model%crank%value(ascending_order(model%crank%value))
@@ -47,6 +49,8 @@ contains
         excess = [(excess_at(mechanism%linkage, number, crank(i)), i=1, size(crank))]
         if (.not. any(excess > 0.0_wp)) cycle
         way = slider%ends(2) - slider%ends(1)
+        remedy = trim(remedies(merge(2, 1, needs_frequencies(model) .and. &
+          mechanism%linkage%bodies(slider%body)%bends)))
         words = "the block at "//mechanism%pin_names(slider%pin)%text//" leaves '"// &
           mechanism%names(slider%body)%text//"'"
         if (all(excess > 0.0_wp)) then

@@ -3,7 +3,6 @@
 module linkage_checks
   use applied_loads, only: has_moving_loads
   use block_checks, only: check_blocks
-  use border_rows, only: excess_rows
   use deck_lengths, only: crank_text, in_deck, length_text
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use errors, only: error_of_dead_point, error_of_reach, error_t
@@ -14,6 +13,7 @@ module linkage_checks
   use models, only: drives_length, effects_axial, model_t, needs_frequencies, needs_response, &
     report_number, solver_band, solver_dense, steady_state_report
   use plan_words, only: group_names
+  use process_cards, only: process_force
   use pose_types, only: pose_t
   use poses, only: place_links, place_parts
   use redundancies, only: body_of_redundancy, largest_misfit
@@ -92,6 +92,7 @@ contains
         model%reports(report)%through_word, "only a four-bar, of three LINKs and no SLIDER, is "// &
         "followed straight through change points; expected change_points=stop")
     end if
+    if (needs_frequencies(model)) call check_cut_links(model, diagnostics)
     if (needs_frequencies(model) .and. model%effects == effects_axial) call &
       warn_of_held_blocks(model, diagnostics)
     call check_reach(model, mechanism, leaving, diagnostics)
@@ -129,18 +130,6 @@ contains
           model%reports(report)%keyword, "it is asked for here")
         return
       end do
-      if (excess_rows(mechanism%elastic) > 0) then
-        call add_error(diagnostics, model%reports(report)%keyword, name//" is not found yet of "// &
-          "links that hold each other more than statics needs: forces in "// &
-          to_string(excess_rows(mechanism%elastic))//" more places than it determines")
-        return
-      end if
-      report = report_number(model, "transient")
-      if (report > 0) then
-        call add_error(diagnostics, model%reports(report)%keyword, "REPORT transient is not "// &
-          "found yet of other linkages than a crank and links between two pins each, two by two")
-        return
-      end if
     end if
     report = steady_state_report(model)
     if (report == 0) return
@@ -152,9 +141,40 @@ contains
         "or a ram"//name, kind=error_of_reach)
     else
       call add_error(diagnostics, model%reports(report)%keyword, "the crank does not turn "// &
-        "fully, meets a dead point, or the links are elsewhere after a turn"//name, kind=error_of_reach)
+        "fully, meets a dead point, or the links are elsewhere after a turn"//name, &
+        kind=error_of_reach)
     end if
   end subroutine check_running
+
+  !> A link that bends is cut under the block that slides along it; one cut, in a uniform part.
+  pure subroutine check_cut_links(model, diagnostics)
+    type(model_t), intent(in) :: model
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: i, k
+
+    do i = 1, size(model%sliders)
+      associate (slider => model%sliders(i))
+        if (slider%link == 0) cycle
+        if (model%links(slider%link)%rigid) cycle
+        k = findloc(model%sliders(:i - 1)%link, slider%link, dim=1)
+        if (k > 0) call add_error(diagnostics, slider%pin, "a second block on link '"// &
+          model%links(slider%link)%name%text//"', which bends; expected one block, or a rigid "// &
+          "link", model%sliders(k)%pin, "the first block")
+        k = findloc(model%masses%link, slider%link, dim=1)
+        if (k > 0) call add_error(diagnostics, model%masses(k)%place_word, "a mass on link '"// &
+          model%links(slider%link)%name%text//"', which bends under a block; expected a PINMASS "// &
+          "at one of its pins, or a rigid link", slider%pin, "its block")
+        do k = 1, size(model%processes)
+          if (model%processes(k)%kind /= process_force .or. .not. model%processes(k)%on_link) cycle
+          if (model%processes(k)%link == slider%link) call add_error(diagnostics, &
+            model%processes(k)%place_word, "a force on link '"// &
+            model%links(slider%link)%name%text//"', which bends under a block; expected a FORCE "// &
+            "at one of its pins, or a rigid link", slider%pin, "its block")
+        end do
+      end associate
+    end do
+  end subroutine check_cut_links
 
   !> The moment in the contact of a block that does not turn on a link that bends does work of the
   !! second order on its curvature, which jumps there: a block without length has no such term.

@@ -1,0 +1,253 @@
+# A linkage as it swings in modes, as rows of geometry.dat: every position at rest, then displaced in its modes, with the number of the pose in
+# the place of the crank.
+#   awk -v folder=FOLDER -v speed=S -v modes=M,… -v cranks=C,… -v size=L -v parts="P …" -f mode_places.awk geometry.dat echo.deck shapes.dat
+# size is the largest displacement drawn; every mode is drawn at these parts of its swing.
+# Behind them two poses are for the guides of a position alone, whose blocks are on either side by that size. A place of a link moves with the
+# point of its axis that is nearest, and turns about it; a block on a link turns with its axis. Files:
+#   FOLDER/modes    gnuplot assignments: of every mode, in the order of the table, rest_pose[k] and mode_pose[k], the pose at rest and
+#                   the first displaced one; joints and arms, their numbers in a pose; block_held[k] of every slider, which its drive holds;
+#                   and the block $clamps, a line a mode: x, y and direction in degrees of every link that its drive clamps to the ground
+#   FOLDER/joints   an index a pose: x, y, and 1 for a pin, 2 for one that a drive holds
+#   FOLDER/arms     an index a pose: lines from the axis of a link to pins beside it
+# A ground pin where a link is clamped is none of the rows: no pivot is drawn there.
+
+BEGIN {
+    n_parts = split(parts, part, " ")
+    n_cranks = split(cranks, wanted_crank, ",")
+    printf "" > (folder "/joints")
+    printf "" > (folder "/arms")
+}
+
+FILENAME ~ /geometry\.dat$/ {
+    if (/^#/ || NF == 0) next
+    if (!positions || $1 "" != text_of[positions]) { text_of[++positions] = $1 ""; crank_of[positions] = $1 + 0 }
+    k = ++rows[positions]
+    x0[positions, k] = $5 + 0; y0[positions, k] = $6 + 0
+    if (positions > 1) next
+    link[k] = $2 ""; what[k] = $3; place[k] = $4 ""
+    if ($3 == "slider") { blocks[$4]++; slider[++sliders] = $4; on[sliders] = $2 }
+    if ($3 == "spring" || $3 == "damper") spring_end[$4] = 1
+    if ($3 != "pin" && $3 != "point") next
+    if ($2 == "(ground)") { is_ground[$4] = 1; next }
+    if (!(($2, $4) in holds)) { holds[$2, $4] = ++places[$2]; place_of[$2, places[$2]] = $4; links_at[$4]++ }
+    next
+}
+
+FILENAME ~ /echo\.deck$/ {
+    sub(/ *!.*/, "")
+    if ($1 == "WELD") apart[$2] -= NF - 3
+    if ($1 == "SLIDER" && NF >= 4 && $4 !~ /=/) apart[$2]--
+    if ($1 != "DRIVE") next
+    for (i = 3; i <= NF; i++) if ($i == "free") next
+    if ($3 == "against") hold($2, $4)
+    else if (NF < 3 || $3 ~ /=/) clamp($2)
+    else if ($3 != "length") held_block[$2, $3] = 1
+    next
+}
+
+# Names of columns stand above their units, the last line of the head but one.
+/^#/ { if (!stations) for (i = 2; i <= NF; i++) if ($i == "ux") { for (k = 2; k <= NF; k++) at[$k] = k - 1 }; next }
+NF == 0 || !same($at["speed"], speed) || index("," modes ",", "," ($at["mode"] + 0) ",") == 0 || !is_wanted($at["crank"]) { next }
+
+{
+    key = $at["mode"] " " $at["crank"]
+    if (key != shape) take_shape()
+    shape = key
+    shape_crank = $at["crank"] + 0
+    n = ++stations
+    on_link[n] = $at["link"] ""
+    if (!(on_link[n] in from)) from[on_link[n]] = n
+    to[on_link[n]] = n
+    sx[n] = $at["x"] + 0; sy[n] = $at["y"] + 0; su[n] = $at["ux"] + 0; sv[n] = $at["uy"] + 0
+    moved = sqrt(su[n]^2 + sv[n]^2)
+    if (moved > most) most = moved
+}
+
+END {
+    take_shape()
+    if (n_cranks == 1 && shapes) { limits(-size); limits(size) }
+    write_facts()
+}
+
+function is_wanted(crank,    i) {
+    for (i = 1; i <= n_cranks; i++) if (same(crank, wanted_crank[i])) return 1
+    return 0
+}
+
+# Drives that are not free hold what they drive.
+function clamp(name,    k, p) {
+    for (k = 1; k <= places[name]; k++) {
+        p = place_of[name, k]
+        if (!(p in is_ground) || p in clamped) continue
+        clamped[p] = name ""
+        apart[p]--
+        clamp_at[++clamps] = p
+    }
+}
+
+function hold(one, other,    k, p) {
+    for (k = 1; k <= places[one]; k++) {
+        p = place_of[one, k]
+        if (!((other, p) in holds)) continue
+        held[p] = 1
+        apart[p]--
+    }
+}
+
+# Links, blocks and the ground that turn on each other at a pin, or a spring is hooked in there.
+function is_joint(p) { return links_at[p] + blocks[p] + (p in is_ground) + apart[p] > 1 || p in spring_end }
+
+# ---- Modes ----
+
+function take_shape(    position, k, scale) {
+    if (!stations) return
+    for (position = 1; position <= positions; position++) if (same(crank_of[position], shape_crank)) break
+    if (position <= positions) {
+        find_displacements(position)
+        if (!(position in rest)) rest[position] = draw(position, 0)
+        rest_of[++shapes] = rest[position]
+        scale = most > 0 ? size / most : 0
+        for (k = 1; k <= n_parts; k++) {
+            if (k == 1) mode_of[shapes] = poses + 1
+            draw(position, part[k] * scale)
+        }
+        clamp_line[shapes] = clamps_of(position)
+    }
+    stations = most = 0
+    split("", from)
+    split("", to)
+}
+
+function find_displacements(position,    k) {
+    split("", u_of)
+    split("", v_of)
+    for (k = 1; k <= rows[position]; k++) {
+        if (what[k] != "pin" && what[k] != "point" || link[k] == "(ground)") continue
+        if (!(link[k] in from)) continue
+        nearest(link[k], x0[position, k], y0[position, k])
+        is_beside[k] = beside > 1e-6 * size
+        u_of[place[k]] = place[k] in is_ground ? 0 : near_u
+        v_of[place[k]] = place[k] in is_ground ? 0 : near_v
+    }
+    for (k = 1; k <= rows[position]; k++) {
+        turns[k] = what[k] == "ahead" && link[k] in from
+        if (!turns[k]) continue
+        nearest(link[k], x0[position, k - 1], y0[position, k - 1])
+        way_x[k] = near_x; way_y[k] = near_y; way_u[k] = slope_u; way_v[k] = slope_v
+    }
+}
+
+# Of the axis of a link, the point nearest to x y: how x y moves with it, and its direction with the change of that.
+function nearest(name, x, y,    i, dx, dy, long, t, away, turn) {
+    beside = -1
+    for (i = from[name]; i < to[name]; i++) {
+        dx = sx[i + 1] - sx[i]; dy = sy[i + 1] - sy[i]
+        long = sqrt(dx * dx + dy * dy)
+        if (long < 1e-9 * size) continue
+        t = ((x - sx[i]) * dx + (y - sy[i]) * dy) / (long * long)
+        t = t < 0 ? 0 : t > 1 ? 1 : t
+        away = sqrt((x - sx[i] - t * dx)^2 + (y - sy[i] - t * dy)^2)
+        if (beside >= 0 && away >= beside) continue
+        beside = away
+        near_x = dx / long; near_y = dy / long
+        slope_u = (su[i + 1] - su[i]) / long; slope_v = (sv[i + 1] - sv[i]) / long
+        turn = near_x * slope_v - near_y * slope_u
+        near_u = su[i] + t * (su[i + 1] - su[i]) - turn * (y - sy[i] - t * dy)
+        near_v = sv[i] + t * (sv[i + 1] - sv[i]) + turn * (x - sx[i] - t * dx)
+    }
+}
+
+# ---- Poses ----
+
+function draw(position, scale,    k, x, y, c, s, size_of) {
+    poses++
+    if (poses > 1) { printf "\n\n" > (folder "/joints"); printf "\n\n" > (folder "/arms") }
+    split("", is_marked)
+    joints = arms = 0
+    for (k = 1; k <= rows[position]; k++) {
+        x = x0[position, k] + scale * u_of[place[k]]
+        y = y0[position, k] + scale * v_of[place[k]]
+        if (what[k] == "ahead") {
+            c = 1; s = 0
+            if (turns[k]) {
+                c = 1 + scale * (way_x[k] * way_u[k] + way_y[k] * way_v[k])
+                s = scale * (way_x[k] * way_v[k] - way_y[k] * way_u[k])
+                size_of = sqrt(c * c + s * s)
+                c /= size_of; s /= size_of
+            }
+            x += (c - 1) * (x0[position, k] - x0[position, k - 1]) - s * (y0[position, k] - y0[position, k - 1])
+            y += s * (x0[position, k] - x0[position, k - 1]) + (c - 1) * (y0[position, k] - y0[position, k - 1])
+        }
+        row(k, x, y)
+        if (what[k] != "ahead" && what[k] != "side" && !is_marked[place[k]]++ && (place[k] in held || is_joint(place[k]))) {
+            joints++
+            printf "%.9g %.9g %d\n", x, y, place[k] in held ? 2 : 1 > (folder "/joints")
+        }
+        if (is_beside[k] && (what[k] == "pin" || place[k] in spring_end)) { arm(x, y, from[link[k]], scale); arm(x, y, to[link[k]], scale) }
+    }
+    return poses
+}
+
+function row(k, x, y) {
+    if (link[k] == "(ground)" && place[k] in clamped) return
+    print poses, link[k], what[k], place[k], sprintf("%.12g %.12g", x, y)
+}
+
+function arm(x, y, i, scale) {
+    arms++
+    printf "%.9g %.9g\n%.9g %.9g\n\n", x, y, sx[i] + scale * su[i], sy[i] + scale * sv[i] > (folder "/arms")
+}
+
+# Blocks on guides, farther along them.
+function limits(shift,    k, there, way) {
+    poses++
+    for (k = 1; k <= rows[1]; k++) {
+        there = what[k] == "slider" ? k + 1 : what[k] == "ahead" ? k : 0
+        if (places[link[k]]) there = 0
+        way = there ? sqrt((x0[1, there] - x0[1, there - 1])^2 + (y0[1, there] - y0[1, there - 1])^2) : 1
+        row(k, x0[1, k] + (there ? shift * (x0[1, there] - x0[1, there - 1]) / way : 0), \
+            y0[1, k] + (there ? shift * (y0[1, there] - y0[1, there - 1]) / way : 0))
+    }
+}
+
+# A wall is at a right angle to the way into its link, at a corner to that between both parts.
+function clamps_of(position,    n, i, k, p, text) {
+    for (n = 1; n <= clamps; n++) {
+        p = clamp_at[n]
+        for (k = 1; place[k] != p; k++) { }
+        ways_x = ways_y = last_x = 0
+        last_y = 1
+        for (i = from[clamped[p]]; i <= to[clamped[p]] && clamped[p] in from; i++) {
+            if (sqrt((sx[i] - x0[position, k])^2 + (sy[i] - y0[position, k])^2) > 1e-9 * size) continue
+            if (i > from[clamped[p]]) toward(i, i - 1)
+            if (i < to[clamped[p]]) toward(i, i + 1)
+        }
+        if (ways_x^2 + ways_y^2 < 0.01) { ways_x = -last_y; ways_y = last_x }
+        text = text sprintf(" %.9g %.9g %.9g", x0[position, k], y0[position, k], atan2(ways_y, ways_x) * 180 / atan2(0, -1))
+    }
+    return text
+}
+
+function toward(i, k,    long) {
+    long = sqrt((sx[k] - sx[i])^2 + (sy[k] - sy[i])^2)
+    if (long < 1e-9 * size) return
+    last_x = (sx[k] - sx[i]) / long
+    last_y = (sy[k] - sy[i]) / long
+    ways_x += last_x
+    ways_y += last_y
+}
+
+function write_facts(    file, k) {
+    file = folder "/modes"
+    printf "joints = %d; arms = %d; clamps = %d; helds = 0; array block_held[%d]; array rest_pose[%d]; array mode_pose[%d]\n", \
+        joints, arms, clamps, sliders + 1, shapes + 1, shapes + 1 > file
+    for (k = 1; k <= sliders; k++) printf "block_held[%d] = %d; helds = helds + block_held[%d]\n", k, (slider[k], on[k]) in held_block, k > file
+    for (k in held) print "helds = helds + 1" > file
+    for (k = 1; k <= shapes; k++) printf "rest_pose[%d] = %d; mode_pose[%d] = %d\n", k, rest_of[k], k, mode_of[k] > file
+    print "$clamps << EOD" > file
+    for (k = 1; k <= shapes; k++) print (clamps ? substr(clamp_line[k], 2) : "-") > file
+    print "EOD" > file
+    close(file)
+}
+
+function same(a, b) { return (a - b)^2 <= 1e-18 * (1 + b * b) }
