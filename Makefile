@@ -246,7 +246,7 @@ found   := $(wildcard src/*.f90 src/*/*.f90 src/*/*/*.f90)
 sources := $(filter-out $(addprefix %/,$(notdir $(instead))),$(found)) $(instead)
 modules := $(patsubst %.f90,$(build)/%.o,$(filter-out main.f90,$(notdir $(sources))))
 # What only tests use; the first is one of the modules of the quadruple build.
-test_modules := $(filter-out $(modules),$(build)/symmetric_eigensolver.o) $(build)/computed_decks.o $(build)/total_reactions.o $(build)/response_cases.o $(build)/sample_linkages.o
+test_modules := $(filter-out $(modules),$(build)/symmetric_eigensolver.o) $(build)/computed_decks.o $(build)/total_reactions.o $(build)/response_cases.o $(build)/sample_linkages.o $(build)/part_samples.o
 # Of two files of one name the first is meant.
 vpath %.f90 $(sort $(dir $(instead))) $(sort $(dir $(sources))) tests/quad $(support)
 
@@ -342,7 +342,7 @@ used = $(shell sed -n 's/^ *use  *\([a-z0-9_]*\).*/\1/p' $(1))
 uses = $(filter $(modules) $(test_modules),$(patsubst %,$(build)/%.o,$(call used,$(1))))
 objects = $(foreach way,funit pfunit,$(build)/$(way)/$(basename $(notdir $(1))).o)
 $(foreach file,$(test_files),$(eval $(call objects,$(file)): $(call uses,$(file))))
-$(foreach part,computed_decks total_reactions response_cases sample_linkages,$(eval $(build)/$(part).o: $(call uses,$(support)/$(part).f90)))
+$(foreach part,computed_decks total_reactions response_cases sample_linkages part_samples,$(eval $(build)/$(part).o: $(call uses,$(support)/$(part).f90)))
 
 $(build)/funit/test_%.o: $(build)/funit/test_%.F90 $(build)/funit/funit.o $(build)/command
 	@echo "$(FC) ($(kind)) test_$*"

@@ -9,7 +9,7 @@ load plots."drawing.gp"
 eval answer(table, "facts")
 pictures = 40
 parts = ""
-do for [picture=1:pictures] { parts = parts.sprintf(" %.9g", sin(2*pi*(picture - 1)/pictures)) }
+do for [picture=1:pictures] { parts = parts.sprintf(" %.17g", sin(2*pi*(picture - 1)/pictures)) }
 load plots."mode_page.gp"
 do for [picture=1:pictures] {
     if (picture == 1) { eval mode_frame } else { eval open_page(page_width, page_height) }

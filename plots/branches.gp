@@ -25,7 +25,7 @@ positions = words(answer(table, "distinct crank"))
 line(k) = high_branch <= 16 ? int(word(branches, k)) : k
 event(kind, value) = $1 == kind ? value : NaN
 
-headline = numbered(figure, sprintf("Branches of natural frequencies against crank angle, %s", at_speed(speed, unit_speed)))
+headline = numbered(figure, sprintf("Branches of natural frequencies %s, %s", against_position(unit_crank), at_speed(speed, unit_speed)))
 note = low < 0 ? divergence : ""
 explained = (veerings > 0 ? "; veering: two branches approach, then part with their shapes exchanged" : "").\
     (ambiguous > 0 ? "; ambiguous: shapes do not decide which branch continues, a new one begins" : "")
@@ -109,7 +109,9 @@ do for [place=1:panels] {
     set tmargin at screen up(base + panel_height)
     set key at screen across(key_left), up(base + panel_height)
     if (place > 1) { do for [label=901:904] { unset label label } }
+    bare = place < panels
     eval crank_axis(low_crank, high_crank)
+    bare = 0
     if (place < panels) { set format x ""; set xlabel "" } else { set format x "%h" }
     eval value_axis(low_of[panel], high_of[panel], panel_height)
     eval axis_title(title_of(panel), base, panel_height)

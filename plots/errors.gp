@@ -22,7 +22,7 @@ if (top - bottom < 2) { top = bottom + 2 }
 pick(name) = same(field("speed"), speed) ? (field(name) > 0 ? field(name) : 10.0**bottom) : NaN
 
 positions = rows/words(answer(table, "distinct speed"))
-headline = numbered(figure, sprintf("Estimated errors of the natural frequencies against crank angle, %s", at_speed(speed, unit_speed)))
+headline = numbered(figure, sprintf("Estimated errors of the natural frequencies %s, %s", against_position(unit_crank), at_speed(speed, unit_speed)))
 note = zeros ? "on the lower edge: no error" : ""
 
 lower = foot(lines_of_notes(note, remark))

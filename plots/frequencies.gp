@@ -14,7 +14,7 @@ highest = word(range, 2) + 0.0
 pick(name) = same(field("speed"), speed) ? field(name) : NaN
 
 positions = rows/words(answer(table, "distinct speed"))
-headline = numbered(figure, sprintf("Natural frequencies against crank angle, %s", at_speed(speed, unit_speed)))
+headline = numbered(figure, sprintf("Natural frequencies %s, %s", against_position(unit_crank), at_speed(speed, unit_speed)))
 note = lowest < 0 ? divergence : ""
 
 eval page_of_one(modes, text_width(sprintf("mode %d", modes), 20), "natural frequency", unit_f1, lowest, highest)

@@ -16,7 +16,7 @@ pick(k, value) = same(field("speed"), word(speeds, k) + 0) ? value : NaN
 lowest = value("low_".name)
 highest = value("high_".name)
 positions = rows/n
-headline = numbered(figure, sprintf("%s natural frequency against crank angle", capital(ordinal(mode))))
+headline = numbered(figure, capital(ordinal(mode))." natural frequency ".against_position(unit_crank))
 note = lowest < 0 ? divergence."; it has no change in percent" : ""
 lower = foot(lines_of_notes(note, remark))
 speed_text(k) = sprintf("%.5g %s", word(speeds, k) + 0, typeset(unit_speed))
@@ -33,8 +33,10 @@ title_below = sprintf("change against %.5g %s [%s]", reference, typeset(unit_spe
 eval legend_page(1150, n + 1, longest, larger(value_width(lowest, highest, 500), value_width(least, most, 280)), \
     larger(planned_lines(title_above, 500), planned_lines(title_below, 280)))
 eval heading
+bare = 1
 eval crank_axis(low_crank, high_crank)
-set key title "crank speed ω₂" left
+bare = 0
+set key title speed_name left
 gap = 30
 below = 0.36*(@panel_room - lower - gap)            # the height of the lower panel
 above = @panel_room - lower - gap - below

@@ -5,8 +5,8 @@
 # Behind them two poses are for the guides of a position alone, whose blocks are on either side by that size. A place of a link moves with the
 # point of its axis that is nearest, and turns about it; a block on a link turns with its axis. Files:
 #   FOLDER/modes    gnuplot assignments: of every mode, in the order of the table, rest_pose[k] and mode_pose[k], the pose at rest and
-#                   the first displaced one; joints and arms, their numbers in a pose; block_held[k] of every slider, which its drive holds;
-#                   and the block $clamps, a line a mode: x, y and direction in degrees of every link that its drive clamps to the ground
+#                   the first displaced one; joints and arms, their numbers in a pose; helds, that of joints and blocks which drives hold, block_held[k] of
+#                   every slider; and the block $clamps, a line a mode: x, y and direction in degrees of every link that its drive clamps to the ground
 #   FOLDER/joints   an index a pose: x, y, and 1 for a pin, 2 for one that a drive holds
 #   FOLDER/arms     an index a pose: lines from the axis of a link to pins beside it
 # A ground pin where a link is clamped is none of the rows: no pivot is drawn there.
@@ -237,12 +237,13 @@ function toward(i, k,    long) {
     ways_y += last_y
 }
 
-function write_facts(    file, k) {
+function write_facts(    file, k, helds) {
     file = folder "/modes"
-    printf "joints = %d; arms = %d; clamps = %d; helds = 0; array block_held[%d]; array rest_pose[%d]; array mode_pose[%d]\n", \
-        joints, arms, clamps, sliders + 1, shapes + 1, shapes + 1 > file
-    for (k = 1; k <= sliders; k++) printf "block_held[%d] = %d; helds = helds + block_held[%d]\n", k, (slider[k], on[k]) in held_block, k > file
-    for (k in held) print "helds = helds + 1" > file
+    for (k in held) helds++
+    for (k = 1; k <= sliders; k++) helds += (slider[k], on[k]) in held_block
+    printf "joints = %d; arms = %d; clamps = %d; helds = %d; array block_held[%d]; array rest_pose[%d]; array mode_pose[%d]\n", \
+        joints, arms, clamps, helds, sliders + 1, shapes + 1, shapes + 1 > file
+    for (k = 1; k <= sliders; k++) printf "block_held[%d] = %d\n", k, (slider[k], on[k]) in held_block > file
     for (k = 1; k <= shapes; k++) printf "rest_pose[%d] = %d; mode_pose[%d] = %d\n", k, rest_of[k], k, mode_of[k] > file
     print "$clamps << EOD" > file
     for (k = 1; k <= shapes; k++) print (clamps ? substr(clamp_line[k], 2) : "-") > file

@@ -147,6 +147,8 @@ drive_quantity(unit) = driven_word(2) eq "against" ? "angle of ".drive_subject."
     : unit eq "deg" ? (drive_subject eq "crank" ? "crank angle" : "angle of ".drive_subject) \
     : driven_word(2) eq "length" ? "length of ".drive_subject : "place of ".drive_subject." along ".driven_word(2)
 crank_title(unit) = by_law ? "time [".unit."]" : (of_cycle ? drive_quantity(unit) : "crank angle θ₂")." [".typeset(unit)."]"
+against_position(unit) = "against ".(of_cycle ? drive_quantity(unit) : "crank angle")
+speed_name = of_cycle && drive_subject ne "crank" ? "speed of ".drive_subject : of_cycle ? "crank speed" : "crank speed ω₂"
 numbered(figure, text) = figure eq "" ? text : "Figure ".figure.".  ".text
 divergence = "below zero: −√(−ω²)/2π of a mode that has diverged (static instability)"
 cut(text, n) = strlen(text) <= n ? text : text[1 : n - 1]."…"

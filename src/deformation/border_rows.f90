@@ -196,8 +196,8 @@ contains
     type(link_modes_t), intent(in) :: link !! its ends
     real(wp), intent(in) :: length         !! [m]
     real(wp), intent(in) :: axis(2)        !! its direction
-    real(wp) :: rows(6, 1 + link%curves)   !! (displacements of its first point, of its last, rotation
-                                           !! of its first end, of its last; elongation, curves)
+    real(wp) :: rows(6, 1 + link%curves)   !! (displacements of its first point, of its last,
+                                           !! rotations of both ends; elongation, curves)
 
     real(wp) :: chord(4)
     integer :: i

@@ -12,7 +12,7 @@ module drive_rates
   implicit none (type, external)
   private
 
-  public :: find_drive_rates, own_drive_rates, slide_of
+  public :: find_drive_rates, own_drive_rates, slide_of, turn_of_end, end_at_joint
 
 contains
 
@@ -53,20 +53,16 @@ contains
     integer, intent(in) :: body, other
     real(wp) :: turn(size(chords%turn, 1))
 
-    real(wp), allocatable :: slopes(:)
-    integer :: i, part, end
+    integer :: part, end
 
     call find_joint_end(linkage, elastic, body, other, part, end)
     if (elastic%rotation(end, part) > 0) then
       turn = chords%rotation(elastic%rotation(end, part), :)
-      return
+    else if (elastic%linkage%bodies(part)%bends) then
+      turn = turn_of_end(links(part), chords, part, end)
+    else
+      turn = chords%turn(:, part)
     end if
-    turn = chords%turn(:, part)
-    if (.not. elastic%linkage%bodies(part)%bends) return
-    slopes = end_slopes(links(part), end)
-    do i = 1, links(part)%curves
-      turn = turn + slopes(i)*chords%across(2 + i, :, part)
-    end do
   end function turn_at_joint
 
   !> The part of a link that is joined to another, or to the ground, and its end there.
@@ -77,14 +73,24 @@ contains
     integer, intent(out) :: part, end
 
     do part = findloc(elastic%body, body, dim=1), findloc(elastic%body, body, dim=1, back=.true.)
-      do end = 1, 2
-        associate (here => elastic%linkage%bodies(part))
-          if (is_joint(merge(here%first_pin, here%last_pin, end == 1))) return
-        end associate
-      end do
+      end = end_at_joint(linkage, elastic, part, other)
+      if (end > 0) return
     end do
     part = findloc(elastic%body, body, dim=1)
     end = 1
+  end subroutine find_joint_end
+
+  !> The end of a part where its link is joined to another one, or to the ground.
+  pure function end_at_joint(linkage, elastic, part, other) result(number)
+    type(linkage_t), intent(in) :: linkage         !! that moves: pins of its links
+    type(elastic_linkage_t), intent(in) :: elastic !! its parts
+    integer, intent(in) :: part                    !! number
+    integer, intent(in) :: other                   !! number of the link; 0: the ground
+    integer :: number                              !! 1: the first, 2: the last; 0: none
+
+    number = 0
+    if (is_joint(elastic%linkage%bodies(part)%last_pin)) number = 2
+    if (is_joint(elastic%linkage%bodies(part)%first_pin)) number = 1
 
   contains
 
@@ -100,7 +106,7 @@ contains
       end if
     end function is_joint
 
-  end subroutine find_joint_end
+  end function end_at_joint
 
   !> Rotations of an end of a part that bends against its chord: of curves, then own modes.
   pure function end_slopes(link, end) result(slopes)
@@ -143,6 +149,25 @@ contains
       end associate
     end do
   end function own_drive_rates
+
+  !> Rotation of a hinged end of a part that bends: that of its chord, and what the curves of the
+  !! other end add.
+  pure function turn_of_end(link, chords, part, number) result(turn)
+    type(link_modes_t), intent(in) :: link   !! of the part
+    type(chords_t), intent(in) :: chords     !! what some displacements do to it
+    integer, intent(in) :: part              !! its number in these
+    integer, intent(in) :: number            !! 1: the first end, 2: the last
+    real(wp) :: turn(size(chords%turn, 1))   !! (displacements)
+
+    real(wp) :: slopes(link%curves + link%modes)
+    integer :: i
+
+    turn = chords%turn(:, part)
+    slopes = end_slopes(link, number)
+    do i = 1, link%curves
+      turn = turn + slopes(i)*chords%across(2 + i, :, part)
+    end do
+  end function turn_of_end
 
   !> Slide of a block along the line of its guide.
   pure function slide_of(elastic, pose, chords, slider) result(along)

@@ -37,6 +37,8 @@ module part_forces
                                               !! of y [√J]
     real(wp), allocatable :: constraint(:, :) !! (constraints, cases) multipliers [N]
     real(wp), allocatable :: spring(:, :)     !! (springs, cases) [N] or [N m]
+    real(wp), allocatable :: drive(:, :)      !! (drives, cases) of free ones; 0 of others [N m] or
+                                              !! [N]
   end type part_forces_t
 
   !> What own modes of a part do to the joints of free drives.
@@ -60,6 +62,7 @@ contains
     type(chords_t) :: of_constraints
     type(own_rates_t) :: on_own(size(links))
     real(wp), allocatable :: on_drives(:, :), drives_of_constraints(:, :), held(:), compliance(:, :)
+    integer, allocatable :: free(:)
     real(wp) :: work(size(chords%turn, 1)), weighted(size(border%rows%weight)), &
       lambda(border%numbers%constraints), mean
     integer :: i, j, k, n
@@ -77,6 +80,8 @@ contains
     allocate (forces%constraint(border%numbers%constraints, case_count), source=0.0_wp)
     forces%guide = 0.0_wp
     forces%spring = 0.0_wp
+    allocate (forces%drive(size(linkage%drives), case_count), source=0.0_wp)
+    free = pack([(i, i=1, size(linkage%drives))], linkage%drives%is_free)
     if (.not. any(loads%unit%occurs)) return
     of_constraints = chords_of(elastic, links, pose, border%numbers, border%basis%violation, &
       border%basis%weighted_violation)
@@ -93,6 +98,7 @@ contains
         if (size(on_drives, 1) > 0) then
           held = held_by_drives(on_drives(:, :n), on_drives(:, n + 1:), work, compliance, &
             own_turns(elastic, links, pose, case, on_own))
+          forces%drive(free, i) = held
           work = work + matmul(held, on_drives)
           lambda = lambda + matmul(held, drives_of_constraints)
         end if
@@ -104,7 +110,7 @@ contains
         do k = 1, size(links)
           if (.not. elastic%linkage%bodies(k)%bends) then
             forces%axial(1, k, i) = turning_load(elastic, pose, case, k, lambda, border, &
-              loads, weighted, merge(1.0_wp, 0.0_wp, i == case_count))/ &
+              loads, weighted, forces%drive(:, i), merge(1.0_wp, 0.0_wp, i == case_count))/ &
               elastic%linkage%bodies(k)%length
             cycle
           end if
@@ -161,7 +167,7 @@ contains
 
   !> `Σ F·r` of a rigid link, r from its first point: forces at its points, of blocks on it, and
   !! its loads [N m].
-  pure function turning_load(elastic, pose, case, part, lambda, border, loads, weighted, &
+  pure function turning_load(elastic, pose, case, part, lambda, border, loads, weighted, drive, &
     constant) result(total)
     type(elastic_linkage_t), intent(in) :: elastic
     type(pose_t), intent(in) :: pose
@@ -171,6 +177,7 @@ contains
     type(border_t), intent(in) :: border
     type(part_loads_t), intent(in) :: loads
     real(wp), intent(in) :: weighted(:) !! (rows)
+    real(wp), intent(in) :: drive(:)    !! (drives) of free ones
     real(wp), intent(in) :: constant    !! 1 of loads that are there at rest, else 0
     real(wp) :: total
 
@@ -198,6 +205,13 @@ contains
         if (elastic%linkage%sliders(k)%body /= elastic%body(part)) cycle
         arm = pose%pin(:, elastic%linkage%sliders(k)%pin) - pose%pin(:, body%first_pin)
         total = total + lambda(row)*dot_product(line_direction(elastic, pose, k), arm)
+      end do
+      do i = 1, size(drive)
+        k = elastic%linkage%drives(i)%slider
+        if (k == 0 .or. .not. elastic%linkage%drives(i)%is_free) cycle
+        if (elastic%linkage%sliders(k)%body /= elastic%body(part)) cycle
+        arm = pose%pin(:, elastic%linkage%sliders(k)%pin) - pose%pin(:, body%first_pin)
+        total = total - drive(i)*dot_product(line_direction(elastic, pose, k), arm)
       end do
       total = total - inertia_turning(elastic, pose, case, part)
       if (allocated(body%forced) .and. allocated(case%place_force)) then

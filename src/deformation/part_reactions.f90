@@ -6,20 +6,23 @@
 module part_reactions
   use acceleration_fields, only: acceleration_field_t
   use border_loads, only: border_work
-  use border_rows, only: line_direction, part_rows
+  use border_rows, only: part_rows
+  use drive_rates, only: end_at_joint, turn_of_end
   use elastic_linkages, only: elastic_linkage_t
-  use inertia_loads, only: distributed_load, load_t
+  use inertia_loads, only: load_t
   use joint_forces, only: joint_forces_t
   use kinds, only: wp
   use link_modes, only: link_modes_t
-  use linkages, only: body_t, cross, linkage_t, normal_to
+  use linkages, only: drives_angle, linkage_t, normal_to
   use load_cases, only: load_case_t
+  use part_couples, only: find_part_couples
   use part_displacements, only: border_t
   use part_forces, only: part_forces_t
   use part_poses, only: part_loads_t
   use pin_displacements, only: chords_t
-  use pose_types, only: arm_to_pin, pins_of_body
+  use pose_types, only: pins_of_body
   use poses, only: pose_t
+  use rigid_part_loads, only: load_on_rigid
   implicit none (type, external)
   private
 
@@ -47,13 +50,13 @@ contains
     do k = 1, size(links)
       on_part(:, k) = 0.0_wp
       if (elastic%linkage%bodies(k)%bends) on_part(:, k) = on_ends(elastic, links(k), k, pose, &
-        loads%unit%of_case(case), border, forces%weighted(:, case))
+        loads%unit%of_case(case), border, forces%weighted(:, case), torques_of_drives(linkage, &
+        elastic, k, forces%drive(:, case)))
     end do
     further = 0
     do b = 1, size(linkage%bodies)
       do i = 1, 2 + size(linkage%bodies(b)%further)
-        force = force_on_link(linkage, elastic, pose, loads%unit%of_case(case), border, &
-          forces%constraint(:, case), on_part, b, i)
+        force = force_on_link(linkage, elastic, pose, loads, border, forces, case, on_part, b, i)
         if (i == 1) then
           joints%on_first(:, b) = force
         else if (i == 2) then
@@ -65,28 +68,13 @@ contains
       further = further + size(linkage%bodies(b)%further)
     end do
     if (allocated(joints%guide)) joints%guide = forces%guide(:, case)
-    do i = 1, size(linkage%turns)
-      associate (turn => linkage%turns(i))
-        joints%couple(i) = moment_at(elastic, on_part, turn%body, turn%pin)
-        if (turn%against > 0 .and. .not. linkage%bodies(turn%body)%bends) joints%couple(i) = &
-          -moment_at(elastic, on_part, turn%against, pin_of_turn(elastic, turn%slider, turn%pin))
-      end associate
-    end do
+    if (allocated(joints%couple)) call find_part_couples(linkage, elastic, pose, loads, border, &
+      forces, case, on_part, joints)
   end subroutine take_part_reactions
 
-  !> The point where a link turns with the other one: under its block on a link that bends.
-  pure function pin_of_turn(elastic, slider, pin) result(point)
-    type(elastic_linkage_t), intent(in) :: elastic
-    integer, intent(in) :: slider, pin
-    integer :: point
-
-    point = pin
-    if (slider == 0) return
-    if (elastic%contact(slider) > 0) point = elastic%contact(slider)
-  end function pin_of_turn
-
   !> Forces on both ends of a part that bends, and moments: as the displacements of `part_rows`.
-  pure function on_ends(elastic, link, part, pose, case, border, weighted) result(on_part)
+  pure function on_ends(elastic, link, part, pose, case, border, weighted, torque) &
+    result(on_part)
     type(elastic_linkage_t), intent(in) :: elastic
     type(link_modes_t), intent(in) :: link
     integer, intent(in) :: part
@@ -94,6 +82,7 @@ contains
     type(load_case_t), intent(in) :: case
     type(border_t), intent(in) :: border
     real(wp), intent(in) :: weighted(:)
+    real(wp), intent(in) :: torque(2) !! of drives on its hinged ends [N m]
     real(wp) :: on_part(6)
 
     type(linkage_t) :: alone
@@ -119,7 +108,35 @@ contains
     its_pose%direction = pose%direction(:, part:part)
     chords = own_chords(rows, pose%direction(:, part), elastic%linkage%bodies(part)%length)
     on_part = on_part - border_work(alone, [link], chords, its_pose, its_case)
+    do i = 1, 2
+      if (abs(torque(i)) > 0.0_wp) on_part = on_part - torque(i)*turn_of_end(link, chords, 1, i)
+    end do
   end function on_ends
+
+  !> Torques of free drives on the hinged ends of a part; those of ends that are held act on their
+  !! rotations.
+  pure function torques_of_drives(linkage, elastic, part, drive) result(torque)
+    type(linkage_t), intent(in) :: linkage
+    type(elastic_linkage_t), intent(in) :: elastic
+    integer, intent(in) :: part
+    real(wp), intent(in) :: drive(:) !! (drives) [N m] or [N]
+    real(wp) :: torque(2)
+
+    integer :: i, k, number, links(2)
+
+    torque = 0.0_wp
+    do i = 1, size(drive)
+      if (linkage%drives(i)%kind /= drives_angle .or. .not. linkage%drives(i)%is_free) cycle
+      links = [linkage%drives(i)%body, linkage%drives(i)%against]
+      do k = 1, 2
+        if (elastic%body(part) /= links(k)) cycle
+        number = end_at_joint(linkage, elastic, part, links(3 - k))
+        if (number == 0) cycle
+        if (elastic%rotation(number, part) == 0) torque(number) = torque(number) + &
+          merge(1.0_wp, -1.0_wp, k == 1)*drive(i)
+      end do
+    end do
+  end function torques_of_drives
 
   !> What the displacements of `part_rows` do to the part.
   pure function own_chords(rows, axis, length) result(chords)
@@ -144,14 +161,15 @@ contains
   end function own_chords
 
   !> Force on a link at one of its pins.
-  pure function force_on_link(linkage, elastic, pose, case, border, lambda, on_part, body, number) &
-    result(force)
+  pure function force_on_link(linkage, elastic, pose, loads, border, forces, case, on_part, body, &
+    number) result(force)
     type(linkage_t), intent(in) :: linkage
     type(elastic_linkage_t), intent(in) :: elastic
     type(pose_t), intent(in) :: pose
-    type(load_case_t), intent(in) :: case
+    type(part_loads_t), intent(in) :: loads
     type(border_t), intent(in) :: border
-    real(wp), intent(in) :: lambda(:)
+    type(part_forces_t), intent(in) :: forces
+    integer, intent(in) :: case
     real(wp), intent(in) :: on_part(:, :)
     integer, intent(in) :: body, number
     real(wp) :: force(2)
@@ -172,44 +190,15 @@ contains
     k = findloc(elastic%body, body, dim=1)
     if (number > 1) then
       row = border%numbers%body_constraint(k) + 2*(number - 2)
-      force = lambda(row + 1:row + 2)
+      force = forces%constraint(row + 1:row + 2, case)
       return
     end if
-    load = distributed_load(elastic%linkage%bodies(k), k, pose, case%field)
+    load = load_on_rigid(linkage, elastic, pose, loads, border, forces, case, k)
     force = -load%force
-    if (allocated(case%body_force)) force = force - case%body_force(:, k)
     do i = 2, size(pins)
       row = border%numbers%body_constraint(k) + 2*(i - 2)
-      force = force - lambda(row + 1:row + 2)
-    end do
-    do i = 1, size(linkage%sliders)
-      row = border%numbers%line_constraint(i)
-      if (linkage%sliders(i)%body == body .and. row > 0) force = force - &
-        lambda(row)*normal_to(line_direction(elastic, pose, i))
-    end do
-    do i = 1, size(linkage%drives)
-      row = border%numbers%drive_constraint(i)
-      if (row == 0) cycle
-      if (linkage%sliders(linkage%drives(i)%slider)%body == body) force = force - &
-        lambda(row)*line_direction(elastic, pose, linkage%drives(i)%slider)
+      force = force - forces%constraint(row + 1:row + 2, case)
     end do
   end function force_on_link
-
-  !> Moment on the ends of a link that bends at a point.
-  pure function moment_at(elastic, on_part, body, point) result(moment)
-    type(elastic_linkage_t), intent(in) :: elastic
-    real(wp), intent(in) :: on_part(:, :)
-    integer, intent(in) :: body, point
-    real(wp) :: moment
-
-    integer :: k
-
-    moment = 0.0_wp
-    do k = 1, size(elastic%body)
-      if (elastic%body(k) /= body) cycle
-      if (elastic%linkage%bodies(k)%first_pin == point) moment = moment + on_part(5, k)
-      if (elastic%linkage%bodies(k)%last_pin == point) moment = moment + on_part(6, k)
-    end do
-  end function moment_at
 
 end module part_reactions

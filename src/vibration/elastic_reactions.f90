@@ -1,7 +1,7 @@
 !> Forces in the joints of linkages with more links than needed, which their elasticity divides.
 module elastic_reactions
   use deformation_model, only: deformation_model_t, new_deformation_model
-  use errors, only: error_t
+  use errors, only: error_of_input, error_t, set_error
   use kinematic_coefficients, only: kinematic_coefficients_t
   use load_cases, only: case_count, find_unit_loads
   use part_displacements, only: find_part_chords
@@ -12,6 +12,7 @@ module elastic_reactions
   use poses, only: pose_t
   use position_assembly, only: assembled_t, new_assembled, place_parts, set_border
   use reactions, only: unit_reactions_t
+  use redundancies, only: body_of_redundancy
   use structures, only: structure_t
   use kinds, only: wp
   implicit none (type, external)
@@ -53,7 +54,8 @@ contains
 
   !> Puts the forces by elasticity in place of those of statics.
   !!
-  !! Errors: those of `place_parts` and `find_part_chords`.
+  !! Errors: those of `place_parts` and `find_part_chords`; rigid links alone are more than needed,
+  !! and nothing tells their forces.
   subroutine divide_by_elasticity(structure, model, pose, coefficients, unit, error)
     class(structure_t), intent(in) :: structure                !! of this model
     type(deformation_model_t), intent(in) :: model             !! of `new_elastic_model`
@@ -72,6 +74,12 @@ contains
     call find_part_chords(structure%linkage, here%elastic, here%model%links, here%pose, &
       model%layout%border, model%layout%free, .true., here%border, chords, error)
     if (allocated(error)) return
+    if (here%border%basis%idle_constraints > 0) then
+      call set_error(error, error_of_input, "the forces in links that hold the same pins "// &
+        "cannot be told apart while too many of them are rigid", &
+        body=body_of_redundancy(structure%linkage, 1))
+      return
+    end if
     here%loads = find_unit_loads(structure%linkage, pose, coefficients)
     call find_part_loads(structure%linkage, pose, here%loads, here%elastic, here%pose, &
       here%part_loads)

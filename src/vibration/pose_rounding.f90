@@ -13,7 +13,7 @@ module pose_rounding
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use ledger, only: ledger_t
-  use linkages, only: groups_dyad, linkage_t
+  use linkages, only: groups_by_newton, groups_dyad, linkage_t
   use load_cases, only: case_count
   use poses, only: find_pose, pose_t
   use position_assembly, only: assemble_position, assembled_t, new_assembled
@@ -84,9 +84,10 @@ contains
     ! ε/sin² is known.
     if (any(abs(factor) > 0.0_wp)) least_sine = merge(loaded_near_sine, 1.0_wp, spread <= 1.0_wp)
     ! Links that are more than needed share their loads by their stiffnesses: a change of direction
-    ! counts many times.
+    ! counts many times. So it does in the accelerations of groups that iterations place.
     if (any(abs(factor) > 0.0_wp) .and. allocated(structure%elastic)) then
-      if (size(structure%linkage%redundancies) > 0) least_sine = huge(least_sine)
+      if (size(structure%linkage%redundancies) > 0 .or. any(structure%linkage%groups%kind == &
+        groups_by_newton)) least_sine = huge(least_sine)
     end if
     if (sine >= least_sine) then
       do i = 1, modes

@@ -146,6 +146,8 @@ contains
         result%lambda(:, k) = found(k)%lambda(:request%modes)
         call find_matrix_errors(model, chords, force_sizes(unit_force, factor(:, k)), found(k), &
           request%modes, of_matrices, load_work)
+        if (allocated(structure%elastic) .and. size(unit_force) > 0) load_work = load_work + &
+          second_order_work(work%here, factor(:, k), found(k), request%modes)
         call pose_error(structure, model, state, factor(:, k), load_work, found(k), &
           request%modes, rounding, result%counts)
         of_matrices = of_matrices + found(k)%error(:request%modes)
@@ -239,6 +241,30 @@ contains
       end do
     end do
   end subroutine find_deflection
+
+  !> Bound of what blocks on guides and springs under tension do in modes of unit mass, whatever
+  !! cancels, twice [1/s²].
+  pure function second_order_work(here, factor, found, modes) result(work)
+    type(assembled_t), intent(in) :: here
+    real(wp), intent(in) :: factor(case_count)
+    type(bordered_modes_t), intent(in) :: found
+    integer, intent(in) :: modes
+    real(wp) :: work(modes)
+
+    real(wp), allocatable :: sizes(:, :)
+    integer :: i, n
+
+    n = size(here%part_forces%second_order, 1)
+    allocate (sizes(n, n), source=0.0_wp)
+    do i = 1, case_count
+      sizes = sizes + abs(factor(i)*here%part_forces%second_order(:, :, i))
+    end do
+    do i = 1, modes
+      associate (size_of => abs(found%vector(:n, i)))
+        work(i) = dot_product(size_of, matmul(sizes, size_of))
+      end associate
+    end do
+  end function second_order_work
 
   !> The link of a part.
   pure function link_of(structure, part) result(link)

@@ -6,7 +6,7 @@ import re
 import subprocess
 import sys
 
-from numbers_in_text import Number, Word, error, fixed, rounding
+from numbers_in_text import Number, Word, error, fixed, rough_error, rounding
 from runs import Run
 
 SCRIPT = os.path.join("tests", "linkages", "anchors.py")
@@ -14,6 +14,8 @@ SCRIPT = os.path.join("tests", "linkages", "anchors.py")
 COLUMNS = (("position", "angle"), ("velocity", "omega", "rate"), ("acceleration", "alpha"), ("force", "torque"), ("published",))
 # Rounding grows over the three seconds of the pendulum, differently on different machines.
 SWING_ROUNDING = 1e-11
+# Frequencies against 24 digits.
+EXACT_ROUNDING = 1e-13
 # Likewise the energy over 1,000 turns, and through hundreds of dead points.
 FREE_ROUNDING = 1e-11
 
@@ -38,6 +40,17 @@ class Tables:
             cells = [[found[kind] for kind in kinds if kind in found] for kinds in COLUMNS]
             cells.append([value for kind, value in found.items() if kind.startswith("solver")])
             yield [Word(f"`{name}`"), None] + [error(max(values)) if values else Word("") for values in cells]
+
+    def exact_linkages(self):
+        """The largest errors of f1 to f3 and of f4 and f5, which are rounding, and the largest estimate."""
+        script = os.path.join("tests", "linkages", "exact_frequencies.py")
+        out = subprocess.run([sys.executable, "-B", script, "--program", self._program], capture_output=True, text=True, check=True).stdout
+        for line in out.splitlines():
+            if line.startswith("ok "):
+                name, values = line[3:].split(":")
+                *errors, estimate = [float(value) for value in values.split()]
+                yield [Word(f"`{name}`"), rounding(max(errors[:3]), EXACT_ROUNDING), rounding(max(errors[3:]), EXACT_ROUNDING),
+                       rough_error(estimate)]
 
     def swinging_rods(self):
         """Angles at every half second, and the largest differences from an integration with decimals."""

@@ -82,10 +82,11 @@ sized() {
   done
 }
 
-# Names of many links beside panels that are low.
+# Names of many links beside panels that are low; mode shapes of several positions, blocks and guides.
 other_linkages() {
-  run 0 --quiet --out "$scratch/others" inputs/jansen.deck inputs/toggle_press.deck inputs/squeezer.deck || return 1
-  for deck in jansen toggle_press squeezer; do
+  run 0 --quiet --out "$scratch/others" inputs/jansen.deck inputs/toggle_press.deck inputs/squeezer.deck \
+    inputs/bending_quick_return.deck || return 1
+  for deck in jansen toggle_press squeezer bending_quick_return; do
     whole "$scratch/others/$deck" && whole "$scratch/others/$deck" --size 90x60mm || return 1
   done
 }

@@ -207,6 +207,66 @@ modes_swing() {
   drawn mode animations mode_1_crank_60_speed_0 && gif mode/animations/mode_1_crank_60_speed_0.gif 40
 }
 
+# swung DECK CRANK PARTS: in the first mode at speed 0, as the figures of its shape draw it; facts to the file told.
+swung() {
+  (cd "$scratch/out/$1" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/mode_shapes.sh" "$scratch/$1.linkage" shapes.dat 0 1 "$2" 40 4 "$3") \
+    >"$scratch/told" && grep -q "$4" "$scratch/told" || { cat "$scratch/told"; return 1; }
+}
+
+# joints DECK: of every pose, x, y and kind of its joints, in tenths.
+joints() { awk 'NF { printf "%s%.1f,%.1f,%d", (n++ ? " " : ""), $1, $2, $3 } !NF && n { print ""; n = 0 } END { if (n) print "" }' "$scratch/$1.linkage/joints"; }
+
+# Where a linkage that is no four-bar is clamped, and turns: the pivot is O4 and not where the last link ends. A corner where no other
+# link is joined has no pin (P5), nor the end of an arm; what a drive holds is no pin, and a drive that is free clamps nothing.
+modes_of_linkages() {
+  sed '/^DRIVE/s/ *\(!.*\)*$/ free/; s/^CRANK.*/CRANK 0/' inputs/two_link_arm.deck >"$scratch/loose_arm.deck"
+  run 0 --quiet --out "$scratch/out" inputs/watt_elbows.deck inputs/jansen_frames.deck inputs/bending_quick_return.deck \
+    inputs/two_link_arm.deck "$scratch/loose_arm.deck" inputs/sprung_four_bar.deck || return 1
+  swung watt_elbows 60 "1" '^joints = 6; arms = 0; clamps = 1; helds = 0' && grep -qx '0 0 60' "$scratch/told" &&
+    grep -q "ground_names = ' \"O4\"'" "$scratch/told" || return 1
+  swung jansen_frames 0 "1" '^joints = 6; arms = 0; clamps = 1; helds = 0' && grep -qx '38 7.8 0' "$scratch/told" &&
+    grep -q "ground_names = ' \"B\"'" "$scratch/told" || return 1
+  swung two_link_arm 0 "1" '^joints = 1; arms = 0; clamps = 1; helds = 1' && [ "$(joints two_link_arm | head -n 1)" = 0.5,0.0,2 ] || return 1
+  swung loose_arm 0 "1" '^joints = 2; arms = 0; clamps = 0; helds = 0' && [ "$(joints loose_arm | head -n 1)" = "0.0,0.0,1 0.5,0.0,1" ] || return 1
+  swung sprung_four_bar 60 "0 1" '^springs = 2; spring_kinds = "coil spring"' || return 1
+  # To and fro: the ram stays on its guide, and its pin moves by what its row of the table says; the largest displacement is 40 mm.
+  swung bending_quick_return 90 "1 -1" '^joints = 4; arms = 0; clamps = 1; helds = 0' || return 1
+  awk '!/^#/ && $1 == 0 && $2 == 90 && $3 == 1 {
+      moved = sqrt($9^2 + $10^2)
+      if (moved > most) most = moved
+      if ($5 == "rod") { x = $7; y = $8; u = $9; v = $10 }
+    }
+    END { for (k = 0; k < 3; k++) { part = k == 2 ? -1 : k; printf "%.1f,%.1f,1\n", x + part*u*40/most, y + part*v*40/most } }' \
+    "$scratch/out/bending_quick_return/shapes.dat" >"$scratch/expected"
+  joints bending_quick_return | awk '{ print $NF }' | diff - "$scratch/expected" && grep -q ',140.0,1$' "$scratch/expected" || return 1
+  sed '/crank=0,90,270/s/crank=0,90,270/crank=90/; s/^CRANK.*/CRANK 90/; s/^INERTIA.*/&\nMODES 1/' inputs/bending_quick_return.deck \
+    >"$scratch/ram.deck"
+  run 0 --quiet --out "$scratch/out" "$scratch/ram.deck" || return 1
+  drawn ram animations mode_1_crank_90_speed_0 && gif ram/animations/mode_1_crank_90_speed_0.gif 40
+}
+
+# A curve drawn through rows of the table meets its corners, each of which is there twice, and does not swing out beside them.
+square_corners() {
+  awk -v want="shape 3 0 0" -f plots/tables.awk <"$scratch/out/jansen_frames/shapes.dat" >"$scratch/curves"
+  awk '!/^#/ && $1 == 0 && $2 == 0 && $3 == 3 && $5 == "shank" { if (rows++ && $6 == s) printf "%.9g %.9g %.9g %.9g\n", $7, $8, $9, $10; s = $6 }' \
+    "$scratch/out/jansen_frames/shapes.dat" >"$scratch/corners"
+  [ "$(wc -l <"$scratch/corners")" -eq 2 ] || { cat "$scratch/corners"; return 1; }
+  while read -r x y u v; do
+    awk -v x="$x" -v y="$y" -v u="$u" -v v="$v" '
+      NF && ($1 - x)^2 + ($2 - y)^2 < 1e-12 && ($3 - u)^2 + ($4 - v)^2 < 1e-12 { if (NR == last + 1) twice = 1; last = NR }
+      END { exit !twice }' "$scratch/curves" || { echo "the curve does not meet $x $y twice"; return 1; }
+  done <"$scratch/corners"
+  # At rest a link is straight between its corners, and a corner stops the curve.
+  awk '
+    !NF { n = 0; next }
+    {
+      n++; x[n] = $1; y[n] = $2
+      if (n < 3) next
+      a = x[n - 1] - x[n - 2]; b = y[n - 1] - y[n - 2]; c = x[n] - x[n - 1]; d = y[n] - y[n - 1]
+      if ((a*d - b*c)^2 > 1e-8*(a*a + b*b)*(c*c + d*d)) { print "it bends at", x[n - 1], y[n - 1]; exit 1 }
+    }' "$scratch/curves"
+}
+
 nothing_to_animate() {
   beam_deck "CRANK 60" "REPORT frequencies" >"$scratch/still.deck"
   run 0 --quiet --out "$scratch/out" "$scratch/still.deck" || return 1
@@ -481,6 +541,8 @@ check "links bend as in the table" bent_links
 check "critical speeds of modes" critical_speeds
 check "figures of failed rows, of one position, of names with apostrophes" odd_tables
 check "a mode is animated" modes_swing
+check "modes of other linkages are drawn where they are held" modes_of_linkages
+check "corners of mode shapes" square_corners
 check "nothing to animate" nothing_to_animate
 check "a linkage is placed by the program" placed
 check "a linkage at its dead point" dead_point

@@ -159,18 +159,18 @@ contains
         if (model%links(slider%link)%rigid) cycle
         k = findloc(model%sliders(:i - 1)%link, slider%link, dim=1)
         if (k > 0) call add_error(diagnostics, slider%pin, "a second block on link '"// &
-          model%links(slider%link)%name%text//"', which bends; expected one block, or a rigid "// &
-          "link", model%sliders(k)%pin, "the first block")
+          model%links(slider%link)%name%text//"', which bends; expected one block, or a "// &
+          "rigid link", model%sliders(k)%pin, "the first block")
         k = findloc(model%masses%link, slider%link, dim=1)
         if (k > 0) call add_error(diagnostics, model%masses(k)%place_word, "a mass on link '"// &
-          model%links(slider%link)%name%text//"', which bends under a block; expected a PINMASS "// &
-          "at one of its pins, or a rigid link", slider%pin, "its block")
+          model%links(slider%link)%name%text//"', which bends under a block; expected a "// &
+          "PINMASS at one of its pins, or a rigid link", slider%pin, "its block")
         do k = 1, size(model%processes)
           if (model%processes(k)%kind /= process_force .or. .not. model%processes(k)%on_link) cycle
           if (model%processes(k)%link == slider%link) call add_error(diagnostics, &
             model%processes(k)%place_word, "a force on link '"// &
-            model%links(slider%link)%name%text//"', which bends under a block; expected a FORCE "// &
-            "at one of its pins, or a rigid link", slider%pin, "its block")
+            model%links(slider%link)%name%text//"', which bends under a block; expected a "// &
+            "FORCE at one of its pins, or a rigid link", slider%pin, "its block")
         end do
       end associate
     end do
@@ -188,9 +188,9 @@ contains
       if (model%sliders(i)%turned_link == 0 .or. model%sliders(i)%link == 0) cycle
       if (model%links(model%sliders(i)%link)%rigid) cycle
       call add_warning(diagnostics, model%sliders(i)%turned, "link '"// &
-        model%links(model%sliders(i)%turned_link)%name%text//"' does not turn on a block without "// &
-        "length on link '"//model%links(model%sliders(i)%link)%name%text//"', which bends: what "// &
-        "the moment between them adds to the stiffness is left out")
+        model%links(model%sliders(i)%turned_link)%name%text//"' does not turn on a block "// &
+        "without length on link '"//model%links(model%sliders(i)%link)%name%text//"', which "// &
+        "bends: what the moment between them adds to the stiffness is left out")
     end do
   end subroutine warn_of_held_blocks
 

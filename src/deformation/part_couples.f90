@@ -1,0 +1,253 @@
+!> Couples between links that turn together, from the equilibrium of moments: of the end of a link
+!! that bends, of a rigid link as a whole.
+!!
+!! The moments that couples put on an end are known together. Where it has but one that is unknown
+!! yet, that follows, and loads the end on its other side.
+module part_couples
+  use elastic_linkages, only: elastic_linkage_t
+  use inertia_loads, only: load_t
+  use joint_forces, only: joint_forces_t
+  use kinds, only: wp
+  use linkages, only: cross, drives_angle, linkage_t
+  use part_displacements, only: border_t
+  use part_forces, only: part_forces_t
+  use part_poses, only: part_loads_t
+  use pose_types, only: arm_to_pin, pins_of_body
+  use poses, only: pose_t
+  use rigid_part_loads, only: load_on_rigid
+  implicit none (type, external)
+  private
+
+  public :: find_part_couples
+
+  !> Where couples act.
+  type :: turned_end_t
+    integer :: body = 0            !! number of the link; 0: the ground
+    integer :: pin = 0             !! or point, of a link that bends; 0 of a rigid one
+    real(wp) :: moment = 0.0_wp    !! of all its couples [N m]
+  end type turned_end_t
+
+contains
+
+  !> The couples of a load case; 0 where rigid links are turned by more than one way round.
+  pure subroutine find_part_couples(linkage, elastic, pose, loads, border, forces, case, on_part, &
+    joints)
+    type(linkage_t), intent(in) :: linkage         !! that moves: its bodies, turns, drives
+    type(elastic_linkage_t), intent(in) :: elastic !! at this position
+    type(pose_t), intent(in) :: pose               !! of points and parts
+    type(part_loads_t), intent(in) :: loads        !! of this position
+    type(border_t), intent(in) :: border           !! numbers of constraints
+    type(part_forces_t), intent(in) :: forces      !! of these loads
+    integer, intent(in) :: case                    !! number of the load case
+    real(wp), intent(in) :: on_part(:, :)          !! (6, parts) forces on both ends of parts that
+                                                   !! bend, then moments [N, N m]
+    type(joint_forces_t), intent(inout) :: joints  !! with forces at pins and of drives: couples
+
+    type(turned_end_t) :: ends(2, size(linkage%turns))
+    logical :: is_known(size(linkage%turns)), is_new
+    integer :: i, k
+
+    do i = 1, size(linkage%turns)
+      associate (turn => linkage%turns(i))
+        ends(1, i) = turned_end(turn%body, turn%pin, 0)
+        ends(2, i) = turned_end(turn%against, turn%pin, turn%slider)
+      end associate
+    end do
+    is_known = .false.
+    joints%couple = 0.0_wp
+    do
+      is_new = .false.
+      do i = 1, size(is_known)
+        do k = 1, 2
+          if (is_known(i) .or. ends(k, i)%body == 0) cycle
+          if (others_unknown(ends(k, i), i)) cycle
+          joints%couple(i) = merge(1.0_wp, -1.0_wp, k == 1)*(ends(k, i)%moment - &
+            moment_of_others(ends(k, i), i))
+          is_known(i) = .true.
+          is_new = .true.
+        end do
+      end do
+      if (.not. is_new) exit
+    end do
+
+  contains
+
+    !> An end of a turn.
+    pure function turned_end(body, pin, slider) result(end)
+      integer, intent(in) :: body, pin, slider
+      type(turned_end_t) :: end
+
+      end%body = body
+      if (body == 0) return
+      if (.not. linkage%bodies(body)%bends) then
+        end%moment = -moment_on_rigid(linkage, elastic, pose, loads, border, forces, case, body, &
+          joints)
+        return
+      end if
+      end%pin = pin
+      if (slider > 0) then
+        if (elastic%contact(slider) > 0) end%pin = elastic%contact(slider)
+      end if
+      end%moment = moment_on_end(linkage, elastic, loads, forces, case, on_part, body, end%pin, &
+        joints)
+    end function turned_end
+
+    !> Whether another unknown couple acts on the end of a turn.
+    pure function others_unknown(end, number) result(are)
+      type(turned_end_t), intent(in) :: end
+      integer, intent(in) :: number
+      logical :: are
+
+      integer :: j
+
+      are = .false.
+      do j = 1, size(is_known)
+        if (j == number .or. is_known(j)) cycle
+        are = are .or. is_same(end, ends(1, j)) .or. is_same(end, ends(2, j))
+      end do
+    end function others_unknown
+
+    !> Moment of the other couples on the end of a turn.
+    pure function moment_of_others(end, number) result(moment)
+      type(turned_end_t), intent(in) :: end
+      integer, intent(in) :: number
+      real(wp) :: moment
+
+      integer :: j
+
+      moment = 0.0_wp
+      do j = 1, size(is_known)
+        if (j == number) cycle
+        if (is_same(end, ends(1, j))) moment = moment + joints%couple(j)
+        if (is_same(end, ends(2, j))) moment = moment - joints%couple(j)
+      end do
+    end function moment_of_others
+
+  end subroutine find_part_couples
+
+  pure function is_same(one, other)
+    type(turned_end_t), intent(in) :: one, other
+    logical :: is_same
+
+    is_same = one%body == other%body .and. one%pin == other%pin
+  end function is_same
+
+  !> Moment that the couples of turns put on the end of a link that bends: what the parts there
+  !! bear, less the moments of springs, drives and of a block.
+  pure function moment_on_end(linkage, elastic, loads, forces, case, on_part, body, point, joints) &
+    result(moment)
+    type(linkage_t), intent(in) :: linkage
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(part_loads_t), intent(in) :: loads
+    type(part_forces_t), intent(in) :: forces
+    integer, intent(in) :: case
+    real(wp), intent(in) :: on_part(:, :)
+    integer, intent(in) :: body, point
+    type(joint_forces_t), intent(in) :: joints
+    real(wp) :: moment
+
+    integer :: i, k, rotation
+
+    moment = 0.0_wp
+    rotation = 0
+    do k = 1, size(elastic%body)
+      if (elastic%body(k) /= body) cycle
+      associate (part => elastic%linkage%bodies(k))
+        if (part%first_pin == point) then
+          moment = moment + on_part(5, k)
+          rotation = elastic%rotation(1, k)
+        end if
+        if (part%last_pin == point) then
+          moment = moment + on_part(6, k)
+          rotation = elastic%rotation(2, k)
+        end if
+      end associate
+    end do
+    moment = moment - moment_of_springs(elastic, forces, case, body, rotation)
+    do i = 1, size(linkage%drives)
+      associate (drive => linkage%drives(i))
+        if (drive%kind /= drives_angle) cycle
+        if (drive%body == body .and. is_joint(linkage, point, drive%against)) moment = moment - &
+          joints%drive(i)
+        if (drive%against == body .and. is_joint(linkage, point, drive%body)) moment = moment + &
+          joints%drive(i)
+      end associate
+    end do
+    do i = 1, size(elastic%contact)
+      if (elastic%contact(i) == point) moment = moment + linkage%sliders(i)%inertia* &
+        loads%unit%of_case(case)%field%angular(elastic%cut_part(i))
+    end do
+  end function moment_on_end
+
+  !> Whether a point is a pin of a link, or of the ground.
+  pure function is_joint(linkage, point, body)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: point, body
+    logical :: is_joint
+
+    is_joint = .false.
+    if (point > size(linkage%is_ground)) return
+    if (body == 0) then
+      is_joint = linkage%is_ground(point)
+    else
+      is_joint = any(pins_of_body(linkage%bodies(body)) == point)
+    end if
+  end function is_joint
+
+  !> Moment on a rigid link about its first pin of everything but the couples of turns.
+  pure function moment_on_rigid(linkage, elastic, pose, loads, border, forces, case, body, joints) &
+    result(moment)
+    type(linkage_t), intent(in) :: linkage
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(pose_t), intent(in) :: pose
+    type(part_loads_t), intent(in) :: loads
+    type(border_t), intent(in) :: border
+    type(part_forces_t), intent(in) :: forces
+    integer, intent(in) :: case, body
+    type(joint_forces_t), intent(in) :: joints
+    real(wp) :: moment
+
+    type(load_t) :: load
+    integer :: pins(2 + size(linkage%bodies(body)%further)), i, part, row
+
+    part = findloc(elastic%body, body, dim=1)
+    load = load_on_rigid(linkage, elastic, pose, loads, border, forces, case, part)
+    moment = load%moment + moment_of_springs(elastic, forces, case, body, elastic%rotation(1, part))
+    pins = pins_of_body(linkage%bodies(body))
+    do i = 2, size(pins)
+      row = border%numbers%body_constraint(part) + 2*(i - 2)
+      moment = moment + cross(arm_to_pin(elastic%linkage, pose, part, pins(i)), &
+        forces%constraint(row + 1:row + 2, case))
+    end do
+    do i = 1, size(linkage%drives)
+      associate (drive => linkage%drives(i))
+        if (drive%kind /= drives_angle) cycle
+        if (drive%body == body) moment = moment + joints%drive(i)
+        if (drive%against == body) moment = moment - joints%drive(i)
+      end associate
+    end do
+  end function moment_on_rigid
+
+  !> Moments of the springs that turn an end of a link.
+  pure function moment_of_springs(elastic, forces, case, body, rotation) result(moment)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(part_forces_t), intent(in) :: forces
+    integer, intent(in) :: case, body
+    integer, intent(in) :: rotation !! number of that of the end
+    real(wp) :: moment
+
+    integer :: i, k
+
+    moment = 0.0_wp
+    do i = 1, size(elastic%springs)
+      associate (spring => elastic%springs(i))
+        if (.not. spring%turns) cycle
+        do k = 1, 2
+          if (elastic%linkage%loads(spring%load)%body(k) == body .and. spring%rotation(k) == &
+            rotation) moment = moment + merge(1.0_wp, -1.0_wp, k == 1)*forces%spring(i, case)
+        end do
+      end associate
+    end do
+  end function moment_of_springs
+
+end module part_couples
