@@ -57,8 +57,8 @@ module turn_grids
     integer, allocatable :: owner(:)       !! (unknowns) body to whose elastic energy it belongs;
                                            !! 0: to several
     !> (samples, deformations, border) deformations of the ends of parts, and of springs, in units
-    !! of those of a unit unknown, where there are more of them than border unknowns: then `elongation`
-    !! is a number among them. Not allocated: they are the border unknowns
+    !! of those of a unit unknown, where there are more of them than border unknowns: `elongation`
+    !! is a number among them then. Not allocated: they are the border unknowns
     real(wp), allocatable :: weighted(:, :, :)
     integer, allocatable :: deformed(:)    !! (deformations) body; 0: a spring
     real(wp), allocatable :: rotation(:, :) !! (border, border) orthogonal: border unknowns as those
