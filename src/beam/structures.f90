@@ -7,7 +7,7 @@ module structures
   implicit none (type, external)
   private
 
-  public :: structure_t, has_beams, has_mesh, elements_replaced
+  public :: structure_t, has_beams, has_mesh, elements_replaced, vibrating_linkage, vibrating_beams
 
   !> A linkage with the beams and the mesh of its links.
   type :: structure_t
@@ -53,5 +53,29 @@ contains
     end associate
     where (structure%load_elements > 0) other%load_elements = elements
   end function elements_replaced
+
+  !> The linkage whose bodies vibrate each by themselves: the parts of a linkage that has them.
+  pure function vibrating_linkage(structure) result(linkage)
+    class(structure_t), intent(in) :: structure !! with beams
+    type(linkage_t) :: linkage
+
+    if (allocated(structure%elastic)) then
+      linkage = structure%elastic%linkage
+    else
+      linkage = structure%linkage
+    end if
+  end function vibrating_linkage
+
+  !> Stiffnesses of the bodies of `vibrating_linkage`.
+  pure function vibrating_beams(structure) result(beams)
+    class(structure_t), intent(in) :: structure !! with beams
+    type(beam_t), allocatable :: beams(:)       !! (bodies)
+
+    if (allocated(structure%elastic)) then
+      beams = structure%elastic%beams
+    else
+      beams = structure%beams
+    end if
+  end function vibrating_beams
 
 end module structures

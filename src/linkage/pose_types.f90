@@ -5,7 +5,7 @@ module pose_types
   implicit none (type, external)
   private
 
-  public :: pose_t, drawn_pose, arm_to_pin, pins_of_body, place_of_pin
+  public :: pose_t, drawn_pose, arm_to_pin, pins_of_body, place_of_pin, way_length
 
   !> Positions of the pins and directions of the bodies.
   type :: pose_t
@@ -75,5 +75,21 @@ contains
 
     arm = turned(place_of_pin(linkage%bodies(body), pin), pose%direction(:, body))
   end function arm_to_pin
+
+  !> Length of a body along its corners, or from its first pin to its last [m].
+  pure function way_length(body) result(length)
+    type(body_t), intent(in) :: body !! with its pins
+    real(wp) :: length
+
+    integer :: i
+
+    length = body%length
+    if (.not. allocated(body%corners)) return
+    length = 0.0_wp
+    do i = 2, size(body%corners)
+      length = length + norm2(place_of_pin(body, body%corners(i)) - place_of_pin(body, &
+        body%corners(i - 1)))
+    end do
+  end function way_length
 
 end module pose_types

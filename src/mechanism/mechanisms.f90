@@ -12,7 +12,7 @@ module mechanisms
   use linkages, only: is_dyad_linkage
   use models, only: inertia_lumped, is_four_bar, link_line_density, model_t
   use name_index, only: name_index_t, new_name_index
-  use pose_types, only: pins_of_body
+  use pose_types, only: pins_of_body, way_length
   use process_parts, only: process_loads
   use response_parts, only: body_gauge_t, gauges_of, response_points_of
   use shear, only: link_rotary_inertia, link_shear_stiffness
@@ -24,7 +24,7 @@ module mechanisms
   implicit none (type, external)
   private
 
-  public :: mechanism_t, new_mechanism, mechanism_of, pins_of_body
+  public :: mechanism_t, new_mechanism, mechanism_of, pins_of_body, way_length, link_lengths
 
   !> The structure of a deck, with the deck's names of its parts.
   type, extends(structure_t) :: mechanism_t
@@ -94,6 +94,18 @@ contains
     mechanism%is_reversed = runs_against(mechanism%linkage%bodies)
     mechanism%names = token_texts(links%name)
   end function mechanism_of
+
+  !> Lengths of the links along their pins [m].
+  pure function link_lengths(mechanism) result(length)
+    type(mechanism_t), intent(in) :: mechanism
+    real(wp) :: length(size(mechanism%linkage%bodies))
+
+    integer :: b
+
+    do b = 1, size(length)
+      length(b) = way_length(mechanism%linkage%bodies(b))
+    end do
+  end function link_lengths
 
   !> Whether a link has a material and a section.
   elemental function is_solid(link) result(is)

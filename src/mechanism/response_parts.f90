@@ -4,6 +4,7 @@ module response_parts
   use kinds, only: wp
   use linkages, only: linkage_t
   use models, only: model_t
+  use pose_types, only: pins_of_body, place_of_pin
   use text, only: string_t
   use response_cards, only: side_left
   implicit none (type, external)
@@ -25,7 +26,7 @@ module response_parts
     character(len=:), allocatable :: name
     integer :: body = 0              !! number in the linkage, from 1
     real(wp) :: place = 0.0_wp       !! from the first pin of the body, relative to its length: 0 to
-                                     !! 1
+                                     !! 1; of a body with corners, along these
     integer :: side = 1              !! sign of its strain where the link turns left along its LINK
                                      !! card: +1 on the right of the card's direction, −1 on the
                                      !! left
@@ -99,10 +100,17 @@ contains
 
     gauge%body = findloc(links, link, dim=1)
     gauge%is_reversed = runs_against(linkage%bodies(gauge%body))
-    place = place_on_body(linkage%bodies(gauge%body), [at, 0.0_wp])
-    ! A ram has no length of its own, and does not bend.
-    if (model%links(link)%length > 0.0_wp) gauge%place = place(1)/model%links(link)%length
     gauge%side = side
+    ! A ram has no length of its own, and does not bend.
+    if (.not. model%links(link)%length > 0.0_wp) return
+    if (allocated(linkage%bodies(gauge%body)%corners)) then
+      ! Along its pins, as its card runs.
+      gauge%is_reversed = .false.
+      gauge%place = at/model%links(link)%length
+    else
+      place = place_on_body(linkage%bodies(gauge%body), [at, 0.0_wp])
+      gauge%place = place(1)/model%links(link)%length
+    end if
   end function gauge_on
 
   !> The points of REPORT response: for every moving pin the ends of the links that it joins, with
@@ -120,17 +128,20 @@ contains
 
     of_deck = points_of(model, links, linkage)
     associate (bodies => linkage%bodies, is_ground => linkage%is_ground)
-      allocate (points(count(.not. is_ground(bodies%first_pin)) + &
-        count(.not. is_ground(bodies%last_pin)) + size(of_deck)))
+      filled = 0
+      do b = 1, size(bodies)
+        filled = filled + count(.not. is_ground(pins_of_body(bodies(b))))
+      end do
+      allocate (points(filled + size(of_deck)))
       filled = 0
       do p = 1, size(is_ground)
         if (is_ground(p)) cycle
         do b = 1, size(bodies)
-          if (bodies(b)%first_pin /= p .and. bodies(b)%last_pin /= p) cycle
+          if (.not. any(pins_of_body(bodies(b)) == p)) cycle
           filled = filled + 1
           points(filled)%name = pins(p)%text//":"//model%links(links(b))%name%text
           points(filled)%body = b
-          if (bodies(b)%last_pin == p) points(filled)%place = [bodies(b)%length, 0.0_wp]
+          points(filled)%place = place_of_pin(bodies(b), p)
         end do
       end do
     end associate

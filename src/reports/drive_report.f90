@@ -19,7 +19,10 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with its response computed
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
-    call append_string(notes, "torque of the drive on link "//variant%mechanism%names(1)%text// &
+    integer :: body
+
+    body = max(1, variant%mechanism%linkage%drives(1)%body)
+    call append_string(notes, "torque of the drive on link "//variant%mechanism%names(body)%text// &
       ", counter-clockwise positive; rigid: of the rigid linkage; linear, quadratic: what the "// &
       "deformations add, in terms linear and quadratic in them; total: the sum; power: total x "// &
       "speed")

@@ -2,6 +2,7 @@
 !! lost in it.
 module peaks_report
   use kinds, only: wp
+  use mechanisms, only: way_length
   use response_notes, only: append_response_notes
   use response_types, only: peak_t
   use table_columns, only: cells, column_width, table_layout_t
@@ -57,9 +58,15 @@ contains
 
       real(wp) :: xi
 
-      xi = peak%xi
-      if (variant%mechanism%is_reversed(b)) xi = 1.0_wp - xi
-      values = [peak%value, xi*variant%mechanism%linkage%bodies(b)%length, peak%crank]
+      associate (mechanism => variant%mechanism)
+        if (allocated(mechanism%linkage%bodies(b)%corners)) then
+          values = [peak%value, peak%xi*way_length(mechanism%linkage%bodies(b)), peak%crank]
+          return
+        end if
+        xi = peak%xi
+        if (mechanism%is_reversed(b)) xi = 1.0_wp - xi
+        values = [peak%value, xi*mechanism%linkage%bodies(b)%length, peak%crank]
+      end associate
     end function peak_values
 
   end subroutine add_peaks

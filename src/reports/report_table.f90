@@ -99,8 +99,8 @@ module report_table
     "stability", "intervals", "campbell", "transient", "motion", "frequencies", "loci"]
 
   !> Tables of the elastic response with rows for every position.
-  character(len=*), parameter :: response_tables(3) = [character(len=8) :: "response", "strains", &
-    "drive"]
+  character(len=*), parameter :: response_tables(4) = [character(len=8) :: "response", "strains", &
+    "drive", "torque"]
 
   !> Tables of linkages that are no four-bars, with rows of their own for every position.
   character(len=*), parameter :: general_tables(5) = [character(len=10) :: "kinematics", &
@@ -232,17 +232,17 @@ module report_table
       table_kind_t("geometry", "crank:deg link,part,place:name x,y:length"), no_table, no_table]), &
     report_kind_t(name="response", help="how far pins and points are from where rigid links are", &
       pattern="REPORT response [accuracy=]", default="accuracy=1e-6", studies="response", &
-      positions=.true., response=.true., linkages=four_bars, tables=[ &
+      positions=.true., response=.true., tables=[ &
       table_kind_t("response", "speed:speed crank:deg point:name ux,uy:length rotation:deg "// &
       "error:-"), no_table, no_table]), &
     report_kind_t(name="strains", help="strains, forces and stresses at gauges", &
       pattern="REPORT strains [accuracy=]", default="accuracy=1e-6", studies="response", &
-      positions=.true., response=.true., linkages=four_bars, tables=[ &
+      positions=.true., response=.true., tables=[ &
       table_kind_t("strains", "speed:speed crank:deg gauge:name axial_strain,bending_strain:- "// &
       "moment:moment axial_force,shear_force:force stress:stress error:-"), no_table, no_table]), &
     report_kind_t(name="peaks", help="largest strain, stress and deflection of every link", &
       pattern="REPORT peaks [accuracy=]", default="accuracy=1e-6", studies="response", &
-      response=.true., linkages=four_bars, tables=[ &
+      response=.true., tables=[ &
       table_kind_t("peaks", "speed:speed link:name strain:- strain_at:length "// &
       "strain_crank:deg stress:stress stress_at:length stress_crank:deg "// &
       "deflection,deflection_at:length deflection_crank:deg power:power error:-"), no_table, &
@@ -258,24 +258,29 @@ module report_table
       "force:moment"), &
       table_kind_t("shaking", "speed:speed crank:deg shaking_x,shaking_y:force "// &
       "shaking_moment:moment"), no_table]), &
+    report_kind_t(name="torque", help="the torque of the elastic linkage, with its parts", &
+      pattern="REPORT torque [accuracy=]", default="accuracy=1e-6", studies="response", &
+      positions=.true., response=.true., tables=[ &
+      table_kind_t("torque", "speed:speed crank:deg rigid,linear,quadratic,total:moment "// &
+      "power:power error:-"), no_table, no_table]), &
     report_kind_t(name="validity", help="whether the equations of the response hold", &
       pattern="REPORT validity [accuracy=]", default="accuracy=1e-6", studies="response", &
-      response=.true., linkages=four_bars, tables=[ &
+      response=.true., tables=[ &
       table_kind_t("validity", "speed:speed link:name deflection,load,quadratic:- "// &
       "out_of_plane:Hz distance,error:-"), no_table, no_table]), &
     report_kind_t(name="stability", help="whether vibrations of the running linkage grow", &
       pattern="REPORT stability [accuracy=]", default="accuracy=1e-6", studies="stability", &
-      response=.true., linkages=four_bars, tables=[ &
+      response=.true., tables=[ &
       table_kind_t("stability", "speed:speed mode:# turns,growth:- frequency:Hz signature:# "// &
       "error:- verdict:name"), no_table, no_table]), &
     report_kind_t(name="intervals", help="all speeds at which vibrations grow", &
       pattern="REPORT intervals [growth=] [accuracy=]", default="growth=1e-4 accuracy=1e-5", &
-      studies="intervals", response=.true., linkages=four_bars, tables=[ &
+      studies="intervals", response=.true., tables=[ &
       table_kind_t("intervals", "from,to:speed kind,modes:name largest_growth,growth_error:- "// &
       "at,error:speed"), no_table, no_table]), &
     report_kind_t(name="campbell", help="frequencies against the speed, and critical speeds", &
       pattern="REPORT campbell [accuracy=]", default="accuracy=1e-6", studies="campbell", &
-      response=.true., linkages=four_bars, tables=[ &
+      response=.true., tables=[ &
       table_kind_t("campbell", "speed:speed mode:# least,mean,greatest:Hz band_error:- "// &
       "floquet:Hz growth,error:- verdict:name"), &
       table_kind_t("critical", "speed:rate speed_error:- line,mode:# frequency:Hz "// &
@@ -616,6 +621,8 @@ contains
       call peaks_notes(variant, notes)
     case ("drive")
       call drive_notes(variant, notes)
+    case ("torque")
+      call drive_notes(variant, notes)
     case ("validity")
       call validity_notes(variant, notes)
     case ("stability")
@@ -727,7 +734,7 @@ contains
       call add_response(variant, layout, position, speed, rows)
     case ("strains")
       call add_strains(variant, layout, position, speed, rows)
-    case ("drive")
+    case ("drive", "torque")
       call add_drive(variant, layout, position, speed, rows)
     end select
   end subroutine add_response_position
@@ -745,7 +752,7 @@ contains
     associate (positions => variant%found%positions)
       associate (state => positions%states(positions%state(position)), &
           crank => positions%crank(position))
-        if (variant%mechanism%is_four_bar .and. any(table == response_tables)) then
+        if (is_of_response(table, variant%mechanism%is_four_bar)) then
           call add_response_position(table, variant, layout, position, speed, rows)
         else if (table == "frequencies") then
           call add_frequencies(variant, layout, position, speed, rows)
@@ -794,6 +801,16 @@ contains
       end associate
     end associate
   end subroutine add_position
+
+  !> Whether a table has a row of the elastic response for every position: `drive` is one of rigid
+  !! links but for four-bars.
+  pure function is_of_response(table, is_four_bar) result(is)
+    character(len=*), intent(in) :: table
+    logical, intent(in) :: is_four_bar
+    logical :: is
+
+    is = any(table == response_tables) .and. (is_four_bar .or. table /= "drive")
+  end function is_of_response
 
   !> Appends a failed row where friction locks the linkage.
   subroutine add_locked_row(variant, table, position, speed, rows)

@@ -1,6 +1,7 @@
 !> Remarks and failed rows that all tables of the elastic response have.
 module response_notes
   use kinds, only: long, wp
+  use mechanisms, only: link_lengths
   use models, only: inertia_lumped, accuracy_of_study, speed_in_words
   use response_study, only: largest_deflection
   use table_rows, only: add_failed_row, rows_t
@@ -152,8 +153,7 @@ contains
       text = text//"response: nearest to resonance at speed "// &
         speed_in_words(model, speed, model%speed%value(speed))//", least |1 - rho| of a turn "// &
         to_string(distance, 3)//line_feed
-      call largest_deflection(variant%found%response, mechanism%linkage%bodies%length, share, &
-        body, speed)
+      call largest_deflection(variant%found%response, link_lengths(mechanism), share, body, speed)
       if (body == 0) return
       text = text//"response: largest deflection "//to_string(100.0_wp*share, 3)// &
         " % of the length, of link "//mechanism%names(body)%text//" at speed "// &

@@ -1,6 +1,7 @@
 !> `validity.dat`: what the linear equations of the response suppose, against what was found.
 module validity_report
   use kinds, only: wp
+  use mechanisms, only: way_length
   use number_text, only: number_width
   use response_notes, only: append_response_notes
   use response_types, only: speed_response_t
@@ -48,7 +49,7 @@ contains
           if (.not. body%bends) cycle
           call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed)])// &
             name_cell(mechanism%names(b)%text, column_width(layout, 2))//cells(layout, 3, &
-            [found%largest_deflection(b)%value/body%length, found%buckling(b)])// &
+            [found%largest_deflection(b)%value/way_length(body), found%buckling(b)])// &
             estimated_cells(layout, found, b, has_depth(variant, b))// &
             cells(layout, 7, [found%distance, found%distance_error]))
         end associate

@@ -328,7 +328,7 @@ contains
     type(floquet_mode_t), allocatable :: mode(:)
     integer, allocatable :: wanted(:)
     type(error_t), allocatable :: error
-    real(wp) :: damping(level%grid%unknowns)
+    real(wp), allocatable :: damping(:)
     integer :: slow, i, m
 
     trial%speed = speed

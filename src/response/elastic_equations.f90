@@ -14,7 +14,8 @@ module elastic_equations
 
   public :: elastic_terms_t, inertia_force, inertia_parts, slope_force, swept_force, &
     apply_equation, equation_parts, load_at_speed, functions_of, geometric_force, slopes_of, &
-    mass_force, times_mass, spread_over_unknowns
+    mass_force, times_mass, spread_over_unknowns, unit_geometric_force, elongation_of, &
+    deformations_of
 
   !> Terms of the equation and of the torque; false: omitted.
   type :: elastic_terms_t
@@ -480,18 +481,136 @@ contains
     end do
   end subroutine geometric_force
 
+  !> Adds `ω C y'`; between border unknowns C is that of the deformations w of parts, with `(Q y)'`.
+  subroutine add_damping(grid, plan, speed, damping, y, rates, force)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan
+    real(wp), intent(in) :: speed
+    real(wp), intent(in) :: damping(:)
+    real(wp), intent(in) :: y(:, :), rates(:, :) !! (samples, unknowns) y, y'
+    real(wp), intent(inout) :: force(:, :)
+
+    real(wp), allocatable :: w(:, :), slope(:, :)
+
+    call add_own_damping(grid, speed, damping, rates, force)
+    if (.not. allocated(grid%weighted)) return
+    w = deformations_of(grid, y)
+    allocate (slope, mold=w)
+    call derivatives(plan, w, slope)
+    call add_to_border(grid, speed, damping, slope, force)
+  end subroutine add_damping
+
+  !> The same of unknowns with a constant damping of their own.
+  pure subroutine add_own_damping(grid, speed, damping, rates, force)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp), intent(in) :: speed, damping(:)
+    real(wp), intent(in) :: rates(:, :)
+    real(wp), intent(inout) :: force(:, :)
+
+    integer :: i
+
+    do i = merge(grid%border + 1, 1, allocated(grid%weighted)), size(rates, 2)
+      force(:, i) = force(:, i) + speed*damping(i)*rates(:, i)
+    end do
+  end subroutine add_own_damping
+
+  !> Adds `ω Qᵀ C w`.
+  pure subroutine add_to_border(grid, speed, damping, w, force)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp), intent(in) :: speed, damping(:)
+    real(wp), intent(in) :: w(:, :)        !! (samples, deformations)
+    real(wp), intent(inout) :: force(:, :)
+
+    integer :: i, j
+
+    do j = 1, grid%border
+      do i = 1, size(w, 2)
+        force(:, j) = force(:, j) + speed*damping(grid%unknowns + i)*grid%weighted(:, i, j)*w(:, i)
+      end do
+    end do
+  end subroutine add_to_border
+
+  !> Deformations of the ends of parts and of springs in a motion: w = Q y.
+  pure function deformations_of(grid, y) result(w)
+    type(turn_grid_t), intent(in) :: grid !! with more of them than border unknowns
+    real(wp), intent(in) :: y(:, :)       !! (samples, unknowns) [√J]
+    real(wp) :: w(size(y, 1), size(grid%weighted, 2))
+
+    integer :: j
+
+    w = 0.0_wp
+    do j = 1, grid%border
+      w = w + grid%weighted(:, :, j)*spread(y(:, j), 2, size(w, 2))
+    end do
+  end function deformations_of
+
+  !> The elongation of a link that bends, in units of that of a unit unknown.
+  pure function elongation_of(grid, body, y) result(elongation)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: y(:, :)       !! (samples, unknowns) [√J]
+    real(wp) :: elongation(size(y, 1))
+
+    if (allocated(grid%weighted)) then
+      elongation = sum(grid%weighted(:, grid%elongation(body), :)*y(:, :grid%border), dim=2)
+    else
+      elongation = y(:, grid%elongation(body))
+    end if
+  end function elongation_of
+
+  !> Adds `K_G y` at a constant speed.
+  pure subroutine geometric_force_at(grid, speed, y, force)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp), intent(in) :: speed          !! ω2 [rad/s]
+    real(wp), intent(in) :: y(:, :)        !! (samples, unknowns)
+    real(wp), intent(inout) :: force(:, :) !! (samples, unknowns)
+
+    call geometric_force(grid, speed**2*grid%force(:, :, :, 1) + grid%force(:, :, :, &
+      constant_case), y, force)
+    call add_second_order(grid, 1, speed**2, y, force)
+    call add_second_order(grid, constant_case, 1.0_wp, y, force)
+  end subroutine geometric_force_at
+
+  !> Adds `K_G y` of a unit load.
+  pure subroutine unit_geometric_force(grid, case, y, force)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: case            !! its number
+    real(wp), intent(in) :: y(:, :)        !! (samples, unknowns)
+    real(wp), intent(inout) :: force(:, :) !! (samples, unknowns)
+
+    call geometric_force(grid, grid%force(:, :, :, case), y, force)
+    call add_second_order(grid, case, 1.0_wp, y, force)
+  end subroutine unit_geometric_force
+
+  !> Adds what K_G of a unit load, times a factor, has between border unknowns alone.
+  pure subroutine add_second_order(grid, case, factor, y, force)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: case
+    real(wp), intent(in) :: factor
+    real(wp), intent(in) :: y(:, :)
+    real(wp), intent(inout) :: force(:, :)
+
+    integer :: i, j
+
+    if (.not. allocated(grid%second_order)) return
+    do j = 1, grid%border
+      do i = 1, grid%border
+        force(:, i) = force(:, i) + factor*grid%second_order(:, i, j, case)*y(:, j)
+      end do
+    end do
+  end subroutine add_second_order
+
   !> The left side of the equation: that of Ulker 2010 (2.85) in deformation coordinates.
   subroutine apply_equation(grid, plan, speed, damping, terms, y, force)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan   !! for its samples
     real(wp), intent(in) :: speed              !! ω2 [rad/s]
-    real(wp), intent(in) :: damping(:)         !! (unknowns) c [s]
+    real(wp), intent(in) :: damping(:)         !! (unknowns) c [s], see `damping_of`
     type(elastic_terms_t), intent(in) :: terms
     real(wp), intent(in) :: y(:, :)            !! (samples, unknowns) [√J]
     real(wp), intent(out) :: force(:, :)       !! (samples, unknowns) [√J]
 
     real(wp), allocatable :: first(:, :)
-    integer :: i
 
     if (any(damping > 0.0_wp)) then
       allocate (first, mold=y)
@@ -500,13 +619,8 @@ contains
       call inertia_force(grid, plan, terms, y, force)
     end if
     force = speed**2*force + y
-    if (allocated(first)) then
-      do i = 1, size(y, 2)
-        force(:, i) = force(:, i) + speed*damping(i)*first(:, i)
-      end do
-    end if
-    if (terms%axial) call geometric_force(grid, speed**2*grid%force(:, :, :, 1) + &
-      grid%force(:, :, :, constant_case), y, force)
+    if (allocated(first)) call add_damping(grid, plan, speed, damping, y, first, force)
+    if (terms%axial) call geometric_force_at(grid, speed, y, force)
   end subroutine apply_equation
 
   !> The left side of the equation for `e^{σ θ} y` over `e^{σ θ}`, in powers of σ:
@@ -515,13 +629,12 @@ contains
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan   !! for its samples
     real(wp), intent(in) :: speed              !! ω2 [rad/s]
-    real(wp), intent(in) :: damping(:)         !! (unknowns) c [s]
+    real(wp), intent(in) :: damping(:)         !! (unknowns) c [s], see `damping_of`
     type(elastic_terms_t), intent(in) :: terms
     real(wp), intent(in) :: y(:, :)            !! (samples, unknowns) [√J]
     real(wp), intent(out) :: parts(:, :, 0:)   !! (samples, unknowns, power) [√J]
 
     real(wp), allocatable :: first(:, :)
-    integer :: i
 
     call inertia_parts(grid, plan, terms, y, parts)
     parts = speed**2*parts
@@ -529,13 +642,12 @@ contains
     if (any(damping > 0.0_wp)) then
       allocate (first, mold=y)
       call derivatives(plan, y, first)
-      do i = 1, size(y, 2)
-        parts(:, i, 0) = parts(:, i, 0) + speed*damping(i)*first(:, i)
-        parts(:, i, 1) = parts(:, i, 1) + speed*damping(i)*y(:, i)
-      end do
+      call add_damping(grid, plan, speed, damping, y, first, parts(:, :, 0))
+      call add_own_damping(grid, speed, damping, y, parts(:, :, 1))
+      if (allocated(grid%weighted)) call add_to_border(grid, speed, damping, deformations_of(grid, &
+        y), parts(:, :, 1))
     end if
-    if (terms%axial) call geometric_force(grid, speed**2*grid%force(:, :, :, 1) + &
-      grid%force(:, :, :, constant_case), y, parts(:, :, 0))
+    if (terms%axial) call geometric_force_at(grid, speed, y, parts(:, :, 0))
   end subroutine equation_parts
 
   !> The right side of the equation [√J].

@@ -7,7 +7,7 @@
 !! result is a slow equation of the same form with exponents right to the square of the share of the
 !! fast deformations.
 module fast_followers
-  use elastic_equations, only: elastic_terms_t, geometric_force, inertia_parts
+  use elastic_equations, only: elastic_terms_t, inertia_parts, unit_geometric_force
   use fourier_transform, only: fourier_plan_t
   use kinds, only: wp
   use lapack, only: dgetrf, dgetrs
@@ -44,9 +44,8 @@ contains
       e(:, m + i, :) = transpose(force(:, :, 1))
       e(:, 2*m + i, :) = transpose(force(:, :, 0))
       force = 0.0_wp
-      call geometric_force(grid, grid%force(:, :, :, 1), shape(:, :, i), force(:, :, 0))
-      call geometric_force(grid, grid%force(:, :, :, constant_case), shape(:, :, i), &
-        force(:, :, 1))
+      call unit_geometric_force(grid, 1, shape(:, :, i), force(:, :, 0))
+      call unit_geometric_force(grid, constant_case, shape(:, :, i), force(:, :, 1))
       e(:, 3*m + i, :) = transpose(force(:, :, 0))
       e(:, 4*m + i, :) = transpose(force(:, :, 1))
     end do

@@ -1,7 +1,7 @@
 !> The matrices of the equation of motion at crank angles anywhere, in all unknowns. They do not
 !! depend on speed and acceleration.
 module motion_matrices
-  use elastic_equations, only: geometric_force, mass_force, slope_force, swept_force
+  use elastic_equations, only: mass_force, slope_force, swept_force, unit_geometric_force
   use kinds, only: wp
   use load_cases, only: case_count, constant_case
   use turn_grids, only: turn_grid_t
@@ -48,7 +48,7 @@ contains
       matrices%swept(:, j, :) = transpose(force)
       do c = 1, case_count
         force = 0.0_wp
-        call geometric_force(grid, grid%force(:, :, :, c), y, force)
+        call unit_geometric_force(grid, c, y, force)
         matrices%geometric(:, j, :, c) = transpose(force)
       end do
     end do

@@ -28,6 +28,8 @@ contains
     allocate (other(to%samples, to%unknowns))
     other = 0.0_wp
     other(:, :to%border) = moved(:, :from%border)
+    if (allocated(to%rotation)) other(:, :to%border) = matmul(matmul(moved(:, :from%border), &
+      transpose(from%rotation)), to%rotation)
     do b = 1, size(from%integrals)
       associate (link => from%model%links(b), target => to%model%links(b), first => from%first(b), &
         to_first => to%first(b))

@@ -10,8 +10,10 @@ module response_levels
   use link_store, only: link_store_t
   use response_types, only: damping_ratio, damping_time, link_damping_t
   use slow_motions, only: new_slow_basis, slow_basis_t
-  use structures, only: structure_t
-  use turn_grids, only: new_turn_grid, turn_grid_t
+  use linkages, only: linkage_t
+  use position_assembly, only: set_border
+  use structures, only: structure_t, vibrating_beams, vibrating_linkage
+  use turn_grids, only: new_parts_grid, new_turn_grid, turn_grid_t
   implicit none (type, external)
   private
 
@@ -27,6 +29,9 @@ module response_levels
 
   !> Samples from which the slow coordinates are found.
   integer, parameter :: basis_samples = 96
+
+  !> Positions of a turn at which the border unknowns of a linkage in parts are counted.
+  integer, parameter :: border_positions = 24
 
   !> A grid with what its solutions need.
   type :: level_t
@@ -104,13 +109,28 @@ contains
 
     call new_order_model(structure, order, store, model, error)
     if (allocated(error)) return
-    call new_turn_grid(structure%linkage, model, samples, level%grid, error, backwards)
+    call new_grid(structure, model, samples, backwards, level%grid, error)
     if (allocated(error)) return
-    call new_turn_grid(structure%linkage, model, min(samples, basis_samples), level%coarse, error, &
-      backwards)
+    call new_grid(structure, model, min(samples, basis_samples), backwards, level%coarse, error)
     level%order = order
     allocate (level%basis(model%layout%unknowns))
   end subroutine new_level
+
+  !> The grid of a linkage, in parts where it is more than a crank and dyads.
+  subroutine new_grid(structure, model, samples, backwards, grid, error)
+    class(structure_t), intent(in) :: structure
+    type(deformation_model_t), intent(in) :: model
+    integer, intent(in) :: samples
+    logical, intent(in) :: backwards
+    type(turn_grid_t), intent(out) :: grid
+    type(error_t), allocatable, intent(out) :: error
+
+    if (allocated(structure%elastic)) then
+      call new_parts_grid(structure, model, samples, grid, error, backwards)
+    else
+      call new_turn_grid(structure%linkage, model, samples, grid, error, backwards)
+    end if
+  end subroutine new_grid
 
   !> The links' own deformations of an order.
   !!
@@ -122,17 +142,27 @@ contains
     type(deformation_model_t), intent(out) :: model
     type(error_t), allocatable, intent(out) :: error   !! why there is none
 
-    type(link_degrees_t) :: degrees(size(structure%beams))
-    integer :: b, pieces, across
+    type(linkage_t) :: linkage
+    type(link_degrees_t), allocatable :: degrees(:)
+    integer :: b, i, n, pieces, across
 
-    do b = 1, size(degrees)
-      pieces = size(pieces_of(structure%linkage%bodies(b))) - 1
+    linkage = vibrating_linkage(structure)
+    n = size(linkage%bodies)
+    allocate (degrees(n))
+    do b = 1, n
+      pieces = size(pieces_of(linkage%bodies(b))) - 1
       across = max(4, order - min(pieces - 1, 3))
       degrees(b) = uniform_degrees(pieces, across, max(least_along, across - along_below))
     end do
-    call new_deformation_model(structure%linkage, structure%beams, spread(0, 1, size(degrees)), &
-      spread(order, 1, size(degrees)), spread(.false., 1, size(degrees)), model, error, store, &
-      degrees)
+    if (.not. allocated(structure%elastic)) then
+      call new_deformation_model(linkage, structure%beams, spread(0, 1, n), spread(order, 1, n), &
+        spread(.false., 1, n), model, error, store, degrees)
+      return
+    end if
+    call new_deformation_model(linkage, vibrating_beams(structure), spread(0, 1, n), spread(order, &
+      1, n), spread(.false., 1, n), model, error, store, degrees, structure%elastic%held)
+    if (allocated(error)) return
+    call set_border(structure, [((360.0_wp*i)/border_positions, i=0, border_positions - 1)], model)
   end subroutine new_order_model
 
   !> Makes the slow coordinates of a level, unless they are there.
@@ -162,11 +192,13 @@ contains
   pure function damping_of(dampings, grid) result(c)
     type(link_damping_t), intent(in) :: dampings(:) !! (bodies)
     type(turn_grid_t), intent(in) :: grid
-    real(wp) :: c(grid%unknowns) !! [s]
+    real(wp), allocatable :: c(:) !! (unknowns) [s]; where there are more deformations of parts
+                                  !! than border unknowns, of these the mean, behind all unknowns
+                                  !! that of every deformation
 
-    integer :: b
+    integer :: b, i
 
-    c = 0.0_wp
+    allocate (c(grid%unknowns), source=0.0_wp)
     do b = 1, size(dampings)
       if (.not. grid%model%links(b)%bends) cycle
       associate (damping => dampings(b), link => grid%model%links(b))
@@ -181,6 +213,27 @@ contains
         end select
       end associate
     end do
+    if (.not. allocated(grid%weighted)) return
+    c = [c, [(damping_of_deformation(grid, dampings, i), i=1, size(grid%weighted, 2))]]
+    do b = 1, grid%border
+      c(b) = sum(matmul(grid%weighted(:, :, b)**2, c(grid%unknowns + 1:)))/grid%samples
+    end do
   end function damping_of
+
+  !> Damping of a deformation of a part or a spring [s].
+  pure function damping_of_deformation(grid, dampings, number) result(c)
+    type(turn_grid_t), intent(in) :: grid
+    type(link_damping_t), intent(in) :: dampings(:)
+    integer, intent(in) :: number
+    real(wp) :: c
+
+    c = 0.0_wp
+    associate (b => grid%deformed(number))
+      if (b == 0) return
+      if (dampings(b)%kind == damping_time) c = dampings(b)%value
+      if (dampings(b)%kind == damping_ratio) c = 2.0_wp*dampings(b)%value* &
+        sqrt(maxval(grid%model%links(b)%square))
+    end associate
+  end function damping_of_deformation
 
 end module response_levels

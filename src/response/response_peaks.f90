@@ -3,7 +3,7 @@
 !! They are looked for at all samples and many places, then between them.
 module response_peaks
   use constants, only: degree, two_pi
-  use elastic_equations, only: functions_of
+  use elastic_equations, only: elongation_of, functions_of
   use fourier_transform, only: close_fourier, coefficients_of, fourier_plan_t, open_fourier, &
     resampled, value_at, values_of
   use kinds, only: wp
@@ -112,7 +112,7 @@ contains
         q = functions_of(grid, b, y)
         allocate (coefficients(grid%samples, size(q, 2)), elongation(grid%samples, 1))
         call coefficients_of(plan, q, coefficients)
-        call coefficients_of(plan, y(:, grid%elongation(b):grid%elongation(b)), elongation)
+        call coefficients_of(plan, spread(elongation_of(grid, b, y), 2, 1), elongation)
         deallocate (q)
         allocate (q(dense%samples, size(coefficients, 2)), stretched(dense%samples, 1), &
           values(dense%samples, size(xi)))

@@ -1,11 +1,13 @@
 !> Quantities of a periodic elastic motion over the turn: displacements of points, strains, and the
 !! driving torque.
 module response_series
-  use elastic_equations, only: elastic_terms_t, functions_of, geometric_force, times_mass
+  use elastic_equations, only: deformations_of, elastic_terms_t, elongation_of, functions_of, &
+    times_mass, unit_geometric_force
   use fourier_transform, only: derivatives, fourier_plan_t
   use kinds, only: wp
   use link_rows, only: displacement_rows, strain_rows, strain_rows_t, sums_of_rows
   use load_cases, only: case_count, constant_case
+  use response_levels, only: damping_of
   use response_types, only: response_request_t
   use row_products, only: products_of_rows
   use turn_grids, only: turn_grid_t
@@ -79,7 +81,28 @@ contains
     end do
     first = first_of_torque(request)
     call torque_series(grid, plan, request%terms, speed, y, series(:, first:first + 2))
+    if (allocated(grid%weighted) .and. request%terms%quadratic) series(:, first + 2) = &
+      series(:, first + 2) + merge(-speed, speed, grid%backwards)*damping_torque(grid, plan, &
+      damping_of(request%damping, grid), y)
   end subroutine response_series_of
+
+  !> Torque of the damping per ω, where the deformations `w = Q y` of parts change at constant y:
+  !! from Rayleigh's function `½ ẇᵀC ẇ`, `(Q' y)·C (Q y)'`.
+  function damping_torque(grid, plan, damping, y) result(torque)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan
+    real(wp), intent(in) :: damping(:) !! of `damping_of` [s]
+    real(wp), intent(in) :: y(:, :)
+    real(wp) :: torque(size(y, 1))
+
+    real(wp) :: first(size(y, 1), size(y, 2)), w(size(y, 1), size(grid%weighted, 2)), &
+      slope(size(y, 1), size(grid%weighted, 2))
+
+    call derivatives(plan, y, first)
+    w = deformations_of(grid, y)
+    call derivatives(plan, w, slope)
+    torque = matmul((slope - deformations_of(grid, first))*slope, damping(grid%unknowns + 1:))
+  end function damping_torque
 
   !> Displacement of a point in global axes and the rotation of its cross-section.
   pure function point_series(grid, body, place, y) result(series)
@@ -131,16 +154,6 @@ contains
     series(:, 3) = series(:, 3) + grid%rotary_inertia(body)*speed**2*(second(:, 1) + &
       grid%rate_slope(:, body))
   end subroutine add_gauge
-
-  !> The elongation unknown of a link that bends.
-  pure function elongation_of(grid, body, y) result(elongation)
-    type(turn_grid_t), intent(in) :: grid
-    integer, intent(in) :: body
-    real(wp), intent(in) :: y(:, :)
-    real(wp) :: elongation(size(y, 1))
-
-    elongation = y(:, grid%elongation(body))
-  end function elongation_of
 
   !> Axial strain and curvature at many places of a link.
   pure subroutine strains_along(grid, body, xi, y, axial, curvature)
@@ -215,7 +228,7 @@ contains
     if (.not. terms%axial) return
     do c = 1, case_count
       force = 0.0_wp
-      call geometric_force(grid, grid%force(:, :, :, c), y, force)
+      call unit_geometric_force(grid, c, y, force)
       energy(:, c) = products_of_rows(y, force)
       rate_work(:, c) = products_of_rows(first, force)
     end do

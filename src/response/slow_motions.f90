@@ -9,7 +9,7 @@
 !! and gives the multipliers of a turn.
 module slow_motions
   use constants, only: two_pi
-  use elastic_equations, only: functions_of, mass_force, slopes_of, times_mass
+  use elastic_equations, only: deformations_of, functions_of, mass_force, slopes_of, times_mass
   use errors, only: error_of_numerics, error_t, set_error
   use fast_followers, only: add_followers, follower_products, frozen_stiffness
   use fourier_transform, only: close_fourier, coefficients_of, derivatives, fourier_plan_t, &
@@ -152,7 +152,8 @@ contains
     if (allocated(error)) return
     call find_matrices(coarse, coarse_plan, shape, basis%sums)
     call derivatives(coarse_plan, basis%sums(:, :, of_g), basis%sums(:, :, of_slope))
-    if (any(damping > 0.0_wp)) call add_damping(coarse_plan, damping, shape, basis%sums)
+    if (any(damping > 0.0_wp)) &
+      call add_damping(coarse, coarse_plan, damping, shape, basis%sums)
     if (present(followers)) then
       if (followers) call add_what_follows
     end if
@@ -185,10 +186,34 @@ contains
   end subroutine new_slow_basis
 
   !> Adds XᵀCX and XᵀCX'.
-  subroutine add_damping(plan, damping, shape, sums)
+  subroutine add_damping(grid, plan, damping, shape, sums)
+    type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan
     real(wp), intent(in) :: damping(:)
     real(wp), intent(in) :: shape(:, :, :)
+    real(wp), intent(inout) :: sums(:, :, :)
+
+    real(wp), allocatable :: w(:, :, :)
+    integer :: i
+
+    if (.not. allocated(grid%weighted)) then
+      call add_products(plan, damping, shape, sums)
+      return
+    end if
+    call add_products(plan, damping(grid%border + 1:grid%unknowns), shape(:, grid%border + 1:, :), &
+      sums)
+    allocate (w(grid%samples, size(grid%weighted, 2), size(shape, 3)))
+    do i = 1, size(shape, 3)
+      w(:, :, i) = deformations_of(grid, shape(:, :, i))
+    end do
+    call add_products(plan, damping(grid%unknowns + 1:), w, sums)
+  end subroutine add_damping
+
+  !> Adds those of some motions with constant damping each.
+  subroutine add_products(plan, damping, shape, sums)
+    type(fourier_plan_t), intent(in) :: plan
+    real(wp), intent(in) :: damping(:)
+    real(wp), intent(in) :: shape(:, :, :) !! (samples, motions, number)
     real(wp), intent(inout) :: sums(:, :, :)
 
     real(wp), dimension(size(shape, 1), size(shape, 2)) :: damped, slope
@@ -203,11 +228,11 @@ contains
       end do
       do i = 1, number
         at = (j - 1)*number + i
-        sums(:, at, of_rate) = products_of_rows(shape(:, :, i), damped)
-        sums(:, at, of_drift) = products_of_rows(shape(:, :, i), slope)
+        sums(:, at, of_rate) = sums(:, at, of_rate) + products_of_rows(shape(:, :, i), damped)
+        sums(:, at, of_drift) = sums(:, at, of_drift) + products_of_rows(shape(:, :, i), slope)
       end do
     end do
-  end subroutine add_damping
+  end subroutine add_products
 
   !> X from subspace iterations on the mass matrix.
   subroutine find_shapes(grid, slow, shape, error)
@@ -271,7 +296,32 @@ contains
     do b = 1, size(grid%integrals)
       call add_axial(grid, b, shape, sums)
     end do
+    if (allocated(grid%second_order)) call add_second_order(grid, shape, sums)
   end subroutine find_matrices
+
+  !> Adds what K_G has between border unknowns alone to XᵀK_GX.
+  pure subroutine add_second_order(grid, shape, sums)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp), intent(in) :: shape(:, :, :)
+    real(wp), intent(inout) :: sums(:, :, :)
+
+    real(wp) :: work(size(shape, 1))
+    integer :: at, i, j, k, l
+
+    do j = 1, size(shape, 3)
+      do i = 1, size(shape, 3)
+        at = (j - 1)*size(shape, 3) + i
+        do l = 1, grid%border
+          do k = 1, grid%border
+            work = shape(:, k, i)*shape(:, l, j)
+            sums(:, at, of_speed) = sums(:, at, of_speed) + grid%second_order(:, k, l, 1)*work
+            sums(:, at, of_loads) = sums(:, at, of_loads) + grid%second_order(:, k, l, &
+              constant_case)*work
+          end do
+        end do
+      end do
+    end do
+  end subroutine add_second_order
 
   !> Adds what the axial forces of a body contribute to XᵀK_GX.
   pure subroutine add_axial(grid, b, shape, sums)

@@ -6,8 +6,9 @@
 !! difference its error. Where that exceeds the accuracy, orders or samples are raised, whichever is
 !! to blame.
 module steady_responses
+  use beam_mesh, only: beam_t
   use constants, only: degree, two_pi
-  use elastic_equations, only: load_at_speed
+  use elastic_equations, only: deformations_of, load_at_speed
   use errors, only: error_of_numerics, error_t, set_error
   use floquet_exponents, only: find_nearest_mode, floquet_mode_t
   use fourier_transform, only: close_fourier, coefficients_of, fourier_plan_t, open_fourier, &
@@ -17,6 +18,7 @@ module steady_responses
   use kinds, only: long, wp
   use link_loads, only: buckling_shares
   use link_store, only: link_store_t
+  use linkages, only: linkage_t
   use order_transfer, only: transferred
   use out_of_plane, only: find_out_of_plane_frequency
   use periodic_solver, only: solve_periodic
@@ -30,7 +32,7 @@ module steady_responses
     response_request_t, response_t, rigid_torque, speed_response_t, strain_values, total_torque
   use sorting, only: ascending_order
   use slow_motions, only: new_slow_motion, own_squares, slow_basis_t, slow_count, slow_motion_t
-  use structures, only: structure_t
+  use structures, only: structure_t, vibrating_beams, vibrating_linkage
   use text, only: to_string
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
@@ -221,6 +223,8 @@ contains
     real(wp), allocatable :: frequency
     integer :: k
 
+    ! The grillage is one of links between two pins.
+    if (allocated(structure%elastic)) return
     call find_out_of_plane_frequency(structure, frequency, error)
     if (.not. allocated(frequency)) return
     do k = 1, size(response%at_speed)
@@ -373,9 +377,11 @@ contains
       if (allocated(found%error)) exit attempt
       call evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
         found, errors)
-      if (request%validity) call find_quadratic_change(structure%linkage, level%grid, plan, &
-        level%basis(choice%slow), motion, request, speed, damping_of(request%damping, level%grid), &
-        solution%y, found%quadratic_change)
+      ! The exact kinematics are those of links between two pins.
+      if (request%validity .and. .not. allocated(structure%elastic)) &
+        call find_quadratic_change(structure%linkage, level%grid, plan, level%basis(choice%slow), &
+        motion, request, speed, damping_of(request%damping, level%grid), solution%y, &
+        found%quadratic_change)
     end block attempt
     found%applications = before + solution%applications + better%applications
     choice%work = choice%work + work_of(level%grid, solution%applications + 2*looking) + &
@@ -591,6 +597,18 @@ contains
       found%error)
     if (allocated(found%error)) return
     applications = mode%applications
+    if (.not. abs(mode%exponent) <= huge(1.0_wp)) then
+      ! Nothing is left of any vibration after a turn, and rounding leaves no exponent.
+      if (found%growth <= log(epsilon(1.0_wp))) then
+        found%distance = 1.0_wp
+        found%distance_error = epsilon(1.0_wp)
+        found%nearest = cmplx(found%growth, 0.0_wp, wp)
+      else
+        call set_error(found%error, error_of_numerics, "vibrations fade too fast in a turn: "// &
+          "rounding leaves nothing of their exponents")
+      end if
+      return
+    end if
     found%nearest = cmplx(two_pi*real(mode%exponent), abs(aimag(mode%exponent)), wp)
     found%distance = max(abs(1.0_wp - exp(two_pi*mode%exponent)), epsilon(1.0_wp))
     found%distance_error = two_pi*mode%change/found%distance
@@ -609,9 +627,13 @@ contains
     real(wp), allocatable, intent(out) :: errors(:) !! (series)
 
     real(wp), allocatable :: values(:, :), fine(:, :), before(:, :), at_position(:, :), scale(:)
+    type(linkage_t) :: linkage
+    type(beam_t), allocatable :: beams(:)
     real(wp) :: extra
     integer :: i, k, first, n
 
+    linkage = vibrating_linkage(structure)
+    beams = vibrating_beams(structure)
     n = size(solution%series, 2)
     allocate (values(above%grid%samples, n), fine(above%grid%samples, n), &
       before(above%grid%samples, n), errors(n))
@@ -647,7 +669,7 @@ contains
     call evaluate_drive
     call evaluate_peaks
     found%deflection = sampled_deflections(level%grid, solution%y)
-    if (request%validity) found%buckling = buckling_shares(structure%linkage, level%grid, &
+    if (request%validity) found%buckling = buckling_shares(linkage, level%grid, &
       plan, speed)
     found%largest_error = max(maxval([0.0_wp, found%displacement_error]), &
       maxval([0.0_wp, found%strain_error]), found%drive_error, maxval([0.0_wp, found%peak_error]))
@@ -666,12 +688,12 @@ contains
         first = first_of_point(i)
         scale(first:first + 1) = sqrt(maxval(fine(:, first)**2 + fine(:, first + 1)**2))
         scale(first + 2) = max(largest(first + 2), by_nature*scale(first)/ &
-          structure%linkage%bodies(request%points(i)%body)%length)
+          linkage%bodies(request%points(i)%body)%length)
       end do
       do i = 1, size(request%gauges)
         first = first_of_gauge(request, i)
         associate (body => request%gauges(i)%body)
-          associate (outer => request%section(body)%outer, beam => structure%beams(body))
+          associate (outer => request%section(body)%outer, beam => beams(body))
             associate (strain => largest(first) + outer*largest(first + 1))
               scale(first) = max(largest(first), by_nature*strain)
               scale(first + 1) = max(largest(first + 1), by_nature*strain/max(outer, tiny(1.0_wp)))
@@ -696,7 +718,7 @@ contains
         found%strain_error(size(request%gauges)))
       do g = 1, size(request%gauges)
         first = first_of_gauge(request, g)
-        associate (gauge => request%gauges(g), beam => structure%beams(request%gauges(g)%body), &
+        associate (gauge => request%gauges(g), beam => beams(request%gauges(g)%body), &
           section => request%section(request%gauges(g)%body))
           do k = 1, size(request%crank)
             found%strain(:, g, k) = gauge_values_of(gauge, beam, section, at_position(first, k), &
@@ -730,7 +752,7 @@ contains
       type(speed_response_t) :: other
       integer :: b
 
-      allocate (found%peak_error(merge(size(structure%beams), 0, request%peaks .or. &
+      allocate (found%peak_error(merge(size(beams), 0, request%peaks .or. &
         request%validity)))
       found%peak_error = 0.0_wp
       if (size(found%peak_error) == 0) return
@@ -738,10 +760,10 @@ contains
       call find_peaks(above%grid, above_plan, request, better%y, other)
       found%power_lost = speed**2*power_of(level%grid, plan, solution%y)
       other%power_lost = speed**2*power_of(above%grid, above_plan, better%y)
-      do b = 1, size(structure%beams)
+      do b = 1, size(beams)
         found%peak_error(b) = safety*abs(found%power_lost(b) - other%power_lost(b))/ &
           max(sum(other%power_lost), tiny(1.0_wp))
-        if (structure%linkage%bodies(b)%bends) found%peak_error(b) = max(found%peak_error(b), &
+        if (linkage%bodies(b)%bends) found%peak_error(b) = max(found%peak_error(b), &
           safety*strain_change(b, [found%largest_strain(b), other%largest_strain(b)])/ &
           max(other%largest_strain(b)%value, by_nature**2*maxval(other%largest_strain%value), &
           tiny(1.0_wp)), &
@@ -780,7 +802,7 @@ contains
 
       change = abs(peaks(1)%value - peaks(2)%value)
       do i = 1, size(peaks)
-        place = [peaks(i)%xi*structure%linkage%bodies(body)%length, 0.0_wp]
+        place = [peaks(i)%xi*linkage%bodies(body)%length, 0.0_wp]
         here = point_series(level%grid, body, place, solution%y)
         call resample(plan, here, above_plan, moved)
         moved = moved - point_series(above%grid, body, place, better%y)
@@ -795,19 +817,39 @@ contains
       real(wp), intent(in) :: y(:, :)
       real(wp) :: power(size(grid%integrals))
 
-      real(wp) :: coefficients(size(y, 1), size(y, 2)), c(size(y, 2))
-      integer :: i, j
+      real(wp), allocatable :: c(:)
 
       c = damping_of(request%damping, grid)
-      call coefficients_of(plan, y, coefficients)
       power = 0.0_wp
+      if (.not. allocated(grid%weighted)) then
+        call add_power(plan, y, c, grid%owner, power)
+        return
+      end if
+      associate (first => grid%border + 1, last => grid%unknowns)
+        call add_power(plan, y(:, first:), c(first:last), grid%owner(first:), power)
+        call add_power(plan, deformations_of(grid, y), c(last + 1:), grid%deformed, power)
+      end associate
+    end function power_of
+
+    !> Adds that of some motions, each with its damping, to those of the links they belong to.
+    subroutine add_power(plan, y, c, owner, power)
+      type(fourier_plan_t), intent(in) :: plan
+      real(wp), intent(in) :: y(:, :), c(:)   !! (samples, motions), (motions)
+      integer, intent(in) :: owner(:)         !! (motions); 0: a spring, which is not damped
+      real(wp), intent(inout) :: power(:)
+
+      real(wp) :: coefficients(size(y, 1), size(y, 2))
+      integer :: i, j
+
+      call coefficients_of(plan, y, coefficients)
       do i = 1, size(y, 2)
+        if (owner(i) == 0) cycle
         do j = 1, (size(y, 1) - 1)/2
-          power(grid%owner(i)) = power(grid%owner(i)) + 2.0_wp*c(i)*real(j, wp)**2* &
+          power(owner(i)) = power(owner(i)) + 2.0_wp*c(i)*real(j, wp)**2* &
             sum(coefficients(2*j:2*j + 1, i)**2)
         end do
       end do
-    end function power_of
+    end subroutine add_power
 
   end subroutine evaluate
 

@@ -4,10 +4,13 @@
 !! Arrays run over the crank angles first, so that loops over them are long.
 module turn_grids
   use axial_forces, only: distributed_unit_forces
+  use band_matrix, only: full_band
   use body_lumps, only: lump_offsets
+  use border_rows, only: row_spring
   use chord_slopes, only: find_chord_slopes
   use deformation_model, only: deformation_model_t
-  use errors, only: error_t
+  use dense_eigensolver, only: solve_dense
+  use errors, only: error_of_dead_point, error_of_numerics, error_t, set_error
   use fourier_transform, only: close_fourier, derivatives, fourier_plan_t, open_fourier
   use inertia_loads, only: distributed_load, load_t
   use kinds, only: wp
@@ -16,14 +19,26 @@ module turn_grids
   use linkages, only: linkage_t, normal_to
   use load_cases, only: case_count, find_unit_loads, load_case_t, unit_loads_t
   use moving_integrals, only: chord_functions, moving_integrals_t, new_moving_integrals
+  use part_displacements, only: border_t, find_part_chords
+  use part_forces, only: find_part_forces
+  use part_poses, only: find_part_loads
   use pin_displacements, only: body_displacement, border_numbers, chords_t, find_chords
+  use position_assembly, only: assembled_t, new_assembled, place_parts
   use poses, only: find_pose, pose_t
   use reactions, only: find_unit_reactions, unit_reactions_t
   use reduced_assembly, only: first_axial
+  use structures, only: structure_t
   implicit none (type, external)
   private
 
-  public :: turn_grid_t, new_turn_grid, new_path_grid, place_grid
+  public :: turn_grid_t, new_turn_grid, new_parts_grid, new_path_grid, place_grid
+
+  !> Positions of a turn at which deformations are tried as unknowns, and turns until these are
+  !! taken for good.
+  integer, parameter :: pivot_positions = 72, most_turns = 8
+
+  character(len=*), parameter :: no_choice = "links hold each other more than statics needs, "// &
+    "and no choice of their deformations determines all others at every position of the turn"
 
   !> Number of the load case of α2.
   integer, parameter :: of_acceleration = 2
@@ -39,7 +54,16 @@ module turn_grids
     integer, allocatable :: first(:)       !! (bodies) number of the first transverse own mode
     integer, allocatable :: first_along(:) !! (bodies) of the first axial own mode
     integer, allocatable :: elongation(:)  !! (bodies) number of its elongation; 0: rigid
-    integer, allocatable :: owner(:)       !! (unknowns) body to whose elastic energy it belongs
+    integer, allocatable :: owner(:)       !! (unknowns) body to whose elastic energy it belongs;
+                                           !! 0: to several
+    !> (samples, deformations, border) deformations of the ends of parts, and of springs, in units
+    !! of those of a unit unknown, where there are more of them than border unknowns: `elongation`
+    !! is a number among them then. Not allocated: they are the border unknowns
+    real(wp), allocatable :: weighted(:, :, :)
+    integer, allocatable :: deformed(:)    !! (deformations) body; 0: a spring
+    real(wp), allocatable :: rotation(:, :) !! (border, border) orthogonal: border unknowns as those
+                                           !! of the basis, from those of the grid, which are
+                                           !! nearly modes then. Not allocated: the same
     !> (samples, functions of the chord, border, bodies)
     real(wp), allocatable :: chord(:, :, :, :)
     real(wp), allocatable :: turn(:, :, :)      !! (samples, border, bodies) rotation of the chord
@@ -52,6 +76,9 @@ module turn_grids
     real(wp), allocatable :: rate_slope(:, :)   !! (samples, bodies) dh/dθ2
     !> (samples, force functions, bodies, cases) axial forces of the unit loads [N]
     real(wp), allocatable :: force(:, :, :, :)
+    !> (samples, border, border, cases) what blocks on guides that turn add to K_G between border
+    !! unknowns [-]; not allocated: nothing
+    real(wp), allocatable :: second_order(:, :, :, :)
     real(wp), allocatable :: load(:, :, :)      !! (samples, unknowns, cases) f of the unit loads
     real(wp), allocatable :: torque(:, :)       !! (samples, cases) of the rigid linkage [N m]
     real(wp), allocatable :: pin_mass(:)        !! (pins) [kg]
@@ -81,6 +108,7 @@ contains
     if (present(backwards)) grid%backwards = backwards
     sense = merge(-1.0_wp, 1.0_wp, grid%backwards)
     call start_grid(linkage, model, samples, grid)
+    call number_border(linkage, grid)
     do k = 1, samples
       call find_pose(linkage, sense*(360.0_wp*(k - 1))/samples, pose, error)
       if (allocated(error)) return
@@ -94,6 +122,128 @@ contains
     call find_slopes(grid)
   end subroutine new_turn_grid
 
+  !> The terms at all crank angles of a turn, of a linkage in parts that keep their lengths: bodies
+  !! are its parts, pins its points.
+  !!
+  !! Errors: the crank cannot reach one of the angles; the parts and springs do not determine the
+  !! displacements; there are more of them than do, and no choice among them serves at all angles.
+  subroutine new_parts_grid(structure, model, samples, grid, error, backwards)
+    class(structure_t), intent(in) :: structure      !! with parts
+    type(deformation_model_t), intent(in) :: model   !! their own deformations, with a border
+    integer, intent(in) :: samples                   !! crank angles
+    type(turn_grid_t), intent(out) :: grid           !! complete unless `error` is allocated
+    type(error_t), allocatable, intent(out) :: error !! why there is no grid
+    logical, intent(in), optional :: backwards       !! the crank turns clockwise; absent: not
+
+    type(assembled_t) :: here
+    type(pose_t) :: pose
+    type(kinematic_coefficients_t) :: coefficients
+    type(chords_t) :: chords
+    real(wp) :: sense
+    integer :: k
+
+    if (present(backwards)) grid%backwards = backwards
+    sense = merge(-1.0_wp, 1.0_wp, grid%backwards)
+    here = new_assembled(structure, model)
+    call start_grid(structure%elastic%linkage, model, samples, grid)
+    if (model%layout%free > 0) then
+      call set_error(error, error_of_dead_point, "the linkage moves freely, its drives at rest")
+      return
+    end if
+    allocate (grid%second_order(samples, grid%border, grid%border, case_count))
+    call number_deformations(here%border, grid)
+    if (allocated(grid%weighted)) then
+      call choose_pivots(structure, model, here, error)
+      if (.not. allocated(error)) call find_rotation(structure, here, grid, error)
+    end if
+    if (allocated(error)) return
+    do k = 1, samples
+      call find_pose(structure%linkage, sense*(360.0_wp*(k - 1))/samples, pose, error)
+      if (.not. allocated(error)) call place_parts(structure, model, pose, here, error)
+      if (.not. allocated(error)) call find_part_chords(structure%linkage, here%elastic, &
+        here%model%links, here%pose, grid%border, model%layout%free, .true., here%border, chords, &
+        error)
+      if (.not. allocated(error) .and. allocated(grid%weighted) .and. here%border%is_new) &
+        call set_error(error, error_of_numerics, no_choice)
+      if (allocated(error)) return
+      if (allocated(grid%weighted)) grid%weighted(k, :, :) = chords%weighted
+      coefficients = find_kinematic_coefficients(structure%linkage, pose)
+      call take_parts(structure, pose, coefficients, chords, k, here, grid)
+    end do
+    grid%rate = sense*grid%rate
+    grid%force(:, :, :, of_acceleration) = sense*grid%force(:, :, :, of_acceleration)
+    grid%load(:, :, of_acceleration) = sense*grid%load(:, :, of_acceleration)
+    grid%second_order(:, :, :, of_acceleration) = sense*grid%second_order(:, :, :, of_acceleration)
+    if (allocated(grid%rotation)) call turn_unknowns(grid)
+    if (.not. any(abs(grid%second_order) > 0.0_wp)) deallocate (grid%second_order)
+    call find_slopes(grid)
+  end subroutine new_parts_grid
+
+  !> The modes of the border by itself, with the mean of its mass matrix over the turn, the slowest
+  !! first. The basis of deformations may mix slow ones with fast ones; these do little.
+  subroutine find_rotation(structure, here, grid, error)
+    class(structure_t), intent(in) :: structure
+    type(assembled_t), intent(inout) :: here  !! with pivots for its border
+    type(turn_grid_t), intent(inout) :: grid
+    type(error_t), allocatable, intent(out) :: error
+
+    type(pose_t) :: pose
+    type(chords_t) :: chords
+    real(wp) :: mass(grid%border, grid%border), unit(grid%border, grid%border), &
+      inverse(grid%border), functions(size(grid%chord, 2), grid%border)
+    integer :: b, i, p
+
+    mass = 0.0_wp
+    do i = 0, pivot_positions - 1
+      call find_pose(structure%linkage, (360.0_wp*i)/pivot_positions, pose, error)
+      if (.not. allocated(error)) call place_parts(structure, grid%model, pose, here, error)
+      if (.not. allocated(error)) call find_part_chords(structure%linkage, here%elastic, &
+        here%model%links, here%pose, grid%border, 0, .false., here%border, chords, error)
+      if (allocated(error)) return
+      do b = 1, size(grid%integrals)
+        associate (chord => grid%integrals(b)%chord, of_body => grid%integrals(b)%mass)
+          call take_chord(grid%model%links(b), chords, b, functions)
+          mass = mass + matmul(transpose(functions(:chord, :)), matmul(of_body(:chord, :chord), &
+            functions(:chord, :)))
+        end associate
+      end do
+      do p = 1, size(grid%pin_mass)
+        mass = mass + grid%pin_mass(p)*matmul(transpose(chords%pin(:, p, :)), chords%pin(:, p, :))
+      end do
+    end do
+    unit = 0.0_wp
+    do i = 1, grid%border
+      unit(i, i) = 1.0_wp
+    end do
+    call solve_dense(full_band(unit), full_band(mass), grid%border, .true., inverse, &
+      grid%rotation, error)
+  end subroutine find_rotation
+
+  !> The terms in unknowns that are turned.
+  pure subroutine turn_unknowns(grid)
+    type(turn_grid_t), intent(inout) :: grid
+
+    integer :: b, c, i, k
+
+    associate (rotation => grid%rotation, border => grid%border)
+      do k = 1, grid%samples
+        do b = 1, size(grid%integrals)
+          grid%chord(k, :, :, b) = matmul(grid%chord(k, :, :, b), rotation)
+          grid%turn(k, :, b) = matmul(grid%turn(k, :, b), rotation)
+        end do
+        do i = 1, size(grid%pin, 3)
+          grid%pin(k, :, i, :) = matmul(grid%pin(k, :, i, :), rotation)
+        end do
+        grid%weighted(k, :, :) = matmul(grid%weighted(k, :, :), rotation)
+        do c = 1, case_count
+          grid%load(k, :border, c) = matmul(grid%load(k, :border, c), rotation)
+          grid%second_order(k, :, :, c) = matmul(transpose(rotation), &
+            matmul(grid%second_order(k, :, :, c), rotation))
+        end do
+      end do
+    end associate
+  end subroutine turn_unknowns
+
   !> Room for the terms at crank angles anywhere, which `place_grid` gives: the crank need not turn
   !! fully.
   subroutine new_path_grid(linkage, model, samples, grid)
@@ -103,6 +253,7 @@ contains
     type(turn_grid_t), intent(out) :: grid         !! for `place_grid`
 
     call start_grid(linkage, model, samples, grid)
+    call number_border(linkage, grid)
     allocate (grid%chord_slope, mold=grid%chord)
     allocate (grid%pin_slope, mold=grid%pin)
     grid%chord_slope = 0.0_wp
@@ -154,7 +305,7 @@ contains
     grid%border = model%layout%border
     grid%pin_mass = linkage%pin_mass
     grid%rotary_inertia = linkage%bodies%rotary_inertia
-    call number_unknowns(linkage, grid)
+    call number_own_modes(grid)
     allocate (grid%integrals(bodies))
     do b = 1, bodies
       grid%integrals(b) = new_moving_integrals(linkage%bodies(b), model%links(b))
@@ -179,29 +330,84 @@ contains
 
     type(unit_loads_t) :: loads
     type(unit_reactions_t) :: unit
-    real(wp), allocatable :: force(:, :, :)
     integer :: b, c
 
-    grid%place(k, :, :) = pose%pin
-    grid%direction(k, :, :) = pose%direction
     grid%rate(k, :) = coefficients%turn
     grid%rate_slope(k, :) = coefficients%turn_slope
-    grid%turn(k, :, :) = chords%turn
-    grid%pin(k, :, :, :) = chords%pin
-    do b = 1, size(grid%integrals)
-      call take_chord(grid%model%links(b), chords, b, grid%chord(k, :, :, b))
-    end do
+    call take_chords(pose, chords, k, grid)
     loads = find_unit_loads(linkage, pose, coefficients)
-    force = distributed_unit_forces(linkage, pose, loads)
-    if (.not. allocated(grid%force)) allocate (grid%force(grid%samples, size(force, 1), &
-      size(force, 2), case_count))
-    grid%force(k, :, :, :) = force
+    call take_forces(distributed_unit_forces(linkage, pose, loads), k, grid)
     call find_unit_reactions(linkage, spread(0, 1, size(grid%integrals)), pose, coefficients, unit)
     do c = 1, case_count
       grid%load(k, :, c) = load_of(linkage, grid, k, chords, pose, loads%of_case(c))
       grid%torque(k, c) = unit%of_case(c)%joints%torque
     end do
   end subroutine take_pose
+
+  !> The terms of a linkage in parts at one crank angle.
+  subroutine take_parts(structure, pose, coefficients, chords, k, here, grid)
+    class(structure_t), intent(in) :: structure
+    type(pose_t), intent(in) :: pose      !! of the linkage that moves
+    type(kinematic_coefficients_t), intent(in) :: coefficients
+    type(chords_t), intent(in) :: chords
+    integer, intent(in) :: k              !! number of the crank angle
+    type(assembled_t), intent(inout) :: here !! parts and border at this angle
+    type(turn_grid_t), intent(inout) :: grid
+
+    type(unit_reactions_t) :: unit
+    integer :: b, c
+
+    grid%rate(k, :) = coefficients%turn(here%elastic%body)
+    grid%rate_slope(k, :) = coefficients%turn_slope(here%elastic%body)
+    call take_chords(here%pose, chords, k, grid)
+    here%loads = find_unit_loads(structure%linkage, pose, coefficients)
+    call find_part_loads(structure%linkage, pose, here%loads, here%elastic, here%pose, &
+      here%part_loads)
+    call find_part_forces(structure%linkage, here%elastic, here%model%links, here%pose, &
+      here%part_loads, here%border, chords, here%part_forces)
+    call take_forces(here%part_forces%axial, k, grid)
+    call find_unit_reactions(structure%linkage, spread(0, 1, size(structure%linkage%bodies)), &
+      pose, coefficients, unit)
+    do c = 1, case_count
+      grid%second_order(k, :, :, c) = here%part_forces%second_order(:, :, c)
+      ! The static solution, since the stiffness is the unit matrix.
+      grid%load(k, :grid%border, c) = here%part_forces%border(:, c)
+      do b = 1, size(grid%integrals)
+        call add_own_loads(grid, b, inertia_work(here%elastic%linkage, grid, b, here%pose, &
+          here%part_loads%unit%of_case(c)), grid%load(k, :, c))
+      end do
+      grid%torque(k, c) = unit%of_case(c)%joints%torque
+    end do
+  end subroutine take_parts
+
+  !> Places, directions, and what the border unknowns do to pins and chords.
+  subroutine take_chords(pose, chords, k, grid)
+    type(pose_t), intent(in) :: pose
+    type(chords_t), intent(in) :: chords
+    integer, intent(in) :: k
+    type(turn_grid_t), intent(inout) :: grid
+
+    integer :: b
+
+    grid%place(k, :, :) = pose%pin
+    grid%direction(k, :, :) = pose%direction
+    grid%turn(k, :, :) = chords%turn
+    grid%pin(k, :, :, :) = chords%pin
+    do b = 1, size(grid%integrals)
+      call take_chord(grid%model%links(b), chords, b, grid%chord(k, :, :, b))
+    end do
+  end subroutine take_chords
+
+  !> Axial forces of the unit loads.
+  subroutine take_forces(force, k, grid)
+    real(wp), intent(in) :: force(:, :, :) !! (force functions, bodies, cases) [N]
+    integer, intent(in) :: k
+    type(turn_grid_t), intent(inout) :: grid
+
+    if (.not. allocated(grid%force)) allocate (grid%force(grid%samples, size(force, 1), &
+      size(force, 2), case_count))
+    grid%force(k, :, :, :) = force
+  end subroutine take_forces
 
   !> Functions of the chord of a body for every border unknown.
   pure subroutine take_chord(link, chords, body, functions)
@@ -239,28 +445,83 @@ contains
     call close_fourier(plan)
   end subroutine find_slopes
 
-  !> Numbers of the own modes of every body, and to which body an unknown belongs.
-  pure subroutine number_unknowns(linkage, grid)
+  !> To which bodies the border unknowns of a crank and dyads belong.
+  pure subroutine number_border(linkage, grid)
     type(linkage_t), intent(in) :: linkage
     type(turn_grid_t), intent(inout) :: grid
 
     integer :: number(0:size(linkage%bodies)), b
 
     number = border_numbers(linkage)
-    allocate (grid%owner(grid%unknowns), grid%first(size(linkage%bodies)), &
-      grid%first_along(size(linkage%bodies)))
     if (number(0) > 0) grid%owner(number(0)) = 1
+    do b = 1, size(linkage%bodies)
+      if (number(b) > 0) grid%owner(number(b)) = b
+    end do
     grid%elongation = number(1:)
+  end subroutine number_border
+
+  !> To which parts the deformations belong: where there are as many as unknowns, each is one.
+  pure subroutine number_deformations(border, grid)
+    type(border_t), intent(in) :: border
+    type(turn_grid_t), intent(inout) :: grid
+
+    integer :: n
+
+    n = size(border%numbers%rows)
+    grid%elongation = border%numbers%elongation
+    grid%deformed = merge(0, border%numbers%rows%number, border%numbers%rows%kind == row_spring)
+    if (n == grid%border .and. all(grid%deformed > 0)) then
+      grid%owner(:n) = grid%deformed
+    else
+      grid%owner(:grid%border) = 0
+      allocate (grid%weighted(grid%samples, n, grid%border))
+    end if
+  end subroutine number_deformations
+
+  !> Deformations that determine all others at every position: the border unknowns are then smooth
+  !! functions of the crank angle. From a position on where they do not, others are taken, until a
+  !! whole turn needs no more.
+  subroutine choose_pivots(structure, model, here, error)
+    class(structure_t), intent(in) :: structure
+    type(deformation_model_t), intent(in) :: model
+    type(assembled_t), intent(inout) :: here !! its border gets them
+    type(error_t), allocatable, intent(out) :: error
+
+    type(pose_t) :: pose
+    type(chords_t) :: chords
+    integer :: i, kept
+
+    kept = 0
+    do i = 0, most_turns*pivot_positions - 1
+      call find_pose(structure%linkage, (360.0_wp*modulo(i, pivot_positions))/pivot_positions, &
+        pose, error)
+      if (.not. allocated(error)) call place_parts(structure, model, pose, here, error)
+      if (.not. allocated(error)) call find_part_chords(structure%linkage, here%elastic, &
+        here%model%links, here%pose, model%layout%border, model%layout%free, .false., here%border, &
+        chords, error)
+      if (allocated(error)) return
+      kept = merge(1, kept + 1, here%border%is_new)
+      if (kept > pivot_positions) return
+    end do
+    call set_error(error, error_of_numerics, no_choice)
+  end subroutine choose_pivots
+
+  !> Numbers of the own modes of every body, and the body to which they belong.
+  pure subroutine number_own_modes(grid)
+    type(turn_grid_t), intent(inout) :: grid
+
+    integer :: b
+
     associate (links => grid%model%links, layout => grid%model%layout)
+      allocate (grid%owner(grid%unknowns), grid%first(size(links)), grid%first_along(size(links)))
       do b = 1, size(links)
-        if (number(b) > 0) grid%owner(number(b)) = b
         grid%first(b) = layout%first(b)
         grid%first_along(b) = first_axial(layout, links, b)
         grid%owner(grid%first(b):grid%first(b) + links(b)%modes - 1) = b
         grid%owner(grid%first_along(b):grid%first_along(b) + links(b)%axial_modes - 1) = b
       end do
     end associate
-  end subroutine number_unknowns
+  end subroutine number_own_modes
 
   !> Work of a load case per unit of every unknown: `f = −∫ μ Sᵀ a dx`, the term −M Ü0 of Ulker 2010
   !! (2.77), (2.82) and (2.83), and the work of forces and torques.
@@ -273,45 +534,69 @@ contains
     type(load_case_t), intent(in) :: case
     real(wp) :: load(grid%unknowns)
 
-    real(wp), allocatable :: work(:), offset(:)
-    type(load_t) :: whole
+    real(wp), allocatable :: work(:)
     integer :: b, i, p
 
     load = 0.0_wp
     do b = 1, size(linkage%bodies)
-      associate (integrals => grid%integrals(b), axis => pose%direction(:, b))
-        if (grid%model%links(b)%bends) then
-          work = -matmul(integrals%mass(:, [1, 2, integrals%chord - 1, integrals%chord]), &
-            ends_of(case, b, axis, linkage%bodies(b)%length))
-          ! The accelerations of the axis, as displacements, move a mass beside it but for the
-          ! centripetal part of its offset, across the link.
-          if (size(integrals%at_mass, 2) > 0) then
-            offset = lump_offsets(linkage%bodies(b))
-            work = work - matmul(integrals%at_mass, offset)*dot_product(axis, case%field%slope(:, &
-              b))
-          end if
-        else
-          whole = distributed_load(linkage%bodies(b), b, pose, case%field)
-          work = [dot_product(axis, whole%force), dot_product(normal_to(axis), whole%force), &
-            whole%moment]
-        end if
+      work = inertia_work(linkage, grid, b, pose, case)
+      associate (chord => grid%integrals(b)%chord)
         do i = 1, grid%border
-          load(i) = load(i) + dot_product(grid%chord(k, :integrals%chord, i, b), &
-            work(:integrals%chord)) + case%couple(b)*chords%turn(i, b)
+          load(i) = load(i) + dot_product(grid%chord(k, :chord, i, b), work(:chord)) + &
+            case%couple(b)*chords%turn(i, b)
         end do
-        associate (link => grid%model%links(b))
-          load(grid%first(b):grid%first(b) + link%modes - 1) = &
-            work(integrals%chord + 1:integrals%chord + link%modes)
-          load(grid%first_along(b):grid%first_along(b) + link%axial_modes - 1) = &
-            work(integrals%chord + link%modes + 1:)
-        end associate
       end associate
+      call add_own_loads(grid, b, work, load)
     end do
     do p = 1, size(linkage%pin_mass)
       load(:grid%border) = load(:grid%border) + matmul(case%pin_force(:, p) - &
         linkage%pin_mass(p)*case%field%at_pin(:, p), chords%pin(:, p, :))
     end do
   end function load_of
+
+  !> Work of the inertia loads of a body on all its functions.
+  pure function inertia_work(linkage, grid, b, pose, case) result(work)
+    type(linkage_t), intent(in) :: linkage
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: b !! number of the body
+    type(pose_t), intent(in) :: pose
+    type(load_case_t), intent(in) :: case
+    real(wp), allocatable :: work(:)
+
+    real(wp), allocatable :: offset(:)
+    type(load_t) :: whole
+
+    associate (integrals => grid%integrals(b), axis => pose%direction(:, b))
+      if (grid%model%links(b)%bends) then
+        work = -matmul(integrals%mass(:, [1, 2, integrals%chord - 1, integrals%chord]), &
+          ends_of(case, b, axis, linkage%bodies(b)%length))
+        ! The accelerations of the axis, as displacements, move a mass beside it but for the
+        ! centripetal part of its offset, across the link.
+        if (size(integrals%at_mass, 2) > 0) then
+          offset = lump_offsets(linkage%bodies(b))
+          work = work - matmul(integrals%at_mass, offset)*dot_product(axis, case%field%slope(:, b))
+        end if
+      else
+        whole = distributed_load(linkage%bodies(b), b, pose, case%field)
+        work = [dot_product(axis, whole%force), dot_product(normal_to(axis), whole%force), &
+          whole%moment]
+      end if
+    end associate
+  end function inertia_work
+
+  !> The work on the own modes of a body.
+  pure subroutine add_own_loads(grid, b, work, load)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: b
+    real(wp), intent(in) :: work(:)    !! (functions)
+    real(wp), intent(inout) :: load(:) !! (unknowns)
+
+    associate (link => grid%model%links(b), chord => grid%integrals(b)%chord)
+      load(grid%first(b):grid%first(b) + link%modes - 1) = work(chord + 1:chord + link%modes)
+      load(grid%first_along(b):grid%first_along(b) + link%axial_modes - 1) = &
+        work(chord + link%modes + 1:)
+    end associate
+  end subroutine add_own_loads
 
   !> Accelerations of both ends of a link across it and along it.
   pure function ends_of(case, body, axis, length) result(ends)

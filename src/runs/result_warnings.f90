@@ -4,7 +4,7 @@ module result_warnings
   use campbell_types, only: campbell_t
   use harmonics_study, only: harmonics_result_t, has_settled
   use kinds, only: wp
-  use mechanisms, only: mechanism_t
+  use mechanisms, only: link_lengths, mechanism_t
   use models, only: accuracy_of_study, drives_length, model_t, needs_frequencies, needs_study, &
     speed_in_words
   use position_results, only: error_of_divergence, error_of_orders, error_of_position
@@ -278,7 +278,7 @@ contains
     integer :: body, speed
 
     warning%kind = warning_of_response_deflection
-    call largest_deflection(response, mechanism%linkage%bodies%length, largest, body, speed)
+    call largest_deflection(response, link_lengths(mechanism), largest, body, speed)
     if (largest <= most_deflection) return
     warning%amount = largest
     warning%text = "in the response at speed "//speed_in_words(model, speed, &

@@ -2,10 +2,11 @@
 module campbell_study
   use campbell, only: find_campbell
   use campbell_types, only: campbell_t
-  use crank_cycle, only: turns_freely
   use errors, only: error_of_reach, error_t, set_error
   use link_store, only: link_store_t
+  use stability_study, only: of_vibrating_bodies
   use stability_types, only: stability_request_t
+  use steady_turns, only: has_steady_turn
   use structures, only: structure_t
   implicit none (type, external)
   private
@@ -25,8 +26,9 @@ contains
     type(error_t), allocatable :: error
     integer :: k
 
-    if (turns_freely(structure%linkage)) then
-      call find_campbell(structure, request, threads, store, found, error)
+    if (has_steady_turn(structure%linkage)) then
+      call find_campbell(structure, of_vibrating_bodies(structure, request), threads, store, &
+        found, error)
     else
       allocate (found%at_speed(size(request%speed)), found%critical(0), found%gap(0))
       call set_error(error, error_of_reach, "the crank does not turn fully, or meets a dead "// &

@@ -1,11 +1,12 @@
 !> The steady elastic response at all speeds of a deck.
 module response_study
-  use crank_cycle, only: turns_freely
   use errors, only: error_of_reach, error_t, set_error
   use kinds, only: wp
   use link_store, only: link_store_t
+  use part_requests, only: join_parts, request_of_parts
   use response_types, only: response_request_t, response_t, speed_response_t
   use steady_responses, only: find_steady_responses
+  use steady_turns, only: has_steady_turn
   use structures, only: structure_t
   implicit none (type, external)
   private
@@ -25,12 +26,18 @@ contains
     type(error_t), allocatable :: error
     integer :: k
 
-    if (turns_freely(structure%linkage)) then
-      call find_steady_responses(structure, request, threads, store, response, error)
-    else
+    if (.not. has_steady_turn(structure%linkage)) then
       allocate (response%at_speed(size(request%speed)))
       call set_error(error, error_of_reach, "the crank does not turn fully, or meets a dead "// &
         "point: there is no steady state")
+    else if (allocated(structure%elastic)) then
+      call find_steady_responses(structure, request_of_parts(structure%elastic, request), threads, &
+        store, response, error)
+      do k = 1, size(response%at_speed)
+        call join_parts(structure%elastic, size(structure%linkage%bodies), response%at_speed(k))
+      end do
+    else
+      call find_steady_responses(structure, request, threads, store, response, error)
     end if
     if (.not. allocated(error)) return
     do k = 1, size(request%speed)

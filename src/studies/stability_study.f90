@@ -1,16 +1,17 @@
 !> Stability of the motion at all speeds of a deck.
 module stability_study
-  use crank_cycle, only: turns_freely
   use instability_intervals, only: find_intervals
   use errors, only: error_of_reach, error_t, set_error
   use link_store, only: link_store_t
+  use part_requests, only: dampings_of_parts
   use stability, only: find_stability
   use stability_types, only: gap_t, instability_t, intervals_t, stability_request_t, stability_t
+  use steady_turns, only: has_steady_turn
   use structures, only: structure_t
   implicit none (type, external)
   private
 
-  public :: find_stability_of, find_intervals_of
+  public :: find_stability_of, find_intervals_of, of_vibrating_bodies
 
   character(len=*), parameter :: no_motion = "the crank does not turn fully, or meets a dead "// &
     "point: there is no steady motion"
@@ -28,8 +29,9 @@ contains
     type(error_t), allocatable :: error
     integer :: k
 
-    if (turns_freely(structure%linkage)) then
-      call find_stability(structure, request, threads, store, found, error)
+    if (has_steady_turn(structure%linkage)) then
+      call find_stability(structure, of_vibrating_bodies(structure, request), threads, store, &
+        found, error)
     else
       allocate (found%at_speed(size(request%speed)))
       call set_error(error, error_of_reach, no_motion)
@@ -52,8 +54,9 @@ contains
 
     type(error_t), allocatable :: error
 
-    if (turns_freely(structure%linkage)) then
-      call find_intervals(structure, request, threads, store, found, error)
+    if (has_steady_turn(structure%linkage)) then
+      call find_intervals(structure, of_vibrating_bodies(structure, request), threads, store, &
+        found, error)
     else
       call set_error(error, error_of_reach, no_motion)
     end if
@@ -62,5 +65,16 @@ contains
     found%interval = [instability_t ::]
     found%gap = [gap_t(found%range(1), found%range(2), error)]
   end subroutine find_intervals_of
+
+  !> The request with the damping of parts where the linkage has them.
+  pure function of_vibrating_bodies(structure, request) result(of_bodies)
+    class(structure_t), intent(in) :: structure      !! linkage and beams
+    type(stability_request_t), intent(in) :: request !! damping of links
+    type(stability_request_t) :: of_bodies
+
+    of_bodies = request
+    if (allocated(structure%elastic)) of_bodies%damping = dampings_of_parts(structure%elastic, &
+      request%damping)
+  end function of_vibrating_bodies
 
 end module stability_study

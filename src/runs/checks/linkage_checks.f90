@@ -10,13 +10,14 @@ module linkage_checks
   use linkage_parts, only: assembly_t
   use linkages, only: groups_dyad, is_dyad_linkage, linkage_t, reference_point
   use mechanisms, only: mechanism_t, pins_of_body
-  use models, only: drives_length, effects_axial, model_t, needs_frequencies, report_number, &
-    solver_band, solver_dense
+  use models, only: drives_length, effects_axial, model_t, needs_frequencies, needs_response, &
+    report_number, solver_band, solver_dense, steady_state_report
   use plan_words, only: group_names
   use process_cards, only: process_force
   use pose_types, only: pose_t
   use poses, only: place_links, place_parts
   use redundancies, only: body_of_redundancy, largest_misfit
+  use steady_turns, only: has_steady_turn
   use text, only: lower_case, plural, to_string
   use tokens, only: token_t
   implicit none (type, external)
@@ -106,7 +107,52 @@ contains
     if (leaving > 0) call check_blocks(model, mechanism, diagnostics)
     if (needs_frequencies(model) .and. .not. has_errors(diagnostics)) call check_mesh(model, &
       mechanism, diagnostics)
+    if (needs_response(model) .and. .not. has_errors(diagnostics)) call check_running(model, &
+      mechanism, diagnostics)
   end subroutine check_linkage
+
+  !> The running elastic linkage: which ones its equations are for.
+  pure subroutine check_running(model, mechanism, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=:), allocatable :: name
+    integer :: i, report
+
+    report = findloc(model%reports%kind%response, .true., dim=1)
+    name = "REPORT "//trim(model%reports(report)%kind%name)
+    i = findloc(model%drives%is_free, .true., dim=1)
+    if (i > 0) then
+      call add_error(diagnostics, model%drives(i)%keyword, name//" is on a linkage whose "// &
+        "drives keep to their motion, and this one is free; expected no 'free'", &
+        model%reports(report)%keyword, "it is asked for here")
+      return
+    end if
+    if (allocated(mechanism%elastic)) then
+      do i = 1, size(model%sliders)
+        if (mechanism%elastic%contact(i) == 0) cycle
+        call add_error(diagnostics, model%sliders(i)%pin, name//" is not found yet with a "// &
+          "block that slides along a link that bends; expected '"// &
+          model%links(model%sliders(i)%link)%name%text//"' to be rigid", &
+          model%reports(report)%keyword, "it is asked for here")
+        return
+      end do
+    end if
+    report = steady_state_report(model)
+    if (report == 0) return
+    if (has_steady_turn(mechanism%linkage)) return
+    name = "; REPORT "//trim(model%reports(report)%kind%name)//" is on the steady state of a "// &
+      "crank that turns fully, and there is none"
+    if (drives_length(model)) then
+      call add_error(diagnostics, model%drives(1)%keyword, "the first DRIVE moves a slider "// &
+        "or a ram"//name, kind=error_of_reach)
+    else
+      call add_error(diagnostics, model%reports(report)%keyword, "the crank does not turn "// &
+        "fully, meets a dead point, or the links are elsewhere after a turn"//name, &
+        kind=error_of_reach)
+    end if
+  end subroutine check_running
 
   !> A link that bends is cut under the block that slides along it; one cut, in a uniform part.
   pure subroutine check_cut_links(model, diagnostics)
