@@ -2,8 +2,8 @@
 !! shapes.
 module frequency_report
   use errors, only: error_t
-  use frequency_study, only: damping_values, failure_at, find_stations, frequency_values, has_result, &
-    link_of_part
+  use frequency_study, only: damping_values, failure_at, find_stations, frequency_values, &
+    has_result, link_of_part
   use kinds, only: wp
   use links_report, only: shown_crank
   use load_notes, only: acceleration_note
@@ -47,12 +47,12 @@ contains
     type(model_t), intent(in) :: model
     type(string_t), allocatable, intent(inout) :: notes(:)
 
-    call append_string(notes, "with dampers, motions like exp(s t): f1, f2, ... are |s|/(2 pi), "// &
-      "ascending by size, of every complex pair s = 2 pi f (-zeta +- i sqrt(1 - zeta^2)) and of "// &
-      "every real s by itself")
-    call append_string(notes, "zeta1, zeta2, ...: their damping ratios -Re s/|s|: 1 of a real s "// &
-      "< 0, which does not swing, of which a mode has two; -1 of s > 0; 0 of s = 0; each is off "// &
-      "by its error at most")
+    call append_string(notes, "with dampers, motions like exp(s t): f1, f2, ... are "// &
+      "|s|/(2 pi), ascending by size, of every complex pair "// &
+      "s = 2 pi f (-zeta +- i sqrt(1 - zeta^2)) and of every real s by itself")
+    call append_string(notes, "zeta1, zeta2, ...: their damping ratios -Re s/|s|: 1 of a "// &
+      "real s < 0, which does not swing, of which a mode has two; -1 of s > 0; 0 of s = 0; "// &
+      "each is off by its error at most")
     if (needs_loads(model) .and. is_moving(model)) call append_string(notes, &
       "the forces by which dampers resist the motion of the linkage are not among the loads")
   end subroutine add_damper_notes
