@@ -10,7 +10,7 @@ module elastic_linkages
   use applied_load_types, only: applied_load_t, applies_along, applies_between
   use beam_mesh, only: beam_t
   use kinds, only: wp
-  use linkages, only: body_t, drives_angle, drives_length, drives_slider, &
+  use linkages, only: body_t, cross, drives_angle, drives_length, drives_slider, &
     forced_place_t, is_dyad_linkage, linkage_t, lump_t
   use pose_types, only: pins_of_body, place_of_pin
   use turning_ends, only: add_end, join_ends, new_turning_ends, number_of, number_ends, &
@@ -267,18 +267,11 @@ contains
       first = place_of_pin(body, pins(1))
       last = place_of_pin(body, pins(2))
       length = norm2(last - first)
-      off = abs([cross_of(line%direction, first - line%point), cross_of(line%direction, last - &
+      off = abs([cross(line%direction, first - line%point), cross(line%direction, last - &
         line%point)])
       if (any(off > near*length)) length = 0.0_wp
     end associate
   end function length_on_line
-
-  pure function cross_of(a, b) result(cross)
-    real(wp), intent(in) :: a(2), b(2)
-    real(wp) :: cross
-
-    cross = a(1)*b(2) - a(2)*b(1)
-  end function cross_of
 
   !> Masses and places of forces of a link go to the straight part that they are nearest to.
   pure subroutine share_lumps(linkage, b, first, last, elastic)
@@ -325,7 +318,7 @@ contains
     do k = first, last
       from = elastic%linkage%bodies(k)%length
       associate (axis => elastic%axis(:, k), way => place - elastic%place(:, k))
-        here = [dot_product(axis, way), cross_of(axis, way)]
+        here = [dot_product(axis, way), cross(axis, way)]
       end associate
       distance = norm2([here(1) - max(0.0_wp, min(from, here(1))), here(2)])
       if (distance >= least) cycle

@@ -7,7 +7,7 @@ module part_poses
   use elastic_linkages, only: elastic_linkage_t, fixed_rotation
   use errors, only: error_of_reach, error_t, set_error
   use kinds, only: wp
-  use linkages, only: drives_length, linkage_t, normal_to, turned, turned_back
+  use linkages, only: cross, drives_length, linkage_t, normal_to, turned, turned_back
   use load_cases, only: case_count, constant_case, load_case_t, unit_loads_t
   use poses, only: arm_to_place, pose_t
   implicit none (type, external)
@@ -220,7 +220,7 @@ contains
         if (is_first .and. allocated(linkage%bodies(b)%forced)) then
           do i = 1, size(linkage%bodies(b)%forced)
             arm = arm_to_place(pose, b, linkage%bodies(b)%forced(i)%place)
-            parts%couple(k) = parts%couple(k) - moment_of(arm, of_links%place_force(:, &
+            parts%couple(k) = parts%couple(k) - cross(arm, of_links%place_force(:, &
               linkage%bodies(b)%forced(i)%load))
           end do
         end if
@@ -228,20 +228,12 @@ contains
         do i = 1, size(part%forced)
           arm = arm_to_place(placed, k, part%forced(i)%place)
           associate (force => of_links%place_force(:, part%forced(i)%load))
-            parts%couple(k) = parts%couple(k) + moment_of(arm, force)
+            parts%couple(k) = parts%couple(k) + cross(arm, force)
             parts%body_force(:, k) = parts%body_force(:, k) + force
           end associate
         end do
       end associate
     end do
   end subroutine take_couples
-
-  !> Moment of a force.
-  pure function moment_of(arm, force) result(moment)
-    real(wp), intent(in) :: arm(2), force(2)
-    real(wp) :: moment
-
-    moment = arm(1)*force(2) - arm(2)*force(1)
-  end function moment_of
 
 end module part_poses

@@ -231,12 +231,7 @@ contains
         right(k) = right(k) - work(column(i), pivot(k))*right(i)
       end do
     end do
-    do k = pivots, 1, -1
-      do i = k + 1, pivots
-        right(k) = right(k) - work(column(i), pivot(k))*p(column(i))
-      end do
-      p(column(k)) = right(k)/work(column(k), pivot(k))
-    end do
+    call substitute_back(work, pivot, column, pivots, right, p)
   end subroutine solve
 
   !> S, Q and what is free.
