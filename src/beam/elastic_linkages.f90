@@ -19,7 +19,7 @@ module elastic_linkages
   private
 
   public :: elastic_linkage_t, spring_t, new_elastic_linkage, needs_parts, scaled_link, &
-    fixed_rotation
+    fixed_rotation, spring_pin, shared_pin
 
   !> Of an end that cannot turn.
   integer, parameter :: fixed_rotation = -1
@@ -456,8 +456,8 @@ contains
 
   !> The pin at which a spring turns two links.
   pure function spring_pin(linkage, number) result(pin)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: number !! of the load
+    type(linkage_t), intent(in) :: linkage !! its loads
+    integer, intent(in) :: number          !! of the load, between two bodies
     integer :: pin
 
     associate (load => linkage%loads(number))
@@ -468,8 +468,8 @@ contains
 
   !> A pin of two links, or a ground pivot of one; its first pin if there is none.
   pure function shared_pin(linkage, body, other) result(pin)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: body, other !! numbers; the other may be 0: the ground
+    type(linkage_t), intent(in) :: linkage !! its bodies
+    integer, intent(in) :: body, other     !! numbers; the other may be 0: the ground
     integer :: pin
 
     integer, allocatable :: pins(:)

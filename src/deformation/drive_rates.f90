@@ -12,7 +12,8 @@ module drive_rates
   implicit none (type, external)
   private
 
-  public :: find_drive_rates, own_drive_rates, slide_of, turn_of_end, end_at_joint
+  public :: find_drive_rates, own_drive_rates, own_slopes, slide_of, turn_of_end, end_at_joint, &
+    is_joint
 
 contains
 
@@ -89,24 +90,25 @@ contains
     integer :: number                              !! 1: the first, 2: the last; 0: none
 
     number = 0
-    if (is_joint(elastic%linkage%bodies(part)%last_pin)) number = 2
-    if (is_joint(elastic%linkage%bodies(part)%first_pin)) number = 1
-
-  contains
-
-    !> Whether a pin joins both.
-    pure function is_joint(pin)
-      integer, intent(in) :: pin
-      logical :: is_joint
-
-      if (other == 0) then
-        is_joint = elastic%linkage%is_ground(pin)
-      else
-        is_joint = any(pins_of_body(linkage%bodies(other)) == pin)
-      end if
-    end function is_joint
-
+    if (is_joint(linkage, elastic%linkage%bodies(part)%last_pin, other)) number = 2
+    if (is_joint(linkage, elastic%linkage%bodies(part)%first_pin, other)) number = 1
   end function end_at_joint
+
+  !> Whether a point is a pin of a link, or of the ground.
+  pure function is_joint(linkage, point, body)
+    type(linkage_t), intent(in) :: linkage !! that moves: pins of its links
+    integer, intent(in) :: point           !! number; those beyond the pins are none
+    integer, intent(in) :: body            !! number of the link; 0: the ground
+    logical :: is_joint
+
+    is_joint = .false.
+    if (point > size(linkage%is_ground)) return
+    if (body == 0) then
+      is_joint = linkage%is_ground(point)
+    else
+      is_joint = any(pins_of_body(linkage%bodies(body)) == point)
+    end if
+  end function is_joint
 
   !> Rotations of an end of a part that bends against its chord: of curves, then own modes.
   pure function end_slopes(link, end) result(slopes)
@@ -120,6 +122,18 @@ contains
     slopes = matmul(row(:size(link%bending, 1)), link%bending)
   end function end_slopes
 
+  !> Rotations of an end of a part that bends by its own modes.
+  pure function own_slopes(link, number) result(slopes)
+    type(link_modes_t), intent(in) :: link !! of the part
+    integer, intent(in) :: number          !! 1: the first end, 2: the last
+    real(wp) :: slopes(link%modes)         !! (own modes)
+
+    real(wp) :: all_slopes(link%curves + link%modes)
+
+    all_slopes = end_slopes(link, number)
+    slopes = all_slopes(link%curves + 1:)
+  end function own_slopes
+
   !> Rotations at the joints of free drives that are due to own modes of one part.
   pure function own_drive_rates(linkage, elastic, links, part) result(rate)
     type(linkage_t), intent(in) :: linkage           !! that moves: its drives
@@ -128,7 +142,6 @@ contains
     integer, intent(in) :: part                      !! that bends
     real(wp) :: rate(count(linkage%drives%is_free), links(part)%modes) !! (free drives, own modes)
 
-    real(wp) :: slopes(links(part)%curves + links(part)%modes)
     integer :: bodies(2), d, i, k, at, end
 
     rate = 0.0_wp
@@ -143,8 +156,7 @@ contains
           if (bodies(k) == 0) cycle
           call find_joint_end(linkage, elastic, bodies(k), bodies(3 - k), at, end)
           if (at /= part .or. elastic%rotation(end, at) /= 0) cycle
-          slopes = end_slopes(links(part), end)
-          rate(i, :) = rate(i, :) + merge(1.0_wp, -1.0_wp, k == 1)*slopes(links(part)%curves + 1:)
+          rate(i, :) = rate(i, :) + merge(1.0_wp, -1.0_wp, k == 1)*own_slopes(links(part), end)
         end do
       end associate
     end do

@@ -2,15 +2,17 @@
 !! that bends, of a rigid link as a whole.
 !!
 !! The moments that couples put on an end are known together. Where it has but one that is unknown
-!! yet, that follows, and loads the end on its other side.
+!! yet, that follows, and loads the end on its other side. Where ends hold each other all the way
+!! round, one couple is open: no equilibrium tells it, and no deformation.
 module part_couples
+  use drive_rates, only: is_joint
   use elastic_linkages, only: elastic_linkage_t
   use inertia_loads, only: load_t
   use joint_forces, only: joint_forces_t
   use kinds, only: wp
   use linkages, only: cross, drives_angle, linkage_t
   use part_displacements, only: border_t
-  use part_forces, only: part_forces_t
+  use part_force_types, only: part_forces_t
   use part_poses, only: part_loads_t
   use pose_types, only: arm_to_pin, pins_of_body
   use poses, only: pose_t
@@ -29,9 +31,9 @@ module part_couples
 
 contains
 
-  !> The couples of a load case; 0 where rigid links are turned by more than one way round.
+  !> The couples of a load case.
   pure subroutine find_part_couples(linkage, elastic, pose, loads, border, forces, case, on_part, &
-    joints)
+    joints, given, open)
     type(linkage_t), intent(in) :: linkage         !! that moves: its bodies, turns, drives
     type(elastic_linkage_t), intent(in) :: elastic !! at this position
     type(pose_t), intent(in) :: pose               !! of points and parts
@@ -42,9 +44,12 @@ contains
     real(wp), intent(in) :: on_part(:, :)          !! (6, parts) forces on both ends of parts that
                                                    !! bend, then moments [N, N m]
     type(joint_forces_t), intent(inout) :: joints  !! with forces at pins and of drives: couples
+    real(wp), intent(in), optional :: given(:)     !! (open couples) their values; absent: 0 [N m]
+    integer, allocatable, intent(out), optional :: open(:) !! (open couples) numbers of their turns
 
     type(turned_end_t) :: ends(2, size(linkage%turns))
     logical :: is_known(size(linkage%turns)), is_new
+    integer, allocatable :: free(:)
     integer :: i, k
 
     do i = 1, size(linkage%turns)
@@ -55,6 +60,7 @@ contains
     end do
     is_known = .false.
     joints%couple = 0.0_wp
+    allocate (free(0))
     do
       is_new = .false.
       do i = 1, size(is_known)
@@ -67,8 +73,14 @@ contains
           is_new = .true.
         end do
       end do
-      if (.not. is_new) exit
+      if (all(is_known)) exit
+      if (is_new) cycle
+      i = findloc(is_known, .false., dim=1)
+      free = [free, i]
+      if (present(given)) joints%couple(i) = given(size(free))
+      is_known(i) = .true.
     end do
+    if (present(open)) call move_alloc(free, open)
 
   contains
 
@@ -164,6 +176,13 @@ contains
       end associate
     end do
     moment = moment - moment_of_springs(elastic, forces, case, body, rotation)
+    do k = 1, size(elastic%body)
+      if (elastic%body(k) /= body) cycle
+      if (elastic%linkage%bodies(k)%first_pin == point) moment = moment - loads%end_couple(1, k, &
+        case)
+      if (elastic%linkage%bodies(k)%last_pin == point) moment = moment - loads%end_couple(2, k, &
+        case)
+    end do
     do i = 1, size(linkage%drives)
       associate (drive => linkage%drives(i))
         if (drive%kind /= drives_angle) cycle
@@ -178,21 +197,6 @@ contains
         loads%unit%of_case(case)%field%angular(elastic%cut_part(i))
     end do
   end function moment_on_end
-
-  !> Whether a point is a pin of a link, or of the ground.
-  pure function is_joint(linkage, point, body)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: point, body
-    logical :: is_joint
-
-    is_joint = .false.
-    if (point > size(linkage%is_ground)) return
-    if (body == 0) then
-      is_joint = linkage%is_ground(point)
-    else
-      is_joint = any(pins_of_body(linkage%bodies(body)) == point)
-    end if
-  end function is_joint
 
   !> Moment on a rigid link about its first pin of everything but the couples of turns.
   pure function moment_on_rigid(linkage, elastic, pose, loads, border, forces, case, body, joints) &
@@ -211,7 +215,7 @@ contains
     integer :: pins(2 + size(linkage%bodies(body)%further)), i, part, row
 
     part = findloc(elastic%body, body, dim=1)
-    load = load_on_rigid(linkage, elastic, pose, loads, border, forces, case, part)
+    load = load_on_rigid(elastic, pose, loads, border%numbers, forces, case, part)
     moment = load%moment + moment_of_springs(elastic, forces, case, body, elastic%rotation(1, part))
     pins = pins_of_body(linkage%bodies(body))
     do i = 2, size(pins)

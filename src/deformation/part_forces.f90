@@ -7,39 +7,24 @@
 module part_forces
   use axial_forces, only: lump_functions, most_lump_functions
   use border_loads, only: border_work, own_work
-  use border_rows, only: add_stretch, line_direction, spring_way
+  use border_rows, only: add_stretch, spring_way
   use dense_factor, only: dense_factor_t, factorize, solve
-  use drive_rates, only: find_drive_rates, own_drive_rates, slide_of
+  use drive_rates, only: find_drive_rates, own_drive_rates, own_slopes, slide_of, turn_of_end
   use elastic_linkages, only: elastic_linkage_t
   use kinds, only: wp
   use link_modes, only: link_modes_t
-  use linkages, only: linkage_t, normal_to, turned
-  use load_cases, only: case_count, load_case_t
+  use linkages, only: linkage_t, normal_to
+  use load_cases, only: case_count, constant_case, load_case_t
   use part_displacements, only: border_t, chords_of
+  use part_force_types, only: part_forces_t
   use part_poses, only: part_loads_t
   use pin_displacements, only: chords_t
   use poses, only: pose_t
+  use rigid_part_loads, only: turning_load
   implicit none (type, external)
   private
 
   public :: part_forces_t, find_part_forces
-
-  !> Forces of the unit loads.
-  type :: part_forces_t
-    real(wp), allocatable :: axial(:, :, :)   !! (1, ξ, ξ², lumps; parts; cases) as of
-                                              !! `distributed_unit_forces` [N]
-    real(wp), allocatable :: second_order(:, :, :) !! (border, border, cases) what blocks on guides
-                                              !! and springs add to K_G [-]
-    real(wp), allocatable :: border(:, :)     !! (border, cases) static solution; 0 of free motions
-    real(wp), allocatable :: guide(:, :)      !! (sliders, cases) force of the guide on the block,
-                                              !! along the normal of its line [N]
-    real(wp), allocatable :: weighted(:, :)   !! (rows, cases) forces of parts and springs in units
-                                              !! of y [√J]
-    real(wp), allocatable :: constraint(:, :) !! (constraints, cases) multipliers [N]
-    real(wp), allocatable :: spring(:, :)     !! (springs, cases) [N] or [N m]
-    real(wp), allocatable :: drive(:, :)      !! (drives, cases) of free ones; 0 of others [N m] or
-                                              !! [N]
-  end type part_forces_t
 
   !> What own modes of a part do to the joints of free drives.
   type :: own_rates_t
@@ -92,12 +77,14 @@ contains
       if (.not. loads%unit%occurs(i)) cycle
       associate (case => loads%unit%of_case(i))
         work = border_work(elastic%linkage, links, chords, pose, case) + &
-          matmul(loads%moment(:, i), chords%rotation)
+          matmul(loads%moment(:, i), chords%rotation) + work_on_ends(elastic, links, chords, &
+          loads%end_couple(:, :, i))
         lambda = border_work(elastic%linkage, links, of_constraints, pose, case) + &
-          matmul(loads%moment(:, i), of_constraints%rotation)
+          matmul(loads%moment(:, i), of_constraints%rotation) + work_on_ends(elastic, links, &
+          of_constraints, loads%end_couple(:, :, i))
         if (size(on_drives, 1) > 0) then
           held = held_by_drives(on_drives(:, :n), on_drives(:, n + 1:), work, compliance, &
-            own_turns(elastic, links, pose, case, on_own))
+            own_turns(elastic, links, pose, case, loads%end_couple(:, :, i), on_own))
           forces%drive(free, i) = held
           work = work + matmul(held, on_drives)
           lambda = lambda + matmul(held, drives_of_constraints)
@@ -107,16 +94,6 @@ contains
         lambda = lambda - matmul(weighted, border%basis%weighted_violation)
         forces%weighted(:, i) = weighted
         forces%constraint(:, i) = lambda
-        do k = 1, size(links)
-          if (.not. elastic%linkage%bodies(k)%bends) then
-            forces%axial(1, k, i) = turning_load(elastic, pose, case, k, lambda, border, &
-              loads, weighted, forces%drive(:, i), merge(1.0_wp, 0.0_wp, i == case_count))/ &
-              elastic%linkage%bodies(k)%length
-            cycle
-          end if
-          mean = weighted(border%numbers%elongation(k))/links(k)%elongation
-          call add_distribution(elastic%linkage, k, pose, case, mean, forces%axial(:, k, i))
-        end do
         do k = 1, size(elastic%contact)
           j = border%numbers%line_constraint(k)
           if (j > 0) forces%guide(k, i) = -lambda(j)
@@ -124,7 +101,16 @@ contains
         do k = 1, size(elastic%springs)
           forces%spring(k, i) = sqrt(elastic%springs(k)%stiffness)* &
             weighted(border%numbers%spring(k))
-          if (i == case_count) forces%spring(k, i) = forces%spring(k, i) + loads%pull(k)
+          if (i == constant_case) forces%spring(k, i) = forces%spring(k, i) + loads%pull(k)
+        end do
+        do k = 1, size(links)
+          if (.not. elastic%linkage%bodies(k)%bends) then
+            forces%axial(1, k, i) = turning_load(elastic, pose, loads, border%numbers, forces, i, &
+              k)/elastic%linkage%bodies(k)%length
+            cycle
+          end if
+          mean = weighted(border%numbers%elongation(k))/links(k)%elongation
+          call add_distribution(elastic%linkage, k, pose, case, mean, forces%axial(:, k, i))
         end do
         call add_second_order(elastic, pose, border, chords, forces%guide(:, i), &
           forces%spring(:, i), forces%second_order(:, :, i))
@@ -132,6 +118,29 @@ contains
       end associate
     end do
   end subroutine find_part_forces
+
+  !> Work of couples on the ends of parts that bend.
+  pure function work_on_ends(elastic, links, chords, couple) result(work)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(link_modes_t), intent(in) :: links(:)
+    type(chords_t), intent(in) :: chords
+    real(wp), intent(in) :: couple(:, :) !! (2, parts) [N m]
+    real(wp) :: work(size(chords%turn, 1))
+
+    integer :: e, k
+
+    work = 0.0_wp
+    do k = 1, size(links)
+      do e = 1, 2
+        if (.not. abs(couple(e, k)) > 0.0_wp) cycle
+        if (elastic%rotation(e, k) > 0) then
+          work = work + couple(e, k)*chords%rotation(elastic%rotation(e, k), :)
+        else if (elastic%rotation(e, k) == 0) then
+          work = work + couple(e, k)*turn_of_end(links(k), chords, k, e)
+        end if
+      end do
+    end do
+  end function work_on_ends
 
   !> `N(ξ)` of a part from its mean and the loads along it.
   pure subroutine add_distribution(linkage, part, pose, case, mean, force)
@@ -164,103 +173,6 @@ contains
       end do
     end associate
   end subroutine add_distribution
-
-  !> `Σ F·r` of a rigid link, r from its first point: forces at its points, of blocks on it, and
-  !! its loads [N m].
-  pure function turning_load(elastic, pose, case, part, lambda, border, loads, weighted, drive, &
-    constant) result(total)
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(pose_t), intent(in) :: pose
-    type(load_case_t), intent(in) :: case
-    integer, intent(in) :: part
-    real(wp), intent(in) :: lambda(:)
-    type(border_t), intent(in) :: border
-    type(part_loads_t), intent(in) :: loads
-    real(wp), intent(in) :: weighted(:) !! (rows)
-    real(wp), intent(in) :: drive(:)    !! (drives) of free ones
-    real(wp), intent(in) :: constant    !! 1 of loads that are there at rest, else 0
-    real(wp) :: total
-
-    real(wp) :: arm(2), way(2), pull
-    integer :: i, k, row
-
-    associate (body => elastic%linkage%bodies(part), e => pose%direction(:, part))
-      total = 0.0_wp
-      do k = 0, size(body%further)
-        arm = e*body%length
-        if (k > 0) arm = turned(body%further(k)%place, e)
-        row = border%numbers%body_constraint(part) + 2*k
-        total = total + dot_product(lambda(row + 1:row + 2), arm)
-      end do
-      do i = 1, size(elastic%contact)
-        row = border%numbers%line_constraint(i)
-        if (elastic%linkage%sliders(i)%body /= elastic%body(part) .or. row == 0) cycle
-        arm = pose%pin(:, elastic%linkage%sliders(i)%pin) - pose%pin(:, body%first_pin)
-        total = total + lambda(row)*dot_product(normal_to(line_direction(elastic, pose, i)), arm)
-      end do
-      do i = 1, size(border%numbers%drive_constraint)
-        row = border%numbers%drive_constraint(i)
-        if (row == 0) cycle
-        k = elastic%linkage%drives(i)%slider
-        if (elastic%linkage%sliders(k)%body /= elastic%body(part)) cycle
-        arm = pose%pin(:, elastic%linkage%sliders(k)%pin) - pose%pin(:, body%first_pin)
-        total = total + lambda(row)*dot_product(line_direction(elastic, pose, k), arm)
-      end do
-      do i = 1, size(drive)
-        k = elastic%linkage%drives(i)%slider
-        if (k == 0 .or. .not. elastic%linkage%drives(i)%is_free) cycle
-        if (elastic%linkage%sliders(k)%body /= elastic%body(part)) cycle
-        arm = pose%pin(:, elastic%linkage%sliders(k)%pin) - pose%pin(:, body%first_pin)
-        total = total - drive(i)*dot_product(line_direction(elastic, pose, k), arm)
-      end do
-      total = total - inertia_turning(elastic, pose, case, part)
-      if (allocated(body%forced) .and. allocated(case%place_force)) then
-        do i = 1, size(body%forced)
-          total = total + dot_product(case%place_force(:, body%forced(i)%load), &
-            turned(body%forced(i)%place, e))
-        end do
-      end if
-      ! Springs at places that are no pins.
-      do i = 1, size(elastic%springs)
-        if (elastic%springs(i)%turns) cycle
-        pull = constant*loads%pull(i) + sqrt(elastic%springs(i)%stiffness)* &
-          weighted(border%numbers%spring(i))
-        way = spring_way(elastic, pose, elastic%springs(i))
-        if (norm2(way) > 0.0_wp) way = way/norm2(way)
-        do k = 1, 2
-          associate (at => elastic%linkage%loads(elastic%springs(i)%load)%at(k))
-            if (at%pin > 0 .or. at%body /= elastic%body(part)) cycle
-            total = total + merge(pull, -pull, k == 1)*dot_product(way, turned(at%place, e))
-          end associate
-        end do
-      end do
-    end associate
-  end function turning_load
-
-  !> `∫ a·r dm` of a rigid link. The rotary inertia of cross-sections does not count.
-  pure function inertia_turning(elastic, pose, case, part) result(total)
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(pose_t), intent(in) :: pose
-    type(load_case_t), intent(in) :: case
-    integer, intent(in) :: part
-    real(wp) :: total
-
-    real(wp) :: mass
-    integer :: i
-
-    associate (body => elastic%linkage%bodies(part), e => pose%direction(:, part), &
-        first => case%field%at_first(:, part), slope => case%field%slope(:, part))
-      mass = body%line_density*body%length
-      total = mass*body%length*(0.5_wp*dot_product(e, first) + body%length/3.0_wp*dot_product(e, &
-        slope))
-      do i = 1, size(body%lumps)
-        associate (lump => body%lumps(i))
-          total = total + lump%mass*dot_product(turned(lump%place, e), first) + &
-            (lump%mass*dot_product(lump%place, lump%place) + lump%inertia)*dot_product(e, slope)
-        end associate
-      end do
-    end associate
-  end function inertia_turning
 
   !> What blocks on guides that turn and springs add to K_G: `R s θ` and `½ (T/l) (n·ΔU)²`.
   pure subroutine add_second_order(elastic, pose, border, chords, guide, tension, stiffness)
@@ -342,20 +254,25 @@ contains
   end subroutine find_own_drive_rates
 
   !> Turns of the joints of free drives by own modes under the loads.
-  pure function own_turns(elastic, links, pose, case, on_own) result(turns)
+  pure function own_turns(elastic, links, pose, case, couple, on_own) result(turns)
     type(elastic_linkage_t), intent(in) :: elastic
     type(link_modes_t), intent(in) :: links(:)
     type(pose_t), intent(in) :: pose
     type(load_case_t), intent(in) :: case
+    real(wp), intent(in) :: couple(:, :) !! (2, parts) on the ends of those that bend [N m]
     type(own_rates_t), intent(in) :: on_own(:)
     real(wp), allocatable :: turns(:)
 
-    integer :: k
+    integer :: e, k
 
     do k = 1, size(links)
       if (.not. allocated(on_own(k)%rate)) cycle
       if (.not. allocated(turns)) allocate (turns(size(on_own(k)%rate, 1)), source=0.0_wp)
       turns = turns + matmul(on_own(k)%rate, own_work(elastic%linkage, links(k), k, pose, case))
+      do e = 1, 2
+        if (elastic%rotation(e, k) == 0 .and. abs(couple(e, k)) > 0.0_wp) turns = turns + &
+          couple(e, k)*matmul(on_own(k)%rate, own_slopes(links(k), e))
+      end do
     end do
   end function own_turns
 

@@ -21,6 +21,8 @@ module part_poses
     real(wp), allocatable :: moment(:, :)           !! (rotations, cases) [N m]
     real(wp), allocatable :: pull(:)                !! (springs) at the pose, before the linkage
                                                     !! yields [N] or [N m]
+    real(wp), allocatable :: end_couple(:, :, :)    !! (2, parts, cases) on the ends of parts that
+                                                    !! bend [N m]
   end type part_loads_t
 
   !> The least part of a cut one, as a share of it.
@@ -91,9 +93,11 @@ contains
     real(wp), allocatable :: pull(:)
     integer :: i, k
 
-    allocate (of_parts%moment(elastic%rotations, case_count), of_parts%pull(size(elastic%springs)))
+    allocate (of_parts%moment(elastic%rotations, case_count), of_parts%pull(size(elastic%springs)), &
+      of_parts%end_couple(2, size(elastic%body), case_count))
     of_parts%moment = 0.0_wp
     of_parts%pull = 0.0_wp
+    of_parts%end_couple = 0.0_wp
     of_parts%unit%occurs = loads%occurs
     do i = 1, case_count
       if (.not. loads%occurs(i)) cycle

@@ -17,7 +17,7 @@ module part_reactions
   use load_cases, only: load_case_t
   use part_couples, only: find_part_couples
   use part_displacements, only: border_t
-  use part_forces, only: part_forces_t
+  use part_force_types, only: part_forces_t
   use part_poses, only: part_loads_t
   use pin_displacements, only: chords_t
   use pose_types, only: pins_of_body
@@ -33,7 +33,7 @@ contains
   !> Puts the forces of a load case in place of those of statics; what drives do is left, for it
   !! follows from the power.
   pure subroutine take_part_reactions(linkage, elastic, links, pose, loads, border, forces, case, &
-    joints)
+    joints, given, open)
     type(linkage_t), intent(in) :: linkage         !! that moves: its bodies, sliders and turns
     type(elastic_linkage_t), intent(in) :: elastic !! at this position
     type(link_modes_t), intent(in) :: links(:)     !! (parts)
@@ -43,6 +43,8 @@ contains
     type(part_forces_t), intent(in) :: forces      !! of these loads
     integer, intent(in) :: case                    !! number of the load case
     type(joint_forces_t), intent(inout) :: joints  !! of this linkage
+    real(wp), intent(in), optional :: given(:)     !! (open couples) as of `find_part_couples`
+    integer, allocatable, intent(out), optional :: open(:) !! (open couples) likewise
 
     real(wp) :: on_part(6, size(links)), force(2)
     integer :: b, i, k, further
@@ -51,7 +53,8 @@ contains
       on_part(:, k) = 0.0_wp
       if (elastic%linkage%bodies(k)%bends) on_part(:, k) = on_ends(elastic, links(k), k, pose, &
         loads%unit%of_case(case), border, forces%weighted(:, case), torques_of_drives(linkage, &
-        elastic, k, forces%drive(:, case)))
+        elastic, k, forces%drive(:, case)) + merge(loads%end_couple(:, k, case), 0.0_wp, &
+        elastic%rotation(:, k) == 0))
     end do
     further = 0
     do b = 1, size(linkage%bodies)
@@ -69,7 +72,7 @@ contains
     end do
     if (allocated(joints%guide)) joints%guide = forces%guide(:, case)
     if (allocated(joints%couple)) call find_part_couples(linkage, elastic, pose, loads, border, &
-      forces, case, on_part, joints)
+      forces, case, on_part, joints, given, open)
   end subroutine take_part_reactions
 
   !> Forces on both ends of a part that bends, and moments: as the displacements of `part_rows`.
@@ -82,7 +85,7 @@ contains
     type(load_case_t), intent(in) :: case
     type(border_t), intent(in) :: border
     real(wp), intent(in) :: weighted(:)
-    real(wp), intent(in) :: torque(2) !! of drives on its hinged ends [N m]
+    real(wp), intent(in) :: torque(2) !! of drives and loads on its hinged ends [N m]
     real(wp) :: on_part(6)
 
     type(linkage_t) :: alone
@@ -193,7 +196,7 @@ contains
       force = forces%constraint(row + 1:row + 2, case)
       return
     end if
-    load = load_on_rigid(linkage, elastic, pose, loads, border, forces, case, k)
+    load = load_on_rigid(elastic, pose, loads, border%numbers, forces, case, k)
     force = -load%force
     do i = 2, size(pins)
       row = border%numbers%body_constraint(k) + 2*(i - 2)

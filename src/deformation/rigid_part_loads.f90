@@ -1,83 +1,141 @@
-!> What acts on a rigid link of a vibrating linkage beside its pins: inertia, forces at places,
-!! blocks that slide along it, springs.
+!> What acts on a rigid link of a vibrating linkage: inertia, forces at its points and at places,
+!! blocks that slide along it with their drives, springs.
 module rigid_part_loads
-  use border_rows, only: line_direction, spring_way
+  use border_rows, only: border_unknowns_t, line_direction, spring_way
   use elastic_linkages, only: elastic_linkage_t
   use inertia_loads, only: distributed_load, load_t
   use kinds, only: wp
-  use linkages, only: cross, linkage_t, normal_to, turned
-  use load_cases, only: constant_case
-  use part_displacements, only: border_t
-  use part_forces, only: part_forces_t
+  use linkages, only: cross, normal_to, turned
+  use load_cases, only: constant_case, load_case_t
+  use part_force_types, only: part_forces_t
   use part_poses, only: part_loads_t
   use poses, only: pose_t
   implicit none (type, external)
   private
 
-  public :: load_on_rigid
+  public :: load_on_rigid, turning_load
+
+  !> A force on a link.
+  type :: placed_force_t
+    real(wp) :: force(2) = 0.0_wp !! [N]
+    real(wp) :: arm(2) = 0.0_wp   !! where it acts, from the first point of the link [m]
+  end type placed_force_t
 
 contains
 
   !> The resultant of all but the forces at its pins, and the couples of turns, of drives and of
   !! springs that turn.
-  pure function load_on_rigid(linkage, elastic, pose, loads, border, forces, case, part) &
-    result(load)
-    type(linkage_t), intent(in) :: linkage         !! that moves: its sliders and drives
+  pure function load_on_rigid(elastic, pose, loads, numbers, forces, case, part) result(load)
     type(elastic_linkage_t), intent(in) :: elastic !! at this position
     type(pose_t), intent(in) :: pose               !! of points and parts
     type(part_loads_t), intent(in) :: loads        !! of this position
-    type(border_t), intent(in) :: border           !! numbers of constraints
+    type(border_unknowns_t), intent(in) :: numbers !! of constraints
     type(part_forces_t), intent(in) :: forces      !! of these loads
     integer, intent(in) :: case                    !! number of the load case
     integer, intent(in) :: part                    !! number of the rigid part
     type(load_t) :: load                           !! about its first pin [N, N m]
 
-    real(wp) :: way(2), change
-    integer :: i, k
+    type(placed_force_t), allocatable :: others(:)
+    real(wp) :: change(size(elastic%springs))
+    integer :: i
 
     associate (of_case => loads%unit%of_case(case))
       load = distributed_load(elastic%linkage%bodies(part), part, pose, of_case%field)
       load%moment = load%moment + of_case%couple(part)
       if (allocated(of_case%body_force)) load%force = load%force + of_case%body_force(:, part)
     end associate
-    do i = 1, size(linkage%sliders)
-      if (linkage%sliders(i)%body /= elastic%body(part)) cycle
-      call add(-force_on_block(linkage, elastic, pose, border, forces, case, i), pose%pin(:, &
-        linkage%sliders(i)%pin) - pose%pin(:, elastic%linkage%bodies(part)%first_pin))
-    end do
     ! Pulls at the pose are among the forces at places; the linkage yields to the loads.
+    change = forces%spring(:, case)
+    if (case == constant_case) change = change - loads%pull
+    others = forces_of_others(elastic, pose, numbers, forces, case, change, part)
+    do i = 1, size(others)
+      load%force = load%force + others(i)%force
+      load%moment = load%moment + cross(others(i)%arm, others(i)%force)
+    end do
+  end function load_on_rigid
+
+  !> `Σ F·r` of a rigid link, r from its first point: forces at its points, of blocks on it, and
+  !! its loads [N m].
+  pure function turning_load(elastic, pose, loads, numbers, forces, case, part) result(total)
+    type(elastic_linkage_t), intent(in) :: elastic !! at this position
+    type(pose_t), intent(in) :: pose               !! of points and parts
+    type(part_loads_t), intent(in) :: loads        !! of this position
+    type(border_unknowns_t), intent(in) :: numbers !! of constraints
+    type(part_forces_t), intent(in) :: forces      !! of these loads, but for their axial forces
+    integer, intent(in) :: case                    !! number of the load case
+    integer, intent(in) :: part                    !! number of the rigid part
+    real(wp) :: total
+
+    type(placed_force_t), allocatable :: others(:)
+    real(wp) :: arm(2)
+    integer :: i, k, row
+
+    associate (body => elastic%linkage%bodies(part), e => pose%direction(:, part), &
+        of_case => loads%unit%of_case(case))
+      total = -inertia_turning(elastic, pose, of_case, part)
+      do k = 0, size(body%further)
+        arm = e*body%length
+        if (k > 0) arm = turned(body%further(k)%place, e)
+        row = numbers%body_constraint(part) + 2*k
+        total = total + dot_product(forces%constraint(row + 1:row + 2, case), arm)
+      end do
+      others = forces_of_others(elastic, pose, numbers, forces, case, forces%spring(:, case), part)
+      do i = 1, size(others)
+        total = total + dot_product(others(i)%force, others(i)%arm)
+      end do
+      if (.not. (allocated(body%forced) .and. allocated(of_case%place_force))) return
+      do i = 1, size(body%forced)
+        total = total + dot_product(of_case%place_force(:, body%forced(i)%load), &
+          turned(body%forced(i)%place, e))
+      end do
+    end associate
+  end function turning_load
+
+  !> Forces on a rigid link of blocks that slide along it, and of springs at its places.
+  pure function forces_of_others(elastic, pose, numbers, forces, case, tension, part) &
+    result(others)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(pose_t), intent(in) :: pose
+    type(border_unknowns_t), intent(in) :: numbers
+    type(part_forces_t), intent(in) :: forces
+    integer, intent(in) :: case
+    real(wp), intent(in) :: tension(:) !! (springs) of those along a line [N]
+    integer, intent(in) :: part
+    type(placed_force_t), allocatable :: others(:)
+
+    type(placed_force_t) :: room(size(elastic%linkage%sliders) + 2*size(elastic%springs))
+    real(wp) :: way(2)
+    integer :: i, k, n
+
+    n = 0
+    do i = 1, size(elastic%linkage%sliders)
+      if (elastic%linkage%sliders(i)%body /= elastic%body(part)) cycle
+      n = n + 1
+      room(n)%force = -force_on_block(elastic, pose, numbers, forces, case, i)
+      room(n)%arm = pose%pin(:, elastic%linkage%sliders(i)%pin) - pose%pin(:, &
+        elastic%linkage%bodies(part)%first_pin)
+    end do
     do i = 1, size(elastic%springs)
       if (elastic%springs(i)%turns) cycle
-      change = forces%spring(i, case)
-      if (case == constant_case) change = change - loads%pull(i)
       way = spring_way(elastic, pose, elastic%springs(i))
       if (norm2(way) > 0.0_wp) way = way/norm2(way)
       do k = 1, 2
         associate (at => elastic%linkage%loads(elastic%springs(i)%load)%at(k))
           if (at%pin > 0 .or. at%body /= elastic%body(part)) cycle
-          call add(merge(change, -change, k == 1)*way, turned(at%place, pose%direction(:, part)))
+          n = n + 1
+          room(n)%force = merge(tension(i), -tension(i), k == 1)*way
+          room(n)%arm = turned(at%place, pose%direction(:, part))
         end associate
       end do
     end do
-
-  contains
-
-    !> Adds a force.
-    pure subroutine add(force, arm)
-      real(wp), intent(in) :: force(2), arm(2)
-
-      load%force = load%force + force
-      load%moment = load%moment + cross(arm, force)
-    end subroutine add
-
-  end function load_on_rigid
+    others = room(:n)
+  end function forces_of_others
 
   !> Force of a guide on its block, with that of a drive that moves the block [N].
-  pure function force_on_block(linkage, elastic, pose, border, forces, case, slider) result(force)
-    type(linkage_t), intent(in) :: linkage
+  pure function force_on_block(elastic, pose, numbers, forces, case, slider) result(force)
     type(elastic_linkage_t), intent(in) :: elastic
     type(pose_t), intent(in) :: pose
-    type(border_t), intent(in) :: border
+    type(border_unknowns_t), intent(in) :: numbers
     type(part_forces_t), intent(in) :: forces
     integer, intent(in) :: case, slider
     real(wp) :: force(2)
@@ -87,12 +145,37 @@ contains
 
     direction = line_direction(elastic, pose, slider)
     force = forces%guide(slider, case)*normal_to(direction)
-    do i = 1, size(linkage%drives)
-      if (linkage%drives(i)%slider /= slider) cycle
+    do i = 1, size(elastic%linkage%drives)
+      if (elastic%linkage%drives(i)%slider /= slider) cycle
       force = force + forces%drive(i, case)*direction
-      row = border%numbers%drive_constraint(i)
+      row = numbers%drive_constraint(i)
       if (row > 0) force = force - forces%constraint(row, case)*direction
     end do
   end function force_on_block
+
+  !> `∫ a·r dm` of a rigid link. The rotary inertia of cross-sections does not count.
+  pure function inertia_turning(elastic, pose, case, part) result(total)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(pose_t), intent(in) :: pose
+    type(load_case_t), intent(in) :: case
+    integer, intent(in) :: part
+    real(wp) :: total
+
+    real(wp) :: mass
+    integer :: i
+
+    associate (body => elastic%linkage%bodies(part), e => pose%direction(:, part), &
+        first => case%field%at_first(:, part), slope => case%field%slope(:, part))
+      mass = body%line_density*body%length
+      total = mass*body%length*(0.5_wp*dot_product(e, first) + body%length/3.0_wp*dot_product(e, &
+        slope))
+      do i = 1, size(body%lumps)
+        associate (lump => body%lumps(i))
+          total = total + lump%mass*dot_product(turned(lump%place, e), first) + &
+            (lump%mass*dot_product(lump%place, lump%place) + lump%inertia)*dot_product(e, slope)
+        end associate
+      end do
+    end associate
+  end function inertia_turning
 
 end module rigid_part_loads

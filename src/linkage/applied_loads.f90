@@ -15,7 +15,7 @@ module applied_loads
   private
 
   public :: add_conservative_loads, add_prescribed_loads, add_standing_loads, add_moving_loads, &
-    forced_places, forces_at_places, &
+    is_moving, moving_force, moving_couple, forced_places, forces_at_places, &
     applied_potential, generalised_force, has_standing_loads, has_moving_loads, spring_pulls, &
     damper_pulls, spring_scale
 
@@ -145,16 +145,19 @@ contains
     call add_prescribed_loads(linkage, pose, origin, body_load, pin_load)
   end subroutine add_standing_loads
 
-  !> Places of a body on which forces act that a pose determines.
-  pure function forced_places(loads, body) result(places)
+  !> Places of a body on which forces act that a pose determines, or all forces.
+  pure function forced_places(loads, body, with_moving) result(places)
     type(applied_load_t), intent(in) :: loads(:) !! of the linkage
     integer, intent(in) :: body                  !! its number
+    logical, intent(in), optional :: with_moving !! those that depend on the motion, too; absent: no
     type(forced_place_t), allocatable :: places(:)
 
     logical :: acts(size(loads))
     integer :: i, n
 
     acts = loads%kind == applies_force .and. (is_conservative(loads) .or. is_prescribed(loads))
+    if (present(with_moving)) acts = acts .or. with_moving .and. loads%kind == applies_force .and. &
+      is_moving(loads)
     do i = 1, size(loads)
       acts(i) = acts(i) .and. loads(i)%at(1)%pin == 0 .and. loads(i)%at(1)%body == body
     end do
@@ -182,6 +185,8 @@ contains
       if (.not. allocated(linkage%bodies(b)%forced)) cycle
       do i = 1, size(linkage%bodies(b)%forced)
         associate (number => linkage%bodies(b)%forced(i)%load)
+          if (.not. (is_conservative(linkage%loads(number)) .or. &
+            is_prescribed(linkage%loads(number)))) cycle
           force(:, number) = table_factor(linkage, pose, origin, linkage%loads(number))* &
             force_of(pose, linkage%loads(number))
         end associate
@@ -199,7 +204,6 @@ contains
     type(load_t), intent(inout) :: body_load(:)     !! (bodies) about their first pins
     real(wp), intent(inout) :: pin_load(:, :)       !! (2, pins) [N]
 
-    real(wp) :: velocity(2), force(2), couple, speed
     integer :: i
 
     do i = 1, size(linkage%loads)
@@ -207,19 +211,11 @@ contains
         if (.not. is_moving(load)) cycle
         select case (load%kind)
         case (applies_force)
-          velocity = velocity_at(linkage, pose, now, load%at(1))
-          speed = norm2(velocity)
-          force = -load%damping*velocity
-          if (speed > 0.0_wp) force = force - resistance(load, speed)/speed*velocity
-          if (load%during /= acts_always) force = force + share_of(load, velocity, &
-            force_of(pose, load))*table_factor(linkage, pose, origin, load)*force_of(pose, load)
-          call add_force(linkage, pose, load%at(1), force, body_load, pin_load)
+          call add_force(linkage, pose, load%at(1), moving_force(linkage, pose, origin, now, &
+            load), body_load, pin_load)
         case (applies_couple)
-          speed = now%turn(load%body(1))
-          couple = -load%damping*speed - resistance(load, speed)
-          if (load%during /= acts_always) couple = couple + share_of(load, [speed, 0.0_wp], &
-            [load%couple, 0.0_wp])*table_factor(linkage, pose, origin, load)*load%couple
-          body_load(load%body(1))%moment = body_load(load%body(1))%moment + couple
+          body_load(load%body(1))%moment = body_load(load%body(1))%moment + &
+            moving_couple(linkage, pose, origin, now, load)
         case default
           call add_pull(linkage, pose, load, damper_pull(linkage, pose, now, load), body_load, &
             pin_load)
@@ -227,6 +223,43 @@ contains
       end associate
     end do
   end subroutine add_moving_loads
+
+  !> What a force at a place has beside its part that a pose determines: its resistance to the
+  !! motion of the place, and all of it where it acts in one direction of the motion [N].
+  pure function moving_force(linkage, pose, origin, now, load) result(force)
+    type(linkage_t), intent(in) :: linkage          !! of this load
+    type(pose_t), intent(in) :: pose                !! with the coordinate of the first drive
+    real(wp), intent(in) :: origin(2)               !! from which its pins are counted [m]
+    type(kinematic_coefficients_t), intent(in) :: now !! velocities [m/s], [rad/s]
+    type(applied_load_t), intent(in) :: load        !! a force that `is_moving`
+    real(wp) :: force(2)
+
+    real(wp) :: velocity(2), speed
+
+    velocity = velocity_at(linkage, pose, now, load%at(1))
+    speed = norm2(velocity)
+    force = -load%damping*velocity
+    if (speed > 0.0_wp) force = force - resistance(load, speed)/speed*velocity
+    if (load%during /= acts_always) force = force + share_of(load, velocity, force_of(pose, load))* &
+      table_factor(linkage, pose, origin, load)*force_of(pose, load)
+  end function moving_force
+
+  !> The same of a couple on a body [N m].
+  pure function moving_couple(linkage, pose, origin, now, load) result(couple)
+    type(linkage_t), intent(in) :: linkage          !! of this load
+    type(pose_t), intent(in) :: pose                !! with the coordinate of the first drive
+    real(wp), intent(in) :: origin(2)               !! from which its pins are counted [m]
+    type(kinematic_coefficients_t), intent(in) :: now !! velocities [m/s], [rad/s]
+    type(applied_load_t), intent(in) :: load        !! a couple that `is_moving`
+    real(wp) :: couple
+
+    real(wp) :: speed
+
+    speed = now%turn(load%body(1))
+    couple = -load%damping*speed - resistance(load, speed)
+    if (load%during /= acts_always) couple = couple + share_of(load, [speed, 0.0_wp], &
+      [load%couple, 0.0_wp])*table_factor(linkage, pose, origin, load)*load%couple
+  end function moving_couple
 
   !> How springs pull, or turn bodies back; 0 of all other loads [N] or [N m].
   pure function spring_pulls(linkage, pose) result(pull)

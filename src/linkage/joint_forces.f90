@@ -12,7 +12,8 @@ module joint_forces
   implicit none (type, external)
   private
 
-  public :: joint_forces_t, find_joint_forces, force_at_pin, add_force
+  public :: joint_forces_t, no_joint_forces, find_joint_forces, force_at_pin, add_force, &
+    add_scaled
 
   !> Forces on the bodies at their pins, and the torque of the drive.
   type :: joint_forces_t
@@ -75,6 +76,17 @@ contains
       forces%torque = forces%drive(1)
     end if
   end function find_joint_forces
+
+  !> No forces in the joints of a linkage that is no four-bar.
+  pure function no_joint_forces(linkage) result(forces)
+    type(linkage_t), intent(in) :: linkage !! its bodies, sliders, turns, drives
+    type(joint_forces_t) :: forces
+
+    allocate (forces%on_first(2, size(linkage%bodies)), forces%on_last(2, size(linkage%bodies)))
+    forces%on_first = 0.0_wp
+    forces%on_last = 0.0_wp
+    call clear_further_forces(linkage, forces)
+  end function no_joint_forces
 
   !> Makes room for what a four-bar does not have.
   pure subroutine clear_further_forces(linkage, forces)
@@ -146,6 +158,22 @@ contains
       forces%on_further(:, number) = forces%on_further(:, number) + force
     end if
   end subroutine add_force
+
+  !> Adds a multiple of other forces in the same joints.
+  pure subroutine add_scaled(forces, factor, others)
+    type(joint_forces_t), intent(inout) :: forces !! to which they are added
+    real(wp), intent(in) :: factor
+    type(joint_forces_t), intent(in) :: others    !! of the same linkage
+
+    forces%on_first = forces%on_first + factor*others%on_first
+    forces%on_last = forces%on_last + factor*others%on_last
+    forces%torque = forces%torque + factor*others%torque
+    if (.not. allocated(forces%drive)) return
+    forces%on_further = forces%on_further + factor*others%on_further
+    forces%guide = forces%guide + factor*others%guide
+    forces%couple = forces%couple + factor*others%couple
+    forces%drive = forces%drive + factor*others%drive
+  end subroutine add_scaled
 
   !> Pins of a body that is placed before them: what they bear is a load of the body.
   pure subroutine load_body(linkage, group, pose, carried, load, forces)

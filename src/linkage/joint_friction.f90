@@ -4,7 +4,7 @@ module joint_friction
   use dense_factor, only: dense_factor_t, factorize, solve
   use group_equations, only: line_axis
   use inertia_loads, only: load_t
-  use joint_forces, only: find_joint_forces, force_at_pin, joint_forces_t
+  use joint_forces, only: add_scaled, find_joint_forces, force_at_pin, joint_forces_t
   use joint_friction_types, only: joint_friction_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
@@ -72,8 +72,8 @@ contains
   !! friction, all coefficients rising together, by Newton's method. Where its determinant reaches
   !! zero on the way forces grow beyond all bounds: the linkage locks itself.
   pure subroutine find_friction(linkage, pose, coefficients, speed, factor, without, &
-    friction)
-    type(linkage_t), intent(in) :: linkage       !! its frictions; not redundant
+    friction, of_units)
+    type(linkage_t), intent(in) :: linkage       !! its frictions
     type(pose_t), intent(in) :: pose             !! away from dead points
     type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
     real(wp), intent(in) :: speed                !! of the first drive [rad/s] or [m/s]
@@ -81,6 +81,9 @@ contains
     type(joint_forces_t), intent(in) :: without(:) !! (parts) of the forces in the joints without
                                                  !! friction
     type(friction_t), intent(out) :: friction
+    type(joint_forces_t), intent(in), optional :: of_units(:) !! (frictions) forces in the joints
+                                                 !! that balance an effort of one in each; absent:
+                                                 !! statics tells them
 
     type(load_t) :: body_load(size(linkage%bodies))
     real(wp) :: pin_load(2, size(linkage%is_ground))
@@ -94,8 +97,12 @@ contains
       friction%rate = friction_rates(linkage, pose, coefficients, speed)
       coulomb = coulomb_efforts(rubs, friction%rate)
       viscous = -rubs%viscous*friction%rate
-      call put_friction(linkage, pose, viscous, body_load, pin_load)
-      joints = find_joint_forces(linkage, pose, body_load, pin_load)
+      if (present(of_units)) then
+        joints = sum_of(of_units, viscous)
+      else
+        call put_friction(linkage, pose, viscous, body_load, pin_load)
+        joints = find_joint_forces(linkage, pose, body_load, pin_load)
+      end if
       do k = 1, size(rubs)
         base(:, k) = force_in_joint(linkage, joints, rubs(k))
         do i = 1, size(without)
@@ -103,9 +110,13 @@ contains
         end do
       end do
       do j = 1, size(rubs)
-        call put_friction(linkage, pose, merge(coulomb, 0.0_wp, [(i == j, i=1, size(rubs))]), &
-          body_load, pin_load)
-        joints = find_joint_forces(linkage, pose, body_load, pin_load)
+        if (present(of_units)) then
+          joints = sum_of(of_units, merge(coulomb, 0.0_wp, [(i == j, i=1, size(rubs))]))
+        else
+          call put_friction(linkage, pose, merge(coulomb, 0.0_wp, [(i == j, i=1, size(rubs))]), &
+            body_load, pin_load)
+          joints = find_joint_forces(linkage, pose, body_load, pin_load)
+        end if
         do k = 1, size(rubs)
           influence(:, k, j) = force_in_joint(linkage, joints, rubs(k))
         end do
@@ -113,10 +124,29 @@ contains
     end associate
     call find_normal_forces(base, influence, friction)
     call finish_friction(linkage, pose, viscous, coulomb, friction)
-    friction%joints = find_joint_forces(linkage, pose, friction%body_load, friction%pin_load)
+    if (present(of_units)) then
+      friction%joints = sum_of(of_units, friction%effort)
+    else
+      friction%joints = find_joint_forces(linkage, pose, friction%body_load, friction%pin_load)
+    end if
     friction%load = -generalised_force(linkage, coefficients, friction%body_load, &
       friction%pin_load)
   end subroutine find_friction
+
+  !> Forces in the joints of all efforts together.
+  pure function sum_of(of_units, effort) result(joints)
+    type(joint_forces_t), intent(in) :: of_units(:) !! (frictions) of efforts of one
+    real(wp), intent(in) :: effort(:)               !! (frictions) [N m] or [N]
+    type(joint_forces_t) :: joints
+
+    integer :: k
+
+    joints = of_units(1)
+    call add_scaled(joints, -1.0_wp, of_units(1))
+    do k = 1, size(effort)
+      call add_scaled(joints, effort(k), of_units(k))
+    end do
+  end function sum_of
 
   !> Rates of all joints that rub [rad/s] or [m/s].
   pure function friction_rates(linkage, pose, coefficients, speed) result(rates)

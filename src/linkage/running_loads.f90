@@ -4,7 +4,7 @@ module running_loads
   use applied_loads, only: add_moving_loads, damper_pulls, generalised_force, has_moving_loads
   use ground_loads, only: pulls_on_ground
   use inertia_loads, only: load_t
-  use joint_forces, only: find_joint_forces, joint_forces_t
+  use joint_forces, only: add_scaled, find_joint_forces, joint_forces_t
   use joint_friction, only: find_friction, friction_on_ground, friction_t, has_friction, &
     is_locked
   use kinds, only: wp
@@ -16,7 +16,7 @@ module running_loads
   implicit none (type, external)
   private
 
-  public :: running_t, lock_t, depends_on_speed, find_running_loads, lock_of
+  public :: running_t, lock_t, divided_t, depends_on_speed, find_running_loads, lock_of, velocities_at
 
   !> What the speed adds to the load cases.
   type :: running_t
@@ -30,6 +30,12 @@ module running_loads
                                                 !! [N m] or [N]
     type(friction_t) :: friction                !! in the joints; empty without
   end type running_t
+
+  !> Forces in the joints of a linkage whose elasticity divides them.
+  type :: divided_t
+    type(joint_forces_t) :: moving                  !! that balance the loads but friction
+    type(joint_forces_t), allocatable :: friction(:) !! (frictions) that balance an effort of one
+  end type divided_t
 
   !> Where friction locks a linkage.
   type :: lock_t
@@ -60,7 +66,7 @@ contains
   !> These loads at a pose, speed and acceleration, and the forces that balance them. Friction
   !! depends on all forces in the joints, those of the load cases too.
   pure subroutine find_running_loads(linkage, pose, coefficients, speed, acceleration, unit, &
-    running)
+    running, divided)
     type(linkage_t), intent(in) :: linkage !! its loads
     type(pose_t), intent(in) :: pose       !! away from dead points
     type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
@@ -68,6 +74,8 @@ contains
     real(wp), intent(in) :: acceleration   !! of the first drive [rad/s²] or [m/s²]
     type(unit_reactions_t), intent(in) :: unit !! of this pose; needed only where joints rub
     type(running_t), intent(out) :: running
+    type(divided_t), intent(in), optional :: divided !! at this pose and speed; absent: statics tells
+                                                     !! the forces in the joints
 
     type(kinematic_coefficients_t) :: now
     type(joint_forces_t) :: without(case_count + 1)
@@ -82,15 +90,24 @@ contains
         running%pin_load)
       running%on_ground = pulls_on_ground(linkage, pose, damper_pulls(linkage, pose, now))
     end if
-    running%joints = find_joint_forces(linkage, pose, running%body_load, running%pin_load)
+    if (present(divided)) then
+      running%joints = divided%moving
+    else
+      running%joints = find_joint_forces(linkage, pose, running%body_load, running%pin_load)
+    end if
     running%load = -generalised_force(linkage, coefficients, running%body_load, running%pin_load)
     if (.not. has_friction(linkage)) return
     do i = 1, case_count
       without(i) = unit%of_case(i)%joints
     end do
     without(case_count + 1) = running%joints
-    call find_friction(linkage, pose, coefficients, speed, [speed**2, acceleration, 1.0_wp, &
-      1.0_wp], without, running%friction)
+    if (present(divided)) then
+      call find_friction(linkage, pose, coefficients, speed, [speed**2, acceleration, 1.0_wp, &
+        1.0_wp], without, running%friction, divided%friction)
+    else
+      call find_friction(linkage, pose, coefficients, speed, [speed**2, acceleration, 1.0_wp, &
+        1.0_wp], without, running%friction)
+    end if
     running%on_ground = running%on_ground + friction_on_ground(linkage, pose, &
       running%friction%effort)
     do i = 1, size(running%body_load)
@@ -101,14 +118,18 @@ contains
     end do
     running%pin_load = running%pin_load + running%friction%pin_load
     running%load = running%load + running%friction%load
-    running%joints = find_joint_forces(linkage, pose, running%body_load, running%pin_load)
+    if (present(divided)) then
+      call add_scaled(running%joints, 1.0_wp, running%friction%joints)
+    else
+      running%joints = find_joint_forces(linkage, pose, running%body_load, running%pin_load)
+    end if
   end subroutine find_running_loads
 
   !> Velocities at a speed of the first drive; no accelerations.
   pure function velocities_at(coefficients, speed) result(now)
-    type(kinematic_coefficients_t), intent(in) :: coefficients
-    real(wp), intent(in) :: speed
-    type(kinematic_coefficients_t) :: now
+    type(kinematic_coefficients_t), intent(in) :: coefficients !! of a pose
+    real(wp), intent(in) :: speed          !! of the first drive [rad/s] or [m/s]
+    type(kinematic_coefficients_t) :: now  !! without accelerations
 
     allocate (now%turn, source=speed*coefficients%turn)
     allocate (now%pin, source=speed*coefficients%pin)

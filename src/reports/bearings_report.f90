@@ -3,11 +3,11 @@
 module bearings_report
   use drive_motions, only: drive_rates, place_columns, table_place
   use joint_study, only: bearings_at_speed
-  use joints_report, only: owner_cell
+  use joints_report, only: open_words, owner_cell
   use kinds, only: wp
   use load_notes, only: acceleration_note, append_load_notes
   use table_columns, only: cells, column_width, table_layout_t
-  use table_rows, only: add_row, rows_t
+  use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: name_cell
   use text, only: append_string, string_t
   use variant_results, only: variant_results_t
@@ -53,6 +53,10 @@ contains
       associate (values => bearings_at_speed(mechanism%linkage, found, &
           variant%found%positions%states(state)%pose, state, rates(1), rates(2), speed))
         do i = 1, size(found%joints)
+          if (found%is_open(i, state)) then
+            call add_failed_row(rows, place, open_words(variant, found%joints(i)))
+            cycle
+          end if
           call add_row(rows, cells(layout, 1, place)// &
             name_cell(mechanism%pin_names(found%joints(i)%pin)%text, column_width(layout, next))// &
             owner_cell(variant, found%joints(i), column_width(layout, next + 1))// &

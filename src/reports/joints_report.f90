@@ -9,7 +9,7 @@ module joints_report
   use position_rows, only: add_position_row
   use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
     table_unit
-  use table_rows, only: add_row, rows_t
+  use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: name_cell
   use text, only: append_string, string_t
   use units, only: from_si, unit_t
@@ -18,7 +18,7 @@ module joints_report
   private
 
   public :: joints_notes, joint_owners, owner_cell, add_joints, drives_notes, drive_names, &
-    drive_columns, add_drives, add_shaking, reference_words
+    drive_columns, add_drives, add_shaking, reference_words, open_words
 
 contains
 
@@ -68,6 +68,10 @@ contains
       forces = joints_at_speed(variant%found%joints, variant%found%positions%state(position), &
         rates(1), rates(2), speed)
       do i = 1, size(joints)
+        if (variant%found%joints%is_open(i, variant%found%positions%state(position))) then
+          call add_failed_row(rows, place, open_words(variant, joints(i)))
+          cycle
+        end if
         call add_row(rows, cells(layout, 1, place)// &
           name_cell(mechanism%pin_names(joints(i)%pin)%text, column_width(layout, next))// &
           owner_cell(variant, joints(i), column_width(layout, next + 1))// &
@@ -75,6 +79,24 @@ contains
       end do
     end associate
   end subroutine add_joints
+
+  !> Why a joint has no forces.
+  pure function open_words(variant, joint) result(words)
+    type(variant_results_t), intent(in) :: variant !! with its mechanism
+    type(joint_t), intent(in) :: joint             !! of this linkage
+    character(len=:), allocatable :: words
+
+    character(len=:), allocatable :: owner
+
+    if (joint%body > 0) then
+      owner = "link '"//variant%mechanism%names(joint%body)%text//"'"
+    else
+      owner = "guide '"//variant%model%guides(variant%model%sliders(joint%slider)%guide)%name% &
+        text//"'"
+    end if
+    words = "the force on "//owner//" at '"//variant%mechanism%pin_names(joint%pin)%text// &
+      "' cannot be told: rigid links alone hold each other there"
+  end function open_words
 
   !> The cell of the link or the guide of a joint.
   function owner_cell(variant, joint, width) result(cell)

@@ -19,6 +19,7 @@ module report_table
   use equilibrium_report, only: add_equilibria, add_potential, equilibrium_notes, &
     equilibrium_words, potential_notes
   use equilibrium_study, only: find_equilibria
+  use errors, only: error_t, outcome_t
   use frame_report, only: add_frame, frame_notes
   use frequency_report, only: add_frequencies, add_shapes, drawn_rows, frequency_notes, shape_notes
   use friction_report, only: add_friction, add_holding, friction_notes, &
@@ -58,6 +59,8 @@ module report_table
   use peaks_report, only: add_peaks, peaks_notes
   use points_report, only: add_points, point_names, points_notes
   use points_study, only: find_points
+  use position_loads, only: elastic_division_t, find_division
+  use positions, only: positions_t
   use reactions_report, only: add_reactions, reactions_notes
   use reactions_study, only: find_reactions
   use report_kinds, only: four_bars, other_linkages, report_kind_t, table_kind_t
@@ -319,6 +322,8 @@ contains
 
     real(wp), allocatable :: speeds(:, :), accelerations(:, :)
     type(balance_request_t), allocatable :: request !! absent: to cancel the shaking force
+    type(elastic_division_t), allocatable :: division !! absent: statics tells the forces
+    type(error_t), allocatable :: failure
     integer :: i
 
     associate (linkage => variant%mechanism%linkage, elements => variant%mechanism%load_elements, &
@@ -331,6 +336,17 @@ contains
         speeds = spread(model%speed%value, 2, size(found%positions%states))
         allocate (accelerations, mold=speeds)
         accelerations = model%acceleration
+      end if
+      if (study == "sizing") then
+        call find_division(variant%mechanism%structure_t, division, found%sizing%error)
+        if (allocated(found%sizing%error)) return
+      else if (any(study == [character(len=8) :: "joints", "friction", "lagrange"])) then
+        call find_division(variant%mechanism%structure_t, division, failure, &
+          found%positions%states%crank)
+        if (allocated(failure)) then
+          call fail_everywhere(failure, found%positions)
+          return
+        end if
       end if
       select case (study)
       case ("kinematics")
@@ -351,19 +367,16 @@ contains
           speeds, accelerations)
       case ("joints")
         call find_joints(linkage, elements, found%positions, threads, found%joints, &
-          speeds, accelerations, variant%mechanism%structure_t)
-        if (allocated(found%joints%outcome)) then
-          do i = 1, size(found%joints%outcome)
-            if (allocated(found%joints%outcome(i)%error)) found%positions%states(i)%error = &
-              found%joints%outcome(i)%error
-          end do
-        end if
+          speeds, accelerations, division)
+        call take_failures(found%joints%outcome, found%positions)
       case ("friction")
         call find_joint_friction(linkage, elements, found%positions, threads, speeds, &
-          accelerations, found%friction)
+          accelerations, found%friction, division)
+        call take_failures(found%friction%outcome, found%positions)
       case ("lagrange")
         call find_lagrange_terms(linkage, elements, found%positions, threads, found%lagrange, &
-          speeds, accelerations)
+          speeds, accelerations, division)
+        call take_failures(found%lagrange%outcome, found%positions)
       case ("balance")
         if (balances(model)) allocate (request, source=balance_request_of(model, &
           variant%mechanism))
@@ -385,7 +398,8 @@ contains
       case ("linkage")
         call find_linkage(linkage, found%linkage)
       case ("sizing")
-        call find_sizing(linkage, elements, sizing_request_of(model), threads, found%sizing)
+        call find_sizing(linkage, elements, sizing_request_of(model), threads, found%sizing, &
+          division)
       case ("limits")
         call find_limits(linkage, positions_of_deck(model), found%limits)
       case ("equilibrium")
@@ -393,6 +407,30 @@ contains
       end select
     end associate
   end subroutine find_study
+
+  !> No forces at any position.
+  pure subroutine fail_everywhere(failure, positions)
+    type(error_t), intent(in) :: failure
+    type(positions_t), intent(inout) :: positions
+
+    integer :: i
+
+    do i = 1, size(positions%states)
+      positions%states(i)%error = failure
+    end do
+  end subroutine fail_everywhere
+
+  !> Positions at which a study has no forces.
+  pure subroutine take_failures(outcome, positions)
+    type(outcome_t), intent(in) :: outcome(:)        !! (states)
+    type(positions_t), intent(inout) :: positions
+
+    integer :: i
+
+    do i = 1, size(outcome)
+      if (allocated(outcome(i)%error)) positions%states(i)%error = outcome(i)%error
+    end do
+  end subroutine take_failures
 
   !> Positions of the first drive that the deck names: on CRANK, or at the start of a motion.
   pure function positions_of_deck(model) result(positions)

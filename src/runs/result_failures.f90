@@ -1,8 +1,9 @@
 !> Rows of a variant that could not be computed.
 module result_failures
-  use errors, only: error_of_numerics, error_of_reach, error_t, set_error
+  use errors, only: error_of_input, error_of_numerics, error_of_reach, error_t, set_error
   use friction_words, only: lock_words
   use frequency_study, only: has_result
+  use joints_report, only: open_words
   use kinds, only: wp
   use locked_rows, only: is_locked_at, lock_at
   use models, only: drives_length, has_law, needs_frequencies, report_number, speed_in_words
@@ -53,8 +54,10 @@ contains
                 found%sweep%results(state)%outcome(k)%error, crank(i), k, 0.0_wp, findings)
             end do
           end if
-          if (.not. allocated(found%positions%states(state)%error)) call note_locks(variant, i, &
-            findings)
+          if (.not. allocated(found%positions%states(state)%error)) then
+            call note_locks(variant, i, findings)
+            call note_open(variant, i, findings)
+          end if
         end associate
       end do
       if (allocated(found%geometry%outcome)) then
@@ -108,6 +111,13 @@ contains
             in_transient, found%transient%at_speed(k)%strain_fault, 0.0_wp, k, 0.0_wp, findings)
         end do
       end if
+      if (allocated(found%sizing%is_open)) then
+        i = findloc(found%sizing%is_open, .true., dim=1)
+        if (i > 0) then
+          call set_error(error, error_of_input, open_words(variant, found%sizing%joints(i)))
+          call note_failure(variant, of_variant, error, 0.0_wp, 0, 0.0_wp, findings)
+        end if
+      end if
       call note_undetermined(variant, findings)
       if (allocated(found%motion%error)) call note_failure(variant, in_motion, found%motion%error, &
         found%motion%last%angle(1), 0, found%motion%last%time, findings)
@@ -140,6 +150,32 @@ contains
     end do
   end subroutine note_locks
 
+  !> A position at which rigid links alone hold each other, and some forces are open.
+  pure subroutine note_open(variant, position, findings)
+    type(variant_results_t), intent(in) :: variant
+    integer, intent(in) :: position !! number in the deck's list, with a pose
+    type(findings_t), intent(inout) :: findings
+
+    type(error_t), allocatable :: error
+    integer :: i
+
+    if (max(report_number(variant%model, "reactions"), report_number(variant%model, &
+      "bearings")) == 0) return
+    associate (found => variant%found%joints, positions => variant%found%positions)
+      if (.not. allocated(found%is_open)) return
+      i = findloc(found%is_open(:, positions%state(position)), .true., dim=1)
+      if (i == 0) return
+      call set_error(error, error_of_input, open_words(variant, found%joints(i)))
+      if (has_law(variant%model)) then
+        call note_failure(variant, at_instant, error, positions%crank(position), 0, &
+          variant%model%time%value(position), findings)
+      else
+        call note_failure(variant, at_position, error, positions%crank(position), 0, 0.0_wp, &
+          findings)
+      end if
+    end associate
+  end subroutine note_open
+
   !> Instants of a motion without the accelerations and forces that its card asks for.
   pure subroutine note_undetermined(variant, findings)
     type(variant_results_t), intent(in) :: variant
@@ -161,6 +197,15 @@ contains
           if (.not. linkage_motion%is_determined(i)) call note_failure(variant, in_motion, error, &
             linkage_motion%samples(i)%position(1), 0, linkage_motion%samples(i)%time, findings)
         end do
+      end if
+      if (allocated(linkage_motion%is_open)) then
+        i = findloc(any(linkage_motion%is_open(:, :linkage_motion%count), dim=1), .true., dim=1)
+        if (i > 0) then
+          call set_error(error, error_of_input, open_words(variant, linkage_motion%joints(findloc( &
+            linkage_motion%is_open(:, i), .true., dim=1))))
+          call note_failure(variant, in_motion, error, linkage_motion%samples(i)%position(1), 0, &
+            linkage_motion%samples(i)%time, findings)
+        end if
       end if
     end associate
   end subroutine note_undetermined

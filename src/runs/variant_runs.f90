@@ -201,7 +201,7 @@ contains
 
     associate (mechanism => run%results%mechanism, motion => run%results%found%linkage_motion)
       call begin_linkage_motion(linkage_motion_request_of(run%results%model), &
-        mechanism%linkage, mechanism%load_elements, under_way, motion)
+        mechanism%linkage, mechanism%load_elements, under_way, motion, mechanism%structure_t)
       do while (.not. under_way%is_over)
         call continue_linkage_motion(under_way, instants_at_a_time, motion)
         call show_progress(run%progress, motion%count, size(motion%samples))

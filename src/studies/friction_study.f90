@@ -1,13 +1,15 @@
 !> Friction in the joints at every position: forces, sliding, power lost, and whether the linkage
 !! holds itself at rest.
 module friction_study
+  use elastic_reactions, only: elastic_division_t
+  use errors, only: error_t, outcome_t
   use joint_friction, only: friction_t
   use kinds, only: wp
   use linkages, only: linkage_t
   use load_cases, only: constant_case
+  use position_loads, only: find_position_loads, find_speed_loads, position_loads_t
   use positions, only: positions_t
-  use reactions, only: find_unit_reactions, unit_reactions_t
-  use running_loads, only: find_running_loads, lock_of, lock_t, running_t
+  use running_loads, only: lock_of, lock_t, running_t
   use starting_linkages, only: starting_linkage, starting_speed
   implicit none (type, external)
   private
@@ -32,6 +34,8 @@ module friction_study
                                                 !! that starts it from rest, forward and backward;
                                                 !! 0 where it is locked [N m] or [N]
     type(lock_t), allocatable :: start_lock(:, :) !! (2, states) where it cannot start
+    type(outcome_t), allocatable :: outcome(:)  !! (states) why elasticity does not divide the forces
+                                                !! there
   end type friction_result_t
 
 contains
@@ -41,7 +45,7 @@ contains
   !! Torques at the start are those against full friction, see `starting_linkage`: what rests moves
   !! by itself where the one backward is positive, or that forward negative, and else holds itself.
   subroutine find_joint_friction(linkage, elements, positions, threads, speeds, accelerations, &
-    found)
+    found, division)
     type(linkage_t), intent(in) :: linkage      !! with frictions
     integer, intent(in) :: elements(:)          !! (bodies) on whose nodes the masses are lumped;
                                                 !! 0: distributed
@@ -51,9 +55,13 @@ contains
                                                 !! [m/s]
     real(wp), intent(in) :: accelerations(:, :) !! likewise [rad/s²] or [m/s²]
     type(friction_result_t), intent(out) :: found !! for all positions and speeds
+    type(elastic_division_t), intent(in), optional :: division !! of this linkage, if its elasticity
+                                                !! divides forces
 
-    type(unit_reactions_t) :: unit
+    type(position_loads_t) :: loads
     type(running_t) :: running
+    type(elastic_division_t), allocatable :: of_start
+    type(error_t), allocatable :: failure
     type(linkage_t) :: starting
     real(wp) :: forward
     integer :: i, k, n, joints
@@ -66,27 +74,38 @@ contains
       found%lock(size(speeds, 1), n), found%start(2, n), found%start_lock(2, n))
     found%values = 0.0_wp
     found%start = 0.0_wp
+    allocate (found%outcome(n))
+    if (present(division)) then
+      of_start = division
+      of_start%structure%linkage%loads = starting%loads
+    end if
     !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) &
-    !$omp   private(i, k, forward, unit, running)
+    !$omp   private(i, k, forward, loads, running, failure)
     do i = 1, n
       associate (state => positions%states(i))
         if (allocated(state%error)) cycle
-        call find_unit_reactions(linkage, elements, state%pose, state%coefficients, unit)
+        call find_position_loads(linkage, elements, state%pose, state%coefficients, loads, &
+          failure, division)
         do k = 1, size(speeds, 1)
-          call find_running_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
-            accelerations(k, i), unit, running)
+          if (allocated(failure)) exit
+          call find_speed_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
+            accelerations(k, i), loads, running, failure, division)
+          if (allocated(failure)) exit
           found%lock(k, i) = lock_of(running)
           if (found%lock(k, i)%friction == 0) found%values(:, :, k, i) = values_of(linkage, &
             joints, running%friction)
         end do
         do k = forward_sense, backward_sense
+          if (allocated(failure)) exit
           forward = merge(starting_speed, -starting_speed, k == forward_sense)
-          call find_running_loads(starting, state%pose, state%coefficients, forward, 0.0_wp, unit, &
-            running)
+          call find_speed_loads(starting, state%pose, state%coefficients, forward, 0.0_wp, loads, &
+            running, failure, of_start)
+          if (allocated(failure)) exit
           found%start_lock(k, i) = lock_of(running)
           if (found%start_lock(k, i)%friction == 0) found%start(k, i) = &
-            unit%of_case(constant_case)%joints%torque + running%joints%torque
+            loads%unit%of_case(constant_case)%joints%torque + running%joints%torque
         end do
+        if (allocated(failure)) found%outcome(i)%error = failure
       end associate
     end do
     !$omp end parallel do

@@ -3,8 +3,7 @@
 module joint_study
   use applied_loads, only: spring_pulls
   use constants, only: degree
-  use deformation_model, only: deformation_model_t
-  use elastic_reactions, only: divide_by_elasticity, has_elastic_reactions, new_elastic_model
+  use elastic_reactions, only: elastic_division_t, least_open, self_stresses
   use errors, only: error_t, outcome_t
   use frame_forces, only: find_frame_load
   use ground_loads, only: pulls_on_ground
@@ -15,14 +14,13 @@ module joint_study
   use linkages, only: cross, linkage_t, reference_point, turned, turned_back
   use load_cases, only: case_count, constant_case
   use pose_types, only: pins_of_body, pose_t
+  use position_loads, only: find_position_loads, find_speed_loads, position_loads_t
   use positions, only: positions_t
-  use reactions, only: find_unit_reactions, unit_reactions_t
-  use running_loads, only: depends_on_speed, find_running_loads, lock_of, lock_t, running_t
-  use structures, only: structure_t
+  use running_loads, only: depends_on_speed, lock_of, lock_t, running_t
   implicit none (type, external)
   private
 
-  public :: joint_t, joints_result_t, list_joints, joint_values, find_joints, joints_at_speed, &
+  public :: joint_t, joints_result_t, list_joints, open_joints, joint_values, find_joints, joints_at_speed, &
     bearings_at_speed, drives_at_speed, frame_at_speed, bearing_values
 
   !> Values of a joint in `bearings_at_speed`: fx, fy, axial, transverse, magnitude, angle.
@@ -53,14 +51,16 @@ module joint_study
     real(wp), allocatable :: running_frame(:, :, :)    !! (3, speeds, states), as `frame`
     type(lock_t), allocatable :: lock(:, :)    !! (speeds, states) where friction locks the linkage
     type(outcome_t), allocatable :: outcome(:) !! (states) why elasticity does not divide the forces
-                                               !! there; not allocated: it is not asked to
+                                               !! there
+    logical, allocatable :: is_open(:, :)      !! (joints, states) rigid links alone hold each other
+                                               !! there, and nothing tells the force
   end type joints_result_t
 
 contains
 
   !> Forces at all positions, once for all speeds.
   subroutine find_joints(linkage, elements, positions, threads, found, speeds, accelerations, &
-    structure)
+    division)
     type(linkage_t), intent(in) :: linkage      !! of any kind
     integer, intent(in) :: elements(:)          !! (bodies) on whose nodes the masses are lumped;
                                                 !! 0: distributed
@@ -72,15 +72,13 @@ contains
                                                    !! without these
     real(wp), intent(in), optional :: accelerations(:, :) !! (speeds, states) likewise, for friction
                                                    !! [rad/s²] or [m/s²]; absent: none
-    class(structure_t), intent(in), optional :: structure !! of this linkage, whose elasticity
+    type(elastic_division_t), intent(in), optional :: division !! of this linkage, whose elasticity
                                                    !! divides the forces of links that are more than
                                                    !! needed; absent: there are none
 
-    type(deformation_model_t) :: model
-    type(error_t), allocatable :: failure
-    logical :: divides
-    type(unit_reactions_t) :: unit
+    type(position_loads_t) :: loads
     type(running_t) :: running
+    type(error_t), allocatable :: failure
     real(wp) :: acceleration
     integer :: i, k, n, running_speeds
 
@@ -101,32 +99,25 @@ contains
     found%running_force = 0.0_wp
     found%running_drive = 0.0_wp
     found%running_frame = 0.0_wp
-    divides = .false.
-    if (present(structure)) divides = has_elastic_reactions(structure)
-    if (divides) then
-      allocate (found%outcome(n))
-      call new_elastic_model(structure, positions%states%crank, model, failure)
-      if (allocated(failure)) then
-        do i = 1, n
-          found%outcome(i)%error = failure
-        end do
-        return
-      end if
-    end if
+    allocate (found%is_open(size(found%joints), n), source=.false.)
+    allocate (found%outcome(n))
     !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) &
-    !$omp   private(i, k, acceleration, unit, running)
+    !$omp   private(i, k, acceleration, loads, running, failure)
     do i = 1, n
       associate (state => positions%states(i))
         if (allocated(state%error)) cycle
-        call find_unit_reactions(linkage, elements, state%pose, state%coefficients, unit)
-        if (divides) then
-          call divide_by_elasticity(structure, model, state%pose, state%coefficients, unit, &
-            found%outcome(i)%error)
-          if (allocated(found%outcome(i)%error)) cycle
+        call find_position_loads(linkage, elements, state%pose, state%coefficients, loads, &
+          failure, division)
+        if (allocated(failure)) then
+          found%outcome(i)%error = failure
+          cycle
         end if
+        if (present(division)) found%is_open(:, i) = open_joints(linkage, found%joints, &
+          self_stresses(division, loads%at))
         do k = 1, case_count
-          associate (part => unit%of_case(k))
-            call take_forces(linkage, found%joints, part%joints, found%force(:, :, k, i))
+          call take_forces(linkage, found%joints, loads%unit%of_case(k)%joints, found%force(:, :, &
+            k, i))
+          associate (part => loads%unit%of_case(k))
             found%drive(:, k, i) = drives_of(part%joints)
             found%shaking(:, k, i) = [part%shaking_force, part%shaking_moment]
             found%frame(:, k, i) = find_frame_load(linkage, state%pose, part%joints)
@@ -136,8 +127,12 @@ contains
         do k = 1, running_speeds
           acceleration = 0.0_wp
           if (present(accelerations)) acceleration = accelerations(k, i)
-          call find_running_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
-            acceleration, unit, running)
+          call find_speed_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
+            acceleration, loads, running, failure, division)
+          if (allocated(failure)) then
+            found%outcome(i)%error = failure
+            exit
+          end if
           found%lock(k, i) = lock_of(running)
           if (found%lock(k, i)%friction > 0) cycle
           call take_forces(linkage, found%joints, running%joints, found%running_force(:, :, k, i))
@@ -154,6 +149,26 @@ contains
     end do
     !$omp end parallel do
   end subroutine find_joints
+
+  !> Joints whose forces are open: those of any state of self-stress.
+  pure function open_joints(linkage, joints, states) result(are)
+    type(linkage_t), intent(in) :: linkage        !! its turns
+    type(joint_t), intent(in) :: joints(:)        !! of `list_joints`
+    type(joint_forces_t), intent(in) :: states(:) !! of `self_stresses`
+    logical :: are(size(joints))
+
+    real(wp) :: values_of(3, size(joints)), length
+    integer :: i
+
+    are = .false.
+    length = maxval(linkage%bodies%length)
+    do i = 1, size(states)
+      values_of = 0.0_wp
+      call take_forces(linkage, joints, states(i), values_of)
+      are = are .or. norm2(values_of(:2, :), dim=1) > least_open .or. abs(values_of(3, :)) > &
+        least_open*length
+    end do
+  end function open_joints
 
   !> Torques or forces of all drives [N m] or [N].
   pure function drives_of(forces) result(drive)

@@ -1,13 +1,15 @@
 !> The terms of Lagrange's equation at every position.
 module lagrange_study
+  use elastic_reactions, only: elastic_division_t
+  use errors, only: error_t, outcome_t
   use joint_friction, only: has_friction
   use kinds, only: wp
   use lagrange, only: demanded_torque, find_lagrange, kinetic_energy, lagrange_t, velocity_term
   use linkages, only: linkage_t
+  use position_loads, only: find_position_loads, find_speed_loads, position_loads_t
   use positions, only: positions_t
-  use reactions, only: find_unit_reactions, unit_reactions_t
   use rigid_bodies, only: rigid_bodies_of, rigid_body_t
-  use running_loads, only: depends_on_speed, find_running_loads, lock_of, lock_t, running_t
+  use running_loads, only: depends_on_speed, lock_of, lock_t, running_t
   implicit none (type, external)
   private
 
@@ -21,6 +23,8 @@ module lagrange_study
     real(wp), allocatable :: running_load(:, :)  !! (speeds, states) added to `load` at each speed;
                                                  !! no speeds: nothing is [N m]
     type(lock_t), allocatable :: lock(:, :)    !! (speeds, states) where friction locks the linkage
+    type(outcome_t), allocatable :: outcome(:) !! (states) why elasticity does not divide the forces
+                                               !! that friction depends on
   end type lagrange_result_t
 
 contains
@@ -28,7 +32,7 @@ contains
   !> Generalised inertia M, M' = dM/dθ2, generalised loads and potential at all positions, once for
   !! all speeds: Ulker 2010 (2.50) to (2.64).
   subroutine find_lagrange_terms(linkage, elements, positions, threads, found, speeds, &
-      accelerations)
+      accelerations, division)
     type(linkage_t), intent(in) :: linkage     !! with masses
     integer, intent(in) :: elements(:)         !! (bodies) on whose nodes the masses are lumped; 0:
                                                !! distributed
@@ -40,10 +44,13 @@ contains
                                                    !! without these
     real(wp), intent(in), optional :: accelerations(:, :) !! (speeds, states) likewise, for friction
                                                    !! [rad/s²] or [m/s²]; absent: none
+    type(elastic_division_t), intent(in), optional :: division !! of this linkage, if its elasticity
+                                                   !! divides the forces that friction depends on
 
     type(rigid_body_t) :: rigid(size(linkage%bodies))
-    type(unit_reactions_t) :: unit
+    type(position_loads_t) :: loads
     type(running_t) :: running
+    type(error_t), allocatable :: failure
     real(wp) :: acceleration
     integer :: i, k, running_speeds
 
@@ -54,19 +61,35 @@ contains
       size(positions%states)))
     allocate (found%lock(running_speeds, size(positions%states)))
     found%running_load = 0.0_wp
+    allocate (found%outcome(size(found%terms)))
     !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) &
-    !$omp   private(i, k, acceleration, unit, running)
+    !$omp   private(i, k, acceleration, loads, running, failure)
     do i = 1, size(found%terms)
       associate (state => positions%states(i))
         if (allocated(state%error)) cycle
         found%terms(i) = find_lagrange(linkage, rigid, state%pose, state%coefficients)
-        if (running_speeds > 0 .and. has_friction(linkage)) call find_unit_reactions(linkage, &
-          elements, state%pose, state%coefficients, unit)
+        if (running_speeds > 0 .and. has_friction(linkage)) then
+          call find_position_loads(linkage, elements, state%pose, state%coefficients, loads, &
+            failure, division)
+          if (allocated(failure)) then
+            found%outcome(i)%error = failure
+            cycle
+          end if
+        end if
         do k = 1, running_speeds
           acceleration = 0.0_wp
           if (present(accelerations)) acceleration = accelerations(k, i)
-          call find_running_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
-            acceleration, unit, running)
+          if (has_friction(linkage)) then
+            call find_speed_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
+              acceleration, loads, running, failure, division)
+          else
+            call find_speed_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
+              acceleration, loads, running, failure)
+          end if
+          if (allocated(failure)) then
+            found%outcome(i)%error = failure
+            exit
+          end if
           found%lock(k, i) = lock_of(running)
           if (found%lock(k, i)%friction > 0) cycle
           found%running_load(k, i) = running%load

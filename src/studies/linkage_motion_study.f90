@@ -1,10 +1,13 @@
 !> Forward dynamics of linkages that are no four-bars, sampled at given instants.
 module linkage_motion_study
   use drives, only: motor_drive_t
+  use elastic_reactions, only: divide_motion, elastic_division_t, has_elastic_reactions, &
+    new_elastic_division
   use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error
   use gears, only: gear_t
   use interruption, only: was_interrupted
-  use joint_study, only: joint_t, joint_values, list_joints
+  use joint_forces, only: joint_forces_t
+  use joint_study, only: joint_t, joint_values, list_joints, open_joints
   use kinds, only: long, wp
   use linkage_motions, only: change_point_message, end_linkage_motion, find_linkage_details, &
     linkage_details_t, linkage_motion_t, linkage_motion_tolerance, linkage_sample_t, &
@@ -13,6 +16,7 @@ module linkage_motion_study
     stop_many_steps, stop_misfit, stop_no_inertia, stop_too_fast
   use linkages, only: linkage_t
   use rigid_bodies, only: rigid_bodies_of
+  use structures, only: structure_t
   implicit none (type, external)
   private
 
@@ -53,6 +57,7 @@ module linkage_motion_study
                                                        !! wanted
     real(wp), allocatable :: force(:, :, :)            !! (3, joints, instants) fx, fy, moment
                                                        !! [N, N m]
+    logical, allocatable :: is_open(:, :)              !! (joints, instants) as in `joint_study`
   end type linkage_motion_result_t
 
   !> A motion that is being computed.
@@ -60,6 +65,8 @@ module linkage_motion_study
     type(linkage_motion_request_t), private :: request
     type(linkage_motion_t), private :: motion
     type(linkage_t), private :: linkage
+    type(elastic_division_t), allocatable, private :: division !! of linkages whose elasticity
+                                                               !! divides forces
     integer, private :: next = 1  !! number of the next instant
     logical :: is_over = .false.  !! at the end, stopped or interrupted
   end type linkage_motion_under_way_t
@@ -67,13 +74,15 @@ module linkage_motion_study
 contains
 
   !> Starts a motion. Errors, in `result%error`: those of `start_linkage_motion`.
-  subroutine begin_linkage_motion(request, linkage, elements, under_way, result)
+  subroutine begin_linkage_motion(request, linkage, elements, under_way, result, structure)
     type(linkage_motion_request_t), intent(in) :: request      !! start, end and motor
     type(linkage_t), intent(in) :: linkage                     !! of any kind
     integer, intent(in) :: elements(:)                         !! (bodies) on whose nodes the masses
                                                                !! are lumped; 0: distributed
     type(linkage_motion_under_way_t), intent(out) :: under_way !! over if the start is impossible
     type(linkage_motion_result_t), intent(out) :: result       !! without samples yet
+    class(structure_t), intent(in), optional :: structure      !! of this linkage, with its beams;
+                                                               !! absent: none bends
 
     under_way%request = request
     allocate (result%samples(size(request%instants)))
@@ -84,6 +93,10 @@ contains
       under_way%linkage = linkage
       call list_joints(linkage, result%joints)
       allocate (result%force(3, size(result%joints), size(request%instants)))
+      allocate (result%is_open(size(result%joints), size(request%instants)), source=.false.)
+      if (present(structure)) call take_division(structure, under_way, result%error)
+      under_way%is_over = allocated(result%error)
+      if (under_way%is_over) return
     end if
     call start_linkage_motion(linkage, rigid_bodies_of(linkage, elements), request%is_free, &
       request%drive, request%start, request%speed, request%end_time, under_way%motion, &
@@ -91,6 +104,17 @@ contains
     result%has_begun = .not. allocated(result%error)
     under_way%is_over = allocated(result%error)
   end subroutine begin_linkage_motion
+
+  !> The division of forces by elasticity. Errors: a link has no own modes.
+  subroutine take_division(structure, under_way, error)
+    class(structure_t), intent(in) :: structure
+    type(linkage_motion_under_way_t), intent(inout) :: under_way
+    type(error_t), allocatable, intent(out) :: error
+
+    if (.not. has_elastic_reactions(structure)) return
+    allocate (under_way%division)
+    call new_elastic_division(structure, under_way%division, error)
+  end subroutine take_division
 
   !> Continues a motion over the next instants, until it is over or the given number is reached.
   subroutine continue_linkage_motion(under_way, instants, result)
@@ -124,10 +148,20 @@ contains
     type(linkage_motion_result_t), intent(inout) :: result
 
     type(linkage_details_t) :: details
+    type(joint_forces_t), allocatable :: states(:)
+    type(error_t), allocatable :: error
+    logical :: by_statics
 
-    call find_linkage_details(under_way%motion, under_way%request%with_forces, details, &
-      result%is_determined(number))
+    by_statics = under_way%request%with_forces .and. .not. allocated(under_way%division)
+    call find_linkage_details(under_way%motion, by_statics, details, result%is_determined(number))
     if (.not. result%is_determined(number)) return
+    if (allocated(under_way%division)) then
+      call divide_motion(under_way%division, details%pose, details%motion, details%driven%torque, &
+        details%joints, states, error)
+      result%is_determined(number) = .not. allocated(error)
+      if (allocated(error)) return
+      result%is_open(:, number) = open_joints(under_way%linkage, result%joints, states)
+    end if
     result%acceleration(:, number) = details%acceleration
     result%power(:, number) = [details%driven%power, details%driven%loss, details%load_power]
     if (under_way%request%with_forces) result%force(:, :, number) = joint_values( &

@@ -2,6 +2,7 @@
 !! the flywheel, each over the whole cycle.
 module sizing_study
   use constants, only: degree
+  use elastic_reactions, only: elastic_division_t
   use errors, only: error_of_input, error_of_numerics, error_t, set_error
   use flywheels, only: flywheel_t, size_flywheel
   use gears, only: gear_share, gear_t, is_direct
@@ -74,6 +75,7 @@ module sizing_study
     integer :: samples = 0                    !! of the cycle
     real(wp) :: period = 0.0_wp               !! of the cycle [deg]
     type(joint_t), allocatable :: joints(:)   !! as in `joint_study`
+    logical, allocatable :: is_open(:)        !! (joints) the same, anywhere over the cycle
     type(sizing_t), allocatable :: at_speed(:)
   end type sizing_result_t
 
@@ -84,13 +86,15 @@ contains
   !! Peaks between samples are enclosed by golden-section search around the three highest samples.
   !! Errors are estimated by those with half as many samples. Errors: the first drive does not turn
   !! fully, positions and loads do not repeat, or those of a position.
-  subroutine find_sizing(linkage, elements, request, threads, found)
+  subroutine find_sizing(linkage, elements, request, threads, found, division)
     type(linkage_t), intent(in) :: linkage       !! of any kind, with masses
     integer, intent(in) :: elements(:)           !! (bodies) on whose nodes the masses are lumped;
                                                  !! 0: distributed
     type(sizing_request_t), intent(in) :: request
     integer, intent(in) :: threads               !! number of OpenMP threads
     type(sizing_result_t), intent(out) :: found
+    type(elastic_division_t), intent(in), optional :: division !! of this linkage, if its elasticity
+                                                 !! divides forces
 
     type(sizing_t), allocatable :: last(:)
     type(positions_t) :: positions
@@ -116,7 +120,14 @@ contains
       end do
       speeds = spread(request%speed, 2, samples)
       accelerations = spread(0.0_wp*request%speed + request%acceleration, 2, samples)
-      call find_joints(linkage, elements, positions, threads, joints, speeds, accelerations)
+      call find_joints(linkage, elements, positions, threads, joints, speeds, accelerations, &
+        division)
+      do i = 1, samples
+        if (.not. allocated(joints%outcome(i)%error)) cycle
+        found%error = joints%outcome(i)%error
+        found%error_crank = positions%states(i)%crank
+        return
+      end do
       if (any(joints%lock%friction > 0)) then
         i = findloc(any(joints%lock%friction > 0, dim=1), .true., dim=1)
         call set_error(found%error, error_of_numerics, "friction locks the linkage")
@@ -124,16 +135,18 @@ contains
         return
       end if
       found%joints = joints%joints
+      found%is_open = any(joints%is_open, dim=2)
       found%samples = samples
       if (allocated(found%at_speed)) call move_alloc(found%at_speed, last)
       allocate (found%at_speed(size(request%speed)))
       !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k)
       do k = 1, size(request%speed)
-        call size_speed(linkage, elements, request, positions, joints, k, found%at_speed(k))
+        call size_speed(linkage, elements, request, positions, joints, k, found%at_speed(k), &
+          division)
       end do
       !$omp end parallel do
       if (request%fluctuation > 0.0_wp) call find_flywheels(linkage, elements, request, positions, &
-        threads, speeds, accelerations, found)
+        threads, speeds, accelerations, found, division)
       change = huge(change)
       if (allocated(last)) change = largest_change(found%at_speed, last)
       if (change <= settled .or. 2*samples > most_samples .or. was_interrupted()) exit
@@ -142,7 +155,7 @@ contains
   end subroutine find_sizing
 
   !> All drives and joints at a speed.
-  subroutine size_speed(linkage, elements, request, positions, joints, number, found)
+  subroutine size_speed(linkage, elements, request, positions, joints, number, found, division)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: elements(:)
     type(sizing_request_t), intent(in) :: request
@@ -150,6 +163,7 @@ contains
     type(joints_result_t), intent(in) :: joints
     integer, intent(in) :: number !! of the speed
     type(sizing_t), intent(inout) :: found
+    type(elastic_division_t), intent(in), optional :: division
 
     real(wp), allocatable :: values(:, :)
     real(wp) :: drives(3, size(linkage%drives))
@@ -185,7 +199,11 @@ contains
           sized%cubic = 0.0_wp
           cycle
         end if
-        call find_peak(linkage, elements, request, number, s, positions%period, values(:, s), sized)
+        if (s > d) then
+          if (any(joints%is_open(s - d, :))) cycle
+        end if
+        call find_peak(linkage, elements, request, number, s, positions%period, values(:, s), &
+          sized, division)
         if (abs(sized%mean) <= round_off_share*abs(sized%peak)) sized%mean = 0.0_wp
         if (s > d) call find_turned_mean(linkage, positions, joints%joints(s - d), values(:, s), &
           sized)
@@ -295,7 +313,7 @@ contains
   end function values_at
 
   !> The greatest absolute value: golden-section search around the highest samples.
-  subroutine find_peak(linkage, elements, request, number, signal, period, values, sized)
+  subroutine find_peak(linkage, elements, request, number, signal, period, values, sized, division)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: elements(:)
     type(sizing_request_t), intent(in) :: request
@@ -303,6 +321,7 @@ contains
     real(wp), intent(in) :: period        !! [deg]
     real(wp), intent(in) :: values(:)     !! (samples)
     type(sized_t), intent(inout) :: sized
+    type(elastic_division_t), intent(in), optional :: division
 
     integer, parameter :: most_peaks = 3
     real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
@@ -360,7 +379,8 @@ contains
       there = find_positions(linkage, [crank])
       if (allocated(there%states(1)%error)) return
       call find_joints(linkage, elements, there, 1, joints, spread(request%speed, 2, 1), &
-        spread(0.0_wp*request%speed + request%acceleration, 2, 1))
+        spread(0.0_wp*request%speed + request%acceleration, 2, 1), division)
+      if (allocated(joints%outcome(1)%error)) return
       if (any(joints%lock%friction > 0)) return
       all_values = values_at(linkage, joints, 1, request, number)
       value = all_values(signal)
@@ -377,7 +397,7 @@ contains
 
       there = find_positions(linkage, [crank])
       call find_joints(linkage, elements, there, 1, joints, spread(request%speed, 2, 1), &
-        spread(0.0_wp*request%speed + request%acceleration, 2, 1))
+        spread(0.0_wp*request%speed + request%acceleration, 2, 1), division)
       bearings = bearings_at_speed(linkage, joints, there%states(1)%pose, 1, &
         request%speed(number), request%acceleration, number)
       angle = bearings(bearing_values, sized%joint)
@@ -387,7 +407,7 @@ contains
 
   !> Flywheels for all speeds; loads that depend on the speed are those at the mean speed.
   subroutine find_flywheels(linkage, elements, request, positions, threads, speeds, &
-    accelerations, found)
+    accelerations, found, division)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: elements(:)
     type(sizing_request_t), intent(in) :: request
@@ -395,13 +415,14 @@ contains
     integer, intent(in) :: threads
     real(wp), intent(in) :: speeds(:, :), accelerations(:, :)
     type(sizing_result_t), intent(inout) :: found
+    type(elastic_division_t), intent(in), optional :: division
 
     type(lagrange_result_t) :: lagrange
     real(wp), allocatable :: load(:)
     integer :: k
 
     call find_lagrange_terms(linkage, elements, positions, threads, lagrange, speeds, &
-      accelerations)
+      accelerations, division)
     do k = 1, size(request%speed)
       if (abs(request%speed(k)) <= 0.0_wp) cycle
       load = lagrange%terms%gravity + lagrange%terms%load

@@ -1,27 +1,57 @@
 !> Forces in the joints of linkages with more links than needed, which their elasticity divides.
+!!
+!! The loads are those of statics: springs pull as they do at the position, and masses are where
+!! INERTIA puts them. What rigid links that hold each other share is open: these states of
+!! self-stress strain nothing.
 module elastic_reactions
+  use applied_loads, only: add_moving_loads, forced_places, has_moving_loads
   use deformation_model, only: deformation_model_t, new_deformation_model
+  use elastic_linkages, only: elastic_linkage_t, new_elastic_linkage, shared_pin
   use errors, only: error_of_input, error_t, set_error
+  use inertia_loads, only: load_t, lumped_masses, lumped_stations
+  use joint_forces, only: add_scaled, find_joint_forces, joint_forces_t, no_joint_forces
+  use joint_friction, only: force_in_joint, has_friction, put_friction
   use kinematic_coefficients, only: kinematic_coefficients_t
+  use kinds, only: wp
+  use linkages, only: drives_angle, linkage_t, lump_t
   use load_cases, only: case_count, find_unit_loads
-  use part_displacements, only: find_part_chords
-  use part_forces, only: find_part_forces
-  use part_poses, only: find_part_loads
+  use part_displacements, only: border_size
+  use part_efforts, only: add_end_couple, add_friction_effort, add_moving_efforts, effort_case, &
+    no_part_loads
+  use part_forces, only: find_part_forces, part_forces_t
+  use part_poses, only: part_loads_t
   use part_reactions, only: take_part_reactions
   use pin_displacements, only: chords_t
   use poses, only: pose_t
-  use position_assembly, only: assembled_t, new_assembled, place_parts, set_border
+  use position_assembly, only: assembled_t, load_parts, new_assembled, place_parts, set_border
   use reactions, only: unit_reactions_t
-  use redundancies, only: body_of_redundancy
+  use running_loads, only: divided_t, velocities_at
   use structures, only: structure_t
-  use kinds, only: wp
   implicit none (type, external)
   private
 
-  public :: has_elastic_reactions, new_elastic_model, divide_by_elasticity
+  public :: elastic_division_t, elastic_position_t, has_elastic_reactions, new_elastic_division, &
+    divide_by_elasticity, find_divided, divide_motion, self_stresses, &
+    least_open
 
   !> Orders of the links: their border alone carries loads.
   integer, parameter :: least_order = 5
+
+  !> A force of a state of self-stress above this share of its largest is open; less is round-off.
+  real(wp), parameter :: least_open = 1.0e-9_wp
+
+  !> A linkage whose elasticity divides forces, once for all positions.
+  type :: elastic_division_t
+    type(structure_t) :: structure            !! with its loads and masses on its parts
+    type(deformation_model_t) :: model        !! of its parts
+  end type elastic_division_t
+
+  !> The linkage at a position.
+  type :: elastic_position_t
+    type(assembled_t) :: here
+    type(chords_t) :: chords
+    type(pose_t) :: pose                      !! of the linkage that moves
+  end type elastic_position_t
 
 contains
 
@@ -33,62 +63,361 @@ contains
     has = size(structure%linkage%redundancies) > 0 .and. allocated(structure%elastic)
   end function has_elastic_reactions
 
-  !> The links of a linkage, once for all positions.
+  !> The parts of a linkage, once for all positions.
   !!
   !! Errors: a link has no own modes.
-  subroutine new_elastic_model(structure, crank, model, error)
-    class(structure_t), intent(in) :: structure      !! that `has_elastic_reactions`
-    real(wp), intent(in) :: crank(:)                 !! some positions of the first drive
-    type(deformation_model_t), intent(out) :: model
+  subroutine new_elastic_division(structure, division, error, crank)
+    class(structure_t), intent(in) :: structure          !! that `has_elastic_reactions`
+    type(elastic_division_t), intent(out) :: division
     type(error_t), allocatable, intent(out) :: error
+    real(wp), intent(in), optional :: crank(:)           !! some positions of the first drive, which
+                                                         !! holds its link; absent: of a motion in
+                                                         !! which nothing does
 
-    integer :: parts
+    type(linkage_t) :: released
+    integer :: b, parts
 
-    parts = size(structure%elastic%body)
-    call new_deformation_model(structure%elastic%linkage, structure%elastic%beams, spread(0, 1, &
-      parts), spread(least_order, 1, parts), spread(.false., 1, parts), model, error, &
-      held=structure%elastic%held)
+    division%structure%linkage = structure%linkage
+    division%structure%load_elements = structure%load_elements
+    associate (linkage => division%structure%linkage)
+      if (has_moving_loads(linkage)) then
+        do b = 1, size(linkage%bodies)
+          linkage%bodies(b)%forced = forced_places(linkage%loads, b, with_moving=.true.)
+        end do
+      end if
+      released = linkage
+      if (.not. present(crank)) then
+        where (linkage%drives%kind == drives_angle) released%drives%is_free = .true.
+        linkage%drives%is_free = .false.
+      end if
+    end associate
+    allocate (division%structure%elastic)
+    division%structure%elastic = new_elastic_linkage(released, structure%beams)
+    call take_statics(structure%load_elements, division%structure%elastic)
+    associate (elastic => division%structure%elastic)
+      parts = size(elastic%body)
+      call new_deformation_model(elastic%linkage, elastic%beams, spread(0, 1, parts), &
+        spread(least_order, 1, parts), spread(.false., 1, parts), division%model, error, &
+        held=elastic%held, is_static=.true.)
+    end associate
     if (allocated(error)) return
-    call set_border(structure, crank, model)
-  end subroutine new_elastic_model
+    if (present(crank)) call set_border(division%structure, crank, division%model)
+  end subroutine new_elastic_division
+
+  !> Springs become loads; masses of uniform parts sit on the nodes of their elements, if they do.
+  pure subroutine take_statics(elements, elastic)
+    integer, intent(in) :: elements(:) !! (bodies) on whose nodes the masses are lumped; 0:
+                                       !! distributed
+    type(elastic_linkage_t), intent(inout) :: elastic
+
+    type(lump_t), allocatable :: lumps(:)
+    real(wp), allocatable :: mass(:), station(:)
+    integer :: i, k, n
+
+    elastic%springs%stiffness = 0.0_wp
+    do k = 1, size(elastic%body)
+      n = elements(elastic%body(k))
+      associate (part => elastic%linkage%bodies(k))
+        if (n == 0 .or. .not. part%bends) cycle
+        mass = lumped_masses(part, n)
+        station = lumped_stations(part, n)
+        allocate (lumps(n + 1 + size(part%lumps)))
+        do i = 1, n + 1
+          lumps(i) = lump_t(mass(i), [station(i), 0.0_wp], 0.0_wp)
+        end do
+        lumps(n + 2:) = part%lumps
+        call move_alloc(lumps, part%lumps)
+        part%line_density = 0.0_wp
+        part%rotary_inertia = 0.0_wp
+        elastic%beams(k)%line_density = 0.0_wp
+        elastic%beams(k)%rotary_inertia = 0.0_wp
+      end associate
+    end do
+  end subroutine take_statics
 
   !> Puts the forces by elasticity in place of those of statics.
   !!
-  !! Errors: those of `place_parts` and `find_part_chords`; rigid links alone are more than needed,
-  !! and nothing tells their forces.
-  subroutine divide_by_elasticity(structure, model, pose, coefficients, unit, error)
-    class(structure_t), intent(in) :: structure                !! of this model
-    type(deformation_model_t), intent(in) :: model             !! of `new_elastic_model`
+  !! Errors: those of `place_parts` and `find_part_chords`.
+  subroutine divide_by_elasticity(division, pose, coefficients, unit, at, error)
+    type(elastic_division_t), intent(in) :: division           !! of this linkage
     type(pose_t), intent(in) :: pose                           !! away from dead points
     type(kinematic_coefficients_t), intent(in) :: coefficients !! at the pose
     type(unit_reactions_t), intent(inout) :: unit              !! by statics
+    type(elastic_position_t), intent(out) :: at                !! for other loads
     type(error_t), allocatable, intent(out) :: error
 
-    type(assembled_t) :: here
-    type(chords_t) :: chords
     integer :: i
 
-    here = new_assembled(structure, model)
-    call place_parts(structure, model, pose, here, error)
+    at%pose = pose
+    at%here = new_assembled(division%structure, division%model)
+    at%here%loads = find_unit_loads(division%structure%linkage, pose, coefficients)
+    call load_parts(division%structure, division%model, pose, at%here, at%chords, error)
     if (allocated(error)) return
-    call find_part_chords(structure%linkage, here%elastic, here%model%links, here%pose, &
-      model%layout%border, model%layout%free, .true., here%border, chords, error)
-    if (allocated(error)) return
-    if (here%border%basis%idle_constraints > 0) then
-      call set_error(error, error_of_input, "the forces in links that hold the same pins "// &
-        "cannot be told apart while too many of them are rigid", &
-        body=body_of_redundancy(structure%linkage, 1))
-      return
-    end if
-    here%loads = find_unit_loads(structure%linkage, pose, coefficients)
-    call find_part_loads(structure%linkage, pose, here%loads, here%elastic, here%pose, &
-      here%part_loads)
-    call find_part_forces(structure%linkage, here%elastic, here%model%links, here%pose, &
-      here%part_loads, here%border, chords, here%part_forces)
     do i = 1, case_count
-      call take_part_reactions(structure%linkage, here%elastic, here%model%links, here%pose, &
-        here%part_loads, here%border, here%part_forces, i, unit%of_case(i)%joints)
+      call take(division, at, at%here%part_loads, at%here%part_forces, i, unit%of_case(i)%joints)
     end do
   end subroutine divide_by_elasticity
+
+  !> The forces in the joints of `find_running_loads` at a speed.
+  !!
+  !! Errors: friction depends on a force that is open.
+  pure subroutine find_divided(division, at, coefficients, speed, divided, error)
+    type(elastic_division_t), intent(in) :: division
+    type(elastic_position_t), intent(in) :: at                 !! of `divide_by_elasticity`
+    type(kinematic_coefficients_t), intent(in) :: coefficients !! there
+    real(wp), intent(in) :: speed                              !! of the first drive [rad/s], [m/s]
+    type(divided_t), intent(inout) :: divided                  !! friction that is there is kept
+    type(error_t), allocatable, intent(out) :: error
+
+    type(joint_forces_t), allocatable :: states(:)
+    integer :: i, k
+
+    call divide_moving(division, at, coefficients, speed, divided%moving)
+    if (allocated(divided%friction)) return
+    call divide_friction(division, at, divided%friction)
+    states = self_stresses(division, at)
+    associate (linkage => division%structure%linkage)
+      do i = 1, size(states)
+        do k = 1, size(divided%friction)
+          if (norm2(force_in_joint(linkage, states(i), linkage%frictions(k))) <= least_open) cycle
+          call set_error(error, error_of_input, "friction depends on the forces in the joints, "// &
+            "and rigid links hold each other where one rubs", pin=linkage%frictions(k)%pin, &
+            body=linkage%frictions(k)%body)
+          return
+        end do
+      end do
+    end associate
+  end subroutine find_divided
+
+  !> Takes the forces in the joints of a load case.
+  pure subroutine take(division, at, loads, forces, case, joints, given, open)
+    type(elastic_division_t), intent(in) :: division
+    type(elastic_position_t), intent(in) :: at
+    type(part_loads_t), intent(in) :: loads
+    type(part_forces_t), intent(in) :: forces
+    integer, intent(in) :: case
+    type(joint_forces_t), intent(inout) :: joints
+    real(wp), intent(in), optional :: given(:)
+    integer, allocatable, intent(out), optional :: open(:)
+
+    call take_part_reactions(division%structure%linkage, at%here%elastic, at%here%model%links, &
+      at%here%pose, loads, at%here%border, forces, case, joints, given, open)
+  end subroutine take
+
+  !> The forces in the joints under other loads.
+  pure subroutine take_efforts(division, at, loads, joints)
+    type(elastic_division_t), intent(in) :: division
+    type(elastic_position_t), intent(in) :: at
+    type(part_loads_t), intent(in) :: loads
+    type(joint_forces_t), intent(inout) :: joints !! of statics: those of drives are kept
+
+    type(part_forces_t) :: forces
+
+    call find_part_forces(division%structure%linkage, at%here%elastic, at%here%model%links, &
+      at%here%pose, loads, at%here%border, at%chords, forces)
+    call take(division, at, loads, forces, effort_case, joints)
+  end subroutine take_efforts
+
+  !> Forces in the joints that balance the loads that depend on the speed, but for friction.
+  pure subroutine divide_moving(division, at, coefficients, speed, joints)
+    type(elastic_division_t), intent(in) :: division
+    type(elastic_position_t), intent(in) :: at                 !! of `divide_by_elasticity`
+    type(kinematic_coefficients_t), intent(in) :: coefficients !! there
+    real(wp), intent(in) :: speed                              !! of the first drive [rad/s], [m/s]
+    type(joint_forces_t), intent(out) :: joints
+
+    type(kinematic_coefficients_t) :: now
+    type(part_loads_t) :: loads
+    type(load_t) :: body_load(size(division%structure%linkage%bodies))
+    real(wp) :: pin_load(2, size(division%structure%linkage%is_ground))
+
+    pin_load = 0.0_wp
+    associate (linkage => division%structure%linkage)
+      if (.not. has_moving_loads(linkage)) then
+        joints = no_joint_forces(linkage)
+        return
+      end if
+      now = velocities_at(coefficients, speed)
+      call add_moving_loads(linkage, at%pose, [0.0_wp, 0.0_wp], now, body_load, pin_load)
+      joints = find_joint_forces(linkage, at%pose, body_load, pin_load)
+      loads = no_part_loads(at%here%elastic)
+      call add_moving_efforts(linkage, at%pose, now, at%here%elastic, at%here%pose, loads)
+    end associate
+    call take_efforts(division, at, loads, joints)
+  end subroutine divide_moving
+
+  !> Forces in the joints that balance an effort of one in each joint that rubs.
+  pure subroutine divide_friction(division, at, joints)
+    type(elastic_division_t), intent(in) :: division
+    type(elastic_position_t), intent(in) :: at                     !! of `divide_by_elasticity`
+    type(joint_forces_t), allocatable, intent(out) :: joints(:)    !! (frictions)
+
+    type(part_loads_t) :: loads
+    type(load_t) :: body_load(size(division%structure%linkage%bodies))
+    real(wp) :: pin_load(2, size(division%structure%linkage%is_ground))
+    real(wp), allocatable :: effort(:)
+    integer :: k
+
+    associate (linkage => division%structure%linkage)
+      if (.not. has_friction(linkage)) then
+        allocate (joints(0))
+        return
+      end if
+      allocate (joints(size(linkage%frictions)), effort(size(linkage%frictions)))
+      do k = 1, size(joints)
+        effort = 0.0_wp
+        effort(k) = 1.0_wp
+        call put_friction(linkage, at%pose, effort, body_load, pin_load)
+        joints(k) = find_joint_forces(linkage, at%pose, body_load, pin_load)
+        loads = no_part_loads(at%here%elastic)
+        call add_friction_effort(linkage, at%pose, k, at%here%elastic, at%here%pose, loads)
+        call take_efforts(division, at, loads, joints(k))
+      end do
+    end associate
+  end subroutine divide_friction
+
+  !> Forces in the joints of a linkage that moves freely: its inertia, and the force of the first
+  !! drive, balance all loads.
+  !!
+  !! Errors: those of `place_parts`; the linkage has other free motions than its drives: a dead
+  !! point.
+  subroutine divide_motion(division, pose, motion, drive_force, joints, states, error)
+    type(elastic_division_t), intent(in) :: division       !! of a motion
+    type(pose_t), intent(in) :: pose                       !! in global axes
+    type(kinematic_coefficients_t), intent(in) :: motion   !! velocities and accelerations
+    real(wp), intent(in) :: drive_force                    !! on the first drive [N m] or [N]
+    type(joint_forces_t), intent(out) :: joints
+    type(joint_forces_t), allocatable, intent(out) :: states(:) !! of self-stress
+    type(error_t), allocatable, intent(out) :: error
+
+    type(elastic_position_t) :: at
+    type(deformation_model_t) :: model
+    type(part_loads_t) :: loads
+    integer :: unknowns, free, i
+
+    at%pose = pose
+    associate (linkage => division%structure%linkage)
+      at%here = new_assembled(division%structure, division%model)
+      ! With velocities and accelerations for coefficients the first case is all inertia.
+      at%here%loads = find_unit_loads(linkage, pose, motion, [.true., .false., .true.])
+      call place_parts(division%structure, division%model, pose, at%here, error)
+      if (allocated(error)) return
+      call border_size(at%here%border, at%here%elastic, at%here%model%links, at%here%pose, &
+        unknowns, free)
+      model = division%model
+      model%layout%border = unknowns
+      model%layout%free = count(linkage%drives%kind == drives_angle)
+      call load_parts(division%structure, model, pose, at%here, at%chords, error)
+      if (allocated(error)) return
+      joints = no_joint_forces(linkage)
+      do i = 1, case_count
+        if (at%here%loads%occurs(i)) call add_case(i)
+      end do
+      loads = no_part_loads(at%here%elastic)
+      if (has_moving_loads(linkage)) call add_moving_efforts(linkage, pose, motion, &
+        at%here%elastic, at%here%pose, loads)
+      associate (drive => linkage%drives(1))
+        if (drive%kind == drives_angle) then
+          call add_end_couple(at%here%elastic, drive%body, shared_pin(linkage, drive%body, &
+            drive%against), drive_force, loads)
+          if (drive%against > 0) call add_end_couple(at%here%elastic, drive%against, &
+            shared_pin(linkage, drive%body, drive%against), -drive_force, loads)
+        end if
+      end associate
+      call add_efforts(loads)
+      joints%drive(1) = drive_force
+      joints%torque = drive_force
+    end associate
+    states = self_stresses(division, at)
+
+  contains
+
+    !> Adds the forces of a load case.
+    subroutine add_case(case)
+      integer, intent(in) :: case
+
+      type(joint_forces_t) :: of_case
+
+      of_case = no_joint_forces(division%structure%linkage)
+      call take(division, at, at%here%part_loads, at%here%part_forces, case, of_case)
+      call add_scaled(joints, 1.0_wp, of_case)
+    end subroutine add_case
+
+    !> Adds the forces of other loads.
+    subroutine add_efforts(others)
+      type(part_loads_t), intent(in) :: others
+
+      type(joint_forces_t) :: of_others
+
+      of_others = no_joint_forces(division%structure%linkage)
+      call take_efforts(division, at, others, of_others)
+      call add_scaled(joints, 1.0_wp, of_others)
+    end subroutine add_efforts
+
+  end subroutine divide_motion
+
+  !> Forces in the joints that are in equilibrium without loads, and that strain nothing: rigid
+  !! links hold each other. The largest force of each is one, moments divided by the longest link.
+  pure function self_stresses(division, at) result(states)
+    type(elastic_division_t), intent(in) :: division
+    type(elastic_position_t), intent(in) :: at              !! of `divide_by_elasticity`
+    type(joint_forces_t), allocatable :: states(:)
+
+    type(part_loads_t) :: loads
+    type(part_forces_t) :: forces
+    type(joint_forces_t) :: joints
+    integer, allocatable :: open(:)
+    real(wp), allocatable :: given(:)
+    integer :: i, j, k, n
+
+    loads = no_part_loads(at%here%elastic)
+    forces = at%here%part_forces
+    forces%guide = 0.0_wp
+    forces%weighted = 0.0_wp
+    forces%spring = 0.0_wp
+    forces%drive = 0.0_wp
+    forces%constraint = 0.0_wp
+    joints = no_joint_forces(division%structure%linkage)
+    call take(division, at, loads, forces, effort_case, joints, open=open)
+    associate (border => at%here%border)
+      n = border%basis%idle_constraints
+      allocate (states(n + size(open)), given(size(open)))
+      do i = 1, size(states)
+        given = 0.0_wp
+        forces%constraint(:, effort_case) = 0.0_wp
+        if (i <= n) then
+          forces%constraint(:, effort_case) = border%basis%dependence(:, i)
+        else
+          given(i - n) = 1.0_wp
+        end if
+        do k = 1, size(border%numbers%line_constraint)
+          j = border%numbers%line_constraint(k)
+          if (j > 0) forces%guide(k, effort_case) = -forces%constraint(j, effort_case)
+        end do
+        states(i) = no_joint_forces(division%structure%linkage)
+        call take(division, at, loads, forces, effort_case, states(i), given)
+        call scale(border%numbers%size_of, states(i))
+      end do
+    end associate
+
+  contains
+
+    !> Makes the largest force one.
+    pure subroutine scale(length, state)
+      real(wp), intent(in) :: length !! [m]
+      type(joint_forces_t), intent(inout) :: state
+
+      type(joint_forces_t) :: unscaled
+      real(wp) :: largest
+
+      largest = maxval([maxval(abs(state%on_first)), maxval(abs(state%on_last)), &
+        reshape(abs(state%on_further), [size(state%on_further)]), abs(state%guide), &
+        abs(state%couple)/length])
+      unscaled = state
+      call add_scaled(state, -1.0_wp, unscaled)
+      if (largest > 0.0_wp) call add_scaled(state, 1.0_wp/largest, unscaled)
+    end subroutine scale
+
+  end function self_stresses
 
 end module elastic_reactions

@@ -15,6 +15,7 @@ module position_assembly
   use part_displacements, only: border_size, border_t, find_part_chords, new_border
   use part_forces, only: find_part_forces, part_forces_t
   use part_poses, only: find_part_loads, part_loads_t, place_parts_of
+  use pin_displacements, only: chords_t
   use poses, only: find_pose, pose_t
   use position_equations, only: assemble_equations, assemble_mass, assemble_unit_loads, &
     position_equations_t
@@ -22,7 +23,7 @@ module position_assembly
   implicit none (type, external)
   private
 
-  public :: assembled_t, new_assembled, assemble_position, set_border, place_parts
+  public :: assembled_t, new_assembled, assemble_position, set_border, place_parts, load_parts
 
   !> A linkage at a position. Of binary links and pins only `loads` and `unit_force` are used.
   type :: assembled_t
@@ -108,10 +109,7 @@ contains
         counts)
       return
     end if
-    call place_parts(structure, model, pose, here, error)
-    if (.not. allocated(error)) call find_part_chords(structure%linkage, here%elastic, &
-      here%model%links, here%pose, model%layout%border, model%layout%free, &
-      any(here%loads%occurs), here%border, equations%chords, error)
+    call load_parts(structure, model, pose, here, equations%chords, error)
     if (allocated(error)) then
       do i = 1, size(outcome)
         if (.not. allocated(outcome(i)%error)) outcome(i)%error = error
@@ -120,10 +118,6 @@ contains
     end if
     here%damper_rows = matmul(transpose(here%border%basis%unknown), damper_rows(here%elastic, &
       here%border%numbers, here%pose))
-    call find_part_loads(structure%linkage, pose, here%loads, here%elastic, here%pose, &
-      here%part_loads)
-    call find_part_forces(structure%linkage, here%elastic, here%model%links, here%pose, &
-      here%part_loads, here%border, equations%chords, here%part_forces)
     here%unit_force = here%part_forces%axial
     call refuse_crushed(here%elastic%linkage, here%model, here%unit_force, factor, outcome)
     do i = 1, size(outcome)
@@ -141,6 +135,28 @@ contains
     call assemble_unit_loads(here%model, here%unit_force, factor, equations, counts, &
       here%part_forces%second_order)
   end subroutine assemble_position
+
+  !> Places the parts, and finds what the border unknowns do to them and the forces in them.
+  !!
+  !! Errors: those of `place_parts` and `find_part_chords`.
+  subroutine load_parts(structure, model, pose, here, chords, error)
+    class(structure_t), intent(in) :: structure      !! with parts
+    type(deformation_model_t), intent(in) :: model   !! of these, with a border
+    type(pose_t), intent(in) :: pose                 !! of the linkage that moves
+    type(assembled_t), intent(inout) :: here         !! of this model, with the loads of this pose
+    type(chords_t), intent(inout) :: chords          !! of the border unknowns
+    type(error_t), allocatable, intent(out) :: error
+
+    call place_parts(structure, model, pose, here, error)
+    if (allocated(error)) return
+    call find_part_chords(structure%linkage, here%elastic, here%model%links, here%pose, &
+      model%layout%border, model%layout%free, any(here%loads%occurs), here%border, chords, error)
+    if (allocated(error)) return
+    call find_part_loads(structure%linkage, pose, here%loads, here%elastic, here%pose, &
+      here%part_loads)
+    call find_part_forces(structure%linkage, here%elastic, here%model%links, here%pose, &
+      here%part_loads, here%border, chords, here%part_forces)
+  end subroutine load_parts
 
   !> Adds `I θ²` of a block.
   pure subroutine add_block(inertia, turn, mass)

@@ -17,7 +17,12 @@ module graded_rows
   !! entry: geometry decides, not stiffness.
   real(wp), parameter :: least_rest = 1.0e-9_wp
 
-  !> Multipliers up to which pivot rows that are given are kept.
+  !> A row of which less than this is left is one exactly: what is left is round-off. It must not
+  !! count by the weight of the row where only light rows hold what it would move.
+  real(wp), parameter :: round_off = 64.0_wp*epsilon(1.0_wp)
+
+  !> Multipliers up to which pivot rows that are given are kept, those of the rows as they are and
+  !! those of weighted rows: a row that is no pivot must not be much heavier than those that are.
   real(wp), parameter :: most_growth = 100.0_wp
 
   !> Rows in unknowns that are about equally large.
@@ -40,6 +45,8 @@ module graded_rows
     real(wp), allocatable :: violation(:, :)
     !> (rows, constraints) the weighted rows there: zero of pivot rows
     real(wp), allocatable :: weighted_violation(:, :)
+    !> (constraints, idle constraints) c of combinations that vanish, `Σ c_k g_k = 0`
+    real(wp), allocatable :: dependence(:, :)
   end type row_basis_t
 
 contains
@@ -50,7 +57,8 @@ contains
     type(graded_rows_t), intent(in) :: rows            !! constraints, rows, weights
     type(row_basis_t), intent(out) :: basis            !! of these rows
     integer, intent(in), optional :: primary(:)        !! rows to be pivots; absent or empty: any
-    logical, intent(in), optional :: with_violations   !! also `violation`; absent: no
+    logical, intent(in), optional :: with_violations   !! also `violation` and `dependence`; absent:
+                                                       !! no
 
     real(wp) :: work(size(rows%row, 1), size(rows%constraint, 2) + size(rows%row, 2))
     real(wp) :: scale(size(work, 2))
@@ -69,12 +77,15 @@ contains
     end do
     found = .false.
     if (present(primary)) then
-      if (size(primary) > 0) call eliminate_given(rows, primary, work, pivot, column, pivots, found)
+      if (size(primary) > 0) call eliminate_given(rows, scale, primary, work, pivot, column, &
+        pivots, found)
     end if
     if (.not. found) call eliminate_largest(rows, scale, work, pivot, column, pivots)
     call fill_basis(rows, scale, work, pivot, column, pivots, basis)
     if (.not. present(with_violations)) return
-    if (with_violations) call fill_violations(rows, scale, work, pivot, column, pivots, basis)
+    if (.not. with_violations) return
+    call fill_violations(rows, scale, work, pivot, column, pivots, basis)
+    call fill_dependences(rows, scale, work, pivot, column, pivots, basis)
   end subroutine find_row_basis
 
   !> Constraints first, the largest of what is left of them; then rows, by the largest weighted
@@ -115,8 +126,9 @@ contains
   end subroutine eliminate_largest
 
   !> Constraints, then the given rows by weight.
-  pure subroutine eliminate_given(rows, primary, work, pivot, column, pivots, found)
+  pure subroutine eliminate_given(rows, scale, primary, work, pivot, column, pivots, found)
     type(graded_rows_t), intent(in) :: rows
+    real(wp), intent(in) :: scale(:)
     integer, intent(in) :: primary(:)
     real(wp), intent(inout) :: work(:, :)
     integer, intent(inout) :: pivot(:), column(:)
@@ -155,6 +167,13 @@ contains
         return
       end if
       call take(r, work, is_used, is_taken, pivot, column, pivots)
+      do i = constraints + 1, size(work, 2)
+        if (is_used(i)) cycle
+        if (abs(work(column(pivots), i))*scale(i)*rows%weight(i - constraints) <= &
+          most_growth*scale(r)*rows%weight(r - constraints)) cycle
+        work = before
+        return
+      end do
     end do
     ! Every other row has to be a combination of these.
     do i = constraints + 1, size(work, 2)
@@ -183,7 +202,10 @@ contains
     column(pivots) = maxloc(abs(work(:, row)), dim=1, mask=.not. is_taken)
     is_taken(column(pivots)) = .true.
     do i = 1, size(work, 2)
-      if (.not. is_used(i)) call subtract(work(:, row), column(pivots), is_taken, work(:, i))
+      if (is_used(i)) cycle
+      call subtract(work(:, row), column(pivots), is_taken, work(:, i))
+      if (maxval(abs(work(:, i)), mask=.not. is_taken) < round_off) work(:, i) = merge(work(:, i), &
+        0.0_wp, is_taken)
     end do
   end subroutine take
 
@@ -289,9 +311,11 @@ contains
     end do
     if (size(rest) == 0) return
     allocate (other(size(rest), n), factor(n, n))
-    do j = 1, n
-      do i = 1, size(rest)
-        other(i, j) = rows%weight(rest(i))*dot_product(rows%row(:, rest(i)), basis%unknown(:, j))
+    do i = 1, size(rest)
+      right = shares_of(work, pivot, column, pivots, constraints + rest(i))
+      do j = 1, n
+        other(i, j) = right(step(j))*(rows%weight(rest(i))*scale(constraints + rest(i)))/ &
+          (rows%weight(basis%primary(j))*scale(constraints + basis%primary(j)))
       end do
     end do
     factor = matmul(transpose(other), other)
@@ -338,9 +362,14 @@ contains
     integer, intent(in) :: pivot(:), column(:), pivots
     type(row_basis_t), intent(inout) :: basis
 
-    real(wp) :: right(pivots)
+    real(wp) :: right(pivots), share(pivots, size(rows%row, 2))
     integer :: i, k, r
 
+    share = 0.0_wp
+    do i = 1, size(rows%row, 2)
+      if (.not. any(basis%primary == i)) share(:, i) = shares_of(work, pivot, column, pivots, &
+        size(rows%constraint, 2) + i)
+    end do
     allocate (basis%violation(size(work, 1), size(rows%constraint, 2)), &
       basis%weighted_violation(size(rows%row, 2), size(rows%constraint, 2)))
     basis%violation = 0.0_wp
@@ -351,13 +380,56 @@ contains
       right = 0.0_wp
       right(r) = 1.0_wp/scale(k)
       call solve(work, pivot, column, pivots, right, basis%violation(:, k))
-      do i = 1, size(rows%row, 2)
-        if (any(basis%primary == i)) cycle
-        basis%weighted_violation(i, k) = rows%weight(i)*dot_product(rows%row(:, i), &
-          basis%violation(:, k))
-      end do
+      basis%weighted_violation(:, k) = rows%weight*scale(size(rows%constraint, 2) + 1:)* &
+        share(r, :)/scale(k)
     end do
   end subroutine fill_violations
+
+  !> How idle constraints follow from the others.
+  pure subroutine fill_dependences(rows, scale, work, pivot, column, pivots, basis)
+    type(graded_rows_t), intent(in) :: rows
+    real(wp), intent(in) :: scale(:)
+    real(wp), intent(in) :: work(:, :)
+    integer, intent(in) :: pivot(:), column(:), pivots
+    type(row_basis_t), intent(inout) :: basis
+
+    real(wp) :: share(pivots)
+    integer :: i, k, n, constraints
+
+    constraints = size(rows%constraint, 2)
+    allocate (basis%dependence(constraints, basis%idle_constraints), source=0.0_wp)
+    n = 0
+    do i = 1, constraints
+      if (any(pivot(:pivots) == i)) cycle
+      n = n + 1
+      ! Constraints are the first pivots.
+      share = shares_of(work, pivot, column, pivots, i)
+      do k = 1, constraints - basis%idle_constraints
+        basis%dependence(pivot(k), n) = -share(k)/scale(pivot(k))
+      end do
+      basis%dependence(i, n) = 1.0_wp
+      if (scale(i) > 0.0_wp) basis%dependence(i, n) = 1.0_wp/scale(i)
+    end do
+  end subroutine fill_dependences
+
+  !> How a row that is no pivot follows from those that are, all scaled as they were eliminated: it
+  !! is the sum of its multipliers times the rows of U, and these follow from the pivot rows
+  !! likewise. What was nothing in the elimination stays nothing, however heavy the row.
+  pure function shares_of(work, pivot, column, pivots, row) result(share)
+    real(wp), intent(in) :: work(:, :)
+    integer, intent(in) :: pivot(:), column(:), pivots
+    integer, intent(in) :: row
+    real(wp) :: share(pivots)
+
+    integer :: j, k
+
+    do j = pivots, 1, -1
+      share(j) = work(column(j), row)
+      do k = j + 1, pivots
+        share(j) = share(j) - share(k)*work(column(j), pivot(k))
+      end do
+    end do
+  end function shares_of
 
   !> Lower Cholesky factor C of a matrix that is at least the unit matrix, in its lower triangle.
   pure subroutine factor_cholesky(matrix)

@@ -42,6 +42,8 @@ module linkage_samples
     real(wp) :: load_power = 0.0_wp          !! of all loads without a potential [W]
     real(wp), allocatable :: direction(:, :) !! (2, bodies) unit vectors, first → last pin
     real(wp), allocatable :: turning(:)      !! (bodies) angular accelerations [rad/s²]
+    type(pose_t) :: pose                     !! pins in global axes
+    type(kinematic_coefficients_t) :: motion !! velocities, and accelerations
     type(joint_forces_t) :: joints           !! forces in the joints, where they are wanted
     real(wp) :: imbalance = 0.0_wp           !! of `forces_of_motion` [-]
   end type linkage_details_t
@@ -148,6 +150,9 @@ contains
       details%load_power = instant%load_power
       details%direction = pose%direction
       details%turning = motion%turn_slope
+      details%pose = pose
+      details%pose%pin = pose%pin + spread(whole%origin, 2, size(pose%pin, 2))
+      details%motion = motion
       if (.not. with_forces) return
       call new_free_equations(whole, system%rigid, pose, instant%per, 0.0_wp, equations)
       found = abs(equations%factor%determinant) > 0.0_wp

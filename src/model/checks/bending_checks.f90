@@ -12,7 +12,7 @@ module bending_checks
   implicit none (type, external)
   private
 
-  public :: check_bending, carries_pin
+  public :: check_bending, carries_pin, check_forces_on_links
 
   !> Least distance of two pins along a link, as a share of its length [-].
   real(wp), parameter :: least_distance = 1.0e-6_wp
@@ -48,11 +48,23 @@ contains
     do i = 1, size(model%masses)
       call check_mass(diagnostics, model, i)
     end do
-    if (.not. needs_frequencies(model)) return
-    do i = 1, size(model%processes)
-      call check_force(diagnostics, model, i)
-    end do
+    if (needs_frequencies(model)) call check_forces_on_links(diagnostics, model, .false.)
   end subroutine check_bending
+
+  !> Forces at places of links that bend. Errors: beyond an end; beside the axis with shear and
+  !! without rotary inertia.
+  pure subroutine check_forces_on_links(diagnostics, model, with_moving)
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(model_t), intent(in) :: model                !! whose forces have their links
+    logical, intent(in) :: with_moving                !! those that depend on the motion, too: they
+                                                      !! have no part in frequencies
+
+    integer :: i
+
+    do i = 1, size(model%processes)
+      if (model%processes(i)%during == 0 .or. with_moving) call check_force(diagnostics, model, i)
+    end do
+  end subroutine check_forces_on_links
 
   !> Whether a point is a pin of its link: other cards take its name for that of a pin.
   pure function carries_pin(model, number) result(is)
@@ -185,8 +197,8 @@ contains
     end associate
   end subroutine check_mass
 
-  !> So is a force, unless it depends on the motion and has no part in frequencies. Beside the axis
-  !! it turns its cross-section, which has no inertia of its own with shear alone.
+  !> So is a force. Beside the axis it turns its cross-section, which has no inertia of its own with
+  !! shear alone.
   pure subroutine check_force(diagnostics, model, number)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
@@ -197,7 +209,7 @@ contains
     logical :: known
 
     associate (process => model%processes(number))
-      if (process%kind /= process_force .or. process%link == 0 .or. process%during /= 0) return
+      if (process%kind /= process_force .or. process%link == 0) return
       call find_foot(model, process%link, process%place, places, foot, known)
       if (.not. known) return
       associate (link => model%links(process%link))

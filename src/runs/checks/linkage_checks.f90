@@ -1,12 +1,14 @@
 !> Checks of linkages that are no four-bars and have a plan: whether they assemble near the drawing,
 !! fit, and reach the positions of the deck.
 module linkage_checks
-  use applied_loads, only: has_moving_loads
+  use bending_checks, only: check_forces_on_links
   use block_checks, only: check_blocks
   use deck_lengths, only: crank_text, in_deck, length_text
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
+  use drive_cards, only: moves_along
   use errors, only: error_of_dead_point, error_of_reach, error_t
   use kinds, only: wp
+  use link_cards, only: has_own_mass
   use linkage_parts, only: assembly_t
   use linkages, only: groups_dyad, is_dyad_linkage, linkage_t, reference_point
   use mechanisms, only: mechanism_t, pins_of_body
@@ -64,32 +66,7 @@ contains
     if (size(mechanism%linkage%redundancies) > 0) then
       call check_fit(model, mechanism, diagnostics)
       if (has_errors(diagnostics)) return
-      report = report_number(model, "sizing")
-      if (.not. divides_forces(model, mechanism)) report = max(report_number(model, "reactions"), &
-        report_number(model, "bearings"), report)
-      if (report == 0 .and. size(model%frictions) > 0) call add_error(diagnostics, &
-        model%frictions(1)%keyword, "friction depends on the forces in the joints, and those "// &
-        "in '"//mechanism%names(max(1, body_of_redundancy(mechanism%linkage, 1)))%text// &
-        "' and the links that hold the same pins cannot be told apart while all are rigid")
-      if (report > 0 .and. allocated(mechanism%elastic)) then
-        call add_error(diagnostics, model%reports(report)%keyword, "the forces in '"// &
-          mechanism%names(max(1, body_of_redundancy(mechanism%linkage, 1)))%text// &
-          "' and the links that hold the same pins are divided by how links bend in "// &
-          "reactions and bearings only, and not with springs, dampers, friction or INERTIA "// &
-          "lumped; REPORT drive, frame and lagrange do not need them")
-      else if (report > 0) then
-        call add_error(diagnostics, model%reports(report)%keyword, "the forces in '"// &
-          mechanism%names(max(1, body_of_redundancy(mechanism%linkage, 1)))%text// &
-          "' and the links that hold the same pins cannot be told apart while all are rigid; "// &
-          "REPORT drive, frame and lagrange do not need them")
-      end if
-      report = report_number(model, "motion")
-      if (report > 0) then
-        if (model%reports(report)%with_forces) call add_error(diagnostics, &
-          model%reports(report)%forces_word, "the forces in '"//mechanism%names(max(1, &
-          body_of_redundancy(mechanism%linkage, 1)))%text//"' and the links that hold the same "// &
-          "pins cannot be told apart while all are rigid; accelerations and power do not need them")
-      end if
+      call check_shared_forces(model, mechanism, diagnostics)
     end if
     if (drives_length(model) .and. model%motor%keyword%line > 0) call add_error(diagnostics, &
       model%motor%keyword, "a MOTOR turns a link, and the first DRIVE moves a slider or a ram; "// &
@@ -202,18 +179,112 @@ contains
     end do
   end subroutine warn_of_held_blocks
 
-  !> Whether the elasticity of bending links divides the forces in the joints: those of the motion
-  !! with masses along the links, and of loads that do not depend on the speed; not of springs, of
-  !! which other columns know what they pull at the position only.
-  pure function divides_forces(model, mechanism) result(divides)
+  !> Forces that links share which are more than needed: their elasticity divides them. Rigid ones
+  !! have none.
+  pure subroutine check_shared_forces(model, mechanism, diagnostics)
     type(model_t), intent(in) :: model
     type(mechanism_t), intent(in) :: mechanism
-    logical :: divides
+    type(diagnostics_t), intent(inout) :: diagnostics
 
-    divides = allocated(mechanism%elastic) .and. all(mechanism%load_elements == 0) .and. &
-      .not. has_moving_loads(mechanism%linkage) .and. size(model%frictions) == 0 .and. &
-      size(model%springs) == 0
-  end function divides_forces
+    character(len=:), allocatable :: in_links
+    integer :: motion, report
+    logical :: in_motion
+
+    in_links = "in '"//mechanism%names(max(1, body_of_redundancy(mechanism%linkage, 1)))%text// &
+      "' and the links that hold the same pins"
+    report = max(report_number(model, "reactions"), report_number(model, "bearings"), &
+      report_number(model, "sizing"))
+    motion = report_number(model, "motion")
+    in_motion = .false.
+    if (motion > 0) in_motion = model%reports(motion)%with_forces
+    if (.not. allocated(mechanism%elastic)) then
+      if (report > 0) then
+        call add_error(diagnostics, model%reports(report)%keyword, "the forces "//in_links// &
+          " cannot be told apart while all are rigid; REPORT drive, frame and lagrange do not "// &
+          "need them")
+      else if (size(model%frictions) > 0) then
+        call add_error(diagnostics, model%frictions(1)%keyword, "friction depends on the forces "// &
+          "in the joints, and those "//in_links//" cannot be told apart while all are rigid")
+      end if
+      if (in_motion) call add_error(diagnostics, model%reports(motion)%forces_word, &
+        "the forces "//in_links//" cannot be told apart while all are rigid; accelerations and "// &
+        "power do not need them")
+      return
+    end if
+    if (size(model%frictions) > 0) call check_divided_friction(model, in_links, diagnostics)
+    if (in_motion) call check_divided_motion(model, in_links, diagnostics)
+    if (report > 0 .or. in_motion .or. size(model%frictions) > 0) call check_dividing_links(model, &
+      mechanism, in_links, diagnostics)
+  end subroutine check_shared_forces
+
+  !> Friction depends on the forces that elasticity divides, at given positions and speeds.
+  pure subroutine check_divided_friction(model, in_links, diagnostics)
+    type(model_t), intent(in) :: model
+    character(len=*), intent(in) :: in_links
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=*), parameter :: without(*) = [character(len=9) :: "motion", "balance", "harmonics"]
+    integer :: i, report
+
+    do i = 1, size(without)
+      report = report_number(model, trim(without(i)))
+      if (report == 0) cycle
+      call add_error(diagnostics, model%frictions(1)%keyword, "friction depends on the forces in "// &
+        "the joints, and those "//in_links//" are divided by how links bend; REPORT "// &
+        trim(without(i))//" does not know it: expected no friction", &
+        model%reports(report)%keyword, "it is asked for here")
+      return
+    end do
+  end subroutine check_divided_friction
+
+  !> A second drive that holds its link bears a torque that only elasticity tells.
+  pure subroutine check_divided_motion(model, in_links, diagnostics)
+    type(model_t), intent(in) :: model
+    character(len=*), intent(in) :: in_links
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: i
+
+    do i = 2, size(model%drives)
+      if (model%drives(i)%is_free .or. moves_along(model%drives(i)%kind)) cycle
+      call add_error(diagnostics, model%drives(i)%keyword, "the forces "//in_links// &
+        " are divided by how links bend, and in a motion not with a second drive that holds its "// &
+        "link; expected 'free'", model%reports(report_number(model, "motion"))%forces_word, &
+        "they are asked for here")
+      return
+    end do
+  end subroutine check_divided_motion
+
+  !> Links that bend have the mass of their sections, and loads between their ends.
+  pure subroutine check_dividing_links(model, mechanism, in_links, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    character(len=*), intent(in) :: in_links
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: i
+
+    do i = 1, size(model%links)
+      if (model%links(i)%rigid .or. .not. has_own_mass(model%links(i))) cycle
+      call add_error(diagnostics, model%links(i)%body_word, "link '"//model%links(i)%name%text// &
+        "' bends, and a beam has the mass of its section: the forces "//in_links// &
+        " are divided by how links bend; expected 'rigid' on this card, or no '"// &
+        model%links(i)%body_word%text//"='")
+      return
+    end do
+    do i = 1, size(mechanism%elastic%contact)
+      if (mechanism%elastic%contact(i) == 0) cycle
+      if (mechanism%load_elements(mechanism%linkage%sliders(i)%body) == 0) cycle
+      call add_error(diagnostics, model%inertia_word, "the masses of link '"// &
+        mechanism%names(mechanism%linkage%sliders(i)%body)%text//"' are not lumped where a "// &
+        "block divides it, and the forces "//in_links//" are divided by how links bend; "// &
+        "expected: INERTIA distributed")
+      return
+    end do
+    if (needs_frequencies(model)) return
+    call check_cut_links(model, diagnostics)
+    call check_forces_on_links(diagnostics, model, .true.)
+  end subroutine check_dividing_links
 
   !> A mesh of the deck, and its nodal matrices, are of links that are placed two by two.
   pure subroutine check_mesh(model, mechanism, diagnostics)

@@ -1,0 +1,192 @@
+!> Loads of parts beside those that a pose determines: dampers, resistances and loads in one
+!! direction of the motion, friction in a joint, the torque of a motor. All are in the first case.
+module part_efforts
+  use applied_load_types, only: applies_along, applies_couple, applies_force, &
+    load_place_t
+  use applied_loads, only: damper_pulls, is_moving, moving_couple, moving_force
+  use elastic_linkages, only: elastic_linkage_t, spring_pin
+  use group_equations, only: line_axis
+  use kinds, only: wp
+  use kinematic_coefficients, only: kinematic_coefficients_t
+  use linkages, only: cross, linkage_t
+  use load_cases, only: case_count
+  use load_coordinates, only: load_axis
+  use part_poses, only: part_loads_t
+  use poses, only: arm_to_place, pose_t
+  implicit none (type, external)
+  private
+
+  public :: effort_case, no_part_loads, add_moving_efforts, add_friction_effort, add_end_couple
+
+  !> The case that holds these loads: one without what only loads at rest have.
+  integer, parameter :: effort_case = 1
+
+contains
+
+  !> Parts without any loads.
+  pure function no_part_loads(elastic) result(loads)
+    type(elastic_linkage_t), intent(in) :: elastic !! parts, points, rotations
+    type(part_loads_t) :: loads
+
+    integer :: parts, points
+
+    parts = size(elastic%body)
+    points = size(elastic%is_fixed)
+    loads%unit%occurs = .false.
+    loads%unit%occurs(effort_case) = .true.
+    allocate (loads%moment(elastic%rotations, case_count), source=0.0_wp)
+    allocate (loads%pull(size(elastic%springs)), source=0.0_wp)
+    allocate (loads%end_couple(2, parts, case_count), source=0.0_wp)
+    associate (case => loads%unit%of_case(effort_case))
+      allocate (case%field%at_pin(2, points), source=0.0_wp)
+      allocate (case%field%at_first(2, parts), source=0.0_wp)
+      allocate (case%field%slope(2, parts), source=0.0_wp)
+      allocate (case%field%angular(parts), source=0.0_wp)
+      allocate (case%pin_force(2, points), source=0.0_wp)
+      allocate (case%couple(parts), source=0.0_wp)
+      allocate (case%body_force(2, parts), source=0.0_wp)
+      allocate (case%place_force(2, size(elastic%linkage%loads)), source=0.0_wp)
+    end associate
+  end function no_part_loads
+
+  !> Adds dampers, resistances, and loads that act in one direction of the motion only.
+  pure subroutine add_moving_efforts(linkage, pose, now, elastic, placed, loads)
+    type(linkage_t), intent(in) :: linkage          !! that moves, with its loads
+    type(pose_t), intent(in) :: pose                !! of it
+    type(kinematic_coefficients_t), intent(in) :: now !! velocities [m/s], [rad/s]
+    type(elastic_linkage_t), intent(in) :: elastic  !! at this position; places of such forces on
+                                                    !! parts that bend are among its `forced`
+    type(pose_t), intent(in) :: placed              !! its points and parts
+    type(part_loads_t), intent(inout) :: loads      !! of these parts
+
+    real(wp), parameter :: from_global_origin(2) = 0.0_wp
+    real(wp), allocatable :: pull(:)
+    integer :: i, k
+
+    pull = damper_pulls(linkage, pose, now)
+    do i = 1, size(linkage%loads)
+      associate (load => linkage%loads(i))
+        if (.not. is_moving(load)) cycle
+        select case (load%kind)
+        case (applies_force)
+          call add_force(elastic, placed, i, load%at(1), moving_force(linkage, pose, &
+            from_global_origin, now, load), loads)
+        case (applies_couple)
+          k = findloc(elastic%body, load%body(1), dim=1)
+          associate (couple => loads%unit%of_case(effort_case)%couple(k))
+            couple = couple + moving_couple(linkage, pose, from_global_origin, now, load)
+          end associate
+        case (applies_along)
+          call add_force(elastic, placed, i, load%at(1), pull(i)*load_axis(linkage, pose, load), &
+            loads)
+          call add_force(elastic, placed, i, load%at(2), -pull(i)*load_axis(linkage, pose, load), &
+            loads)
+        case default
+          do k = 1, 2
+            call add_end_couple(elastic, load%body(k), spring_pin(linkage, i), merge(pull(i), &
+              -pull(i), k == 1), loads)
+          end do
+        end select
+      end associate
+    end do
+  end subroutine add_moving_efforts
+
+  !> Adds an effort of one in a joint that rubs, as of `put_friction`.
+  pure subroutine add_friction_effort(linkage, pose, number, elastic, placed, loads)
+    type(linkage_t), intent(in) :: linkage          !! that moves, with its frictions
+    type(pose_t), intent(in) :: pose                !! of it
+    integer, intent(in) :: number                   !! of the friction
+    type(elastic_linkage_t), intent(in) :: elastic  !! at this position
+    type(pose_t), intent(in) :: placed              !! its points and parts
+    type(part_loads_t), intent(inout) :: loads      !! of these parts
+
+    real(wp) :: force(2)
+    integer :: k
+
+    associate (rub => linkage%frictions(number), case => loads%unit%of_case(effort_case))
+      if (rub%slider == 0) then
+        call add_end_couple(elastic, rub%body, rub%pin, 1.0_wp, loads)
+        call add_end_couple(elastic, rub%against, rub%pin, -1.0_wp, loads)
+        return
+      end if
+      force = line_axis(linkage, pose, rub%slider)
+      case%pin_force(:, rub%pin) = case%pin_force(:, rub%pin) + force
+      associate (carrier => linkage%sliders(rub%slider)%body, point => elastic%contact(rub%slider))
+        if (point > 0) then
+          case%pin_force(:, point) = case%pin_force(:, point) - force
+        else if (carrier > 0) then
+          k = findloc(elastic%body, carrier, dim=1)
+          case%body_force(:, k) = case%body_force(:, k) - force
+          case%couple(k) = case%couple(k) - cross(placed%pin(:, rub%pin) - placed%pin(:, &
+            elastic%linkage%bodies(k)%first_pin), force)
+        end if
+      end associate
+    end associate
+  end subroutine add_friction_effort
+
+  !> Adds a couple on a link where it is at a pin: on the end of a part that bends.
+  pure subroutine add_end_couple(elastic, body, pin, couple, loads)
+    type(elastic_linkage_t), intent(in) :: elastic  !! parts
+    integer, intent(in) :: body                     !! number of the link; 0: the ground
+    integer, intent(in) :: pin                      !! one of its pins
+    real(wp), intent(in) :: couple                  !! [N m]
+    type(part_loads_t), intent(inout) :: loads      !! of these parts
+
+    integer :: e, k
+
+    if (body == 0) return
+    k = findloc(elastic%body, body, dim=1)
+    if (elastic%linkage%bodies(k)%bends) then
+      do k = findloc(elastic%body, body, dim=1), findloc(elastic%body, body, dim=1, back=.true.)
+        associate (part => elastic%linkage%bodies(k))
+          e = findloc([part%first_pin, part%last_pin], pin, dim=1)
+        end associate
+        if (e == 0) cycle
+        loads%end_couple(e, k, effort_case) = loads%end_couple(e, k, effort_case) + couple
+        return
+      end do
+    end if
+    k = findloc(elastic%body, body, dim=1)
+    associate (on_link => loads%unit%of_case(effort_case)%couple(k))
+      on_link = on_link + couple
+    end associate
+  end subroutine add_end_couple
+
+  !> Adds a force at a pin or at a place of a link.
+  pure subroutine add_force(elastic, placed, number, at, force, loads)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(pose_t), intent(in) :: placed
+    integer, intent(in) :: number !! of the load
+    type(load_place_t), intent(in) :: at
+    real(wp), intent(in) :: force(2)
+    type(part_loads_t), intent(inout) :: loads
+
+    integer :: i, k
+
+    associate (case => loads%unit%of_case(effort_case))
+      if (at%pin > 0) then
+        case%pin_force(:, at%pin) = case%pin_force(:, at%pin) + force
+        return
+      end if
+      do k = findloc(elastic%body, at%body, dim=1), findloc(elastic%body, at%body, dim=1, &
+        back=.true.)
+        associate (part => elastic%linkage%bodies(k))
+          if (.not. part%bends) then
+            case%body_force(:, k) = case%body_force(:, k) + force
+            case%couple(k) = case%couple(k) + cross(arm_to_place(placed, k, at%place), force)
+            cycle
+          end if
+          if (.not. allocated(part%forced)) cycle
+          do i = 1, size(part%forced)
+            if (part%forced(i)%load /= number) cycle
+            case%place_force(:, number) = case%place_force(:, number) + force
+            case%body_force(:, k) = case%body_force(:, k) + force
+            case%couple(k) = case%couple(k) + cross(arm_to_place(placed, k, &
+              part%forced(i)%place), force)
+          end do
+        end associate
+      end do
+    end associate
+  end subroutine add_force
+
+end module part_efforts

@@ -1,0 +1,95 @@
+!> Forces in the joints at a position and at a speed: by statics, or divided by elasticity.
+module position_loads
+  use elastic_reactions, only: divide_by_elasticity, elastic_division_t, elastic_position_t, &
+    find_divided, has_elastic_reactions, new_elastic_division
+  use errors, only: error_t
+  use kinds, only: wp
+  use kinematic_coefficients, only: kinematic_coefficients_t
+  use linkages, only: linkage_t
+  use poses, only: pose_t
+  use reactions, only: find_unit_reactions, unit_reactions_t
+  use running_loads, only: divided_t, find_running_loads, running_t
+  use structures, only: structure_t
+  implicit none (type, external)
+  private
+
+  public :: elastic_division_t, position_loads_t, find_division, find_position_loads, &
+    find_speed_loads
+
+  !> Forces in the joints at a position.
+  type :: position_loads_t
+    type(unit_reactions_t) :: unit    !! of the unit loads
+    type(elastic_position_t) :: at    !! where elasticity divides forces
+    type(divided_t) :: divided        !! likewise, at the last speed
+  end type position_loads_t
+
+contains
+
+  !> The division of forces by elasticity, of linkages with more links than needed that bend.
+  !!
+  !! Errors: a link has no own modes.
+  subroutine find_division(structure, division, error, crank)
+    class(structure_t), intent(in) :: structure           !! of any kind
+    type(elastic_division_t), allocatable, intent(out) :: division !! not allocated: statics tells
+                                                           !! the forces, or nothing does
+    type(error_t), allocatable, intent(out) :: error
+    real(wp), intent(in), optional :: crank(:)             !! positions of the run; absent: some over
+                                                           !! a turn
+
+    integer :: i
+
+    if (.not. has_elastic_reactions(structure)) return
+    allocate (division)
+    if (present(crank)) then
+      call new_elastic_division(structure, division, error, crank)
+    else
+      call new_elastic_division(structure, division, error, [(10.0_wp*i, i=0, 35)])
+    end if
+  end subroutine find_division
+
+  !> Reactions to the unit loads.
+  !!
+  !! Errors: those of `divide_by_elasticity`.
+  subroutine find_position_loads(linkage, elements, pose, coefficients, found, error, division)
+    type(linkage_t), intent(in) :: linkage       !! of any kind
+    integer, intent(in) :: elements(:)           !! (bodies) on whose nodes the masses are lumped;
+                                                 !! 0: distributed
+    type(pose_t), intent(in) :: pose             !! away from dead points
+    type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
+    type(position_loads_t), intent(out) :: found
+    type(error_t), allocatable, intent(out) :: error
+    type(elastic_division_t), intent(in), optional :: division !! of this linkage, if its elasticity
+                                                 !! divides forces
+
+    call find_unit_reactions(linkage, elements, pose, coefficients, found%unit)
+    if (present(division)) call divide_by_elasticity(division, pose, coefficients, found%unit, &
+      found%at, error)
+  end subroutine find_position_loads
+
+  !> What a speed adds.
+  !!
+  !! Errors: those of `find_divided`.
+  subroutine find_speed_loads(linkage, pose, coefficients, speed, acceleration, found, running, &
+    error, division)
+    type(linkage_t), intent(in) :: linkage       !! its loads and frictions
+    type(pose_t), intent(in) :: pose             !! away from dead points
+    type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
+    real(wp), intent(in) :: speed                !! of the first drive [rad/s] or [m/s]
+    real(wp), intent(in) :: acceleration         !! of the first drive [rad/s²] or [m/s²]
+    type(position_loads_t), intent(inout) :: found !! of this pose; needed only where joints rub or
+                                                 !! with a division
+    type(running_t), intent(out) :: running
+    type(error_t), allocatable, intent(out) :: error
+    type(elastic_division_t), intent(in), optional :: division !! as of `find_position_loads`, with
+                                                 !! the loads and frictions of `linkage`
+
+    if (.not. present(division)) then
+      call find_running_loads(linkage, pose, coefficients, speed, acceleration, found%unit, running)
+      return
+    end if
+    call find_divided(division, found%at, coefficients, speed, found%divided, error)
+    if (.not. allocated(error)) call find_running_loads(linkage, pose, coefficients, speed, &
+      acceleration, found%unit, running, found%divided)
+  end subroutine find_speed_loads
+
+end module position_loads
