@@ -47,7 +47,7 @@ contains
   !!
   !! Errors: the singular value decomposition that gives the own modes of a link fails.
   subroutine new_deformation_model(linkage, beams, elements, order, lumped, model, error, store, &
-      degrees, held, is_static)
+      degrees, held)
     type(linkage_t), intent(in) :: linkage  !! which links bend, their masses
     type(beam_t), intent(in) :: beams(:)    !! (bodies) stiffnesses
     integer, intent(in) :: elements(:)      !! (bodies) as in `deformation_model_t`
@@ -62,8 +62,6 @@ contains
     logical, intent(in), optional :: held(:, :) !! (2, bodies) first and last ends that are held,
                                                 !! all others being pinned; absent: the first end
                                                 !! of the first body, which is driven
-    logical, intent(in), optional :: is_static  !! of forces at rest: any shapes serve for own
-                                                !! modes, and links need no mass; absent: no
 
     type(link_key_t) :: key
     integer :: b
@@ -90,7 +88,7 @@ contains
       if (present(store)) call find_link(store, key, model%links(b), known)
       if (known) cycle
       call find_own_modes(linkage%bodies(b), beams(b), elements(b), model%degrees(b), lumped(b), &
-        ends(:, b), model%links(b), error, is_static)
+        ends(:, b), model%links(b), error)
       if (allocated(error)) return
       if (present(store)) call keep_link(store, key, model%links(b))
     end do
@@ -137,8 +135,7 @@ contains
   !! everywhere. They have no entries in M and K_G and are left out. The continuous displacements of
   !! the given degrees that vanish at both ends remain, and the rotations of masses beside the axis
   !! or with a moment of inertia of their own.
-  subroutine find_own_modes(body, beam, mesh_elements, degrees, lumped, held, link, error, &
-    is_static)
+  subroutine find_own_modes(body, beam, mesh_elements, degrees, lumped, held, link, error)
     type(body_t), intent(in) :: body
     type(beam_t), intent(in) :: beam
     integer, intent(in) :: mesh_elements
@@ -147,17 +144,13 @@ contains
     logical, intent(in) :: held(2)
     type(link_modes_t), intent(out) :: link
     type(error_t), allocatable, intent(out) :: error
-    logical, intent(in), optional :: is_static
 
     type(deformation_shapes_t) :: bending, axial
     type(lump_arms_t) :: arms
     real(wp), allocatable :: basis(:, :), axial_basis(:, :), displacement(:, :), own(:, :), &
       axial_own(:, :), along(:, :), ends(:)
     integer :: elements, beyond, highest, furthest, independent
-    logical :: sheared, any_shapes
-
-    any_shapes = .false.
-    if (present(is_static)) any_shapes = is_static
+    logical :: sheared
 
     sheared = beam%shear_stiffness > 0.0_wp
     beyond = merge(orders_beyond, 0, mesh_elements <= 1)
@@ -186,15 +179,7 @@ contains
     if (sheared .and. body%rotary_inertia <= 0.0_wp) independent = &
       min(sum(degrees%across) - 1 + free_turns(body, bending, degrees%across, held), independent)
     call held_shapes(axial, axial%kept, [.false., .false.], axial_basis, along)
-    if (any_shapes) then
-      own = unit_matrix(size(basis, 2))
-      axial_own = unit_matrix(size(axial_basis, 2))
-      if (has_turning_lumps(body)) then
-        own = unit_matrix(size(basis, 2) + size(axial_basis, 2))
-        axial_own = own(size(basis, 2) + 1:, :)
-        own = own(:size(basis, 2), :)
-      end if
-    else if (has_turning_lumps(body)) then
+    if (has_turning_lumps(body)) then
       displacement = coupled_shapes(displacement, along, matmul(arms%displacement(:, &
         :bending%kept), basis))
       call find_right_singular_vectors(displacement, own, error, independent + axial%kept)
@@ -210,18 +195,6 @@ contains
     call new_link_modes(bending, axial, held, [beam%axial_stiffness, beam%bending_stiffness], &
       lumped, lump_places(body), matmul(basis, own), axial_own, link, arms)
   end subroutine find_own_modes
-
-  pure function unit_matrix(n) result(matrix)
-    integer, intent(in) :: n
-    real(wp) :: matrix(n, n)
-
-    integer :: i
-
-    matrix = 0.0_wp
-    do i = 1, n
-      matrix(i, i) = 1.0_wp
-    end do
-  end function unit_matrix
 
   !> Number of independent rotations of cross-sections that move or turn masses of a body while its
   !! axis stays where it is: those of piecewise polynomials, continuous, of one degree less than the

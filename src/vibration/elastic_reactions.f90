@@ -4,6 +4,7 @@
 !! INERTIA puts them. What rigid links that hold each other share is open: these states of
 !! self-stress strain nothing.
 module elastic_reactions
+  use acceleration_fields, only: point_acceleration
   use applied_loads, only: add_moving_loads, forced_places, has_moving_loads
   use deformation_model, only: deformation_model_t, new_deformation_model
   use elastic_linkages, only: elastic_linkage_t, new_elastic_linkage, shared_pin
@@ -13,16 +14,16 @@ module elastic_reactions
   use joint_friction, only: force_in_joint, has_friction, put_friction
   use kinematic_coefficients, only: kinematic_coefficients_t
   use kinds, only: wp
-  use linkages, only: drives_angle, linkage_t, lump_t
-  use load_cases, only: case_count, find_unit_loads
+  use linkages, only: body_t, cross, drives_angle, forced_place_t, linkage_t, lump_t
+  use load_cases, only: case_count, find_unit_loads, load_case_t
   use part_displacements, only: border_size
   use part_efforts, only: add_end_couple, add_friction_effort, add_moving_efforts, effort_case, &
-    no_part_loads
+    forces_at_places_of, no_part_loads
   use part_forces, only: find_part_forces, part_forces_t
   use part_poses, only: part_loads_t
   use part_reactions, only: take_part_reactions
   use pin_displacements, only: chords_t
-  use poses, only: pose_t
+  use poses, only: arm_to_place, pose_t
   use position_assembly, only: assembled_t, load_parts, new_assembled, place_parts, set_border
   use reactions, only: unit_reactions_t
   use running_loads, only: divided_t, velocities_at
@@ -98,42 +99,114 @@ contains
       parts = size(elastic%body)
       call new_deformation_model(elastic%linkage, elastic%beams, spread(0, 1, parts), &
         spread(least_order, 1, parts), spread(.false., 1, parts), division%model, error, &
-        held=elastic%held, is_static=.true.)
+        held=elastic%held)
     end associate
     if (allocated(error)) return
     if (present(crank)) call set_border(division%structure, crank, division%model)
   end subroutine new_elastic_division
 
-  !> Springs become loads; masses of uniform parts sit on the nodes of their elements, if they do.
+  !> Springs become loads. Where the masses of a part sit on the nodes of its elements, their forces
+  !! act there, behind the loads of the linkage.
   pure subroutine take_statics(elements, elastic)
     integer, intent(in) :: elements(:) !! (bodies) on whose nodes the masses are lumped; 0:
                                        !! distributed
     type(elastic_linkage_t), intent(inout) :: elastic
 
-    type(lump_t), allocatable :: lumps(:)
-    real(wp), allocatable :: mass(:), station(:)
-    integer :: i, k, n
+    type(lump_t), allocatable :: masses(:)
+    integer :: i, k, number
 
     elastic%springs%stiffness = 0.0_wp
+    number = size(elastic%linkage%loads)
     do k = 1, size(elastic%body)
-      n = elements(elastic%body(k))
       associate (part => elastic%linkage%bodies(k))
-        if (n == 0 .or. .not. part%bends) cycle
-        mass = lumped_masses(part, n)
-        station = lumped_stations(part, n)
-        allocate (lumps(n + 1 + size(part%lumps)))
-        do i = 1, n + 1
-          lumps(i) = lump_t(mass(i), [station(i), 0.0_wp], 0.0_wp)
+        if (elements(elastic%body(k)) == 0 .or. .not. part%bends) cycle
+        masses = masses_on(part, elements(elastic%body(k)))
+        if (.not. allocated(part%forced)) allocate (part%forced(0))
+        do i = 1, size(masses)
+          number = number + 1
+          part%forced = [part%forced, forced_place_t(number, masses(i)%place)]
         end do
-        lumps(n + 2:) = part%lumps
-        call move_alloc(lumps, part%lumps)
-        part%line_density = 0.0_wp
-        part%rotary_inertia = 0.0_wp
-        elastic%beams(k)%line_density = 0.0_wp
-        elastic%beams(k)%rotary_inertia = 0.0_wp
       end associate
     end do
   end subroutine take_statics
+
+  !> Masses of a part whose own sit on the nodes of its elements: these, then those fixed to it.
+  pure function masses_on(part, elements) result(masses)
+    type(body_t), intent(in) :: part
+    integer, intent(in) :: elements
+    type(lump_t) :: masses(elements + 1 + size(part%lumps))
+
+    real(wp) :: mass(elements + 1), station(elements + 1)
+    integer :: i
+
+    mass = lumped_masses(part, elements)
+    station = lumped_stations(part, elements)
+    do i = 1, elements + 1
+      masses(i) = lump_t(mass(i), [station(i), 0.0_wp], 0.0_wp)
+    end do
+    masses(elements + 2:) = part%lumps
+  end function masses_on
+
+  !> The forces in the parts where masses sit on nodes.
+  pure subroutine load_nodes(division, at)
+    type(elastic_division_t), intent(in) :: division
+    type(elastic_position_t), intent(inout) :: at
+
+    call lump_loads(division, at, at%here%part_loads)
+    call find_part_forces(division%structure%linkage, at%here%elastic, at%here%model%links, &
+      at%here%pose, at%here%part_loads, at%here%border, at%chords, at%here%part_forces)
+  end subroutine load_nodes
+
+  !> Puts the inertia loads of such parts on their nodes.
+  pure subroutine lump_loads(division, at, loads)
+    type(elastic_division_t), intent(in) :: division
+    type(elastic_position_t), intent(in) :: at
+    type(part_loads_t), intent(inout) :: loads !! of masses along the parts
+
+    type(lump_t), allocatable :: masses(:)
+    real(wp) :: force(2)
+    integer :: c, i, k, n, number
+
+    associate (elastic => at%here%elastic)
+      do c = 1, case_count
+        if (.not. loads%unit%occurs(c)) cycle
+        call make_room(elastic, loads%unit%of_case(c))
+        number = size(elastic%linkage%loads)
+        do k = 1, size(elastic%body)
+          n = division%structure%load_elements(elastic%body(k))
+          if (n == 0 .or. .not. elastic%linkage%bodies(k)%bends) cycle
+          masses = masses_on(elastic%linkage%bodies(k), n)
+          associate (case => loads%unit%of_case(c))
+            do i = 1, size(masses)
+              number = number + 1
+              force = -masses(i)%mass*point_acceleration(case%field, k, masses(i)%place(1), &
+                masses(i)%place(2))
+              case%place_force(:, number) = force
+              case%body_force(:, k) = case%body_force(:, k) + force
+              case%couple(k) = case%couple(k) + cross(arm_to_place(at%here%pose, k, &
+                masses(i)%place), force)
+            end do
+            case%field%at_first(:, k) = 0.0_wp
+            case%field%slope(:, k) = 0.0_wp
+          end associate
+        end do
+      end do
+    end associate
+  end subroutine lump_loads
+
+  !> Makes room for the forces of nodes.
+  pure subroutine make_room(elastic, case)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(load_case_t), intent(inout) :: case
+
+    real(wp), allocatable :: wider(:, :)
+
+    allocate (wider(2, forces_at_places_of(elastic)), source=0.0_wp)
+    if (allocated(case%place_force)) wider(:, :size(case%place_force, 2)) = case%place_force
+    call move_alloc(wider, case%place_force)
+    if (.not. allocated(case%body_force)) allocate (case%body_force(2, size(elastic%body)), &
+      source=0.0_wp)
+  end subroutine make_room
 
   !> Puts the forces by elasticity in place of those of statics.
   !!
@@ -153,6 +226,7 @@ contains
     at%here%loads = find_unit_loads(division%structure%linkage, pose, coefficients)
     call load_parts(division%structure, division%model, pose, at%here, at%chords, error)
     if (allocated(error)) return
+    if (any(division%structure%load_elements > 0)) call load_nodes(division, at)
     do i = 1, case_count
       call take(division, at, at%here%part_loads, at%here%part_forces, i, unit%of_case(i)%joints)
     end do
@@ -309,6 +383,7 @@ contains
       model%layout%free = count(linkage%drives%kind == drives_angle)
       call load_parts(division%structure, model, pose, at%here, at%chords, error)
       if (allocated(error)) return
+      if (any(division%structure%load_elements > 0)) call load_nodes(division, at)
       joints = no_joint_forces(linkage)
       do i = 1, case_count
         if (at%here%loads%occurs(i)) call add_case(i)

@@ -281,6 +281,16 @@ contains
         "expected: INERTIA distributed")
       return
     end do
+    do i = 1, size(model%masses)
+      if (model%masses(i)%link == 0 .or. .not. model%masses(i)%inertia > 0.0_wp) cycle
+      if (model%links(model%masses(i)%link)%rigid) cycle
+      if (all(mechanism%load_elements == 0)) exit
+      call add_error(diagnostics, model%inertia_word, "masses are lumped, and one with a moment "// &
+        "of inertia turns with link '"//model%links(model%masses(i)%link)%name%text//"', which "// &
+        "bends: the forces "//in_links//" are divided by how links bend; expected: INERTIA "// &
+        "distributed", model%masses(i)%place_word, "the mass is here")
+      return
+    end do
     if (needs_frequencies(model)) return
     call check_cut_links(model, diagnostics)
     call check_forces_on_links(diagnostics, model, .true.)
