@@ -32,6 +32,7 @@ module elastic_reactions
   private
 
   public :: elastic_division_t, elastic_position_t, has_elastic_reactions, new_elastic_division, &
+    new_elastic_model, &
     divide_by_elasticity, find_divided, divide_motion, self_stresses, &
     least_open
 
@@ -76,7 +77,7 @@ contains
                                                          !! which nothing does
 
     type(linkage_t) :: released
-    integer :: b, parts
+    integer :: b
 
     division%structure%linkage = structure%linkage
     division%structure%load_elements = structure%load_elements
@@ -95,15 +96,28 @@ contains
     allocate (division%structure%elastic)
     division%structure%elastic = new_elastic_linkage(released, structure%beams)
     call take_statics(structure%load_elements, division%structure%elastic)
-    associate (elastic => division%structure%elastic)
-      parts = size(elastic%body)
-      call new_deformation_model(elastic%linkage, elastic%beams, spread(0, 1, parts), &
-        spread(least_order, 1, parts), spread(.false., 1, parts), division%model, error, &
-        held=elastic%held)
-    end associate
-    if (allocated(error)) return
-    if (present(crank)) call set_border(division%structure, crank, division%model)
+    call new_elastic_model(division%structure, division%model, error, crank)
   end subroutine new_elastic_division
+
+  !> The parts of a linkage with as few unknowns as loads at rest need.
+  !!
+  !! Errors: a link has no own modes.
+  subroutine new_elastic_model(structure, model, error, crank)
+    class(structure_t), intent(in) :: structure      !! with parts
+    type(deformation_model_t), intent(out) :: model
+    type(error_t), allocatable, intent(out) :: error
+    real(wp), intent(in), optional :: crank(:)       !! some positions of the first drive, for the
+                                                     !! border; absent: it is left out
+
+    integer :: parts
+
+    parts = size(structure%elastic%body)
+    call new_deformation_model(structure%elastic%linkage, structure%elastic%beams, spread(0, 1, &
+      parts), spread(least_order, 1, parts), spread(.false., 1, parts), model, error, &
+      held=structure%elastic%held)
+    if (allocated(error)) return
+    if (present(crank)) call set_border(structure, crank, model)
+  end subroutine new_elastic_model
 
   !> Springs become loads. Where the masses of a part sit on the nodes of its elements, their forces
   !! act there, behind the loads of the linkage.

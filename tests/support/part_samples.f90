@@ -167,7 +167,7 @@ contains
     associate (mechanism => sample%mechanism, here => sample%here)
       if (.not. allocated(mechanism%elastic)) mechanism%elastic = &
         new_elastic_linkage(mechanism%linkage, mechanism%beams)
-      call new_elastic_model(mechanism, [crank], sample%model, error)
+      call new_elastic_model(mechanism, sample%model, error, [crank])
       if (.not. allocated(error)) call find_pose(mechanism%linkage, crank, sample%pose, error)
       if (.not. allocated(error)) then
         here = new_assembled(mechanism, sample%model)
