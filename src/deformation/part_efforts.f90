@@ -11,12 +11,12 @@ module part_efforts
   use linkages, only: cross, linkage_t
   use load_cases, only: case_count
   use load_coordinates, only: load_axis
-  use part_poses, only: part_loads_t
+  use part_poses, only: highest_force, part_loads_t
   use poses, only: arm_to_place, pose_t
   implicit none (type, external)
   private
 
-  public :: effort_case, no_part_loads, forces_at_places_of, add_moving_efforts, add_friction_effort, add_end_couple
+  public :: effort_case, no_part_loads, add_moving_efforts, add_friction_effort, add_end_couple
 
   !> The case that holds these loads: one without what only loads at rest have.
   integer, parameter :: effort_case = 1
@@ -45,25 +45,9 @@ contains
       allocate (case%pin_force(2, points), source=0.0_wp)
       allocate (case%couple(parts), source=0.0_wp)
       allocate (case%body_force(2, parts), source=0.0_wp)
-      allocate (case%place_force(2, forces_at_places_of(elastic)), source=0.0_wp)
+      allocate (case%place_force(2, highest_force(elastic)), source=0.0_wp)
     end associate
   end function no_part_loads
-
-  !> The highest number of a force at a place of a part, or of a load of the linkage.
-  pure function forces_at_places_of(elastic) result(number)
-    type(elastic_linkage_t), intent(in) :: elastic !! parts with places where forces act
-    integer :: number
-
-    integer :: i, k
-
-    number = size(elastic%linkage%loads)
-    do k = 1, size(elastic%body)
-      if (.not. allocated(elastic%linkage%bodies(k)%forced)) cycle
-      do i = 1, size(elastic%linkage%bodies(k)%forced)
-        number = max(number, elastic%linkage%bodies(k)%forced(i)%load)
-      end do
-    end do
-  end function forces_at_places_of
 
   !> Adds dampers, resistances, and loads that act in one direction of the motion only.
   pure subroutine add_moving_efforts(linkage, pose, now, elastic, placed, loads)

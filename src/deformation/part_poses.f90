@@ -13,7 +13,7 @@ module part_poses
   implicit none (type, external)
   private
 
-  public :: part_loads_t, place_parts_of, find_part_loads
+  public :: part_loads_t, place_parts_of, find_part_loads, highest_force
 
   !> Loads of the parts, and what acts on rotations and lines of springs.
   type :: part_loads_t
@@ -93,8 +93,8 @@ contains
     real(wp), allocatable :: pull(:)
     integer :: i, k
 
-    allocate (of_parts%moment(elastic%rotations, case_count), of_parts%pull(size(elastic%springs)), &
-      of_parts%end_couple(2, size(elastic%body), case_count))
+    allocate (of_parts%moment(elastic%rotations, case_count), &
+      of_parts%pull(size(elastic%springs)), of_parts%end_couple(2, size(elastic%body), case_count))
     of_parts%moment = 0.0_wp
     of_parts%pull = 0.0_wp
     of_parts%end_couple = 0.0_wp
@@ -107,9 +107,12 @@ contains
         parts%pin_force = 0.0_wp
         parts%pin_force(:, :size(of_links%pin_force, 2)) = of_links%pin_force
         parts%couple = 0.0_wp
-        if (allocated(of_links%place_force)) parts%place_force = of_links%place_force
-        if (allocated(of_links%body_force)) allocate (parts%body_force(2, size(elastic%body)), &
-          source=0.0_wp)
+        if (allocated(of_links%place_force) .or. highest_force(elastic) > size(linkage%loads)) then
+          allocate (parts%place_force(2, highest_force(elastic)), source=0.0_wp)
+          allocate (parts%body_force(2, size(elastic%body)), source=0.0_wp)
+        end if
+        if (allocated(of_links%place_force)) parts%place_force(:, :size(linkage%loads)) = &
+          of_links%place_force
       end associate
     end do
     if (loads%occurs(constant_case)) then
@@ -134,6 +137,22 @@ contains
       end associate
     end do
   end subroutine find_part_loads
+
+  !> The highest number of a force at a place of a part, or of a load of the linkage.
+  pure function highest_force(elastic) result(number)
+    type(elastic_linkage_t), intent(in) :: elastic !! parts with places where forces act
+    integer :: number
+
+    integer :: i, k
+
+    number = size(elastic%linkage%loads)
+    do k = 1, size(elastic%body)
+      if (.not. allocated(elastic%linkage%bodies(k)%forced)) cycle
+      do i = 1, size(elastic%linkage%bodies(k)%forced)
+        number = max(number, elastic%linkage%bodies(k)%forced(i)%load)
+      end do
+    end do
+  end function highest_force
 
   !> Adds what turns blocks on links that bend: `−I α`.
   pure subroutine add_blocks(linkage, loads, elastic, moment)
@@ -216,7 +235,7 @@ contains
       associate (part => elastic%linkage%bodies(k))
         is_first = findloc(elastic%body, b, dim=1) == k
         if (is_first) parts%couple(k) = couple(b)
-        if (.not. allocated(parts%place_force)) cycle
+        if (.not. allocated(of_links%place_force)) cycle
         if (.not. part%bends) then
           parts%body_force(:, k) = of_links%body_force(:, b)
           cycle
@@ -231,7 +250,7 @@ contains
         if (.not. allocated(part%forced)) cycle
         do i = 1, size(part%forced)
           arm = arm_to_place(placed, k, part%forced(i)%place)
-          associate (force => of_links%place_force(:, part%forced(i)%load))
+          associate (force => parts%place_force(:, part%forced(i)%load))
             parts%couple(k) = parts%couple(k) + cross(arm, force)
             parts%body_force(:, k) = parts%body_force(:, k) + force
           end associate

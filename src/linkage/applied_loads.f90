@@ -240,8 +240,8 @@ contains
     speed = norm2(velocity)
     force = -load%damping*velocity
     if (speed > 0.0_wp) force = force - resistance(load, speed)/speed*velocity
-    if (load%during /= acts_always) force = force + share_of(load, velocity, force_of(pose, load))* &
-      table_factor(linkage, pose, origin, load)*force_of(pose, load)
+    if (load%during /= acts_always) force = force + share_of(load, velocity, force_of(pose, &
+      load))*table_factor(linkage, pose, origin, load)*force_of(pose, load)
   end function moving_force
 
   !> The same of a couple on a body [N m].

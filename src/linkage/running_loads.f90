@@ -16,7 +16,8 @@ module running_loads
   implicit none (type, external)
   private
 
-  public :: running_t, lock_t, divided_t, depends_on_speed, find_running_loads, lock_of, velocities_at
+  public :: running_t, lock_t, divided_t, depends_on_speed, find_running_loads, lock_of, &
+    velocities_at
 
   !> What the speed adds to the load cases.
   type :: running_t
@@ -74,8 +75,8 @@ contains
     real(wp), intent(in) :: acceleration   !! of the first drive [rad/s²] or [m/s²]
     type(unit_reactions_t), intent(in) :: unit !! of this pose; needed only where joints rub
     type(running_t), intent(out) :: running
-    type(divided_t), intent(in), optional :: divided !! at this pose and speed; absent: statics tells
-                                                     !! the forces in the joints
+    type(divided_t), intent(in), optional :: divided !! at this pose and speed; absent: statics
+                                                     !! tells the forces in the joints
 
     type(kinematic_coefficients_t) :: now
     type(joint_forces_t) :: without(case_count + 1)

@@ -31,7 +31,8 @@ contains
       end do
       if (size(linkage%redundancies) > 0) call append_string(notes, "redundant: "// &
         plural(size(linkage%redundancies), "condition")// &
-        " more than needed; forces between links cannot be told apart")
+        " more than needed; "//trim(merge("elasticity divides the forces between links  ", &
+        "forces between links cannot be told apart    ", allocated(mechanism%elastic))))
     end associate
   end function plan_notes
 

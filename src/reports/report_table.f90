@@ -19,7 +19,7 @@ module report_table
   use equilibrium_report, only: add_equilibria, add_potential, equilibrium_notes, &
     equilibrium_words, potential_notes
   use equilibrium_study, only: find_equilibria
-  use errors, only: error_t, outcome_t
+  use errors, only: error_t
   use frame_report, only: add_frame, frame_notes
   use frequency_report, only: add_frequencies, add_shapes, drawn_rows, frequency_notes, shape_notes
   use friction_report, only: add_friction, add_holding, friction_notes, &
@@ -59,8 +59,7 @@ module report_table
   use peaks_report, only: add_peaks, peaks_notes
   use points_report, only: add_points, point_names, points_notes
   use points_study, only: find_points
-  use position_loads, only: elastic_division_t, find_division
-  use positions, only: positions_t
+  use position_loads, only: elastic_division_t, fail_everywhere, find_division, take_failures
   use reactions_report, only: add_reactions, reactions_notes
   use reactions_study, only: find_reactions
   use report_kinds, only: four_bars, other_linkages, report_kind_t, table_kind_t
@@ -407,30 +406,6 @@ contains
       end select
     end associate
   end subroutine find_study
-
-  !> No forces at any position.
-  pure subroutine fail_everywhere(failure, positions)
-    type(error_t), intent(in) :: failure
-    type(positions_t), intent(inout) :: positions
-
-    integer :: i
-
-    do i = 1, size(positions%states)
-      positions%states(i)%error = failure
-    end do
-  end subroutine fail_everywhere
-
-  !> Positions at which a study has no forces.
-  pure subroutine take_failures(outcome, positions)
-    type(outcome_t), intent(in) :: outcome(:)        !! (states)
-    type(positions_t), intent(inout) :: positions
-
-    integer :: i
-
-    do i = 1, size(outcome)
-      if (allocated(outcome(i)%error)) positions%states(i)%error = outcome(i)%error
-    end do
-  end subroutine take_failures
 
   !> Positions of the first drive that the deck names: on CRANK, or at the start of a motion.
   pure function positions_of_deck(model) result(positions)

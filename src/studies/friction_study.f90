@@ -34,8 +34,8 @@ module friction_study
                                                 !! that starts it from rest, forward and backward;
                                                 !! 0 where it is locked [N m] or [N]
     type(lock_t), allocatable :: start_lock(:, :) !! (2, states) where it cannot start
-    type(outcome_t), allocatable :: outcome(:)  !! (states) why elasticity does not divide the forces
-                                                !! there
+    type(outcome_t), allocatable :: outcome(:)  !! (states) why elasticity does not divide the
+                                                !! forces there
   end type friction_result_t
 
 contains

@@ -20,8 +20,8 @@ module joint_study
   implicit none (type, external)
   private
 
-  public :: joint_t, joints_result_t, list_joints, open_joints, joint_values, find_joints, joints_at_speed, &
-    bearings_at_speed, drives_at_speed, frame_at_speed, bearing_values
+  public :: joint_t, joints_result_t, list_joints, open_joints, joint_values, find_joints, &
+    joints_at_speed, bearings_at_speed, drives_at_speed, frame_at_speed, bearing_values
 
   !> Values of a joint in `bearings_at_speed`: fx, fy, axial, transverse, magnitude, angle.
   integer, parameter :: bearing_values = 6

@@ -2,11 +2,12 @@
 module position_loads
   use elastic_reactions, only: divide_by_elasticity, elastic_division_t, elastic_position_t, &
     find_divided, has_elastic_reactions, new_elastic_division
-  use errors, only: error_t
+  use errors, only: error_t, outcome_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t
   use poses, only: pose_t
+  use positions, only: positions_t
   use reactions, only: find_unit_reactions, unit_reactions_t
   use running_loads, only: divided_t, find_running_loads, running_t
   use structures, only: structure_t
@@ -14,7 +15,7 @@ module position_loads
   private
 
   public :: elastic_division_t, position_loads_t, find_division, find_position_loads, &
-    find_speed_loads
+    find_speed_loads, fail_everywhere, take_failures
 
   !> Forces in the joints at a position.
   type :: position_loads_t
@@ -33,8 +34,8 @@ contains
     type(elastic_division_t), allocatable, intent(out) :: division !! not allocated: statics tells
                                                            !! the forces, or nothing does
     type(error_t), allocatable, intent(out) :: error
-    real(wp), intent(in), optional :: crank(:)             !! positions of the run; absent: some over
-                                                           !! a turn
+    real(wp), intent(in), optional :: crank(:)             !! positions of the run; absent: some
+                                                           !! over a turn
 
     integer :: i
 
@@ -91,5 +92,29 @@ contains
     if (.not. allocated(error)) call find_running_loads(linkage, pose, coefficients, speed, &
       acceleration, found%unit, running, found%divided)
   end subroutine find_speed_loads
+
+  !> No forces at any position.
+  pure subroutine fail_everywhere(failure, positions)
+    type(error_t), intent(in) :: failure
+    type(positions_t), intent(inout) :: positions !! that get the error
+
+    integer :: i
+
+    do i = 1, size(positions%states)
+      positions%states(i)%error = failure
+    end do
+  end subroutine fail_everywhere
+
+  !> Positions at which a study has no forces.
+  pure subroutine take_failures(outcome, positions)
+    type(outcome_t), intent(in) :: outcome(:)     !! (states)
+    type(positions_t), intent(inout) :: positions !! that get the errors
+
+    integer :: i
+
+    do i = 1, size(outcome)
+      if (allocated(outcome(i)%error)) positions%states(i)%error = outcome(i)%error
+    end do
+  end subroutine take_failures
 
 end module position_loads

@@ -15,10 +15,10 @@ module elastic_reactions
   use kinematic_coefficients, only: kinematic_coefficients_t
   use kinds, only: wp
   use linkages, only: body_t, cross, drives_angle, forced_place_t, linkage_t, lump_t
-  use load_cases, only: case_count, find_unit_loads, load_case_t
+  use load_cases, only: case_count, find_unit_loads
   use part_displacements, only: border_size
   use part_efforts, only: add_end_couple, add_friction_effort, add_moving_efforts, effort_case, &
-    forces_at_places_of, no_part_loads
+    no_part_loads
   use part_forces, only: find_part_forces, part_forces_t
   use part_poses, only: part_loads_t
   use part_reactions, only: take_part_reactions
@@ -32,9 +32,7 @@ module elastic_reactions
   private
 
   public :: elastic_division_t, elastic_position_t, has_elastic_reactions, new_elastic_division, &
-    new_elastic_model, &
-    divide_by_elasticity, find_divided, divide_motion, self_stresses, &
-    least_open
+    new_elastic_model, divide_by_elasticity, find_divided, divide_motion, self_stresses, least_open
 
   !> Orders of the links: their border alone carries loads.
   integer, parameter :: least_order = 5
@@ -184,7 +182,6 @@ contains
     associate (elastic => at%here%elastic)
       do c = 1, case_count
         if (.not. loads%unit%occurs(c)) cycle
-        call make_room(elastic, loads%unit%of_case(c))
         number = size(elastic%linkage%loads)
         do k = 1, size(elastic%body)
           n = division%structure%load_elements(elastic%body(k))
@@ -207,20 +204,6 @@ contains
       end do
     end associate
   end subroutine lump_loads
-
-  !> Makes room for the forces of nodes.
-  pure subroutine make_room(elastic, case)
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(load_case_t), intent(inout) :: case
-
-    real(wp), allocatable :: wider(:, :)
-
-    allocate (wider(2, forces_at_places_of(elastic)), source=0.0_wp)
-    if (allocated(case%place_force)) wider(:, :size(case%place_force, 2)) = case%place_force
-    call move_alloc(wider, case%place_force)
-    if (.not. allocated(case%body_force)) allocate (case%body_force(2, size(elastic%body)), &
-      source=0.0_wp)
-  end subroutine make_room
 
   !> Puts the forces by elasticity in place of those of statics.
   !!

@@ -55,7 +55,8 @@ contains
   !! that link takes up all of their rounding. Near dead points modes differ: some soften with the
   !! sine, others do not depend on it, and loads grow like powers of 1/sin. There each length is
   !! changed a little, and `yᵀ(ΔK_G − λ ΔM) y` is the effect. If the linkage closes with neither a
-  !! longer nor a shorter link, the error is at least 1.
+  !! longer nor a shorter link, the error is at least 1. Where links are more than needed, rigid
+  !! ones among them fit with their own lengths alone: their share is that far from dead points.
   subroutine pose_error(structure, model, state, factor, load_work, found, modes, error, counts)
     type(structure_t), intent(in) :: structure     !! whose position it is
     type(deformation_model_t), intent(in) :: model !! of continuous links at this position
@@ -67,7 +68,7 @@ contains
     real(wp), intent(out) :: error(:)              !! (modes) relative, of eigenvalues
     type(ledger_t), intent(inout) :: counts        !! of poses found and matrices assembled
 
-    real(wp) :: sine, least_sine, spread, energy, multiple, own_work(modes)
+    real(wp) :: sine, least_sine, spread, energy, multiple, own_work(modes), far(modes)
     type(position_equations_t) :: equations
     type(assembled_t) :: here
     type(structure_t) :: other
@@ -89,12 +90,13 @@ contains
       if (size(structure%linkage%redundancies) > 0 .or. any(structure%linkage%groups%kind == &
         groups_by_newton)) least_sine = huge(least_sine)
     end if
+    do i = 1, modes
+      energy = elastic_square(model%layout, found%vector(:, i)) + load_work(i)
+      far(i) = far_multiple*epsilon(1.0_wp)/sine**2*(1.0_wp + relative_error(energy, &
+        found%lambda(i)))
+    end do
     if (sine >= least_sine) then
-      do i = 1, modes
-        energy = elastic_square(model%layout, found%vector(:, i)) + load_work(i)
-        error(i) = 2.0_wp*multiple*far_multiple*epsilon(1.0_wp)/sine**2*(1.0_wp + &
-          relative_error(energy, found%lambda(i)))
-      end do
+      error = 2.0_wp*multiple*far
       error(:min(found%zeros, modes)) = 0.0_wp
       return
     end if
@@ -112,7 +114,11 @@ contains
         if (reached) exit
       end do
       if (.not. reached) then
-        error = error + 1.0_wp
+        if (size(structure%linkage%redundancies) > 0) then
+          error = error + far
+        else
+          error = error + 1.0_wp
+        end if
         cycle
       end if
       error = error + &

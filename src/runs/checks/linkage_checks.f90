@@ -203,8 +203,8 @@ contains
           " cannot be told apart while all are rigid; REPORT drive, frame and lagrange do not "// &
           "need them")
       else if (size(model%frictions) > 0) then
-        call add_error(diagnostics, model%frictions(1)%keyword, "friction depends on the forces "// &
-          "in the joints, and those "//in_links//" cannot be told apart while all are rigid")
+        call add_error(diagnostics, model%frictions(1)%keyword, "friction depends on the "// &
+          "forces in the joints, and those "//in_links//" cannot be told apart while all are rigid")
       end if
       if (in_motion) call add_error(diagnostics, model%reports(motion)%forces_word, &
         "the forces "//in_links//" cannot be told apart while all are rigid; accelerations and "// &
@@ -213,8 +213,8 @@ contains
     end if
     if (size(model%frictions) > 0) call check_divided_friction(model, in_links, diagnostics)
     if (in_motion) call check_divided_motion(model, in_links, diagnostics)
-    if (report > 0 .or. in_motion .or. size(model%frictions) > 0) call check_dividing_links(model, &
-      mechanism, in_links, diagnostics)
+    if (report > 0 .or. in_motion .or. size(model%frictions) > 0) call &
+      check_dividing_links(model, mechanism, in_links, diagnostics)
   end subroutine check_shared_forces
 
   !> Friction depends on the forces that elasticity divides, at given positions and speeds.
@@ -223,14 +223,14 @@ contains
     character(len=*), intent(in) :: in_links
     type(diagnostics_t), intent(inout) :: diagnostics
 
-    character(len=*), parameter :: without(*) = [character(len=9) :: "motion", "balance", "harmonics"]
+    character(len=*), parameter :: without(*) = [character(len=7) :: "motion", "balance"]
     integer :: i, report
 
     do i = 1, size(without)
       report = report_number(model, trim(without(i)))
       if (report == 0) cycle
-      call add_error(diagnostics, model%frictions(1)%keyword, "friction depends on the forces in "// &
-        "the joints, and those "//in_links//" are divided by how links bend; REPORT "// &
+      call add_error(diagnostics, model%frictions(1)%keyword, "friction depends on the forces "// &
+        "in the joints, and those "//in_links//" are divided by how links bend; REPORT "// &
         trim(without(i))//" does not know it: expected no friction", &
         model%reports(report)%keyword, "it is asked for here")
       return
@@ -248,8 +248,8 @@ contains
     do i = 2, size(model%drives)
       if (model%drives(i)%is_free .or. moves_along(model%drives(i)%kind)) cycle
       call add_error(diagnostics, model%drives(i)%keyword, "the forces "//in_links// &
-        " are divided by how links bend, and in a motion not with a second drive that holds its "// &
-        "link; expected 'free'", model%reports(report_number(model, "motion"))%forces_word, &
+        " are divided by how links bend, and in a motion not with a second drive that holds "// &
+        "its link; expected 'free'", model%reports(report_number(model, "motion"))%forces_word, &
         "they are asked for here")
       return
     end do
@@ -285,9 +285,9 @@ contains
       if (model%masses(i)%link == 0 .or. .not. model%masses(i)%inertia > 0.0_wp) cycle
       if (model%links(model%masses(i)%link)%rigid) cycle
       if (all(mechanism%load_elements == 0)) exit
-      call add_error(diagnostics, model%inertia_word, "masses are lumped, and one with a moment "// &
-        "of inertia turns with link '"//model%links(model%masses(i)%link)%name%text//"', which "// &
-        "bends: the forces "//in_links//" are divided by how links bend; expected: INERTIA "// &
+      call add_error(diagnostics, model%inertia_word, "masses are lumped, and one with a "// &
+        "moment of inertia turns with link '"//model%links(model%masses(i)%link)%name%text// &
+        "', which bends: the forces "//in_links//" are divided by how links bend; expected: INERTIA "// &
         "distributed", model%masses(i)%place_word, "the mass is here")
       return
     end do
