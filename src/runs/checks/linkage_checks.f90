@@ -287,8 +287,8 @@ contains
       if (all(mechanism%load_elements == 0)) exit
       call add_error(diagnostics, model%inertia_word, "masses are lumped, and one with a "// &
         "moment of inertia turns with link '"//model%links(model%masses(i)%link)%name%text// &
-        "', which bends: the forces "//in_links//" are divided by how links bend; expected: INERTIA "// &
-        "distributed", model%masses(i)%place_word, "the mass is here")
+        "', which bends: the forces "//in_links//" are divided by how links bend; expected: "// &
+        "INERTIA distributed", model%masses(i)%place_word, "the mass is here")
       return
     end do
     if (needs_frequencies(model)) return
