@@ -9,7 +9,7 @@ module part_forces
   use border_loads, only: border_work, own_work
   use border_rows, only: add_stretch, line_direction, spring_way
   use dense_factor, only: dense_factor_t, factorize, solve
-  use drive_rates, only: find_drive_rates, own_drive_rates, slide_of
+  use drive_rates, only: find_drive_rates, own_drive_compliance, own_drive_rates, slide_of
   use elastic_linkages, only: elastic_linkage_t
   use kinds, only: wp
   use link_modes, only: link_modes_t
@@ -256,7 +256,8 @@ contains
       do i = 1, size(body%lumps)
         associate (lump => body%lumps(i))
           total = total + lump%mass*dot_product(turned(lump%place, e), first) + &
-            (lump%mass*dot_product(lump%place, lump%place) + lump%inertia)*dot_product(e, slope)
+            (lump%mass*dot_product(lump%place, lump%place) + (lump%inertia - &
+            lump%rotary_inertia))*dot_product(e, slope)
         end associate
       end do
     end associate
@@ -337,7 +338,7 @@ contains
     do k = 1, size(links)
       if (.not. links(k)%bends) cycle
       on_own(k)%rate = own_drive_rates(linkage, elastic, links, k)
-      compliance = compliance + matmul(on_own(k)%rate, transpose(on_own(k)%rate))
+      compliance = compliance + own_drive_compliance(linkage, elastic, k)
     end do
   end subroutine find_own_drive_rates
 

@@ -11,6 +11,8 @@ module position_assembly
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use ledger, only: ledger_t
+  use link_modes, only: rigid
+  use linkages, only: drives_length
   use load_cases, only: case_count, find_unit_loads, unit_loads_t
   use part_displacements, only: border_size, border_t, find_part_chords, new_border
   use part_forces, only: find_part_forces, part_forces_t
@@ -155,7 +157,8 @@ contains
     end do
   end subroutine add_block
 
-  !> Places the parts, and renews the own modes of those whose lengths have changed.
+  !> Places the parts, and renews the own modes of those whose lengths have changed, and the lengths
+  !! of rams.
   !!
   !! Errors: those of `place_parts_of`; a link has no own modes.
   subroutine place_parts(structure, model, pose, here, error)
@@ -169,6 +172,14 @@ contains
 
     call place_parts_of(structure%linkage, pose, here%elastic, here%pose, error)
     if (allocated(error)) return
+    do i = 1, size(structure%linkage%drives)
+      if (structure%linkage%drives(i)%kind /= drives_length) cycle
+      part = findloc(here%elastic%body, structure%linkage%drives(i)%body, dim=1)
+      associate (ram => here%model%links(part))
+        ram%length = here%elastic%linkage%bodies(part)%length
+        ram%geometric(rigid, rigid, 1) = ram%length
+      end associate
+    end do
     do i = 1, size(here%elastic%cut_part)
       if (here%elastic%cut_part(i) == 0) cycle
       do k = 0, 1

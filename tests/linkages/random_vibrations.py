@@ -190,13 +190,13 @@ class Case:
                  "tube": f"outer={thick:.6g} inner={thick * drawing.uniform(0.4, 0.95):.6g}",
                  "general": f"A={thick * width:.6g} I={thick**3 * width / 12:.6g} shear_coefficient={drawing.uniform(0.4, 0.9):.4g}"}
         lines = [f"SECTION {section} {kind} {sizes[kind]}"]
+        if name == drawing.driven_length:      # its mass goes with the pin that is placed first
+            pins = sorted(pins, key=lambda pin: pin not in drawing.grounds)
         words = " ".join(pins)
         material = f" material={drawing.pick(('metal', 'metal', 'plastic'))} section={section}"
         body = f" mass={self.power(-1.5, 1)}kg inertia={self.power(-4, -1)}kg*m2"
         if len(pins) > 2 or drawing.chance(0.5) or name == drawing.driven_length:
             body += f" center={self.number(-0.2, 0.8, scale)},{self.number(-0.3, 0.3, scale)}"
-        if name == drawing.driven_length and self.loaded:
-            return [f"LINK {name} {words} rigid mass=0 inertia=0"]
         must_be_rigid = beside or name == drawing.driven_length or (self.loaded and name in self.contacts)
         if must_be_rigid or (not certain and drawing.chance(0.25)):
             if name == drawing.driven_length:

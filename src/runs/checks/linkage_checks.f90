@@ -16,6 +16,7 @@ module linkage_checks
   use process_cards, only: process_force
   use pose_types, only: pose_t
   use poses, only: place_links, place_parts
+  use ram_checks, only: check_rams
   use redundancies, only: body_of_redundancy, largest_misfit
   use steady_turns, only: has_steady_turn
   use text, only: lower_case, plural, to_string
@@ -100,6 +101,7 @@ contains
         model%reports(report)%through_word, "only a four-bar, of three LINKs and no SLIDER, is "// &
         "followed straight through change points; expected change_points=stop")
     end if
+    call check_rams(model, mechanism, diagnostics)
     if (needs_frequencies(model)) call check_cut_links(model, diagnostics)
     if (needs_frequencies(model) .and. model%effects == effects_axial) call &
       warn_of_held_blocks(model, diagnostics)
