@@ -14,8 +14,9 @@ contains
 
   !> Magnitudes of the forces of which the axial force of each link or part is made [N].
   !!
-  !! Stiff springs between soft links lose most of their tension as these yield: what is left is
-  !! the difference of two pulls, anywhere in the linkage.
+  !! A force across a part leaves next to nothing along it, and stiff springs between soft links
+  !! lose most of their tension as these yield: the rounding is that of the loads, anywhere in the
+  !! linkage.
   pure function axial_sizes(here, factor) result(size_of)
     type(assembled_t), intent(in) :: here          !! a position with its loads
     real(wp), intent(in) :: factor(case_count)     !! of the unit loads: ω2², α2, 1
@@ -26,12 +27,42 @@ contains
 
     size_of = force_sizes(here%unit_force, factor)
     if (size(here%unit_force) == 0 .or. .not. allocated(here%part_loads%pull)) return
+    size_of = size_of + largest_load(here, factor)
     do i = 1, size(here%part_loads%pull)
       pull = abs(factor(constant_case)*here%part_loads%pull(i))
       if (here%elastic%springs(i)%turns) pull = pull/minval(here%elastic%linkage%bodies%length)
       size_of = size_of + pull
     end do
   end function axial_sizes
+
+  !> The largest of all forces on points, and of inertia forces of points and parts [N].
+  pure function largest_load(here, factor) result(largest)
+    type(assembled_t), intent(in) :: here
+    real(wp), intent(in) :: factor(case_count)
+    real(wp) :: largest
+
+    real(wp) :: mass
+    integer :: i, k
+
+    largest = 0.0_wp
+    do i = 1, case_count
+      if (.not. here%part_loads%unit%occurs(i)) cycle
+      associate (case => here%part_loads%unit%of_case(i), linkage => here%elastic%linkage)
+        do k = 1, size(linkage%pin_mass)
+          largest = max(largest, abs(factor(i))*(norm2(case%pin_force(:, k)) + &
+            linkage%pin_mass(k)*norm2(case%field%at_pin(:, k))))
+        end do
+        do k = 1, size(linkage%bodies)
+          mass = linkage%bodies(k)%line_density*linkage%bodies(k)%length + &
+            sum(linkage%bodies(k)%lumps%mass)
+          largest = max(largest, abs(factor(i))*mass*(norm2(case%field%at_first(:, k)) + &
+            linkage%bodies(k)%length*norm2(case%field%slope(:, k))))
+          if (allocated(case%body_force)) largest = max(largest, &
+            abs(factor(i))*norm2(case%body_force(:, k)))
+        end do
+      end associate
+    end do
+  end function largest_load
 
   !> Bound of what blocks on guides and springs under tension do in modes of unit mass, whatever
   !! cancels, twice [1/s²].
