@@ -287,7 +287,7 @@ $(build)/flexmech: $(modules) $(build)/main.o
 	$(compile) $^ $(libraries) -o $@
 
 # ------------------------------------------------------------- the program that times solvers; sources in the order of use
-bench_sources = $(patsubst %,tests/bench/%.f90,bench_cases exact_values nodal_runs bench_models bench_runs bench_corners bench_plans \
+bench_sources = $(patsubst %,tests/bench/%.f90,bench_cases exact_values nodal_runs nodal_parts bench_models bench_runs bench_corners bench_linkages bench_plans \
                                                machine bench_tables bench_ratios response_runs whole_turn bench_response bench)
 
 $(build)/bench/bench: $(bench_sources) $(modules)

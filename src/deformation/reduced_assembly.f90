@@ -58,7 +58,7 @@ contains
       n = 2 + links(b)%curves
       across = chords%across(:, :, b)
       along = chords%along(:, :, b)
-      mass%border = mass%border + form_of(links(b)%linear, across(:n, :)) + &
+      mass%border = mass%border + form_of(links(b)%linear, across) + &
         matmul(transpose(along), matmul(links(b)%axial_linear, along))
       first = layout%first(b) - 1
       do k = 1, links(b)%modes
@@ -94,18 +94,19 @@ contains
   !> `FᵀAF` of a symmetric matrix A.
   pure function form_of(matrix, functions) result(form)
     real(wp), intent(in) :: matrix(:, :)    !! (functions, functions)
-    real(wp), intent(in) :: functions(:, :) !! (functions, border)
+    real(wp), intent(in) :: functions(:, :) !! (functions or more, border)
     real(wp) :: form(size(functions, 2), size(functions, 2))
 
-    real(wp) :: product(size(functions, 1))
-    integer :: i, j, k
+    real(wp) :: product(size(matrix, 1))
+    integer :: i, j, k, n
 
+    n = size(matrix, 1)
     do j = 1, size(functions, 2)
-      do k = 1, size(functions, 1)
-        product(k) = dot_product(matrix(:, k), functions(:, j))
+      do k = 1, n
+        product(k) = dot_product(matrix(:, k), functions(:n, j))
       end do
       do i = 1, size(functions, 2)
-        form(i, j) = dot_product(functions(:, i), product)
+        form(i, j) = dot_product(functions(:n, i), product)
       end do
     end do
   end function form_of
