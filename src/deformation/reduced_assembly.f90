@@ -45,7 +45,7 @@ contains
     type(bordered_matrix_t), intent(inout) :: mass !! of this layout, without blocks [s²]
 
     real(wp) :: across(size(chords%across, 1), layout%border), along(2, layout%border), &
-      motion(3, layout%border), moved
+      motion(3, layout%border)
     integer :: b, i, j, k, n, first
 
     mass%border = 0.0_wp
@@ -64,12 +64,12 @@ contains
       do k = 1, links(b)%modes
         mass%diagonal(first + k) = links(b)%square(k)
         do i = 1, layout%border
-          moved = across(1, i)*links(b)%participation(1, k) + &
+          mass%coupling(i, first + k) = across(1, i)*links(b)%participation(1, k) + &
             across(2, i)*links(b)%participation(2, k)
-          do j = 3, n
-            moved = moved + across(j, i)*links(b)%participation(j, k)
-          end do
-          mass%coupling(i, first + k) = moved
+        end do
+        do j = 3, n
+          mass%coupling(:, first + k) = mass%coupling(:, first + k) + &
+            across(j, :)*links(b)%participation(j, k)
         end do
       end do
       if (links(b)%coupled) call add_coupled_mass(links(b), across(:n, :), along, first, mass)

@@ -36,7 +36,7 @@ module position_assembly
     type(part_forces_t), allocatable :: part_forces
     type(border_t), allocatable :: border
     real(wp), allocatable :: damper_rows(:, :)   !! (border, dampers) velocity of each for unit
-                                                 !! velocities of the border
+                                                 !! velocities of the border; only with dampers
   end type assembled_t
 
 contains
@@ -119,7 +119,8 @@ contains
       end do
       return
     end if
-    here%damper_rows = matmul(transpose(here%border%basis%unknown), damper_rows(here%elastic, &
+    if (size(here%elastic%dampers) > 0) here%damper_rows = &
+      matmul(transpose(here%border%basis%unknown), damper_rows(here%elastic, &
       here%border%numbers, here%pose))
     call find_part_loads(structure%linkage, pose, here%loads, here%elastic, here%pose, &
       here%part_loads)
