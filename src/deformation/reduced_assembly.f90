@@ -59,7 +59,7 @@ contains
       across = chords%across(:, :, b)
       along = chords%along(:, :, b)
       mass%border = mass%border + form_of(links(b)%linear, across) + &
-        matmul(transpose(along), matmul(links(b)%axial_linear, along))
+        form_of(links(b)%axial_linear, along)
       first = layout%first(b) - 1
       do k = 1, links(b)%modes
         mass%diagonal(first + k) = links(b)%square(k)

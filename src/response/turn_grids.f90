@@ -355,7 +355,7 @@ contains
     type(turn_grid_t), intent(inout) :: grid
 
     type(unit_reactions_t) :: unit
-    integer :: c
+    integer :: b, c
 
     grid%rate(k, :) = coefficients%turn(here%elastic%body)
     grid%rate_slope(k, :) = coefficients%turn_slope(here%elastic%body)
