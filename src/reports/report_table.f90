@@ -870,7 +870,7 @@ contains
     ! Tables of positions, not those of speeds.
     if (has_law(model) .and. index(fitted%columns, "speed:") == 1 .and. &
       max(index(fitted%columns, " crank:"), index(fitted%columns, " crank,")) > 0) &
-      fitted%columns = "time:time "//fitted%columns
+      fitted%columns = "time:time "//trim(fitted%columns)
   end function table_in_units
 
   !> Makes the columns of a table those of a slider or a ram.

@@ -330,7 +330,7 @@ contains
 
     type(unit_loads_t) :: loads
     type(unit_reactions_t) :: unit
-    integer :: b, c
+    integer :: c
 
     grid%rate(k, :) = coefficients%turn
     grid%rate_slope(k, :) = coefficients%turn_slope

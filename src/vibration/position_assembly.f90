@@ -26,19 +26,19 @@ module position_assembly
 
   public :: assembled_t, new_assembled, assemble_position, set_border, place_parts
 
-  !> A linkage at a position. Of binary links and pins only `loads` and `unit_force` are used.
+  !> A linkage at a position. Of binary links and pins there are only `loads` and `unit_force`.
   type :: assembled_t
     type(unit_loads_t) :: loads                  !! of this pose
     real(wp), allocatable :: unit_force(:, :, :) !! (force functions, parts, cases) axial forces of
                                                  !! the unit loads [N]
-    type(elastic_linkage_t) :: elastic           !! its parts here
-    type(deformation_model_t) :: model           !! their own modes here
-    type(pose_t) :: pose                         !! of points and parts
-    type(part_loads_t) :: part_loads
-    type(part_forces_t) :: part_forces
-    type(border_t) :: border
+    type(elastic_linkage_t), allocatable :: elastic !! its parts here
+    type(deformation_model_t), allocatable :: model !! their own modes here
+    type(pose_t), allocatable :: pose            !! of points and parts
+    type(part_loads_t), allocatable :: part_loads
+    type(part_forces_t), allocatable :: part_forces
+    type(border_t), allocatable :: border
     real(wp), allocatable :: damper_rows(:, :)   !! (border, dampers) velocity of each for unit
-                                                 !! velocities of the border
+                                                 !! velocities of the border; only with dampers
   end type assembled_t
 
 contains
@@ -53,6 +53,7 @@ contains
     here%elastic = structure%elastic
     here%model = model
     here%border = new_border(structure%elastic, model%links)
+    allocate (here%pose, here%part_loads, here%part_forces)
   end function new_assembled
 
   !> Gives a model the border of its linkage, as it is at most of some positions.
@@ -120,7 +121,8 @@ contains
       end do
       return
     end if
-    here%damper_rows = matmul(transpose(here%border%basis%unknown), damper_rows(here%elastic, &
+    if (size(here%elastic%dampers) > 0) here%damper_rows = &
+      matmul(transpose(here%border%basis%unknown), damper_rows(here%elastic, &
       here%border%numbers, here%pose))
     call find_part_loads(structure%linkage, pose, here%loads, here%elastic, here%pose, &
       here%part_loads)

@@ -17,7 +17,7 @@ import tempfile
 from decimal import Decimal
 
 from decks import Deck
-from extremes import Extreme
+from extremes import MANY, Extreme
 from fields import Digits
 from growth import Drawing, Retry
 from solver import Failure
@@ -343,7 +343,10 @@ def examine(job):
     seed, kind, program, scratch = job
     result = Result(seed, kind or KINDS[seed % len(KINDS)])
     try:
-        case = Extreme(seed) if result.kind == "extreme" else Case(seed, kind)
+        if result.kind in ("extreme", "many"):
+            case = Extreme(seed, MANY if result.kind == "many" else None)
+        else:
+            case = Case(seed, kind)
         positions = good_positions(case)
         if not positions:
             raise Failure("no position is well conditioned")
@@ -424,7 +427,7 @@ def main():
     parser.add_argument("--scratch")
     parser.add_argument("--keep", action="store_true")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--kind", choices=sorted(set(KINDS)))
+    parser.add_argument("--kind", choices=sorted({*KINDS, "many"}))
     parser.add_argument("--skip-refused", action="store_true")
     options = parser.parse_args()
     scratch = options.scratch or tempfile.mkdtemp(prefix="vibrations")
