@@ -326,29 +326,19 @@ contains
       "' is not in the drawing: expected '"//key//"=' or a PIN card")
   end subroutine refuse_undrawn
 
-  !> Refuses motions in time of the elastic linkage, with dampers all of it, and shapes, which are
-  !! complex then; constant tensions where it runs.
+  !> Refuses motions in time of the elastic linkage; with dampers shapes, which are complex then.
   pure subroutine refuse_reports(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
-    integer :: i, damper, tension
+    integer :: i, damper
 
     damper = findloc(model%springs%damps, .true., dim=1)
-    tension = findloc(.not. model%springs%damps .and. model%springs%stiffness <= 0.0_wp, .true., &
-      dim=1)
     do i = 1, size(model%reports)
       associate (report => model%reports(i))
         if (report%kind%name == "transient") then
           call add_error(diagnostics, report%keyword, "springs and dampers do not act in "// &
             "REPORT transient yet", model%springs(1)%keyword, "the first one is here")
-        else if (report%kind%response .and. damper > 0) then
-          call add_error(diagnostics, report%keyword, "dampers do not act in REPORT "// &
-            trim(report%kind%name)//" yet", model%springs(damper)%keyword, "the first one is here")
-        else if (report%kind%response .and. tension > 0) then
-          call add_error(diagnostics, report%keyword, "constant tensions do not act in REPORT "// &
-            trim(report%kind%name)//" yet", model%springs(tension)%keyword, &
-            "the first one is here")
         else if (report%kind%frequencies .and. report%kind%name /= "frequencies" .and. &
           damper > 0) then
           call add_error(diagnostics, report%keyword, "with dampers the shapes of modes are "// &
