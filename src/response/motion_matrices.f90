@@ -19,6 +19,9 @@ module motion_matrices
     !! dampers
     real(wp), allocatable :: geometric(:, :, :, :)
     real(wp), allocatable :: load(:, :, :)  !! (unknowns, samples, cases) f likewise
+    !> (deformations, border, samples) of the grid, with d/dθ2; not allocated: they are the border
+    !! unknowns
+    real(wp), allocatable :: deformed(:, :, :), deformed_slope(:, :, :)
   end type motion_matrices_t
 
 contains
@@ -29,7 +32,7 @@ contains
     type(motion_matrices_t), intent(inout) :: matrices !! room is kept from one call to the next
 
     real(wp), dimension(grid%samples, grid%unknowns) :: y, force
-    integer :: c, j, n
+    integer :: c, j, k, n
 
     n = grid%unknowns
     if (.not. allocated(matrices%mass)) then
@@ -55,6 +58,14 @@ contains
     end do
     do c = 1, grid%cases
       matrices%load(:, :, c) = transpose(grid%load(:, :, c))
+    end do
+    if (.not. allocated(grid%weighted_slope)) return
+    if (.not. allocated(matrices%deformed)) allocate (matrices%deformed(size(grid%weighted, 2), &
+      grid%border, grid%samples), matrices%deformed_slope(size(grid%weighted, 2), grid%border, &
+      grid%samples))
+    do k = 1, grid%samples
+      matrices%deformed(:, :, k) = grid%weighted(k, :, :)
+      matrices%deformed_slope(:, :, k) = grid%weighted_slope(k, :, :)
     end do
   end subroutine find_motion_matrices
 

@@ -7,7 +7,6 @@ module turn_grids
   use band_matrix, only: full_band
   use body_lumps, only: lump_offsets
   use border_rows, only: row_spring
-  use chord_slopes, only: find_chord_slopes
   use deformation_model, only: deformation_model_t
   use dense_eigensolver, only: solve_dense
   use errors, only: error_of_dead_point, error_of_numerics, error_t, set_error
@@ -32,7 +31,8 @@ module turn_grids
   implicit none (type, external)
   private
 
-  public :: turn_grid_t, damper_t, rate_case, new_turn_grid, new_path_grid, place_grid
+  public :: turn_grid_t, damper_t, rate_case, new_turn_grid, start_grid, number_border, take_pose, &
+    take_chord
 
   !> Positions of a turn at which deformations are tried as unknowns, and turns until these are
   !! taken for good.
@@ -74,6 +74,9 @@ module turn_grids
     integer, allocatable :: deformed(:)    !! (deformations) body; 0: a spring or a damper
     type(damper_t), allocatable :: dampers(:)
     integer :: cases = case_count          !! load cases, that of dampers included
+    real(wp), allocatable :: weighted_slope(:, :, :) !! d/dθ2 of `weighted`; of `path_grids` only
+    !> Of a linkage in parts, of `path_grids`: (samples of a turn, terms) coefficients of all terms
+    real(wp), allocatable :: harmonics(:, :)
     real(wp), allocatable :: rotation(:, :) !! (border, border) orthogonal: border unknowns as those
                                            !! of the basis, from those of the grid, which are
                                            !! nearly modes then. Not allocated: the same
@@ -312,53 +315,11 @@ contains
 
   end subroutine turn_unknowns
 
-  !> Room for the terms at crank angles anywhere, which `place_grid` gives: the crank need not turn
-  !! fully.
-  subroutine new_path_grid(linkage, model, samples, grid)
-    type(linkage_t), intent(in) :: linkage         !! pins, bodies, loads
-    type(deformation_model_t), intent(in) :: model !! its links' own deformations
-    integer, intent(in) :: samples                 !! crank angles
-    type(turn_grid_t), intent(out) :: grid         !! for `place_grid`
-
-    call start_grid(linkage, model, samples, grid)
-    call number_border(linkage, grid)
-    allocate (grid%chord_slope, mold=grid%chord)
-    allocate (grid%pin_slope, mold=grid%pin)
-    grid%chord_slope = 0.0_wp
-  end subroutine new_path_grid
-
-  !> The terms at other crank angles, with the derivatives of chords and pins from the motion of the
-  !! links at each of them: the angles need not be even.
-  !!
-  !! Errors: the crank cannot reach one of them, or meets a dead point there.
-  subroutine place_grid(linkage, crank, grid, error)
-    type(linkage_t), intent(in) :: linkage           !! of the grid
-    real(wp), intent(in) :: crank(:)                 !! (samples) crank angles [deg]
-    type(turn_grid_t), intent(inout) :: grid         !! by `new_path_grid`
-    type(error_t), allocatable, intent(out) :: error !! why the grid has no terms
-
-    type(pose_t) :: pose
-    type(chords_t) :: slopes
-    integer :: b, k
-
-    do k = 1, size(crank)
-      call find_pose(linkage, crank(k), pose, error)
-      if (allocated(error)) return
-      call take_pose(linkage, pose, k, grid)
-      slopes = find_chord_slopes(linkage, grid%model%links, pose, &
-        find_kinematic_coefficients(linkage, pose), find_chords(linkage, grid%model%links, pose))
-      grid%pin_slope(k, :, :, :) = slopes%pin
-      do b = 1, size(grid%integrals)
-        call take_chord(grid%model%links(b), slopes, b, grid%chord_slope(k, :, :, b))
-      end do
-    end do
-  end subroutine place_grid
-
   !> Sizes, numbers of the unknowns, integrals over the links, and room for the terms.
   subroutine start_grid(linkage, model, samples, grid)
-    type(linkage_t), intent(in) :: linkage
-    type(deformation_model_t), intent(in) :: model
-    integer, intent(in) :: samples
+    type(linkage_t), intent(in) :: linkage         !! whose bodies vibrate
+    type(deformation_model_t), intent(in) :: model !! their own deformations
+    integer, intent(in) :: samples                 !! crank angles
     type(turn_grid_t), intent(inout) :: grid
 
     integer :: b, bodies, pins
@@ -386,12 +347,13 @@ contains
     grid%load = 0.0_wp
   end subroutine start_grid
 
-  !> The terms at one crank angle; derivatives are with respect to θ2.
+  !> The terms of a crank and dyads at one crank angle, without the slopes of chords and pins;
+  !! derivatives are with respect to θ2.
   subroutine take_pose(linkage, pose, k, grid)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    integer, intent(in) :: k !! number of the crank angle
-    type(turn_grid_t), intent(inout) :: grid
+    type(linkage_t), intent(in) :: linkage   !! of the grid
+    type(pose_t), intent(in) :: pose         !! at this angle
+    integer, intent(in) :: k                 !! number of the crank angle
+    type(turn_grid_t), intent(inout) :: grid !! of a crank and dyads
 
     type(kinematic_coefficients_t) :: coefficients
     type(chords_t) :: chords
@@ -522,9 +484,9 @@ contains
 
   !> Functions of the chord of a body for every border unknown.
   pure subroutine take_chord(link, chords, body, functions)
-    type(link_modes_t), intent(in) :: link
-    type(chords_t), intent(in) :: chords
-    integer, intent(in) :: body
+    type(link_modes_t), intent(in) :: link     !! own deformations of the body
+    type(chords_t), intent(in) :: chords       !! what the unknowns do to all chords, or its slopes
+    integer, intent(in) :: body                !! number
     real(wp), intent(inout) :: functions(:, :) !! (functions, border)
 
     if (link%bends) then
@@ -558,8 +520,8 @@ contains
 
   !> To which bodies the border unknowns of a crank and dyads belong.
   pure subroutine number_border(linkage, grid)
-    type(linkage_t), intent(in) :: linkage
-    type(turn_grid_t), intent(inout) :: grid
+    type(linkage_t), intent(in) :: linkage   !! of the grid
+    type(turn_grid_t), intent(inout) :: grid !! by `start_grid`
 
     integer :: number(0:size(linkage%bodies)), b
 

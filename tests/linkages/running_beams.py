@@ -291,6 +291,75 @@ class Running:
         self.y = np.linalg.solve(matrix.reshape(n * m, n * m), load.reshape(n * m)).reshape(n, m)
         return self.y
 
+    def matrices(self):
+        """(M, D, K) and load at the samples of the turn: M U'' + D U' + K U = f, ' = d/dt."""
+        n, m, d, speed = self.n, self.count, self.d, self.speed
+        mass, rates, stiffness = (np.zeros((n, m, m)) for _ in range(3))
+        load = np.zeros((n, m))
+        forces = [(p, self.force_of(p)) for p in self.pulls]
+        stiffness += self.geometric(self.axial(forces, True)[0], forces)
+        for i, link in enumerate(self.links):
+            shape, rows = link.shape, self.local_rows(i)
+            first, outer = np.einsum("kl,laj->kaj", d, rows), rows.transpose(0, 2, 1)
+            second = np.einsum("kl,laj->kaj", d, first)
+            of_mass = link.mass * (shape.integral("u", "u") + shape.integral("v", "v"))
+            swing = link.mass * (shape.integral("v", "u") - shape.integral("u", "v"))
+            elastic = link.axial * shape.integral("du", "du") + link.bending * shape.integral("ddv", "ddv")
+            h, slope = link.h[:, None, None], link.slope[:, None, None]
+            mass += outer @ of_mass @ rows
+            rates += outer @ (speed * (2 * of_mass @ first + 2 * h * swing @ rows) + link.damping * elastic @ rows)
+            stiffness += outer @ (elastic @ rows + speed * link.damping * elastic @ first)
+            stiffness += speed**2 * outer @ (of_mass @ second + 2 * h * swing @ first + (slope * swing - h**2 * of_mass) @ rows)
+            normal = link.e @ TURN.T
+            for w, x, at in zip(shape.w, shape.x, shape.fields):
+                a = sum(share * speed**2 * self.acceleration[e] for share, e in zip((1 - x / link.length, x / link.length), link.ends))
+                local = np.einsum("ka,ka->k", link.e, a)[:, None] * at["u"] + np.einsum("ka,ka->k", normal, a)[:, None] * at["v"]
+                load -= w * link.mass * np.einsum("ka,kaj->kj", local, rows)
+        for pin, heavy in self.masses.items():
+            rows = self.pin_rows(pin)
+            mass += heavy * rows.transpose(0, 2, 1) @ rows
+            load -= heavy * speed**2 * np.einsum("ka,kaj->kj", self.acceleration[pin], rows)
+        for pull, force in forces:
+            row = self.pull_rows(pull)[2]
+            load -= force[:, None] * row
+            stiffness += pull.get("stiffness", 0.0) * row[:, :, None] * row[:, None, :]
+            rates += pull.get("damping", 0.0) * row[:, :, None] * row[:, None, :]
+            stiffness += speed * pull.get("damping", 0.0) * row[:, :, None] * (d @ row)[:, None, :]
+        return mass, rates, stiffness, load
+
+    def integrate(self, instants, steps):
+        """Displacements of a turn from rest, undeformed, at the instants: Radau's method of three stages, order 5."""
+        n, m = self.n, self.count
+        terms = np.concatenate([a.reshape(n, -1) for a in self.matrices()], axis=1)
+        waves = np.fft.rfft(terms, axis=0) / n
+        waves[1:] *= 2
+        root = np.sqrt(6)
+        node = np.array([(4 - root) / 10, (4 + root) / 10, 1.0])
+        rule = np.array([[(88 - 7 * root) / 360, (296 - 169 * root) / 1800, (-2 + 3 * root) / 225],
+                         [(296 + 169 * root) / 1800, (88 + 7 * root) / 360, (-2 - 3 * root) / 225],
+                         [(16 - root) / 36, (16 + root) / 36, 1 / 9]])
+        length = 2 * np.pi / (self.speed * instants * steps)
+        u, v, found = np.zeros(m), np.zeros(m), [np.zeros(m)]
+        for k in range(instants * steps):
+            left, right = np.zeros((3 * m, 3 * m)), np.zeros(3 * m)
+            for i in range(3):
+                angle = self.speed * length * (k + node[i])
+                now = (np.exp(1j * angle * np.arange(len(waves))) @ waves).real
+                mass, rates, stiffness = (now[j * m * m:(j + 1) * m * m].reshape(m, m) for j in range(3))
+                # Unknowns are accelerations at the stages.
+                here = slice(i * m, (i + 1) * m)
+                left[here, here] += mass
+                for j in range(3):
+                    there = slice(j * m, (j + 1) * m)
+                    left[here, there] += length * rule[i, j] * rates + length**2 * (rule @ rule)[i, j] * stiffness
+                right[here] = now[3 * m * m:] - rates @ v - stiffness @ (u + length * node[i] * v)
+            a = np.linalg.solve(left, right).reshape(3, m)
+            u = u + length * v + length**2 * (rule[2] @ (rule @ a))
+            v = v + length * rule[2] @ a
+            if (k + 1) % steps == 0:
+                found.append(u)
+        return np.array(found)
+
     def displacement(self, pin):
         return np.einsum("kaj,kj->ka", self.pin_rows(pin), self.y)
 

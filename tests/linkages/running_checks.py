@@ -200,6 +200,22 @@ def slow(program, folder, samples, orders):
         print(f"{name}: rotations at " + ", ".join(f"{s:g} rad/s {found[s]:.3e}" for s in speeds))
 
 
+def in_time(program, folder, samples, orders):
+    """A turn from rest, undeformed, of the engine with dampers: pins A and B at 36 instants."""
+    model = engine(samples, 12.0, 1e-3, ENGINE_PULLS, orders)
+    cards = ENGINE + OF_ENGINE + "REPORT   transient turns=1 instants=36 accuracy=1e-8\n"
+    tables = run(program, folder, cards, [12.0], 1e-3)
+    rows = [r for r in table(tables, "transient.dat")]
+    for steps in (10, 20):
+        moved = model.integrate(36, steps)
+        said = []
+        for end, pin in (("A:rod", "A"), ("B:rod", "B")):
+            here = np.array([[float(v) for v in r[4:6]] for r in rows if r[3] == end]) / 1e3
+            known = moved @ model.pin_rows(pin)[0].T
+            said.append(f"{pin} {np.abs(here - known).max() / np.abs(known).max():.1e}")
+        print(f"engine with dampers from rest, {36 * steps} steps: " + ", ".join(said))
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--program", default="build/release/flexmech")
@@ -217,6 +233,7 @@ def main():
             said = ", ".join(f"{what} {value:.1e}" for what, value in worst.items())
             print(f"{name}, {case[4]:g} rad/s: {said}; power of the drive {power:.10g} W, of links and dampers "
                   f"{of_links + lost:.10g} W; highest harmonics {tail[-4:].max() / tail.max():.0e}")
+        in_time(options.program, folder, options.samples, (6, 9))
         slow(options.program, folder, 97, (6, 9))
 
 

@@ -326,7 +326,7 @@ contains
       "' is not in the drawing: expected '"//key//"=' or a PIN card")
   end subroutine refuse_undrawn
 
-  !> Refuses motions in time of the elastic linkage; with dampers shapes, which are complex then.
+  !> With dampers refuses shapes, which are complex then.
   pure subroutine refuse_reports(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
@@ -336,10 +336,7 @@ contains
     damper = findloc(model%springs%damps, .true., dim=1)
     do i = 1, size(model%reports)
       associate (report => model%reports(i))
-        if (report%kind%name == "transient") then
-          call add_error(diagnostics, report%keyword, "springs and dampers do not act in "// &
-            "REPORT transient yet", model%springs(1)%keyword, "the first one is here")
-        else if (report%kind%frequencies .and. report%kind%name /= "frequencies" .and. &
+        if (report%kind%frequencies .and. report%kind%name /= "frequencies" .and. &
           damper > 0) then
           call add_error(diagnostics, report%keyword, "with dampers the shapes of modes are "// &
             "complex: REPORT "//trim(report%kind%name)//" takes none", &
