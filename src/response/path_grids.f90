@@ -25,6 +25,9 @@ module path_grids
   integer, parameter :: turn_samples(*) = [64, 128, 256, 512, 1024]
   real(wp), parameter :: enough = 1.0e-13_wp, most = 1.0e-9_wp
 
+  !> Number of the first kind of terms that need not be there, `second_order`.
+  integer, parameter :: first_optional = 13
+
 contains
 
   !> Room for the terms at crank angles anywhere, which `place_grid` gives.
@@ -116,7 +119,7 @@ contains
       allocate (coefficients, mold=terms)
       call coefficients_of(plan, terms, coefficients)
       call close_fourier(plan)
-      tail = tail_of(widths_of(grid), coefficients)
+      tail = tail_of(widths_of(grid), scales_of(grid), coefficients)
       ! More samples do not help against rounding.
       if (tail <= enough .or. i == size(turn_samples) .or. (tail <= most .and. tail > &
         0.1_wp*last)) exit
@@ -187,9 +190,22 @@ contains
     widths = widths/grid%samples
   end function widths_of
 
+  !> What kinds of terms are small beside, where the largest of its kind may be rounding: what lines
+  !! and guides add to K_G beside what axial forces do, slopes of deformations beside these.
+  pure function scales_of(grid) result(scales)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp), allocatable :: scales(:)
+
+    allocate (scales(size(widths_of(grid))), source=tiny(1.0_wp))
+    if (allocated(grid%second_order)) scales(first_optional) = maxval(abs(grid%force))* &
+      maxval(abs(grid%turn))**2*maxval(grid%model%links%length)
+    if (allocated(grid%weighted_slope)) scales(size(scales)) = maxval(abs(grid%weighted))
+  end function scales_of
+
   !> The highest eighth of the harmonics, beside the largest of their kind.
-  pure function tail_of(widths, coefficients) result(tail)
+  pure function tail_of(widths, scales, coefficients) result(tail)
     integer, intent(in) :: widths(:)
+    real(wp), intent(in) :: scales(:)          !! (kinds) of which a share is small
     real(wp), intent(in) :: coefficients(:, :) !! (samples, terms)
     real(wp) :: tail
 
@@ -201,7 +217,7 @@ contains
     do i = 1, size(widths)
       if (widths(i) == 0) cycle
       associate (here => coefficients(:, at + 1:at + widths(i)))
-        tail = max(tail, maxval(abs(here(n - n/8:, :)))/max(maxval(abs(here)), tiny(1.0_wp)))
+        tail = max(tail, maxval(abs(here(n - n/8:, :)))/max(maxval(abs(here)), scales(i)))
       end associate
       at = at + widths(i)
     end do

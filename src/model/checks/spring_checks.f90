@@ -7,7 +7,7 @@ module spring_checks
   use kinds, only: wp
   use link_checks, only: is_ram
   use link_shapes, only: compare_lengths, find_drawn_place
-  use models, only: model_t, needs_frequencies
+  use models, only: model_t, needs_frequencies, needs_response
   use name_checks, only: look_up, pin_names
   use name_index, only: find_name, name_index_t, new_name_index
   use spring_cards, only: is_spring_card, read_spring, spring_t
@@ -145,9 +145,11 @@ contains
     type(spring_t), intent(in) :: spring
     logical, intent(out) :: fine
 
+    logical :: bends
     integer :: i
 
     fine = .false.
+    bends = needs_frequencies(model) .or. needs_response(model)
     associate (one => spring%ends(1), other => spring%ends(2))
       if (same_word(one%text, other%text)) then
         call add_error(diagnostics, other, "both ends are at '"//one%text//"'", one, &
@@ -161,7 +163,7 @@ contains
       end if
       do i = 1, size(model%links)
         if (.not. is_on_link(model, i, one) .or. .not. is_on_link(model, i, other)) cycle
-        if (needs_frequencies(model) .and. .not. model%links(i)%rigid) cycle
+        if (bends .and. .not. model%links(i)%rigid) cycle
         if (any(model%drives%link == i) .and. .not. model%links(i)%has_length .and. &
           size(model%links(i)%lengths) == 0) cycle
         call add_error(diagnostics, other, "both ends are on link '"//model%links(i)%name%text// &
@@ -170,7 +172,7 @@ contains
         return
       end do
       do i = 1, size(model%welds)
-        if (needs_frequencies(model) .and. any(.not. model%links(pack(model%welds(i)%link, &
+        if (bends .and. any(.not. model%links(pack(model%welds(i)%link, &
           model%welds(i)%link > 0))%rigid)) cycle
         if (.not. is_on_weld(model, i, one) .or. .not. is_on_weld(model, i, other)) cycle
         call add_error(diagnostics, other, "both ends are on links that are welded: nothing "// &
