@@ -288,7 +288,7 @@ module report_table
     report_kind_t(name="transient", help="the elastic motion in time from a state", &
       pattern="REPORT transient turns= [crank=0] [start=rest|steady] [perturb=mode,amplitude] "// &
       "[instants=] [accuracy=]", default="crank=0 start=rest instants=72 accuracy=1e-3", &
-      studies="transient", response=.true., linkages=four_bars, tables=[ &
+      studies="transient", response=.true., tables=[ &
       table_kind_t("transient", "speed:speed time:time crank:deg point:name ux,uy:length "// &
       "rotation:deg error:-"), &
       table_kind_t("gauges", "speed:speed time:time crank:deg gauge:name "// &
