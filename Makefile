@@ -142,6 +142,7 @@ VIBRATIONS ?= 1000
 vibrations: all
 	@python3 -B tests/linkages/exact_frequencies.py --program $(program)
 	@python3 -B tests/linkages/random_vibrations.py $(SEED) $(VIBRATIONS) --program $(program)
+	@python3 -B tests/linkages/random_vibrations.py $(SEED) $(shell expr $(VIBRATIONS) / 20 + 1) --kind many --program $(program)
 
 # Quadruple precision for every case of `make stress`: some minutes.
 references: all quad
@@ -287,7 +288,7 @@ $(build)/flexmech: $(modules) $(build)/main.o
 	$(compile) $^ $(libraries) -o $@
 
 # ------------------------------------------------------------- the program that times solvers; sources in the order of use
-bench_sources = $(patsubst %,tests/bench/%.f90,bench_cases exact_values nodal_runs bench_models bench_runs bench_corners bench_plans \
+bench_sources = $(patsubst %,tests/bench/%.f90,bench_cases exact_values nodal_runs nodal_parts bench_models bench_runs bench_corners bench_linkages bench_plans \
                                                machine bench_tables bench_ratios response_runs whole_turn bench_response bench)
 
 $(build)/bench/bench: $(bench_sources) $(modules)

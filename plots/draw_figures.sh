@@ -418,7 +418,7 @@ plan_response() {
     if have response.dat; then
         plan_speeds displacements response.dat 'ux uy'
         plan_speeds pin_displacements response.dat 'ux uy'
-        if several response.dat && can_place; then
+        if [ $other = no ] && several response.dat && can_place; then
             [ -z "$(ask points response.dat)" ] || plan_speeds deviation response.dat 'ux uy'
             plan_speeds deformed_linkage response.dat 'ux uy'
         fi
@@ -433,7 +433,8 @@ plan_response() {
     fi
     have transient.dat && plan_speeds transient transient.dat 'ux uy' displacement_history.gp
     have gauges.dat && plan_speeds transient_strains gauges.dat 'axial_strain bending_strain stress' strain_history.gp
-    have drive.dat && plan_speeds drive drive.dat 'rigid linear quadratic'
+    [ $other = no ] && have drive.dat && plan_speeds drive drive.dat 'rigid linear quadratic'
+    have torque.dat && plan_speeds torque torque.dat 'rigid linear quadratic' drive.gp
     frequencies=
     [ -f frequencies.dat ] && frequencies=frequencies.dat
     have peaks.dat speed && several peaks.dat speed && add largest_strain largest_strain.gp peaks.dat "$frequencies"
@@ -537,8 +538,8 @@ else
     else
         have kinematics.dat && plan_kinematics
         plan_rigid_dynamics
-        plan_response
     fi
+    plan_response
 fi
 if [ ! -s "$new/plan" ]; then
     ! ls ./*.csv > /dev/null 2>&1 || ls ./*.dat > /dev/null 2>&1 ||

@@ -24,7 +24,7 @@ module elastic_linkages
   !> Of an end that cannot turn.
   integer, parameter :: fixed_rotation = -1
 
-  !> A spring or a damper of the linkage.
+  !> A spring, a constant tension or a damper of the linkage.
   type :: spring_t
     integer :: load = 0             !! its number among the loads
     logical :: turns = .false.      !! between two rotations; else along a line
@@ -52,6 +52,7 @@ module elastic_linkages
     integer, allocatable :: cut_part(:)       !! (sliders) that ends there; the next one begins
     integer, allocatable :: guide_rotation(:) !! (sliders) of the guide at the block; 0: it is fixed
     type(spring_t), allocatable :: springs(:) !! with a stiffness
+    type(spring_t), allocatable :: tensions(:) !! without one
     type(spring_t), allocatable :: dampers(:) !! with a damping
     logical :: changes_lengths = .false.      !! of some parts from position to position
   end type elastic_linkage_t
@@ -67,8 +68,16 @@ contains
     needs = .not. is_dyad_linkage(linkage)
     if (.not. needs) needs = any(linkage%drives%is_free)
     if (.not. needs .and. allocated(linkage%loads)) needs = any(linkage%loads%stiffness > 0.0_wp &
-      .or. is_damper(linkage%loads))
+      .or. is_tension(linkage%loads) .or. is_damper(linkage%loads))
   end function needs_parts
+
+  !> Whether a load is a spring whose force does not change.
+  elemental function is_tension(load) result(is)
+    type(applied_load_t), intent(in) :: load
+    logical :: is
+
+    is = abs(load%tension) > 0.0_wp .and. .not. load%stiffness > 0.0_wp
+  end function is_tension
 
   !> Whether a load is a damper along a line or between two bodies.
   elemental function is_damper(load) result(is)
@@ -371,9 +380,10 @@ contains
     end do
     if (allocated(linkage%loads)) then
       call add_springs(linkage, linkage%loads%stiffness > 0.0_wp, ends, elastic%springs)
+      call add_springs(linkage, is_tension(linkage%loads), ends, elastic%tensions)
       call add_springs(linkage, is_damper(linkage%loads), ends, elastic%dampers)
     else
-      allocate (elastic%springs(0), elastic%dampers(0))
+      allocate (elastic%springs(0), elastic%tensions(0), elastic%dampers(0))
     end if
     do i = 1, size(linkage%sliders)
       if (elastic%contact(i) > 0) call add_end(ends, linkage%sliders(i)%body, elastic%contact(i))
@@ -405,10 +415,11 @@ contains
         elastic%rotation_inertia(k) + linkage%sliders(i)%inertia
     end do
     call number_springs(linkage, ends, elastic%springs)
+    call number_springs(linkage, ends, elastic%tensions)
     call number_springs(linkage, ends, elastic%dampers)
   end subroutine add_rotations
 
-  !> Rotations of springs or dampers that turn.
+  !> Rotations of springs, tensions or dampers that turn.
   pure subroutine number_springs(linkage, ends, springs)
     type(linkage_t), intent(in) :: linkage
     type(turning_ends_t), intent(in) :: ends
@@ -428,7 +439,7 @@ contains
     end do
   end subroutine number_springs
 
-  !> Springs or dampers; those that turn hold the ends that they turn.
+  !> Springs, tensions or dampers; those that turn hold the ends that they turn.
   pure subroutine add_springs(linkage, is_one, ends, springs)
     type(linkage_t), intent(in) :: linkage
     logical, intent(in) :: is_one(:) !! (loads)

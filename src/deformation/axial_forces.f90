@@ -213,6 +213,7 @@ contains
     associate (e => pose%direction(:, body), this => linkage%bodies(body), field => case%field)
       whole = rigid_body(this, elements)
       if (elements == 0) whole%inertia = whole%inertia - this%rotary_inertia*this%length
+      if (allocated(this%lumps)) whole%inertia = whole%inertia - sum(this%lumps%rotary_inertia)
       force = dot_product(e, joints%on_last(:, body)) - (whole%first_moment(1)*dot_product(e, &
         field%at_first(:, body)) + whole%first_moment(2)*dot_product(normal_to(e), &
         field%at_first(:, body)) + whole%inertia*dot_product(e, field%slope(:, body)))/this%length

@@ -69,7 +69,9 @@ contains
 
     call accelerations_along(link, body, pose, case, along, across)
     work = -matmul(across, link%participation(1:2, :))
-    if (link%coupled) work = work - matmul(along, link%along_participation)
+    if (link%coupled) work = work - matmul(along, link%along_participation) - &
+      dot_product(pose%direction(:, body), case%field%slope(:, body))* &
+      matmul(lump_offsets(linkage%bodies(body)), link%at_mass(:, 3 + link%curves:))
     if (.not. has_forces(linkage%bodies(body), case)) return
     do i = 1, size(linkage%bodies(body)%forced)
       associate (at => linkage%bodies(body)%forced(i))
@@ -111,7 +113,7 @@ contains
 
     border = border - matmul(transpose(across), matmul(link%cross_linear, load(3:4))) - &
       matmul(transpose(along), matmul(transpose(link%cross_linear(1:2, :)), load(1:2))) - &
-      matmul(transpose(across), matmul(transpose(link%at_mass), load(5:)))
+      matmul(transpose(across), matmul(transpose(link%at_mass(:, :size(across, 1))), load(5:)))
   end subroutine add_coupled_loads
 
   !> Whether forces act at places of a body in a load case.

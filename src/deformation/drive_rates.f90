@@ -12,8 +12,8 @@ module drive_rates
   implicit none (type, external)
   private
 
-  public :: find_drive_rates, own_drive_rates, own_slopes, slide_of, turn_of_end, end_at_joint, &
-    is_joint
+  public :: find_drive_rates, own_drive_rates, own_drive_compliance, own_slopes, slide_of, &
+    turn_of_end, end_at_joint, is_joint
 
 contains
 
@@ -142,9 +142,62 @@ contains
     integer, intent(in) :: part                      !! that bends
     real(wp) :: rate(count(linkage%drives%is_free), links(part)%modes) !! (free drives, own modes)
 
+    real(wp) :: sense(size(rate, 1), 2), slopes(links(part)%modes)
+    integer :: i, end
+
+    sense = hinged_ends(linkage, elastic, part)
+    rate = 0.0_wp
+    do end = 1, 2
+      if (.not. any(abs(sense(:, end)) > 0.0_wp)) cycle
+      slopes = own_slopes(links(part), end)
+      do i = 1, size(rate, 1)
+        rate(i, :) = rate(i, :) + sense(i, end)*slopes
+      end do
+    end do
+  end function own_drive_rates
+
+  !> How free drives yield to their own torques by own modes of a part, R Rᵀ of all of them, in
+  !! closed form.
+  !!
+  !! Under couples M at its ends a beam on two hinges turns by `L/3EI + 1/(kGA L)` where they act,
+  !! and by `1/(kGA L) − L/6EI` at the other end; with one end held what this end does not bear is
+  !! left. With shear and without rotary inertia a part of it moves no mass, and is in no own mode.
+  pure function own_drive_compliance(linkage, elastic, part) result(compliance)
+    type(linkage_t), intent(in) :: linkage           !! that moves: its drives
+    type(elastic_linkage_t), intent(in) :: elastic   !! of it, at this position
+    integer, intent(in) :: part                      !! that bends
+    real(wp) :: compliance(count(linkage%drives%is_free), count(linkage%drives%is_free))
+
+    real(wp) :: sense(size(compliance, 1), 2), here, there, sheared, ends(2, 2)
+    integer :: end
+
+    associate (beam => elastic%beams(part), length => elastic%linkage%bodies(part)%length)
+      sheared = 0.0_wp
+      if (beam%shear_stiffness > 0.0_wp) sheared = 1.0_wp/(beam%shear_stiffness*length)
+      here = length/(3.0_wp*beam%bending_stiffness) + sheared
+      there = sheared - length/(6.0_wp*beam%bending_stiffness)
+    end associate
+    ends = reshape([here, there, there, here], [2, 2])
+    do end = 1, 2
+      if (.not. elastic%held(end, part)) cycle
+      ends = 0.0_wp
+      if (.not. elastic%held(3 - end, part)) ends(3 - end, 3 - end) = here - there**2/here
+      exit
+    end do
+    sense = hinged_ends(linkage, elastic, part)
+    compliance = matmul(matmul(sense, ends), transpose(sense))
+  end function own_drive_compliance
+
+  !> With which sense the rotation of the hinged ends of a part is the motion of free drives.
+  pure function hinged_ends(linkage, elastic, part) result(sense)
+    type(linkage_t), intent(in) :: linkage
+    type(elastic_linkage_t), intent(in) :: elastic
+    integer, intent(in) :: part
+    real(wp) :: sense(count(linkage%drives%is_free), 2) !! (free drives, ends) ±1; 0: not
+
     integer :: bodies(2), d, i, k, at, end
 
-    rate = 0.0_wp
+    sense = 0.0_wp
     i = 0
     do d = 1, size(linkage%drives)
       associate (drive => linkage%drives(d))
@@ -156,11 +209,11 @@ contains
           if (bodies(k) == 0) cycle
           call find_joint_end(linkage, elastic, bodies(k), bodies(3 - k), at, end)
           if (at /= part .or. elastic%rotation(end, at) /= 0) cycle
-          rate(i, :) = rate(i, :) + merge(1.0_wp, -1.0_wp, k == 1)*own_slopes(links(part), end)
+          sense(i, end) = sense(i, end) + merge(1.0_wp, -1.0_wp, k == 1)
         end do
       end associate
     end do
-  end function own_drive_rates
+  end function hinged_ends
 
   !> Rotation of a hinged end of a part that bends: that of its chord, and what the curves of the
   !! other end add.

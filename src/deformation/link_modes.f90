@@ -85,7 +85,8 @@ module link_modes
                                                       !! held link under the loads μ (1 − ξ) and μ ξ
                                                       !! across it; of a coupled link also along it,
                                                       !! and under m across it at every mass
-    !> (masses, 2 + curves) of a coupled link: `m (1 − ξ)`, m ξ, m times the curves there
+    !> (masses, 2 + curves + modes) of a coupled link: `m (1 − ξ)`, m ξ, m times the curves and the
+    !! own modes there
     real(wp), allocatable :: at_mass(:, :)
     real(wp), allocatable :: bending(:, :)            !! (bending unknowns, 1 − curves:modes) curves
                                                       !! and modes in the unknowns of the shapes
@@ -332,9 +333,9 @@ contains
     first = rows_before_lumps(bending)
     masses = bending%linear(first + 1:first + bending%lumps, :)
     ! The root of every mass is in its row: 1 − ξ and ξ add up to it.
-    allocate (link%at_mass(bending%lumps, 2 + curves))
+    allocate (link%at_mass(bending%lumps, 2 + curves + link%modes))
     do i = 1, bending%lumps
-      link%at_mass(i, :) = sum(masses(i, :))*[masses(i, :), shape(first + i, :curves)]
+      link%at_mass(i, :) = sum(masses(i, :))*[masses(i, :), shape(first + i, :)]
     end do
     allocate (link%axial_square(0), link%axial_participation(2, 0), link%axial_terms(0))
     if (axial%by_degree .and. axial%unknowns > axial_kept) link%axial_next = &
@@ -470,21 +471,12 @@ contains
     type(link_modes_t), intent(inout) :: link
 
     real(wp) :: row(link%bending_shapes%unknowns), at_station(1 - link%curves:link%modes)
-    real(wp), allocatable :: at_mass(:, :)
-    integer :: i, first
+    integer :: i
 
     allocate (link%sag(stations, 2), link%curve_station(stations, link%curves))
     if (link%coupled) then
-      associate (shapes => link%bending_shapes)
-        deallocate (link%sag)
-        allocate (link%sag(stations, 4 + shapes%lumps), at_mass(shapes%lumps, link%modes))
-        first = rows_before_lumps(shapes)
-        at_mass = matmul(shapes%displacement(first + 1:first + shapes%lumps, :size(link%bending, &
-          1)), link%bending(:, 1:))
-        do i = 1, shapes%lumps
-          at_mass(i, :) = sum(shapes%linear(first + i, :))*at_mass(i, :)
-        end do
-      end associate
+      deallocate (link%sag)
+      allocate (link%sag(stations, 4 + size(link%at_mass, 1)))
     end if
     do i = 1, stations
       row = displacement_row(link%bending_shapes, real(i - 1, wp)/(stations - 1))
@@ -493,7 +485,7 @@ contains
       link%sag(i, :2) = matmul(link%participation(1:2, :), at_station(1:))
       if (.not. link%coupled) cycle
       link%sag(i, 3:4) = matmul(link%along_participation, at_station(1:))
-      link%sag(i, 5:) = matmul(at_mass, at_station(1:))
+      link%sag(i, 5:) = matmul(link%at_mass(:, 3 + link%curves:), at_station(1:))
     end do
   end subroutine place_stations
 

@@ -7,10 +7,11 @@
 module part_forces
   use axial_forces, only: lump_functions, most_lump_functions
   use border_loads, only: border_work, own_work
-  use border_rows, only: add_stretch, spring_way
+  use border_rows, only: add_stretch, damper_rows, spring_way
   use dense_factor, only: dense_factor_t, factorize, solve
-  use drive_rates, only: find_drive_rates, own_drive_rates, own_slopes, slide_of, turn_of_end
-  use elastic_linkages, only: elastic_linkage_t
+  use drive_rates, only: find_drive_rates, own_drive_compliance, own_drive_rates, own_slopes, &
+    slide_of, turn_of_end
+  use elastic_linkages, only: elastic_linkage_t, spring_t
   use kinds, only: wp
   use link_modes, only: link_modes_t
   use linkages, only: linkage_t, normal_to
@@ -20,11 +21,20 @@ module part_forces
   use part_poses, only: part_loads_t
   use pin_displacements, only: chords_t
   use poses, only: pose_t
-  use rigid_part_loads, only: turning_load
+  use rigid_part_loads, only: turning_joints, turning_load
   implicit none (type, external)
   private
 
-  public :: part_forces_t, find_part_forces
+  public :: part_forces_t, pull_forces_t, find_part_forces, find_pull_forces
+
+  !> Forces where every damper pulls by 1 N, or turns back by 1 N m.
+  type :: pull_forces_t
+    real(wp), allocatable :: row(:, :)        !! (border, dampers) stretch or turn of each for unit
+                                              !! unknowns, [m] or [rad]
+    real(wp), allocatable :: axial(:, :)      !! (parts, dampers) axial force, the same all along;
+                                              !! of a rigid part as in `part_forces_t`
+    real(wp), allocatable :: second_order(:, :, :) !! (border, border, dampers)
+  end type pull_forces_t
 
   !> What own modes of a part do to the joints of free drives.
   type :: own_rates_t
@@ -46,11 +56,13 @@ contains
 
     type(chords_t) :: of_constraints
     type(own_rates_t) :: on_own(size(links))
-    real(wp), allocatable :: on_drives(:, :), drives_of_constraints(:, :), held(:), compliance(:, :)
+    type(spring_t), allocatable :: springs(:)
+    real(wp), allocatable :: on_drives(:, :), drives_of_constraints(:, :), held(:), &
+      compliance(:, :), pull(:)
     integer, allocatable :: free(:)
     real(wp) :: work(size(chords%turn, 1)), weighted(size(border%rows%weight)), &
-      lambda(border%numbers%constraints), mean
-    integer :: i, j, k, n
+      lambda(border%numbers%constraints), constant, mean
+    integer :: i, k, n
 
     n = size(chords%turn, 1) - chords%free
     allocate (forces%axial(merge(3 + most_lump_functions(elastic%linkage), 0, &
@@ -68,6 +80,7 @@ contains
     allocate (forces%drive(size(linkage%drives), case_count), source=0.0_wp)
     free = pack([(i, i=1, size(linkage%drives))], linkage%drives%is_free)
     if (.not. any(loads%unit%occurs)) return
+    springs = [elastic%springs, elastic%tensions]
     of_constraints = chords_of(elastic, links, pose, border%numbers, border%basis%violation, &
       border%basis%weighted_violation)
     call find_drive_rates(linkage, elastic, links, pose, chords, on_drives)
@@ -94,26 +107,21 @@ contains
         lambda = lambda - matmul(weighted, border%basis%weighted_violation)
         forces%weighted(:, i) = weighted
         forces%constraint(:, i) = lambda
-        do k = 1, size(elastic%contact)
-          j = border%numbers%line_constraint(k)
-          if (j > 0) forces%guide(k, i) = -lambda(j)
-        end do
-        do k = 1, size(elastic%springs)
-          forces%spring(k, i) = sqrt(elastic%springs(k)%stiffness)* &
-            weighted(border%numbers%spring(k))
-          if (i == constant_case) forces%spring(k, i) = forces%spring(k, i) + loads%pull(k)
-        end do
+        constant = merge(1.0_wp, 0.0_wp, i == constant_case)
+        forces%guide(:, i) = guide_forces(border, lambda)
+        forces%spring(:, i) = spring_forces(elastic, border, weighted) + constant*loads%pull
+        pull = [forces%spring(:, i), constant*loads%tension]
         do k = 1, size(links)
           if (.not. elastic%linkage%bodies(k)%bends) then
-            forces%axial(1, k, i) = turning_load(elastic, pose, loads, border%numbers, forces, i, &
-              k)/elastic%linkage%bodies(k)%length
+            forces%axial(1, k, i) = turning_load(elastic, pose, case, border%numbers, forces, i, &
+              springs, pull, k)/elastic%linkage%bodies(k)%length
             cycle
           end if
           mean = weighted(border%numbers%elongation(k))/links(k)%elongation
           call add_distribution(elastic%linkage, k, pose, case, mean, forces%axial(:, k, i))
         end do
-        call add_second_order(elastic, pose, border, chords, forces%guide(:, i), &
-          forces%spring(:, i), forces%second_order(:, :, i))
+        call add_guides(elastic, pose, chords, forces%guide(:, i), forces%second_order(:, :, i))
+        call add_lines(elastic, pose, border, springs, pull, forces%second_order(:, :, i))
         call add_blocks(elastic, pose, case, chords, forces%second_order(:, :, i))
       end associate
     end do
@@ -141,6 +149,74 @@ contains
       end do
     end do
   end function work_on_ends
+
+  !> The forces of unit pulls at a position.
+  pure subroutine find_pull_forces(elastic, links, pose, border, chords, forces)
+    type(elastic_linkage_t), intent(in) :: elastic  !! at this position
+    type(link_modes_t), intent(in) :: links(:)      !! (parts) of these lengths
+    type(pose_t), intent(in) :: pose                !! of points and parts
+    type(border_t), intent(in) :: border            !! with violations of constraints
+    type(chords_t), intent(in) :: chords            !! of the border unknowns, no motion being free
+    type(pull_forces_t), intent(out) :: forces
+
+    real(wp) :: rows(border%numbers%unknowns, size(elastic%dampers)), &
+      weighted(size(border%rows%weight)), lambda(border%numbers%constraints)
+    type(part_forces_t) :: unit
+    integer :: i, k
+
+    rows = damper_rows(elastic, border%numbers, pose)
+    forces%row = matmul(transpose(border%basis%unknown), rows)
+    allocate (unit%drive(size(elastic%linkage%drives), 1), forces%axial(size(links), size(rows, 2)), &
+      forces%second_order(size(forces%row, 1), size(forces%row, 1), size(rows, 2)), source=0.0_wp)
+    do i = 1, size(rows, 2)
+      ! A pull does work where a damper gets shorter.
+      weighted = -matmul(border%basis%weighted, forces%row(:, i))
+      lambda = -matmul(rows(:, i), border%basis%violation) - matmul(weighted, &
+        border%basis%weighted_violation)
+      unit%constraint = reshape(lambda, [size(lambda), 1])
+      unit%guide = reshape(guide_forces(border, lambda), [size(elastic%contact), 1])
+      associate (springs => [elastic%springs, elastic%dampers(i)], &
+          pull => [spring_forces(elastic, border, weighted), 1.0_wp])
+        do k = 1, size(links)
+          if (elastic%linkage%bodies(k)%bends) then
+            forces%axial(k, i) = weighted(border%numbers%elongation(k))/links(k)%elongation
+          else
+            forces%axial(k, i) = turning_joints(elastic, pose, border%numbers, unit, 1, springs, &
+              pull, k)/elastic%linkage%bodies(k)%length
+          end if
+        end do
+        call add_guides(elastic, pose, chords, unit%guide(:, 1), &
+          forces%second_order(:, :, i))
+        call add_lines(elastic, pose, border, springs, pull, forces%second_order(:, :, i))
+      end associate
+    end do
+  end subroutine find_pull_forces
+
+  !> What springs that are strained by the deformation pull, or turn back [N] or [N m].
+  pure function spring_forces(elastic, border, weighted) result(force)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(border_t), intent(in) :: border
+    real(wp), intent(in) :: weighted(:) !! (rows) [√J]
+    real(wp) :: force(size(elastic%springs))
+
+    force = sqrt(elastic%springs%stiffness)*weighted(border%numbers%spring)
+  end function spring_forces
+
+  !> Forces of guides on their blocks, along the normals of their lines [N].
+  pure function guide_forces(border, lambda) result(force)
+    type(border_t), intent(in) :: border
+    real(wp), intent(in) :: lambda(:) !! (constraints)
+    real(wp) :: force(size(border%numbers%line_constraint))
+
+    integer :: i
+
+    force = 0.0_wp
+    do i = 1, size(force)
+      associate (row => border%numbers%line_constraint(i))
+        if (row > 0) force(i) = -lambda(row)
+      end associate
+    end do
+  end function guide_forces
 
   !> `N(ξ)` of a part from its mean and the loads along it.
   pure subroutine add_distribution(linkage, part, pose, case, mean, force)
@@ -174,18 +250,15 @@ contains
     end associate
   end subroutine add_distribution
 
-  !> What blocks on guides that turn and springs add to K_G: `R s θ` and `½ (T/l) (n·ΔU)²`.
-  pure subroutine add_second_order(elastic, pose, border, chords, guide, tension, stiffness)
+  !> What blocks on guides that turn add to K_G: `R s θ`.
+  pure subroutine add_guides(elastic, pose, chords, guide, stiffness)
     type(elastic_linkage_t), intent(in) :: elastic
     type(pose_t), intent(in) :: pose
-    type(border_t), intent(in) :: border
     type(chords_t), intent(in) :: chords
     real(wp), intent(in) :: guide(:)   !! (sliders) [N]
-    real(wp), intent(in) :: tension(:) !! (springs) [N] or [N m]
     real(wp), intent(inout) :: stiffness(:, :)
 
-    real(wp) :: along(size(stiffness, 1)), turn(size(stiffness, 1)), way(2), &
-      row(border%numbers%unknowns)
+    real(wp) :: along(size(stiffness, 1)), turn(size(stiffness, 1))
     integer :: i, j
 
     do i = 1, size(guide)
@@ -196,19 +269,32 @@ contains
         stiffness(:, j) = stiffness(:, j) + guide(i)*(along*turn(j) + turn*along(j))
       end do
     end do
-    do i = 1, size(tension)
-      if (elastic%springs(i)%turns) cycle
-      way = spring_way(elastic, pose, elastic%springs(i))
+  end subroutine add_guides
+
+  !> What pulls along lines that turn with the linkage add: `½ (T/l) (n·ΔU)²`.
+  pure subroutine add_lines(elastic, pose, border, springs, pull, stiffness)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(pose_t), intent(in) :: pose
+    type(border_t), intent(in) :: border
+    type(spring_t), intent(in) :: springs(:)
+    real(wp), intent(in) :: pull(:)    !! (springs) [N] or [N m]
+    real(wp), intent(inout) :: stiffness(:, :)
+
+    real(wp) :: across(size(stiffness, 1)), way(2), row(border%numbers%unknowns)
+    integer :: i, j
+
+    do i = 1, size(pull)
+      if (springs(i)%turns) cycle
+      way = spring_way(elastic, pose, springs(i))
       if (.not. norm2(way) > 0.0_wp) cycle
       row = 0.0_wp
-      call add_stretch(elastic, border%numbers, pose, elastic%springs(i), &
-        normal_to(way)/norm2(way), row)
-      along = matmul(row, border%basis%unknown)
-      do j = 1, size(along)
-        stiffness(:, j) = stiffness(:, j) + tension(i)/norm2(way)*along*along(j)
+      call add_stretch(elastic, border%numbers, pose, springs(i), normal_to(way)/norm2(way), row)
+      across = matmul(row, border%basis%unknown)
+      do j = 1, size(across)
+        stiffness(:, j) = stiffness(:, j) + pull(i)/norm2(way)*across*across(j)
       end do
     end do
-  end subroutine add_second_order
+  end subroutine add_lines
 
   !> Adds what the centrifugal forces of blocks about their own mass centres do as they turn with
   !! links that bend, `½ I ω² θ²`, as those of masses along links.
@@ -249,7 +335,7 @@ contains
     do k = 1, size(links)
       if (.not. links(k)%bends) cycle
       on_own(k)%rate = own_drive_rates(linkage, elastic, links, k)
-      compliance = compliance + matmul(on_own(k)%rate, transpose(on_own(k)%rate))
+      compliance = compliance + own_drive_compliance(linkage, elastic, k)
     end do
   end subroutine find_own_drive_rates
 

@@ -4,7 +4,7 @@ module part_poses
   use applied_load_types, only: applies_between
   use applied_loads, only: spring_pulls
   use constants, only: degree
-  use elastic_linkages, only: elastic_linkage_t, fixed_rotation
+  use elastic_linkages, only: elastic_linkage_t, spring_t
   use errors, only: error_of_reach, error_t, set_error
   use kinds, only: wp
   use linkages, only: cross, drives_length, linkage_t, normal_to, turned, turned_back
@@ -23,6 +23,7 @@ module part_poses
                                                     !! yields [N] or [N m]
     real(wp), allocatable :: end_couple(:, :, :)    !! (2, parts, cases) on the ends of parts that
                                                     !! bend [N m]
+    real(wp), allocatable :: tension(:)             !! (tensions) [N] or [N m]
   end type part_loads_t
 
   !> The least part of a cut one, as a share of it.
@@ -90,14 +91,12 @@ contains
     type(pose_t), intent(in) :: placed               !! its points and parts
     type(part_loads_t), intent(out) :: of_parts
 
-    real(wp), allocatable :: pull(:)
-    integer :: i, k
+    integer :: i
 
-    allocate (of_parts%moment(elastic%rotations, case_count), &
-      of_parts%pull(size(elastic%springs)), of_parts%end_couple(2, size(elastic%body), case_count))
-    of_parts%moment = 0.0_wp
-    of_parts%pull = 0.0_wp
-    of_parts%end_couple = 0.0_wp
+    allocate (of_parts%moment(elastic%rotations, case_count), of_parts%end_couple(2, &
+      size(elastic%body), case_count), source=0.0_wp)
+    allocate (of_parts%pull(size(elastic%springs)), of_parts%tension(size(elastic%tensions)), &
+      source=0.0_wp)
     of_parts%unit%occurs = loads%occurs
     do i = 1, case_count
       if (.not. loads%occurs(i)) cycle
@@ -116,26 +115,19 @@ contains
       end associate
     end do
     if (loads%occurs(constant_case)) then
-      pull = spring_pulls(linkage, pose)
-      do i = 1, size(elastic%springs)
-        of_parts%pull(i) = pull(elastic%springs(i)%load)
-      end do
+      associate (pull => spring_pulls(linkage, pose))
+        of_parts%pull = pull(elastic%springs%load)
+        of_parts%tension = pull(elastic%tensions%load)
+      end associate
     end if
     do i = 1, case_count
       if (loads%occurs(i)) call take_couples(linkage, pose, loads%of_case(i), elastic, placed, &
-        merge(1.0_wp, 0.0_wp, i == constant_case)*of_parts%pull, of_parts%unit%of_case(i))
+        [elastic%springs, elastic%tensions], merge(1.0_wp, 0.0_wp, i == constant_case)* &
+        [of_parts%pull, of_parts%tension], of_parts%unit%of_case(i))
     end do
     call add_blocks(linkage, loads, elastic, of_parts%moment)
-    do i = 1, size(elastic%springs)
-      associate (spring => elastic%springs(i))
-        if (.not. spring%turns) cycle
-        do k = 1, 2
-          if (spring%rotation(k) > 0) of_parts%moment(spring%rotation(k), constant_case) = &
-            of_parts%moment(spring%rotation(k), constant_case) + merge(1.0_wp, -1.0_wp, k == &
-            1)*of_parts%pull(i)
-        end do
-      end associate
-    end do
+    call turn_ends(elastic%springs, of_parts%pull, of_parts%moment(:, constant_case))
+    call turn_ends(elastic%tensions, of_parts%tension, of_parts%moment(:, constant_case))
   end subroutine find_part_loads
 
   !> The highest number of a force at a place of a part, or of a load of the linkage.
@@ -153,6 +145,24 @@ contains
       end do
     end do
   end function highest_force
+
+  !> Adds what springs that turn do to the ends that they hold.
+  pure subroutine turn_ends(springs, pull, moment)
+    type(spring_t), intent(in) :: springs(:)
+    real(wp), intent(in) :: pull(:)      !! (springs) [N] or [N m]
+    real(wp), intent(inout) :: moment(:) !! (rotations)
+
+    integer :: i, k
+
+    do i = 1, size(springs)
+      if (.not. springs(i)%turns) cycle
+      do k = 1, 2
+        associate (rotation => springs(i)%rotation(k))
+          if (rotation > 0) moment(rotation) = moment(rotation) + merge(pull(i), -pull(i), k == 1)
+        end associate
+      end do
+    end do
+  end subroutine turn_ends
 
   !> Adds what turns blocks on links that bend: `−I α`.
   pure subroutine add_blocks(linkage, loads, elastic, moment)
@@ -207,13 +217,14 @@ contains
 
   !> Couples and forces of links: of a rigid link as they are; of one that bends its couples act on
   !! its first part, forces at places with their moments where they are, springs on its ends.
-  pure subroutine take_couples(linkage, pose, of_links, elastic, placed, pull, parts)
+  pure subroutine take_couples(linkage, pose, of_links, elastic, placed, springs, pull, parts)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
     type(load_case_t), intent(in) :: of_links
     type(elastic_linkage_t), intent(in) :: elastic
     type(pose_t), intent(in) :: placed
-    real(wp), intent(in) :: pull(:) !! (springs) that turn or pull in this case
+    type(spring_t), intent(in) :: springs(:) !! and tensions
+    real(wp), intent(in) :: pull(:) !! (springs) in this case
     type(load_case_t), intent(inout) :: parts
 
     real(wp) :: couple(size(linkage%bodies)), arm(2)
@@ -222,7 +233,7 @@ contains
 
     couple = of_links%couple
     do i = 1, size(pull)
-      associate (load => linkage%loads(elastic%springs(i)%load))
+      associate (load => linkage%loads(springs(i)%load))
         if (load%kind /= applies_between) cycle
         do k = 1, 2
           b = load%body(k)

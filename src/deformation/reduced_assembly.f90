@@ -45,7 +45,7 @@ contains
     type(bordered_matrix_t), intent(inout) :: mass !! of this layout, without blocks [s²]
 
     real(wp) :: across(size(chords%across, 1), layout%border), along(2, layout%border), &
-      motion(3, layout%border), moved
+      motion(3, layout%border)
     integer :: b, i, j, k, n, first
 
     mass%border = 0.0_wp
@@ -58,18 +58,18 @@ contains
       n = 2 + links(b)%curves
       across = chords%across(:, :, b)
       along = chords%along(:, :, b)
-      mass%border = mass%border + form_of(links(b)%linear, across(:n, :)) + &
-        matmul(transpose(along), matmul(links(b)%axial_linear, along))
+      mass%border = mass%border + form_of(links(b)%linear, across) + &
+        form_of(links(b)%axial_linear, along)
       first = layout%first(b) - 1
       do k = 1, links(b)%modes
         mass%diagonal(first + k) = links(b)%square(k)
         do i = 1, layout%border
-          moved = across(1, i)*links(b)%participation(1, k) + &
+          mass%coupling(i, first + k) = across(1, i)*links(b)%participation(1, k) + &
             across(2, i)*links(b)%participation(2, k)
-          do j = 3, n
-            moved = moved + across(j, i)*links(b)%participation(j, k)
-          end do
-          mass%coupling(i, first + k) = moved
+        end do
+        do j = 3, n
+          mass%coupling(:, first + k) = mass%coupling(:, first + k) + &
+            across(j, :)*links(b)%participation(j, k)
         end do
       end do
       if (links(b)%coupled) call add_coupled_mass(links(b), across(:n, :), along, first, mass)
@@ -94,18 +94,19 @@ contains
   !> `FᵀAF` of a symmetric matrix A.
   pure function form_of(matrix, functions) result(form)
     real(wp), intent(in) :: matrix(:, :)    !! (functions, functions)
-    real(wp), intent(in) :: functions(:, :) !! (functions, border)
+    real(wp), intent(in) :: functions(:, :) !! (functions or more, border)
     real(wp) :: form(size(functions, 2), size(functions, 2))
 
-    real(wp) :: product(size(functions, 1))
-    integer :: i, j, k
+    real(wp) :: product(size(matrix, 1))
+    integer :: i, j, k, n
 
+    n = size(matrix, 1)
     do j = 1, size(functions, 2)
-      do k = 1, size(functions, 1)
-        product(k) = dot_product(matrix(:, k), functions(:, j))
+      do k = 1, n
+        product(k) = dot_product(matrix(:, k), functions(:n, j))
       end do
       do i = 1, size(functions, 2)
-        form(i, j) = dot_product(functions(:, i), product)
+        form(i, j) = dot_product(functions(:n, i), product)
       end do
     end do
   end function form_of

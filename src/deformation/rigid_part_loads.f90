@@ -2,7 +2,7 @@
 !! blocks that slide along it with their drives, springs.
 module rigid_part_loads
   use border_rows, only: border_unknowns_t, line_direction, spring_way
-  use elastic_linkages, only: elastic_linkage_t
+  use elastic_linkages, only: elastic_linkage_t, spring_t
   use inertia_loads, only: distributed_load, load_t
   use kinds, only: wp
   use linkages, only: cross, normal_to, turned
@@ -13,7 +13,7 @@ module rigid_part_loads
   implicit none (type, external)
   private
 
-  public :: load_on_rigid, turning_load
+  public :: load_on_rigid, turning_load, turning_joints
 
   !> A force on a link.
   type :: placed_force_t
@@ -47,22 +47,51 @@ contains
     ! Pulls at the pose are among the forces at places; the linkage yields to the loads.
     change = forces%spring(:, case)
     if (case == constant_case) change = change - loads%pull
-    others = forces_of_others(elastic, pose, numbers, forces, case, change, part)
+    others = forces_of_others(elastic, pose, numbers, forces, case, elastic%springs, change, part)
     do i = 1, size(others)
       load%force = load%force + others(i)%force
       load%moment = load%moment + cross(others(i)%arm, others(i)%force)
     end do
   end function load_on_rigid
 
-  !> `Σ F·r` of a rigid link, r from its first point: forces at its points, of blocks on it, and
-  !! its loads [N m].
-  pure function turning_load(elastic, pose, loads, numbers, forces, case, part) result(total)
+  !> `Σ F·r` of a rigid link, r from its first point: forces at its points, of blocks and springs
+  !! on it, and its loads [N m].
+  pure function turning_load(elastic, pose, of_case, numbers, forces, case, springs, pull, part) &
+    result(total)
     type(elastic_linkage_t), intent(in) :: elastic !! at this position
     type(pose_t), intent(in) :: pose               !! of points and parts
-    type(part_loads_t), intent(in) :: loads        !! of this position
+    type(load_case_t), intent(in) :: of_case       !! the loads of this case
     type(border_unknowns_t), intent(in) :: numbers !! of constraints
     type(part_forces_t), intent(in) :: forces      !! of these loads, but for their axial forces
     integer, intent(in) :: case                    !! number of the load case
+    type(spring_t), intent(in) :: springs(:)       !! all that pull
+    real(wp), intent(in) :: pull(:)                !! (springs) [N] or [N m]
+    integer, intent(in) :: part                    !! number of the rigid part
+    real(wp) :: total
+
+    integer :: i
+
+    total = turning_joints(elastic, pose, numbers, forces, case, springs, pull, part) - &
+      inertia_turning(elastic, pose, of_case, part)
+    associate (body => elastic%linkage%bodies(part))
+      if (.not. (allocated(body%forced) .and. allocated(of_case%place_force))) return
+      do i = 1, size(body%forced)
+        total = total + dot_product(of_case%place_force(:, body%forced(i)%load), &
+          turned(body%forced(i)%place, pose%direction(:, part)))
+      end do
+    end associate
+  end function turning_load
+
+  !> The same of forces at its points, of blocks and springs on it.
+  pure function turning_joints(elastic, pose, numbers, forces, case, springs, pull, part) &
+    result(total)
+    type(elastic_linkage_t), intent(in) :: elastic !! at this position
+    type(pose_t), intent(in) :: pose               !! of points and parts
+    type(border_unknowns_t), intent(in) :: numbers !! of constraints
+    type(part_forces_t), intent(in) :: forces      !! in constraints, of guides and drives
+    integer, intent(in) :: case                    !! number of the load case
+    type(spring_t), intent(in) :: springs(:)       !! all that pull
+    real(wp), intent(in) :: pull(:)                !! (springs) [N] or [N m]
     integer, intent(in) :: part                    !! number of the rigid part
     real(wp) :: total
 
@@ -70,40 +99,35 @@ contains
     real(wp) :: arm(2)
     integer :: i, k, row
 
-    associate (body => elastic%linkage%bodies(part), e => pose%direction(:, part), &
-        of_case => loads%unit%of_case(case))
-      total = -inertia_turning(elastic, pose, of_case, part)
+    associate (body => elastic%linkage%bodies(part), e => pose%direction(:, part))
+      total = 0.0_wp
       do k = 0, size(body%further)
         arm = e*body%length
         if (k > 0) arm = turned(body%further(k)%place, e)
         row = numbers%body_constraint(part) + 2*k
         total = total + dot_product(forces%constraint(row + 1:row + 2, case), arm)
       end do
-      others = forces_of_others(elastic, pose, numbers, forces, case, forces%spring(:, case), part)
-      do i = 1, size(others)
-        total = total + dot_product(others(i)%force, others(i)%arm)
-      end do
-      if (.not. (allocated(body%forced) .and. allocated(of_case%place_force))) return
-      do i = 1, size(body%forced)
-        total = total + dot_product(of_case%place_force(:, body%forced(i)%load), &
-          turned(body%forced(i)%place, e))
-      end do
     end associate
-  end function turning_load
+    others = forces_of_others(elastic, pose, numbers, forces, case, springs, pull, part)
+    do i = 1, size(others)
+      total = total + dot_product(others(i)%force, others(i)%arm)
+    end do
+  end function turning_joints
 
   !> Forces on a rigid link of blocks that slide along it, and of springs at its places.
-  pure function forces_of_others(elastic, pose, numbers, forces, case, tension, part) &
+  pure function forces_of_others(elastic, pose, numbers, forces, case, springs, tension, part) &
     result(others)
     type(elastic_linkage_t), intent(in) :: elastic
     type(pose_t), intent(in) :: pose
     type(border_unknowns_t), intent(in) :: numbers
     type(part_forces_t), intent(in) :: forces
     integer, intent(in) :: case
+    type(spring_t), intent(in) :: springs(:)
     real(wp), intent(in) :: tension(:) !! (springs) of those along a line [N]
     integer, intent(in) :: part
     type(placed_force_t), allocatable :: others(:)
 
-    type(placed_force_t) :: room(size(elastic%linkage%sliders) + 2*size(elastic%springs))
+    type(placed_force_t) :: room(size(elastic%linkage%sliders) + 2*size(springs))
     real(wp) :: way(2)
     integer :: i, k, n
 
@@ -115,12 +139,12 @@ contains
       room(n)%arm = pose%pin(:, elastic%linkage%sliders(i)%pin) - pose%pin(:, &
         elastic%linkage%bodies(part)%first_pin)
     end do
-    do i = 1, size(elastic%springs)
-      if (elastic%springs(i)%turns) cycle
-      way = spring_way(elastic, pose, elastic%springs(i))
+    do i = 1, size(springs)
+      if (springs(i)%turns) cycle
+      way = spring_way(elastic, pose, springs(i))
       if (norm2(way) > 0.0_wp) way = way/norm2(way)
       do k = 1, 2
-        associate (at => elastic%linkage%loads(elastic%springs(i)%load)%at(k))
+        associate (at => elastic%linkage%loads(springs(i)%load)%at(k))
           if (at%pin > 0 .or. at%body /= elastic%body(part)) cycle
           n = n + 1
           room(n)%force = merge(tension(i), -tension(i), k == 1)*way
@@ -172,7 +196,8 @@ contains
       do i = 1, size(body%lumps)
         associate (lump => body%lumps(i))
           total = total + lump%mass*dot_product(turned(lump%place, e), first) + &
-            (lump%mass*dot_product(lump%place, lump%place) + lump%inertia)*dot_product(e, slope)
+            (lump%mass*dot_product(lump%place, lump%place) + (lump%inertia - &
+            lump%rotary_inertia))*dot_product(e, slope)
         end associate
       end do
     end associate

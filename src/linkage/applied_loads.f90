@@ -101,7 +101,7 @@ contains
       associate (load => linkage%loads(i))
         if (.not. is_conservative(load)) cycle
         if (load%kind == applies_force) then
-          call add_force(linkage, pose, load%at(1), load%force, body_load, pin_load)
+          call add_force(pose, load%at(1), load%force, body_load, pin_load)
         else
           call add_pull(linkage, pose, load, spring_pull(linkage, pose, load), body_load, pin_load)
         end if
@@ -123,7 +123,7 @@ contains
       associate (load => linkage%loads(i))
         if (.not. is_prescribed(load)) cycle
         if (load%kind == applies_force) then
-          call add_force(linkage, pose, load%at(1), table_factor(linkage, pose, origin, load)* &
+          call add_force(pose, load%at(1), table_factor(linkage, pose, origin, load)* &
             force_of(pose, load), body_load, pin_load)
         else
           body_load(load%body(1))%moment = body_load(load%body(1))%moment + &
@@ -211,7 +211,7 @@ contains
         if (.not. is_moving(load)) cycle
         select case (load%kind)
         case (applies_force)
-          call add_force(linkage, pose, load%at(1), moving_force(linkage, pose, origin, now, &
+          call add_force(pose, load%at(1), moving_force(linkage, pose, origin, now, &
             load), body_load, pin_load)
         case (applies_couple)
           body_load(load%body(1))%moment = body_load(load%body(1))%moment + &
@@ -440,8 +440,8 @@ contains
 
     if (load%kind == applies_along) then
       axis = load_axis(linkage, pose, load)
-      call add_force(linkage, pose, load%at(1), pull*axis, body_load, pin_load)
-      call add_force(linkage, pose, load%at(2), -pull*axis, body_load, pin_load)
+      call add_force(pose, load%at(1), pull*axis, body_load, pin_load)
+      call add_force(pose, load%at(2), -pull*axis, body_load, pin_load)
     else
       body_load(load%body(2))%moment = body_load(load%body(2))%moment - pull
       if (load%body(1) > 0) body_load(load%body(1))%moment = body_load(load%body(1))%moment + pull
@@ -449,8 +449,7 @@ contains
   end subroutine add_pull
 
   !> Adds a force at a place.
-  pure subroutine add_force(linkage, pose, at, force, body_load, pin_load)
-    type(linkage_t), intent(in) :: linkage
+  pure subroutine add_force(pose, at, force, body_load, pin_load)
     type(pose_t), intent(in) :: pose
     type(load_place_t), intent(in) :: at
     real(wp), intent(in) :: force(2) !! [N]

@@ -45,6 +45,7 @@ module linkages
     real(wp) :: place(2) = 0.0_wp  !! of its mass centre, from the first pin, in the axes of the
                                    !! body [m]
     real(wp) :: inertia = 0.0_wp   !! moment of inertia about its own mass centre [kg m²]
+    real(wp) :: rotary_inertia = 0.0_wp !! ρI L of cross-sections that is in it [kg m²]
   end type lump_t
 
   !> A place of a body where a force acts that a pose determines.

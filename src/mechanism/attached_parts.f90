@@ -115,10 +115,13 @@ contains
         way = places(:, k) - places(:, i)
         length = norm2(way)
         call append_lump(body, lump_t(density*length, place_on_body(body, places(:, i) + &
-          0.5_wp*way), density*length**3/12.0_wp + rotary*length))
+          0.5_wp*way), density*length**3/12.0_wp + rotary*length, rotary*length))
         ! Half the mass of an element is farther out than where it is along the link.
-        if (elements > 0) body%lumps(size(body%lumps))%inertia = density*length**3*(1.0_wp/12.0_wp &
-          + 1.0_wp/(6.0_wp*real(elements, wp)**2))
+        if (elements == 0) cycle
+        associate (lump => body%lumps(size(body%lumps)))
+          lump%inertia = density*length**3*(1.0_wp/12.0_wp + 1.0_wp/(6.0_wp*real(elements, wp)**2))
+          lump%rotary_inertia = 0.0_wp
+        end associate
       end do
     end associate
   end subroutine attach_segments

@@ -26,14 +26,14 @@ contains
 
     filled = 0
     do i = 1, size(model%frictions)
-      filled = filled + number_of(model, model%frictions(i), linkage)
+      filled = filled + number_of(model%frictions(i), linkage)
     end do
     allocate (frictions(filled))
     filled = 0
     joint = 0
     do i = 1, size(model%frictions)
       associate (card => model%frictions(i))
-        do k = 1, number_of(model, card, linkage)
+        do k = 1, number_of(card, linkage)
           filled = filled + 1
           if (k == 1 .or. card%slider == 0) joint = joint + 1
           associate (rub => frictions(filled))
@@ -61,8 +61,7 @@ contains
   end function frictions_of
 
   !> Number of frictions of a card.
-  pure function number_of(model, card, linkage) result(number)
-    type(model_t), intent(in) :: model
+  pure function number_of(card, linkage) result(number)
     type(friction_card_t), intent(in) :: card
     type(linkage_t), intent(in) :: linkage
     integer :: number

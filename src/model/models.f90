@@ -187,8 +187,8 @@ contains
     is = holds_spring(model, name)
   end function is_pin
 
-  !> Whether frequencies are asked for, and a name is that of a point at which a spring holds a link
-  !! that bends.
+  !> Whether links bend, and a name is that of a point at which a spring or damper holds one that
+  !! does.
   pure function holds_spring(model, name) result(holds)
     type(model_t), intent(in) :: model
     character(len=*), intent(in) :: name
@@ -197,7 +197,8 @@ contains
     integer :: i, k
 
     holds = .false.
-    if (.not. needs_frequencies(model) .or. .not. allocated(model%springs)) return
+    if (.not. needs_frequencies(model) .and. .not. needs_response(model)) return
+    if (.not. allocated(model%springs)) return
     do i = 1, size(model%springs)
       do k = 1, 2
         if (model%springs(i)%ends(k)%line > 0) holds = holds .or. &

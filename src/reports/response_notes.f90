@@ -67,7 +67,7 @@ contains
     if (range(2) > range(1)) words = words//" to "//to_string(range(2))
   end function range_words
 
-  !> `damping: crank none, coupler time 0.0001 s, follower ratio 0.01`
+  !> `damping: crank none, coupler time 0.0001 s, follower ratio 0.01, damper shock`
   pure function damping_note(variant) result(note)
     type(variant_results_t), intent(in) :: variant !! with its model
     character(len=:), allocatable :: note
@@ -90,6 +90,9 @@ contains
             note = note//" ratio "//to_string(model%dampings(link%damping)%ratio)
           end if
         end associate
+      end do
+      do b = 1, size(model%springs)
+        if (model%springs(b)%damps) note = note//", damper "//model%springs(b)%name%text
       end do
     end associate
   end function damping_note

@@ -8,14 +8,14 @@ module elastic_equations
   use fourier_transform, only: derivatives, fourier_plan_t
   use kinds, only: wp
   use load_cases, only: constant_case
-  use turn_grids, only: turn_grid_t
+  use turn_grids, only: rate_case, turn_grid_t
   implicit none (type, external)
   private
 
   public :: elastic_terms_t, inertia_force, inertia_parts, slope_force, swept_force, &
     apply_equation, equation_parts, load_at_speed, functions_of, geometric_force, slopes_of, &
     mass_force, times_mass, spread_over_unknowns, unit_geometric_force, elongation_of, &
-    deformations_of
+    deformations_of, damper_force
 
   !> Terms of the equation and of the torque; false: omitted.
   type :: elastic_terms_t
@@ -481,7 +481,8 @@ contains
     end do
   end subroutine geometric_force
 
-  !> Adds `ω C y'`; between border unknowns C is that of the deformations w of parts, with `(Q y)'`.
+  !> Adds `ω C y'`; between border unknowns C is that of the deformations w of parts and of dampers,
+  !! with `(Q y)'`.
   subroutine add_damping(grid, plan, speed, damping, y, rates, force)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan
@@ -530,7 +531,7 @@ contains
     end do
   end subroutine add_to_border
 
-  !> Deformations of the ends of parts and of springs in a motion: w = Q y.
+  !> Deformations of the ends of parts, of springs and dampers in a motion: w = Q y.
   pure function deformations_of(grid, y) result(w)
     type(turn_grid_t), intent(in) :: grid !! with more of them than border unknowns
     real(wp), intent(in) :: y(:, :)       !! (samples, unknowns) [√J]
@@ -565,10 +566,14 @@ contains
     real(wp), intent(in) :: y(:, :)        !! (samples, unknowns)
     real(wp), intent(inout) :: force(:, :) !! (samples, unknowns)
 
-    call geometric_force(grid, speed**2*grid%force(:, :, :, 1) + grid%force(:, :, :, &
-      constant_case), y, force)
+    real(wp) :: axial(size(grid%force, 1), size(grid%force, 2), size(grid%force, 3))
+
+    axial = speed**2*grid%force(:, :, :, 1) + grid%force(:, :, :, constant_case)
+    if (grid%cases >= rate_case) axial = axial + speed*grid%force(:, :, :, rate_case)
+    call geometric_force(grid, axial, y, force)
     call add_second_order(grid, 1, speed**2, y, force)
     call add_second_order(grid, constant_case, 1.0_wp, y, force)
+    if (grid%cases >= rate_case) call add_second_order(grid, rate_case, speed, y, force)
   end subroutine geometric_force_at
 
   !> Adds `K_G y` of a unit load.
@@ -581,6 +586,26 @@ contains
     call geometric_force(grid, grid%force(:, :, :, case), y, force)
     call add_second_order(grid, case, 1.0_wp, y, force)
   end subroutine unit_geometric_force
+
+  !> `H y` of a damper: K_G of its unit pull.
+  pure subroutine damper_force(grid, number, y, force)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: number          !! of the damper
+    real(wp), intent(in) :: y(:, :)        !! (samples, unknowns)
+    real(wp), intent(out) :: force(:, :)   !! (samples, unknowns)
+
+    real(wp) :: axial(size(grid%force, 1), size(grid%force, 2), size(grid%force, 3))
+    integer :: j
+
+    axial = 0.0_wp
+    axial(:, 1, :) = grid%dampers(number)%force
+    force = 0.0_wp
+    call geometric_force(grid, axial, y, force)
+    do j = 1, grid%border
+      force(:, :grid%border) = force(:, :grid%border) + &
+        grid%dampers(number)%second_order(:, :, j)*spread(y(:, j), 2, grid%border)
+    end do
+  end subroutine damper_force
 
   !> Adds what K_G of a unit load, times a factor, has between border unknowns alone.
   pure subroutine add_second_order(grid, case, factor, y, force)
@@ -657,6 +682,7 @@ contains
     real(wp) :: load(grid%samples, grid%unknowns)
 
     load = speed**2*grid%load(:, :, 1) + grid%load(:, :, constant_case)
+    if (grid%cases >= rate_case) load = load + speed*grid%load(:, :, rate_case)
   end function load_at_speed
 
 end module elastic_equations

@@ -3,8 +3,8 @@
 module motion_matrices
   use elastic_equations, only: mass_force, slope_force, swept_force, unit_geometric_force
   use kinds, only: wp
-  use load_cases, only: case_count, constant_case
-  use turn_grids, only: turn_grid_t
+  use load_cases, only: constant_case
+  use turn_grids, only: rate_case, turn_grid_t
   implicit none (type, external)
   private
 
@@ -15,9 +15,13 @@ module motion_matrices
     real(wp), allocatable :: mass(:, :, :)  !! M [s²]
     real(wp), allocatable :: slope(:, :, :) !! G = ∫ μ SᵀS' dx [s²]
     real(wp), allocatable :: swept(:, :, :) !! W = ∫ μ S'ᵀS' dx [s²]
-    !> (unknowns, unknowns, samples, cases) K_G per ω2² and α2, and of the constant loads
+    !> (unknowns, unknowns, samples, cases) K_G per ω2² and α2, of the constant loads, and per ω2 of
+    !! dampers
     real(wp), allocatable :: geometric(:, :, :, :)
     real(wp), allocatable :: load(:, :, :)  !! (unknowns, samples, cases) f likewise
+    !> (deformations, border, samples) of the grid, with d/dθ2; not allocated: they are the border
+    !! unknowns
+    real(wp), allocatable :: deformed(:, :, :), deformed_slope(:, :, :)
   end type motion_matrices_t
 
 contains
@@ -28,14 +32,14 @@ contains
     type(motion_matrices_t), intent(inout) :: matrices !! room is kept from one call to the next
 
     real(wp), dimension(grid%samples, grid%unknowns) :: y, force
-    integer :: c, j, n
+    integer :: c, j, k, n
 
     n = grid%unknowns
     if (.not. allocated(matrices%mass)) then
       allocate (matrices%mass(n, n, grid%samples), matrices%slope(n, n, grid%samples))
       allocate (matrices%swept(n, n, grid%samples))
-      allocate (matrices%geometric(n, n, grid%samples, case_count))
-      allocate (matrices%load(n, grid%samples, case_count))
+      allocate (matrices%geometric(n, n, grid%samples, grid%cases))
+      allocate (matrices%load(n, grid%samples, grid%cases))
     end if
     do j = 1, n
       y = 0.0_wp
@@ -46,14 +50,22 @@ contains
       matrices%slope(:, j, :) = transpose(force)
       call swept_force(grid, y, force)
       matrices%swept(:, j, :) = transpose(force)
-      do c = 1, case_count
+      do c = 1, grid%cases
         force = 0.0_wp
         call unit_geometric_force(grid, c, y, force)
         matrices%geometric(:, j, :, c) = transpose(force)
       end do
     end do
-    do c = 1, case_count
+    do c = 1, grid%cases
       matrices%load(:, :, c) = transpose(grid%load(:, :, c))
+    end do
+    if (.not. allocated(grid%weighted_slope)) return
+    if (.not. allocated(matrices%deformed)) allocate (matrices%deformed(size(grid%weighted, 2), &
+      grid%border, grid%samples), matrices%deformed_slope(size(grid%weighted, 2), grid%border, &
+      grid%samples))
+    do k = 1, grid%samples
+      matrices%deformed(:, :, k) = grid%weighted(k, :, :)
+      matrices%deformed_slope(:, :, k) = grid%weighted_slope(k, :, :)
     end do
   end subroutine find_motion_matrices
 
@@ -72,6 +84,8 @@ contains
     if (axial) stiffness = speed**2*matrices%geometric(:, :, sample, 1) + &
       acceleration*matrices%geometric(:, :, sample, 2) + &
       matrices%geometric(:, :, sample, constant_case)
+    if (axial .and. size(matrices%geometric, 4) >= rate_case) stiffness = stiffness + &
+      speed*matrices%geometric(:, :, sample, rate_case)
     do i = 1, size(stiffness, 1)
       stiffness(i, i) = stiffness(i, i) + 1.0_wp
     end do
@@ -87,6 +101,7 @@ contains
 
     load = speed**2*matrices%load(:, sample, 1) + acceleration*matrices%load(:, sample, 2) + &
       matrices%load(:, sample, constant_case)
+    if (size(matrices%load, 3) >= rate_case) load = load + speed*matrices%load(:, sample, rate_case)
   end function load_at
 
 end module motion_matrices

@@ -3,7 +3,8 @@ module part_requests
   use elastic_linkages, only: elastic_linkage_t
   use kinds, only: wp
   use linkages, only: turned_back
-  use response_types, only: link_damping_t, peak_t, response_request_t, speed_response_t
+  use response_types, only: damping_by_dampers, link_damping_t, peak_t, response_request_t, &
+    speed_response_t
   implicit none (type, external)
   private
 
@@ -33,13 +34,14 @@ contains
     end do
   end function request_of_parts
 
-  !> Every part is damped as its link is.
+  !> Every part is damped as its link is; dampers follow.
   pure function dampings_of_parts(elastic, damping) result(of_parts)
-    type(elastic_linkage_t), intent(in) :: elastic     !! parts
+    type(elastic_linkage_t), intent(in) :: elastic     !! parts and dampers
     type(link_damping_t), intent(in) :: damping(:)     !! (links)
-    type(link_damping_t), allocatable :: of_parts(:)   !! (parts)
+    type(link_damping_t), allocatable :: of_parts(:)   !! (parts), then that of dampers, if any act
 
     of_parts = damping(elastic%body)
+    if (size(elastic%dampers) > 0) of_parts = [of_parts, link_damping_t(damping_by_dampers)]
   end function dampings_of_parts
 
   !> The part at a share of the way along a link.

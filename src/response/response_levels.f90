@@ -8,12 +8,13 @@ module response_levels
   use kinds, only: wp
   use link_degrees, only: link_degrees_t, uniform_degrees
   use link_store, only: link_store_t
-  use response_types, only: damping_ratio, damping_time, link_damping_t
+  use response_types, only: damping_by_dampers, damping_ratio, damping_time, &
+    link_damping_t
   use slow_motions, only: new_slow_basis, slow_basis_t
   use linkages, only: linkage_t
   use position_assembly, only: set_border
   use structures, only: structure_t, vibrating_beams, vibrating_linkage
-  use turn_grids, only: new_parts_grid, new_turn_grid, turn_grid_t
+  use turn_grids, only: new_turn_grid, turn_grid_t
   implicit none (type, external)
   private
 
@@ -109,28 +110,13 @@ contains
 
     call new_order_model(structure, order, store, model, error)
     if (allocated(error)) return
-    call new_grid(structure, model, samples, backwards, level%grid, error)
+    call new_turn_grid(structure, model, samples, level%grid, error, backwards)
     if (allocated(error)) return
-    call new_grid(structure, model, min(samples, basis_samples), backwards, level%coarse, error)
+    call new_turn_grid(structure, model, min(samples, basis_samples), level%coarse, error, &
+      backwards)
     level%order = order
     allocate (level%basis(model%layout%unknowns))
   end subroutine new_level
-
-  !> The grid of a linkage, in parts where it is more than a crank and dyads.
-  subroutine new_grid(structure, model, samples, backwards, grid, error)
-    class(structure_t), intent(in) :: structure
-    type(deformation_model_t), intent(in) :: model
-    integer, intent(in) :: samples
-    logical, intent(in) :: backwards
-    type(turn_grid_t), intent(out) :: grid
-    type(error_t), allocatable, intent(out) :: error
-
-    if (allocated(structure%elastic)) then
-      call new_parts_grid(structure, model, samples, grid, error, backwards)
-    else
-      call new_turn_grid(structure%linkage, model, samples, grid, error, backwards)
-    end if
-  end subroutine new_grid
 
   !> The links' own deformations of an order.
   !!
@@ -170,7 +156,8 @@ contains
   !! Errors: as `new_slow_basis`.
   subroutine need_basis(number, dampings, level, error, followers)
     integer, intent(in) :: number                    !! of slow coordinates
-    type(link_damping_t), intent(in) :: dampings(:)  !! (bodies), the same for all of a level
+    type(link_damping_t), intent(in) :: dampings(:)  !! as for `damping_of`, the same for all of a
+                                                     !! level
     type(level_t), intent(inout) :: level
     type(error_t), allocatable, intent(out) :: error !! why there are none
     logical, intent(in), optional :: followers       !! as for `new_slow_basis`, the same for all of
@@ -190,16 +177,16 @@ contains
   !> Damping of every unknown: the Kelvin–Voigt time, or `2 ζ/ω` of the own modes of the link. The
   !! elongation and the rotation of the clamped end take that of its lowest own mode.
   pure function damping_of(dampings, grid) result(c)
-    type(link_damping_t), intent(in) :: dampings(:) !! (bodies)
+    type(link_damping_t), intent(in) :: dampings(:) !! (bodies), then that of dampers, if any act
     type(turn_grid_t), intent(in) :: grid
     real(wp), allocatable :: c(:) !! (unknowns) [s]; where there are more deformations of parts
                                   !! than border unknowns, of these the mean, behind all unknowns
-                                  !! that of every deformation
+                                  !! that of every deformation, of dampers [N s/m] or [N m s/rad]
 
-    integer :: b, i
+    integer :: b, i, n
 
     allocate (c(grid%unknowns), source=0.0_wp)
-    do b = 1, size(dampings)
+    do b = 1, size(grid%integrals)
       if (.not. grid%model%links(b)%bends) cycle
       associate (damping => dampings(b), link => grid%model%links(b))
         select case (damping%kind)
@@ -214,7 +201,9 @@ contains
       end associate
     end do
     if (.not. allocated(grid%weighted)) return
-    c = [c, [(damping_of_deformation(grid, dampings, i), i=1, size(grid%weighted, 2))]]
+    n = size(grid%weighted, 2) - size(grid%dampers)
+    c = [c, [(damping_of_deformation(grid, dampings, i), i=1, n)], grid%dampers%damping]
+    if (.not. any(dampings%kind == damping_by_dampers)) c(grid%unknowns + n + 1:) = 0.0_wp
     do b = 1, grid%border
       c(b) = sum(matmul(grid%weighted(:, :, b)**2, c(grid%unknowns + 1:)))/grid%samples
     end do

@@ -200,12 +200,15 @@ contains
       do k = 1, rounds
         before = best
         do i = 1, 3
-          ! The third direction is that in which the first two have led.
-          step = best - before
-          if (i < 3) then
-            step = 0.0_wp
-            step(i) = width(i)
-          end if
+          select case (i)
+          case (1)
+            step = [width(1), 0.0_wp]
+          case (2)
+            step = [0.0_wp, width(2)]
+          case default
+            ! That in which the first two have led.
+            step = best - before
+          end select
           if (all(abs(step) <= 0.0_wp)) cycle
           middle = best
           f(2) = value_at_place(of_strain, middle(1), middle(2))

@@ -1,8 +1,8 @@
 !> Quantities of a periodic elastic motion over the turn: displacements of points, strains, and the
 !! driving torque.
 module response_series
-  use elastic_equations, only: deformations_of, elastic_terms_t, elongation_of, functions_of, &
-    times_mass, unit_geometric_force
+  use elastic_equations, only: damper_force, deformations_of, elastic_terms_t, elongation_of, &
+    functions_of, times_mass, unit_geometric_force
   use fourier_transform, only: derivatives, fourier_plan_t
   use kinds, only: wp
   use link_rows, only: displacement_rows, strain_rows, strain_rows_t, sums_of_rows
@@ -81,27 +81,48 @@ contains
     end do
     first = first_of_torque(request)
     call torque_series(grid, plan, request%terms, speed, y, series(:, first:first + 2))
-    if (allocated(grid%weighted) .and. request%terms%quadratic) series(:, first + 2) = &
-      series(:, first + 2) + merge(-speed, speed, grid%backwards)*damping_torque(grid, plan, &
-      damping_of(request%damping, grid), y)
+    if (.not. allocated(grid%weighted)) return
+    associate (torque => series(:, first:first + 2))
+      torque = torque + merge(-speed, speed, grid%backwards)*damping_torque(grid, plan, &
+        damping_of(request%damping, grid), request%terms, y)
+    end associate
   end subroutine response_series_of
 
-  !> Torque of the damping per ω, where the deformations `w = Q y` of parts change at constant y:
-  !! from Rayleigh's function `½ ẇᵀC ẇ`, `(Q' y)·C (Q y)'`.
-  function damping_torque(grid, plan, damping, y) result(torque)
+  !> Torque of the damping per ω, in the parts of the torque, from Rayleigh's function `½ ẇᵀC ẇ`: of
+  !! the deformations `w = Q y` of parts, which change at constant y, `(Q' y)·C (Q y)'`; of a damper
+  !! of the length `l + w + ½ yᵀH y` in all `c (l + w + ½ yᵀH y)˙ ∂(l + w + ½ yᵀH y)/∂θ`.
+  function damping_torque(grid, plan, damping, terms, y) result(torque)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan
     real(wp), intent(in) :: damping(:) !! of `damping_of` [s]
+    type(elastic_terms_t), intent(in) :: terms
     real(wp), intent(in) :: y(:, :)
-    real(wp) :: torque(size(y, 1))
+    real(wp) :: torque(size(y, 1), 3)
 
-    real(wp) :: first(size(y, 1), size(y, 2)), w(size(y, 1), size(grid%weighted, 2)), &
-      slope(size(y, 1), size(grid%weighted, 2))
+    real(wp) :: first(size(y, 1), size(y, 2)), force(size(y, 1), size(y, 2)), &
+      energy(size(y, 1), 1), energy_slope(size(y, 1), 1)
+    real(wp), dimension(size(y, 1), size(grid%weighted, 2)) :: w, slope, moved
+    integer :: i, k
 
+    torque = 0.0_wp
     call derivatives(plan, y, first)
     w = deformations_of(grid, y)
     call derivatives(plan, w, slope)
-    torque = matmul((slope - deformations_of(grid, first))*slope, damping(grid%unknowns + 1:))
+    moved = slope - deformations_of(grid, first)
+    if (terms%quadratic) torque(:, 3) = matmul(moved*slope, damping(grid%unknowns + 1:))
+    k = size(w, 2) - size(grid%dampers)
+    do i = 1, size(grid%dampers)
+      associate (damper => grid%dampers(i), c => damping(grid%unknowns + k + i))
+        torque(:, 1) = torque(:, 1) + c*damper%rate**2
+        torque(:, 2) = torque(:, 2) + c*damper%rate*(moved(:, k + i) + slope(:, k + i))
+        if (.not. terms%quadratic .or. .not. terms%axial) cycle
+        call damper_force(grid, i, y, force)
+        energy(:, 1) = products_of_rows(y, force)
+        call derivatives(plan, energy, energy_slope)
+        torque(:, 3) = torque(:, 3) + c*damper%rate*(energy_slope(:, 1) - products_of_rows(first, &
+          force))
+      end associate
+    end do
   end function damping_torque
 
   !> Displacement of a point in global axes and the rotation of its cross-section.

@@ -10,10 +10,10 @@ module response_types
   public :: response_t, speed_response_t, peak_t
   public :: axial_strain, bending_strain, moment, axial_force, shear_force, stress, strain_values
   public :: rigid_torque, linear_torque, quadratic_torque, total_torque, power, drive_values
-  public :: no_damping, damping_time, damping_ratio
+  public :: no_damping, damping_time, damping_ratio, damping_by_dampers
 
-  !> Kinds of damping of a link.
-  integer, parameter :: no_damping = 0, damping_time = 1, damping_ratio = 2
+  !> Kinds of damping of a link; of dampers, each of which has its own constant.
+  integer, parameter :: no_damping = 0, damping_time = 1, damping_ratio = 2, damping_by_dampers = 3
 
   !> Places of the values of a gauge [-, -, N m, N, N, Pa].
   integer, parameter :: axial_strain = 1, bending_strain = 2, moment = 3, axial_force = 4, &
@@ -55,7 +55,7 @@ module response_types
     real(wp), allocatable :: crank(:)               !! (positions) crank angles [deg]
     real(wp) :: accuracy = 1.0e-6_wp                !! relative to the largest over the turn
     type(elastic_terms_t) :: terms
-    type(link_damping_t), allocatable :: damping(:) !! (bodies)
+    type(link_damping_t), allocatable :: damping(:) !! (bodies), then that of dampers, if any act
     type(link_section_t), allocatable :: section(:) !! (bodies)
     type(gauge_t), allocatable :: gauges(:)
     type(response_point_t), allocatable :: points(:)

@@ -21,7 +21,7 @@ module slow_motions
   use row_products, only: products_of_rows
   use sorting, only: ascending_order
   use text, only: to_string
-  use turn_grids, only: turn_grid_t
+  use turn_grids, only: rate_case, turn_grid_t
   implicit none (type, external)
   private
 
@@ -45,7 +45,7 @@ module slow_motions
     real(wp), allocatable :: square(:)            !! (unknowns) 1/ω² of the other deformations by
                                                   !! themselves; 0 of the slow ones [s²]
     !> Matrices at the samples of a coarse grid: (samples, number², matrices) M, G, W, XᵀX, XᵀK_GX
-    !! per ω2² and of the constant loads, G', XᵀCX and XᵀCX'
+    !! per ω2² and of the constant loads, G', XᵀCX, and XᵀCX' with XᵀK_GX per ω2 of dampers
     real(wp), allocatable :: sums(:, :, :)
     !> (5 number, 5 number, samples of the coarse grid) of the fast deformations that follow; not
     !! there where they are left out
@@ -317,6 +317,8 @@ contains
             sums(:, at, of_speed) = sums(:, at, of_speed) + grid%second_order(:, k, l, 1)*work
             sums(:, at, of_loads) = sums(:, at, of_loads) + grid%second_order(:, k, l, &
               constant_case)*work
+            if (grid%cases >= rate_case) sums(:, at, of_drift) = sums(:, at, of_drift) + &
+              grid%second_order(:, k, l, rate_case)*work
           end do
         end do
       end do
@@ -345,6 +347,8 @@ contains
           work = products_of_rows(slope(:, :, i), bent)
           sums(:, at, of_speed) = sums(:, at, of_speed) + grid%force(:, k, b, 1)*work
           sums(:, at, of_loads) = sums(:, at, of_loads) + grid%force(:, k, b, constant_case)*work
+          if (grid%cases >= rate_case) sums(:, at, of_drift) = sums(:, at, of_drift) + &
+            grid%force(:, k, b, rate_case)*work
         end do
       end do
     end do

@@ -25,7 +25,7 @@ module stability_types
                                                     !! the accuracy needs
     real(wp) :: least_growth = 1.0e-4_wp            !! of intervals that are wanted [nepers a turn]
     type(elastic_terms_t) :: terms
-    type(link_damping_t), allocatable :: damping(:) !! (bodies)
+    type(link_damping_t), allocatable :: damping(:) !! (bodies), then that of dampers, if any act
   end type stability_request_t
 
   !> The Floquet exponent of a vibration: of the two of a pair of real multipliers the greater.

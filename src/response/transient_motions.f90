@@ -10,10 +10,11 @@ module transient_motions
   use gauss_collocation, only: collocation_t, new_radau_collocation
   use interruption, only: was_interrupted
   use kinds, only: long, wp
-  use linkages, only: linkage_t
   use motion_matrices, only: motion_matrices_t
+  use path_grids, only: new_path_grid
+  use structures, only: structure_t
   use transient_steps, only: advance, elastic_state_t, make_steps, take_steps, transient_step_t
-  use turn_grids, only: new_path_grid, turn_grid_t
+  use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
 
@@ -36,14 +37,14 @@ contains
 
   !> The state at every instant.
   !!
-  !! Errors: the crank cannot reach an angle, or meets a dead point; a step has no solution; the
-  !! motion grows beyond all numbers.
-  subroutine solve_motion(linkage, model, law, damping, axial, time, instants, substeps, start, &
+  !! Errors: those of `new_path_grid` and `place_grid`; a step has no solution; the motion grows
+  !! beyond all numbers.
+  subroutine solve_motion(structure, model, law, damping, axial, time, instants, substeps, start, &
     motion, error)
-    type(linkage_t), intent(in) :: linkage
-    type(deformation_model_t), intent(in) :: model !! of its links
+    class(structure_t), intent(in) :: structure    !! linkage and beams
+    type(deformation_model_t), intent(in) :: model !! of its bodies
     type(crank_law_t), intent(in) :: law           !! of the crank
-    real(wp), intent(in) :: damping(:)             !! (unknowns) c [s]
+    real(wp), intent(in) :: damping(:)             !! of `damping_of` [s]
     logical, intent(in) :: axial                   !! with the stiffness of axial forces
     real(wp), intent(in) :: time(:)                !! (instants) even, from 0 [s]
     integer, intent(in) :: instants                !! of a turn at constant speed
@@ -61,7 +62,8 @@ contains
     integer :: first, k, slot
 
     rule = new_radau_collocation(stages)
-    call new_path_grid(linkage, model, stages*substeps, grid)
+    call new_path_grid(structure, model, stages*substeps, grid, error)
+    if (allocated(error)) return
     allocate (motion%state(size(start), size(time)))
     state%value = start
     state%carry = 0.0_wp*start
@@ -74,7 +76,7 @@ contains
         slot = 1 + modulo(k - first, instants)
         ! What does not return is not worth its matrix.
         if (.not. allocated(kept(slot)%push) .and. k + instants < size(time)) then
-          call make_steps(linkage, law, damping, axial, rule, time(k), (time(k + 1) - &
+          call make_steps(structure, law, damping, axial, rule, time(k), (time(k + 1) - &
             time(k))/substeps, grid, matrices, steps, error)
           if (allocated(error)) return
           motion%made = motion%made + substeps
@@ -105,7 +107,7 @@ contains
     subroutine go(from, to)
       real(wp), intent(in) :: from, to !! [s]
 
-      call take_steps(linkage, law, damping, axial, rule, from, (to - from)/substeps, grid, &
+      call take_steps(structure, law, damping, axial, rule, from, (to - from)/substeps, grid, &
         matrices, state, error)
       motion%made = motion%made + substeps
       motion%taken = motion%taken + substeps

@@ -5,6 +5,7 @@
 !! fast for the steps, or beyond the orders, differ from one solution to the next: what they are of
 !! the motion is in the difference.
 module transient_responses
+  use beam_mesh, only: beam_t
   use constants, only: two_pi
   use crank_laws, only: crank_angle_at, crank_law_t, time_of_turns
   use deformation_model, only: deformation_model_t
@@ -13,16 +14,19 @@ module transient_responses
   use interruption, only: was_interrupted
   use kinds, only: long, wp
   use link_store, only: link_store_t
+  use linkages, only: linkage_t
+  use part_requests, only: request_of_parts
+  use path_grids, only: new_path_grid, place_grid
   use response_levels, only: damping_of, new_order_model
   use response_series, only: point_series, strains_along
   use response_types, only: strain_values
   use slow_motions, only: own_squares
-  use structures, only: structure_t
+  use structures, only: structure_t, vibrating_beams, vibrating_linkage
   use text, only: to_string
   use transient_motions, only: solve_motion, stages, transient_motion_t
   use transient_starts, only: find_start
   use transient_types, only: speed_transient_t, transient_request_t, transient_t
-  use turn_grids, only: new_path_grid, place_grid, turn_grid_t
+  use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
 
@@ -68,12 +72,16 @@ contains
     type(link_store_t), intent(inout) :: store         !! links decomposed earlier
     type(transient_t), intent(out) :: transient        !! with a result or an error at every speed
 
+    type(transient_request_t) :: of_bodies
     integer :: k
 
+    of_bodies = request
+    if (allocated(structure%elastic)) of_bodies%response = request_of_parts(structure%elastic, &
+      request%response)
     allocate (transient%at_speed(size(request%response%speed)))
     do k = 1, size(transient%at_speed)
       if (was_interrupted()) exit
-      call find_transient(structure, request, crank_law_t(request%crank, &
+      call find_transient(structure, of_bodies, crank_law_t(request%crank, &
         request%response%speed(k), request%ramp), store, transient%at_speed(k))
     end do
   end subroutine find_transients
@@ -181,28 +189,31 @@ contains
 
     type(turn_grid_t) :: grid
     type(crank_law_t) :: own
+    logical :: reached
     integer :: wanted
 
     own = law
     steps = 2
-    call grid_at(structure, model, own%start, grid)
-    if (.not. allocated(grid%force)) return
+    call grid_at(structure, model, own%start, grid, reached)
+    if (.not. reached) return
     wanted = ceiling(two_pi/(abs(law%speed)*request%instants*first_radians* &
       sqrt(maxval(own_squares(grid)))))
     steps = max(steps, min(wanted, 1000))
   end function first_steps
 
-  !> The terms at one crank angle; without forces if it cannot be reached.
-  subroutine grid_at(structure, model, crank, grid)
+  !> The terms at one crank angle.
+  subroutine grid_at(structure, model, crank, grid, reached)
     class(structure_t), intent(in) :: structure
     type(deformation_model_t), intent(in) :: model
     real(wp), intent(in) :: crank !! [deg]
     type(turn_grid_t), intent(out) :: grid
+    logical, intent(out) :: reached !! the terms are there
 
     type(error_t), allocatable :: error
 
-    call new_path_grid(structure%linkage, model, 1, grid)
-    call place_grid(structure%linkage, [crank], grid, error)
+    call new_path_grid(structure, model, 1, grid, error)
+    if (.not. allocated(error)) call place_grid(structure, [crank], grid, error)
+    reached = .not. allocated(error)
   end subroutine grid_at
 
   !> One solution, as series of all quantities.
@@ -219,11 +230,12 @@ contains
     type(transient_motion_t) :: motion
     real(wp), allocatable :: start(:), damping(:)
 
-    call new_path_grid(structure%linkage, model, 1, grid)
+    call new_path_grid(structure, model, 1, grid, found%error)
+    if (allocated(found%error)) return
     damping = damping_of(request%response%damping, grid)
     call find_start(structure, request, law, found%order, grid, store, start, found%error)
     if (allocated(found%error)) return
-    call solve_motion(structure%linkage, model, law, damping, request%response%terms%axial, &
+    call solve_motion(structure, model, law, damping, request%response%terms%axial, &
       found%time, request%instants, found%steps, start, motion, found%error)
     found%made = found%made + motion%made
     found%taken = found%taken + motion%taken
@@ -247,7 +259,8 @@ contains
     integer :: at, block, first, i, n
 
     block = min(at_a_time, size(crank))
-    call new_path_grid(structure%linkage, model, block, grid)
+    call new_path_grid(structure, model, block, grid, error)
+    if (allocated(error)) return
     allocate (axial(block, 1), curvature(block, 1))
     associate (points => request%response%points, gauges => request%response%gauges)
       allocate (series(size(crank), of_point*size(points) + of_gauge*size(gauges)))
@@ -255,7 +268,7 @@ contains
         ! The last are repeated to fill the block.
         rows = [(min(i, size(crank)), i=at, at + block - 1)]
         n = min(block, size(crank) + 1 - at)
-        call place_grid(structure%linkage, crank(rows), grid, error)
+        call place_grid(structure, crank(rows), grid, error)
         if (allocated(error)) return
         y = transpose(motion%state(:grid%unknowns, rows))
         do i = 1, size(points)
@@ -280,9 +293,13 @@ contains
     real(wp), intent(in) :: before(:, :), series(:, :) !! (instants, quantities)
     type(speed_transient_t), intent(inout) :: found
 
+    type(linkage_t) :: linkage
+    type(beam_t), allocatable :: beams(:)
     real(wp) :: change(size(series, 2)), largest(size(series, 2)), length, strain
     integer :: first, i, k, n
 
+    linkage = vibrating_linkage(structure)
+    beams = vibrating_beams(structure)
     n = size(series, 1)
     change = maxval(abs(series - before), dim=1)
     largest = maxval(abs(series), dim=1)
@@ -295,7 +312,7 @@ contains
         length = sqrt(maxval(series(:, first)**2 + series(:, first + 1)**2))
         found%displacement_error(i) = max(norm2(change(first:first + 1))/max(length, &
           tiny(1.0_wp)), change(first + 2)/max(largest(first + 2), by_nature*length/ &
-          structure%linkage%bodies(points(i)%body)%length, tiny(1.0_wp)))
+          linkage%bodies(points(i)%body)%length, tiny(1.0_wp)))
       end do
       found%strain_error = spread(0.0_wp, 1, size(gauges))
       if (allocated(found%strain)) deallocate (found%strain)
@@ -304,7 +321,7 @@ contains
         first = of_point*size(points) + of_gauge*(i - 1) + 1
         associate (gauge => gauges(i), section => request%response%section(gauges(i)%body))
           do k = 1, n
-            found%strain(:, i, k) = gauge_values_of(gauge, structure%beams(gauge%body), section, &
+            found%strain(:, i, k) = gauge_values_of(gauge, beams(gauge%body), section, &
               series(k, first), series(k, first + 1))
           end do
           strain = largest(first) + section%outer*largest(first + 1)

@@ -8,17 +8,19 @@ module transient_starts
     open_fourier, value_at
   use kinds, only: wp
   use lapack, only: dsygvx
+  use linkages, only: linkage_t
   use link_store, only: link_store_t
   use motion_matrices, only: find_motion_matrices, motion_matrices_t, stiffness_at
+  use path_grids, only: place_grid
   use periodic_solver, only: solve_periodic
   use response_levels, only: damping_of, level_slot_t, need_basis, need_level, sample_numbers
   use response_series, only: point_series
   use slow_motions, only: new_slow_motion, slow_count, slow_motion_t
-  use structures, only: structure_t
+  use structures, only: structure_t, vibrating_linkage
   use text, only: to_string
   use transient_steps, only: momenta_of
   use transient_types, only: from_steady, transient_request_t
-  use turn_grids, only: new_path_grid, place_grid, turn_grid_t
+  use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
 
@@ -58,7 +60,7 @@ contains
     real(wp), dimension(grid%unknowns) :: y, rates, shape
     real(wp) :: speed
 
-    call place_grid(structure%linkage, [law%start], grid, error)
+    call place_grid(structure, [law%start], grid, error)
     if (allocated(error)) return
     call find_motion_matrices(grid, matrices)
     y = 0.0_wp
@@ -143,6 +145,7 @@ contains
     real(wp), intent(out) :: shape(:)                 !! (unknowns) y
     type(error_t), allocatable, intent(out) :: error
 
+    type(linkage_t) :: linkage
     real(wp), dimension(size(shape), size(shape)) :: mass, stiffness
     real(wp) :: value(size(shape)), vector(size(shape), 1), work(8*size(shape)), moved(1, 3)
     real(wp) :: largest, across, here
@@ -170,9 +173,10 @@ contains
     shape = vector(:, 1)
     largest = 0.0_wp
     across = 0.0_wp
-    do b = 1, size(structure%beams)
+    linkage = vibrating_linkage(structure)
+    do b = 1, size(linkage%bodies)
       do i = 0, places
-        moved = point_series(grid, b, [structure%linkage%bodies(b)%length*i/places, 0.0_wp], &
+        moved = point_series(grid, b, [linkage%bodies(b)%length*i/places, 0.0_wp], &
           transpose(vector))
         largest = max(largest, norm2(moved(1, :2)))
         here = grid%direction(1, 1, b)*moved(1, 2) - grid%direction(1, 2, b)*moved(1, 1)

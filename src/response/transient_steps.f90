@@ -9,8 +9,9 @@ module transient_steps
   use kinds, only: wp
   use lapack, only: dgetrf, dgetrs
   use motion_matrices, only: find_motion_matrices, load_at, motion_matrices_t, stiffness_at
-  use linkages, only: linkage_t
-  use turn_grids, only: place_grid, turn_grid_t
+  use path_grids, only: place_grid
+  use structures, only: structure_t
+  use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
 
@@ -43,9 +44,9 @@ contains
   !! matrices there.
   !!
   !! Errors: the crank cannot reach an angle, or meets a dead point.
-  subroutine place_stages(linkage, law, rule, start, length, grid, matrices, speed, acceleration, &
-    error)
-    type(linkage_t), intent(in) :: linkage
+  subroutine place_stages(structure, law, rule, start, length, grid, matrices, speed, &
+    acceleration, error)
+    class(structure_t), intent(in) :: structure
     type(crank_law_t), intent(in) :: law
     type(collocation_t), intent(in) :: rule
     real(wp), intent(in) :: start, length
@@ -62,7 +63,7 @@ contains
     do k = 1, grid%samples/s
       time((k - 1)*s + 1:k*s) = start + length*(k - 1 + rule%node)
     end do
-    call place_grid(linkage, crank_angle_at(law, time), grid, error)
+    call place_grid(structure, crank_angle_at(law, time), grid, error)
     if (allocated(error)) return
     call find_motion_matrices(grid, matrices)
     speed = crank_speed_at(law, time)
@@ -74,11 +75,11 @@ contains
   !> Equal steps one after another, for any state.
   !!
   !! Errors: the crank cannot reach an angle, or meets a dead point; a step has no solution.
-  subroutine make_steps(linkage, law, damping, axial, rule, start, length, grid, matrices, steps, &
-    error)
-    type(linkage_t), intent(in) :: linkage   !! of the grid
+  subroutine make_steps(structure, law, damping, axial, rule, start, length, grid, matrices, &
+    steps, error)
+    class(structure_t), intent(in) :: structure !! of the grid
     type(crank_law_t), intent(in) :: law     !! of the crank; its ramp does not end inside
-    real(wp), intent(in) :: damping(:)       !! (unknowns) c [s]
+    real(wp), intent(in) :: damping(:)       !! of `damping_of` [s]
     logical, intent(in) :: axial             !! with the stiffness of axial forces
     type(collocation_t), intent(in) :: rule  !! of a step
     real(wp), intent(in) :: start            !! of the first step [s]
@@ -94,7 +95,8 @@ contains
 
     s = size(rule%node)
     allocate (steps(grid%samples/s))
-    call place_stages(linkage, law, rule, start, length, grid, matrices, speed, acceleration, error)
+    call place_stages(structure, law, rule, start, length, grid, matrices, speed, acceleration, &
+      error)
     if (allocated(error)) return
     do k = 1, size(steps)
       associate (first => (k - 1)*s + 1)
@@ -109,9 +111,9 @@ contains
   !> The state after equal steps that are taken once.
   !!
   !! Errors: as `make_steps`.
-  subroutine take_steps(linkage, law, damping, axial, rule, start, length, grid, matrices, state, &
-    error)
-    type(linkage_t), intent(in) :: linkage             !! arguments as of `make_steps`
+  subroutine take_steps(structure, law, damping, axial, rule, start, length, grid, matrices, &
+    state, error)
+    class(structure_t), intent(in) :: structure        !! arguments as of `make_steps`
     type(crank_law_t), intent(in) :: law
     real(wp), intent(in) :: damping(:)
     logical, intent(in) :: axial
@@ -127,7 +129,8 @@ contains
     integer :: k, s
 
     s = size(rule%node)
-    call place_stages(linkage, law, rule, start, length, grid, matrices, speed, acceleration, error)
+    call place_stages(structure, law, rule, start, length, grid, matrices, speed, acceleration, &
+      error)
     if (allocated(error)) return
     do k = 1, grid%samples/s
       associate (first => (k - 1)*s + 1)
@@ -153,9 +156,9 @@ contains
     type(stage_terms_t), intent(inout) :: terms
 
     real(wp), allocatable :: block(:, :)
-    integer :: at, i, j, k, l, n, s
+    integer :: at, i, j, l, n, s
 
-    n = size(damping)
+    n = size(matrices%mass, 1)
     s = size(rule%node)
     if (.not. allocated(terms%v)) allocate (terms%v(n, n, s), terms%d(n, n, s), terms%g(n, n, s), &
       terms%load(n, s), terms%left(n*s, n*s))
@@ -163,11 +166,9 @@ contains
       at = first + i - 1
       terms%g(:, :, i) = speed(i)*matrices%slope(:, :, at)
       terms%d(:, :, i) = transpose(terms%g(:, :, i))
-      do k = 1, n
-        terms%d(k, k, i) = terms%d(k, k, i) - damping(k)
-      end do
       terms%v(:, :, i) = speed(i)**2*matrices%swept(:, :, at) - stiffness_at(matrices, at, &
         speed(i), acceleration(i), axial)
+      call add_damping(matrices, at, damping, speed(i), terms%d(:, :, i), terms%v(:, :, i))
       terms%load(:, i) = load_at(matrices, at, speed(i), acceleration(i))
     end do
     associate (a => rule%matrix)
@@ -183,6 +184,32 @@ contains
       end do
     end associate
   end subroutine find_terms
+
+  !> Takes `C ẏ` away; of deformations `w = Q y` of parts and dampers `Qᵀ c (Q ẏ + ω Q' y)`.
+  subroutine add_damping(matrices, at, damping, speed, d, v)
+    type(motion_matrices_t), intent(in) :: matrices
+    integer, intent(in) :: at               !! number of the stage in the matrices
+    real(wp), intent(in) :: damping(:)
+    real(wp), intent(in) :: speed           !! ω2 [rad/s]
+    real(wp), intent(inout) :: d(:, :), v(:, :) !! (unknowns, unknowns)
+
+    real(wp), allocatable :: damped(:, :)
+    integer :: border, k, n
+
+    n = size(d, 1)
+    border = 0
+    if (allocated(matrices%deformed)) then
+      associate (q => matrices%deformed(:, :, at), slope => matrices%deformed_slope(:, :, at))
+        border = size(q, 2)
+        damped = spread(damping(n + 1:), 2, border)*q
+        d(:border, :border) = d(:border, :border) - matmul(transpose(damped), q)
+        v(:border, :border) = v(:border, :border) - speed*matmul(transpose(damped), slope)
+      end associate
+    end if
+    do k = border + 1, n
+      d(k, k) = d(k, k) - damping(k)
+    end do
+  end subroutine add_damping
 
   !> A step for any state: the rates for every unit of it and for the load.
   subroutine make_step(grid, rule, h, terms, step, error)

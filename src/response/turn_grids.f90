@@ -7,7 +7,6 @@ module turn_grids
   use band_matrix, only: full_band
   use body_lumps, only: lump_offsets
   use border_rows, only: row_spring
-  use chord_slopes, only: find_chord_slopes
   use deformation_model, only: deformation_model_t
   use dense_eigensolver, only: solve_dense
   use errors, only: error_of_dead_point, error_of_numerics, error_t, set_error
@@ -18,20 +17,22 @@ module turn_grids
   use link_modes, only: link_modes_t
   use linkages, only: linkage_t, normal_to
   use load_cases, only: case_count, find_unit_loads, load_case_t, unit_loads_t
+  use load_coordinates, only: load_rate
   use moving_integrals, only: chord_functions, moving_integrals_t, new_moving_integrals
   use part_displacements, only: border_t, find_part_chords
-  use part_forces, only: find_part_forces
+  use part_forces, only: find_part_forces, find_pull_forces, pull_forces_t
   use part_poses, only: find_part_loads
   use pin_displacements, only: body_displacement, border_numbers, chords_t, find_chords
   use position_assembly, only: assembled_t, new_assembled, place_parts
   use poses, only: find_pose, pose_t
   use reactions, only: find_unit_reactions, unit_reactions_t
   use reduced_assembly, only: first_axial
-  use structures, only: structure_t
+  use structures, only: structure_t, vibrating_linkage
   implicit none (type, external)
   private
 
-  public :: turn_grid_t, new_turn_grid, new_parts_grid, new_path_grid, place_grid
+  public :: turn_grid_t, damper_t, rate_case, new_turn_grid, start_grid, number_border, take_pose, &
+    take_chord
 
   !> Positions of a turn at which deformations are tried as unknowns, and turns until these are
   !! taken for good.
@@ -40,8 +41,17 @@ module turn_grids
   character(len=*), parameter :: no_choice = "links hold each other more than statics needs, "// &
     "and no choice of their deformations determines all others at every position of the turn"
 
-  !> Number of the load case of α2.
-  integer, parameter :: of_acceleration = 2
+  !> Number of the load case of α2; of what dampers pull in the motion of the rigid linkage, per ω2,
+  !! which is behind the others if there are dampers.
+  integer, parameter :: of_acceleration = 2, rate_case = case_count + 1
+
+  !> A damper over the turn. Its row of `weighted` is what unit unknowns stretch or turn it.
+  type :: damper_t
+    real(wp) :: damping = 0.0_wp            !! c [N s/m] or [N m s/rad]
+    real(wp), allocatable :: rate(:)        !! (samples) of its length or angle, dl/dθ2
+    real(wp), allocatable :: force(:, :)    !! (samples, bodies) axial forces of a unit pull
+    real(wp), allocatable :: second_order(:, :, :) !! (samples, border, border) what K_G has besides
+  end type damper_t
 
   type :: turn_grid_t
     integer :: samples = 0   !! crank angles 0, 360°/n, …
@@ -57,10 +67,16 @@ module turn_grids
     integer, allocatable :: owner(:)       !! (unknowns) body to whose elastic energy it belongs;
                                            !! 0: to several
     !> (samples, deformations, border) deformations of the ends of parts, and of springs, in units
-    !! of those of a unit unknown, where there are more of them than border unknowns: `elongation`
-    !! is a number among them then. Not allocated: they are the border unknowns
+    !! of those of a unit unknown, and behind them of dampers [m] or [rad], where there are more of
+    !! them than border unknowns: `elongation` is a number among them then. Not allocated: they are
+    !! the border unknowns
     real(wp), allocatable :: weighted(:, :, :)
-    integer, allocatable :: deformed(:)    !! (deformations) body; 0: a spring
+    integer, allocatable :: deformed(:)    !! (deformations) body; 0: a spring or a damper
+    type(damper_t), allocatable :: dampers(:)
+    integer :: cases = case_count          !! load cases, that of dampers included
+    real(wp), allocatable :: weighted_slope(:, :, :) !! d/dθ2 of `weighted`; of `path_grids` only
+    !> Of a linkage in parts, of `path_grids`: (samples of a turn, terms) coefficients of all terms
+    real(wp), allocatable :: harmonics(:, :)
     real(wp), allocatable :: rotation(:, :) !! (border, border) orthogonal: border unknowns as those
                                            !! of the basis, from those of the grid, which are
                                            !! nearly modes then. Not allocated: the same
@@ -88,48 +104,14 @@ module turn_grids
 contains
 
   !> The terms at all crank angles of a turn. The displacements are those of Ulker 2010 (2.74), of
-  !! points of the rigid linkage.
-  !!
-  !! Errors: the crank cannot reach one of them.
-  subroutine new_turn_grid(linkage, model, samples, grid, error, backwards)
-    type(linkage_t), intent(in) :: linkage           !! pins, bodies, loads
-    type(deformation_model_t), intent(in) :: model   !! its links' own deformations
-    integer, intent(in) :: samples                   !! crank angles
-    type(turn_grid_t), intent(out) :: grid           !! complete unless `error` is allocated
-    type(error_t), allocatable, intent(out) :: error !! why there is no grid
-    logical, intent(in), optional :: backwards       !! the crank turns clockwise; absent: not
-
-    type(pose_t) :: pose
-    type(kinematic_coefficients_t) :: coefficients
-    type(chords_t) :: chords
-    real(wp) :: sense
-    integer :: k
-
-    if (present(backwards)) grid%backwards = backwards
-    sense = merge(-1.0_wp, 1.0_wp, grid%backwards)
-    call start_grid(linkage, model, samples, grid)
-    call number_border(linkage, grid)
-    do k = 1, samples
-      call find_pose(linkage, sense*(360.0_wp*(k - 1))/samples, pose, error)
-      if (allocated(error)) return
-      coefficients = find_kinematic_coefficients(linkage, pose)
-      chords = find_chords(linkage, model%links, pose)
-      call take_pose(linkage, pose, coefficients, chords, k, grid)
-    end do
-    grid%rate = sense*grid%rate
-    grid%force(:, :, :, of_acceleration) = sense*grid%force(:, :, :, of_acceleration)
-    grid%load(:, :, of_acceleration) = sense*grid%load(:, :, of_acceleration)
-    call find_slopes(grid)
-  end subroutine new_turn_grid
-
-  !> The terms at all crank angles of a turn, of a linkage in parts that keep their lengths: bodies
-  !! are its parts, pins its points.
+  !! points of the rigid linkage. Of a linkage in parts, which keep their lengths, bodies are its
+  !! parts, pins its points.
   !!
   !! Errors: the crank cannot reach one of the angles; the parts and springs do not determine the
   !! displacements; there are more of them than do, and no choice among them serves at all angles.
-  subroutine new_parts_grid(structure, model, samples, grid, error, backwards)
-    class(structure_t), intent(in) :: structure      !! with parts
-    type(deformation_model_t), intent(in) :: model   !! their own deformations, with a border
+  subroutine new_turn_grid(structure, model, samples, grid, error, backwards)
+    class(structure_t), intent(in) :: structure      !! linkage and beams
+    type(deformation_model_t), intent(in) :: model   !! own deformations of its bodies
     integer, intent(in) :: samples                   !! crank angles
     type(turn_grid_t), intent(out) :: grid           !! complete unless `error` is allocated
     type(error_t), allocatable, intent(out) :: error !! why there is no grid
@@ -137,47 +119,122 @@ contains
 
     type(assembled_t) :: here
     type(pose_t) :: pose
-    type(kinematic_coefficients_t) :: coefficients
-    type(chords_t) :: chords
-    real(wp) :: sense
     integer :: k
 
     if (present(backwards)) grid%backwards = backwards
+    call start_grid(vibrating_linkage(structure), model, samples, grid)
+    if (allocated(structure%elastic)) then
+      call start_parts(structure, model, here, grid, error)
+      if (allocated(error)) return
+    else
+      call number_border(structure%linkage, grid)
+    end if
+    do k = 1, samples
+      call find_pose(structure%linkage, sense_of(grid)*(360.0_wp*(k - 1))/samples, pose, error)
+      if (allocated(error)) return
+      if (allocated(structure%elastic)) then
+        call take_parts(structure, pose, k, here, grid, error)
+        if (allocated(error)) return
+      else
+        call take_pose(structure%linkage, pose, k, grid)
+      end if
+    end do
+    if (grid%backwards) call turn_back(grid)
+    call add_damper_cases(grid)
+    if (allocated(grid%rotation)) call turn_unknowns(grid)
+    if (allocated(grid%second_order)) then
+      if (.not. any(abs(grid%second_order) > 0.0_wp)) deallocate (grid%second_order)
+    end if
+    call find_slopes(grid)
+  end subroutine new_turn_grid
+
+  !> 1, or −1 where the crank turns clockwise.
+  pure function sense_of(grid) result(sense)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp) :: sense
+
     sense = merge(-1.0_wp, 1.0_wp, grid%backwards)
-    here = new_assembled(structure, model)
-    call start_grid(structure%elastic%linkage, model, samples, grid)
+  end function sense_of
+
+  !> Rates, and what they load, with respect to −θ2.
+  pure subroutine turn_back(grid)
+    type(turn_grid_t), intent(inout) :: grid
+
+    integer :: i
+
+    grid%rate = -grid%rate
+    grid%force(:, :, :, of_acceleration) = -grid%force(:, :, :, of_acceleration)
+    grid%load(:, :, of_acceleration) = -grid%load(:, :, of_acceleration)
+    if (allocated(grid%second_order)) grid%second_order(:, :, :, of_acceleration) = &
+      -grid%second_order(:, :, :, of_acceleration)
+    do i = 1, size(grid%dampers)
+      grid%dampers(i)%rate = -grid%dampers(i)%rate
+    end do
+  end subroutine turn_back
+
+  !> Numbers and room for a linkage in parts, and border unknowns that are smooth functions of the
+  !! crank angle.
+  subroutine start_parts(structure, model, here, grid, error)
+    class(structure_t), intent(in) :: structure
+    type(deformation_model_t), intent(in) :: model
+    type(assembled_t), intent(out) :: here
+    type(turn_grid_t), intent(inout) :: grid
+    type(error_t), allocatable, intent(out) :: error
+
+    integer :: i, n
+
     if (model%layout%free > 0) then
       call set_error(error, error_of_dead_point, "the linkage moves freely, its drives at rest")
       return
     end if
-    allocate (grid%second_order(samples, grid%border, grid%border, case_count))
+    here = new_assembled(structure, model)
+    associate (dampers => structure%elastic%dampers, bodies => size(grid%integrals))
+      deallocate (grid%dampers)
+      allocate (grid%dampers(size(dampers)))
+      if (size(dampers) > 0) grid%cases = rate_case
+      do i = 1, size(dampers)
+        grid%dampers(i)%damping = dampers(i)%damping
+        allocate (grid%dampers(i)%rate(grid%samples), grid%dampers(i)%force(grid%samples, bodies), &
+          grid%dampers(i)%second_order(grid%samples, grid%border, grid%border))
+      end do
+    end associate
+    deallocate (grid%load)
+    allocate (grid%load(grid%samples, grid%unknowns, grid%cases), &
+      grid%second_order(grid%samples, grid%border, grid%border, grid%cases), source=0.0_wp)
     call number_deformations(here%border, grid)
-    if (allocated(grid%weighted)) then
-      call choose_pivots(structure, model, here, error)
-      if (.not. allocated(error)) call find_rotation(structure, here, grid, error)
-    end if
-    if (allocated(error)) return
-    do k = 1, samples
-      call find_pose(structure%linkage, sense*(360.0_wp*(k - 1))/samples, pose, error)
-      if (.not. allocated(error)) call place_parts(structure, model, pose, here, error)
-      if (.not. allocated(error)) call find_part_chords(structure%linkage, here%elastic, &
-        here%model%links, here%pose, grid%border, model%layout%free, .true., here%border, chords, &
-        error)
-      if (.not. allocated(error) .and. allocated(grid%weighted) .and. here%border%is_new) &
-        call set_error(error, error_of_numerics, no_choice)
-      if (allocated(error)) return
-      if (allocated(grid%weighted)) grid%weighted(k, :, :) = chords%weighted
-      coefficients = find_kinematic_coefficients(structure%linkage, pose)
-      call take_parts(structure, pose, coefficients, chords, k, here, grid)
+    if (.not. allocated(grid%weighted)) return
+    n = size(here%border%numbers%rows)
+    if (n == grid%border .and. all(grid%deformed(:n) > 0)) return
+    call choose_pivots(structure, model, here, error)
+    if (.not. allocated(error)) call find_rotation(structure, here, grid, error)
+  end subroutine start_parts
+
+  !> What dampers pull in the motion of the rigid linkage, as a load case per ω2.
+  pure subroutine add_damper_cases(grid)
+    type(turn_grid_t), intent(inout) :: grid
+
+    real(wp) :: pull(grid%samples)
+    integer :: i, j, k, n
+
+    n = size(grid%dampers)
+    if (n == 0) return
+    do i = 1, n
+      pull = grid%dampers(i)%damping*grid%dampers(i)%rate
+      associate (row => grid%weighted(:, size(grid%weighted, 2) - n + i, :), damper => &
+          grid%dampers(i))
+        do j = 1, grid%border
+          grid%load(:, j, rate_case) = grid%load(:, j, rate_case) - pull*row(:, j)
+          do k = 1, grid%border
+            grid%second_order(:, k, j, rate_case) = grid%second_order(:, k, j, rate_case) + &
+              pull*damper%second_order(:, k, j)
+          end do
+        end do
+        do j = 1, size(damper%force, 2)
+          grid%force(:, 1, j, rate_case) = grid%force(:, 1, j, rate_case) + pull*damper%force(:, j)
+        end do
+      end associate
     end do
-    grid%rate = sense*grid%rate
-    grid%force(:, :, :, of_acceleration) = sense*grid%force(:, :, :, of_acceleration)
-    grid%load(:, :, of_acceleration) = sense*grid%load(:, :, of_acceleration)
-    grid%second_order(:, :, :, of_acceleration) = sense*grid%second_order(:, :, :, of_acceleration)
-    if (allocated(grid%rotation)) call turn_unknowns(grid)
-    if (.not. any(abs(grid%second_order) > 0.0_wp)) deallocate (grid%second_order)
-    call find_slopes(grid)
-  end subroutine new_parts_grid
+  end subroutine add_damper_cases
 
   !> The modes of the border by itself, with the mean of its mass matrix over the turn, the slowest
   !! first. The basis of deformations may mix slow ones with fast ones; these do little.
@@ -235,64 +292,34 @@ contains
           grid%pin(k, :, i, :) = matmul(grid%pin(k, :, i, :), rotation)
         end do
         grid%weighted(k, :, :) = matmul(grid%weighted(k, :, :), rotation)
-        do c = 1, case_count
+        do c = 1, grid%cases
           grid%load(k, :border, c) = matmul(grid%load(k, :border, c), rotation)
-          grid%second_order(k, :, :, c) = matmul(transpose(rotation), &
-            matmul(grid%second_order(k, :, :, c), rotation))
+          grid%second_order(k, :, :, c) = turned_form(grid%second_order(k, :, :, c))
+        end do
+        do i = 1, size(grid%dampers)
+          associate (form => grid%dampers(i)%second_order(k, :, :))
+            form = turned_form(form)
+          end associate
         end do
       end do
     end associate
+
+  contains
+
+    pure function turned_form(form) result(turned)
+      real(wp), intent(in) :: form(:, :)
+      real(wp) :: turned(grid%border, grid%border)
+
+      turned = matmul(transpose(grid%rotation), matmul(form, grid%rotation))
+    end function turned_form
+
   end subroutine turn_unknowns
-
-  !> Room for the terms at crank angles anywhere, which `place_grid` gives: the crank need not turn
-  !! fully.
-  subroutine new_path_grid(linkage, model, samples, grid)
-    type(linkage_t), intent(in) :: linkage         !! pins, bodies, loads
-    type(deformation_model_t), intent(in) :: model !! its links' own deformations
-    integer, intent(in) :: samples                 !! crank angles
-    type(turn_grid_t), intent(out) :: grid         !! for `place_grid`
-
-    call start_grid(linkage, model, samples, grid)
-    call number_border(linkage, grid)
-    allocate (grid%chord_slope, mold=grid%chord)
-    allocate (grid%pin_slope, mold=grid%pin)
-    grid%chord_slope = 0.0_wp
-  end subroutine new_path_grid
-
-  !> The terms at other crank angles, with the derivatives of chords and pins from the motion of the
-  !! links at each of them: the angles need not be even.
-  !!
-  !! Errors: the crank cannot reach one of them, or meets a dead point there.
-  subroutine place_grid(linkage, crank, grid, error)
-    type(linkage_t), intent(in) :: linkage           !! of the grid
-    real(wp), intent(in) :: crank(:)                 !! (samples) crank angles [deg]
-    type(turn_grid_t), intent(inout) :: grid         !! by `new_path_grid`
-    type(error_t), allocatable, intent(out) :: error !! why the grid has no terms
-
-    type(pose_t) :: pose
-    type(kinematic_coefficients_t) :: coefficients
-    type(chords_t) :: chords, slopes
-    integer :: b, k
-
-    do k = 1, size(crank)
-      call find_pose(linkage, crank(k), pose, error)
-      if (allocated(error)) return
-      coefficients = find_kinematic_coefficients(linkage, pose)
-      chords = find_chords(linkage, grid%model%links, pose)
-      slopes = find_chord_slopes(linkage, grid%model%links, pose, coefficients, chords)
-      call take_pose(linkage, pose, coefficients, chords, k, grid)
-      grid%pin_slope(k, :, :, :) = slopes%pin
-      do b = 1, size(grid%integrals)
-        call take_chord(grid%model%links(b), slopes, b, grid%chord_slope(k, :, :, b))
-      end do
-    end do
-  end subroutine place_grid
 
   !> Sizes, numbers of the unknowns, integrals over the links, and room for the terms.
   subroutine start_grid(linkage, model, samples, grid)
-    type(linkage_t), intent(in) :: linkage
-    type(deformation_model_t), intent(in) :: model
-    integer, intent(in) :: samples
+    type(linkage_t), intent(in) :: linkage         !! whose bodies vibrate
+    type(deformation_model_t), intent(in) :: model !! their own deformations
+    integer, intent(in) :: samples                 !! crank angles
     type(turn_grid_t), intent(inout) :: grid
 
     integer :: b, bodies, pins
@@ -315,23 +342,27 @@ contains
     allocate (grid%place(samples, 2, pins), grid%direction(samples, 2, bodies))
     allocate (grid%rate(samples, bodies), grid%rate_slope(samples, bodies))
     allocate (grid%load(samples, grid%unknowns, case_count), grid%torque(samples, case_count))
+    allocate (grid%dampers(0))
     grid%chord = 0.0_wp
     grid%load = 0.0_wp
   end subroutine start_grid
 
-  !> The terms at one crank angle; derivatives are with respect to θ2.
-  subroutine take_pose(linkage, pose, coefficients, chords, k, grid)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: coefficients
-    type(chords_t), intent(in) :: chords
-    integer, intent(in) :: k !! number of the crank angle
-    type(turn_grid_t), intent(inout) :: grid
+  !> The terms of a crank and dyads at one crank angle, without the slopes of chords and pins;
+  !! derivatives are with respect to θ2.
+  subroutine take_pose(linkage, pose, k, grid)
+    type(linkage_t), intent(in) :: linkage   !! of the grid
+    type(pose_t), intent(in) :: pose         !! at this angle
+    integer, intent(in) :: k                 !! number of the crank angle
+    type(turn_grid_t), intent(inout) :: grid !! of a crank and dyads
 
+    type(kinematic_coefficients_t) :: coefficients
+    type(chords_t) :: chords
     type(unit_loads_t) :: loads
     type(unit_reactions_t) :: unit
-    integer :: b, c
+    integer :: c
 
+    coefficients = find_kinematic_coefficients(linkage, pose)
+    chords = find_chords(linkage, grid%model%links, pose)
     grid%rate(k, :) = coefficients%turn
     grid%rate_slope(k, :) = coefficients%turn_slope
     call take_chords(pose, chords, k, grid)
@@ -345,21 +376,35 @@ contains
   end subroutine take_pose
 
   !> The terms of a linkage in parts at one crank angle.
-  subroutine take_parts(structure, pose, coefficients, chords, k, here, grid)
+  !!
+  !! Errors: those of `place_parts` and `find_part_chords`; the deformations chosen do not determine
+  !! all others.
+  subroutine take_parts(structure, pose, k, here, grid, error)
     class(structure_t), intent(in) :: structure
     type(pose_t), intent(in) :: pose      !! of the linkage that moves
-    type(kinematic_coefficients_t), intent(in) :: coefficients
-    type(chords_t), intent(in) :: chords
     integer, intent(in) :: k              !! number of the crank angle
-    type(assembled_t), intent(inout) :: here !! parts and border at this angle
+    type(assembled_t), intent(inout) :: here
     type(turn_grid_t), intent(inout) :: grid
+    type(error_t), allocatable, intent(out) :: error
 
+    type(kinematic_coefficients_t) :: coefficients
+    type(chords_t) :: chords
     type(unit_reactions_t) :: unit
-    integer :: b, c
+    integer :: b, c, n
 
+    call place_parts(structure, grid%model, pose, here, error)
+    if (.not. allocated(error)) call find_part_chords(structure%linkage, here%elastic, &
+      here%model%links, here%pose, grid%border, grid%model%layout%free, .true., here%border, &
+      chords, error)
+    if (.not. allocated(error) .and. allocated(grid%rotation) .and. here%border%is_new) &
+      call set_error(error, error_of_numerics, no_choice)
+    if (allocated(error)) return
+    coefficients = find_kinematic_coefficients(structure%linkage, pose)
     grid%rate(k, :) = coefficients%turn(here%elastic%body)
     grid%rate_slope(k, :) = coefficients%turn_slope(here%elastic%body)
     call take_chords(here%pose, chords, k, grid)
+    n = size(here%border%numbers%rows)
+    if (allocated(grid%weighted)) grid%weighted(k, :n, :) = chords%weighted
     here%loads = find_unit_loads(structure%linkage, pose, coefficients)
     call find_part_loads(structure%linkage, pose, here%loads, here%elastic, here%pose, &
       here%part_loads)
@@ -378,7 +423,35 @@ contains
       end do
       grid%torque(k, c) = unit%of_case(c)%joints%torque
     end do
+    if (size(grid%dampers) > 0) call take_dampers(structure%linkage, pose, coefficients, chords, &
+      k, here, grid)
   end subroutine take_parts
+
+  !> What the dampers do at one crank angle.
+  pure subroutine take_dampers(linkage, pose, coefficients, chords, k, here, grid)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: coefficients
+    type(chords_t), intent(in) :: chords
+    integer, intent(in) :: k
+    type(assembled_t), intent(in) :: here
+    type(turn_grid_t), intent(inout) :: grid
+
+    type(pull_forces_t) :: forces
+    integer :: i, n
+
+    call find_pull_forces(here%elastic, here%model%links, here%pose, here%border, chords, forces)
+    n = size(grid%weighted, 2) - size(grid%dampers)
+    do i = 1, size(grid%dampers)
+      grid%weighted(k, n + i, :) = forces%row(:, i)
+      associate (damper => grid%dampers(i))
+        damper%rate(k) = load_rate(linkage, pose, coefficients, &
+          linkage%loads(here%elastic%dampers(i)%load))
+        damper%force(k, :) = forces%axial(:, i)
+        damper%second_order(k, :, :) = forces%second_order(:, :, i)
+      end associate
+    end do
+  end subroutine take_dampers
 
   !> Places, directions, and what the border unknowns do to pins and chords.
   subroutine take_chords(pose, chords, k, grid)
@@ -405,15 +478,15 @@ contains
     type(turn_grid_t), intent(inout) :: grid
 
     if (.not. allocated(grid%force)) allocate (grid%force(grid%samples, size(force, 1), &
-      size(force, 2), case_count))
-    grid%force(k, :, :, :) = force
+      size(force, 2), grid%cases), source=0.0_wp)
+    grid%force(k, :, :, :case_count) = force
   end subroutine take_forces
 
   !> Functions of the chord of a body for every border unknown.
   pure subroutine take_chord(link, chords, body, functions)
-    type(link_modes_t), intent(in) :: link
-    type(chords_t), intent(in) :: chords
-    integer, intent(in) :: body
+    type(link_modes_t), intent(in) :: link     !! own deformations of the body
+    type(chords_t), intent(in) :: chords       !! what the unknowns do to all chords, or its slopes
+    integer, intent(in) :: body                !! number
     real(wp), intent(inout) :: functions(:, :) !! (functions, border)
 
     if (link%bends) then
@@ -447,8 +520,8 @@ contains
 
   !> To which bodies the border unknowns of a crank and dyads belong.
   pure subroutine number_border(linkage, grid)
-    type(linkage_t), intent(in) :: linkage
-    type(turn_grid_t), intent(inout) :: grid
+    type(linkage_t), intent(in) :: linkage   !! of the grid
+    type(turn_grid_t), intent(inout) :: grid !! by `start_grid`
 
     integer :: number(0:size(linkage%bodies)), b
 
@@ -460,7 +533,8 @@ contains
     grid%elongation = number(1:)
   end subroutine number_border
 
-  !> To which parts the deformations belong: where there are as many as unknowns, each is one.
+  !> To which parts the deformations belong: where there are as many as unknowns, and no dampers,
+  !! each is one.
   pure subroutine number_deformations(border, grid)
     type(border_t), intent(in) :: border
     type(turn_grid_t), intent(inout) :: grid
@@ -469,12 +543,13 @@ contains
 
     n = size(border%numbers%rows)
     grid%elongation = border%numbers%elongation
-    grid%deformed = merge(0, border%numbers%rows%number, border%numbers%rows%kind == row_spring)
+    grid%deformed = [merge(0, border%numbers%rows%number, border%numbers%rows%kind == row_spring), &
+      spread(0, 1, size(grid%dampers))]
     if (n == grid%border .and. all(grid%deformed > 0)) then
       grid%owner(:n) = grid%deformed
     else
       grid%owner(:grid%border) = 0
-      allocate (grid%weighted(grid%samples, n, grid%border))
+      allocate (grid%weighted(grid%samples, size(grid%deformed), grid%border))
     end if
   end subroutine number_deformations
 

@@ -304,6 +304,7 @@ contains
     warning%kind = warning_of_no_damping
     dampings = dampings_of(model, [(i, i=1, size(model%links))])
     if (any(dampings%kind /= damping_none) .or. all(model%links%rigid)) return
+    if (any(model%springs%damps)) return
     warning%text = "no link has DAMPING: near resonances this response is that of no real machine"
   end function no_damping_at_all
 

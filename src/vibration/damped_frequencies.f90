@@ -8,7 +8,8 @@ module damped_frequencies
   use deformation_model, only: deformation_model_t
   use errors, only: error_t
   use kinds, only: wp
-  use matrix_rounding, only: find_matrix_errors, force_sizes
+  use load_sizes, only: axial_sizes, second_order_work
+  use matrix_rounding, only: find_matrix_errors
   use order_errors, only: order_error
   use pose_rounding, only: pose_error
   use position_equations, only: set_speed
@@ -177,8 +178,9 @@ contains
     associate (unit_force => work%here%unit_force, equations => work%continuum%equations)
       of_orders = sum(order_error(model, equations, total_force(unit_force, factor), parts, n), &
         dim=1)
-      call find_matrix_errors(model, equations%chords, force_sizes(unit_force, factor), parts, n, &
+      call find_matrix_errors(model, equations%chords, axial_sizes(work%here, factor), parts, n, &
         of_entries, load_work)
+      load_work = load_work + second_order_work(work%here, factor, parts, n)
       call pose_error(structure, model, state, factor, load_work, parts, n, of_pose, result%counts)
     end associate
     orders = of_orders(1::2) + of_orders(2::2)

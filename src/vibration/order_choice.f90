@@ -396,7 +396,9 @@ contains
         call clear_outcome(outcome)
         call assemble_position(structure, model, state%pose, state%coefficients, tried, &
           work%equations, here, outcome, counts)
-        if (here%border%is_new) work%tracks%length = 0
+        if (allocated(here%border)) then
+          if (here%border%is_new) work%tracks%length = 0
+        end if
         call solve_speeds(state%crank, tried, demand%modes, spread(.false., 1, size(found)), work, &
           found, outcome, counts)
       end associate

@@ -68,12 +68,8 @@ contains
     real(wp), intent(out) :: error(:)              !! (modes) relative, of eigenvalues
     type(ledger_t), intent(inout) :: counts        !! of poses found and matrices assembled
 
-    real(wp) :: sine, least_sine, spread, energy, multiple, own_work(modes), far(modes)
-    type(position_equations_t) :: equations
-    type(assembled_t) :: here
-    type(structure_t) :: other
-    integer :: b, i, side
-    logical :: reached
+    real(wp) :: sine, least_sine, spread, energy, multiple, far(modes)
+    integer :: i
 
     multiple = merge(multiple_of_parts, 1.0_wp, allocated(structure%elastic))
     spread = max(1.0_wp, length_spread(structure%linkage, state%pose)/usual_spread)
@@ -97,14 +93,40 @@ contains
     end do
     if (sine >= least_sine) then
       error = 2.0_wp*multiple*far
-      error(:min(found%zeros, modes)) = 0.0_wp
-      return
+    else
+      call change_lengths(structure, model, state, sine, factor, found, far, error, counts)
+      error = 2.0_wp*multiple*error
+      ! Forces that cancel at every length leave their rounding.
+      if (allocated(structure%elastic)) error = error + near_multiple*epsilon(1.0_wp)* &
+        relative_error(load_work(:modes), found%lambda(:modes))
     end if
+    error(:min(found%zeros, modes)) = 0.0_wp
+  end subroutine pose_error
+
+  !> ε times the sensitivity of every eigenvalue to the lengths of the links, relative.
+  subroutine change_lengths(structure, model, state, sine, factor, found, far, error, counts)
+    type(structure_t), intent(in) :: structure
+    type(deformation_model_t), intent(in) :: model
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: sine              !! of the position, reduced by short links
+    real(wp), intent(in) :: factor(case_count)
+    type(bordered_modes_t), intent(in) :: found
+    real(wp), intent(in) :: far(:)            !! (modes) the error of a linkage far from dead points
+    real(wp), intent(out) :: error(:)         !! (modes)
+    type(ledger_t), intent(inout) :: counts
+
+    real(wp) :: own_work(size(far))
+    type(position_equations_t) :: equations
+    type(assembled_t) :: here
+    type(structure_t) :: other
+    integer :: b, side
+    logical :: reached
+
     equations = new_position_equations(model)
     here = new_assembled(structure, model)
     call assemble_lengths(structure, model, state%crank, factor, here, equations, reached, counts)
     own_work = 0.0_wp
-    if (reached) own_work = residual_work(equations%pencil, found, modes)
+    if (reached) own_work = residual_work(equations%pencil, found, size(far))
     error = 0.0_wp
     do b = 1, size(structure%linkage%bodies)
       do side = 1, -1, -2
@@ -123,11 +145,9 @@ contains
       end if
       error = error + &
         near_multiple*epsilon(1.0_wp)*abs(eigenvalue_change(equations%pencil, found, own_work))/ &
-        (small_change*sine**2*max(abs(found%lambda(:modes)), tiny(1.0_wp)))
+        (small_change*sine**2*max(abs(found%lambda(:size(far))), tiny(1.0_wp)))
     end do
-    error = 2.0_wp*multiple*error
-    error(:min(found%zeros, modes)) = 0.0_wp
-  end subroutine pose_error
+  end subroutine change_lengths
 
   !> Makes a link longer or shorter.
   pure subroutine scale_link(structure, body, factor)

@@ -11,6 +11,8 @@ module position_assembly
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use ledger, only: ledger_t
+  use link_modes, only: rigid
+  use linkages, only: drives_length
   use load_cases, only: case_count, find_unit_loads, unit_loads_t
   use part_displacements, only: border_size, border_t, find_part_chords, new_border
   use part_forces, only: find_part_forces, part_forces_t
@@ -25,19 +27,19 @@ module position_assembly
 
   public :: assembled_t, new_assembled, assemble_position, set_border, place_parts, load_parts
 
-  !> A linkage at a position. Of binary links and pins only `loads` and `unit_force` are used.
+  !> A linkage at a position. Of binary links and pins there are only `loads` and `unit_force`.
   type :: assembled_t
     type(unit_loads_t) :: loads                  !! of this pose
     real(wp), allocatable :: unit_force(:, :, :) !! (force functions, parts, cases) axial forces of
                                                  !! the unit loads [N]
-    type(elastic_linkage_t) :: elastic           !! its parts here
-    type(deformation_model_t) :: model           !! their own modes here
-    type(pose_t) :: pose                         !! of points and parts
-    type(part_loads_t) :: part_loads
-    type(part_forces_t) :: part_forces
-    type(border_t) :: border
+    type(elastic_linkage_t), allocatable :: elastic !! its parts here
+    type(deformation_model_t), allocatable :: model !! their own modes here
+    type(pose_t), allocatable :: pose            !! of points and parts
+    type(part_loads_t), allocatable :: part_loads
+    type(part_forces_t), allocatable :: part_forces
+    type(border_t), allocatable :: border
     real(wp), allocatable :: damper_rows(:, :)   !! (border, dampers) velocity of each for unit
-                                                 !! velocities of the border
+                                                 !! velocities of the border; only with dampers
   end type assembled_t
 
 contains
@@ -52,6 +54,7 @@ contains
     here%elastic = structure%elastic
     here%model = model
     here%border = new_border(structure%elastic, model%links)
+    allocate (here%pose, here%part_loads, here%part_forces)
   end function new_assembled
 
   !> Gives a model the border of its linkage, as it is at most of some positions.
@@ -116,7 +119,8 @@ contains
       end do
       return
     end if
-    here%damper_rows = matmul(transpose(here%border%basis%unknown), damper_rows(here%elastic, &
+    if (size(here%elastic%dampers) > 0) here%damper_rows = &
+      matmul(transpose(here%border%basis%unknown), damper_rows(here%elastic, &
       here%border%numbers, here%pose))
     here%unit_force = here%part_forces%axial
     call refuse_crushed(here%elastic%linkage, here%model, here%unit_force, factor, outcome)
@@ -171,7 +175,8 @@ contains
     end do
   end subroutine add_block
 
-  !> Places the parts, and renews the own modes of those whose lengths have changed.
+  !> Places the parts, and renews the own modes of those whose lengths have changed, and the lengths
+  !! of rams.
   !!
   !! Errors: those of `place_parts_of`; a link has no own modes.
   subroutine place_parts(structure, model, pose, here, error)
@@ -185,6 +190,14 @@ contains
 
     call place_parts_of(structure%linkage, pose, here%elastic, here%pose, error)
     if (allocated(error)) return
+    do i = 1, size(structure%linkage%drives)
+      if (structure%linkage%drives(i)%kind /= drives_length) cycle
+      part = findloc(here%elastic%body, structure%linkage%drives(i)%body, dim=1)
+      associate (ram => here%model%links(part))
+        ram%length = here%elastic%linkage%bodies(part)%length
+        ram%geometric(rigid, rigid, 1) = ram%length
+      end associate
+    end do
     do i = 1, size(here%elastic%cut_part)
       if (here%elastic%cut_part(i) == 0) cycle
       do k = 0, 1

@@ -135,6 +135,9 @@ contains
         if (abs(factor(i)) > 0.0_wp) call add_scaled(geometric, factor(i), &
           equations%unit_stiffness(i))
       end do
+      ! Loads that no part of the linkage feels leave free motions free.
+      equations%pencil%loaded = any(abs(geometric%border) > 0.0_wp) .or. &
+        any(abs(geometric%coupling) > 0.0_wp) .or. any(abs(geometric%block) > 0.0_wp)
     end associate
   end subroutine set_speed
 

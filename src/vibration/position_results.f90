@@ -12,7 +12,7 @@ module position_results
   implicit none (type, external)
   private
 
-  public :: position_result_t, position_work_t, of_frequency, frequency_of, take_mesh_value
+  public :: position_result_t, position_work_t, frequency_error, frequency_of, take_mesh_value
   public :: largest_error, error_of_orders, error_of_position, error_of_divergence, &
     error_of_rounding
 
@@ -21,9 +21,6 @@ module position_results
   !! a divergence; other rounding of the matrices.
   integer, parameter :: error_of_orders = 1, error_of_position = 2, error_of_divergence = 3, &
     error_of_rounding = 4
-
-  !> Relative error of a frequency as a share of that of its eigenvalue.
-  real(wp), parameter :: of_frequency = 0.5_wp
 
   type :: position_result_t
     real(wp), allocatable :: lambda(:, :)      !! (modes, speeds) ω² [1/s²]; with dampers |s|² of a
@@ -78,6 +75,19 @@ contains
     frequency = sign(sqrt(abs(lambda)), lambda)/two_pi
   end function frequency_of
 
+  !> Relative error of a frequency whose eigenvalue has the relative error e: half of it, if small;
+  !! one of 1 or more reaches zero, and beyond it the frequencies that stand for negative ones.
+  elemental function frequency_error(eigenvalue_error) result(error)
+    real(wp), intent(in) :: eigenvalue_error !! e, not negative
+    real(wp) :: error
+
+    if (eigenvalue_error <= 1.0_wp) then
+      error = eigenvalue_error/(1.0_wp + sqrt(1.0_wp - eigenvalue_error))
+    else
+      error = 1.0_wp + sqrt(eigenvalue_error - 1.0_wp)
+    end if
+  end function frequency_error
+
   !> Replaces the eigenvalue of the continuous links by that of the mesh. The difference of their
   !! frequencies is added to the error.
   elemental subroutine take_mesh_value(lambda_of_mesh, own_error, lambda, error)
@@ -92,7 +102,7 @@ contains
     frequency = sign(sqrt(abs(lambda_of_mesh)), lambda_of_mesh)
     exact = sign(sqrt(abs(lambda)), lambda)
     error = (abs(frequency - exact) + error*abs(exact))/max(abs(frequency), tiny(frequency)) + &
-      of_frequency*own_error
+      frequency_error(own_error)
     lambda = lambda_of_mesh
   end subroutine take_mesh_value
 

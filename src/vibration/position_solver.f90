@@ -13,7 +13,8 @@ module position_solver
   use link_modes, only: stations
   use linkages, only: linkage_t
   use load_cases, only: case_count
-  use matrix_rounding, only: find_matrix_errors, force_sizes
+  use load_sizes, only: axial_sizes, second_order_work
+  use matrix_rounding, only: find_matrix_errors
   use mesh_solver, only: solve_long_mesh, solve_mesh
   use mode_prints, only: prints_of
   use nodal_solver, only: solve_nodal
@@ -22,7 +23,7 @@ module position_solver
   use pose_rounding, only: pose_error
   use poses, only: pose_t
   use position_assembly, only: assemble_position, assembled_t, new_assembled
-  use position_results, only: largest_error, of_frequency, position_result_t, position_work_t
+  use position_results, only: frequency_error, largest_error, position_result_t, position_work_t
   use positions, only: state_t
   use reduced_deflections, only: reduced_deflection
   use shape_samples, only: sample_reduced
@@ -151,14 +152,13 @@ contains
           found(k)%near), dim=1), request%modes, found(k)%zeros)
         result%order_error = max(result%order_error, maxval(discretisation))
         result%lambda(:, k) = found(k)%lambda(:request%modes)
-        call find_matrix_errors(model, chords, force_sizes(unit_force, factor(:, k)), found(k), &
+        call find_matrix_errors(model, chords, axial_sizes(work%here, factor(:, k)), found(k), &
           request%modes, of_matrices, load_work)
-        if (allocated(structure%elastic) .and. size(unit_force) > 0) load_work = load_work + &
-          second_order_work(work%here, factor(:, k), found(k), request%modes)
+        load_work = load_work + second_order_work(work%here, factor(:, k), found(k), request%modes)
         call pose_error(structure, model, state, factor(:, k), load_work, found(k), &
           request%modes, rounding, result%counts)
         of_matrices = of_matrices + found(k)%error(:request%modes)
-        result%error(:, k) = of_frequency*(discretisation + (rounding + of_matrices))
+        result%error(:, k) = frequency_error(discretisation + (rounding + of_matrices))
         if (maxval(result%error(:, k)) > request%accuracy) result%cause(k) = &
           largest_error(discretisation, rounding, of_matrices, &
           energies(models%continuum%layout, found(k), request%modes) > &
@@ -248,30 +248,6 @@ contains
       end do
     end do
   end subroutine find_deflection
-
-  !> Bound of what blocks on guides and springs under tension do in modes of unit mass, whatever
-  !! cancels, twice [1/s²].
-  pure function second_order_work(here, factor, found, modes) result(work)
-    type(assembled_t), intent(in) :: here
-    real(wp), intent(in) :: factor(case_count)
-    type(bordered_modes_t), intent(in) :: found
-    integer, intent(in) :: modes
-    real(wp) :: work(modes)
-
-    real(wp), allocatable :: sizes(:, :)
-    integer :: i, n
-
-    n = size(here%part_forces%second_order, 1)
-    allocate (sizes(n, n), source=0.0_wp)
-    do i = 1, case_count
-      sizes = sizes + abs(factor(i)*here%part_forces%second_order(:, :, i))
-    end do
-    do i = 1, modes
-      associate (size_of => abs(found%vector(:n, i)))
-        work(i) = dot_product(size_of, matmul(sizes, size_of))
-      end associate
-    end do
-  end function second_order_work
 
   !> The link of a part.
   pure function link_of(structure, part) result(link)

@@ -1,14 +1,16 @@
 !> Times the program's solvers and the usual ones, in turn, and writes tables.
 !!
-!!     bench PROGRAM FOLDER LIBRARIES [short|corners|response]
+!!     bench PROGRAM FOLDER LIBRARIES [short|corners|linkages|response]
 !!
-!! `short`: a few cases once. `corners`: only the decks of tests/bench/corners, those that are slow once or three times. `response`:
-!! only the elastic response. `memory ACCURACY SPEEDS THREADS`: prints the memory that one elastic response takes.
+!! `short`: a few cases once. `corners`: only the decks of tests/bench/corners, those that are slow once or three times.
+!! `linkages`: only linkages in parts, eleven times. `response`: only the elastic response. `memory ACCURACY SPEEDS THREADS`:
+!! prints the memory that one elastic response takes.
 !! PROGRAM is also timed as a whole; tables go to FOLDER; LIBRARIES names the BLAS that was linked. Run in the root of the repository.
 program bench
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
   use bench_cases, only: plan_t, table_names, with_accuracy
   use bench_corners, only: corner_t, prepare_corner, read_corners, time_corner, write_corners
+  use bench_linkages, only: linkage_case_t, prepare_linkage, read_linkages, time_linkage, write_linkages
   use bench_models, only: base_t, read_base
   use bench_plans, only: plan_cases
   use bench_ratios, only: write_ratios
@@ -24,11 +26,12 @@ program bench
   use text, only: string_t, to_string, word_list
   implicit none (type, external)
 
-  integer, parameter :: repetitions = 7, of_long = 3, short_repetitions = 1
+  integer, parameter :: repetitions = 7, of_long = 3, of_linkages = 11, short_repetitions = 1
   character(len=*), parameter :: job_list = "--version inputs/mechanism1.deck inputs/exact.deck tests/bench/typical.deck"
   character(len=*), parameter :: long_job_list = " tests/bench/positions.deck tests/bench/variants.deck"
   type(plan_t) :: plan
   type(corner_t), allocatable :: corners(:)
+  type(linkage_case_t), allocatable :: linkages(:)
   type(response_bench_t) :: responses
   type(base_t) :: base
   type(exact_values_t) :: exact
@@ -40,10 +43,10 @@ program bench
   integer :: i, k, order(3), rounds
   real(wp) :: accuracy
   integer :: speeds, threads
-  logical :: short, only_corners, only_response, done
+  logical :: short, only_corners, only_linkages, only_response, done
 
   words = arguments()
-  if (.not. any(size(words) == [3, 4, 7])) call give_up("usage: bench PROGRAM FOLDER LIBRARIES [short|corners|response]")
+  if (.not. any(size(words) == [3, 4, 7])) call give_up("usage: bench PROGRAM FOLDER LIBRARIES [short|corners|linkages|response]")
   if (size(words) == 7) then
     if (words(4)%text /= "memory") call give_up(words(4)%text//": not memory")
     read (words(5)%text, *) accuracy
@@ -57,14 +60,18 @@ program bench
   end if
   short = .false.
   only_corners = .false.
+  only_linkages = .false.
   only_response = .false.
   if (size(words) == 4) then
     short = words(4)%text == "short"
     only_corners = words(4)%text == "corners"
+    only_linkages = words(4)%text == "linkages"
     only_response = words(4)%text == "response"
-    if (.not. (short .or. only_corners .or. only_response)) call give_up(words(4)%text//": not short, corners or response")
+    if (.not. (short .or. only_corners .or. only_linkages .or. only_response)) &
+      call give_up(words(4)%text//": not short, corners, linkages or response")
   end if
   rounds = merge(short_repetitions, repetitions, short)
+  if (only_linkages) rounds = of_linkages
   call make_directories(words(2)%text, done, made)
   if (.not. done) call give_up(words(2)%text//": this folder cannot be created")
   call read_base("inputs/exact.deck", base, error)
@@ -73,7 +80,7 @@ program bench
   call give_up_on(error)
 
   call system_clock(start)
-  if (.not. (only_corners .or. only_response)) plan = plan_cases(omp_get_num_procs(), short)
+  if (.not. (only_corners .or. only_linkages .or. only_response)) plan = plan_cases(omp_get_num_procs(), short)
   order = 3
   do i = 1, plan%count
     associate (this => plan%cases(i))
@@ -84,7 +91,7 @@ program bench
     end associate
   end do
   allocate (corners(0))
-  if (.not. only_response) call read_corners(short, corners, error)
+  if (.not. (only_linkages .or. only_response)) call read_corners(short, corners, error)
   call give_up_on(error)
   do i = 1, size(corners)
     call prepare_corner(corners(i), error)
@@ -92,20 +99,27 @@ program bench
     write (output_unit, "(a)") "bench: "//corners(i)%name//" solved once, "//to_string(seconds_since(start), 3)//" s"
     flush (output_unit)
   end do
+  allocate (linkages(0))
+  if (.not. (only_corners .or. only_response)) call read_linkages(short, linkages, error)
+  call give_up_on(error)
+  do i = 1, size(linkages)
+    call prepare_linkage(linkages(i), error)
+    call give_up_on(error)
+  end do
   allocate (responses%cases(0))
-  if (.not. only_corners) then
+  if (.not. (only_corners .or. only_linkages)) then
     responses = plan_responses(short)
     call get_command_argument(0, executable)
     call prepare_response(base, trim(executable), words(2)%text, responses, error)
     call give_up_on(error)
   end if
-  write (output_unit, "(a)") "bench: "//to_string(plan%count)//" cases and "//to_string(size(corners))// &
+  write (output_unit, "(a)") "bench: "//to_string(plan%count)//" cases and "//to_string(size(corners) + size(linkages))// &
     " decks solved once, "//to_string(seconds_since(start), 3)//" s"
 
   ! In turn: a slow minute of the machine then comes to all.
   jobs = word_list(job_list//long_job_list)
   if (short) jobs = word_list(job_list)
-  if (only_corners .or. only_response) jobs = jobs(:0)
+  if (only_corners .or. only_linkages .or. only_response) jobs = jobs(:0)
   allocate (times(size(jobs), rounds))
   do k = 1, rounds
     do i = 1, plan%count
@@ -116,6 +130,10 @@ program bench
     do i = 1, size(corners)
       if (k > corners(i)%most_rounds) cycle
       call time_corner(corners(i), error)
+      call give_up_on(error)
+    end do
+    do i = 1, size(linkages)
+      call time_linkage(linkages(i), error)
       call give_up_on(error)
     end do
     do i = 1, size(responses%cases)
@@ -130,6 +148,9 @@ program bench
   end do
 
   notes = machine_notes(words(3)%text)
+  if (size(linkages) > 0) call write_linkages(words(2)%text, notes, linkages, error)
+  call give_up_on(error)
+  if (only_linkages) stop, quiet=.true.
   if (.not. only_corners) call write_responses(words(2)%text, notes, base, responses, error)
   call give_up_on(error)
   if (only_response) stop, quiet=.true.

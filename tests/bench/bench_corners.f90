@@ -8,12 +8,12 @@ module bench_corners
   use errors, only: error_of_input, error_of_numerics, error_t, set_error
   use joint_forces, only: joint_forces_t
   use kinds, only: wp
-  use lapack, only: dsygvx
   use link_store, only: link_store_t
   use load_cases, only: case_count, find_unit_loads, unit_loads_t
   use mechanisms, only: mechanism_t, new_mechanism
   use mesh_forces, only: find_element_forces
   use models, only: effects_axial, model_t, solver_dense
+  use nodal_parts, only: find_eigenvalues
   use positions, only: find_positions, positions_t, state_t
   use table_rows, only: add_row, rows_t
   use tables, only: column_t, finish_table, integer_cell, integer_column, name_cell, name_column, open_table, publish_table, &
@@ -290,33 +290,6 @@ contains
       end do
     end associate
   end subroutine assemble
-
-  !> Some eigenvalues of `A x = λ B x`, in ascending order: the highest or the lowest ones.
-  subroutine find_eigenvalues(a, b, n, wanted, highest, lambda, info)
-    real(wp), intent(in) :: a(:, :), b(:, :)
-    integer, intent(in) :: n, wanted
-    logical, intent(in) :: highest
-    real(wp), intent(out) :: lambda(:)
-    integer, intent(out) :: info !! of dsygvx; not 0: it failed
-
-    real(wp) :: left(n, n), right(n, n), w(n), z(1, 1), query(1)
-    real(wp), allocatable :: work(:)
-    integer :: iwork(5*n), ifail(n), found, first
-
-    left = a
-    right = b
-    w = 0.0_wp
-    query = 0.0_wp
-    lambda = 0.0_wp
-    first = merge(n - wanted + 1, 1, highest)
-    call dsygvx(1, "N", "I", "L", n, left, n, right, n, 0.0_wp, 0.0_wp, first, first + wanted - 1, 2.0_wp*tiny(1.0_wp), found, &
-      w, z, n, query, -1, iwork, ifail, info)
-    allocate (work(max(1, nint(query(1)))))
-    work = 0.0_wp
-    call dsygvx(1, "N", "I", "L", n, left, n, right, n, 0.0_wp, 0.0_wp, first, first + wanted - 1, 2.0_wp*tiny(1.0_wp), found, &
-      w, z, n, work, size(work), iwork, ifail, info)
-    if (info == 0) lambda = w(:wanted)
-  end subroutine find_eigenvalues
 
   !> Writes `corners.dat`. Errors: the file could not be written.
   subroutine write_corners(folder, notes, corners, error)

@@ -161,7 +161,7 @@ contains
     links = size(mechanism%beams)
     call new_deformation_model(mechanism%linkage, mechanism%beams, spread(0, 1, links), spread(order, 1, links), &
       spread(.false., 1, links), model, error, store, degrees_of(mechanism, order))
-    if (.not. allocated(error)) call new_turn_grid(mechanism%linkage, model, samples, grid, error)
+    if (.not. allocated(error)) call new_turn_grid(mechanism, model, samples, grid, error)
   end subroutine new_grid
 
   !> Most memory that this process has held so far [bytes]; 0 where the system does not say.

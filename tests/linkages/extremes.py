@@ -1,5 +1,5 @@
 """Linkages that are extreme in one way, for random_vibrations.py: stiffness over many decades, a block at the end of its guide, corners
-that hardly turn, positions beside dead points and change points."""
+that hardly turn, positions beside dead points and change points, and many links of many welded pieces."""
 import math
 import random
 
@@ -17,6 +17,7 @@ LINK follower O4 B length=0.2667 material=steel section=strip
 DRIVE crank
 """
 FAMILIES = ("third_crank", "triangle", "coil", "spring", "guide_end", "corner", "dead_point", "change_point")
+MANY = "many_links"                            # by the kind `many` of random_vibrations.py
 
 
 class Extreme:
@@ -24,10 +25,10 @@ class Extreme:
 
     linear, loaded, scale = False, False, 1.0
 
-    def __init__(self, seed):
+    def __init__(self, seed, family=None):
         self.seed = seed
         self.random = random.Random(seed).random
-        self.family = FAMILIES[int(self.random() * len(FAMILIES))]
+        self.family = family or FAMILIES[int(self.random() * len(FAMILIES))]
         self.modulus = "200GPa"
         self.crank = round(self.uniform(-180, 180), 2)
         self.cards = getattr(self, "_" + self.family)()
@@ -125,3 +126,46 @@ SLIDER B bore mass=0.05
 DRIVE B bore
 BRANCH A left O2 B
 """
+
+    def _many_links(self):
+        """An eight-bar: a crank and three dyads, every link of two or three pieces that are welded, or a closed frame of three."""
+        angle = math.radians(self.crank)
+        places = {"O2": (0.0, 0.0), "O4": (0.25, 0.0), "A": (0.1 * math.cos(angle), 0.1 * math.sin(angle))}
+        lines, links = ["LINK crank O2 A length=0.1 material=steel section=bar"], {"crank": ["A"]}
+        for number, pin in enumerate("BCD"):
+            first, last = self._bases(number, places, links)
+            (x, y), (to_x, to_y) = places[first], places[last]
+            rise = self.uniform(0.5, 1.2) * (1 if self.random() < 0.5 else -1)
+            places[pin] = ((x + to_x) / 2 - rise * (to_y - y), (y + to_y) / 2 + rise * (to_x - x))
+            for side, base in enumerate((first, last)):
+                name, way = f"link{2 * number + side}", [base, pin]
+                corners = 1 + int(self.random() * 2)
+                for k in range(corners):
+                    corner = f"{pin}{side}{k}"
+                    places[corner] = self._corner_of(places[base], places[pin], (k + 1) / (corners + 1))
+                    way.insert(-1, corner)
+                    if self.random() < 0.4:
+                        lines.append(f"PINMASS {corner} {self.power(-2, 0)}")
+                if corners == 1 and self.random() < 0.5:
+                    way.append(base)
+                links[name] = way
+                lines.append(f"LINK {name} {' '.join(way)} material=steel section={'strip' if self.random() < 0.7 else 'bar'}")
+        grounds = [f"{'GROUND' if pin[0] == 'O' else 'PIN'} {pin} {x:.9f} {y:.9f}" for pin, (x, y) in places.items()]
+        return "\n".join(grounds + lines + ["DRIVE crank"]) + "\n"
+
+    def _bases(self, number, places, links):
+        """Two pins of different links, or of one and the ground, not too near to each other; of the first dyad the four-bar's."""
+        if number == 0:
+            return "A", "O4"
+        while True:
+            one, other = (sorted(places)[int(self.random() * len(places))] for _ in range(2))
+            near = math.dist(places[one], places[other]) < 0.08
+            joined = any(one in way and other in way for way in links.values()) or {one, other} <= {"O2", "O4", "A"}
+            if not near and not joined:
+                return one, other
+
+    def _corner_of(self, base, pin, share):
+        """A place beside the way from one pin to another."""
+        beside = self.uniform(0.15, 0.4) * (1 if self.random() < 0.5 else -1)
+        dx, dy = pin[0] - base[0], pin[1] - base[1]
+        return base[0] + share * dx - beside * dy, base[1] + share * dy + beside * dx

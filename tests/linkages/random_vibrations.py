@@ -17,7 +17,7 @@ import tempfile
 from decimal import Decimal
 
 from decks import Deck
-from extremes import Extreme
+from extremes import MANY, Extreme
 from fields import Digits
 from growth import Drawing, Retry
 from solver import Failure
@@ -190,13 +190,13 @@ class Case:
                  "tube": f"outer={thick:.6g} inner={thick * drawing.uniform(0.4, 0.95):.6g}",
                  "general": f"A={thick * width:.6g} I={thick**3 * width / 12:.6g} shear_coefficient={drawing.uniform(0.4, 0.9):.4g}"}
         lines = [f"SECTION {section} {kind} {sizes[kind]}"]
+        if name == drawing.driven_length:      # its mass goes with the pin that is placed first
+            pins = sorted(pins, key=lambda pin: pin not in drawing.grounds)
         words = " ".join(pins)
         material = f" material={drawing.pick(('metal', 'metal', 'plastic'))} section={section}"
         body = f" mass={self.power(-1.5, 1)}kg inertia={self.power(-4, -1)}kg*m2"
         if len(pins) > 2 or drawing.chance(0.5) or name == drawing.driven_length:
             body += f" center={self.number(-0.2, 0.8, scale)},{self.number(-0.3, 0.3, scale)}"
-        if name == drawing.driven_length and self.loaded:
-            return [f"LINK {name} {words} rigid mass=0 inertia=0"]
         must_be_rigid = beside or name == drawing.driven_length or (self.loaded and name in self.contacts)
         if must_be_rigid or (not certain and drawing.chance(0.25)):
             if name == drawing.driven_length:
@@ -343,7 +343,10 @@ def examine(job):
     seed, kind, program, scratch = job
     result = Result(seed, kind or KINDS[seed % len(KINDS)])
     try:
-        case = Extreme(seed) if result.kind == "extreme" else Case(seed, kind)
+        if result.kind in ("extreme", "many"):
+            case = Extreme(seed, MANY if result.kind == "many" else None)
+        else:
+            case = Case(seed, kind)
         positions = good_positions(case)
         if not positions:
             raise Failure("no position is well conditioned")
@@ -424,7 +427,7 @@ def main():
     parser.add_argument("--scratch")
     parser.add_argument("--keep", action="store_true")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--kind", choices=sorted(set(KINDS)))
+    parser.add_argument("--kind", choices=sorted({*KINDS, "many"}))
     parser.add_argument("--skip-refused", action="store_true")
     options = parser.parse_args()
     scratch = options.scratch or tempfile.mkdtemp(prefix="vibrations")

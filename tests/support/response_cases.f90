@@ -187,7 +187,7 @@ contains
     end do
     call new_deformation_model(structure%linkage, structure%beams, spread(0, 1, size(degrees)), spread(order, 1, &
       size(degrees)), spread(.false., 1, size(degrees)), model, error, degrees=degrees)
-    if (.not. allocated(error)) call new_turn_grid(structure%linkage, model, samples, grid, error)
+    if (.not. allocated(error)) call new_turn_grid(structure, model, samples, grid, error)
   end subroutine grid_of
 
   !> A motion of few harmonics, of no equation.

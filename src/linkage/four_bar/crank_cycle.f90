@@ -72,9 +72,9 @@ contains
     real(wp) :: part(4, case_count)        !! as in `cycle_t`
 
     type(error_t), allocatable :: error
-    real(wp) :: none(0)
+    real(wp) :: no_torque(0)
 
-    call find_parts(linkage, elements, crank, none, 0.0_wp, part, none, error)
+    call find_parts(linkage, elements, crank, [real(wp) ::], 0.0_wp, part, no_torque, error)
   end function parts_at
 
   !> The same, with the torque that loads that depend on the speed add. Errors: the links cannot be

@@ -143,7 +143,7 @@ contains
     if (.not. is_ram(model, link)) return
     call add_error(diagnostics, link%body_word, "link '"//link%name%text// &
       "' has a mass, no moment of inertia, and no length of its own; expected "// &
-      "'inertia=' about its mass centre, or material and section")
+      "'inertia=' about its mass centre")
   end subroutine check_inertia
 
 end module body_checks

@@ -199,11 +199,12 @@ contains
 
     type(motion_segment_t) :: segments(size(parts))
     real(wp) :: motion(0:2, size(model%time%value))
-    integer :: i
+    integer :: i, before
     logical :: fine
 
     fine = .true.
     do i = 1, size(parts)
+      before = max(1, i - 1)
       associate (part => parts(i))
         segments(i) = motion_segment_t(part%law, part%start, part%stop, part%from, part%to)
         fine = fine .and. part%stop > part%start
@@ -213,20 +214,20 @@ contains
           fine = fine .and. part%from_word%line > 0
           cycle
         end if
-        if (part%start < segments(i - 1)%stop - rounding*(part%stop - part%start)) then
+        if (part%start < segments(before)%stop - rounding*(part%stop - part%start)) then
           call add_error(diagnostics, part%start_word, "segments of a law follow each other, "// &
-            "and this one starts before another one stops", parts(i - 1)%stop_word, &
+            "and this one starts before another one stops", parts(before)%stop_word, &
             "the other one stops here")
           fine = .false.
         end if
-        if (part%from_word%line > 0 .and. abs(part%from - segments(i - 1)%to) > &
-          rounding*(abs(part%from) + abs(segments(i - 1)%to))) then
+        if (part%from_word%line > 0 .and. abs(part%from - segments(before)%to) > &
+          rounding*(abs(part%from) + abs(segments(before)%to))) then
           call add_error(diagnostics, part%from_word, &
-            "a segment begins where the one before ends", parts(i - 1)%to_word, &
+            "a segment begins where the one before ends", parts(before)%to_word, &
             "that one ends here")
           fine = .false.
         end if
-        segments(i)%from = segments(i - 1)%to
+        segments(i)%from = segments(before)%to
       end associate
     end do
     if (.not. fine) return

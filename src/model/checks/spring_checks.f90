@@ -7,7 +7,7 @@ module spring_checks
   use kinds, only: wp
   use link_checks, only: is_ram
   use link_shapes, only: compare_lengths, find_drawn_place
-  use models, only: model_t, needs_frequencies
+  use models, only: model_t, needs_frequencies, needs_response
   use name_checks, only: look_up, pin_names
   use name_index, only: find_name, name_index_t, new_name_index
   use spring_cards, only: is_spring_card, read_spring, spring_t
@@ -145,9 +145,11 @@ contains
     type(spring_t), intent(in) :: spring
     logical, intent(out) :: fine
 
+    logical :: bends
     integer :: i
 
     fine = .false.
+    bends = needs_frequencies(model) .or. needs_response(model)
     associate (one => spring%ends(1), other => spring%ends(2))
       if (same_word(one%text, other%text)) then
         call add_error(diagnostics, other, "both ends are at '"//one%text//"'", one, &
@@ -161,7 +163,7 @@ contains
       end if
       do i = 1, size(model%links)
         if (.not. is_on_link(model, i, one) .or. .not. is_on_link(model, i, other)) cycle
-        if (needs_frequencies(model) .and. .not. model%links(i)%rigid) cycle
+        if (bends .and. .not. model%links(i)%rigid) cycle
         if (any(model%drives%link == i) .and. .not. model%links(i)%has_length .and. &
           size(model%links(i)%lengths) == 0) cycle
         call add_error(diagnostics, other, "both ends are on link '"//model%links(i)%name%text// &
@@ -170,7 +172,7 @@ contains
         return
       end do
       do i = 1, size(model%welds)
-        if (needs_frequencies(model) .and. any(.not. model%links(pack(model%welds(i)%link, &
+        if (bends .and. any(.not. model%links(pack(model%welds(i)%link, &
           model%welds(i)%link > 0))%rigid)) cycle
         if (.not. is_on_weld(model, i, one) .or. .not. is_on_weld(model, i, other)) cycle
         call add_error(diagnostics, other, "both ends are on links that are welded: nothing "// &
@@ -326,30 +328,17 @@ contains
       "' is not in the drawing: expected '"//key//"=' or a PIN card")
   end subroutine refuse_undrawn
 
-  !> Refuses motions in time of the elastic linkage, with dampers all of it, and shapes, which are
-  !! complex then; constant tensions where it runs.
+  !> With dampers refuses shapes, which are complex then.
   pure subroutine refuse_reports(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
-    integer :: i, damper, tension
+    integer :: i, damper
 
     damper = findloc(model%springs%damps, .true., dim=1)
-    tension = findloc(.not. model%springs%damps .and. model%springs%stiffness <= 0.0_wp, .true., &
-      dim=1)
     do i = 1, size(model%reports)
       associate (report => model%reports(i))
-        if (report%kind%name == "transient") then
-          call add_error(diagnostics, report%keyword, "springs and dampers do not act in "// &
-            "REPORT transient yet", model%springs(1)%keyword, "the first one is here")
-        else if (report%kind%response .and. damper > 0) then
-          call add_error(diagnostics, report%keyword, "dampers do not act in REPORT "// &
-            trim(report%kind%name)//" yet", model%springs(damper)%keyword, "the first one is here")
-        else if (report%kind%response .and. tension > 0) then
-          call add_error(diagnostics, report%keyword, "constant tensions do not act in REPORT "// &
-            trim(report%kind%name)//" yet", model%springs(tension)%keyword, &
-            "the first one is here")
-        else if (report%kind%frequencies .and. report%kind%name /= "frequencies" .and. &
+        if (report%kind%frequencies .and. report%kind%name /= "frequencies" .and. &
           damper > 0) then
           call add_error(diagnostics, report%keyword, "with dampers the shapes of modes are "// &
             "complex: REPORT "//trim(report%kind%name)//" takes none", &

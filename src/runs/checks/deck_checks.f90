@@ -11,8 +11,8 @@ module deck_checks
   use linkage_checks, only: check_linkage
   use linkage_parts, only: assemble_linkage, assembly_t
   use mechanisms, only: mechanism_of, mechanism_t
-  use models, only: has_law, is_four_bar, model_t, needs_frequencies, pivots, report_number, &
-    solver_band, solver_dense, steady_state_report
+  use models, only: has_law, is_four_bar, model_t, needs_frequencies, needs_response, pivots, &
+    report_number, solver_band, solver_dense, steady_state_report
   use motion_checks, only: check_motion
   use nodal_eigensolver, only: most_round_off
   use plan_faults, only: report_problem
@@ -182,10 +182,16 @@ contains
     integer :: report
 
     report = steady_state_report(model)
+    no_state = "the steady state"
+    if (report == 0 .and. needs_response(model) .and. allocated(mechanism%elastic)) then
+      ! Springs and dampers act in linkages in parts.
+      report = findloc(model%reports%kind%response, .true., dim=1)
+      no_state = "the motion, with springs or dampers,"
+    end if
     if (report == 0) return
     if (turns_freely(mechanism%linkage)) return
     place = model%reports(report)%keyword
-    no_state = "; REPORT "//trim(model%reports(report)%kind%name)//" is on the steady state of "// &
+    no_state = "; REPORT "//trim(model%reports(report)%kind%name)//" is on "//no_state//" of "// &
       "a crank that turns fully, and there is none"
     if (reach%least > 0.0_wp .or. reach%most < 180.0_wp) then
       call add_error(diagnostics, place, "the crank turns only "//reachable_text(reach)//no_state, &

@@ -18,6 +18,7 @@ module linkage_checks
   use process_cards, only: process_force
   use pose_types, only: pose_t
   use poses, only: place_links, place_parts
+  use ram_checks, only: check_rams
   use redundancies, only: body_of_redundancy, largest_misfit
   use steady_turns, only: has_steady_turn
   use text, only: lower_case, plural, to_string
@@ -77,6 +78,7 @@ contains
         model%reports(report)%through_word, "only a four-bar, of three LINKs and no SLIDER, is "// &
         "followed straight through change points; expected change_points=stop")
     end if
+    call check_rams(model, mechanism, diagnostics)
     if (needs_frequencies(model)) call check_cut_links(model, diagnostics)
     if (needs_frequencies(model) .and. model%effects == effects_axial) call &
       warn_of_held_blocks(model, diagnostics)
@@ -102,7 +104,8 @@ contains
     i = findloc(model%drives%is_free, .true., dim=1)
     if (i > 0) then
       call add_error(diagnostics, model%drives(i)%keyword, name//" is on a linkage whose "// &
-        "drives keep to their motion, and this one is free; expected no 'free'", &
+        "drives keep to their motion, and this one is free; expected no 'free'; REPORT motion "// &
+        "moves free drives, of rigid links, and frequencies are those of a position", &
         model%reports(report)%keyword, "it is asked for here")
       return
     end if
@@ -116,11 +119,19 @@ contains
         return
       end do
     end if
-    report = steady_state_report(model)
-    if (report == 0) return
+    i = steady_state_report(model)
+    if (i > 0) then
+      report = i
+      name = "the steady state"
+    else if (allocated(mechanism%elastic)) then
+      ! Border unknowns are smooth functions of the angle over a whole turn.
+      name = "the motion"
+    else
+      return
+    end if
     if (has_steady_turn(mechanism%linkage)) return
-    name = "; REPORT "//trim(model%reports(report)%kind%name)//" is on the steady state of a "// &
-      "crank that turns fully, and there is none"
+    name = "; REPORT "//trim(model%reports(report)%kind%name)//" is on "//name//" of a crank "// &
+      "that turns fully, and there is none; frequencies at positions do without"
     if (drives_length(model)) then
       call add_error(diagnostics, model%drives(1)%keyword, "the first DRIVE moves a slider "// &
         "or a ram"//name, kind=error_of_reach)

@@ -1,0 +1,301 @@
+!> The terms of the equations of motion at crank angles anywhere: of a crank and dyads from closed
+!! forms, so that the crank need not turn fully; of a linkage in parts from their harmonics over a
+!! turn, since its border unknowns are smooth functions of the crank angle only as a whole.
+module path_grids
+  use chord_slopes, only: find_chord_slopes
+  use constants, only: degree
+  use deformation_model, only: deformation_model_t
+  use errors, only: error_of_numerics, error_t, set_error
+  use fourier_transform, only: close_fourier, coefficients_of, derivatives, fourier_plan_t, &
+    open_fourier, value_at
+  use kinds, only: wp
+  use kinematic_coefficients, only: find_kinematic_coefficients
+  use linkages, only: linkage_t
+  use pin_displacements, only: chords_t, find_chords
+  use poses, only: find_pose, pose_t
+  use structures, only: structure_t
+  use turn_grids, only: new_turn_grid, number_border, start_grid, take_chord, take_pose, turn_grid_t
+  implicit none (type, external)
+  private
+
+  public :: new_path_grid, place_grid
+
+  !> Samples of a turn, until the highest eighth of the harmonics of all terms are below a share of
+  !! the largest term of their kind; above the second nothing is found.
+  integer, parameter :: turn_samples(*) = [64, 128, 256, 512, 1024]
+  real(wp), parameter :: enough = 1.0e-13_wp, most = 1.0e-9_wp
+
+  !> Number of the first kind of terms that need not be there, `second_order`.
+  integer, parameter :: first_optional = 13
+
+contains
+
+  !> Room for the terms at crank angles anywhere, which `place_grid` gives.
+  !!
+  !! Errors, of a linkage in parts: those of `new_turn_grid`; its terms have too many harmonics.
+  subroutine new_path_grid(structure, model, samples, grid, error)
+    class(structure_t), intent(in) :: structure    !! linkage and beams
+    type(deformation_model_t), intent(in) :: model !! own deformations of its bodies
+    integer, intent(in) :: samples                 !! crank angles
+    type(turn_grid_t), intent(out) :: grid         !! for `place_grid`
+    type(error_t), allocatable, intent(out) :: error
+
+    if (allocated(structure%elastic)) then
+      call find_harmonics(structure, model, samples, grid, error)
+      return
+    end if
+    call start_grid(structure%linkage, model, samples, grid)
+    call number_border(structure%linkage, grid)
+    allocate (grid%chord_slope, mold=grid%chord)
+    allocate (grid%pin_slope, mold=grid%pin)
+    grid%chord_slope = 0.0_wp
+  end subroutine new_path_grid
+
+  !> The terms at given crank angles, with derivatives of the chords and pins: the angles need not
+  !! be even.
+  !!
+  !! Errors, of a crank and dyads: the crank cannot reach one of them, or meets a dead point there.
+  subroutine place_grid(structure, crank, grid, error)
+    class(structure_t), intent(in) :: structure      !! of the grid
+    real(wp), intent(in) :: crank(:)                 !! (samples) crank angles [deg]
+    type(turn_grid_t), intent(inout) :: grid         !! by `new_path_grid`
+    type(error_t), allocatable, intent(out) :: error !! why the grid has no terms
+
+    integer :: k
+
+    if (allocated(grid%harmonics)) then
+      do k = 1, size(crank)
+        call take_terms(value_at(grid%harmonics, modulo(crank(k), 360.0_wp)*degree), k, grid)
+      end do
+    else
+      call place_dyads(structure%linkage, crank, grid, error)
+    end if
+  end subroutine place_grid
+
+  !> Those of a crank and dyads, from the motion of the links at each angle.
+  subroutine place_dyads(linkage, crank, grid, error)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), intent(in) :: crank(:)
+    type(turn_grid_t), intent(inout) :: grid
+    type(error_t), allocatable, intent(out) :: error
+
+    type(pose_t) :: pose
+    type(chords_t) :: slopes
+    integer :: b, k
+
+    do k = 1, size(crank)
+      call find_pose(linkage, crank(k), pose, error)
+      if (allocated(error)) return
+      call take_pose(linkage, pose, k, grid)
+      slopes = find_chord_slopes(linkage, grid%model%links, pose, &
+        find_kinematic_coefficients(linkage, pose), find_chords(linkage, grid%model%links, pose))
+      grid%pin_slope(k, :, :, :) = slopes%pin
+      do b = 1, size(grid%integrals)
+        call take_chord(grid%model%links(b), slopes, b, grid%chord_slope(k, :, :, b))
+      end do
+    end do
+  end subroutine place_dyads
+
+  !> Harmonics of all terms of a linkage in parts, from as many samples of a turn as they need.
+  subroutine find_harmonics(structure, model, samples, grid, error)
+    class(structure_t), intent(in) :: structure
+    type(deformation_model_t), intent(in) :: model
+    integer, intent(in) :: samples
+    type(turn_grid_t), intent(out) :: grid
+    type(error_t), allocatable, intent(out) :: error
+
+    type(fourier_plan_t) :: plan
+    real(wp), allocatable :: terms(:, :), coefficients(:, :)
+    real(wp) :: tail, last
+    integer :: i
+
+    last = huge(last)
+    do i = 1, size(turn_samples)
+      call new_turn_grid(structure, model, turn_samples(i), grid, error)
+      if (allocated(error)) return
+      call open_fourier(turn_samples(i), plan)
+      if (allocated(grid%weighted)) call add_slopes(plan, grid)
+      terms = terms_of(grid)
+      allocate (coefficients, mold=terms)
+      call coefficients_of(plan, terms, coefficients)
+      call close_fourier(plan)
+      tail = tail_of(widths_of(grid), scales_of(grid), coefficients)
+      ! More samples do not help against rounding.
+      if (tail <= enough .or. i == size(turn_samples) .or. (tail <= most .and. tail > &
+        0.1_wp*last)) exit
+      last = tail
+      deallocate (coefficients)
+    end do
+    if (tail > most) then
+      call set_error(error, error_of_numerics, "the motion of the links over a turn of the "// &
+        "crank has too many harmonics: a dead point is near")
+      return
+    end if
+    call move_alloc(coefficients, grid%harmonics)
+    call resize(grid, samples)
+  end subroutine find_harmonics
+
+  !> d/dθ2 of the deformations.
+  subroutine add_slopes(plan, grid)
+    type(fourier_plan_t), intent(in) :: plan
+    type(turn_grid_t), intent(inout) :: grid
+
+    integer :: i
+
+    allocate (grid%weighted_slope, mold=grid%weighted)
+    do i = 1, grid%border
+      call derivatives(plan, grid%weighted(:, :, i), grid%weighted_slope(:, :, i))
+    end do
+  end subroutine add_slopes
+
+  !> All terms, kind after kind.
+  pure function terms_of(grid) result(terms)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp), allocatable :: terms(:, :) !! (samples, terms)
+
+    real(wp), allocatable :: flat(:)
+
+    flat = [real(wp) :: &
+      reshape(grid%chord, [size(grid%chord)]), &
+      reshape(grid%turn, [size(grid%turn)]), &
+      reshape(grid%pin, [size(grid%pin)]), &
+      reshape(grid%chord_slope, [size(grid%chord_slope)]), &
+      reshape(grid%pin_slope, [size(grid%pin_slope)]), &
+      reshape(grid%place, [size(grid%place)]), &
+      reshape(grid%direction, [size(grid%direction)]), &
+      reshape(grid%rate, [size(grid%rate)]), &
+      reshape(grid%rate_slope, [size(grid%rate_slope)]), &
+      reshape(grid%force, [size(grid%force)]), &
+      reshape(grid%load, [size(grid%load)]), &
+      reshape(grid%torque, [size(grid%torque)])]
+    if (allocated(grid%second_order)) flat = [flat, reshape(grid%second_order, &
+      [size(grid%second_order)])]
+    if (allocated(grid%weighted)) flat = [flat, reshape(grid%weighted, [size(grid%weighted)])]
+    if (allocated(grid%weighted_slope)) flat = [flat, reshape(grid%weighted_slope, &
+      [size(grid%weighted_slope)])]
+    terms = reshape(flat, [grid%samples, size(flat)/grid%samples])
+  end function terms_of
+
+  !> Numbers of terms of every kind, in the order of `terms_of`.
+  pure function widths_of(grid) result(widths)
+    type(turn_grid_t), intent(in) :: grid
+    integer, allocatable :: widths(:)
+
+    widths = [size(grid%chord), size(grid%turn), size(grid%pin), size(grid%chord_slope), &
+      size(grid%pin_slope), size(grid%place), size(grid%direction), size(grid%rate), &
+      size(grid%rate_slope), size(grid%force), size(grid%load), size(grid%torque)]
+    if (allocated(grid%second_order)) widths = [widths, size(grid%second_order)]
+    if (allocated(grid%weighted)) widths = [widths, size(grid%weighted)]
+    if (allocated(grid%weighted_slope)) widths = [widths, size(grid%weighted_slope)]
+    widths = widths/grid%samples
+  end function widths_of
+
+  !> What kinds of terms are small beside, where the largest of its kind may be rounding: what lines
+  !! and guides add to K_G beside what axial forces do, slopes of deformations beside these.
+  pure function scales_of(grid) result(scales)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp), allocatable :: scales(:)
+
+    allocate (scales(size(widths_of(grid))), source=tiny(1.0_wp))
+    if (allocated(grid%second_order)) scales(first_optional) = maxval(abs(grid%force))* &
+      maxval(abs(grid%turn))**2*maxval(grid%model%links%length)
+    if (allocated(grid%weighted_slope)) scales(size(scales)) = maxval(abs(grid%weighted))
+  end function scales_of
+
+  !> The highest eighth of the harmonics, beside the largest of their kind.
+  pure function tail_of(widths, scales, coefficients) result(tail)
+    integer, intent(in) :: widths(:)
+    real(wp), intent(in) :: scales(:)          !! (kinds) of which a share is small
+    real(wp), intent(in) :: coefficients(:, :) !! (samples, terms)
+    real(wp) :: tail
+
+    integer :: at, i, n
+
+    n = size(coefficients, 1)
+    tail = 0.0_wp
+    at = 0
+    do i = 1, size(widths)
+      if (widths(i) == 0) cycle
+      associate (here => coefficients(:, at + 1:at + widths(i)))
+        tail = max(tail, maxval(abs(here(n - n/8:, :)))/max(maxval(abs(here)), scales(i)))
+      end associate
+      at = at + widths(i)
+    end do
+  end function tail_of
+
+  !> Gives the terms room for another number of samples.
+  pure subroutine resize(grid, samples)
+    type(turn_grid_t), intent(inout) :: grid
+    integer, intent(in) :: samples
+
+    grid%samples = samples
+    grid%chord = grid%chord(spread(1, 1, samples), :, :, :)
+    grid%turn = grid%turn(spread(1, 1, samples), :, :)
+    grid%pin = grid%pin(spread(1, 1, samples), :, :, :)
+    grid%chord_slope = grid%chord_slope(spread(1, 1, samples), :, :, :)
+    grid%pin_slope = grid%pin_slope(spread(1, 1, samples), :, :, :)
+    grid%place = grid%place(spread(1, 1, samples), :, :)
+    grid%direction = grid%direction(spread(1, 1, samples), :, :)
+    grid%rate = grid%rate(spread(1, 1, samples), :)
+    grid%rate_slope = grid%rate_slope(spread(1, 1, samples), :)
+    grid%force = grid%force(spread(1, 1, samples), :, :, :)
+    grid%load = grid%load(spread(1, 1, samples), :, :)
+    grid%torque = grid%torque(spread(1, 1, samples), :)
+    if (allocated(grid%second_order)) grid%second_order = grid%second_order(spread(1, 1, &
+      samples), :, :, :)
+    if (allocated(grid%weighted)) grid%weighted = grid%weighted(spread(1, 1, samples), :, :)
+    if (allocated(grid%weighted_slope)) grid%weighted_slope = grid%weighted_slope(spread(1, 1, &
+      samples), :, :)
+  end subroutine resize
+
+  !> Terms at a crank angle, in the order of `terms_of`.
+  subroutine take_terms(terms, k, grid)
+    real(wp), intent(in) :: terms(:)
+    integer, intent(in) :: k !! number of the crank angle
+    type(turn_grid_t), intent(inout) :: grid
+
+    integer :: at
+
+    at = 0
+    call take4(grid%chord(k, :, :, :))
+    call take3(grid%turn(k, :, :))
+    call take4(grid%pin(k, :, :, :))
+    call take4(grid%chord_slope(k, :, :, :))
+    call take4(grid%pin_slope(k, :, :, :))
+    call take3(grid%place(k, :, :))
+    call take3(grid%direction(k, :, :))
+    call take2(grid%rate(k, :))
+    call take2(grid%rate_slope(k, :))
+    call take4(grid%force(k, :, :, :))
+    call take3(grid%load(k, :, :))
+    call take2(grid%torque(k, :))
+    if (allocated(grid%second_order)) call take4(grid%second_order(k, :, :, :))
+    if (allocated(grid%weighted)) call take3(grid%weighted(k, :, :))
+    if (allocated(grid%weighted_slope)) call take3(grid%weighted_slope(k, :, :))
+
+  contains
+
+    subroutine take2(here)
+      real(wp), intent(inout) :: here(:)
+
+      here = reshape(terms(at + 1:at + size(here)), shape(here))
+      at = at + size(here)
+    end subroutine take2
+
+    subroutine take3(here)
+      real(wp), intent(inout) :: here(:, :)
+
+      here = reshape(terms(at + 1:at + size(here)), shape(here))
+      at = at + size(here)
+    end subroutine take3
+
+    subroutine take4(here)
+      real(wp), intent(inout) :: here(:, :, :)
+
+      here = reshape(terms(at + 1:at + size(here)), shape(here))
+      at = at + size(here)
+    end subroutine take4
+
+  end subroutine take_terms
+
+end module path_grids

@@ -1,0 +1,93 @@
+!> Magnitudes of the loads of a position, whatever they cancel: their rounding is that of these.
+module load_sizes
+  use bordered_eigensolver, only: bordered_modes_t
+  use kinds, only: wp
+  use load_cases, only: case_count, constant_case
+  use matrix_rounding, only: force_sizes
+  use position_assembly, only: assembled_t
+  implicit none (type, external)
+  private
+
+  public :: axial_sizes, second_order_work
+
+contains
+
+  !> Magnitudes of the forces of which the axial force of each link or part is made [N].
+  !!
+  !! A force across a part leaves next to nothing along it, and stiff springs between soft links
+  !! lose most of their tension as these yield: the rounding is that of the loads, anywhere in the
+  !! linkage.
+  pure function axial_sizes(here, factor) result(size_of)
+    type(assembled_t), intent(in) :: here          !! a position with its loads
+    real(wp), intent(in) :: factor(case_count)     !! of the unit loads: ω2², α2, 1
+    real(wp) :: size_of(size(here%unit_force, 2))
+
+    real(wp) :: pull
+    integer :: i
+
+    size_of = force_sizes(here%unit_force, factor)
+    if (size(here%unit_force) == 0 .or. .not. allocated(here%part_loads%pull)) return
+    size_of = size_of + largest_load(here, factor)
+    do i = 1, size(here%part_loads%pull)
+      pull = abs(factor(constant_case)*here%part_loads%pull(i))
+      if (here%elastic%springs(i)%turns) pull = pull/minval(here%elastic%linkage%bodies%length)
+      size_of = size_of + pull
+    end do
+  end function axial_sizes
+
+  !> The largest of all forces on points, and of inertia forces of points and parts [N].
+  pure function largest_load(here, factor) result(largest)
+    type(assembled_t), intent(in) :: here
+    real(wp), intent(in) :: factor(case_count)
+    real(wp) :: largest
+
+    real(wp) :: mass
+    integer :: i, k
+
+    largest = 0.0_wp
+    do i = 1, case_count
+      if (.not. here%part_loads%unit%occurs(i)) cycle
+      associate (case => here%part_loads%unit%of_case(i), linkage => here%elastic%linkage)
+        do k = 1, size(linkage%pin_mass)
+          largest = max(largest, abs(factor(i))*(norm2(case%pin_force(:, k)) + &
+            linkage%pin_mass(k)*norm2(case%field%at_pin(:, k))))
+        end do
+        do k = 1, size(linkage%bodies)
+          mass = linkage%bodies(k)%line_density*linkage%bodies(k)%length + &
+            sum(linkage%bodies(k)%lumps%mass)
+          largest = max(largest, abs(factor(i))*mass*(norm2(case%field%at_first(:, k)) + &
+            linkage%bodies(k)%length*norm2(case%field%slope(:, k))))
+          if (allocated(case%body_force)) largest = max(largest, &
+            abs(factor(i))*norm2(case%body_force(:, k)))
+        end do
+      end associate
+    end do
+  end function largest_load
+
+  !> Bound of what blocks on guides and springs under tension do in modes of unit mass, whatever
+  !! cancels, twice [1/s²].
+  pure function second_order_work(here, factor, found, modes) result(work)
+    type(assembled_t), intent(in) :: here          !! a position with its loads
+    real(wp), intent(in) :: factor(case_count)     !! of the unit loads: ω2², α2, 1
+    type(bordered_modes_t), intent(in) :: found    !! modes at this position and speed
+    integer, intent(in) :: modes                   !! number, lowest first
+    real(wp) :: work(modes)
+
+    real(wp), allocatable :: sizes(:, :)
+    integer :: i, n
+
+    work = 0.0_wp
+    if (.not. allocated(here%part_forces%second_order) .or. size(here%unit_force) == 0) return
+    n = size(here%part_forces%second_order, 1)
+    allocate (sizes(n, n), source=0.0_wp)
+    do i = 1, case_count
+      sizes = sizes + abs(factor(i)*here%part_forces%second_order(:, :, i))
+    end do
+    do i = 1, modes
+      associate (size_of => abs(found%vector(:n, i)))
+        work(i) = dot_product(size_of, matmul(sizes, size_of))
+      end associate
+    end do
+  end function second_order_work
+
+end module load_sizes
