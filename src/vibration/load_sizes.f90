@@ -1,6 +1,7 @@
 !> Magnitudes of the loads of a position, whatever they cancel: their rounding is that of these.
 module load_sizes
   use bordered_eigensolver, only: bordered_modes_t
+  use elastic_linkages, only: spring_t
   use kinds, only: wp
   use load_cases, only: case_count, constant_case
   use matrix_rounding, only: force_sizes
@@ -22,18 +23,23 @@ contains
     real(wp), intent(in) :: factor(case_count)     !! of the unit loads: ω2², α2, 1
     real(wp) :: size_of(size(here%unit_force, 2))
 
-    real(wp) :: pull
-    integer :: i
-
     size_of = force_sizes(here%unit_force, factor)
-    if (size(here%unit_force) == 0 .or. .not. allocated(here%part_loads%pull)) return
-    size_of = size_of + largest_load(here, factor)
-    do i = 1, size(here%part_loads%pull)
-      pull = abs(factor(constant_case)*here%part_loads%pull(i))
-      if (here%elastic%springs(i)%turns) pull = pull/minval(here%elastic%linkage%bodies%length)
-      size_of = size_of + pull
-    end do
+    if (size(here%unit_force) == 0 .or. .not. allocated(here%part_loads)) return
+    size_of = size_of + largest_load(here, factor) + abs(factor(constant_case))*( &
+      pulls(here, here%elastic%springs, here%part_loads%pull) + &
+      pulls(here, here%elastic%tensions, here%part_loads%tension))
   end function axial_sizes
+
+  !> What springs pull; of those that turn, their torques over the shortest part [N].
+  pure function pulls(here, springs, pull) result(total)
+    type(assembled_t), intent(in) :: here
+    type(spring_t), intent(in) :: springs(:)
+    real(wp), intent(in) :: pull(:) !! (springs) [N] or [N m]
+    real(wp) :: total
+
+    total = sum(abs(pull), mask=.not. springs%turns) + sum(abs(pull), mask=springs%turns)/ &
+      minval(here%elastic%linkage%bodies%length)
+  end function pulls
 
   !> The largest of all forces on points, and of inertia forces of points and parts [N].
   pure function largest_load(here, factor) result(largest)
@@ -77,7 +83,7 @@ contains
     integer :: i, n
 
     work = 0.0_wp
-    if (.not. allocated(here%part_forces%second_order) .or. size(here%unit_force) == 0) return
+    if (.not. allocated(here%part_forces) .or. size(here%unit_force) == 0) return
     n = size(here%part_forces%second_order, 1)
     allocate (sizes(n, n), source=0.0_wp)
     do i = 1, case_count
