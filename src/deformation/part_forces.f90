@@ -166,8 +166,9 @@ contains
 
     rows = damper_rows(elastic, border%numbers, pose)
     forces%row = matmul(transpose(border%basis%unknown), rows)
-    allocate (unit%drive(size(elastic%linkage%drives), 1), forces%axial(size(links), size(rows, 2)), &
-      forces%second_order(size(forces%row, 1), size(forces%row, 1), size(rows, 2)), source=0.0_wp)
+    allocate (unit%drive(size(elastic%linkage%drives), 1), &
+      forces%axial(size(links), size(rows, 2)), forces%second_order(size(forces%row, 1), &
+      size(forces%row, 1), size(rows, 2)), source=0.0_wp)
     do i = 1, size(rows, 2)
       ! A pull does work where a damper gets shorter.
       weighted = -matmul(border%basis%weighted, forces%row(:, i))
