@@ -489,6 +489,8 @@ class Structure:
 
     def count_below(self, c):
         """(number of eigenvalues below c, a function of c that vanishes at eigenvalues only)."""
+        if not self.size:
+            raise Failure("nothing that bends can move")
         rows, below, function = self.matrix(c)
         best = None
         for shift in range(min(4, self.size)):
