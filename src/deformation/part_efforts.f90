@@ -35,7 +35,8 @@ contains
     loads%unit%occurs = .false.
     loads%unit%occurs(effort_case) = .true.
     allocate (loads%moment(elastic%rotations, case_count), source=0.0_wp)
-    allocate (loads%pull(size(elastic%springs)), source=0.0_wp)
+    allocate (loads%pull(size(elastic%springs)), loads%tension(size(elastic%tensions)), &
+      source=0.0_wp)
     allocate (loads%end_couple(2, parts, case_count), source=0.0_wp)
     associate (case => loads%unit%of_case(effort_case))
       allocate (case%field%at_pin(2, points), source=0.0_wp)

@@ -223,7 +223,10 @@ contains
       body%last_pin = find_name(pins, link%pins(2)%text)
       body%length = places(1, 2)
       ! The length of a ram is its drive's; here it only stands for a direction.
-      if (.not. body%length > 0.0_wp) body%length = 1.0_wp
+      if (.not. body%length > 0.0_wp) then
+        body%length = 1.0_wp
+        places(:, 2) = [body%length, 0.0_wp]
+      end if
       body%bends = .not. link%rigid
       allocate (body%lumps(0), body%further(size(link%pins) - 2 + size(points)))
       do i = 3, size(link%pins)
