@@ -73,7 +73,7 @@ errors_of_responses() {
 
 wrong_use() {
   "$bench" >"$scratch/stdout" 2>"$scratch/stderr" </dev/null
-  [ $? -eq 2 ] && says "usage: bench PROGRAM FOLDER LIBRARIES [short|corners|response]"
+  [ $? -eq 2 ] && says "usage: bench PROGRAM FOLDER LIBRARIES [short|corners|linkages|response]"
 }
 
 check "make bench: a short run" short_run
