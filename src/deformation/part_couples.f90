@@ -6,11 +6,12 @@
 !! round, one couple is open: no equilibrium tells it, and no deformation.
 module part_couples
   use drive_rates, only: is_joint
-  use elastic_linkages, only: elastic_linkage_t
+  use elastic_linkages, only: elastic_linkage_t, spring_t
   use inertia_loads, only: load_t
   use joint_forces, only: joint_forces_t
   use kinds, only: wp
   use linkages, only: cross, drives_angle, linkage_t
+  use load_cases, only: constant_case
   use part_displacements, only: border_t
   use part_force_types, only: part_forces_t
   use part_poses, only: part_loads_t
@@ -175,7 +176,7 @@ contains
         end if
       end associate
     end do
-    moment = moment - moment_of_springs(elastic, forces, case, body, rotation)
+    moment = moment - moment_of_springs(elastic, loads, forces, case, body, rotation)
     do k = 1, size(elastic%body)
       if (elastic%body(k) /= body) cycle
       if (elastic%linkage%bodies(k)%first_pin == point) moment = moment - loads%end_couple(1, k, &
@@ -216,7 +217,8 @@ contains
 
     part = findloc(elastic%body, body, dim=1)
     load = load_on_rigid(elastic, pose, loads, border%numbers, forces, case, part)
-    moment = load%moment + moment_of_springs(elastic, forces, case, body, elastic%rotation(1, part))
+    moment = load%moment + moment_of_springs(elastic, loads, forces, case, body, &
+      elastic%rotation(1, part))
     pins = pins_of_body(linkage%bodies(body))
     do i = 2, size(pins)
       row = border%numbers%body_constraint(part) + 2*(i - 2)
@@ -232,26 +234,37 @@ contains
     end do
   end function moment_on_rigid
 
-  !> Moments of the springs that turn an end of a link.
-  pure function moment_of_springs(elastic, forces, case, body, rotation) result(moment)
+  !> Moments of the springs and constant tensions that turn an end of a link.
+  pure function moment_of_springs(elastic, loads, forces, case, body, rotation) result(moment)
     type(elastic_linkage_t), intent(in) :: elastic
+    type(part_loads_t), intent(in) :: loads
     type(part_forces_t), intent(in) :: forces
     integer, intent(in) :: case, body
     integer, intent(in) :: rotation !! number of that of the end
     real(wp) :: moment
 
-    integer :: i, k
+    moment = moment_of(elastic%springs, forces%spring(:, case))
+    if (case == constant_case) moment = moment + moment_of(elastic%tensions, loads%tension)
 
-    moment = 0.0_wp
-    do i = 1, size(elastic%springs)
-      associate (spring => elastic%springs(i))
-        if (.not. spring%turns) cycle
+  contains
+
+    pure function moment_of(springs, pull) result(moment)
+      type(spring_t), intent(in) :: springs(:)
+      real(wp), intent(in) :: pull(:) !! (springs) [N] or [N m]
+      real(wp) :: moment
+
+      integer :: i, k
+
+      moment = 0.0_wp
+      do i = 1, size(springs)
+        if (.not. springs(i)%turns) cycle
         do k = 1, 2
-          if (elastic%linkage%loads(spring%load)%body(k) == body .and. spring%rotation(k) == &
-            rotation) moment = moment + merge(1.0_wp, -1.0_wp, k == 1)*forces%spring(i, case)
+          if (elastic%linkage%loads(springs(i)%load)%body(k) == body .and. springs(i)%rotation(k) &
+            == rotation) moment = moment + merge(pull(i), -pull(i), k == 1)
         end do
-      end associate
-    end do
+      end do
+    end function moment_of
+
   end function moment_of_springs
 
 end module part_couples
