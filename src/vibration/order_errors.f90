@@ -4,7 +4,8 @@ module order_errors
   use deformation_model, only: deformation_model_t
   use eigenvalue_gaps, only: relative_error
   use kinds, only: wp
-  use order_changes, only: find_order_changes, order_change_t, part_count
+  use next_orders, only: smooth_functions
+  use order_changes, only: find_order_changes, order_change_t, part_count, part_of
   use position_equations, only: position_equations_t
   implicit none (type, external)
   private
@@ -26,6 +27,11 @@ module order_errors
   !> Limit of the share of a change that the orders in use add by yielding.
   real(wp), parameter :: most_echo = 0.75_wp
 
+  !> A piece that is pulled bends in layers exp(−κx) at its ends, of which order p leaves some
+  !! exp(−p²/κL). Where that is not little all orders in use yield to the next ones, by more than
+  !! the echo tells. The margin that this needs, measured on wires, is 0.04 κL/p.
+  real(wp), parameter :: layer_margin = 0.1_wp
+
 contains
 
   !> Estimated relative error of every eigenvalue due to the finite polynomial order, part by part:
@@ -39,13 +45,15 @@ contains
     real(wp) :: error(part_count(model%links), modes) !! (parts, modes) of eigenvalues
 
     type(order_change_t) :: change(size(error, 1), modes)
+    real(wp) :: margin(size(error, 1))
     integer :: i
 
     call find_order_changes(model%links, model%layout, equations%chords, &
       equations%pencil%mass%border, force, found%vector(:, :modes), found%lambda(:modes), change)
+    margin = layer_margins(model, force, size(margin))
     error(:, :min(found%zeros, modes)) = 0.0_wp
     do i = found%zeros + 1, modes
-      error(:, i) = relative_error(remainder(change(:, i)), found%lambda(i))
+      error(:, i) = relative_error(margin*remainder(change(:, i)), found%lambda(i))
       if (any(.not. change(:, i)%definite)) then
         error(:, i) = indefinite_margin*error(:, i)
       else if (sum(error(:, i)) >= rough_change) then
@@ -53,6 +61,35 @@ contains
       end if
     end do
   end function order_error
+
+  !> What the error of each part is multiplied by because its layers are thin: 1 in most.
+  pure function layer_margins(model, force, parts) result(margin)
+    type(deformation_model_t), intent(in) :: model !! of continuous links
+    real(wp), intent(in) :: force(:, :)  !! (1, ξ, ξ², jumps; bodies) axial forces [N]; none: no loads
+    integer, intent(in) :: parts         !! number
+    real(wp) :: margin(parts)
+
+    real(wp) :: tension, layers
+    integer :: b, e, part
+
+    margin = 1.0_wp
+    if (size(force, 1) == 0) return
+    do b = 1, size(model%links)
+      associate (link => model%links(b), next => model%links(b)%next)
+        do e = 1, next%pieces
+          ! A bound of the parabola from 0 to 1.
+          tension = force(1, b) + sum(force(smooth_functions + 1:size(next%reached, 2) + &
+            smooth_functions, b), mask=next%reached(e, :)) + max(0.0_wp, force(2, b)) + &
+            max(0.0_wp, force(3, b))
+          if (tension <= 0.0_wp) cycle
+          layers = sqrt(tension/link%bending_stiffness)*link%bending_shapes%length* &
+            link%bending_shapes%part(e)/link%bending_shapes%elements
+          part = part_of(model%links, b, e, .false.)
+          margin(part) = max(1.0_wp, layer_margin*layers/model%degrees(b)%across(e))
+        end do
+      end associate
+    end do
+  end function layer_margins
 
   !> Errors of the lowest modes, each at least as large as the distance by which a mode above it may
   !! fall below it: with more orders modes change their places.
