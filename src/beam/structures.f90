@@ -7,7 +7,7 @@ module structures
   implicit none (type, external)
   private
 
-  public :: structure_t, has_beams, has_mesh, elements_replaced, vibrating_linkage, vibrating_beams
+  public :: structure_t, has_beams, has_mesh, damper_count, elements_replaced, vibrating_linkage, vibrating_beams
 
   !> A linkage with the beams and the mesh of its links.
   type :: structure_t
@@ -40,6 +40,15 @@ contains
 
     has = structure%mesh%unknowns > 0
   end function has_mesh
+
+  !> Number of dampers between parts.
+  pure function damper_count(structure) result(number)
+    class(structure_t), intent(in) :: structure !! with or without parts
+    integer :: number
+
+    number = 0
+    if (allocated(structure%elastic)) number = size(structure%elastic%dampers)
+  end function damper_count
 
   !> The same structure with other numbers of elements; lumped loads follow them.
   pure function elements_replaced(structure, elements) result(other)

@@ -12,7 +12,7 @@ module drive_rates
   implicit none (type, external)
   private
 
-  public :: find_drive_rates, own_drive_rates, own_drive_compliance, own_slopes, slide_of, &
+  public :: find_drive_rates, own_drive_rates, own_drive_compliance, own_turns_by_couples, slide_of, &
     turn_of_end, end_at_joint, is_joint
 
 contains
@@ -158,17 +158,42 @@ contains
 
   !> How free drives yield to their own torques by own modes of a part, R Rᵀ of all of them, in
   !! closed form.
-  !!
-  !! Under couples M at its ends a beam on two hinges turns by `L/3EI + 1/(kGA L)` where they act,
-  !! and by `1/(kGA L) − L/6EI` at the other end; with one end held what this end does not bear is
-  !! left. With shear and without rotary inertia a part of it moves no mass, and is in no own mode.
   pure function own_drive_compliance(linkage, elastic, part) result(compliance)
     type(linkage_t), intent(in) :: linkage           !! that moves: its drives
     type(elastic_linkage_t), intent(in) :: elastic   !! of it, at this position
     integer, intent(in) :: part                      !! that bends
     real(wp) :: compliance(count(linkage%drives%is_free), count(linkage%drives%is_free))
 
-    real(wp) :: sense(size(compliance, 1), 2), here, there, sheared, ends(2, 2)
+    real(wp) :: sense(size(compliance, 1), 2)
+
+    sense = hinged_ends(linkage, elastic, part)
+    compliance = matmul(matmul(sense, own_flexibility(elastic, part)), transpose(sense))
+  end function own_drive_compliance
+
+  !> Turns at the joints of free drives by own modes of a part under couples at its hinged ends, in
+  !! closed form.
+  pure function own_turns_by_couples(linkage, elastic, part, couple) result(turns)
+    type(linkage_t), intent(in) :: linkage           !! that moves: its drives
+    type(elastic_linkage_t), intent(in) :: elastic   !! of it, at this position
+    integer, intent(in) :: part                      !! that bends
+    real(wp), intent(in) :: couple(2)                !! on its ends [N m]
+    real(wp) :: turns(count(linkage%drives%is_free))
+
+    turns = matmul(hinged_ends(linkage, elastic, part), matmul(own_flexibility(elastic, part), &
+      couple))
+  end function own_turns_by_couples
+
+  !> Turns of the hinged ends of a part under couples there, while its held ends stay.
+  !!
+  !! Under couples M at its ends a beam on two hinges turns by `L/3EI + 1/(kGA L)` where they act,
+  !! and by `1/(kGA L) − L/6EI` at the other end; with one end held what this end does not bear is
+  !! left. With shear and without rotary inertia a part of it moves no mass, and is in no own mode.
+  pure function own_flexibility(elastic, part) result(turn)
+    type(elastic_linkage_t), intent(in) :: elastic
+    integer, intent(in) :: part
+    real(wp) :: turn(2, 2) !! (end that turns, end with the couple) 0 at held ends [rad/N m]
+
+    real(wp) :: here, there, sheared
     integer :: end
 
     associate (beam => elastic%beams(part), length => elastic%linkage%bodies(part)%length)
@@ -177,16 +202,14 @@ contains
       here = length/(3.0_wp*beam%bending_stiffness) + sheared
       there = sheared - length/(6.0_wp*beam%bending_stiffness)
     end associate
-    ends = reshape([here, there, there, here], [2, 2])
+    turn = reshape([here, there, there, here], [2, 2])
     do end = 1, 2
       if (.not. elastic%held(end, part)) cycle
-      ends = 0.0_wp
-      if (.not. elastic%held(3 - end, part)) ends(3 - end, 3 - end) = here - there**2/here
+      turn = 0.0_wp
+      if (.not. elastic%held(3 - end, part)) turn(3 - end, 3 - end) = here - there**2/here
       exit
     end do
-    sense = hinged_ends(linkage, elastic, part)
-    compliance = matmul(matmul(sense, ends), transpose(sense))
-  end function own_drive_compliance
+  end function own_flexibility
 
   !> With which sense the rotation of the hinged ends of a part is the motion of free drives.
   pure function hinged_ends(linkage, elastic, part) result(sense)

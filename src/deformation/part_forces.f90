@@ -9,8 +9,8 @@ module part_forces
   use border_loads, only: border_work, own_work
   use border_rows, only: add_stretch, damper_rows, spring_way
   use dense_factor, only: dense_factor_t, factorize, solve
-  use drive_rates, only: find_drive_rates, own_drive_compliance, own_drive_rates, own_slopes, &
-    slide_of, turn_of_end
+  use drive_rates, only: find_drive_rates, own_drive_compliance, own_drive_rates, &
+    own_turns_by_couples, slide_of, turn_of_end
   use elastic_linkages, only: elastic_linkage_t, spring_t
   use kinds, only: wp
   use link_modes, only: link_modes_t
@@ -97,7 +97,7 @@ contains
           of_constraints, loads%end_couple(:, :, i))
         if (size(on_drives, 1) > 0) then
           held = held_by_drives(on_drives(:, :n), on_drives(:, n + 1:), work, compliance, &
-            own_turns(elastic, links, pose, case, loads%end_couple(:, :, i), on_own))
+            own_turns(linkage, elastic, links, pose, case, loads%end_couple(:, :, i), on_own))
           forces%drive(free, i) = held
           work = work + matmul(held, on_drives)
           lambda = lambda + matmul(held, drives_of_constraints)
@@ -341,7 +341,8 @@ contains
   end subroutine find_own_drive_rates
 
   !> Turns of the joints of free drives by own modes under the loads.
-  pure function own_turns(elastic, links, pose, case, couple, on_own) result(turns)
+  pure function own_turns(linkage, elastic, links, pose, case, couple, on_own) result(turns)
+    type(linkage_t), intent(in) :: linkage
     type(elastic_linkage_t), intent(in) :: elastic
     type(link_modes_t), intent(in) :: links(:)
     type(pose_t), intent(in) :: pose
@@ -350,16 +351,13 @@ contains
     type(own_rates_t), intent(in) :: on_own(:)
     real(wp), allocatable :: turns(:)
 
-    integer :: e, k
+    integer :: k
 
     do k = 1, size(links)
       if (.not. allocated(on_own(k)%rate)) cycle
       if (.not. allocated(turns)) allocate (turns(size(on_own(k)%rate, 1)), source=0.0_wp)
-      turns = turns + matmul(on_own(k)%rate, own_work(elastic%linkage, links(k), k, pose, case))
-      do e = 1, 2
-        if (elastic%rotation(e, k) == 0 .and. abs(couple(e, k)) > 0.0_wp) turns = turns + &
-          couple(e, k)*matmul(on_own(k)%rate, own_slopes(links(k), e))
-      end do
+      turns = turns + matmul(on_own(k)%rate, own_work(elastic%linkage, links(k), k, pose, case)) + &
+        own_turns_by_couples(linkage, elastic, k, couple(:, k))
     end do
   end function own_turns
 

@@ -2,8 +2,9 @@
 module damped_frequencies
   use axial_forces, only: total_force
   use bordered_eigensolver, only: bordered_modes_t
+  use bordered_matrix, only: layout_t
   use bordered_pencil, only: elastic_square
-  use damped_eigensolver, only: damped_modes_t, find_damped_modes, first_guards
+  use damped_eigensolver, only: damped_modes_t, find_damped_modes
   use damped_solver, only: mass_times_complex
   use deformation_model, only: deformation_model_t
   use errors, only: error_t
@@ -16,25 +17,13 @@ module damped_frequencies
   use position_results, only: largest_error, position_result_t, position_work_t
   use positions, only: state_t
   use structures, only: structure_t
-  use vibration_models, only: mode_request_t
+  use vibration_models, only: mode_request_t, modes_with_dampers
   implicit none (type, external)
   private
 
-  public :: has_dampers, modes_for_dampers, solve_damped_speed, whole_change
-
-  !> An elastic energy this many times |s|² is nearly cancelled by the loads.
-  real(wp), parameter :: many_times = 100.0_wp
+  public :: modes_for_dampers, solve_damped_speed, whole_change
 
 contains
-
-  !> Whether dampers act between parts of a structure.
-  pure function has_dampers(structure) result(has)
-    type(structure_t), intent(in) :: structure !! with beams
-    logical :: has
-
-    has = allocated(structure%elastic)
-    if (has) has = size(structure%elastic%dampers) > 0
-  end function has_dampers
 
   !> Number of undamped modes that are looked for: with dampers, more than are wanted.
   pure function modes_for_dampers(structure, model, wanted) result(modes)
@@ -43,9 +32,7 @@ contains
     integer, intent(in) :: wanted                  !! roots
     integer :: modes
 
-    modes = wanted
-    if (has_dampers(structure)) modes = min(wanted + first_guards + &
-      size(structure%elastic%dampers), model%layout%unknowns)
+    modes = min(modes_with_dampers(structure, wanted), max(wanted, model%layout%unknowns))
   end function modes_for_dampers
 
   !> Solves `(s² M + s C + K + K_G) y = 0` at a speed, with `C = Σ c b bᵀ`, b the velocity of a
@@ -137,8 +124,8 @@ contains
       orders(:request%modes)))
     if (maxval(result%error(:, speed)) > request%accuracy) result%cause(speed) = &
       largest_error(orders(:request%modes), rounding(:request%modes), &
-      of_matrices(:request%modes) + found%error(:request%modes), [(cancels(work, found, i), i=1, &
-      request%modes)])
+      of_matrices(:request%modes) + found%error(:request%modes), &
+      energies(model%layout, found, request%modes), abs(found%s(:request%modes))**2)
   end subroutine solve_damped_speed
 
   !> Real and imaginary parts of the vectors of all roots, two after each other, as modes of ±|s|².
@@ -263,17 +250,19 @@ contains
     end do
   end function with_roots_above
 
-  !> Whether large terms cancel in a root.
-  pure function cancels(work, found, i)
-    type(position_work_t), intent(in) :: work
+  !> Elastic energies of roots, of unit mass, twice [1/s²].
+  pure function energies(layout, found, modes) result(energy)
+    type(layout_t), intent(in) :: layout
     type(damped_modes_t), intent(in) :: found
-    integer, intent(in) :: i
-    logical :: cancels
+    integer, intent(in) :: modes
+    real(wp) :: energy(modes)
 
-    associate (y => found%vector(:, i), layout => work%continuum%equations%pencil%layout)
-      cancels = elastic_square(layout, real(y, wp)) + elastic_square(layout, aimag(y)) > &
-        many_times*abs(found%s(i))**2
-    end associate
-  end function cancels
+    integer :: i
+
+    do i = 1, modes
+      energy(i) = elastic_square(layout, real(found%vector(:, i), wp)) + elastic_square(layout, &
+        aimag(found%vector(:, i)))
+    end do
+  end function energies
 
 end module damped_frequencies

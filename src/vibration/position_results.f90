@@ -22,6 +22,9 @@ module position_results
   integer, parameter :: error_of_orders = 1, error_of_position = 2, error_of_divergence = 3, &
     error_of_rounding = 4
 
+  !> An elastic energy this many times the eigenvalue is nearly cancelled by the loads.
+  real(wp), parameter :: many_times = 100.0_wp
+
   type :: position_result_t
     real(wp), allocatable :: lambda(:, :)      !! (modes, speeds) ω² [1/s²]; with dampers |s|² of a
                                                !! root s, -s² where it is real and positive
@@ -54,17 +57,18 @@ module position_results
 contains
 
   !> What the largest of the errors of a row is made of.
-  pure function largest_error(orders, position, matrices, cancels) result(cause)
+  pure function largest_error(orders, position, matrices, energy, lambda) result(cause)
     real(wp), intent(in) :: orders(:), position(:), matrices(:) !! (modes) parts of the error
-    logical, intent(in) :: cancels(:)                           !! (modes) large terms cancel in the
-                                                                !! eigenvalue
-    integer :: cause                                            !! one of the causes above
+    real(wp), intent(in) :: energy(:) !! (modes) elastic, of unit mass, twice [1/s²]
+    real(wp), intent(in) :: lambda(:) !! (modes) eigenvalues [1/s²]
+    integer :: cause                  !! one of the causes above
 
     integer :: worst
 
     worst = maxloc(orders + position + matrices, dim=1)
     cause = maxloc([orders(worst), position(worst), matrices(worst)], dim=1)
-    if (cause == 3) cause = merge(error_of_divergence, error_of_rounding, cancels(worst))
+    if (cause == 3) cause = merge(error_of_divergence, error_of_rounding, energy(worst) > &
+      many_times*abs(lambda(worst)))
   end function largest_error
 
   !> Frequency of an eigenvalue, `sign(λ) sqrt(|λ|)/2π` [Hz]: negative past a divergence.

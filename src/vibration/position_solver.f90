@@ -6,7 +6,7 @@ module position_solver
   use bordered_eigensolver, only: bordered_modes_t
   use bordered_matrix, only: layout_t
   use bordered_pencil, only: elastic_square
-  use damped_frequencies, only: has_dampers, modes_for_dampers, solve_damped_speed
+  use damped_frequencies, only: modes_for_dampers, solve_damped_speed
   use deformation_model, only: deformation_model_t
   use errors, only: outcome_t
   use kinds, only: wp
@@ -28,16 +28,13 @@ module position_solver
   use reduced_deflections, only: reduced_deflection
   use shape_samples, only: sample_reduced
   use speed_solver, only: new_speed_work, solve_speeds
-  use structures, only: structure_t
+  use structures, only: damper_count, structure_t
   use vibration_models, only: by_band, by_dense, by_link_modes, by_long_mesh, by_orders, &
     load_factors, mode_request_t, vibration_models_t
   implicit none (type, external)
   private
 
   public :: new_position_work, solve_position
-
-  !> An elastic energy this many times the eigenvalue is nearly cancelled by the loads.
-  real(wp), parameter :: many_times = 100.0_wp
 
 contains
 
@@ -81,7 +78,7 @@ contains
     allocate (result%deflection(size(structure%beams), n))
     result%lambda = 0.0_wp
     result%error = 0.0_wp
-    if (has_dampers(structure)) allocate (result%damping(request%modes, n), source=0.0_wp)
+    if (damper_count(structure) > 0) allocate (result%damping(request%modes, n), source=0.0_wp)
     result%deflection = 0.0_wp
     allocate (result%cause(n))
     result%cause = 0
@@ -135,14 +132,14 @@ contains
     factor = load_factors(request)
     call move_alloc(work%continuum%found, found)
     call solve_speeds(state%crank, factor, modes_for_dampers(structure, model, request%modes), &
-      want_shapes .and. request%method == by_orders .or. has_dampers(structure), work%continuum, &
+      want_shapes .and. request%method == by_orders .or. damper_count(structure) > 0, work%continuum, &
       found, result%outcome, result%counts)
     associate (chords => work%continuum%equations%chords, unit_force => work%here%unit_force)
       if (size(unit_force) > 0) call find_deflection(structure, linkage, model, chords, pose, &
         work%here, factor, result%deflection)
       do k = 1, n
         if (allocated(result%outcome(k)%error)) cycle
-        if (has_dampers(structure)) then
+        if (damper_count(structure) > 0) then
           call solve_damped_speed(structure, model, state, request, factor(:, k), k, found(k), &
             work, result)
           cycle
@@ -161,8 +158,8 @@ contains
         result%error(:, k) = frequency_error(discretisation + (rounding + of_matrices))
         if (maxval(result%error(:, k)) > request%accuracy) result%cause(k) = &
           largest_error(discretisation, rounding, of_matrices, &
-          energies(models%continuum%layout, found(k), request%modes) > &
-          many_times*abs(found(k)%lambda(:request%modes)))
+          energies(models%continuum%layout, found(k), request%modes), &
+          found(k)%lambda(:request%modes))
       end do
     end associate
     if (request%follow) then

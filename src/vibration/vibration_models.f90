@@ -12,11 +12,12 @@ module vibration_models
   use load_cases, only: case_count, constant_case
   use order_choice, only: choose_orders, order_demand_t
   use positions, only: positions_t
-  use structures, only: structure_t
+  use structures, only: damper_count, structure_t
   implicit none (type, external)
   private
 
-  public :: mode_request_t, vibration_models_t, new_vibration_models, load_factors, chosen_method
+  public :: mode_request_t, vibration_models_t, new_vibration_models, load_factors, &
+    chosen_method, modes_with_dampers
   public :: by_orders, by_link_modes, by_long_mesh, by_dense, by_band, any_method
 
   !> Methods for the frequencies that are written: continuous links of orders chosen by the program;
@@ -130,11 +131,7 @@ contains
     demand%modes = request%modes
     if (request%method == by_long_mesh) demand%modes = request%modes + long_mesh_guards
     demand%bound = bound
-    ! Dampers that hold fast raise so many modes; and damped ones are found from more undamped ones.
-    if (allocated(structure%elastic)) then
-      if (size(structure%elastic%dampers) > 0) demand%modes = demand%modes + first_guards + &
-        size(structure%elastic%dampers)
-    end if
+    demand%modes = modes_with_dampers(structure, demand%modes)
     call choose_orders(structure, positions, demand, store, models%continuum, counts, error)
     if (allocated(error)) return
     if (request%method /= by_link_modes .and. request%method /= by_long_mesh) return
@@ -148,5 +145,16 @@ contains
         mesh%elements, mesh%order, axial_degree(mesh%order))
     end associate
   end subroutine new_vibration_models
+
+  !> Number of modes without dampers from which so many with them are found: dampers that hold fast
+  !! raise as many modes, and damped ones are found from more undamped ones.
+  pure function modes_with_dampers(structure, wanted) result(modes)
+    class(structure_t), intent(in) :: structure
+    integer, intent(in) :: wanted !! modes
+    integer :: modes
+
+    modes = wanted
+    if (damper_count(structure) > 0) modes = wanted + first_guards + damper_count(structure)
+  end function modes_with_dampers
 
 end module vibration_models

@@ -92,6 +92,13 @@ divergence() {
   grep -v '^#' "$scratch/out/divergence/frequencies.dat" | grep -q ' -[0-9]' || { echo "no negative frequency"; return 1; }
 }
 
+# A LOAD that is damping only serves REPORT motion; the response of the same deck does without.
+damping_load() {
+  beam_deck "CRANK 0" "LOAD follower damping=0.1" "SPEED 10" "REPORT reactions" "REPORT torque" |
+    sed 's/^MESH .*/MESH * accuracy=1e-6/; s/INERTIA  lumped/INERTIA distributed/' |
+    warned damping_load "REPORT torque takes no notice of this LOAD, which is damping only; a DAMPER would act in it"
+}
+
 check "a stocky link" stocky
 check "no stocky link with rotary inertia and shear" stocky_as_thick_beams
 check "a wave speed that no solid has" wave_speed
@@ -103,3 +110,4 @@ check "a mass at a ground pivot" mass_at_ground
 check "static divergence" divergence
 check "a drawing that contradicts a length" drawing
 check "cards of the elastic response" idle_response
+check "damping of a LOAD beside the elastic response" damping_load

@@ -3,7 +3,7 @@
 module process_checks
   use body_checks, only: seek_link, seek_loaded_pin
   use cards, only: card_t
-  use diagnostics, only: add_error, diagnostics_t, has_errors
+  use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use kinds, only: wp
   use models, only: drives_length, model_t
   use name_checks, only: link_ends, look_up, pin_names
@@ -56,6 +56,7 @@ contains
       end associate
     end do
     call refuse_reports(diagnostics, model)
+    call warn_of_dampers(diagnostics, model)
   end subroutine find_processes
 
   !> Finds what a table is over, and reads it.
@@ -171,6 +172,22 @@ contains
       end do
     end do
   end subroutine refuse_reports
+
+  !> Warns of loads that are nothing but damping where the elastic response is asked for.
+  pure subroutine warn_of_dampers(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: i, report
+
+    report = findloc(model%reports%kind%response, .true., dim=1)
+    if (report == 0 .or. has_errors(diagnostics)) return
+    do i = 1, size(model%processes)
+      if (is_damper(model%processes(i))) call add_warning(diagnostics, &
+        model%processes(i)%keyword, "REPORT "//trim(model%reports(report)%kind%name)// &
+        " takes no notice of this LOAD, which is damping only; a DAMPER would act in it")
+    end do
+  end subroutine warn_of_dampers
 
   !> Whether a load is nothing but damping, which acts on rigid links only.
   pure function is_damper(process) result(is)
