@@ -7,7 +7,8 @@ module structures
   implicit none (type, external)
   private
 
-  public :: structure_t, has_beams, has_mesh, damper_count, elements_replaced, vibrating_linkage, vibrating_beams
+  public :: structure_t, has_beams, has_mesh, damper_count, elements_replaced, &
+    vibrating_linkage, vibrating_beams
 
   !> A linkage with the beams and the mesh of its links.
   type :: structure_t

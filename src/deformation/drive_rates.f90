@@ -12,8 +12,8 @@ module drive_rates
   implicit none (type, external)
   private
 
-  public :: find_drive_rates, own_drive_rates, own_drive_compliance, own_turns_by_couples, slide_of, &
-    turn_of_end, end_at_joint, is_joint
+  public :: find_drive_rates, own_drive_rates, own_drive_compliance, own_turns_by_couples, &
+    slide_of, turn_of_end, end_at_joint, is_joint
 
 contains
 

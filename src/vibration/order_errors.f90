@@ -65,7 +65,7 @@ contains
   !> What the error of each part is multiplied by because its layers are thin: 1 in most.
   pure function layer_margins(model, force, parts) result(margin)
     type(deformation_model_t), intent(in) :: model !! of continuous links
-    real(wp), intent(in) :: force(:, :)  !! (1, ξ, ξ², jumps; bodies) axial forces [N]; none: no loads
+    real(wp), intent(in) :: force(:, :)  !! (1, ξ, ξ², jumps; bodies) axial forces [N], or none
     integer, intent(in) :: parts         !! number
     real(wp) :: margin(parts)
 

@@ -132,8 +132,8 @@ contains
     factor = load_factors(request)
     call move_alloc(work%continuum%found, found)
     call solve_speeds(state%crank, factor, modes_for_dampers(structure, model, request%modes), &
-      want_shapes .and. request%method == by_orders .or. damper_count(structure) > 0, work%continuum, &
-      found, result%outcome, result%counts)
+      want_shapes .and. request%method == by_orders .or. damper_count(structure) > 0, &
+      work%continuum, found, result%outcome, result%counts)
     associate (chords => work%continuum%equations%chords, unit_force => work%here%unit_force)
       if (size(unit_force) > 0) call find_deflection(structure, linkage, model, chords, pose, &
         work%here, factor, result%deflection)

@@ -3,6 +3,7 @@
 module linkage_checks
   use bending_checks, only: check_forces_on_links
   use block_checks, only: check_blocks
+  use coupled_drives, only: find_coupled_drives
   use deck_lengths, only: crank_text, in_deck, length_text
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use drive_cards, only: moves_along
@@ -68,6 +69,7 @@ contains
       call check_fit(model, mechanism, diagnostics)
       if (has_errors(diagnostics)) return
       call check_shared_forces(model, mechanism, diagnostics)
+      call check_coupled_drives(model, mechanism, diagnostics)
     end if
     if (drives_length(model) .and. model%motor%keyword%line > 0) call add_error(diagnostics, &
       model%motor%keyword, "a MOTOR turns a link, and the first DRIVE moves a slider or a ram; "// &
@@ -227,6 +229,40 @@ contains
     if (report > 0 .or. in_motion .or. size(model%frictions) > 0) call &
       check_dividing_links(model, mechanism, in_links, diagnostics)
   end subroutine check_shared_forces
+
+  !> Drives that a link more than needed joins hold it with any force: their torques are open.
+  pure subroutine check_coupled_drives(model, mechanism, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    type(error_t), allocatable :: error
+    type(pose_t) :: pose
+    character(len=:), allocatable :: name
+    integer, allocatable :: drives(:)
+    integer :: i, redundancy, report
+
+    report = max(report_number(model, "drive"), report_number(model, "sizing"))
+    ! Couples of links that turn together follow with those of drives.
+    if (report == 0 .and. size(mechanism%linkage%turns) > 0) report = &
+      report_number(model, "reactions")
+    if (report == 0 .or. size(model%drives) < 2) return
+    redundancy = 0
+    do i = 1, size(model%crank%value), 1 + size(model%crank%value)/most_samples
+      call place_links(mechanism%linkage, model%crank%value(i), pose, error)
+      if (allocated(error)) cycle
+      call find_coupled_drives(mechanism%linkage, pose, redundancy, drives)
+      if (redundancy > 0) exit
+    end do
+    if (redundancy == 0) return
+    name = "a slider"
+    i = body_of_redundancy(mechanism%linkage, redundancy)
+    if (i > 0) name = "'"//mechanism%names(i)%text//"'"
+    call add_error(diagnostics, model%reports(report)%keyword, "the forces of the drives "// &
+      "cannot be told apart: "//name//" joins what they move, and they may hold it with any force; "// &
+      "expected one DRIVE less", &
+      model%drives(maxval(drives))%keyword, "one of these drives")
+  end subroutine check_coupled_drives
 
   !> Friction depends on the forces that elasticity divides, at given positions and speeds.
   pure subroutine check_divided_friction(model, in_links, diagnostics)

@@ -1,0 +1,52 @@
+!> Drives whose forces statics cannot tell apart: a link more than needed joins what they move, and
+!! they can hold it between them with any force.
+module coupled_drives
+  use group_equations, only: find_gradient, gradient_t
+  use inertia_loads, only: load_t
+  use joint_forces, only: find_joint_forces, joint_forces_t
+  use kinds, only: wp
+  use linkages, only: linkage_t
+  use pose_types, only: pose_t
+  implicit none (type, external)
+  private
+
+  public :: find_coupled_drives
+
+  !> A force of a drive under a unit force, or its torque as a share of the span of the linkage,
+  !! that is only rounding.
+  real(wp), parameter :: rounding = 1.0e-9_wp
+
+contains
+
+  !> The first redundancy whose force several drives can bear, so that they do no work together.
+  pure subroutine find_coupled_drives(linkage, pose, redundancy, drives)
+    type(linkage_t), intent(in) :: linkage !! with redundancies
+    type(pose_t), intent(in) :: pose       !! away from dead points
+    integer, intent(out) :: redundancy     !! its number; 0: there is none
+    integer, allocatable, intent(out) :: drives(:) !! numbers of these drives
+
+    type(gradient_t) :: gradient
+    type(joint_forces_t) :: forces
+    type(load_t) :: load(size(linkage%bodies)), no_load
+    real(wp) :: pin_load(2, size(pose%pin, 2)), span
+    integer :: d, k
+
+    span = max(maxval(linkage%bodies%length), maxval(abs(pose%pin)))
+    do redundancy = 1, size(linkage%redundancies)
+      call find_gradient(linkage, linkage%redundancies(redundancy), pose, gradient)
+      load = no_load
+      pin_load = 0.0_wp
+      do k = 1, 2
+        if (gradient%pin(k) > 0) pin_load(:, gradient%pin(k)) = gradient%by_pin(:, k)
+        if (gradient%body(k) > 0) load(gradient%body(k))%moment = gradient%by_angle(k)
+      end do
+      forces = find_joint_forces(linkage, pose, load, pin_load)
+      if (.not. allocated(forces%drive)) cycle
+      drives = pack([(d, d=1, size(forces%drive))], abs(forces%drive) > rounding*max(1.0_wp, span))
+      if (size(drives) > 0) return
+    end do
+    redundancy = 0
+    drives = [integer ::]
+  end subroutine find_coupled_drives
+
+end module coupled_drives
