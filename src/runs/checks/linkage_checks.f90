@@ -259,8 +259,8 @@ contains
     i = body_of_redundancy(mechanism%linkage, redundancy)
     if (i > 0) name = "'"//mechanism%names(i)%text//"'"
     call add_error(diagnostics, model%reports(report)%keyword, "the forces of the drives "// &
-      "cannot be told apart: "//name//" joins what they move, and they may hold it with any force; "// &
-      "expected one DRIVE less", &
+      "cannot be told apart: "//name//" joins what they move, and they may hold it with any "// &
+      "force; expected one DRIVE less", &
       model%drives(maxval(drives))%keyword, "one of these drives")
   end subroutine check_coupled_drives
 
