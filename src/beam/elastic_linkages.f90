@@ -47,6 +47,8 @@ module elastic_linkages
                                               !! own; 0: a hinge
     integer :: rotations = 0                  !! number of them
     logical, allocatable :: is_fixed(:)       !! (points) that do not move
+    integer :: places = 0                     !! points that are neither pins nor under blocks, but
+                                              !! at masses and forces: the last ones
     integer, allocatable :: contact(:)        !! (sliders) point of a link that bends under the
                                               !! block; 0: none
     type(cut_way_t), allocatable :: ways(:)   !! of links that bend, in the order of the parts
@@ -155,7 +157,9 @@ contains
       n = n + 1
       elastic%contact(i) = n
     end do
+    elastic%places = -n
     call find_ways(linkage, elastic%contact, n, elastic%ways, elastic%carried)
+    elastic%places = elastic%places + n
     associate (parts => elastic%linkage, pins => size(linkage%is_ground))
       allocate (parts%is_ground(n), parts%ground_position(2, n), parts%pin_mass(n), &
         parts%pin_force(2, n))
