@@ -52,10 +52,10 @@ contains
 
     shortest = huge(shortest)
     span = 0.0_wp
-    do k = 1, size(elastic%body)
+    do k = 1, size(elastic%linkage%bodies)
       associate (part => elastic%linkage%bodies(k))
         span = span + part%length
-        if (part%last_pin > size(elastic%is_fixed) - elastic%places) cycle
+        if (part%last_pin > size(elastic%linkage%pin_mass) - elastic%places) cycle
         shortest = min(shortest, span)
         span = 0.0_wp
       end associate
