@@ -3,8 +3,8 @@
 !!
 !! With the displacement U of the point, the rotation θ of the cross-section and the arm r of a mass
 !! centre from there, `½ m |U̇ + θ̇ J r|² + ½ I θ̇²`. Forces F at the end of the arm do the work
-!! `F·U + (r × F) θ`, and `−½ θ² F·r` of the second order; the centrifugal forces of the own parts of
-!! a mass, which turn with it, `−½ θ² I ω²`.
+!! `F·U + (r × F) θ`, and `−½ θ² F·r` of the second order; the centrifugal forces of the own parts
+!! of a mass, which turn with it, `−½ θ² I ω²`.
 module carried_bodies
   use acceleration_fields, only: point_acceleration
   use elastic_linkages, only: elastic_linkage_t

@@ -189,8 +189,10 @@ contains
         if (elastic%linkage%bodies(k)%last_pin == pins(number)) force = force + on_part(3:4, k)
       end do
       do i = 1, size(elastic%carried)
-        if (elastic%carried(i)%body == body .and. elastic%carried(i)%point == pins(number)) force = &
-          force - loads%carried(:2, i, case)
+        associate (this => elastic%carried(i))
+          if (this%body == body .and. this%point == pins(number)) force = force - &
+            loads%carried(:2, i, case)
+        end associate
       end do
       return
     end if
