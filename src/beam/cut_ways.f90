@@ -19,6 +19,8 @@ module cut_ways
     integer :: slider = 0         !! whose block is over it; 0: it is a place of the link
     real(wp) :: along = 0.0_wp    !! of a place of the link, from where the way begins [m]
     integer :: rotation = 0       !! of the cross-section; a `fixed_rotation` if it cannot turn
+    real(wp) :: inertia = 0.0_wp  !! ρI L of the cross-sections of short pieces beside it at the
+                                  !! position, which turn with it [kg m²]
   end type cut_t
 
   !> A straight way between two pins of a link that bends.

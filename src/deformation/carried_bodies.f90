@@ -16,7 +16,8 @@ module carried_bodies
   implicit none (type, external)
   private
 
-  public :: carried_loads, carried_force, carried_work, add_carried_mass, add_carried_stiffness
+  public :: carried_loads, carried_force, carried_work, add_carried_mass, add_carried_stiffness, &
+    add_short_pieces
 
 contains
 
@@ -78,7 +79,8 @@ contains
     end do
   end function carried_work
 
-  !> Adds what they do to the mass matrix between some displacements.
+  !> Adds what they do to the mass matrix between some displacements, with the cross-sections of
+  !! short pieces.
   pure subroutine add_carried_mass(elastic, pose, chords, mass)
     type(elastic_linkage_t), intent(in) :: elastic !! at this position
     type(pose_t), intent(in) :: pose               !! of points and parts
@@ -101,14 +103,49 @@ contains
             mass(:, j) = mass(:, j) + this%mass*(moved(1, :)*moved(1, j) + moved(2, :)*moved(2, j))
           end do
         end if
-        if (this%inertia > 0.0_wp) then
-          do j = 1, size(turn)
-            mass(:, j) = mass(:, j) + this%inertia*turn*turn(j)
-          end do
-        end if
+        call add_inertia(this%inertia, turn, mass)
       end associate
     end do
+    do i = 1, size(elastic%ways)
+      do j = 1, size(elastic%ways(i)%cuts)
+        associate (cut => elastic%ways(i)%cuts(j))
+          if (cut%rotation > 0) call add_inertia(cut%inertia, chords%rotation(cut%rotation, :), &
+            mass)
+        end associate
+      end do
+    end do
   end subroutine add_carried_mass
+
+  !> Adds `I θ²`.
+  pure subroutine add_inertia(inertia, turn, mass)
+    real(wp), intent(in) :: inertia, turn(:)
+    real(wp), intent(inout) :: mass(:, :)
+
+    integer :: j
+
+    if (.not. inertia > 0.0_wp) return
+    do j = 1, size(turn)
+      mass(:, j) = mass(:, j) + inertia*turn*turn(j)
+    end do
+  end subroutine add_inertia
+
+  !> Adds what turns the cross-sections of short pieces with the cuts beside them: `−I α`.
+  pure subroutine add_short_pieces(elastic, case, moment)
+    type(elastic_linkage_t), intent(in) :: elastic !! at this position
+    type(load_case_t), intent(in) :: case          !! of the parts
+    real(wp), intent(inout) :: moment(:)           !! (rotations) [N m]
+
+    integer :: i, k
+
+    do i = 1, size(elastic%ways)
+      associate (way => elastic%ways(i))
+        do k = 1, size(way%cuts)
+          if (way%cuts(k)%rotation > 0) moment(way%cuts(k)%rotation) = &
+            moment(way%cuts(k)%rotation) - way%cuts(k)%inertia*case%field%angular(way%first_part)
+        end do
+      end associate
+    end do
+  end subroutine add_short_pieces
 
   !> Adds what their loads do of the second order as cross-sections turn.
   pure subroutine add_carried_stiffness(elastic, chords, load, stiffness)

@@ -197,6 +197,12 @@ contains
       if (elastic%carried(i)%body == body .and. elastic%carried(i)%point == point) moment = &
         moment - loads%carried(3, i, case)
     end do
+    do i = 1, size(elastic%ways)
+      if (elastic%ways(i)%body /= body) cycle
+      k = findloc(elastic%ways(i)%cuts%point, point, dim=1)
+      if (k > 0) moment = moment + elastic%ways(i)%cuts(k)%inertia* &
+        loads%unit%of_case(case)%field%angular(elastic%ways(i)%first_part)
+    end do
   end function moment_on_end
 
   !> Moment on a rigid link about its first pin of everything but the couples of turns.

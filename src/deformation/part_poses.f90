@@ -4,7 +4,7 @@ module part_poses
   use applied_load_types, only: applies_between
   use applied_loads, only: spring_pulls
   use constants, only: degree
-  use carried_bodies, only: carried_loads
+  use carried_bodies, only: add_short_pieces, carried_loads
   use elastic_linkages, only: add_couple, elastic_linkage_t, spring_t
   use errors, only: error_t
   use kinds, only: wp
@@ -113,8 +113,9 @@ contains
     end do
     allocate (of_parts%carried(4, size(elastic%carried), case_count), source=0.0_wp)
     do i = 1, case_count
-      if (loads%occurs(i)) of_parts%carried(:, :, i) = carried_loads(elastic, placed, &
-        of_parts%unit%of_case(i))
+      if (.not. loads%occurs(i)) cycle
+      of_parts%carried(:, :, i) = carried_loads(elastic, placed, of_parts%unit%of_case(i))
+      call add_short_pieces(elastic, of_parts%unit%of_case(i), of_parts%moment(:, i))
     end do
     call turn_ends(elastic%springs, of_parts%pull, of_parts%moment(:, constant_case))
     call turn_ends(elastic%tensions, of_parts%tension, of_parts%moment(:, constant_case))

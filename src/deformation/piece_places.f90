@@ -15,6 +15,11 @@ module piece_places
   !> The least distance of a block from an end of its way, as a share of it.
   real(wp), parameter :: least_share = 1.0e-9_wp
 
+  !> Below this share of its way the rotary inertia of a piece is on the cuts beside it. Along the
+  !! piece it would multiply differences of displacements, which are round-off; what its own bending
+  !! turns is less than the square of the share.
+  real(wp), parameter :: short_share = 1.0e-7_wp
+
 contains
 
   !> Places the cuts of a way and puts its pieces in order.
@@ -89,6 +94,35 @@ contains
         end associate
       end do
     end associate
+    call share_rotary_inertia(number, order, whole, elastic)
   end subroutine order_pieces
+
+  !> Puts the rotary inertia of short pieces on the cuts beside them, but for as much as their mass
+  !! has when it is as long as they are.
+  pure subroutine share_rotary_inertia(number, order, whole, elastic)
+    integer, intent(in) :: number       !! of the way
+    integer, intent(in) :: order(:)     !! of its cuts
+    real(wp), intent(in) :: whole       !! its length [m]
+    type(elastic_linkage_t), intent(inout) :: elastic
+
+    real(wp) :: left
+    integer :: cuts(2), i, k
+
+    associate (way => elastic%ways(number))
+      way%cuts%inertia = 0.0_wp
+      do i = 0, size(order)
+        associate (part => elastic%linkage%bodies(way%first_part + i))
+          part%rotary_inertia = elastic%beams(way%first_part + i)%rotary_inertia
+          if (part%length > short_share*whole) cycle
+          left = max(0.0_wp, part%rotary_inertia - part%line_density*part%length**2)
+          part%rotary_inertia = part%rotary_inertia - left
+          cuts = order([max(i, 1), min(i + 1, size(order))])
+          do k = 1, 2
+            way%cuts(cuts(k))%inertia = way%cuts(cuts(k))%inertia + 0.5_wp*left*part%length
+          end do
+        end associate
+      end do
+    end associate
+  end subroutine share_rotary_inertia
 
 end module piece_places
