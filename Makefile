@@ -143,6 +143,7 @@ vibrations: all
 	@python3 -B tests/linkages/exact_frequencies.py --program $(program)
 	@python3 -B tests/linkages/random_vibrations.py $(SEED) $(VIBRATIONS) --program $(program)
 	@python3 -B tests/linkages/random_vibrations.py $(SEED) $(shell expr $(VIBRATIONS) / 20 + 1) --kind many --program $(program)
+	@python3 -B tests/linkages/random_vibrations.py $(SEED) $(shell expr $(VIBRATIONS) / 5 + 1) --kind slotted --program $(program)
 
 # Quadruple precision for every case of `make stress`: some minutes.
 references: all quad

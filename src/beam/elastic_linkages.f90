@@ -2,24 +2,25 @@
 !! something holds it, every rigid link as a part of its own.
 !!
 !! It is a linkage like the one that moves, with its parts for bodies and with points for pins: the
-!! pins, and for every block on a link that bends the point of the link under the block, where the
-!! link is cut in two. An end of a part is a hinge, or it is held: it turns with a rotation, which
-!! other parts may share (a corner, a weld, a block that does not turn, a spring), or not at all (at
-!! a drive).
+!! pins, and the places where links are cut (`cut_ways`): for every block on a link that bends the
+!! point of the link under the block, and masses and forces on the same way. An end of a part is a
+!! hinge, or it is held: it turns with a rotation, which other parts may share (a corner, a cut, a
+!! weld, a block that does not turn, a spring), or not at all (at a drive).
 module elastic_linkages
   use applied_load_types, only: applied_load_t, applies_along, applies_between
   use beam_mesh, only: beam_t
+  use cut_ways, only: carried_t, cut_way_t, find_ways, fixed_lumps, nearest_way
   use kinds, only: wp
-  use linkages, only: body_t, cross, drives_angle, drives_length, drives_slider, &
-    forced_place_t, is_dyad_linkage, linkage_t, lump_t
-  use pose_types, only: pins_of_body, place_of_pin
+  use linkages, only: drives_angle, drives_length, drives_slider, forced_place_t, &
+    is_dyad_linkage, linkage_t, lump_t
+  use pose_types, only: pins_of_body
   use turning_ends, only: add_end, join_ends, new_turning_ends, number_of, number_ends, &
     turning_ends_t
   implicit none (type, external)
   private
 
   public :: elastic_linkage_t, spring_t, new_elastic_linkage, needs_parts, scaled_link, &
-    fixed_rotation, spring_pin, shared_pin
+    is_piece, add_couple, fixed_rotation, spring_pin, shared_pin
 
   !> Of an end that cannot turn.
   integer, parameter :: fixed_rotation = -1
@@ -45,11 +46,16 @@ module elastic_linkages
     integer, allocatable :: rotation(:, :)    !! (2, parts) of held ends, of a rigid part twice its
                                               !! own; 0: a hinge
     integer :: rotations = 0                  !! number of them
-    real(wp), allocatable :: rotation_inertia(:) !! (rotations) of blocks [kg m²]
     logical, allocatable :: is_fixed(:)       !! (points) that do not move
+    integer :: places = 0                     !! points that are neither pins nor under blocks, but
+                                              !! at masses and forces: the last ones
     integer, allocatable :: contact(:)        !! (sliders) point of a link that bends under the
                                               !! block; 0: none
-    integer, allocatable :: cut_part(:)       !! (sliders) that ends there; the next one begins
+    type(cut_way_t), allocatable :: ways(:)   !! of links that bend, in the order of the parts
+    integer, allocatable :: way(:)            !! (parts) number of the way; 0: a rigid link
+    type(carried_t), allocatable :: carried(:) !! what cuts carry
+    integer, allocatable :: cut_part(:)       !! (sliders) that ends there at the position; the next
+                                              !! one begins
     integer, allocatable :: guide_rotation(:) !! (sliders) of the guide at the block; 0: it is fixed
     type(spring_t), allocatable :: springs(:) !! with a stiffness
     type(spring_t), allocatable :: tensions(:) !! without one
@@ -98,7 +104,41 @@ contains
     call add_rotations(linkage, elastic)
   end function new_elastic_linkage
 
-  !> The pins, and the points of links under blocks.
+  !> Whether the length of a part of a link that bends, and its ends, are those of the position.
+  elemental function is_piece(elastic, part) result(is)
+    type(elastic_linkage_t), intent(in) :: elastic
+    integer, intent(in) :: part             !! number, from 1
+    logical :: is
+
+    is = elastic%way(part) > 0
+    if (is) is = size(elastic%ways(elastic%way(part))%cuts) > 0
+  end function is_piece
+
+  !> Adds a couple on a link: of one that bends on its first way, which its pins carry.
+  pure subroutine add_couple(elastic, body, couple, on_parts)
+    type(elastic_linkage_t), intent(in) :: elastic !! at a position
+    integer, intent(in) :: body                    !! number of the link
+    real(wp), intent(in) :: couple                 !! [N m]
+    real(wp), intent(inout) :: on_parts(:)         !! (parts) [N m]
+
+    real(wp) :: whole
+    integer :: k, first
+
+    first = findloc(elastic%body, body, dim=1)
+    if (.not. is_piece(elastic, first)) then
+      on_parts(first) = on_parts(first) + couple
+      return
+    end if
+    ! The chord of the whole way turns by the mean of those of its pieces.
+    associate (way => elastic%ways(elastic%way(first)))
+      whole = sum(elastic%linkage%bodies(first:first + size(way%cuts))%length)
+      do k = first, first + size(way%cuts)
+        on_parts(k) = on_parts(k) + couple*(elastic%linkage%bodies(k)%length/whole)
+      end do
+    end associate
+  end subroutine add_couple
+
+  !> The pins, and the points of links under blocks and at other cuts.
   pure subroutine add_points(linkage, elastic)
     type(linkage_t), intent(in) :: linkage
     type(elastic_linkage_t), intent(inout) :: elastic
@@ -117,6 +157,9 @@ contains
       n = n + 1
       elastic%contact(i) = n
     end do
+    elastic%places = -n
+    call find_ways(linkage, elastic%contact, n, elastic%ways, elastic%carried)
+    elastic%places = elastic%places + n
     associate (parts => elastic%linkage, pins => size(linkage%is_ground))
       allocate (parts%is_ground(n), parts%ground_position(2, n), parts%pin_mass(n), &
         parts%pin_force(2, n))
@@ -145,39 +188,25 @@ contains
     end do
   end subroutine add_points
 
-  !> Pins along a link that bends, in order.
-  pure function corners_of(body) result(corners)
-    type(body_t), intent(in) :: body
-    integer, allocatable :: corners(:)
-
-    if (allocated(body%corners)) then
-      corners = body%corners
-    else
-      corners = [body%first_pin, body%last_pin]
-    end if
-  end function corners_of
-
   !> Rigid links, and the straight parts of all others.
   pure subroutine add_parts(linkage, beams, elastic)
     type(linkage_t), intent(in) :: linkage
     type(beam_t), intent(in) :: beams(:)
     type(elastic_linkage_t), intent(inout) :: elastic
 
-    integer, allocatable :: corners(:), cut(:)
-    integer :: b, i, k, n, first
+    integer :: b, i, k, n
 
-    n = count(elastic%contact > 0)
-    do b = 1, size(linkage%bodies)
-      if (linkage%bodies(b)%bends) then
-        n = n + size(corners_of(linkage%bodies(b))) - 1
-      else
-        n = n + 1
-      end if
+    n = count(.not. linkage%bodies%bends)
+    do i = 1, size(elastic%ways)
+      n = n + size(elastic%ways(i)%cuts) + 1
     end do
     allocate (elastic%linkage%bodies(n), elastic%linkage%couple(n), elastic%beams(n), &
-      elastic%body(n), elastic%place(2, n), elastic%axis(2, n))
+      elastic%body(n), elastic%way(n), elastic%place(2, n), elastic%axis(2, n))
     elastic%linkage%couple = 0.0_wp
+    elastic%body = 0
+    elastic%way = 0
     n = 0
+    i = 0
     do b = 1, size(linkage%bodies)
       if (.not. linkage%bodies(b)%bends) then
         n = n + 1
@@ -189,153 +218,82 @@ contains
           elastic%changes_lengths = .true.
         cycle
       end if
-      first = n + 1
-      corners = corners_of(linkage%bodies(b))
-      do k = 1, size(corners) - 1
-        cut = pack([(i, i=1, size(linkage%sliders))], elastic%contact > 0 .and. &
-          linkage%sliders%body == b)
-        cut = pack(cut, [(is_under(linkage, cut(i), corners, k), i=1, size(cut))])
-        n = n + 1
-        call add_straight(linkage, b, corners(k:k + 1), elastic, n)
-        if (size(cut) == 0) cycle
-        ! Places on both parts are those of the position.
-        elastic%changes_lengths = .true.
-        elastic%linkage%bodies(n)%last_pin = elastic%contact(cut(1))
-        elastic%cut_part(cut(1)) = n
-        n = n + 1
-        call add_straight(linkage, b, corners(k:k + 1), elastic, n)
-        elastic%linkage%bodies(n)%first_pin = elastic%contact(cut(1))
+      do while (i < size(elastic%ways))
+        if (elastic%ways(i + 1)%body /= b) exit
+        i = i + 1
+        elastic%ways(i)%first_part = n + 1
+        do k = 0, size(elastic%ways(i)%cuts)
+          n = n + 1
+          call add_part(i, k, beams(b), elastic, n)
+        end do
       end do
-      do k = first, n
-        elastic%beams(k) = beams(b)
-        elastic%linkage%bodies(k)%line_density = beams(b)%line_density
-        elastic%linkage%bodies(k)%rotary_inertia = beams(b)%rotary_inertia
-      end do
-      call share_lumps(linkage, b, first, n, elastic)
+      call share_lumps(linkage, b, elastic)
     end do
-    elastic%linkage%bodies = elastic%linkage%bodies(:n)
-    elastic%linkage%couple = elastic%linkage%couple(:n)
-    elastic%beams = elastic%beams(:n)
-    elastic%body = elastic%body(:n)
-    elastic%place = elastic%place(:, :n)
-    elastic%axis = elastic%axis(:, :n)
   end subroutine add_parts
 
-  !> A straight part between two pins of a link.
-  pure subroutine add_straight(linkage, b, pins, elastic, number)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: b       !! number of the link
-    integer, intent(in) :: pins(2) !! where it begins and ends
+  !> A part of a way. Places and lengths of pieces, and the order of their ends, are those of a
+  !! position; until then the whole way is the length of each.
+  pure subroutine add_part(i, number, beam, elastic, part)
+    integer, intent(in) :: i      !! number of the way
+    integer, intent(in) :: number !! of the cut where it begins; 0: the first pin
+    type(beam_t), intent(in) :: beam
     type(elastic_linkage_t), intent(inout) :: elastic
-    integer, intent(in) :: number  !! of the part
+    integer, intent(in) :: part   !! its number
 
-    real(wp) :: way(2)
-
-    elastic%body(number) = b
-    associate (part => elastic%linkage%bodies(number), body => linkage%bodies(b))
-      elastic%place(:, number) = place_of_pin(body, pins(1))
-      way = place_of_pin(body, pins(2)) - elastic%place(:, number)
-      part%first_pin = pins(1)
-      part%last_pin = pins(2)
-      part%length = norm2(way)
-      elastic%axis(:, number) = way/part%length
-      part%bends = .true.
-      allocate (part%lumps(0), part%further(0))
+    associate (this => elastic%linkage%bodies(part), way => elastic%ways(i))
+      elastic%body(part) = way%body
+      elastic%way(part) = i
+      elastic%place(:, part) = way%place
+      elastic%axis(:, part) = way%axis
+      elastic%beams(part) = beam
+      this%first_pin = way%pins(1)
+      this%last_pin = way%pins(2)
+      if (number > 0) this%first_pin = way%cuts(number)%point
+      if (number < size(way%cuts)) then
+        this%last_pin = way%cuts(number + 1)%point
+        if (way%cuts(number + 1)%slider > 0) elastic%cut_part(way%cuts(number + 1)%slider) = part
+      end if
+      this%length = way%length
+      this%bends = .true.
+      this%line_density = beam%line_density
+      this%rotary_inertia = beam%rotary_inertia
+      allocate (this%lumps(0), this%further(0))
+      if (size(way%cuts) > 0) elastic%changes_lengths = .true.
     end associate
-  end subroutine add_straight
+  end subroutine add_part
 
-  !> Whether a block slides along this straight part of its link: of those on its line, the longest.
-  pure function is_under(linkage, slider, corners, k) result(is)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: slider     !! number, along this link
-    integer, intent(in) :: corners(:)
-    integer, intent(in) :: k          !! the part from corner k to the next
-    logical :: is
-
-    real(wp) :: length(size(corners) - 1)
-    integer :: i
-
-    do i = 1, size(length)
-      length(i) = length_on_line(linkage, slider, corners(i:i + 1))
-    end do
-    is = length(k) > 0.0_wp .and. k == maxloc(length, dim=1)
-  end function is_under
-
-  !> Length of a straight part that lies on the line of a block; 0: it does not.
-  pure function length_on_line(linkage, slider, pins) result(length)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: slider
-    integer, intent(in) :: pins(2)
-    real(wp) :: length
-
-    real(wp), parameter :: near = 1.0e-6_wp
-    real(wp) :: first(2), last(2), off(2)
-
-    associate (line => linkage%sliders(slider), &
-        body => linkage%bodies(linkage%sliders(slider)%body))
-      first = place_of_pin(body, pins(1))
-      last = place_of_pin(body, pins(2))
-      length = norm2(last - first)
-      off = abs([cross(line%direction, first - line%point), cross(line%direction, last - &
-        line%point)])
-      if (any(off > near*length)) length = 0.0_wp
-    end associate
-  end function length_on_line
-
-  !> Masses and places of forces of a link go to the straight part that they are nearest to.
-  pure subroutine share_lumps(linkage, b, first, last, elastic)
+  !> Masses and places of forces of a link go to the way that they are nearest to. Where it is cut,
+  !! the cuts carry them.
+  pure subroutine share_lumps(linkage, b, elastic)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: b           !! number of the link
-    integer, intent(in) :: first, last !! its parts
     type(elastic_linkage_t), intent(inout) :: elastic
 
     real(wp) :: place(2)
-    integer :: i, k, blocks
+    integer :: i, k, first, last
 
-    ! Blocks turn with the part under them.
-    blocks = count(linkage%sliders%body == b .and. linkage%sliders%inertia > 0.0_wp)
     associate (lumps => linkage%bodies(b)%lumps, parts => elastic%linkage%bodies)
-      do i = linkage%bodies(b)%own_lumps + 1, size(lumps) - blocks
-        call nearest_part(lumps(i)%place, elastic, first, last, k, place)
-        parts(k)%lumps = [parts(k)%lumps, lump_t(lumps(i)%mass, place, lumps(i)%inertia)]
+      call fixed_lumps(linkage, b, first, last)
+      do i = first, last
+        call nearest_way(elastic%ways, b, lumps(i)%place, k, place)
+        if (size(elastic%ways(k)%cuts) > 0) cycle
+        associate (part => parts(elastic%ways(k)%first_part))
+          part%lumps = [part%lumps, lump_t(lumps(i)%mass, place, lumps(i)%inertia)]
+        end associate
       end do
       if (.not. allocated(linkage%bodies(b)%forced)) return
-      do k = first, last
-        allocate (parts(k)%forced(0))
+      do k = 1, size(elastic%body)
+        if (elastic%body(k) == b) allocate (parts(k)%forced(0))
       end do
       do i = 1, size(linkage%bodies(b)%forced)
-        call nearest_part(linkage%bodies(b)%forced(i)%place, elastic, first, last, k, place)
-        parts(k)%forced = [parts(k)%forced, forced_place_t(linkage%bodies(b)%forced(i)%load, place)]
+        call nearest_way(elastic%ways, b, linkage%bodies(b)%forced(i)%place, k, place)
+        if (size(elastic%ways(k)%cuts) > 0) cycle
+        associate (part => parts(elastic%ways(k)%first_part))
+          part%forced = [part%forced, forced_place_t(linkage%bodies(b)%forced(i)%load, place)]
+        end associate
       end do
     end associate
   end subroutine share_lumps
-
-  !> The part that a place of a link is nearest to, and the place on it.
-  pure subroutine nearest_part(place, elastic, first, last, part, on_part)
-    real(wp), intent(in) :: place(2) !! from the first pin of the link, in its axes [m]
-    type(elastic_linkage_t), intent(in) :: elastic
-    integer, intent(in) :: first, last !! parts of the link
-    integer, intent(out) :: part
-    real(wp), intent(out) :: on_part(2) !! from its first point, in its axes [m]
-
-    real(wp) :: here(2), from, distance, least
-    integer :: k
-
-    part = first
-    least = huge(least)
-    on_part = 0.0_wp
-    do k = first, last
-      from = elastic%linkage%bodies(k)%length
-      associate (axis => elastic%axis(:, k), way => place - elastic%place(:, k))
-        here = [dot_product(axis, way), cross(axis, way)]
-      end associate
-      distance = norm2([here(1) - max(0.0_wp, min(from, here(1))), here(2)])
-      if (distance >= least) cycle
-      least = distance
-      part = k
-      on_part = here
-    end do
-  end subroutine nearest_part
 
   !> What turns together.
   pure subroutine add_rotations(linkage, elastic)
@@ -388,9 +346,12 @@ contains
     do i = 1, size(linkage%sliders)
       if (elastic%contact(i) > 0) call add_end(ends, linkage%sliders(i)%body, elastic%contact(i))
     end do
+    do i = 1, size(elastic%carried)
+      call add_end(ends, elastic%carried(i)%body, elastic%carried(i)%point)
+    end do
     call number_ends(ends, elastic%rotations)
     n = size(elastic%body)
-    allocate (elastic%rotation(2, n), elastic%rotation_inertia(elastic%rotations))
+    allocate (elastic%rotation(2, n))
     do k = 1, n
       associate (part => elastic%linkage%bodies(k))
         if (part%bends) then
@@ -405,14 +366,22 @@ contains
     do k = 1, n
       if (.not. elastic%linkage%bodies(k)%bends) elastic%held(:, k) = .false.
     end do
-    elastic%rotation_inertia = 0.0_wp
     do i = 1, size(linkage%sliders)
-      if (linkage%sliders(i)%body == 0) cycle
-      elastic%guide_rotation(i) = number_of(ends, linkage%sliders(i)%body, elastic%contact(i))
-      k = elastic%guide_rotation(i)
-      ! The block of a rigid link is among its lumps.
-      if (elastic%contact(i) > 0 .and. k > 0) elastic%rotation_inertia(k) = &
-        elastic%rotation_inertia(k) + linkage%sliders(i)%inertia
+      if (linkage%sliders(i)%body > 0) elastic%guide_rotation(i) = number_of(ends, &
+        linkage%sliders(i)%body, elastic%contact(i))
+    end do
+    do i = 1, size(elastic%ways)
+      associate (way => elastic%ways(i))
+        way%rotation = [(number_of(ends, way%body, way%pins(k)), k=1, 2)]
+        do k = 1, size(way%cuts)
+          way%cuts(k)%rotation = number_of(ends, way%body, way%cuts(k)%point)
+        end do
+      end associate
+    end do
+    do i = 1, size(elastic%carried)
+      associate (this => elastic%carried(i))
+        this%rotation = number_of(ends, this%body, this%point)
+      end associate
     end do
     call number_springs(linkage, ends, elastic%springs)
     call number_springs(linkage, ends, elastic%tensions)
@@ -531,6 +500,20 @@ contains
         end do
       end associate
       elastic%place(:, k) = factor*elastic%place(:, k)
+    end do
+    do k = 1, size(elastic%ways)
+      if (elastic%ways(k)%body /= body) cycle
+      associate (way => elastic%ways(k))
+        way%place = factor*way%place
+        way%length = factor*way%length
+        way%cuts%along = factor*way%cuts%along
+      end associate
+    end do
+    do k = 1, size(elastic%carried)
+      associate (this => elastic%carried(k))
+        if (this%body == body) this%place = factor*this%place
+        if (this%body == body) this%arm = factor*this%arm
+      end associate
     end do
   end subroutine scaled_link
 

@@ -146,7 +146,7 @@ contains
   end function is_same
 
   !> Moment that the couples of turns put on the end of a link that bends: what the parts there
-  !! bear, less the moments of springs, drives and of a block.
+  !! bear, less the moments of springs, drives and of what is fixed to it.
   pure function moment_on_end(linkage, elastic, loads, forces, case, on_part, body, point, joints) &
     result(moment)
     type(linkage_t), intent(in) :: linkage
@@ -193,9 +193,15 @@ contains
           joints%drive(i)
       end associate
     end do
-    do i = 1, size(elastic%contact)
-      if (elastic%contact(i) == point) moment = moment + linkage%sliders(i)%inertia* &
-        loads%unit%of_case(case)%field%angular(elastic%cut_part(i))
+    do i = 1, size(elastic%carried)
+      if (elastic%carried(i)%body == body .and. elastic%carried(i)%point == point) moment = &
+        moment - loads%carried(3, i, case)
+    end do
+    do i = 1, size(elastic%ways)
+      if (elastic%ways(i)%body /= body) cycle
+      k = findloc(elastic%ways(i)%cuts%point, point, dim=1)
+      if (k > 0) moment = moment + elastic%ways(i)%cuts(k)%inertia* &
+        loads%unit%of_case(case)%field%angular(elastic%ways(i)%first_part)
     end do
   end function moment_on_end
 

@@ -7,7 +7,7 @@ module part_displacements
   use border_rows, only: border_unknowns_t, find_border_rows, new_border_unknowns
   use dense_factor, only: dense_factor_t, factorize, solve
   use drive_rates, only: find_drive_rates
-  use elastic_linkages, only: elastic_linkage_t
+  use elastic_linkages, only: elastic_linkage_t, is_piece
   use errors, only: error_of_dead_point, error_t, set_error
   use graded_rows, only: find_row_basis, graded_rows_t, row_basis_t
   use kinds, only: wp
@@ -171,7 +171,9 @@ contains
         do i = 1, links(k)%curves
           chords%across(2 + i, :last, k) = weighted(numbers%curve(i, k), :)
         end do
-        if (part%bends) then
+        if (part%bends .and. is_piece(elastic, k)) then
+          chords%turn(:, k) = turn_of_piece(elastic, links(k), k, chords)
+        else if (part%bends) then
           chords%turn(:, k) = (chords%across(2, :, k) - chords%across(1, :, k))/part%length
         else if (elastic%rotation(1, k) > 0) then
           chords%turn(:, k) = chords%rotation(elastic%rotation(1, k), :)
@@ -181,5 +183,23 @@ contains
       end associate
     end do
   end function chords_of
+
+  !> Rotation of the chord of a piece of a cut way, from that of a held end: where a piece is short
+  !! its ends move by the same amount, and their difference would be round-off.
+  pure function turn_of_piece(elastic, link, part, chords) result(turn)
+    type(elastic_linkage_t), intent(in) :: elastic !! at this position
+    type(link_modes_t), intent(in) :: link         !! of the piece: at least one end is held
+    integer, intent(in) :: part                    !! its number
+    type(chords_t), intent(in) :: chords           !! with rotations and curves
+    real(wp) :: turn(size(chords%turn, 1))
+
+    integer :: e
+
+    turn = -link%curve_rotation(1)*chords%across(3, :, part)
+    do e = 1, 2
+      if (elastic%rotation(e, part) > 0) turn = turn + chords%rotation(elastic%rotation(e, part), :)
+    end do
+    if (link%curves == 2) turn = 0.5_wp*turn
+  end function turn_of_piece
 
 end module part_displacements

@@ -4,7 +4,8 @@ module part_efforts
   use applied_load_types, only: applies_along, applies_couple, applies_force, &
     load_place_t
   use applied_loads, only: damper_pulls, is_moving, moving_couple, moving_force
-  use elastic_linkages, only: elastic_linkage_t, spring_pin
+  use carried_bodies, only: carried_force
+  use elastic_linkages, only: add_couple, elastic_linkage_t, spring_pin
   use group_equations, only: line_axis
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
@@ -37,7 +38,8 @@ contains
     allocate (loads%moment(elastic%rotations, case_count), source=0.0_wp)
     allocate (loads%pull(size(elastic%springs)), loads%tension(size(elastic%tensions)), &
       source=0.0_wp)
-    allocate (loads%end_couple(2, parts, case_count), source=0.0_wp)
+    allocate (loads%end_couple(2, parts, case_count), loads%carried(4, size(elastic%carried), &
+      case_count), source=0.0_wp)
     associate (case => loads%unit%of_case(effort_case))
       allocate (case%field%at_pin(2, points), source=0.0_wp)
       allocate (case%field%at_first(2, parts), source=0.0_wp)
@@ -73,10 +75,8 @@ contains
           call add_force(elastic, placed, i, load%at(1), moving_force(linkage, pose, &
             from_global_origin, now, load), loads)
         case (applies_couple)
-          k = findloc(elastic%body, load%body(1), dim=1)
-          associate (couple => loads%unit%of_case(effort_case)%couple(k))
-            couple = couple + moving_couple(linkage, pose, from_global_origin, now, load)
-          end associate
+          call add_couple(elastic, load%body(1), moving_couple(linkage, pose, from_global_origin, &
+            now, load), loads%unit%of_case(effort_case)%couple)
         case (applies_along)
           call add_force(elastic, placed, i, load%at(1), pull(i)*load_axis(linkage, pose, load), &
             loads)
@@ -147,10 +147,7 @@ contains
         return
       end do
     end if
-    k = findloc(elastic%body, body, dim=1)
-    associate (on_link => loads%unit%of_case(effort_case)%couple(k))
-      on_link = on_link + couple
-    end associate
+    call add_couple(elastic, body, couple, loads%unit%of_case(effort_case)%couple)
   end subroutine add_end_couple
 
   !> Adds a force at a pin or at a place of a link.
@@ -186,6 +183,10 @@ contains
               part%forced(i)%place), force)
           end do
         end associate
+      end do
+      do i = 1, size(elastic%carried)
+        if (elastic%carried(i)%load == number) loads%carried(:3, i, effort_case) = &
+          loads%carried(:3, i, effort_case) + carried_force(elastic, placed, i, force)
       end do
     end associate
   end subroutine add_force

@@ -8,6 +8,7 @@ module part_forces
   use axial_forces, only: lump_functions, most_lump_functions
   use border_loads, only: border_work, own_work
   use border_rows, only: add_stretch, damper_rows, spring_way
+  use carried_bodies, only: add_carried_stiffness, carried_work
   use dense_factor, only: dense_factor_t, factorize, solve
   use drive_rates, only: find_drive_rates, own_drive_compliance, own_drive_rates, &
     own_turns_by_couples, slide_of, turn_of_end
@@ -91,10 +92,11 @@ contains
       associate (case => loads%unit%of_case(i))
         work = border_work(elastic%linkage, links, chords, pose, case) + &
           matmul(loads%moment(:, i), chords%rotation) + work_on_ends(elastic, links, chords, &
-          loads%end_couple(:, :, i))
+          loads%end_couple(:, :, i)) + carried_work(elastic, chords, loads%carried(:, :, i))
         lambda = border_work(elastic%linkage, links, of_constraints, pose, case) + &
           matmul(loads%moment(:, i), of_constraints%rotation) + work_on_ends(elastic, links, &
-          of_constraints, loads%end_couple(:, :, i))
+          of_constraints, loads%end_couple(:, :, i)) + carried_work(elastic, of_constraints, &
+          loads%carried(:, :, i))
         if (size(on_drives, 1) > 0) then
           held = held_by_drives(on_drives(:, :n), on_drives(:, n + 1:), work, compliance, &
             own_turns(linkage, elastic, links, pose, case, loads%end_couple(:, :, i), on_own))
@@ -122,7 +124,8 @@ contains
         end do
         call add_guides(elastic, pose, chords, forces%guide(:, i), forces%second_order(:, :, i))
         call add_lines(elastic, pose, border, springs, pull, forces%second_order(:, :, i))
-        call add_blocks(elastic, pose, case, chords, forces%second_order(:, :, i))
+        call add_carried_stiffness(elastic, chords, loads%carried(:, :, i), &
+          forces%second_order(:, :, i))
       end associate
     end do
   end subroutine find_part_forces
@@ -296,29 +299,6 @@ contains
       end do
     end do
   end subroutine add_lines
-
-  !> Adds what the centrifugal forces of blocks about their own mass centres do as they turn with
-  !! links that bend, `½ I ω² θ²`, as those of masses along links.
-  pure subroutine add_blocks(elastic, pose, case, chords, stiffness)
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(pose_t), intent(in) :: pose
-    type(load_case_t), intent(in) :: case
-    type(chords_t), intent(in) :: chords
-    real(wp), intent(inout) :: stiffness(:, :)
-
-    real(wp) :: turn(size(stiffness, 1)), squared
-    integer :: i, j, part
-
-    do i = 1, size(elastic%contact)
-      if (elastic%contact(i) == 0 .or. elastic%guide_rotation(i) <= 0) cycle
-      part = elastic%cut_part(i)
-      squared = -dot_product(pose%direction(:, part), case%field%slope(:, part))
-      turn = chords%rotation(elastic%guide_rotation(i), :)
-      do j = 1, size(turn)
-        stiffness(:, j) = stiffness(:, j) + elastic%linkage%sliders(i)%inertia*squared*turn*turn(j)
-      end do
-    end do
-  end subroutine add_blocks
 
   !> What own modes of all parts do to the joints of free drives, and how they yield to these.
   pure subroutine find_own_drive_rates(linkage, elastic, links, on_own, compliance)

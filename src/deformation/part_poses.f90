@@ -4,11 +4,13 @@ module part_poses
   use applied_load_types, only: applies_between
   use applied_loads, only: spring_pulls
   use constants, only: degree
-  use elastic_linkages, only: elastic_linkage_t, spring_t
-  use errors, only: error_of_reach, error_t, set_error
+  use carried_bodies, only: add_short_pieces, carried_loads
+  use elastic_linkages, only: add_couple, elastic_linkage_t, spring_t
+  use errors, only: error_t
   use kinds, only: wp
   use linkages, only: cross, drives_length, linkage_t, normal_to, turned, turned_back
   use load_cases, only: case_count, constant_case, load_case_t, unit_loads_t
+  use piece_places, only: place_pieces
   use poses, only: arm_to_place, pose_t
   implicit none (type, external)
   private
@@ -24,10 +26,9 @@ module part_poses
     real(wp), allocatable :: end_couple(:, :, :)    !! (2, parts, cases) on the ends of parts that
                                                     !! bend [N m]
     real(wp), allocatable :: tension(:)             !! (tensions) [N] or [N m]
+    real(wp), allocatable :: carried(:, :, :)       !! (4, carried bodies, cases) as of
+                                                    !! `carried_loads` [N, N m]
   end type part_loads_t
-
-  !> The least part of a cut one, as a share of it.
-  real(wp), parameter :: least_share = 1.0e-9_wp
 
 contains
 
@@ -41,7 +42,7 @@ contains
     type(pose_t), intent(inout) :: placed               !! of its points and parts
     type(error_t), allocatable, intent(out) :: error    !! its place has link and pin
 
-    real(wp) :: along, whole, way(2)
+    real(wp) :: way(2)
     integer :: i, k, n
 
     if (.not. allocated(placed%pin)) allocate (placed%pin(2, size(elastic%is_fixed)), &
@@ -52,25 +53,10 @@ contains
     do k = 1, size(elastic%body)
       placed%direction(:, k) = turned(elastic%axis(:, k), pose%direction(:, elastic%body(k)))
     end do
-    do i = 1, size(elastic%contact)
-      if (elastic%contact(i) == 0) cycle
-      k = elastic%cut_part(i)
-      placed%pin(:, elastic%contact(i)) = pose%pin(:, linkage%sliders(i)%pin)
-      associate (first => elastic%linkage%bodies(k)%first_pin, &
-          last => elastic%linkage%bodies(k + 1)%last_pin)
-        whole = norm2(pose%pin(:, last) - pose%pin(:, first))
-        along = dot_product(placed%direction(:, k), pose%pin(:, linkage%sliders(i)%pin) - &
-          pose%pin(:, first))
-      end associate
-      if (along < least_share*whole .or. along > (1.0_wp - least_share)*whole) then
-        call set_error(error, error_of_reach, "the block is at an end of its link", &
-          body=linkage%sliders(i)%body, pin=linkage%sliders(i)%pin)
-        return
-      end if
-      elastic%linkage%bodies(k)%length = along
-      elastic%linkage%bodies(k + 1)%length = dot_product(placed%direction(:, k), pose%pin(:, &
-        elastic%linkage%bodies(k + 1)%last_pin) - pose%pin(:, linkage%sliders(i)%pin))
-      elastic%place(:, k + 1) = elastic%place(:, k) + along*elastic%axis(:, k)
+    do i = 1, size(elastic%ways)
+      if (size(elastic%ways(i)%cuts) == 0) cycle
+      call place_pieces(linkage, pose, i, elastic, placed, error)
+      if (allocated(error)) return
     end do
     do i = 1, size(linkage%drives)
       if (linkage%drives(i)%kind /= drives_length) cycle
@@ -125,7 +111,12 @@ contains
         [elastic%springs, elastic%tensions], merge(1.0_wp, 0.0_wp, i == constant_case)* &
         [of_parts%pull, of_parts%tension], of_parts%unit%of_case(i))
     end do
-    call add_blocks(linkage, loads, elastic, of_parts%moment)
+    allocate (of_parts%carried(4, size(elastic%carried), case_count), source=0.0_wp)
+    do i = 1, case_count
+      if (.not. loads%occurs(i)) cycle
+      of_parts%carried(:, :, i) = carried_loads(elastic, placed, of_parts%unit%of_case(i))
+      call add_short_pieces(elastic, of_parts%unit%of_case(i), of_parts%moment(:, i))
+    end do
     call turn_ends(elastic%springs, of_parts%pull, of_parts%moment(:, constant_case))
     call turn_ends(elastic%tensions, of_parts%tension, of_parts%moment(:, constant_case))
   end subroutine find_part_loads
@@ -164,25 +155,6 @@ contains
     end do
   end subroutine turn_ends
 
-  !> Adds what turns blocks on links that bend: `−I α`.
-  pure subroutine add_blocks(linkage, loads, elastic, moment)
-    type(linkage_t), intent(in) :: linkage
-    type(unit_loads_t), intent(in) :: loads
-    type(elastic_linkage_t), intent(in) :: elastic
-    real(wp), intent(inout) :: moment(:, :) !! (rotations, cases)
-
-    integer :: i, k
-
-    do i = 1, size(elastic%contact)
-      if (elastic%contact(i) == 0 .or. elastic%guide_rotation(i) <= 0) cycle
-      do k = 1, case_count
-        if (loads%occurs(k)) moment(elastic%guide_rotation(i), k) = &
-          moment(elastic%guide_rotation(i), k) - linkage%sliders(i)%inertia* &
-          loads%of_case(k)%field%angular(linkage%sliders(i)%body)
-      end do
-    end do
-  end subroutine add_blocks
-
   !> Accelerations of points and parts.
   pure subroutine take_field(linkage, pose, of_links, elastic, placed, field)
     type(linkage_t), intent(in) :: linkage
@@ -198,12 +170,15 @@ contains
     allocate (field%at_pin(2, size(elastic%is_fixed)), field%at_first(2, size(elastic%body)), &
       field%slope(2, size(elastic%body)), field%angular(size(elastic%body)))
     field%at_pin(:, :size(of_links%at_pin, 2)) = of_links%at_pin
-    do i = 1, size(elastic%contact)
-      if (elastic%contact(i) == 0) cycle
-      b = linkage%sliders(i)%body
-      place = turned_back(placed%pin(:, elastic%contact(i)) - pose%pin(:, &
-        linkage%bodies(b)%first_pin), pose%direction(:, b))
-      field%at_pin(:, elastic%contact(i)) = point_acceleration(of_links, b, place(1), place(2))
+    do k = 1, size(elastic%ways)
+      do i = 1, size(elastic%ways(k)%cuts)
+        associate (b => elastic%ways(k)%body, point => elastic%ways(k)%cuts(i)%point)
+          if (point <= size(of_links%at_pin, 2)) cycle
+          place = turned_back(placed%pin(:, point) - pose%pin(:, linkage%bodies(b)%first_pin), &
+            pose%direction(:, b))
+          field%at_pin(:, point) = point_acceleration(of_links, b, place(1), place(2))
+        end associate
+      end do
     end do
     do k = 1, size(elastic%body)
       b = elastic%body(k)
@@ -216,7 +191,7 @@ contains
   end subroutine take_field
 
   !> Couples and forces of links: of a rigid link as they are; of one that bends its couples act on
-  !! its first part, forces at places with their moments where they are, springs on its ends.
+  !! its first way, forces at places with their moments where they are, springs on its ends.
   pure subroutine take_couples(linkage, pose, of_links, elastic, placed, springs, pull, parts)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
@@ -228,7 +203,6 @@ contains
     type(load_case_t), intent(inout) :: parts
 
     real(wp) :: couple(size(linkage%bodies)), arm(2)
-    logical :: is_first
     integer :: b, i, k
 
     couple = of_links%couple
@@ -241,22 +215,23 @@ contains
         end do
       end associate
     end do
+    do b = 1, size(couple)
+      if (linkage%bodies(b)%bends .and. allocated(of_links%place_force) .and. &
+        allocated(linkage%bodies(b)%forced)) then
+        do i = 1, size(linkage%bodies(b)%forced)
+          arm = arm_to_place(pose, b, linkage%bodies(b)%forced(i)%place)
+          couple(b) = couple(b) - cross(arm, of_links%place_force(:, &
+            linkage%bodies(b)%forced(i)%load))
+        end do
+      end if
+      call add_couple(elastic, b, couple(b), parts%couple)
+    end do
+    if (.not. allocated(of_links%place_force)) return
     do k = 1, size(elastic%body)
-      b = elastic%body(k)
       associate (part => elastic%linkage%bodies(k))
-        is_first = findloc(elastic%body, b, dim=1) == k
-        if (is_first) parts%couple(k) = couple(b)
-        if (.not. allocated(of_links%place_force)) cycle
         if (.not. part%bends) then
-          parts%body_force(:, k) = of_links%body_force(:, b)
+          parts%body_force(:, k) = of_links%body_force(:, elastic%body(k))
           cycle
-        end if
-        if (is_first .and. allocated(linkage%bodies(b)%forced)) then
-          do i = 1, size(linkage%bodies(b)%forced)
-            arm = arm_to_place(pose, b, linkage%bodies(b)%forced(i)%place)
-            parts%couple(k) = parts%couple(k) - cross(arm, of_links%place_force(:, &
-              linkage%bodies(b)%forced(i)%load))
-          end do
         end if
         if (.not. allocated(part%forced)) cycle
         do i = 1, size(part%forced)

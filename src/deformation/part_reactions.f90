@@ -188,6 +188,12 @@ contains
         if (elastic%linkage%bodies(k)%first_pin == pins(number)) force = force + on_part(1:2, k)
         if (elastic%linkage%bodies(k)%last_pin == pins(number)) force = force + on_part(3:4, k)
       end do
+      do i = 1, size(elastic%carried)
+        associate (this => elastic%carried(i))
+          if (this%body == body .and. this%point == pins(number)) force = force - &
+            loads%carried(:2, i, case)
+        end associate
+      end do
       return
     end if
     k = findloc(elastic%body, body, dim=1)

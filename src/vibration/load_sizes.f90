@@ -1,7 +1,7 @@
 !> Magnitudes of the loads of a position, whatever they cancel: their rounding is that of these.
 module load_sizes
   use bordered_eigensolver, only: bordered_modes_t
-  use elastic_linkages, only: spring_t
+  use elastic_linkages, only: elastic_linkage_t, spring_t
   use kinds, only: wp
   use load_cases, only: case_count, constant_case
   use matrix_rounding, only: force_sizes
@@ -30,7 +30,7 @@ contains
       pulls(here, here%elastic%tensions, here%part_loads%tension))
   end function axial_sizes
 
-  !> What springs pull; of those that turn, their torques over the shortest part [N].
+  !> What springs pull; of those that turn, their torques over the shortest span [N].
   pure function pulls(here, springs, pull) result(total)
     type(assembled_t), intent(in) :: here
     type(spring_t), intent(in) :: springs(:)
@@ -38,8 +38,29 @@ contains
     real(wp) :: total
 
     total = sum(abs(pull), mask=.not. springs%turns) + sum(abs(pull), mask=springs%turns)/ &
-      minval(here%elastic%linkage%bodies%length)
+      shortest_span(here%elastic)
   end function pulls
+
+  !> The shortest length of parts between pins and blocks, which bear torques by pairs of forces;
+  !! cuts at masses and at places of forces bear none [m].
+  pure function shortest_span(elastic) result(shortest)
+    type(elastic_linkage_t), intent(in) :: elastic !! at this position
+    real(wp) :: shortest
+
+    real(wp) :: span
+    integer :: k
+
+    shortest = huge(shortest)
+    span = 0.0_wp
+    do k = 1, size(elastic%linkage%bodies)
+      associate (part => elastic%linkage%bodies(k))
+        span = span + part%length
+        if (part%last_pin > size(elastic%linkage%pin_mass) - elastic%places) cycle
+        shortest = min(shortest, span)
+        span = 0.0_wp
+      end associate
+    end do
+  end function shortest_span
 
   !> The largest of all forces on points, and of inertia forces of points and parts [N].
   pure function largest_load(here, factor) result(largest)
@@ -65,6 +86,9 @@ contains
             linkage%bodies(k)%length*norm2(case%field%slope(:, k))))
           if (allocated(case%body_force)) largest = max(largest, &
             abs(factor(i))*norm2(case%body_force(:, k)))
+        end do
+        do k = 1, size(here%part_loads%carried, 2)
+          largest = max(largest, abs(factor(i))*norm2(here%part_loads%carried(:2, k, i)))
         end do
       end associate
     end do

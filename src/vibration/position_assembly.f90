@@ -5,8 +5,9 @@ module position_assembly
   use axial_limits, only: refuse_crushed
   use border_rows, only: damper_rows
   use bordered_matrix, only: new_bordered_layout
+  use carried_bodies, only: add_carried_mass
   use deformation_model, only: deformation_model_t, renew_link
-  use elastic_linkages, only: elastic_linkage_t
+  use elastic_linkages, only: elastic_linkage_t, is_piece
   use errors, only: error_t, outcome_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
@@ -131,10 +132,7 @@ contains
       end associate
     end do
     call assemble_mass(here%elastic%linkage, here%model, equations)
-    do k = 1, size(equations%chords%rotation, 1)
-      call add_block(here%elastic%rotation_inertia(k), equations%chords%rotation(k, :), &
-        equations%pencil%mass%border)
-    end do
+    call add_carried_mass(here%elastic, here%pose, equations%chords, equations%pencil%mass%border)
     counts%mass_matrices = counts%mass_matrices + 1
     call assemble_unit_loads(here%model, here%unit_force, factor, equations, counts, &
       here%part_forces%second_order)
@@ -162,19 +160,6 @@ contains
       here%part_loads, here%border, chords, here%part_forces)
   end subroutine load_parts
 
-  !> Adds `I θ²` of a block.
-  pure subroutine add_block(inertia, turn, mass)
-    real(wp), intent(in) :: inertia, turn(:)
-    real(wp), intent(inout) :: mass(:, :)
-
-    integer :: j
-
-    if (.not. inertia > 0.0_wp) return
-    do j = 1, size(turn)
-      mass(:, j) = mass(:, j) + inertia*turn*turn(j)
-    end do
-  end subroutine add_block
-
   !> Places the parts, and renews the own modes of those whose lengths have changed, and the lengths
   !! of rams.
   !!
@@ -186,7 +171,7 @@ contains
     type(assembled_t), intent(inout) :: here         !! of this model
     type(error_t), allocatable, intent(out) :: error
 
-    integer :: i, k, part
+    integer :: i, part
 
     call place_parts_of(structure%linkage, pose, here%elastic, here%pose, error)
     if (allocated(error)) return
@@ -198,14 +183,11 @@ contains
         ram%geometric(rigid, rigid, 1) = ram%length
       end associate
     end do
-    do i = 1, size(here%elastic%cut_part)
-      if (here%elastic%cut_part(i) == 0) cycle
-      do k = 0, 1
-        part = here%elastic%cut_part(i) + k
-        call renew_link(model, part, here%elastic%linkage%bodies(part), here%elastic%beams(part), &
-          here%elastic%held(:, part), here%model%links(part), error)
-        if (allocated(error)) return
-      end do
+    do part = 1, size(here%elastic%body)
+      if (.not. is_piece(here%elastic, part)) cycle
+      call renew_link(model, part, here%elastic%linkage%bodies(part), here%elastic%beams(part), &
+        here%elastic%held(:, part), here%model%links(part), error)
+      if (allocated(error)) return
     end do
   end subroutine place_parts
 

@@ -8,6 +8,7 @@ module position_solver
   use bordered_pencil, only: elastic_square
   use damped_frequencies, only: modes_for_dampers, solve_damped_speed
   use deformation_model, only: deformation_model_t
+  use elastic_linkages, only: is_piece
   use errors, only: outcome_t
   use kinds, only: wp
   use link_modes, only: stations
@@ -202,7 +203,7 @@ contains
     energy = [(elastic_square(layout, found%vector(:, i)), i=1, modes)]
   end function energies
 
-  !> Largest static deflection of every link / its length, or that of one of its parts, at every
+  !> Largest static deflection of every link / its length, or that of one of its ways, at every
   !! speed.
   subroutine find_deflection(structure, linkage, model, chords, pose, here, factor, ratio)
     type(structure_t), intent(in) :: structure
@@ -240,11 +241,24 @@ contains
           squared = max(squared, sum(displacement**2))
         end do
         associate (share => ratio(link_of(structure, b), k))
-          share = max(share, sqrt(squared)/linkage%bodies(b)%length)
+          share = max(share, sqrt(squared)/length_of(structure, linkage, b))
         end associate
       end do
     end do
   end subroutine find_deflection
+
+  !> The length of a body, of a piece that of its whole way [m].
+  pure function length_of(structure, linkage, body) result(length)
+    type(structure_t), intent(in) :: structure
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: body
+    real(wp) :: length
+
+    length = linkage%bodies(body)%length
+    if (.not. allocated(structure%elastic)) return
+    if (is_piece(structure%elastic, body)) length = &
+      structure%elastic%ways(structure%elastic%way(body))%length
+  end function length_of
 
   !> The link of a part.
   pure function link_of(structure, part) result(link)

@@ -146,9 +146,11 @@ contains
           end associate
         end do
       end do
-      do i = 1, elastic%rotations
-        associate (n => mesh%rotation(i))
-          mass(n, n) = mass(n, n) + elastic%rotation_inertia(i)
+      do i = 1, size(elastic%carried)
+        ! Those of blocks; the decks have no masses on links under blocks.
+        if (elastic%carried(i)%rotation <= 0) cycle
+        associate (n => mesh%rotation(elastic%carried(i)%rotation))
+          mass(n, n) = mass(n, n) + elastic%carried(i)%inertia
         end associate
       end do
     end associate

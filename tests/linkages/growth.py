@@ -214,9 +214,9 @@ class Drawing:
         self.new_link(pin, end)
         self.sliders.append([end, guide, None])
 
-    def rrp_on_link(self):
+    def rrp_on_link(self, link=None):
         """A link whose end slides along another link."""
-        link = self.pick(name for name in self.links if name != self.driven_length)
+        link = link or self.pick(name for name in self.links if name != self.driven_length)
         first, second = self.links[link][:2]
         end = self.new_pin(self.between(first, second, self.uniform(0.3, 0.7)))
         pin = self.known()
@@ -261,9 +261,9 @@ class Drawing:
         guide = self.new_guide(self.places[first], angle + self.uniform(0.6, 2.5))
         self.sliders += [[first, guide, link], [pin, link, None]]
 
-    def prp(self):
+    def prp(self, link=None):
         """Two blocks joined by a pin, on a fixed guide and on a link; a dyad hangs on the pin."""
-        link = self.pick(name for name in self.links if name != self.driven_length)
+        link = link or self.pick(name for name in self.links if name != self.driven_length)
         first, second = self.links[link][:2]
         pin = self.new_pin(self.between(first, second, self.uniform(0.35, 0.65)))
         guide = self.new_guide(self.places[pin], self.direction(first, second) + self.uniform(0.7, 2.4))

@@ -26,6 +26,7 @@ from vibrations import Structure, assemblies, frequency_to_eigenvalue
 
 ORDERS = (30, 60, 100)                         # of polynomials of the reference: the higher ones where the first sees a violation
 KINDS = ("four_bar", "grown", "extreme", "grown", "arm", "grown", "parallel", "guided")
+OTHER_KINDS = ("many", "slotted")              # only where they are asked for
 WORST_CONDITION = 300.0
 ZERO_EIGENVALUE = Decimal("1e-9")              # (rad/s)^2: a frequency that is printed as 0 is within
 
@@ -98,8 +99,57 @@ class Chain(Drawing):
         self.drives.append(("link1", [], ""))
 
 
+class Slotted(Drawing):
+    """A lever that slides over a crank pin, with further blocks on it, and pins between its ends."""
+
+    def build(self, links):
+        self.crank()
+        while not self.attempt("lever"):
+            pass
+        wanted = 1 + int(self.uniform(1, 2.999))
+        for _ in range(100):
+            if len(self.kinds) > wanted:
+                return
+            self.attempt(self.pick(("rod", "rod", "pair", "inner")))
+        raise Retry
+
+    def lever(self):
+        block = self.moving_pins()[0]
+        pivot = self.new_ground(self.places[block])
+        reach = math.dist(self.places[pivot], self.places[block])
+        end = self.new_pin(self.between(pivot, block, self.uniform(1.4, 2.2)))
+        if reach < 0.4:
+            raise Retry
+        self.slot = self.new_link(pivot, end, keep_order=self.chance(0.6))
+        self.sliders.append([block, self.slot, None])
+
+    def rod(self):
+        self.rrp_on_link(self.slot)
+
+    def pair(self):
+        self.prp(self.slot)
+
+    def inner(self):
+        """A pin of the lever between its ends, which carries a dyad: a block may pass it."""
+        first, second = self.links[self.slot]
+        length = math.dist(self.places[first], self.places[second])
+        along = round(self.uniform(0.2, 0.9) * length, 6)
+        if any(abs(along - other) < 0.05 for _, other, _ in self.points.values()):
+            raise Retry
+        pin = self.new_pin(self.between(first, second, along / length))
+        self.points[pin] = (self.slot, along, 0.0)
+        self._dyad_on(pin, self.new_ground(self.places[pin]))
+
+
 def drawing_of(seed, kind):
     """A linkage of a kind."""
+    if kind == "slotted":
+        for trial in range(100):
+            try:
+                return Slotted(seed + 1000003 * trial, 0)
+            except Retry:
+                continue
+        raise Failure("no such drawing")
     if kind == "grown":
         return Drawing(seed, 4 + seed % 5)
     for trial in range(1000 if kind == "four_bar" else 0):
@@ -180,7 +230,7 @@ class Case:
     def _link(self, name, pins, certain):
         """SECTION and LINK cards."""
         drawing, scale = self.drawing, self.scale
-        beside = any(link == name for link, _, _ in drawing.points.values())
+        beside = any(link == name and offset for link, _, offset in drawing.points.values())
         section = f"section_{name}"
         thick = self._length(pins) * 10**drawing.uniform(-2.3, -1.0 if self.thick else -1.4) * scale
         width = thick * drawing.uniform(0.5, 5)
@@ -197,6 +247,7 @@ class Case:
         body = f" mass={self.power(-1.5, 1)}kg inertia={self.power(-4, -1)}kg*m2"
         if len(pins) > 2 or drawing.chance(0.5) or name == drawing.driven_length:
             body += f" center={self.number(-0.2, 0.8, scale)},{self.number(-0.3, 0.3, scale)}"
+        certain = certain or (self.kind == "slotted" and name == drawing.slot)
         must_be_rigid = beside or name == drawing.driven_length or (self.loaded and name in self.contacts)
         if must_be_rigid or (not certain and drawing.chance(0.25)):
             if name == drawing.driven_length:
@@ -209,6 +260,9 @@ class Case:
 
     def _masses(self):
         drawing, lines = self.drawing, []
+        if self.kind == "slotted":
+            for _ in range(int(drawing.uniform(0, 3.999))):
+                lines += self._fixed(drawing.slot)
         for name, pins in drawing.links.items():
             if name == drawing.driven_length or not drawing.chance(0.15):
                 continue
@@ -223,6 +277,23 @@ class Case:
                 line += f" offset={self.number(-0.1, 0.1, self.scale)} inertia={self.power(-5, -2)}kg*m2"
             lines.append(line)
         return lines
+
+    def _fixed(self, slot):
+        """A mass or a force on a lever under blocks, near one of them or anywhere."""
+        drawing = self.drawing
+        pins = drawing.links[slot]
+        reach = math.dist(drawing.places[pins[0]], drawing.places[pins[1]])
+        at = reach * drawing.uniform(0.02, 0.98)
+        if drawing.chance(0.5):
+            block = drawing.pick(slider[0] for slider in drawing.sliders if slider[1] == slot)
+            at = math.dist(drawing.places[pins[0]], drawing.places[block]) + 10**drawing.uniform(-9, -1) * drawing.pick((-1, 1))
+        if not 0 < at < reach:
+            return []
+        beside = drawing.chance(0.5) and ("shear" not in self.thick or "rotary" in self.thick)
+        place = f"at={at * self.scale:.10g}" + (f" offset={self.number(-0.1, 0.1, self.scale)}" if beside else "")
+        if self.loaded and drawing.chance(0.4):
+            return [f"FORCE {slot} {self.number(-20, 20)}N {self.number(-20, 20)}N {place}"]
+        return [f"MASS {slot} {self.power(-2, 0.5)}kg {place}" + (f" inertia={self.power(-5, -2)}kg*m2" if beside else "")]
 
     def _bodies(self, pin):
         """Links that have a pin, and those welded to them."""
@@ -427,7 +498,7 @@ def main():
     parser.add_argument("--scratch")
     parser.add_argument("--keep", action="store_true")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--kind", choices=sorted({*KINDS, "many"}))
+    parser.add_argument("--kind", choices=sorted({*KINDS, *OTHER_KINDS}))
     parser.add_argument("--skip-refused", action="store_true")
     options = parser.parse_args()
     scratch = options.scratch or tempfile.mkdtemp(prefix="vibrations")

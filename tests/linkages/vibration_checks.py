@@ -33,6 +33,7 @@ LINK crank O2 A length=0.06 material=steel section=strip
 LINK lever O4 C length=0.32 {rigid} material=hard section=strip
 LINK rod C D length=0.12 material=steel section=strip
 MASS lever 0.02 at=0.1 offset=0.03 inertia=1e-5
+FORCE lever 3 -8 at=0.25 offset=-0.02
 SLIDER A lever mass=0.03 inertia=1e-5
 SLIDER D bed mass=0.2
 GRAVITY 1 -9.8
@@ -134,7 +135,7 @@ def thick_and_slender():
 
 
 def getting_stiffer(text, words):
-    """A link a billion times as stiff as steel against a rigid one, in motion: blocks and forces that turn, masses beside the axis."""
+    """A link a billion times as stiff as steel against a rigid one, in motion: blocks and forces that turn, masses and forces beside the axis."""
     rigid = lowest(text.format(modulus="2e11", rigid="rigid", words=words))
     stiff = lowest(text.format(modulus="2e20", rigid="", words=words))
     return max(abs(a / b - 1) for a, b in zip(rigid, stiff)), Decimal("1e-8")

@@ -136,6 +136,7 @@ class Structure:
         self.count, self.names = 0, {}
         self.beams, self.masses, self.inertias, self.rows, self.springs = [], [], [], [], []
         self.bodies, self.contacts, self.blocks, self.second_order = [], [], [], []
+        self.pushes = []                       # (displacement of a place, force that acts there)
         self.turn_at = {}                      # (link, pin): rotation
         self.contact_of = {}                   # index of a slider: node on its guide
         for pin in self.deck.grounds:
@@ -207,7 +208,8 @@ class Structure:
         extra = [(point, *body.places[point], "pin") for point in body.places if point not in pins and point in self.deck.points]
         extra += [(number, along, ZERO, "contact") for number, along in self._contact_places(name, body)]
         extra += [(number, particle[1], particle[2], "mass") for number, particle in enumerate(body.particles) if number]
-        nearest = {number: self._nearest_part(route, x, y) for number, x, y, kind in extra if kind == "mass"}
+        extra += [(load, *load.at[1:], "force") for load in self._forces_on(body)]
+        nearest = {item: self._nearest_part(route, x, y) for item, x, y, kind in extra if kind in ("mass", "force")}
         placed = []
         for k in range(len(route) - 1):
             (x0, y0), (x1, y1) = route[k], route[k + 1]
@@ -216,7 +218,7 @@ class Structure:
             stops = []
             for item, x, y, kind in extra:
                 at = (x - x0) * ex + (y - y0) * ey
-                if kind == "mass":
+                if kind in ("mass", "force"):
                     is_here = nearest[item] == k
                 else:
                     is_here = abs((y - y0) * ex - (x - x0) * ey) < TINY
@@ -227,7 +229,7 @@ class Structure:
             direction = (ex * cosine - ey * sine, ex * sine + ey * cosine)
             last, last_node = ZERO, self.node(names[k])
             for at, kind, item in stops + [(length, "end", names[k + 1])]:
-                if at > last:
+                if at - last > TINY * length:
                     if kind in ("pin", "end"):
                         node = self.node(item)
                     else:
@@ -244,6 +246,9 @@ class Structure:
                     particle = body.particles[item]
                     beside = (particle[2] - y0) * ex - (particle[1] - x0) * ey
                     self._attach(name, last_node, last_turn, particle, (-beside * direction[1], beside * direction[0]))
+                elif kind == "force":
+                    beside = (item.at[2] - y0) * ex - (item.at[1] - x0) * ey
+                    self._push(name, last_node, last_turn, item, (-beside * direction[1], beside * direction[0]))
                 else:
                     self.turn_at[name, item] = last_turn
         if len(placed) != len(extra):
@@ -267,6 +272,15 @@ class Structure:
         self.masses.append((place, mass, ("body", link, along, offset)))
         self.inertias.append((turn, inertia, link))
         self.bodies.append({"link": link, "turn": turn, "pins": [], "loads": [(arm, mass, (link, along, offset))], "inertia": inertia})
+
+    def _forces_on(self, body):
+        """That act at places of a link."""
+        return [load for load in self.model.applied if load.keyword == "force" and load.on_link and load.at[0] is body]
+
+    def _push(self, link, node, turn, load, arm):
+        """A force at a place of a link that bends, fixed to its cross-section, with its arm from the axis."""
+        self.pushes.append((self._rigid(node, turn, arm), load))
+        self.bodies.append({"link": link, "turn": turn, "pins": [], "loads": [], "inertia": ZERO, "forces": [(arm, load)]})
 
     def _rigid(self, node, turn, arm):
         x, y = dict(node[0]), dict(node[1])
@@ -305,6 +319,10 @@ class Structure:
             self.inertias.append((turn, inertia + rotary, name))
             record["loads"].append((arm, mass, (name, along, offset)))
             record["inertia"] += inertia
+        for load in self._forces_on(body):
+            arm = arm_of(*load.at[1:])
+            self.pushes.append((self._rigid(base, turn, arm), load))
+            record.setdefault("forces", []).append((arm, load))
         self.bodies.append(record)
 
     def _rotary(self, card, body):
@@ -580,6 +598,9 @@ class Structure:
         for pin, force in model.forces.items():
             for form, value in zip(self.node(pin), force):
                 work(form, value)
+        for place, load in self.pushes:
+            for form, value in zip(place, self._force(load, state)):
+                work(form, value)
         for form, _, load, _ in self.springs:
             work(form, -self._pull(load, state))
         return forces, loads
@@ -588,6 +609,13 @@ class Structure:
         if where[0] == "pin":
             return self.model.pin_motion(state, where[1])[2]
         return self.model.point_motion(state, self.model.bodies[where[1]], *where[2:])[0][2]
+
+    @staticmethod
+    def _force(load, state):
+        """At a place of a link."""
+        if load.sign or load.keys.get("axes", "global") != "global":
+            raise Failure("a force without a potential")
+        return load.effects(state)[0][1:]
 
     @staticmethod
     def _pull(load, state):
@@ -692,6 +720,9 @@ class Structure:
             for (rx, ry), mass, (link, along, offset) in record["loads"]:
                 ax, ay = self._acceleration(state, ("body", link, along, offset))
                 total += mass * ((gx - ax) * rx + (gy - ay) * ry)
+            for (rx, ry), load in record.get("forces", ()):
+                fx, fy = self._force(load, state)
+                total += fx * rx + fy * ry
             terms.append((record["turn"], record["turn"], total / 2))
         for turn, inertia, link in self.blocks:    # centrifugal forces of a block's own parts turn with it
             terms.append((turn, turn, inertia * state.v[self.model.bodies[link].angle]**2 / 2))

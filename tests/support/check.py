@@ -193,6 +193,10 @@ def linkages_that_vibrate():
                   + [fresh("vibrations", "random")])
     said = run.stdout.strip() + run.stderr.strip()
     group.result(f"{folder}/random_vibrations.py 1 48", None if run.returncode == 0 else said)
+    run = execute([sys.executable, "-B", os.path.join(folder, "random_vibrations.py"), "1", "12", "--kind", "slotted", "--jobs", "1"] + common
+                  + [fresh("vibrations", "slotted")])
+    said = run.stdout.strip() + run.stderr.strip()
+    group.result(f"{folder}/random_vibrations.py 1 12 --kind slotted", None if run.returncode == 0 else said)
     group.end()
 
 

@@ -56,6 +56,16 @@ module part_samples
     "LINK rod C D length=120"//strip//"SLIDER A lever mass=0.03 inertia=10"//nl// &
     "SLIDER D bed mass=0.2"//nl//"DRIVE crank"//nl//"BRANCH D forward"//nl
 
+  !> A lever of three pins on one line under two blocks: at 75 deg that of the crank is beyond the middle pin, that on the ground guide
+  !! between this and the pivot.
+  character(len=*), parameter :: two_blocks = "GROUND O2 0 0"//nl//"GROUND O4 0 -150"//nl//"GROUND O6 190 -60"//nl// &
+    "GUIDE low 0 -100 angle=0"//nl//"GUIDE post 90 -100 angle=90"//nl//"POINT P lever along=160"//nl// &
+    "PIN A 55 22"//nl//"PIN P 30 10"//nl//"PIN R 150 40"//nl//"PIN C 90 160"//nl//"PIN E 20 -100"//nl//"PIN F 90 5"//nl// &
+    "LINK crank O2 A length=60"//bar//"LINK lever O4 C length=320"//bar//"LINK rod P R length=120"//strip// &
+    "LINK rocker O6 R length=110"//strip//"LINK push E F length=130"//strip//"SLIDER A lever mass=0.03 inertia=10"//nl// &
+    "SLIDER E low mass=0.1"//nl//"SLIDER E lever inertia=4"//nl//"SLIDER F post mass=0.1"//nl//"DRIVE crank"//nl// &
+    "BRANCH R left P O6"//nl//"BRANCH F forward"//nl
+
   character(len=*), parameter :: scotch_yoke = "GROUND O2 0 0"//nl//"GUIDE way 0 80 angle=0"//nl// &
     "PIN A 60 0"//nl//"PIN B 60 -80"//nl//"PIN T 60 80"//nl//"PIN C 120 80"//nl//"PIN W 310 80"//nl// &
     "LINK crank O2 A length=60"//bar//"LINK yoke B T C W lengths=160,60,190 turns=-90,0"//bar// &
@@ -120,6 +130,8 @@ contains
       text = engine
     case ("quick_return")
       text = quick_return
+    case ("two_blocks")
+      text = two_blocks
     case ("scotch_yoke")
       text = scotch_yoke
     case ("elbow")

@@ -16,7 +16,6 @@ module linkage_checks
   use models, only: drives_length, effects_axial, model_t, needs_frequencies, needs_response, &
     report_number, solver_band, solver_dense, steady_state_report
   use plan_words, only: group_names
-  use process_cards, only: process_force
   use pose_types, only: pose_t
   use poses, only: place_links, place_parts
   use ram_checks, only: check_rams
@@ -81,7 +80,6 @@ contains
         "followed straight through change points; expected change_points=stop")
     end if
     call check_rams(model, mechanism, diagnostics)
-    if (needs_frequencies(model)) call check_cut_links(model, diagnostics)
     if (needs_frequencies(model) .and. model%effects == effects_axial) call &
       warn_of_held_blocks(model, diagnostics)
     call check_reach(model, mechanism, leaving, diagnostics)
@@ -143,36 +141,6 @@ contains
         kind=error_of_reach)
     end if
   end subroutine check_running
-
-  !> A link that bends is cut under the block that slides along it; one cut, in a uniform part.
-  pure subroutine check_cut_links(model, diagnostics)
-    type(model_t), intent(in) :: model
-    type(diagnostics_t), intent(inout) :: diagnostics
-
-    integer :: i, k
-
-    do i = 1, size(model%sliders)
-      associate (slider => model%sliders(i))
-        if (slider%link == 0) cycle
-        if (model%links(slider%link)%rigid) cycle
-        k = findloc(model%sliders(:i - 1)%link, slider%link, dim=1)
-        if (k > 0) call add_error(diagnostics, slider%pin, "a second block on link '"// &
-          model%links(slider%link)%name%text//"', which bends; expected one block, or a "// &
-          "rigid link", model%sliders(k)%pin, "the first block")
-        k = findloc(model%masses%link, slider%link, dim=1)
-        if (k > 0) call add_error(diagnostics, model%masses(k)%place_word, "a mass on link '"// &
-          model%links(slider%link)%name%text//"', which bends under a block; expected a "// &
-          "PINMASS at one of its pins, or a rigid link", slider%pin, "its block")
-        do k = 1, size(model%processes)
-          if (model%processes(k)%kind /= process_force .or. .not. model%processes(k)%on_link) cycle
-          if (model%processes(k)%link == slider%link) call add_error(diagnostics, &
-            model%processes(k)%place_word, "a force on link '"// &
-            model%links(slider%link)%name%text//"', which bends under a block; expected a "// &
-            "FORCE at one of its pins, or a rigid link", slider%pin, "its block")
-        end do
-      end associate
-    end do
-  end subroutine check_cut_links
 
   !> The moment in the contact of a block that does not turn on a link that bends does work of the
   !! second order on its curvature, which jumps there: a block without length has no such term.
@@ -339,7 +307,6 @@ contains
       return
     end do
     if (needs_frequencies(model)) return
-    call check_cut_links(model, diagnostics)
     call check_forces_on_links(diagnostics, model, .true.)
   end subroutine check_dividing_links
 

@@ -170,7 +170,7 @@ contains
     end associate
   end subroutine add_needs_of_shapes
 
-  !> Straight parts of all links, at most: pins, points and blocks divide them.
+  !> Straight parts of all links, at most: pins, points, blocks, masses and forces divide them.
   pure function most_parts(model) result(parts)
     type(model_t), intent(in) :: model
     integer :: parts
@@ -178,6 +178,7 @@ contains
     integer :: i
 
     parts = size(model%sliders)
+    if (parts > 0) parts = parts + size(model%masses) + size(model%processes)
     if (.not. is_four_bar(model)) parts = parts + size(model%points)
     do i = 1, size(model%links)
       parts = parts + segment_count(model%links(i))
