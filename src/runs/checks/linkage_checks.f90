@@ -110,14 +110,8 @@ contains
       return
     end if
     if (allocated(mechanism%elastic)) then
-      do i = 1, size(model%sliders)
-        if (mechanism%elastic%contact(i) == 0) cycle
-        call add_error(diagnostics, model%sliders(i)%pin, name//" is not found yet with a "// &
-          "block that slides along a link that bends; expected '"// &
-          model%links(model%sliders(i)%link)%name%text//"' to be rigid", &
-          model%reports(report)%keyword, "it is asked for here")
-        return
-      end do
+      call check_running_blocks(model, mechanism, report, diagnostics)
+      if (has_errors(diagnostics)) return
     end if
     i = steady_state_report(model)
     if (i > 0) then
@@ -141,6 +135,61 @@ contains
         kind=error_of_reach)
     end if
   end subroutine check_running
+
+  !> Blocks that slide along links that bend: material moves through the functions of the pieces
+  !! between the ends of the link and the block, which are those of slender uniform beams.
+  pure subroutine check_running_blocks(model, mechanism, report, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism  !! with parts
+    integer, intent(in) :: report               !! number of the report that asks for it
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=:), allocatable :: reason
+    integer :: i
+
+    do i = 1, size(model%sliders)
+      if (mechanism%elastic%contact(i) == 0) cycle
+      reason = reason_of_block(model, mechanism, i)
+      if (len(reason) == 0) cycle
+      call add_error(diagnostics, model%sliders(i)%pin, "REPORT "// &
+        trim(model%reports(report)%kind%name)//" is not found yet with a block that slides "// &
+        "along a link that bends"//reason, model%reports(report)%keyword, "it is asked for here")
+      return
+    end do
+  end subroutine check_running_blocks
+
+  !> Why a linkage with a block on a link that bends is not followed in motion, and what would do;
+  !! empty: it is.
+  pure function reason_of_block(model, mechanism, number) result(reason)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    integer, intent(in) :: number       !! of the slider
+    character(len=:), allocatable :: reason
+
+    character(len=:), allocatable :: rigid_link
+    logical :: thick
+
+    reason = ""
+    associate (link => model%sliders(number)%link, elastic => mechanism%elastic)
+      rigid_link = "'"//model%links(link)%name%text//"' to be rigid"
+      thick = any((elastic%beams%shear_stiffness > 0.0_wp .or. elastic%beams%rotary_inertia > &
+        0.0_wp) .and. elastic%body == mechanism%linkage%sliders(number)%body)
+      if (count(model%sliders%link == link) > 1) then
+        reason = " under several blocks; expected one block, or "//rigid_link
+      else if (any(model%masses%link == link)) then
+        reason = " with masses along it; expected them at its pins, or "//rigid_link
+      else if (any(model%processes%kind == process_force .and. model%processes%on_link .and. &
+        model%processes%link == link)) then
+        reason = " with forces along it; expected them at its pins, or "//rigid_link
+      else if (thick) then
+        reason = " with shear or rotary inertia; expected a slender one, or "//rigid_link
+      else if (model%links(link)%damping > 0) then
+        if (model%dampings(model%links(link)%damping)%ratio > 0.0_wp) reason = " with the "// &
+          "damping ratio of its own modes, which change with the place of the block; expected "// &
+          "'time=' on its DAMPING card"
+      end if
+    end associate
+  end function reason_of_block
 
   !> A link that bends is cut under the block that slides along it; one cut, in a uniform part.
   pure subroutine check_cut_links(model, diagnostics)
