@@ -181,6 +181,10 @@ contains
       else if (any(model%processes%kind == process_force .and. model%processes%on_link .and. &
         model%processes%link == link)) then
         reason = " with forces along it; expected them at its pins, or "//rigid_link
+      else if (model%sliders(number)%turned_link > 0) then
+        ! Its couple makes the curvature jump, and the jump moves through the material.
+        reason = " and turns with '"//model%links(model%sliders(number)%turned_link)%name%text// &
+          "'; expected a block that turns on it, or "//rigid_link
       else if (thick) then
         reason = " with shear or rotary inertia; expected a slender one, or "//rigid_link
       else if (model%links(link)%damping > 0) then
