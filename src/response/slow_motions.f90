@@ -32,8 +32,10 @@ module slow_motions
     frozen_matrices, add_shape_frequencies
 
   !> Subspace iterations: the error of the lowest frequencies falls by the square of the ratio of
-  !! frequencies each time.
-  integer, parameter :: iterations = 3
+  !! frequencies each time. As a block passes along a link, slow deformations of the piece before it
+  !! and of that behind it change places: after several iterations they do so within few degrees,
+  !! and followers of the motion between them are not small.
+  integer, parameter :: iterations = 3, iterations_with_pieces = 1
 
   !> Free motions that grow by more than this in a turn leave no digits of a periodic one; within
   !! the turn they may grow until numbers nearly overflow.
@@ -201,7 +203,7 @@ contains
   contains
 
     subroutine add_what_follows
-      if (number < coarse%unknowns) call follower_products(coarse, coarse_plan, shape, &
+      if (number < coarse%unknowns .and. .not. allocated(coarse%pieces)) call follower_products(coarse, coarse_plan, shape, &
         basis%products)
       allocate (basis%form(plan%samples, number**2, 2))
       call resample(coarse_plan, basis%sums(:, :, of_mass), plan, basis%form(:, :, 1))
@@ -314,7 +316,7 @@ contains
     do i = 1, size(slow)
       shape(:, slow(i), i) = 1.0_wp
     end do
-    do k = 1, iterations
+    do k = 1, merge(iterations_with_pieces, iterations, allocated(grid%pieces))
       do i = 1, size(slow)
         call mass_force(grid, shape(:, :, i), product(:, :, i))
       end do
