@@ -203,8 +203,8 @@ contains
   contains
 
     subroutine add_what_follows
-      if (number < coarse%unknowns .and. .not. allocated(coarse%pieces)) call follower_products(coarse, coarse_plan, shape, &
-        basis%products)
+      if (number < coarse%unknowns .and. .not. allocated(coarse%pieces)) call &
+        follower_products(coarse, coarse_plan, shape, basis%products)
       allocate (basis%form(plan%samples, number**2, 2))
       call resample(coarse_plan, basis%sums(:, :, of_mass), plan, basis%form(:, :, 1))
       call resample(coarse_plan, basis%sums(:, :, of_stiffness), plan, basis%form(:, :, 2))
