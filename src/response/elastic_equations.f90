@@ -8,14 +8,16 @@ module elastic_equations
   use fourier_transform, only: derivatives, fourier_plan_t
   use kinds, only: wp
   use load_cases, only: constant_case
-  use turn_grids, only: rate_case, turn_grid_t
+  use piece_motions, only: add_convection, add_flux, add_moved, add_strain_convection, &
+    moved_back, scale_amplitudes, scale_share, scale_slopes
+  use turn_grids, only: moves, rate_case, turn_grid_t
   implicit none (type, external)
   private
 
   public :: elastic_terms_t, inertia_force, inertia_parts, slope_force, swept_force, &
     apply_equation, equation_parts, load_at_speed, functions_of, geometric_force, slopes_of, &
-    mass_force, times_mass, spread_over_unknowns, unit_geometric_force, elongation_of, &
-    deformations_of, damper_force
+    mass_force, times_mass, times_swap, spread_over_unknowns, unit_geometric_force, elongation_of, &
+    deformations_of, damper_force, strained_functions, moved_functions, strain_rates
 
   !> Terms of the equation and of the torque; false: omitted.
   type :: elastic_terms_t
@@ -35,8 +37,31 @@ contains
     all_there = terms%coriolis .and. terms%centripetal
   end function all_terms
 
-  !> Amplitudes of all functions of a body in a motion: Q = T y.
+  !> Amplitudes of all functions of a body in a motion: Q = T y; of a piece whose length changes
+  !! those of the functions at the length of the tables.
   pure function functions_of(grid, body, y) result(q)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: y(:, :) !! (samples, unknowns)
+    real(wp) :: q(size(y, 1), grid%integrals(body)%chord + grid%integrals(body)%own)
+
+    q = own_functions_of(grid, body, y)
+    call scale_amplitudes(grid, body, q)
+  end function functions_of
+
+  !> Amplitudes for the strains of a body from those at the length of the tables.
+  pure function strained_functions(grid, body, y) result(q)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: y(:, :) !! (samples, unknowns)
+    real(wp) :: q(size(y, 1), grid%integrals(body)%chord + grid%integrals(body)%own)
+
+    q = own_functions_of(grid, body, y)
+    if (moves(grid, body)) q = q/spread(sqrt(grid%ratio(:, body)), 2, size(q, 2))
+  end function strained_functions
+
+  !> T y.
+  pure function own_functions_of(grid, body, y) result(q)
     type(turn_grid_t), intent(in) :: grid
     integer, intent(in) :: body
     real(wp), intent(in) :: y(:, :) !! (samples, unknowns)
@@ -55,7 +80,7 @@ contains
       q(:, integrals%chord + 1:m) = y(:, grid%first(body):grid%first(body) + link%modes - 1)
       q(:, m + 1:) = y(:, grid%first_along(body):grid%first_along(body) + link%axial_modes - 1)
     end associate
-  end function functions_of
+  end function own_functions_of
 
   !> Adds forces on the functions of a body to those on the unknowns: Tᵀ R.
   pure subroutine spread_over_unknowns(grid, body, forces, total)
@@ -63,6 +88,24 @@ contains
     integer, intent(in) :: body
     real(wp), intent(in) :: forces(:, :)   !! (samples, functions)
     real(wp), intent(inout) :: total(:, :) !! (samples, unknowns)
+
+    real(wp), allocatable :: scaled(:, :)
+
+    if (moves(grid, body)) then
+      scaled = forces
+      call scale_amplitudes(grid, body, scaled)
+      call spread_own(grid, body, scaled, total)
+    else
+      call spread_own(grid, body, forces, total)
+    end if
+  end subroutine spread_over_unknowns
+
+  !> The same of forces on T y.
+  pure subroutine spread_own(grid, body, forces, total)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: forces(:, :)
+    real(wp), intent(inout) :: total(:, :)
 
     integer :: i, j, m
 
@@ -79,7 +122,38 @@ contains
         along = along + forces(:, m + 1:)
       end associate
     end associate
-  end subroutine spread_over_unknowns
+  end subroutine spread_own
+
+  !> What the functions of a body do at constant unknowns as the linkage turns, in axes that turn
+  !! with it: `C' y`, with what moves through a piece whose length changes.
+  pure function moved_functions(grid, body, q, y) result(moved)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: q(:, :) !! (samples, functions) of `functions_of`
+    real(wp), intent(in) :: y(:, :) !! (samples, unknowns)
+    real(wp) :: moved(size(q, 1), size(q, 2))
+
+    integer :: i, j
+
+    moved = 0.0_wp
+    do j = 1, grid%border
+      do i = 1, grid%integrals(body)%chord
+        moved(:, i) = moved(:, i) + grid%chord_slope(:, i, j, body)*y(:, j)
+      end do
+    end do
+    call add_moved(grid, body, q, moved)
+  end function moved_functions
+
+  !> `Q J`, antisymmetric: −J on every sample.
+  pure function times_swap(grid, body, q) result(product)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: q(:, :) !! (samples, functions)
+    real(wp) :: product(size(q, 1), size(q, 2))
+
+    product = matmul(q, grid%integrals(body)%swap)
+    call scale_share(grid, body, product)
+  end function times_swap
 
   !> `m Q'' + J (2 h Q' + h' Q) − h² m_t Q` of a body, per ω2². J h is m_vel of Ulker 2010 (2.80),
   !! J h' − h² m_t is m_acc of (2.81).
@@ -102,7 +176,8 @@ contains
         swept(:, i) = 2.0_wp*h*first(:, i) + slope*q(:, i)
       end do
       ! J is antisymmetric.
-      force = force - matmul(swept, grid%integrals(body)%swap)
+      force = force - times_swap(grid, body, swept)
+      call add_flux(grid, body, q, force)
       if (size(grid%integrals(body)%rotary) > 0) then
         swept = matmul(q, grid%integrals(body)%rotary)
         do i = 1, size(q, 2)
@@ -138,6 +213,7 @@ contains
         end do
       end do
     end associate
+    call scale_share(grid, body, product)
   end function times_mass
 
   !> `∫ μ Sᵀ (S y)'' dx` [√J per rad²/s²], with or without its terms in G and W; on request also y'.
@@ -164,7 +240,8 @@ contains
       allocate (first, mold=q)
       allocate (second, mold=q)
       call derivatives(plan, q, first, second)
-      if (present(rates)) call take_rates(grid, b, first, rates)
+      if (present(rates)) call take_rates(grid, plan, b, first, y, rates)
+      call add_convection(grid, b, q, first, second)
       call spread_over_unknowns(grid, b, inertia_of_body(grid, b, q, first, second), force)
       deallocate (first, second)
     end do
@@ -211,6 +288,7 @@ contains
       allocate (first, mold=q)
       allocate (second, mold=q)
       call derivatives(plan, q, first, second)
+      call add_convection(grid, b, q, first, second)
       call spread_over_unknowns(grid, b, inertia_of_body(grid, b, q, first, second), &
         parts(:, :, 0))
       call spread_over_unknowns(grid, b, times_mass(grid, b, q), parts(:, :, 2))
@@ -218,7 +296,7 @@ contains
       do i = 1, size(q, 2)
         first(:, i) = grid%rate(:, b)*q(:, i)
       end do
-      call spread_over_unknowns(grid, b, 2.0_wp*(second - matmul(first, grid%integrals(b)%swap)), &
+      call spread_over_unknowns(grid, b, 2.0_wp*(second - times_swap(grid, b, first)), &
         parts(:, :, 1))
       deallocate (first, second)
     end do
@@ -238,17 +316,26 @@ contains
     end do
   end subroutine inertia_parts
 
-  !> Rates of the own modes of a body, which are functions of it.
-  pure subroutine take_rates(grid, body, first, rates)
+  !> Rates of the own modes of a body, which are functions of it unless its length changes.
+  subroutine take_rates(grid, plan, body, first, y, rates)
     type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan
     integer, intent(in) :: body
     real(wp), intent(in) :: first(:, :)    !! (samples, functions) Q'
+    real(wp), intent(in) :: y(:, :)        !! (samples, unknowns)
     real(wp), intent(inout) :: rates(:, :) !! (samples, unknowns)
 
     integer :: m
 
     associate (chord => grid%integrals(body)%chord, link => grid%model%links(body), &
       across => grid%first(body), along => grid%first_along(body))
+      if (moves(grid, body)) then
+        call derivatives(plan, y(:, across:across + link%modes - 1), rates(:, across:across + &
+          link%modes - 1))
+        call derivatives(plan, y(:, along:along + link%axial_modes - 1), rates(:, along:along + &
+          link%axial_modes - 1))
+        return
+      end if
       m = chord + link%modes
       rates(:, across:across + link%modes - 1) = first(:, chord + 1:m)
       rates(:, along:along + link%axial_modes - 1) = first(:, m + 1:)
@@ -332,20 +419,13 @@ contains
     force = 0.0_wp
     do b = 1, size(grid%integrals)
       q = functions_of(grid, b, y)
-      allocate (moved, mold=q)
-      moved = 0.0_wp
-      do j = 1, grid%border
-        do i = 1, grid%integrals(b)%chord
-          moved(:, i) = moved(:, i) + grid%chord_slope(:, i, j, b)*y(:, j)
-        end do
-      end do
-      turned = matmul(q, grid%integrals(b)%swap)
+      moved = moved_functions(grid, b, q, y)
+      turned = times_swap(grid, b, q)
       moved = times_mass(grid, b, moved)
       do i = 1, size(q, 2)
         moved(:, i) = moved(:, i) - grid%rate(:, b)*turned(:, i)
       end do
       call spread_over_unknowns(grid, b, moved, force)
-      deallocate (moved)
     end do
     do p = 1, size(grid%pin_mass)
       if (grid%pin_mass(p) <= 0.0_wp) cycle
@@ -378,32 +458,21 @@ contains
     do b = 1, size(grid%integrals)
       associate (integrals => grid%integrals(b), h => grid%rate(:, b))
         q = functions_of(grid, b, y)
-        allocate (moved, mold=q)
-        moved = 0.0_wp
-        do j = 1, grid%border
-          do i = 1, integrals%chord
-            moved(:, i) = moved(:, i) + grid%chord_slope(:, i, j, b)*y(:, j)
-          end do
-        end do
+        moved = moved_functions(grid, b, q, y)
         ! J is antisymmetric.
-        turned = -matmul(q, integrals%swap)
+        turned = -times_swap(grid, b, q)
         on_moved = times_mass(grid, b, moved)
         do i = 1, size(q, 2)
           on_moved(:, i) = on_moved(:, i) + h*turned(:, i)
         end do
-        do j = 1, grid%border
-          do i = 1, integrals%chord
-            force(:, j) = force(:, j) + grid%chord_slope(:, i, j, b)*on_moved(:, i)
-          end do
-        end do
-        turned = matmul(moved, integrals%swap)
+        call spread_moved(grid, b, on_moved, force)
+        turned = times_swap(grid, b, moved)
         on_turned = times_mass(grid, b, q)
         if (size(integrals%rotary) > 0) on_turned = on_turned - matmul(q, integrals%rotary)
         do i = 1, size(q, 2)
           on_turned(:, i) = h*turned(:, i) + h**2*on_turned(:, i)
         end do
         call spread_over_unknowns(grid, b, on_turned, force)
-        deallocate (moved)
       end associate
     end do
     do p = 1, size(grid%pin_mass)
@@ -421,6 +490,28 @@ contains
       end do
     end do
   end subroutine swept_force
+
+  !> Adds forces on what `moved_functions` gives to those on the unknowns.
+  pure subroutine spread_moved(grid, body, forces, total)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    real(wp), intent(in) :: forces(:, :)   !! (samples, functions)
+    real(wp), intent(inout) :: total(:, :) !! (samples, unknowns)
+
+    real(wp), allocatable :: scaled(:, :)
+    integer :: i, j
+
+    scaled = forces
+    if (moves(grid, body)) then
+      call spread_over_unknowns(grid, body, moved_back(grid, body, forces), total)
+      call scale_amplitudes(grid, body, scaled)
+    end if
+    do j = 1, grid%border
+      do i = 1, grid%integrals(body)%chord
+        total(:, j) = total(:, j) + grid%chord_slope(:, i, j, body)*scaled(:, i)
+      end do
+    end do
+  end subroutine spread_moved
 
   !> Slopes of a body that axial forces act on: rotation of its chord, curves of its held ends, its
   !! own modes.
@@ -442,6 +533,7 @@ contains
       end do
       slope(:, 2 + link%curves:) = y(:, first:first + link%modes - 1)
     end associate
+    call scale_slopes(grid, body, slope)
   end function slopes_of
 
   !> Adds `K_G y` of given axial forces: Ulker 2010 (2.69), (2.84).
@@ -468,6 +560,8 @@ contains
           end do
         end do
         total = matmul(pulled, stacked)
+        call scale_share(grid, b, total)
+        call scale_slopes(grid, b, total)
         do j = 1, grid%border
           force(:, j) = force(:, j) + grid%turn(:, j, b)*total(:, 1)
           do c = 1, link%curves
@@ -491,8 +585,15 @@ contains
     real(wp), intent(in) :: y(:, :), rates(:, :) !! (samples, unknowns) y, y'
     real(wp), intent(inout) :: force(:, :)
 
-    real(wp), allocatable :: w(:, :), slope(:, :)
+    real(wp), allocatable :: w(:, :), slope(:, :), own_rates(:, :)
 
+    if (allocated(grid%pieces)) then
+      call strain_rates(grid, plan, y, w, slope, own_rates)
+      if (.not. allocated(grid%weighted)) own_rates(:, :grid%border) = slope
+      call add_own_damping(grid, speed, damping, own_rates, force)
+      if (allocated(grid%weighted)) call add_to_border(grid, speed, damping, slope, force)
+      return
+    end if
     call add_own_damping(grid, speed, damping, rates, force)
     if (.not. allocated(grid%weighted)) return
     w = deformations_of(grid, y)
@@ -500,6 +601,27 @@ contains
     call derivatives(plan, w, slope)
     call add_to_border(grid, speed, damping, slope, force)
   end subroutine add_damping
+
+  !> Strains of parts in a motion, in the unknowns, and their rates in the material.
+  subroutine strain_rates(grid, plan, y, w, w_rates, rates)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan           !! for its samples
+    real(wp), intent(in) :: y(:, :)                    !! (samples, unknowns) [√J]
+    real(wp), allocatable, intent(out) :: w(:, :)      !! (samples, deformations) of ends of parts
+    real(wp), allocatable, intent(out) :: w_rates(:, :) !! (samples, deformations)
+    real(wp), allocatable, intent(out) :: rates(:, :)  !! (samples, unknowns), of own modes
+
+    if (allocated(grid%weighted)) then
+      w = deformations_of(grid, y)
+    else
+      w = y(:, :grid%border)
+    end if
+    allocate (w_rates, mold=w)
+    allocate (rates, mold=y)
+    call derivatives(plan, w, w_rates)
+    call derivatives(plan, y, rates)
+    if (allocated(grid%pieces)) call add_strain_convection(grid, w, y, w_rates, rates)
+  end subroutine strain_rates
 
   !> The same of unknowns with a constant damping of their own.
   pure subroutine add_own_damping(grid, speed, damping, rates, force)
@@ -545,7 +667,8 @@ contains
     end do
   end function deformations_of
 
-  !> The elongation of a link that bends, in units of that of a unit unknown.
+  !> The elongation of a link that bends, in units of that of a unit unknown; of a piece whose
+  !! length changes as for the strains at the length of the tables.
   pure function elongation_of(grid, body, y) result(elongation)
     type(turn_grid_t), intent(in) :: grid
     integer, intent(in) :: body
@@ -557,6 +680,7 @@ contains
     else
       elongation = y(:, grid%elongation(body))
     end if
+    if (moves(grid, body)) elongation = elongation/sqrt(grid%ratio(:, body))
   end function elongation_of
 
   !> Adds `K_G y` at a constant speed.

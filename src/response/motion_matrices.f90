@@ -1,9 +1,11 @@
 !> The matrices of the equation of motion at crank angles anywhere, in all unknowns. They do not
 !! depend on speed and acceleration.
 module motion_matrices
-  use elastic_equations, only: mass_force, slope_force, swept_force, unit_geometric_force
+  use elastic_equations, only: deformations_of, mass_force, slope_force, swept_force, &
+    unit_geometric_force
   use kinds, only: wp
   use load_cases, only: constant_case
+  use piece_motions, only: add_strain_convection
   use turn_grids, only: rate_case, turn_grid_t
   implicit none (type, external)
   private
@@ -22,6 +24,11 @@ module motion_matrices
     !> (deformations, border, samples) of the grid, with d/dθ2; not allocated: they are the border
     !! unknowns
     real(wp), allocatable :: deformed(:, :, :), deformed_slope(:, :, :)
+    !> (strains, unknowns, samples) with pieces whose lengths change: of all deformations, then own
+    !! modes, for unit unknowns, and their rates in the material at constant unknowns; their numbers
+    !! among the dampings
+    real(wp), allocatable :: strain(:, :, :), strain_slope(:, :, :)
+    integer, allocatable :: strain_damping(:)
   end type motion_matrices_t
 
 contains
@@ -59,6 +66,10 @@ contains
     do c = 1, grid%cases
       matrices%load(:, :, c) = transpose(grid%load(:, :, c))
     end do
+    if (allocated(grid%pieces)) then
+      call find_strains(grid, matrices)
+      return
+    end if
     if (.not. allocated(grid%weighted_slope)) return
     if (.not. allocated(matrices%deformed)) allocate (matrices%deformed(size(grid%weighted, 2), &
       grid%border, grid%samples), matrices%deformed_slope(size(grid%weighted, 2), grid%border, &
@@ -68,6 +79,42 @@ contains
       matrices%deformed_slope(:, :, k) = grid%weighted_slope(k, :, :)
     end do
   end subroutine find_motion_matrices
+
+  !> Strains where they move through pieces with their material.
+  pure subroutine find_strains(grid, matrices)
+    type(turn_grid_t), intent(in) :: grid
+    type(motion_matrices_t), intent(inout) :: matrices
+
+    real(wp) :: y(grid%samples, grid%unknowns), rates(grid%samples, grid%unknowns)
+    real(wp), allocatable :: w(:, :), w_rates(:, :)
+    integer :: d, i, j, n
+
+    n = grid%unknowns
+    d = size(grid%deformed)
+    if (.not. allocated(grid%weighted)) d = grid%border
+    if (.not. allocated(matrices%strain)) allocate (matrices%strain(d + n - grid%border, n, &
+      grid%samples), matrices%strain_slope(d + n - grid%border, n, grid%samples))
+    matrices%strain_damping = [(i + merge(n, 0, allocated(grid%weighted)), i=1, d), &
+      (i, i=grid%border + 1, n)]
+    do j = 1, n
+      y = 0.0_wp
+      y(:, j) = 1.0_wp
+      allocate (w(grid%samples, d), w_rates(grid%samples, d), source=0.0_wp)
+      rates = 0.0_wp
+      if (allocated(grid%weighted)) then
+        w = deformations_of(grid, y)
+        if (j <= grid%border) w_rates = grid%weighted_slope(:, :, j)
+      else
+        w = y(:, :grid%border)
+      end if
+      call add_strain_convection(grid, w, y, w_rates, rates)
+      matrices%strain(:d, j, :) = transpose(w)
+      matrices%strain(d + 1:, j, :) = transpose(y(:, grid%border + 1:))
+      matrices%strain_slope(:d, j, :) = transpose(w_rates)
+      matrices%strain_slope(d + 1:, j, :) = transpose(rates(:, grid%border + 1:))
+      deallocate (w, w_rates)
+    end do
+  end subroutine find_strains
 
   !> `1 + K_G` at a speed and an acceleration.
   pure function stiffness_at(matrices, sample, speed, acceleration, axial) result(stiffness)

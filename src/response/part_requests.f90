@@ -3,6 +3,7 @@ module part_requests
   use elastic_linkages, only: elastic_linkage_t
   use kinds, only: wp
   use linkages, only: turned_back
+  use moving_pieces, only: first_end, moving_ends
   use response_types, only: damping_by_dampers, link_damping_t, peak_t, response_request_t, &
     speed_response_t
   implicit none (type, external)
@@ -13,9 +14,10 @@ module part_requests
 contains
 
   !> The request with parts for bodies. A gauge is at a place along the way of its link from part to
-  !! part, a point on the nearest part; where two parts are equally near, on the first.
+  !! part, a point on the nearest part; where two parts are equally near, on the first. Two pieces
+  !! with a block between them are one part here, the first of them.
   pure function request_of_parts(elastic, request) result(of_parts)
-    type(elastic_linkage_t), intent(in) :: elastic     !! whose parts keep their lengths
+    type(elastic_linkage_t), intent(in) :: elastic     !! before it is placed
     type(response_request_t), intent(in) :: request    !! of links
     type(response_request_t) :: of_parts
 
@@ -53,12 +55,14 @@ contains
     real(wp), intent(out) :: xi   !! along it, 0 to 1
 
     real(wp) :: left
+    logical :: is_second(size(elastic%body))
     integer :: k
 
+    is_second = moving_ends(elastic) == first_end
     left = share*way_length(elastic, link)
     part = 0
     do k = 1, size(elastic%body)
-      if (elastic%body(k) /= link) cycle
+      if (elastic%body(k) /= link .or. is_second(k)) cycle
       if (part > 0) left = left - elastic%linkage%bodies(part)%length
       part = k
       if (left <= elastic%linkage%bodies(k)%length) exit
@@ -72,7 +76,8 @@ contains
     integer, intent(in) :: link
     real(wp) :: length
 
-    length = sum(elastic%linkage%bodies%length, mask=elastic%body == link)
+    length = sum(elastic%linkage%bodies%length, mask=elastic%body == link .and. &
+      moving_ends(elastic) /= first_end)
   end function way_length
 
   !> The part to which a place on a link is nearest.
@@ -86,12 +91,14 @@ contains
     ! Places at a corner are equally near to both of its parts but for rounding.
     real(wp), parameter :: nearer = 1.0e-9_wp
     real(wp) :: here(2), apart, least
+    logical :: is_second(size(elastic%body))
     integer :: k
 
     part = 0
     least = huge(least)
+    is_second = moving_ends(elastic) == first_end
     do k = 1, size(elastic%body)
-      if (elastic%body(k) /= link) cycle
+      if (elastic%body(k) /= link .or. is_second(k)) cycle
       here = turned_back(place - elastic%place(:, k), elastic%axis(:, k))
       associate (length => elastic%linkage%bodies(k)%length)
         apart = hypot(here(1) - min(max(here(1), 0.0_wp), length), here(2))
@@ -127,16 +134,20 @@ contains
 
       type(peak_t), allocatable :: of_links(:)
       real(wp) :: before(links)
+      logical :: is_second(size(elastic%body))
       integer :: k
 
       if (.not. allocated(of_parts)) return
       allocate (of_links(links))
       before = 0.0_wp
+      is_second = moving_ends(elastic) == first_end
       do k = 1, size(elastic%body)
         associate (b => elastic%body(k), length => elastic%linkage%bodies(k)%length)
+          ! A second piece begins with the first, of which it is the rest.
+          if (is_second(k)) before(b) = before(b) - length
           if (of_parts(k)%value > of_links(b)%value) then
             of_links(b) = of_parts(k)
-            of_links(b)%xi = (before(b) + of_parts(k)%xi*length)/way_length(elastic, b)
+            of_links(b)%xi = (before(b) + of_parts(k)%share*length)/way_length(elastic, b)
           end if
           before(b) = before(b) + length
         end associate

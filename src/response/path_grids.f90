@@ -173,6 +173,9 @@ contains
     if (allocated(grid%weighted)) flat = [flat, reshape(grid%weighted, [size(grid%weighted)])]
     if (allocated(grid%weighted_slope)) flat = [flat, reshape(grid%weighted_slope, &
       [size(grid%weighted_slope)])]
+    if (allocated(grid%pieces)) flat = [flat, reshape(grid%ratio, [size(grid%ratio)]), &
+      reshape(grid%stretch, [size(grid%stretch)]), reshape(grid%stretch_slope, &
+      [size(grid%stretch_slope)])]
     terms = reshape(flat, [grid%samples, size(flat)/grid%samples])
   end function terms_of
 
@@ -187,6 +190,8 @@ contains
     if (allocated(grid%second_order)) widths = [widths, size(grid%second_order)]
     if (allocated(grid%weighted)) widths = [widths, size(grid%weighted)]
     if (allocated(grid%weighted_slope)) widths = [widths, size(grid%weighted_slope)]
+    if (allocated(grid%pieces)) widths = [widths, size(grid%ratio), size(grid%stretch), &
+      size(grid%stretch_slope)]
     widths = widths/grid%samples
   end function widths_of
 
@@ -199,7 +204,9 @@ contains
     allocate (scales(size(widths_of(grid))), source=tiny(1.0_wp))
     if (allocated(grid%second_order)) scales(first_optional) = maxval(abs(grid%force))* &
       maxval(abs(grid%turn))**2*maxval(grid%model%links%length)
-    if (allocated(grid%weighted_slope)) scales(size(scales)) = maxval(abs(grid%weighted))
+    if (allocated(grid%weighted_slope)) scales(size(scales) - merge(3, 0, &
+      allocated(grid%pieces))) = maxval(abs(grid%weighted))
+    if (allocated(grid%pieces)) scales(size(scales) - 1:) = 1.0_wp
   end function scales_of
 
   !> The highest eighth of the harmonics, beside the largest of their kind.
@@ -246,6 +253,10 @@ contains
     if (allocated(grid%weighted)) grid%weighted = grid%weighted(spread(1, 1, samples), :, :)
     if (allocated(grid%weighted_slope)) grid%weighted_slope = grid%weighted_slope(spread(1, 1, &
       samples), :, :)
+    if (.not. allocated(grid%pieces)) return
+    grid%ratio = grid%ratio(spread(1, 1, samples), :)
+    grid%stretch = grid%stretch(spread(1, 1, samples), :)
+    grid%stretch_slope = grid%stretch_slope(spread(1, 1, samples), :)
   end subroutine resize
 
   !> Terms at a crank angle, in the order of `terms_of`.
@@ -272,6 +283,10 @@ contains
     if (allocated(grid%second_order)) call take4(grid%second_order(k, :, :, :))
     if (allocated(grid%weighted)) call take3(grid%weighted(k, :, :))
     if (allocated(grid%weighted_slope)) call take3(grid%weighted_slope(k, :, :))
+    if (.not. allocated(grid%pieces)) return
+    call take2(grid%ratio(k, :))
+    call take2(grid%stretch(k, :))
+    call take2(grid%stretch_slope(k, :))
 
   contains
 

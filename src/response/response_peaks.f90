@@ -3,13 +3,14 @@
 !! They are looked for at all samples and many places, then between them.
 module response_peaks
   use constants, only: degree, two_pi
-  use elastic_equations, only: elongation_of, functions_of
+  use elastic_equations, only: elongation_of, functions_of, strained_functions
   use fourier_transform, only: close_fourier, coefficients_of, fourier_plan_t, open_fourier, &
     resampled, value_at, values_of
   use kinds, only: wp
   use link_rows, only: displacement_rows, strain_rows, strain_rows_t, sums_of_rows
   use response_types, only: peak_t, response_request_t, speed_response_t
-  use turn_grids, only: turn_grid_t
+  use moving_pieces, only: last_end
+  use turn_grids, only: moves, turn_grid_t
   implicit none (type, external)
   private
 
@@ -109,11 +110,10 @@ contains
       associate (link => grid%model%links(b))
         if (.not. link%bends) cycle
         xi = places_along(link%bending_shapes%last/link%bending_shapes%elements)
-        q = functions_of(grid, b, y)
-        allocate (coefficients(grid%samples, size(q, 2)), elongation(grid%samples, 1))
-        call coefficients_of(plan, q, coefficients)
+        allocate (coefficients(grid%samples, grid%integrals(b)%chord + grid%integrals(b)%own), &
+          elongation(grid%samples, 1))
+        call coefficients_of(plan, strained_functions(grid, b, y), coefficients)
         call coefficients_of(plan, spread(elongation_of(grid, b, y), 2, 1), elongation)
-        deallocate (q)
         allocate (q(dense%samples, size(coefficients, 2)), stretched(dense%samples, 1), &
           values(dense%samples, size(xi)))
         call values_of(dense, resampled(coefficients, dense%samples), q)
@@ -122,6 +122,10 @@ contains
           values(:, i) = strains_at(xi(i))
         end do
         call search(values, xi, .true., found%largest_strain(b))
+        if (moves(grid, b)) then
+          call coefficients_of(plan, functions_of(grid, b, y), coefficients)
+          call values_of(dense, resampled(coefficients, dense%samples), q)
+        end if
         do i = 1, size(xi)
           associate (rows => displacement_rows(link, [xi(i)*link%length, 0.0_wp]))
             values(:, i) = sum(matmul(q, transpose(rows(:2, :)))**2, dim=2)
@@ -129,6 +133,8 @@ contains
         end do
         call search(values, xi, .false., found%largest_deflection(b))
         found%largest_deflection(b)%value = sqrt(found%largest_deflection(b)%value)
+        call place_on_link(found%largest_strain(b))
+        call place_on_link(found%largest_deflection(b))
         found%largest_stress(b) = found%largest_strain(b)
         found%largest_stress(b)%value = request%section(b)%modulus*found%largest_strain(b)%value
         deallocate (values, coefficients, elongation, q, stretched)
@@ -137,6 +143,23 @@ contains
     call close_fourier(dense)
 
   contains
+
+    !> The share of the way along a link or, with a block on it, along both of its pieces.
+    subroutine place_on_link(peak)
+      type(peak_t), intent(inout) :: peak
+
+      real(wp) :: ratio(grid%samples, 1), here(1)
+
+      peak%share = peak%xi
+      if (.not. moves(grid, b)) return
+      call coefficients_of(plan, grid%ratio(:, b:b), ratio)
+      here = value_at(ratio, merge(-1.0_wp, 1.0_wp, grid%backwards)*peak%crank*degree)
+      if (grid%pieces(b)%moving_end == last_end) then
+        peak%share = peak%xi*here(1)
+      else
+        peak%share = 1.0_wp - (1.0_wp - peak%xi)*here(1)
+      end if
+    end subroutine place_on_link
 
     !> Strain of the outermost fibre over the turn.
     function strains_at(place) result(strain)

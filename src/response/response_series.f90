@@ -2,20 +2,23 @@
 !! driving torque.
 module response_series
   use elastic_equations, only: damper_force, deformations_of, elastic_terms_t, elongation_of, &
-    functions_of, times_mass, unit_geometric_force
-  use fourier_transform, only: derivatives, fourier_plan_t
+    functions_of, moved_functions, strain_rates, strained_functions, times_mass, times_swap, &
+    unit_geometric_force
+  use fourier_transform, only: coefficients_of, derivatives, fourier_plan_t, value_at
   use kinds, only: wp
   use link_rows, only: displacement_rows, strain_rows, strain_rows_t, sums_of_rows
   use load_cases, only: case_count, constant_case
+  use piece_motions, only: add_convection, add_flux
+  use passing_places, only: gauge_at_place, place_terms, point_at_place
   use response_levels, only: damping_of
   use response_types, only: response_request_t
   use row_products, only: products_of_rows
-  use turn_grids, only: turn_grid_t
+  use turn_grids, only: moves, turn_grid_t
   implicit none (type, external)
   private
 
   public :: response_series_of, series_count, first_of_point, first_of_gauge, first_of_torque, &
-    point_series, strains_along
+    point_series, place_series, strains_along, gauge_series, find_values_on_pieces
 
   !> Series of a point, a gauge (axial strain, curvature, shear force) and of the torque (rigid,
   !! linear, quadratic).
@@ -81,7 +84,7 @@ contains
     end do
     first = first_of_torque(request)
     call torque_series(grid, plan, request%terms, speed, y, series(:, first:first + 2))
-    if (.not. allocated(grid%weighted)) return
+    if (.not. allocated(grid%weighted) .and. .not. allocated(grid%pieces)) return
     associate (torque => series(:, first:first + 2))
       torque = torque + merge(-speed, speed, grid%backwards)*damping_torque(grid, plan, &
         damping_of(request%damping, grid), request%terms, y)
@@ -89,8 +92,9 @@ contains
   end subroutine response_series_of
 
   !> Torque of the damping per ω, in the parts of the torque, from Rayleigh's function `½ ẇᵀC ẇ`: of
-  !! the deformations `w = Q y` of parts, which change at constant y, `(Q' y)·C (Q y)'`; of a damper
-  !! of the length `l + w + ½ yᵀH y` in all `c (l + w + ½ yᵀH y)˙ ∂(l + w + ½ yᵀH y)/∂θ`.
+  !! the deformations `w = Q y` of parts, which change at constant y, `(Q' y)·C (Q y)'`, and of
+  !! strains, which move through pieces with their material; of a damper of the length
+  !! `l + w + ½ yᵀH y` in all `c (l + w + ½ yᵀH y)˙ ∂(l + w + ½ yᵀH y)/∂θ`.
   function damping_torque(grid, plan, damping, terms, y) result(torque)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan
@@ -101,15 +105,25 @@ contains
 
     real(wp) :: first(size(y, 1), size(y, 2)), force(size(y, 1), size(y, 2)), &
       energy(size(y, 1), 1), energy_slope(size(y, 1), 1)
-    real(wp), dimension(size(y, 1), size(grid%weighted, 2)) :: w, slope, moved
+    real(wp), allocatable :: w(:, :), slope(:, :), moved(:, :), rates(:, :)
     integer :: i, k
 
     torque = 0.0_wp
     call derivatives(plan, y, first)
-    w = deformations_of(grid, y)
-    call derivatives(plan, w, slope)
-    moved = slope - deformations_of(grid, first)
-    if (terms%quadratic) torque(:, 3) = matmul(moved*slope, damping(grid%unknowns + 1:))
+    call strain_rates(grid, plan, y, w, slope, rates)
+    if (allocated(grid%weighted)) then
+      moved = slope - deformations_of(grid, first)
+      if (terms%quadratic) torque(:, 3) = matmul(moved*slope, damping(grid%unknowns + 1:))
+    else
+      moved = slope - first(:, :grid%border)
+      if (terms%quadratic) torque(:, 3) = matmul(moved*slope, damping(:grid%border))
+    end if
+    if (terms%quadratic .and. allocated(grid%pieces)) then
+      associate (own => grid%border + 1)
+        torque(:, 3) = torque(:, 3) + matmul((rates(:, own:) - first(:, own:))*rates(:, own:), &
+          damping(own:grid%unknowns))
+      end associate
+    end if
     k = size(w, 2) - size(grid%dampers)
     do i = 1, size(grid%dampers)
       associate (damper => grid%dampers(i), c => damping(grid%unknowns + k + i))
@@ -125,11 +139,33 @@ contains
     end do
   end function damping_torque
 
-  !> Displacement of a point in global axes and the rotation of its cross-section.
+  !> Displacement of a point in global axes and the rotation of its cross-section. On a link along
+  !! which a block slides it is on one piece or on the other.
   pure function point_series(grid, body, place, y) result(series)
     type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body      !! number; of a link with a block the piece before it
+    real(wp), intent(in) :: place(2) !! from its first end, in its axes [m]
+    real(wp), intent(in) :: y(:, :)  !! (samples, unknowns) [√J]
+    real(wp) :: series(size(y, 1), 3)
+
+    real(wp), allocatable :: terms(:, :)
+    integer :: k
+
+    if (.not. moves(grid, body)) then
+      series = place_series(grid, body, place, y)
+      return
+    end if
+    terms = place_terms(grid, body, y)
+    do k = 1, size(y, 1)
+      series(k, :) = point_at_place(grid, body, place, terms(k, :))
+    end do
+  end function point_series
+
+  !> The same of a place that keeps its share of the length of a body.
+  pure function place_series(grid, body, place, y) result(series)
+    type(turn_grid_t), intent(in) :: grid
     integer, intent(in) :: body
-    real(wp), intent(in) :: place(2)
+    real(wp), intent(in) :: place(2) !! at the length of the tables [m]
     real(wp), intent(in) :: y(:, :)
     real(wp) :: series(size(y, 1), 3)
 
@@ -137,14 +173,16 @@ contains
 
     local = matmul(functions_of(grid, body, y), transpose(displacement_rows( &
       grid%model%links(body), place)))
+    if (moves(grid, body)) local(:, 3) = local(:, 3)/grid%ratio(:, body)
     associate (e => grid%direction(:, :, body))
       series(:, 1) = e(:, 1)*local(:, 1) - e(:, 2)*local(:, 2)
       series(:, 2) = e(:, 2)*local(:, 1) + e(:, 1)*local(:, 2)
       series(:, 3) = local(:, 3)
     end associate
-  end function point_series
+  end function place_series
 
-  !> Axial strain, curvature and shear force at a place of a link.
+  !> Axial strain, curvature and shear force at a place of a link. On one along which a block slides
+  !! it is on one piece or on the other.
   subroutine add_gauge(grid, plan, body, xi, speed, y, series)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan
@@ -158,6 +196,10 @@ contains
     real(wp) :: q(size(y, 1), grid%integrals(body)%chord + grid%integrals(body)%own)
     integer :: chord
 
+    if (moves(grid, body)) then
+      series = gauge_series(grid, body, xi, y)
+      return
+    end if
     rows = strain_rows(grid%model%links(body), xi)
     chord = grid%integrals(body)%chord
     q = functions_of(grid, body, y)
@@ -176,7 +218,76 @@ contains
       grid%rate_slope(:, body))
   end subroutine add_gauge
 
-  !> Axial strain and curvature at many places of a link.
+  !> Axial strain, curvature and shear force at a place of a link along which a block slides.
+  pure function gauge_series(grid, body, share, y) result(series)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body     !! the piece before the block
+    real(wp), intent(in) :: share   !! of the way along both pieces
+    real(wp), intent(in) :: y(:, :) !! (samples, unknowns)
+    real(wp) :: series(size(y, 1), 3)
+
+    real(wp), allocatable :: terms(:, :)
+    integer :: k
+
+    terms = place_terms(grid, body, y)
+    do k = 1, size(y, 1)
+      series(k, :) = gauge_at_place(grid, body, share, terms(k, :))
+    end do
+  end function gauge_series
+
+  !> Quantities at places that a block passes, at any angles. They have kinks there: not they are
+  !! interpolated over the turn, but what they are made of.
+  subroutine find_values_on_pieces(grid, plan, request, y, angle, values)
+    type(turn_grid_t), intent(in) :: grid        !! with pieces
+    type(fourier_plan_t), intent(in) :: plan     !! for its samples
+    type(response_request_t), intent(in) :: request
+    real(wp), intent(in) :: y(:, :)              !! (samples, unknowns) [√J]
+    real(wp), intent(in) :: angle(:)             !! from the first sample on [rad]
+    real(wp), intent(inout) :: values(:, :)      !! (angles, series) of such places
+
+    real(wp), allocatable :: coefficients(:, :)
+    integer :: at, i, k
+
+    do i = 1, size(request%points)
+      if (.not. moves(grid, request%points(i)%body)) cycle
+      at = first_of_point(i)
+      associate (point => request%points(i))
+        call find_coefficients(point%body)
+        do k = 1, size(angle)
+          values(k, at:at + 2) = point_at_place(grid, point%body, point%place, &
+            value_at(coefficients, angle(k)))
+        end do
+      end associate
+    end do
+    do i = 1, size(request%gauges)
+      if (.not. moves(grid, request%gauges(i)%body)) cycle
+      at = first_of_gauge(request, i)
+      associate (gauge => request%gauges(i))
+        call find_coefficients(gauge%body)
+        do k = 1, size(angle)
+          values(k, at:at + 2) = gauge_at_place(grid, gauge%body, gauge%xi, &
+            value_at(coefficients, angle(k)))
+        end do
+      end associate
+    end do
+
+  contains
+
+    !> Of what quantities of a link are made.
+    subroutine find_coefficients(body)
+      integer, intent(in) :: body
+
+      real(wp), allocatable :: terms(:, :)
+
+      terms = place_terms(grid, body, y)
+      if (allocated(coefficients)) deallocate (coefficients)
+      allocate (coefficients, mold=terms)
+      call coefficients_of(plan, terms, coefficients)
+    end subroutine find_coefficients
+
+  end subroutine find_values_on_pieces
+
+  !> Axial strain and curvature at many places of a link, which keep their shares of its length.
   pure subroutine strains_along(grid, body, xi, y, axial, curvature)
     type(turn_grid_t), intent(in) :: grid
     integer, intent(in) :: body
@@ -190,7 +301,7 @@ contains
     integer :: chord, i
 
     chord = grid%integrals(body)%chord
-    q = functions_of(grid, body, y)
+    q = strained_functions(grid, body, y)
     do i = 1, size(xi)
       rows = strain_rows(grid%model%links(body), xi(i))
       axial(:, i) = elongation_of(grid, body, y)*rows%elongation + matmul(q(:, chord + 1:), &
@@ -274,23 +385,19 @@ contains
       associate (integrals => grid%integrals(b), h => grid%rate(:, b), slope => &
         grid%rate_slope(:, b))
         q = functions_of(grid, b, y)
-        allocate (first, second, moved, swept, mold=q)
+        allocate (first, second, swept, mold=q)
         call derivatives(plan, q, first, second)
-        moved = 0.0_wp
-        do j = 1, grid%border
-          do i = 1, integrals%chord
-            moved(:, i) = moved(:, i) + grid%chord_slope(:, i, j, b)*y(:, j)
-          end do
-        end do
+        call add_convection(grid, b, q, first, second)
+        moved = moved_functions(grid, b, q, y)
         ! moved·(m Q'' + J (2hQ' + h'Q) − h² m_t Q) + h (−Qᵀ J Q'' + Qᵀ m_t (2hQ' + h'Q))
         turned = times_mass(grid, b, second)
         work = work + products_of_rows(moved, turned)
-        turned = -matmul(second, integrals%swap)
+        turned = -times_swap(grid, b, second)
         work = work - h*products_of_rows(q, turned)
         do i = 1, size(q, 2)
           swept(:, i) = 2.0_wp*h*first(:, i) + slope*q(:, i)
         end do
-        turned = -matmul(swept, integrals%swap)
+        turned = -times_swap(grid, b, swept)
         work = work + products_of_rows(moved, turned)
         turned = times_mass(grid, b, swept)
         if (size(integrals%rotary) > 0) turned = turned - matmul(swept, integrals%rotary)
@@ -298,9 +405,11 @@ contains
         turned = times_mass(grid, b, q)
         if (size(integrals%rotary) > 0) turned = turned - matmul(q, integrals%rotary)
         work = work - h**2*products_of_rows(moved, turned)
-        deallocate (first, second, moved, swept)
+        if (moves(grid, b)) work = work + work_of_flux(grid, b, q, moved)
+        deallocate (first, second, swept)
       end associate
     end do
+    if (allocated(moved)) deallocate (moved)
     allocate (pin(size(y, 1), 2), pin_first(size(y, 1), 2), pin_second(size(y, 1), 2), &
       moved(size(y, 1), 2))
     do p = 1, size(grid%pin_mass)
@@ -317,5 +426,25 @@ contains
       work = work + grid%pin_mass(p)*products_of_rows(moved, pin_second)
     end do
   end subroutine swept_work
+
+  !> What the momentum that passes the block under a piece works, `μ c'² ∂u/∂x` on the mean of S' y
+  !! at both sides, before the block with a minus sign: the jump of S' y is −c' times that of ∂u/∂x.
+  pure function work_of_flux(grid, b, q, moved) result(work)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: b
+    real(wp), intent(in) :: q(:, :), moved(:, :) !! (samples, functions) of y and of S' y
+    real(wp) :: work(size(q, 1))
+
+    real(wp) :: passed(size(q, 1), size(q, 2)), strain(size(q, 1))
+
+    passed = 0.0_wp
+    call add_flux(grid, b, q, passed)
+    associate (cut => grid%pieces(b)%cut, across => grid%pieces(b)%cut - 2 - &
+      grid%pieces(b)%curves, mass => sum(grid%model%links(b)%axial_linear))
+      strain = matmul(q, grid%pieces(b)%flux)/mass
+      work = passed(:, cut)*(moved(:, cut) - grid%rate(:, b)*q(:, across) - &
+        0.5_wp*grid%stretch(:, b)*strain)
+    end associate
+  end function work_of_flux
 
 end module response_series

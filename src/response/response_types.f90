@@ -67,6 +67,7 @@ module response_types
   type :: peak_t
     real(wp) :: value = 0.0_wp
     real(wp) :: xi = 0.0_wp    !! along the body
+    real(wp) :: share = 0.0_wp !! the same, or of both pieces of a link with a block
     real(wp) :: crank = 0.0_wp !! [deg]
   end type peak_t
 

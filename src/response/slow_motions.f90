@@ -9,7 +9,8 @@
 !! and gives the multipliers of a turn.
 module slow_motions
   use constants, only: two_pi
-  use elastic_equations, only: deformations_of, functions_of, mass_force, slopes_of, times_mass
+  use elastic_equations, only: deformations_of, functions_of, mass_force, slopes_of, &
+    strain_rates, times_mass, times_swap
   use errors, only: error_of_numerics, error_t, set_error
   use fast_followers, only: add_followers, follower_products, frozen_stiffness
   use fourier_transform, only: close_fourier, coefficients_of, derivatives, fourier_plan_t, &
@@ -18,10 +19,11 @@ module slow_motions
   use kinds, only: wp
   use lapack, only: dgeev, dgetf2, dgetrf, dgetrs
   use load_cases, only: constant_case
+  use piece_motions, only: add_convection, scale_share
   use row_products, only: products_of_rows
   use sorting, only: ascending_order
   use text, only: to_string
-  use turn_grids, only: rate_case, turn_grid_t
+  use turn_grids, only: moves, rate_case, turn_grid_t
   implicit none (type, external)
   private
 
@@ -30,8 +32,10 @@ module slow_motions
     frozen_matrices, add_shape_frequencies
 
   !> Subspace iterations: the error of the lowest frequencies falls by the square of the ratio of
-  !! frequencies each time.
-  integer, parameter :: iterations = 3
+  !! frequencies each time. As a block passes along a link, slow deformations of the piece before it
+  !! and of that behind it change places: after several iterations they do so within few degrees,
+  !! and followers of the motion between them are not small.
+  integer, parameter :: iterations = 3, iterations_with_pieces = 1
 
   !> Free motions that grow by more than this in a turn leave no digits of a periodic one; within
   !! the turn they may grow until numbers nearly overflow.
@@ -106,6 +110,10 @@ contains
     square = 0.0_wp
     do b = 1, size(grid%integrals)
       associate (mass => grid%integrals(b)%mass, link => grid%model%links(b))
+        if (moves(grid, b)) then
+          call add_squares_of_piece(grid, b, square)
+          cycle
+        end if
         do k = 1, grid%border
           do j = 1, grid%integrals(b)%chord
             do i = 1, grid%integrals(b)%chord
@@ -124,6 +132,25 @@ contains
       end do
     end do
   end function own_squares
+
+  !> Those of a piece whose length changes, from the mean of M over the turn.
+  pure subroutine add_squares_of_piece(grid, b, square)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: b
+    real(wp), intent(inout) :: square(:)
+
+    real(wp) :: y(grid%samples, grid%unknowns), q(grid%samples, grid%integrals(b)%chord + &
+      grid%integrals(b)%own)
+    integer :: k
+
+    do k = 1, grid%unknowns
+      if (k > grid%border .and. grid%owner(k) /= b) cycle
+      y = 0.0_wp
+      y(:, k) = 1.0_wp
+      q = functions_of(grid, b, y)
+      square(k) = square(k) + sum(q*times_mass(grid, b, q))/grid%samples
+    end do
+  end subroutine add_squares_of_piece
 
   !> Makes the slow coordinates and their matrices over the turn, on a coarse grid: both change
   !! slowly over the turn.
@@ -176,8 +203,8 @@ contains
   contains
 
     subroutine add_what_follows
-      if (number < coarse%unknowns) call follower_products(coarse, coarse_plan, shape, &
-        basis%products)
+      if (number < coarse%unknowns .and. .not. allocated(coarse%pieces)) call &
+        follower_products(coarse, coarse_plan, shape, basis%products)
       allocate (basis%form(plan%samples, number**2, 2))
       call resample(coarse_plan, basis%sums(:, :, of_mass), plan, basis%form(:, :, 1))
       call resample(coarse_plan, basis%sums(:, :, of_stiffness), plan, basis%form(:, :, 2))
@@ -196,6 +223,10 @@ contains
     real(wp), allocatable :: w(:, :, :)
     integer :: i
 
+    if (allocated(grid%pieces)) then
+      call add_strain_products(grid, plan, damping, shape, sums)
+      return
+    end if
     if (.not. allocated(grid%weighted)) then
       call add_products(plan, damping, shape, sums)
       return
@@ -209,19 +240,54 @@ contains
     call add_products(plan, damping(grid%unknowns + 1:), w, sums)
   end subroutine add_damping
 
+  !> The same of strains that move through pieces with their material.
+  subroutine add_strain_products(grid, plan, damping, shape, sums)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan
+    real(wp), intent(in) :: damping(:)
+    real(wp), intent(in) :: shape(:, :, :)
+    real(wp), intent(inout) :: sums(:, :, :)
+
+    real(wp), allocatable :: w(:, :), w_rates(:, :), rates(:, :), strain(:, :, :), slope(:, :, :)
+    integer :: deformations, first, i, own, n
+
+    own = grid%border + 1
+    n = grid%unknowns
+    do i = 1, size(shape, 3)
+      call strain_rates(grid, plan, shape(:, :, i), w, w_rates, rates)
+      deformations = size(w, 2)
+      if (i == 1) then
+        allocate (strain(size(shape, 1), deformations + n - grid%border, size(shape, 3)))
+        allocate (slope, mold=strain)
+      end if
+      strain(:, :deformations, i) = w
+      strain(:, deformations + 1:, i) = shape(:, own:, i)
+      slope(:, :deformations, i) = w_rates
+      slope(:, deformations + 1:, i) = rates(:, own:)
+    end do
+    first = merge(n, 0, allocated(grid%weighted))
+    call add_products(plan, [damping(first + 1:first + deformations), damping(own:n)], strain, &
+      sums, slope)
+  end subroutine add_strain_products
+
   !> Adds those of some motions with constant damping each.
-  subroutine add_products(plan, damping, shape, sums)
+  subroutine add_products(plan, damping, shape, sums, rates)
     type(fourier_plan_t), intent(in) :: plan
     real(wp), intent(in) :: damping(:)
     real(wp), intent(in) :: shape(:, :, :) !! (samples, motions, number)
     real(wp), intent(inout) :: sums(:, :, :)
+    real(wp), intent(in), optional :: rates(:, :, :) !! of the motions; absent: their derivatives
 
     real(wp), dimension(size(shape, 1), size(shape, 2)) :: damped, slope
     integer :: at, i, j, number
 
     number = size(shape, 3)
     do j = 1, number
-      call derivatives(plan, shape(:, :, j), slope)
+      if (present(rates)) then
+        slope = rates(:, :, j)
+      else
+        call derivatives(plan, shape(:, :, j), slope)
+      end if
       do i = 1, size(damping)
         damped(:, i) = damping(i)*shape(:, i, j)
         slope(:, i) = damping(i)*slope(:, i)
@@ -250,7 +316,7 @@ contains
     do i = 1, size(slow)
       shape(:, slow(i), i) = 1.0_wp
     end do
-    do k = 1, iterations
+    do k = 1, merge(iterations_with_pieces, iterations, allocated(grid%pieces))
       do i = 1, size(slow)
         call mass_force(grid, shape(:, :, i), product(:, :, i))
       end do
@@ -281,6 +347,7 @@ contains
         do i = 1, number
           q(:, :, i) = functions_of(grid, b, shape(:, :, i))
           call derivatives(plan, q(:, :, i), first(:, :, i))
+          call add_convection(grid, b, q(:, :, i), first(:, :, i))
         end do
         call add_body(grid, b, q, first, sums)
         deallocate (q, first)
@@ -342,6 +409,7 @@ contains
     do k = 1, size(grid%model%links(b)%geometric, 3)
       do j = 1, size(shape, 3)
         bent = matmul(slope(:, :, j), grid%model%links(b)%geometric(:, :, k))
+        call scale_share(grid, b, bent)
         do i = 1, size(shape, 3)
           at = (j - 1)*size(shape, 3) + i
           work = products_of_rows(slope(:, :, i), bent)
@@ -406,8 +474,8 @@ contains
       do j = 1, size(q, 3)
         moved = times_mass(grid, b, q(:, :, j))
         moved_first = times_mass(grid, b, first(:, :, j))
-        turned = -matmul(q(:, :, j), integrals%swap)
-        turned_first = -matmul(first(:, :, j), integrals%swap)
+        turned = -times_swap(grid, b, q(:, :, j))
+        turned_first = -times_swap(grid, b, first(:, :, j))
         free = moved
         if (size(integrals%rotary) > 0) free = moved - matmul(q(:, :, j), integrals%rotary)
         do i = 1, size(q, 3)

@@ -8,7 +8,7 @@
 module steady_responses
   use beam_mesh, only: beam_t
   use constants, only: degree, two_pi
-  use elastic_equations, only: deformations_of, load_at_speed
+  use elastic_equations, only: deformations_of, load_at_speed, strain_rates
   use errors, only: error_of_numerics, error_t, set_error
   use floquet_exponents, only: find_nearest_mode, floquet_mode_t
   use fourier_transform, only: close_fourier, coefficients_of, fourier_plan_t, open_fourier, &
@@ -26,15 +26,15 @@ module steady_responses
   use response_levels, only: damping_of, level_slot_t, level_t, need_basis, need_level, &
     sample_numbers
   use response_peaks, only: find_peaks, sampled_deflections
-  use response_series, only: first_of_gauge, first_of_point, first_of_torque, point_series, &
-    response_series_of, series_count, strains_along
+  use response_series, only: first_of_gauge, first_of_point, first_of_torque, place_series, &
+    find_values_on_pieces, response_series_of, series_count, strains_along
   use response_types, only: drive_values, no_damping, peak_t, power, quadratic_torque, &
     response_request_t, response_t, rigid_torque, speed_response_t, strain_values, total_torque
   use sorting, only: ascending_order
   use slow_motions, only: new_slow_motion, own_squares, slow_basis_t, slow_count, slow_motion_t
   use structures, only: structure_t, vibrating_beams, vibrating_linkage
   use text, only: to_string
-  use turn_grids, only: turn_grid_t
+  use turn_grids, only: moves, turn_grid_t
   implicit none (type, external)
   private
 
@@ -452,7 +452,8 @@ contains
         call set_error(found%error, error_of_numerics, "resonance: an exponent of the turn, "// &
           in_words(found%nearest)//", is too near to 0 for the accuracy asked for")
       else
-        call raise(request%accuracy, found%largest_error, gained, errors, solution%series, choice)
+        call raise(request%accuracy, found%largest_error, gained, errors, solution%series, &
+          with_kinks(request, level%grid), choice)
       end if
     end subroutine improve
 
@@ -489,11 +490,12 @@ contains
 
   !> Raises the samples if the errors of the series that are not accurate enough come from harmonics
   !! left out, else the orders.
-  pure subroutine raise(accuracy, largest_error, gained, errors, series, choice)
+  pure subroutine raise(accuracy, largest_error, gained, errors, series, kinks, choice)
     real(wp), intent(in) :: accuracy, largest_error
     logical, intent(in) :: gained        !! much by what was raised before
     real(wp), intent(in) :: errors(:)    !! (series)
     real(wp), intent(in) :: series(:, :) !! coefficients
+    logical, intent(in) :: kinks(:)      !! (series) that tell nothing by their harmonics
     type(choice_t), intent(inout) :: choice
 
     real(wp) :: tail(2), last, largest, fall, wanted
@@ -505,6 +507,8 @@ contains
     order = .not. any(errors > accuracy)
     do i = 1, size(series, 2)
       if (errors(i) <= accuracy) cycle
+      order = order .or. kinks(i)
+      if (kinks(i)) cycle
       largest = sum(abs(series(:, i)))
       last = sum(abs(series(n - n/8:, i)))/largest
       if (last <= tail_share*errors(i) .and. errors(i) <= of_orders) order = .true.
@@ -539,6 +543,24 @@ contains
         ceiling(log(largest_error/accuracy)/log(gain_of_orders))))
     end if
   end subroutine raise
+
+  !> Series at places that a block passes.
+  pure function with_kinks(request, grid) result(kinks)
+    type(response_request_t), intent(in) :: request
+    type(turn_grid_t), intent(in) :: grid
+    logical :: kinks(series_count(request))
+
+    integer :: i
+
+    kinks = .false.
+    do i = 1, size(request%points)
+      kinks(first_of_point(i):first_of_point(i + 1) - 1) = moves(grid, request%points(i)%body)
+    end do
+    do i = 1, size(request%gauges)
+      kinks(first_of_gauge(request, i):first_of_gauge(request, i + 1) - 1) = moves(grid, &
+        request%gauges(i)%body)
+    end do
+  end function with_kinks
 
   !> An exponent as growth and turns.
   pure function in_words(exponent) result(words)
@@ -638,6 +660,8 @@ contains
     allocate (values(above%grid%samples, n), fine(above%grid%samples, n), &
       before(above%grid%samples, n), errors(n))
     call values_of(above_plan, resampled(solution%series, above%grid%samples), values)
+    if (allocated(level%grid%pieces)) call find_values_on_pieces(level%grid, plan, request, &
+      solution%y, [(two_pi*(k - 1)/above%grid%samples, k=1, above%grid%samples)], values)
     call values_of(above_plan, better%series, fine)
     ! What the iterations leave in both, one starts from the other, is in no difference: slow
     ! motions near resonance may lack many times the last change.
@@ -652,11 +676,10 @@ contains
     extra = max(many*better%remainder, least_share*min(request%accuracy, coarsest_share)) + &
       rounding/found%distance
     allocate (at_position(n, size(request%crank)))
-    ! Whole turns make no difference, to the last digit.
     do k = 1, size(request%crank)
-      at_position(:, k) = value_at(solution%series, merge(-1.0_wp, 1.0_wp, &
-        level%grid%backwards)*modulo(request%crank(k), 360.0_wp)*degree)
+      at_position(:, k) = value_at(solution%series, angle_of(k))
     end do
+    if (allocated(level%grid%pieces)) call take_pieces
 
     allocate (found%displacement(3, size(request%points), size(request%crank)), &
       found%displacement_error(size(request%points)))
@@ -675,6 +698,24 @@ contains
       maxval([0.0_wp, found%strain_error]), found%drive_error, maxval([0.0_wp, found%peak_error]))
 
   contains
+
+    !> Quantities at places that a block passes, at the crank angles of the deck.
+    subroutine take_pieces
+      real(wp) :: there(size(request%crank), n)
+
+      there = transpose(at_position)
+      call find_values_on_pieces(level%grid, plan, request, solution%y, [(angle_of(k), k=1, &
+        size(request%crank))], there)
+      at_position = transpose(there)
+    end subroutine take_pieces
+
+    !> Angle of a crank angle of the deck. Whole turns make no difference, to the last digit.
+    pure function angle_of(k) result(angle)
+      integer, intent(in) :: k
+      real(wp) :: angle
+
+      angle = merge(-1.0_wp, 1.0_wp, level%grid%backwards)*modulo(request%crank(k), 360.0_wp)*degree
+    end function angle_of
 
     !> The largest value of every series over the turn, to which its errors are relative; of a
     !! displacement that of both components. A quantity that is zero by its nature is measured
@@ -803,9 +844,9 @@ contains
       change = abs(peaks(1)%value - peaks(2)%value)
       do i = 1, size(peaks)
         place = [peaks(i)%xi*linkage%bodies(body)%length, 0.0_wp]
-        here = point_series(level%grid, body, place, solution%y)
+        here = place_series(level%grid, body, place, solution%y)
         call resample(plan, here, above_plan, moved)
-        moved = moved - point_series(above%grid, body, place, better%y)
+        moved = moved - place_series(above%grid, body, place, better%y)
         change = max(change, sqrt(maxval(moved(:, 1)**2 + moved(:, 2)**2)))
       end do
     end function deflection_change
@@ -821,7 +862,10 @@ contains
 
       c = damping_of(request%damping, grid)
       power = 0.0_wp
-      if (.not. allocated(grid%weighted)) then
+      if (allocated(grid%pieces)) then
+        call add_power_of_strains(grid, plan, y, c, power)
+        return
+      else if (.not. allocated(grid%weighted)) then
         call add_power(plan, y, c, grid%owner, power)
         return
       end if
@@ -830,6 +874,30 @@ contains
         call add_power(plan, deformations_of(grid, y), c(last + 1:), grid%deformed, power)
       end associate
     end function power_of
+
+    !> The same where strains move through pieces with their material.
+    subroutine add_power_of_strains(grid, plan, y, c, power)
+      type(turn_grid_t), intent(in) :: grid
+      type(fourier_plan_t), intent(in) :: plan
+      real(wp), intent(in) :: y(:, :), c(:)
+      real(wp), intent(inout) :: power(:)
+
+      real(wp), allocatable :: w(:, :), w_rates(:, :), rates(:, :)
+      integer :: i, first
+
+      call strain_rates(grid, plan, y, w, w_rates, rates)
+      first = merge(grid%unknowns, 0, allocated(grid%weighted))
+      do i = 1, size(w, 2)
+        associate (b => grid%deformed(i))
+          if (b > 0) power(b) = power(b) + c(first + i)*sum(w_rates(:, i)**2)/grid%samples
+        end associate
+      end do
+      do i = grid%border + 1, grid%unknowns
+        associate (b => grid%owner(i))
+          power(b) = power(b) + c(i)*sum(rates(:, i)**2)/grid%samples
+        end associate
+      end do
+    end subroutine add_power_of_strains
 
     !> Adds that of some motions, each with its damping, to those of the links they belong to.
     subroutine add_power(plan, y, c, owner, power)

@@ -18,7 +18,7 @@ module transient_responses
   use part_requests, only: request_of_parts
   use path_grids, only: new_path_grid, place_grid
   use response_levels, only: damping_of, new_order_model
-  use response_series, only: point_series, strains_along
+  use response_series, only: gauge_series, point_series, strains_along
   use response_types, only: strain_values
   use slow_motions, only: own_squares
   use structures, only: structure_t, vibrating_beams, vibrating_linkage
@@ -26,7 +26,7 @@ module transient_responses
   use transient_motions, only: solve_motion, stages, transient_motion_t
   use transient_starts, only: find_start
   use transient_types, only: speed_transient_t, transient_request_t, transient_t
-  use turn_grids, only: turn_grid_t
+  use turn_grids, only: moves, turn_grid_t
   implicit none (type, external)
   private
 
@@ -278,6 +278,11 @@ contains
         end do
         do i = 1, size(gauges)
           first = of_point*size(points) + of_gauge*(i - 1) + 1
+          if (moves(grid, gauges(i)%body)) then
+            moved = gauge_series(grid, gauges(i)%body, gauges(i)%xi, y)
+            series(at:at + n - 1, first:first + 1) = moved(:n, :2)
+            cycle
+          end if
           call strains_along(grid, gauges(i)%body, [gauges(i)%xi], y, axial, curvature)
           series(at:at + n - 1, first) = axial(:n, 1)
           series(at:at + n - 1, first + 1) = curvature(:n, 1)

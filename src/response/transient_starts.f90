@@ -14,7 +14,7 @@ module transient_starts
   use path_grids, only: place_grid
   use periodic_solver, only: solve_periodic
   use response_levels, only: damping_of, level_slot_t, need_basis, need_level, sample_numbers
-  use response_series, only: point_series
+  use response_series, only: place_series
   use slow_motions, only: new_slow_motion, slow_count, slow_motion_t
   use structures, only: structure_t, vibrating_linkage
   use text, only: to_string
@@ -176,7 +176,7 @@ contains
     linkage = vibrating_linkage(structure)
     do b = 1, size(linkage%bodies)
       do i = 0, places
-        moved = point_series(grid, b, [linkage%bodies(b)%length*i/places, 0.0_wp], &
+        moved = place_series(grid, b, [linkage%bodies(b)%length*i/places, 0.0_wp], &
           transpose(vector))
         largest = max(largest, norm2(moved(1, :2)))
         here = grid%direction(1, 1, b)*moved(1, 2) - grid%direction(1, 2, b)*moved(1, 1)

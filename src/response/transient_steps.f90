@@ -185,7 +185,8 @@ contains
     end associate
   end subroutine find_terms
 
-  !> Takes `C ẏ` away; of deformations `w = Q y` of parts and dampers `Qᵀ c (Q ẏ + ω Q' y)`.
+  !> Takes `C ẏ` away; of deformations `w = Q y` of parts and dampers `Qᵀ c (Q ẏ + ω Q' y)`, and so
+  !! of all strains where some move through pieces with their material.
   subroutine add_damping(matrices, at, damping, speed, d, v)
     type(motion_matrices_t), intent(in) :: matrices
     integer, intent(in) :: at               !! number of the stage in the matrices
@@ -198,6 +199,14 @@ contains
 
     n = size(d, 1)
     border = 0
+    if (allocated(matrices%strain)) then
+      associate (strain => matrices%strain(:, :, at), slope => matrices%strain_slope(:, :, at))
+        damped = spread(damping(matrices%strain_damping), 2, n)*strain
+        d = d - matmul(transpose(damped), strain)
+        v = v - speed*matmul(transpose(damped), slope)
+      end associate
+      return
+    end if
     if (allocated(matrices%deformed)) then
       associate (q => matrices%deformed(:, :, at), slope => matrices%deformed_slope(:, :, at))
         border = size(q, 2)

@@ -8,6 +8,7 @@ module turn_grids
   use body_lumps, only: lump_offsets
   use border_rows, only: row_spring
   use deformation_model, only: deformation_model_t
+  use elastic_linkages, only: elastic_linkage_t
   use dense_eigensolver, only: solve_dense
   use errors, only: error_of_dead_point, error_of_numerics, error_t, set_error
   use fourier_transform, only: close_fourier, derivatives, fourier_plan_t, open_fourier
@@ -19,6 +20,7 @@ module turn_grids
   use load_cases, only: case_count, find_unit_loads, load_case_t, unit_loads_t
   use load_coordinates, only: load_rate
   use moving_integrals, only: chord_functions, moving_integrals_t, new_moving_integrals
+  use moving_pieces, only: amplitude_scales, moving_ends, moving_piece_t, new_moving_piece, no_end
   use part_displacements, only: border_t, find_part_chords
   use part_forces, only: find_part_forces, find_pull_forces, pull_forces_t
   use part_poses, only: find_part_loads
@@ -32,7 +34,7 @@ module turn_grids
   private
 
   public :: turn_grid_t, damper_t, rate_case, new_turn_grid, start_grid, number_border, take_pose, &
-    take_chord
+    take_chord, moves
 
   !> Positions of a turn at which deformations are tried as unknowns, and turns until these are
   !! taken for good.
@@ -77,13 +79,23 @@ module turn_grids
     real(wp), allocatable :: weighted_slope(:, :, :) !! d/dθ2 of `weighted`; of `path_grids` only
     !> Of a linkage in parts, of `path_grids`: (samples of a turn, terms) coefficients of all terms
     real(wp), allocatable :: harmonics(:, :)
+    !> What moves with the material of pieces between the end of a link and a block; not allocated:
+    !! all parts keep their lengths
+    type(moving_piece_t), allocatable :: pieces(:) !! (bodies)
+    real(wp), allocatable :: ratio(:, :)    !! (samples, bodies) length by that of the tables
+    real(wp), allocatable :: stretch(:, :)  !! (samples, bodies) l'/l
+    real(wp), allocatable :: stretch_slope(:, :) !! (samples, bodies) (l'/l)'
+    integer, allocatable :: curve(:, :)     !! (2, bodies) numbers of the deformations that are
+                                            !! curves of held ends; with pieces only
     real(wp), allocatable :: rotation(:, :) !! (border, border) orthogonal: border unknowns as those
                                            !! of the basis, from those of the grid, which are
                                            !! nearly modes then. Not allocated: the same
     !> (samples, functions of the chord, border, bodies)
     real(wp), allocatable :: chord(:, :, :, :)
     real(wp), allocatable :: turn(:, :, :)      !! (samples, border, bodies) rotation of the chord
-    real(wp), allocatable :: pin(:, :, :, :)    !! (samples, 2, pins, border)
+    real(wp), allocatable :: pin(:, :, :, :)    !! (samples, 2, pins, border); behind the pins the
+                                                !! rotations of blocks that turn with links that
+                                                !! bend, and zeros
     real(wp), allocatable :: chord_slope(:, :, :, :) !! d/dθ2 of `chord`
     real(wp), allocatable :: pin_slope(:, :, :, :)   !! d/dθ2 of `pin`
     real(wp), allocatable :: place(:, :, :)     !! (samples, 2, pins) of the rigid linkage [m]
@@ -97,7 +109,8 @@ module turn_grids
     real(wp), allocatable :: second_order(:, :, :, :)
     real(wp), allocatable :: load(:, :, :)      !! (samples, unknowns, cases) f of the unit loads
     real(wp), allocatable :: torque(:, :)       !! (samples, cases) of the rigid linkage [N m]
-    real(wp), allocatable :: pin_mass(:)        !! (pins) [kg]
+    real(wp), allocatable :: pin_mass(:)        !! (pins) [kg], and of such blocks [kg m²]
+    integer, allocatable :: block_rotation(:)   !! (such blocks) numbers of their rotations
     real(wp), allocatable :: rotary_inertia(:)  !! (bodies) ρI [kg m]
   end type turn_grid_t
 
@@ -147,6 +160,16 @@ contains
     end if
     call find_slopes(grid)
   end subroutine new_turn_grid
+
+  !> Whether a body is a piece whose length changes.
+  pure function moves(grid, body) result(yes)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    logical :: yes
+
+    yes = allocated(grid%pieces)
+    if (yes) yes = grid%pieces(body)%moving_end /= no_end
+  end function moves
 
   !> 1, or −1 where the crank turns clockwise.
   pure function sense_of(grid) result(sense)
@@ -202,12 +225,47 @@ contains
     allocate (grid%load(grid%samples, grid%unknowns, grid%cases), &
       grid%second_order(grid%samples, grid%border, grid%border, grid%cases), source=0.0_wp)
     call number_deformations(here%border, grid)
+    call start_pieces(structure, here%border, grid)
+    call start_blocks(structure%elastic, grid)
     if (.not. allocated(grid%weighted)) return
     n = size(here%border%numbers%rows)
     if (n == grid%border .and. all(grid%deformed(:n) > 0)) return
     call choose_pivots(structure, model, here, error)
     if (.not. allocated(error)) call find_rotation(structure, here, grid, error)
   end subroutine start_parts
+
+  !> Room for what moves with the material of pieces whose lengths change.
+  pure subroutine start_pieces(structure, border, grid)
+    class(structure_t), intent(in) :: structure
+    type(border_t), intent(in) :: border
+    type(turn_grid_t), intent(inout) :: grid
+
+    integer :: moving(size(grid%integrals)), b
+
+    moving = moving_ends(structure%elastic)
+    if (all(moving == no_end)) return
+    allocate (grid%pieces(size(moving)))
+    do b = 1, size(moving)
+      if (moving(b) /= no_end) grid%pieces(b) = new_moving_piece(grid%model%links(b), moving(b))
+    end do
+    allocate (grid%ratio(grid%samples, size(moving)), source=1.0_wp)
+    allocate (grid%stretch, grid%stretch_slope, mold=grid%ratio)
+    grid%curve = border%numbers%curve
+  end subroutine start_pieces
+
+  !> Room for blocks that turn with links that bend.
+  pure subroutine start_blocks(elastic, grid)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(turn_grid_t), intent(inout) :: grid
+
+    grid%block_rotation = pack(elastic%carried%rotation, elastic%carried%inertia > 0.0_wp .and. &
+      elastic%carried%rotation > 0)
+    if (size(grid%block_rotation) == 0) return
+    grid%pin_mass = [grid%pin_mass, pack(elastic%carried%inertia, elastic%carried%inertia > &
+      0.0_wp .and. elastic%carried%rotation > 0)]
+    deallocate (grid%pin)
+    allocate (grid%pin(grid%samples, 2, size(grid%pin_mass), grid%border), source=0.0_wp)
+  end subroutine start_blocks
 
   !> What dampers pull in the motion of the rigid linkage, as a load case per ω2.
   pure subroutine add_damper_cases(grid)
@@ -260,12 +318,19 @@ contains
       do b = 1, size(grid%integrals)
         associate (chord => grid%integrals(b)%chord, of_body => grid%integrals(b)%mass)
           call take_chord(grid%model%links(b), chords, b, functions)
+          if (moves(grid, b)) call scale_chord(grid, b, here%elastic%linkage%bodies(b)%length, &
+            functions)
           mass = mass + matmul(transpose(functions(:chord, :)), matmul(of_body(:chord, :chord), &
             functions(:chord, :)))
         end associate
       end do
-      do p = 1, size(grid%pin_mass)
+      do p = 1, size(chords%pin, 2)
         mass = mass + grid%pin_mass(p)*matmul(transpose(chords%pin(:, p, :)), chords%pin(:, p, :))
+      end do
+      do p = 1, size(grid%block_rotation)
+        associate (turn => chords%rotation(grid%block_rotation(p):grid%block_rotation(p), :))
+          mass = mass + grid%pin_mass(size(chords%pin, 2) + p)*matmul(transpose(turn), turn)
+        end associate
       end do
     end do
     unit = 0.0_wp
@@ -275,6 +340,24 @@ contains
     call solve_dense(full_band(unit), full_band(mass), grid%border, .true., inverse, &
       grid%rotation, error)
   end subroutine find_rotation
+
+  !> The functions of the chord of a piece of some length with the root of its share of the mass:
+  !! their integrals are those at the length of the tables then.
+  pure subroutine scale_chord(grid, b, length, functions)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: b
+    real(wp), intent(in) :: length             !! [m]
+    real(wp), intent(inout) :: functions(:, :) !! (functions of the chord, border)
+
+    real(wp) :: ratio, scale(1, size(grid%pieces(b)%flux))
+    integer :: i
+
+    ratio = length/grid%model%links(b)%length
+    scale = amplitude_scales(grid%pieces(b), [ratio])
+    do i = 1, grid%integrals(b)%chord
+      functions(i, :) = sqrt(ratio)*scale(1, i)*functions(i, :)
+    end do
+  end subroutine scale_chord
 
   !> The terms in unknowns that are turned.
   pure subroutine turn_unknowns(grid)
@@ -405,6 +488,10 @@ contains
     call take_chords(here%pose, chords, k, grid)
     n = size(here%border%numbers%rows)
     if (allocated(grid%weighted)) grid%weighted(k, :n, :) = chords%weighted
+    do b = 1, size(grid%integrals)
+      if (moves(grid, b)) grid%ratio(k, b) = here%elastic%linkage%bodies(b)%length/ &
+        grid%model%links(b)%length
+    end do
     here%loads = find_unit_loads(structure%linkage, pose, coefficients)
     call find_part_loads(structure%linkage, pose, here%loads, here%elastic, here%pose, &
       here%part_loads)
@@ -418,7 +505,7 @@ contains
       ! The static solution, since the stiffness is the unit matrix.
       grid%load(k, :grid%border, c) = here%part_forces%border(:, c)
       do b = 1, size(grid%integrals)
-        call add_own_loads(grid, b, inertia_work(here%elastic%linkage, grid, b, here%pose, &
+        call add_own_loads(grid, b, k, inertia_work(here%elastic%linkage, grid, b, here%pose, &
           here%part_loads%unit%of_case(c)), grid%load(k, :, c))
       end do
       grid%torque(k, c) = unit%of_case(c)%joints%torque
@@ -465,7 +552,9 @@ contains
     grid%place(k, :, :) = pose%pin
     grid%direction(k, :, :) = pose%direction
     grid%turn(k, :, :) = chords%turn
-    grid%pin(k, :, :, :) = chords%pin
+    grid%pin(k, :, :size(chords%pin, 2), :) = chords%pin
+    if (allocated(grid%block_rotation)) grid%pin(k, 1, size(chords%pin, 2) + 1:, :) = &
+      chords%rotation(grid%block_rotation, :)
     do b = 1, size(grid%integrals)
       call take_chord(grid%model%links(b), chords, b, grid%chord(k, :, :, b))
     end do
@@ -502,6 +591,7 @@ contains
     type(turn_grid_t), intent(inout) :: grid
 
     type(fourier_plan_t) :: plan
+    real(wp), allocatable :: second(:, :)
     integer :: b, i, p
 
     allocate (grid%chord_slope, mold=grid%chord)
@@ -515,6 +605,12 @@ contains
         call derivatives(plan, grid%pin(:, :, p, i), grid%pin_slope(:, :, p, i))
       end do
     end do
+    if (allocated(grid%pieces)) then
+      allocate (second, mold=grid%ratio)
+      call derivatives(plan, grid%ratio, grid%stretch, second)
+      grid%stretch = grid%stretch/grid%ratio
+      grid%stretch_slope = second/grid%ratio - grid%stretch**2
+    end if
     call close_fourier(plan)
   end subroutine find_slopes
 
@@ -621,7 +717,7 @@ contains
             case%couple(b)*chords%turn(i, b)
         end do
       end associate
-      call add_own_loads(grid, b, work, load)
+      call add_own_loads(grid, b, k, work, load)
     end do
     do p = 1, size(linkage%pin_mass)
       load(:grid%border) = load(:grid%border) + matmul(case%pin_force(:, p) - &
@@ -660,11 +756,20 @@ contains
   end function inertia_work
 
   !> The work on the own modes of a body.
-  pure subroutine add_own_loads(grid, b, work, load)
+  pure subroutine add_own_loads(grid, b, k, work_on, load)
     type(turn_grid_t), intent(in) :: grid
     integer, intent(in) :: b
-    real(wp), intent(in) :: work(:)    !! (functions)
+    integer, intent(in) :: k           !! number of the crank angle
+    real(wp), intent(in) :: work_on(:) !! (functions) of the tables
     real(wp), intent(inout) :: load(:) !! (unknowns)
+
+    real(wp) :: work(size(work_on)), scale(1, size(work_on))
+
+    work = work_on
+    if (moves(grid, b)) then
+      scale = amplitude_scales(grid%pieces(b), grid%ratio(k:k, b))
+      work = grid%ratio(k, b)*scale(1, :)*work
+    end if
 
     associate (link => grid%model%links(b), chord => grid%integrals(b)%chord)
       load(grid%first(b):grid%first(b) + link%modes - 1) = work(chord + 1:chord + link%modes)

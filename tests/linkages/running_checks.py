@@ -53,6 +53,19 @@ BRANCH   B left A O4
 GAUGE    g1 coupler at=139.7
 GAUGE    g2 crank   at=20
 """
+LEVER = """GROUND   O4 0 -150
+GUIDE    bed 0 140 angle=0
+LINK     crank O2 A length=60  material=steel section=bar
+LINK     lever O4 C length=320 material=steel section=bar
+LINK     rod   C  D length=120 material=steel section=strip
+SLIDER   A lever mass=0.03 inertia=10kg*mm2
+SLIDER   D bed   mass=0.2
+BRANCH   D forward
+GAUGE    g1 lever at=60
+GAUGE    g2 lever at=130
+GAUGE    g3 lever at=250
+GAUGE    g4 crank at=20
+"""
 OF_ENGINE = """GROUND   P  150 60
 DAMPER   da A P damping=40N*s/m
 DAMPER   dt A crank rod damping=0.05N*m*s/rad
@@ -107,6 +120,26 @@ def elbow(samples, speed, time, pulls, orders):
              link("O4", "B", STRIP, time, orders)]
     return Running(abs(speed), {"A": a, "C": c, "B": b}, {"O2": (0, 0), "O4": (0.254, 0), "P": (0.15, 0.06)}, links, {(0, 0)}, {},
                    {"B": 0.05}, pulls, welds=[((1, 1), (2, 0))])
+
+
+def slotted_lever(samples, speed, time, elements):
+    """The lever in nodal elements that keep their places; the block passes from one to the next."""
+    a = 0.6 * crank_pin(samples, speed)
+    foot = np.array([0.0, -0.15])
+    way = a - foot
+    e = way / np.linalg.norm(way, axis=1)[:, None]
+    pins = {"A": a}
+    names = ["O4"] + [f"L{k}" for k in range(1, elements)] + ["C"]
+    for k in range(1, elements + 1):
+        pins[names[k]] = foot + 0.32 * k / elements * e
+    c = pins["C"]
+    pins["D"] = np.stack([c[:, 0] + np.sqrt(0.12**2 - (0.14 - c[:, 1])**2), np.full(samples, 0.14)], axis=1)
+    links = [link("O2", "A", BAR, time, (2, 3))]
+    links += [link(names[k], names[k + 1], BAR, time, (0, 0)) for k in range(elements)]
+    links.append(link("C", "D", STRIP, time, (2, 3)))
+    return Running(abs(speed), pins, {"O2": (0, 0), "O4": foot}, links, {(0, 0)}, {"D": np.array([1.0, 0.0])},
+                   {"A": 0.03, "D": 0.2}, welds=[((k, 1), (k + 1, 0)) for k in range(1, elements)],
+                   block={"pin": "A", "on": list(range(1, elements + 1)), "inertia": 1e-5})
 
 
 ENGINE_PULLS = [{"damping": 40.0, "ends": ("A", "P")}, {"damping": 0.05, "turning": ((1, 0), (0, 1))}, {"damping": 20.0, "ends": ("B", "P")}]
@@ -182,6 +215,55 @@ def compare(case, program, folder, samples, orders):
     return name, model, worst, tables, model.lost_power()[0], mean
 
 
+def block_on_lever(program, folder, speed, time, meshes, samples):
+    """A block on a lever that bends, at the samples themselves: with more nodes the differences fall."""
+    cards = HEAD.replace("0 to 357.1875 step 2.8125", " ".join(f"{360 * k / samples:.16g}" for k in range(samples))) + LEVER
+    cards = cards.replace("TIME", f"{time:g}").replace("SPEEDS", f"{speed:g}")
+    path = os.path.join(folder, "lever.deck")
+    with open(path, "w", encoding="ascii") as file:
+        file.write(cards + "END\n")
+    subprocess.run([program, "--quiet", "--out", folder, path], check=True)
+    tables = os.path.join(folder, "lever")
+    rows, strains = table(tables, "response.dat"), table(tables, "strains.dat")
+    for elements in meshes:
+        model = slotted_lever(samples, speed, time, elements)
+        model.solve()
+        said = []
+        for end, (i, which) in {"A:crank": (0, 1), "C:lever": (elements, 1), "C:rod": (elements + 1, 0), "D:rod": (elements + 1, 1)}.items():
+            here = np.array([[float(v) for v in r[3:6]] for r in rows if r[2] == end])
+            moved, turned = model.displacement(model.links[i].ends[which]), model.rotation(i, which) * 180 / np.pi
+            said.append(f"{end} {np.abs(here[:, :2] / 1e3 - moved).max() / np.linalg.norm(moved, axis=1).max():.1e} "
+                        f"{np.abs(here[:, 2] - turned).max() / np.abs(turned).max():.1e}")
+        for g, place in (("g1", 0.06), ("g2", 0.13), ("g3", 0.25)):
+            here = np.array([[float(v) for v in r[3:5]] for r in strains if r[2] == g])
+            which = min(int(place / 0.32 * elements), elements - 1)
+            axial, curvature = model.strains(1 + which, place - 0.32 * which / elements)
+            bent = curvature * BAR / 2
+            said.append(f"{g} {np.abs(here[:, 0] - axial).max() / np.abs(axial).max():.1e} "
+                        f"{np.abs(here[:, 1] - bent).max() / np.abs(bent).max():.1e}")
+        print(f"block on a lever, {speed:g} rad/s, {elements} elements, {samples} samples: " + ", ".join(said), flush=True)
+
+
+def slow_lever(program, folder, samples, elements):
+    """The lever at falling speeds, per square of the speed, less the deflection of the frozen linkage."""
+    model = slotted_lever(samples, 1e-3, 0.0, elements)
+    model.solve(at_rest=True)
+    known = model.rotation(elements, 1) * 1e6 * 180 / np.pi
+    speeds = [8.0, 4.0, 2.0]
+    cranks = " ".join(f"{360 * k / samples:.16g}" for k in range(samples))
+    text = HEAD.replace("0 to 357.1875 step 2.8125", cranks) + LEVER
+    path = os.path.join(folder, "slow.deck")
+    with open(path, "w", encoding="ascii") as file:
+        file.write(text.replace("TIME", "1e-5").replace("SPEEDS", " ".join(f"{s:g}" for s in speeds)) + "END\n")
+    subprocess.run([program, "--quiet", "--out", folder, path], check=True)
+    rows = table(os.path.join(folder, "slow"), "response.dat")
+    said = []
+    for speed in speeds:
+        found = np.array([float(r[5]) for r in rows if float(r[0]) == speed and r[2] == "C:lever"]) / speed**2
+        said.append(f"{speed:g} rad/s {np.abs(found - known).max() / np.abs(known).max():.2e}")
+    print("block on a lever: rotations of its end at " + ", ".join(said), flush=True)
+
+
 def slow(program, folder, samples, orders):
     """The response to the inertia loads at falling speeds, per square of the speed, less the deflection of the frozen linkage."""
     for name, cards, build, ends in (("engine", ENGINE, engine, {"A:crank": (0, 1), "A:rod": (1, 0), "B:rod": (1, 1)}),
@@ -233,6 +315,9 @@ def main():
             said = ", ".join(f"{what} {value:.1e}" for what, value in worst.items())
             print(f"{name}, {case[4]:g} rad/s: {said}; power of the drive {power:.10g} W, of links and dampers "
                   f"{of_links + lost:.10g} W; highest harmonics {tail[-4:].max() / tail.max():.0e}")
+        block_on_lever(options.program, folder, 8.0, 1e-3, (4, 8, 16), 65)
+        block_on_lever(options.program, folder, 25.0, 1e-3, (8, 16), 65)
+        slow_lever(options.program, folder, 65, 12)
         in_time(options.program, folder, options.samples, (6, 9))
         slow(options.program, folder, 97, (6, 9))
 

@@ -7,6 +7,7 @@ module linkage_checks
   use deck_lengths, only: crank_text, in_deck, length_text
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use drive_cards, only: moves_along
+  use elastic_linkages, only: is_piece
   use errors, only: error_of_dead_point, error_of_reach, error_t
   use kinds, only: wp
   use link_cards, only: has_own_mass
@@ -16,6 +17,7 @@ module linkage_checks
   use models, only: drives_length, effects_axial, model_t, needs_frequencies, needs_response, &
     report_number, solver_band, solver_dense, steady_state_report
   use plan_words, only: group_names
+  use process_cards, only: process_force
   use pose_types, only: pose_t
   use poses, only: place_links, place_parts
   use ram_checks, only: check_rams
@@ -110,14 +112,8 @@ contains
       return
     end if
     if (allocated(mechanism%elastic)) then
-      do i = 1, size(model%sliders)
-        if (mechanism%elastic%contact(i) == 0) cycle
-        call add_error(diagnostics, model%sliders(i)%pin, name//" is not found yet with a "// &
-          "block that slides along a link that bends; expected '"// &
-          model%links(model%sliders(i)%link)%name%text//"' to be rigid", &
-          model%reports(report)%keyword, "it is asked for here")
-        return
-      end do
+      call check_running_blocks(model, mechanism, report, diagnostics)
+      if (has_errors(diagnostics)) return
     end if
     i = steady_state_report(model)
     if (i > 0) then
@@ -141,6 +137,76 @@ contains
         kind=error_of_reach)
     end if
   end subroutine check_running
+
+  !> Blocks that slide along links that bend: material moves through the functions of the pieces
+  !! between the ends of the link and the block, which are those of slender uniform beams.
+  pure subroutine check_running_blocks(model, mechanism, report, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism  !! with parts
+    integer, intent(in) :: report               !! number of the report that asks for it
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=:), allocatable :: reason
+    integer :: i
+
+    do i = 1, size(model%sliders)
+      if (mechanism%elastic%contact(i) == 0) cycle
+      reason = reason_of_block(model, mechanism, i)
+      if (len(reason) == 0) cycle
+      call add_error(diagnostics, model%sliders(i)%pin, "REPORT "// &
+        trim(model%reports(report)%kind%name)//" is not found yet with a block that slides "// &
+        "along a link that bends"//reason, model%reports(report)%keyword, "it is asked for here")
+      return
+    end do
+  end subroutine check_running_blocks
+
+  !> Why a linkage with a block on a link that bends is not followed in motion, and what would do;
+  !! empty: it is.
+  pure function reason_of_block(model, mechanism, number) result(reason)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    integer, intent(in) :: number       !! of the slider
+    character(len=:), allocatable :: reason
+
+    character(len=:), allocatable :: rigid_link
+    logical :: thick
+    integer :: i
+
+    reason = ""
+    associate (link => model%sliders(number)%link, elastic => mechanism%elastic)
+      rigid_link = "'"//model%links(link)%name%text//"' to be rigid"
+      thick = any((elastic%beams%shear_stiffness > 0.0_wp .or. elastic%beams%rotary_inertia > &
+        0.0_wp) .and. elastic%body == mechanism%linkage%sliders(number)%body)
+      if (count(model%sliders%link == link) > 1) then
+        reason = " under several blocks; expected one block, or "//rigid_link
+      else if (any(model%masses%link == link)) then
+        reason = " with masses along it; expected them at its pins, or "//rigid_link
+      else if (any(model%processes%kind == process_force .and. model%processes%on_link .and. &
+        model%processes%link == link)) then
+        reason = " with forces along it; expected them at its pins, or "//rigid_link
+      else if (count(elastic%body == mechanism%linkage%sliders(number)%body .and. &
+        is_piece(elastic, [(i, i=1, size(elastic%body))])) > 2) then
+        reason = " with pins along the way of the block; expected these at its ends, or "//rigid_link
+      else if (model%sliders(number)%turned_link > 0) then
+        ! Its couple makes the curvature jump, and the jump moves through the material.
+        reason = " and turns with '"//model%links(model%sliders(number)%turned_link)%name%text// &
+          "'; expected a block that turns on it, or "//rigid_link
+      else if (thick) then
+        reason = " with shear or rotary inertia; expected a slender one, or "//rigid_link
+      else if (model%links(link)%damping > 0) then
+        associate (damping => model%dampings(model%links(link)%damping))
+          if (damping%ratio > 0.0_wp) then
+            reason = " with the damping ratio of its own modes, which change with the place of "// &
+              "the block; expected 'time=' on its DAMPING card"
+          else if (damping%time > 0.0_wp .and. model%sliders(number)%inertia > 0.0_wp) then
+            ! As the jump of its couple does.
+            reason = " whose inertia= turns with it while DAMPING takes energy at the jump of "// &
+              "the curvature under the block; expected no inertia of the block, or no damping"
+          end if
+        end associate
+      end if
+    end associate
+  end function reason_of_block
 
   !> The moment in the contact of a block that does not turn on a link that bends does work of the
   !! second order on its curvature, which jumps there: a block without length has no such term.
