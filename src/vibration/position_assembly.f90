@@ -102,7 +102,7 @@ contains
     type(ledger_t), intent(inout) :: counts                     !! of the work done
 
     type(error_t), allocatable :: error
-    integer :: i, k
+    integer :: i
 
     here%loads = find_unit_loads(structure%linkage, pose, coefficients, any(abs(factor) > 0.0_wp, &
       dim=2))
