@@ -186,7 +186,8 @@ contains
         reason = " with forces along it; expected them at its pins, or "//rigid_link
       else if (count(elastic%body == mechanism%linkage%sliders(number)%body .and. &
         is_piece(elastic, [(i, i=1, size(elastic%body))])) > 2) then
-        reason = " with pins along the way of the block; expected these at its ends, or "//rigid_link
+        reason = " with pins along the way of the block; expected them at its ends, or "// &
+          rigid_link
       else if (model%sliders(number)%turned_link > 0) then
         ! Its couple makes the curvature jump, and the jump moves through the material.
         reason = " and turns with '"//model%links(model%sliders(number)%turned_link)%name%text// &
