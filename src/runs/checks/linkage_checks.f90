@@ -1,28 +1,23 @@
 !> Checks of linkages that are no four-bars and have a plan: whether they assemble near the drawing,
 !! fit, and reach the positions of the deck.
 module linkage_checks
-  use bending_checks, only: check_forces_on_links
   use block_checks, only: check_blocks
-  use coupled_drives, only: find_coupled_drives
   use deck_lengths, only: crank_text, in_deck, length_text
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
-  use drive_cards, only: moves_along
-  use elastic_linkages, only: is_piece
+  use division_checks, only: check_coupled_drives, check_shared_forces
   use errors, only: error_of_dead_point, error_of_reach, error_t
   use kinds, only: wp
-  use link_cards, only: has_own_mass
   use linkage_parts, only: assembly_t
   use linkages, only: groups_dyad, is_dyad_linkage, linkage_t, reference_point
   use mechanisms, only: mechanism_t, pins_of_body
   use models, only: drives_length, effects_axial, model_t, needs_frequencies, needs_response, &
-    report_number, solver_band, solver_dense, steady_state_report
+    report_number, solver_band, solver_dense
   use plan_words, only: group_names
-  use process_cards, only: process_force
   use pose_types, only: pose_t
   use poses, only: place_links, place_parts
   use ram_checks, only: check_rams
   use redundancies, only: body_of_redundancy, largest_misfit
-  use steady_turns, only: has_steady_turn
+  use response_linkage_checks, only: check_running
   use text, only: lower_case, plural, to_string
   use tokens, only: token_t
   implicit none (type, external)
@@ -92,123 +87,6 @@ contains
       mechanism, diagnostics)
   end subroutine check_linkage
 
-  !> The running elastic linkage: which ones its equations are for.
-  pure subroutine check_running(model, mechanism, diagnostics)
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
-    type(diagnostics_t), intent(inout) :: diagnostics
-
-    character(len=:), allocatable :: name
-    integer :: i, report
-
-    report = findloc(model%reports%kind%response, .true., dim=1)
-    name = "REPORT "//trim(model%reports(report)%kind%name)
-    i = findloc(model%drives%is_free, .true., dim=1)
-    if (i > 0) then
-      call add_error(diagnostics, model%drives(i)%keyword, name//" is on a linkage whose "// &
-        "drives keep to their motion, and this one is free; expected no 'free'; REPORT motion "// &
-        "moves free drives, of rigid links, and frequencies are those of a position", &
-        model%reports(report)%keyword, "it is asked for here")
-      return
-    end if
-    if (allocated(mechanism%elastic)) then
-      call check_running_blocks(model, mechanism, report, diagnostics)
-      if (has_errors(diagnostics)) return
-    end if
-    i = steady_state_report(model)
-    if (i > 0) then
-      report = i
-      name = "the steady state"
-    else if (allocated(mechanism%elastic)) then
-      ! Border unknowns are smooth functions of the angle over a whole turn.
-      name = "the motion"
-    else
-      return
-    end if
-    if (has_steady_turn(mechanism%linkage)) return
-    name = "; REPORT "//trim(model%reports(report)%kind%name)//" is on "//name//" of a crank "// &
-      "that turns fully, and there is none; frequencies at positions do without"
-    if (drives_length(model)) then
-      call add_error(diagnostics, model%drives(1)%keyword, "the first DRIVE moves a slider "// &
-        "or a ram"//name, kind=error_of_reach)
-    else
-      call add_error(diagnostics, model%reports(report)%keyword, "the crank does not turn "// &
-        "fully, meets a dead point, or the links are elsewhere after a turn"//name, &
-        kind=error_of_reach)
-    end if
-  end subroutine check_running
-
-  !> Blocks that slide along links that bend: material moves through the functions of the pieces
-  !! between the ends of the link and the block, which are those of slender uniform beams.
-  pure subroutine check_running_blocks(model, mechanism, report, diagnostics)
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism  !! with parts
-    integer, intent(in) :: report               !! number of the report that asks for it
-    type(diagnostics_t), intent(inout) :: diagnostics
-
-    character(len=:), allocatable :: reason
-    integer :: i
-
-    do i = 1, size(model%sliders)
-      if (mechanism%elastic%contact(i) == 0) cycle
-      reason = reason_of_block(model, mechanism, i)
-      if (len(reason) == 0) cycle
-      call add_error(diagnostics, model%sliders(i)%pin, "REPORT "// &
-        trim(model%reports(report)%kind%name)//" is not found yet with a block that slides "// &
-        "along a link that bends"//reason, model%reports(report)%keyword, "it is asked for here")
-      return
-    end do
-  end subroutine check_running_blocks
-
-  !> Why a linkage with a block on a link that bends is not followed in motion, and what would do;
-  !! empty: it is.
-  pure function reason_of_block(model, mechanism, number) result(reason)
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
-    integer, intent(in) :: number       !! of the slider
-    character(len=:), allocatable :: reason
-
-    character(len=:), allocatable :: rigid_link
-    logical :: thick
-    integer :: i
-
-    reason = ""
-    associate (link => model%sliders(number)%link, elastic => mechanism%elastic)
-      rigid_link = "'"//model%links(link)%name%text//"' to be rigid"
-      thick = any((elastic%beams%shear_stiffness > 0.0_wp .or. elastic%beams%rotary_inertia > &
-        0.0_wp) .and. elastic%body == mechanism%linkage%sliders(number)%body)
-      if (count(model%sliders%link == link) > 1) then
-        reason = " under several blocks; expected one block, or "//rigid_link
-      else if (any(model%masses%link == link)) then
-        reason = " with masses along it; expected them at its pins, or "//rigid_link
-      else if (any(model%processes%kind == process_force .and. model%processes%on_link .and. &
-        model%processes%link == link)) then
-        reason = " with forces along it; expected them at its pins, or "//rigid_link
-      else if (count(elastic%body == mechanism%linkage%sliders(number)%body .and. &
-        is_piece(elastic, [(i, i=1, size(elastic%body))])) > 2) then
-        reason = " with pins along the way of the block; expected them at its ends, or "// &
-          rigid_link
-      else if (model%sliders(number)%turned_link > 0) then
-        ! Its couple makes the curvature jump, and the jump moves through the material.
-        reason = " and turns with '"//model%links(model%sliders(number)%turned_link)%name%text// &
-          "'; expected a block that turns on it, or "//rigid_link
-      else if (thick) then
-        reason = " with shear or rotary inertia; expected a slender one, or "//rigid_link
-      else if (model%links(link)%damping > 0) then
-        associate (damping => model%dampings(model%links(link)%damping))
-          if (damping%ratio > 0.0_wp) then
-            reason = " with the damping ratio of its own modes, which change with the place of "// &
-              "the block; expected 'time=' on its DAMPING card"
-          else if (damping%time > 0.0_wp .and. model%sliders(number)%inertia > 0.0_wp) then
-            ! As the jump of its couple does.
-            reason = " whose inertia= turns with it while DAMPING takes energy at the jump of "// &
-              "the curvature under the block; expected no inertia of the block, or no damping"
-          end if
-        end associate
-      end if
-    end associate
-  end function reason_of_block
-
   !> The moment in the contact of a block that does not turn on a link that bends does work of the
   !! second order on its curvature, which jumps there: a block without length has no such term.
   pure subroutine warn_of_held_blocks(model, diagnostics)
@@ -226,156 +104,6 @@ contains
         "bends: what the moment between them adds to the stiffness is left out")
     end do
   end subroutine warn_of_held_blocks
-
-  !> Forces that links share which are more than needed: their elasticity divides them. Rigid ones
-  !! have none.
-  pure subroutine check_shared_forces(model, mechanism, diagnostics)
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
-    type(diagnostics_t), intent(inout) :: diagnostics
-
-    character(len=:), allocatable :: in_links
-    integer :: motion, report
-    logical :: in_motion
-
-    in_links = "in '"//mechanism%names(max(1, body_of_redundancy(mechanism%linkage, 1)))%text// &
-      "' and the links that hold the same pins"
-    report = max(report_number(model, "reactions"), report_number(model, "bearings"), &
-      report_number(model, "sizing"))
-    motion = report_number(model, "motion")
-    in_motion = .false.
-    if (motion > 0) in_motion = model%reports(motion)%with_forces
-    if (.not. allocated(mechanism%elastic)) then
-      if (report > 0) then
-        call add_error(diagnostics, model%reports(report)%keyword, "the forces "//in_links// &
-          " cannot be told apart while all are rigid; REPORT drive, frame and lagrange do not "// &
-          "need them")
-      else if (size(model%frictions) > 0) then
-        call add_error(diagnostics, model%frictions(1)%keyword, "friction depends on the "// &
-          "forces in the joints, and those "//in_links//" cannot be told apart while all are rigid")
-      end if
-      if (in_motion) call add_error(diagnostics, model%reports(motion)%forces_word, &
-        "the forces "//in_links//" cannot be told apart while all are rigid; accelerations and "// &
-        "power do not need them")
-      return
-    end if
-    if (size(model%frictions) > 0) call check_divided_friction(model, in_links, diagnostics)
-    if (in_motion) call check_divided_motion(model, in_links, diagnostics)
-    if (report > 0 .or. in_motion .or. size(model%frictions) > 0) call &
-      check_dividing_links(model, mechanism, in_links, diagnostics)
-  end subroutine check_shared_forces
-
-  !> Drives that a link more than needed joins hold it with any force: their torques are open.
-  pure subroutine check_coupled_drives(model, mechanism, diagnostics)
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
-    type(diagnostics_t), intent(inout) :: diagnostics
-
-    type(error_t), allocatable :: error
-    type(pose_t) :: pose
-    character(len=:), allocatable :: name
-    integer, allocatable :: drives(:)
-    integer :: i, redundancy, report
-
-    report = max(report_number(model, "drive"), report_number(model, "sizing"))
-    ! Couples of links that turn together follow with those of drives.
-    if (report == 0 .and. size(mechanism%linkage%turns) > 0) report = &
-      report_number(model, "reactions")
-    if (report == 0 .or. size(model%drives) < 2) return
-    redundancy = 0
-    do i = 1, size(model%crank%value), 1 + size(model%crank%value)/most_samples
-      call place_links(mechanism%linkage, model%crank%value(i), pose, error)
-      if (allocated(error)) cycle
-      call find_coupled_drives(mechanism%linkage, pose, redundancy, drives)
-      if (redundancy > 0) exit
-    end do
-    if (redundancy == 0) return
-    name = "a slider"
-    i = body_of_redundancy(mechanism%linkage, redundancy)
-    if (i > 0) name = "'"//mechanism%names(i)%text//"'"
-    call add_error(diagnostics, model%reports(report)%keyword, "the forces of the drives "// &
-      "cannot be told apart: "//name//" joins what they move, and they may hold it with any "// &
-      "force; expected one DRIVE less", &
-      model%drives(maxval(drives))%keyword, "one of these drives")
-  end subroutine check_coupled_drives
-
-  !> Friction depends on the forces that elasticity divides, at given positions and speeds.
-  pure subroutine check_divided_friction(model, in_links, diagnostics)
-    type(model_t), intent(in) :: model
-    character(len=*), intent(in) :: in_links
-    type(diagnostics_t), intent(inout) :: diagnostics
-
-    character(len=*), parameter :: without(*) = [character(len=7) :: "motion", "balance"]
-    integer :: i, report
-
-    do i = 1, size(without)
-      report = report_number(model, trim(without(i)))
-      if (report == 0) cycle
-      call add_error(diagnostics, model%frictions(1)%keyword, "friction depends on the forces "// &
-        "in the joints, and those "//in_links//" are divided by how links bend; REPORT "// &
-        trim(without(i))//" does not know it: expected no friction", &
-        model%reports(report)%keyword, "it is asked for here")
-      return
-    end do
-  end subroutine check_divided_friction
-
-  !> A second drive that holds its link bears a torque that only elasticity tells.
-  pure subroutine check_divided_motion(model, in_links, diagnostics)
-    type(model_t), intent(in) :: model
-    character(len=*), intent(in) :: in_links
-    type(diagnostics_t), intent(inout) :: diagnostics
-
-    integer :: i
-
-    do i = 2, size(model%drives)
-      if (model%drives(i)%is_free .or. moves_along(model%drives(i)%kind)) cycle
-      call add_error(diagnostics, model%drives(i)%keyword, "the forces "//in_links// &
-        " are divided by how links bend, and in a motion not with a second drive that holds "// &
-        "its link; expected 'free'", model%reports(report_number(model, "motion"))%forces_word, &
-        "they are asked for here")
-      return
-    end do
-  end subroutine check_divided_motion
-
-  !> Links that bend have the mass of their sections, and loads between their ends.
-  pure subroutine check_dividing_links(model, mechanism, in_links, diagnostics)
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
-    character(len=*), intent(in) :: in_links
-    type(diagnostics_t), intent(inout) :: diagnostics
-
-    integer :: i
-
-    do i = 1, size(model%links)
-      if (model%links(i)%rigid .or. .not. has_own_mass(model%links(i))) cycle
-      call add_error(diagnostics, model%links(i)%body_word, "link '"//model%links(i)%name%text// &
-        "' bends, and a beam has the mass of its section: the forces "//in_links// &
-        " are divided by how links bend; expected 'rigid' on this card, or no '"// &
-        model%links(i)%body_word%text//"='")
-      return
-    end do
-    do i = 1, size(mechanism%elastic%contact)
-      if (mechanism%elastic%contact(i) == 0) cycle
-      if (mechanism%load_elements(mechanism%linkage%sliders(i)%body) == 0) cycle
-      call add_error(diagnostics, model%inertia_word, "the masses of link '"// &
-        mechanism%names(mechanism%linkage%sliders(i)%body)%text//"' are not lumped where a "// &
-        "block divides it, and the forces "//in_links//" are divided by how links bend; "// &
-        "expected: INERTIA distributed")
-      return
-    end do
-    do i = 1, size(model%masses)
-      if (model%masses(i)%link == 0 .or. .not. model%masses(i)%inertia > 0.0_wp) cycle
-      if (model%links(model%masses(i)%link)%rigid) cycle
-      if (all(mechanism%load_elements == 0)) exit
-      call add_error(diagnostics, model%inertia_word, "masses are lumped, and one with a "// &
-        "moment of inertia turns with link '"//model%links(model%masses(i)%link)%name%text// &
-        "', which bends: the forces "//in_links//" are divided by how links bend; expected: "// &
-        "INERTIA distributed", model%masses(i)%place_word, "the mass is here")
-      return
-    end do
-    if (needs_frequencies(model)) return
-    call check_forces_on_links(diagnostics, model, .true.)
-  end subroutine check_dividing_links
 
   !> A mesh of the deck, and its nodal matrices, are of links that are placed two by two.
   pure subroutine check_mesh(model, mechanism, diagnostics)

@@ -1,0 +1,136 @@
+!> Checks of linkages that are no four-bars where the elastic response is asked for: which ones its
+!! equations are for.
+module response_linkage_checks
+  use diagnostics, only: add_error, diagnostics_t, has_errors
+  use elastic_linkages, only: is_piece
+  use errors, only: error_of_reach
+  use kinds, only: wp
+  use mechanisms, only: mechanism_t
+  use models, only: drives_length, model_t, steady_state_report
+  use process_cards, only: process_force
+  use steady_turns, only: has_steady_turn
+  implicit none (type, external)
+  private
+
+  public :: check_running
+
+contains
+
+  !> The running elastic linkage: which ones its equations are for.
+  pure subroutine check_running(model, mechanism, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=:), allocatable :: name
+    integer :: i, report
+
+    report = findloc(model%reports%kind%response, .true., dim=1)
+    name = "REPORT "//trim(model%reports(report)%kind%name)
+    i = findloc(model%drives%is_free, .true., dim=1)
+    if (i > 0) then
+      call add_error(diagnostics, model%drives(i)%keyword, name//" is on a linkage whose "// &
+        "drives keep to their motion, and this one is free; expected no 'free'; REPORT motion "// &
+        "moves free drives, of rigid links, and frequencies are those of a position", &
+        model%reports(report)%keyword, "it is asked for here")
+      return
+    end if
+    if (allocated(mechanism%elastic)) then
+      call check_running_blocks(model, mechanism, report, diagnostics)
+      if (has_errors(diagnostics)) return
+    end if
+    i = steady_state_report(model)
+    if (i > 0) then
+      report = i
+      name = "the steady state"
+    else if (allocated(mechanism%elastic)) then
+      ! Border unknowns are smooth functions of the angle over a whole turn.
+      name = "the motion"
+    else
+      return
+    end if
+    if (has_steady_turn(mechanism%linkage)) return
+    name = "; REPORT "//trim(model%reports(report)%kind%name)//" is on "//name//" of a crank "// &
+      "that turns fully, and there is none; frequencies at positions do without"
+    if (drives_length(model)) then
+      call add_error(diagnostics, model%drives(1)%keyword, "the first DRIVE moves a slider "// &
+        "or a ram"//name, kind=error_of_reach)
+    else
+      call add_error(diagnostics, model%reports(report)%keyword, "the crank does not turn "// &
+        "fully, meets a dead point, or the links are elsewhere after a turn"//name, &
+        kind=error_of_reach)
+    end if
+  end subroutine check_running
+
+  !> Blocks that slide along links that bend: material moves through the functions of the pieces
+  !! between the ends of the link and the block, which are those of slender uniform beams.
+  pure subroutine check_running_blocks(model, mechanism, report, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism  !! with parts
+    integer, intent(in) :: report               !! number of the report that asks for it
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=:), allocatable :: reason
+    integer :: i
+
+    do i = 1, size(model%sliders)
+      if (mechanism%elastic%contact(i) == 0) cycle
+      reason = reason_of_block(model, mechanism, i)
+      if (len(reason) == 0) cycle
+      call add_error(diagnostics, model%sliders(i)%pin, "REPORT "// &
+        trim(model%reports(report)%kind%name)//" is not found yet with a block that slides "// &
+        "along a link that bends"//reason, model%reports(report)%keyword, "it is asked for here")
+      return
+    end do
+  end subroutine check_running_blocks
+
+  !> Why a linkage with a block on a link that bends is not followed in motion, and what would do;
+  !! empty: it is.
+  pure function reason_of_block(model, mechanism, number) result(reason)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    integer, intent(in) :: number       !! of the slider
+    character(len=:), allocatable :: reason
+
+    character(len=:), allocatable :: rigid_link
+    logical :: thick
+    integer :: i
+
+    reason = ""
+    associate (link => model%sliders(number)%link, elastic => mechanism%elastic)
+      rigid_link = "'"//model%links(link)%name%text//"' to be rigid"
+      thick = any((elastic%beams%shear_stiffness > 0.0_wp .or. elastic%beams%rotary_inertia > &
+        0.0_wp) .and. elastic%body == mechanism%linkage%sliders(number)%body)
+      if (count(model%sliders%link == link) > 1) then
+        reason = " under several blocks; expected one block, or "//rigid_link
+      else if (any(model%masses%link == link)) then
+        reason = " with masses along it; expected them at its pins, or "//rigid_link
+      else if (any(model%processes%kind == process_force .and. model%processes%on_link .and. &
+        model%processes%link == link)) then
+        reason = " with forces along it; expected them at its pins, or "//rigid_link
+      else if (count(elastic%body == mechanism%linkage%sliders(number)%body .and. &
+        is_piece(elastic, [(i, i=1, size(elastic%body))])) > 2) then
+        reason = " with pins along the way of the block; expected them at its ends, or "// &
+          rigid_link
+      else if (model%sliders(number)%turned_link > 0) then
+        ! Its couple makes the curvature jump, and the jump moves through the material.
+        reason = " and turns with '"//model%links(model%sliders(number)%turned_link)%name%text// &
+          "'; expected a block that turns on it, or "//rigid_link
+      else if (thick) then
+        reason = " with shear or rotary inertia; expected a slender one, or "//rigid_link
+      else if (model%links(link)%damping > 0) then
+        associate (damping => model%dampings(model%links(link)%damping))
+          if (damping%ratio > 0.0_wp) then
+            reason = " with the damping ratio of its own modes, which change with the place of "// &
+              "the block; expected 'time=' on its DAMPING card"
+          else if (damping%time > 0.0_wp .and. model%sliders(number)%inertia > 0.0_wp) then
+            ! As the jump of its couple does.
+            reason = " whose inertia= turns with it while DAMPING takes energy at the jump of "// &
+              "the curvature under the block; expected no inertia of the block, or no damping"
+          end if
+        end associate
+      end if
+    end associate
+  end function reason_of_block
+
+end module response_linkage_checks
