@@ -1,5 +1,5 @@
-!> Checks of links that are more than needed: whether their elasticity divides the forces between them
-!! in the reports of a deck.
+!> Checks of links that are more than needed: whether their elasticity divides the forces between
+!! them in the reports of a deck.
 module division_checks
   use bending_checks, only: check_forces_on_links
   use coupled_drives, only: find_coupled_drives
