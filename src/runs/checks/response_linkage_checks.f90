@@ -124,9 +124,8 @@ contains
             reason = " with the damping ratio of its own modes, which change with the place of "// &
               "the block; expected 'time=' on its DAMPING card"
           else if (damping%time > 0.0_wp .and. model%sliders(number)%inertia > 0.0_wp) then
-            ! As the jump of its couple does.
-            reason = " whose inertia= turns with it while DAMPING takes energy at the jump of "// &
-              "the curvature under the block; expected no inertia of the block, or no damping"
+            ! The jump of the curvature under it would lose energy as it moves.
+            reason = " with 'inertia=' of the block and DAMPING of the link; expected one of them"
           end if
         end associate
       end if
