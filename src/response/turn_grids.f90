@@ -495,6 +495,9 @@ contains
     here%loads = find_unit_loads(structure%linkage, pose, coefficients)
     call find_part_loads(structure%linkage, pose, here%loads, here%elastic, here%pose, &
       here%part_loads)
+    ! Of blocks: their I ω² of the second order is that of a linkage at rest. In motion it would
+    ! cancel with a centripetal term, for ½ I (ω + θ')² has no θ², and both are left out.
+    here%part_loads%carried(4, :, :) = 0.0_wp
     call find_part_forces(structure%linkage, here%elastic, here%model%links, here%pose, &
       here%part_loads, here%border, chords, here%part_forces)
     call take_forces(here%part_forces%axial, k, grid)
