@@ -11,7 +11,7 @@ module cut_ways
   implicit none (type, external)
   private
 
-  public :: cut_t, cut_way_t, carried_t, find_ways, nearest_way, fixed_lumps
+  public :: cut_t, cut_way_t, carried_t, find_ways, ways_under, nearest_way, fixed_lumps
 
   !> A place where a way is cut.
   type :: cut_t
@@ -52,6 +52,9 @@ module cut_ways
 
   !> Pins nearer to the line of a block than this share of the way between them are on it.
   real(wp), parameter :: near = 1.0e-6_wp
+
+  !> The same of pins that are meant to be on it, and drawn with some six digits.
+  real(wp), parameter :: drawn = 1.0e-5_wp
 
   !> Rounding of a place, as a share of the way; sine of the angle between two ways that are one.
   real(wp), parameter :: rounding = 4.0_wp*epsilon(1.0_wp), straight = 1.0e-12_wp
@@ -184,14 +187,32 @@ contains
     end do
   end function goes_on
 
+  !> How many ways of a link lie on the line of a block: more than one where pins between them are
+  !! off the line by more than rounding.
+  pure function ways_under(linkage, slider, ways) result(number)
+    type(linkage_t), intent(in) :: linkage  !! planned
+    integer, intent(in) :: slider           !! along a link that bends
+    type(cut_way_t), intent(in) :: ways(:)  !! of this linkage
+    integer :: number
+
+    integer :: i
+
+    number = 0
+    do i = 1, size(ways)
+      if (ways(i)%body /= linkage%sliders(slider)%body) cycle
+      if (length_on_line(linkage, slider, ways(i)%pins, drawn) > 0.0_wp) number = number + 1
+    end do
+  end function ways_under
+
   !> Length of the way between two pins that lies on the line of a block; 0: it does not.
-  pure function length_on_line(linkage, slider, pins) result(length)
+  pure function length_on_line(linkage, slider, pins, share) result(length)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: slider
     integer, intent(in) :: pins(2)
+    real(wp), intent(in), optional :: share !! in place of `near`
     real(wp) :: length
 
-    real(wp) :: first(2), last(2), off(2)
+    real(wp) :: first(2), last(2), off(2), least
 
     associate (line => linkage%sliders(slider), &
         body => linkage%bodies(linkage%sliders(slider)%body))
@@ -200,7 +221,9 @@ contains
       length = norm2(last - first)
       off = abs([cross(line%direction, first - line%point), cross(line%direction, last - &
         line%point)])
-      if (any(off > near*length)) length = 0.0_wp
+      least = near*length
+      if (present(share)) least = share*length
+      if (any(off > least)) length = 0.0_wp
     end associate
   end function length_on_line
 

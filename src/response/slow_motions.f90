@@ -567,8 +567,9 @@ contains
       motion%grows = .not. maxval(abs(motion%monodromy)) <= merge(most_growth, near_overflow, &
         k == n)
       if (.not. motion%grows) cycle
-      call set_error(error, error_of_numerics, "the linkage is unstable: its free vibrations "// &
-        "grow by a factor above 10^"//to_string(nint(log10(most_growth)))//" in a turn")
+      call set_error(error, error_of_numerics, "free vibrations seem to grow by a factor above "// &
+        "10^"//to_string(nint(log10(most_growth)))//" in a turn: the linkage is unstable, or "// &
+        "its slowest motions alone do not show how it vibrates")
       return
     end do
     motion%factor = -motion%monodromy

@@ -2,6 +2,7 @@
 !! fit, and reach the positions of the deck.
 module linkage_checks
   use block_checks, only: check_blocks
+  use cut_ways, only: ways_under
   use deck_lengths, only: crank_text, in_deck, length_text
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use division_checks, only: check_coupled_drives, check_shared_forces
@@ -77,6 +78,7 @@ contains
         "followed straight through change points; expected change_points=stop")
     end if
     call check_rams(model, mechanism, diagnostics)
+    if (allocated(mechanism%elastic)) call check_straight_guides(model, mechanism, diagnostics)
     if (needs_frequencies(model) .and. model%effects == effects_axial) call &
       warn_of_held_blocks(model, diagnostics)
     call check_reach(model, mechanism, leaving, diagnostics)
@@ -86,6 +88,26 @@ contains
     if (needs_response(model) .and. .not. has_errors(diagnostics)) call check_running(model, &
       mechanism, diagnostics)
   end subroutine check_linkage
+
+  !> A block passes pins of a link that bends where this is straight, to all digits: a corner that
+  !! rounding makes would be one more place where it bends.
+  pure subroutine check_straight_guides(model, mechanism, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: i
+
+    do i = 1, size(model%sliders)
+      if (mechanism%elastic%contact(i) == 0) cycle
+      if (ways_under(mechanism%linkage, i, mechanism%elastic%ways) < 2) cycle
+      associate (link => model%links(model%sliders(i)%link)%name)
+        call add_error(diagnostics, model%sliders(i)%pin, "a block on link '"//link%text// &
+          "', which is drawn straight but for rounding and bends; expected pins on one line to "// &
+          "12 digits or more, or 'lengths=' with 'turns=0'", link, "the link is here")
+      end associate
+    end do
+  end subroutine check_straight_guides
 
   !> The moment in the contact of a block that does not turn on a link that bends does work of the
   !! second order on its curvature, which jumps there: a block without length has no such term.

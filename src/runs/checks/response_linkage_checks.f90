@@ -7,7 +7,6 @@ module response_linkage_checks
   use kinds, only: wp
   use mechanisms, only: mechanism_t
   use models, only: drives_length, model_t, steady_state_report
-  use process_cards, only: process_force
   use steady_turns, only: has_steady_turn
   implicit none (type, external)
   private
@@ -104,10 +103,7 @@ contains
       if (count(model%sliders%link == link) > 1) then
         reason = " under several blocks; expected one block, or "//rigid_link
       else if (any(model%masses%link == link)) then
-        reason = " with masses along it; expected them at its pins, or "//rigid_link
-      else if (any(model%processes%kind == process_force .and. model%processes%on_link .and. &
-        model%processes%link == link)) then
-        reason = " with forces along it; expected them at its pins, or "//rigid_link
+        reason = " with a MASS along it; expected PINMASS cards, or "//rigid_link
       else if (count(elastic%body == mechanism%linkage%sliders(number)%body .and. &
         is_piece(elastic, [(i, i=1, size(elastic%body))])) > 2) then
         reason = " with pins along the way of the block; expected them at its ends, or "// &
@@ -121,8 +117,8 @@ contains
       else if (model%links(link)%damping > 0) then
         associate (damping => model%dampings(model%links(link)%damping))
           if (damping%ratio > 0.0_wp) then
-            reason = " with the damping ratio of its own modes, which change with the place of "// &
-              "the block; expected 'time=' on its DAMPING card"
+            reason = ", whose own modes with their damping ratio change with the place of the "// &
+              "block; expected 'time=' on its DAMPING card"
           else if (damping%time > 0.0_wp .and. model%sliders(number)%inertia > 0.0_wp) then
             ! The jump of the curvature under it would lose energy as it moves.
             reason = " with 'inertia=' of the block and DAMPING of the link; expected one of them"
