@@ -64,7 +64,7 @@ contains
     associate (this => mechanism%linkage%bodies(body))
       if (has_own_mass(model%links(mechanism%links(body)))) then
         words = "a body of its own"
-      else if (this%line_density <= 0.0_wp) then
+      else if (this%line_density <= 0.0_wp .and. this%own_lumps == 0) then
         words = "without mass"
       else if (mechanism%load_elements(body) > 0) then
         words = "lumped on "//plural(mechanism%load_elements(body), "element")
