@@ -11,7 +11,7 @@ module cut_ways
   implicit none (type, external)
   private
 
-  public :: cut_t, cut_way_t, carried_t, find_ways, ways_under, nearest_way, fixed_lumps
+  public :: cut_way_t, carried_t, find_ways, ways_under, nearest_way, fixed_lumps
 
   !> A place where a way is cut.
   type :: cut_t
@@ -182,8 +182,8 @@ contains
     if (dot_product(ways(:, 1), ways(:, 2)) < 0.0_wp) return
     do i = 1, size(linkage%sliders)
       if (linkage%sliders(i)%body /= b) cycle
-      goes = goes .or. (length_on_line(linkage, i, pins(1:2)) > 0.0_wp .and. &
-        length_on_line(linkage, i, pins(2:3)) > 0.0_wp)
+      goes = goes .or. (length_on_line(linkage, i, pins(1:2), near) > 0.0_wp .and. &
+        length_on_line(linkage, i, pins(2:3), near) > 0.0_wp)
     end do
   end function goes_on
 
@@ -209,10 +209,10 @@ contains
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: slider
     integer, intent(in) :: pins(2)
-    real(wp), intent(in), optional :: share !! in place of `near`
+    real(wp), intent(in) :: share !! of it that pins may be beside the line
     real(wp) :: length
 
-    real(wp) :: first(2), last(2), off(2), least
+    real(wp) :: first(2), last(2), off(2)
 
     associate (line => linkage%sliders(slider), &
         body => linkage%bodies(linkage%sliders(slider)%body))
@@ -221,9 +221,7 @@ contains
       length = norm2(last - first)
       off = abs([cross(line%direction, first - line%point), cross(line%direction, last - &
         line%point)])
-      least = near*length
-      if (present(share)) least = share*length
-      if (any(off > least)) length = 0.0_wp
+      if (any(off > share*length)) length = 0.0_wp
     end associate
   end function length_on_line
 
@@ -241,7 +239,7 @@ contains
     length = 0.0_wp
     do i = 1, size(ways)
       if (ways(i)%body == linkage%sliders(slider)%body) length(i) = length_on_line(linkage, &
-        slider, ways(i)%pins)
+        slider, ways(i)%pins, near)
     end do
     i = maxloc(length, dim=1)
     ways(i)%cuts = [ways(i)%cuts, cut_t(point=point, slider=slider)]

@@ -587,39 +587,30 @@ contains
 
     real(wp), allocatable :: w(:, :), slope(:, :), own_rates(:, :)
 
-    if (allocated(grid%pieces)) then
-      call strain_rates(grid, plan, y, w, slope, own_rates)
-      if (.not. allocated(grid%weighted)) own_rates(:, :grid%border) = slope
-      call add_own_damping(grid, speed, damping, own_rates, force)
-      if (allocated(grid%weighted)) call add_to_border(grid, speed, damping, slope, force)
+    if (.not. allocated(grid%weighted) .and. .not. allocated(grid%pieces)) then
+      call add_own_damping(grid, speed, damping, rates, force)
       return
     end if
-    call add_own_damping(grid, speed, damping, rates, force)
-    if (.not. allocated(grid%weighted)) return
-    w = deformations_of(grid, y)
-    allocate (slope, mold=w)
-    call derivatives(plan, w, slope)
-    call add_to_border(grid, speed, damping, slope, force)
+    call strain_rates(grid, plan, y, rates, w, slope, own_rates)
+    if (.not. allocated(grid%weighted)) own_rates(:, :grid%border) = slope
+    call add_own_damping(grid, speed, damping, own_rates, force)
+    if (allocated(grid%weighted)) call add_to_border(grid, speed, damping, slope, force)
   end subroutine add_damping
 
   !> Strains of parts in a motion, in the unknowns, and their rates in the material.
-  subroutine strain_rates(grid, plan, y, w, w_rates, rates)
+  subroutine strain_rates(grid, plan, y, first, w, w_rates, rates)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan           !! for its samples
     real(wp), intent(in) :: y(:, :)                    !! (samples, unknowns) [√J]
+    real(wp), intent(in) :: first(:, :)                !! (samples, unknowns) y'
     real(wp), allocatable, intent(out) :: w(:, :)      !! (samples, deformations) of ends of parts
     real(wp), allocatable, intent(out) :: w_rates(:, :) !! (samples, deformations)
     real(wp), allocatable, intent(out) :: rates(:, :)  !! (samples, unknowns), of own modes
 
-    if (allocated(grid%weighted)) then
-      w = deformations_of(grid, y)
-    else
-      w = y(:, :grid%border)
-    end if
+    w = deformations_of(grid, y)
     allocate (w_rates, mold=w)
-    allocate (rates, mold=y)
     call derivatives(plan, w, w_rates)
-    call derivatives(plan, y, rates)
+    rates = first
     if (allocated(grid%pieces)) call add_strain_convection(grid, w, y, w_rates, rates)
   end subroutine strain_rates
 
@@ -653,15 +644,20 @@ contains
     end do
   end subroutine add_to_border
 
-  !> Deformations of the ends of parts, of springs and dampers in a motion: w = Q y.
+  !> Deformations of the ends of parts, of springs and dampers in a motion: w = Q y, or the border
+  !! unknowns themselves.
   pure function deformations_of(grid, y) result(w)
-    type(turn_grid_t), intent(in) :: grid !! with more of them than border unknowns
+    type(turn_grid_t), intent(in) :: grid
     real(wp), intent(in) :: y(:, :)       !! (samples, unknowns) [√J]
-    real(wp) :: w(size(y, 1), size(grid%weighted, 2))
+    real(wp), allocatable :: w(:, :)      !! (samples, deformations)
 
     integer :: j
 
-    w = 0.0_wp
+    if (.not. allocated(grid%weighted)) then
+      w = y(:, :grid%border)
+      return
+    end if
+    allocate (w(size(y, 1), size(grid%weighted, 2)), source=0.0_wp)
     do j = 1, grid%border
       w = w + grid%weighted(:, :, j)*spread(y(:, j), 2, size(w, 2))
     end do

@@ -99,20 +99,16 @@ contains
     do j = 1, n
       y = 0.0_wp
       y(:, j) = 1.0_wp
-      allocate (w(grid%samples, d), w_rates(grid%samples, d), source=0.0_wp)
+      w = deformations_of(grid, y)
+      allocate (w_rates(grid%samples, d), source=0.0_wp)
       rates = 0.0_wp
-      if (allocated(grid%weighted)) then
-        w = deformations_of(grid, y)
-        if (j <= grid%border) w_rates = grid%weighted_slope(:, :, j)
-      else
-        w = y(:, :grid%border)
-      end if
+      if (allocated(grid%weighted) .and. j <= grid%border) w_rates = grid%weighted_slope(:, :, j)
       call add_strain_convection(grid, w, y, w_rates, rates)
       matrices%strain(:d, j, :) = transpose(w)
       matrices%strain(d + 1:, j, :) = transpose(y(:, grid%border + 1:))
       matrices%strain_slope(:d, j, :) = transpose(w_rates)
       matrices%strain_slope(d + 1:, j, :) = transpose(rates(:, grid%border + 1:))
-      deallocate (w, w_rates)
+      deallocate (w_rates)
     end do
   end subroutine find_strains
 

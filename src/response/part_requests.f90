@@ -58,7 +58,7 @@ contains
     logical :: is_second(size(elastic%body))
     integer :: k
 
-    is_second = moving_ends(elastic) == first_end
+    is_second = are_second(elastic)
     left = share*way_length(elastic, link)
     part = 0
     do k = 1, size(elastic%body)
@@ -70,6 +70,15 @@ contains
     xi = min(max(left/elastic%linkage%bodies(part)%length, 0.0_wp), 1.0_wp)
   end subroutine find_part_along
 
+  !> Which parts are the second piece of a way, behind a block: before it is placed the first has
+  !! the length of both.
+  pure function are_second(elastic)
+    type(elastic_linkage_t), intent(in) :: elastic
+    logical :: are_second(size(elastic%body))
+
+    are_second = moving_ends(elastic) == first_end
+  end function are_second
+
   !> Length of a link along its parts [m].
   pure function way_length(elastic, link) result(length)
     type(elastic_linkage_t), intent(in) :: elastic
@@ -77,7 +86,7 @@ contains
     real(wp) :: length
 
     length = sum(elastic%linkage%bodies%length, mask=elastic%body == link .and. &
-      moving_ends(elastic) /= first_end)
+      .not. are_second(elastic))
   end function way_length
 
   !> The part to which a place on a link is nearest.
@@ -96,7 +105,7 @@ contains
 
     part = 0
     least = huge(least)
-    is_second = moving_ends(elastic) == first_end
+    is_second = are_second(elastic)
     do k = 1, size(elastic%body)
       if (elastic%body(k) /= link .or. is_second(k)) cycle
       here = turned_back(place - elastic%place(:, k), elastic%axis(:, k))
@@ -140,7 +149,7 @@ contains
       if (.not. allocated(of_parts)) return
       allocate (of_links(links))
       before = 0.0_wp
-      is_second = moving_ends(elastic) == first_end
+      is_second = are_second(elastic)
       do k = 1, size(elastic%body)
         associate (b => elastic%body(k), length => elastic%linkage%bodies(k)%length)
           ! A second piece begins with the first, of which it is the rest.

@@ -110,14 +110,10 @@ contains
 
     torque = 0.0_wp
     call derivatives(plan, y, first)
-    call strain_rates(grid, plan, y, w, slope, rates)
-    if (allocated(grid%weighted)) then
-      moved = slope - deformations_of(grid, first)
-      if (terms%quadratic) torque(:, 3) = matmul(moved*slope, damping(grid%unknowns + 1:))
-    else
-      moved = slope - first(:, :grid%border)
-      if (terms%quadratic) torque(:, 3) = matmul(moved*slope, damping(:grid%border))
-    end if
+    call strain_rates(grid, plan, y, first, w, slope, rates)
+    moved = slope - deformations_of(grid, first)
+    k = merge(grid%unknowns, 0, allocated(grid%weighted))
+    if (terms%quadratic) torque(:, 3) = matmul(moved*slope, damping(k + 1:k + size(w, 2)))
     if (terms%quadratic .and. allocated(grid%pieces)) then
       associate (own => grid%border + 1)
         torque(:, 3) = torque(:, 3) + matmul((rates(:, own:) - first(:, own:))*rates(:, own:), &

@@ -248,13 +248,15 @@ contains
     real(wp), intent(in) :: shape(:, :, :)
     real(wp), intent(inout) :: sums(:, :, :)
 
+    real(wp) :: first(size(shape, 1), size(shape, 2))
     real(wp), allocatable :: w(:, :), w_rates(:, :), rates(:, :), strain(:, :, :), slope(:, :, :)
-    integer :: deformations, first, i, own, n
+    integer :: before, deformations, i, own, n
 
     own = grid%border + 1
     n = grid%unknowns
     do i = 1, size(shape, 3)
-      call strain_rates(grid, plan, shape(:, :, i), w, w_rates, rates)
+      call derivatives(plan, shape(:, :, i), first)
+      call strain_rates(grid, plan, shape(:, :, i), first, w, w_rates, rates)
       deformations = size(w, 2)
       if (i == 1) then
         allocate (strain(size(shape, 1), deformations + n - grid%border, size(shape, 3)))
@@ -265,8 +267,8 @@ contains
       slope(:, :deformations, i) = w_rates
       slope(:, deformations + 1:, i) = rates(:, own:)
     end do
-    first = merge(n, 0, allocated(grid%weighted))
-    call add_products(plan, [damping(first + 1:first + deformations), damping(own:n)], strain, &
+    before = merge(n, 0, allocated(grid%weighted))
+    call add_products(plan, [damping(before + 1:before + deformations), damping(own:n)], strain, &
       sums, slope)
   end subroutine add_strain_products
 

@@ -11,8 +11,8 @@ module steady_responses
   use elastic_equations, only: deformations_of, load_at_speed, strain_rates
   use errors, only: error_of_numerics, error_t, set_error
   use floquet_exponents, only: find_nearest_mode, floquet_mode_t
-  use fourier_transform, only: close_fourier, coefficients_of, fourier_plan_t, open_fourier, &
-    resample, resampled, value_at, values_of
+  use fourier_transform, only: close_fourier, coefficients_of, derivatives, fourier_plan_t, &
+    open_fourier, resample, resampled, value_at, values_of
   use gauge_values, only: gauge_values_of
   use interruption, only: was_interrupted
   use kinds, only: long, wp
@@ -882,14 +882,16 @@ contains
       real(wp), intent(in) :: y(:, :), c(:)
       real(wp), intent(inout) :: power(:)
 
+      real(wp) :: first(size(y, 1), size(y, 2))
       real(wp), allocatable :: w(:, :), w_rates(:, :), rates(:, :)
-      integer :: i, first
+      integer :: before, i
 
-      call strain_rates(grid, plan, y, w, w_rates, rates)
-      first = merge(grid%unknowns, 0, allocated(grid%weighted))
+      call derivatives(plan, y, first)
+      call strain_rates(grid, plan, y, first, w, w_rates, rates)
+      before = merge(grid%unknowns, 0, allocated(grid%weighted))
       do i = 1, size(w, 2)
         associate (b => grid%deformed(i))
-          if (b > 0) power(b) = power(b) + c(first + i)*sum(w_rates(:, i)**2)/grid%samples
+          if (b > 0) power(b) = power(b) + c(before + i)*sum(w_rates(:, i)**2)/grid%samples
         end associate
       end do
       do i = grid%border + 1, grid%unknowns

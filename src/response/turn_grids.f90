@@ -258,11 +258,12 @@ contains
     type(elastic_linkage_t), intent(in) :: elastic
     type(turn_grid_t), intent(inout) :: grid
 
-    grid%block_rotation = pack(elastic%carried%rotation, elastic%carried%inertia > 0.0_wp .and. &
-      elastic%carried%rotation > 0)
-    if (size(grid%block_rotation) == 0) return
-    grid%pin_mass = [grid%pin_mass, pack(elastic%carried%inertia, elastic%carried%inertia > &
-      0.0_wp .and. elastic%carried%rotation > 0)]
+    logical :: turns(size(elastic%carried))
+
+    turns = elastic%carried%inertia > 0.0_wp .and. elastic%carried%rotation > 0
+    grid%block_rotation = pack(elastic%carried%rotation, turns)
+    if (.not. any(turns)) return
+    grid%pin_mass = [grid%pin_mass, pack(elastic%carried%inertia, turns)]
     deallocate (grid%pin)
     allocate (grid%pin(grid%samples, 2, size(grid%pin_mass), grid%border), source=0.0_wp)
   end subroutine start_blocks

@@ -2,8 +2,7 @@
 module damped_frequencies
   use axial_forces, only: total_force
   use bordered_eigensolver, only: bordered_modes_t
-  use bordered_matrix, only: layout_t
-  use bordered_pencil, only: elastic_square
+  use bordered_pencil, only: elastic_squares
   use damped_eigensolver, only: damped_modes_t, find_damped_modes
   use damped_solver, only: mass_times_complex
   use deformation_model, only: deformation_model_t
@@ -125,7 +124,9 @@ contains
     if (maxval(result%error(:, speed)) > request%accuracy) result%cause(speed) = &
       largest_error(orders(:request%modes), rounding(:request%modes), &
       of_matrices(:request%modes) + found%error(:request%modes), &
-      energies(model%layout, found, request%modes), abs(found%s(:request%modes))**2)
+      elastic_squares(model%layout, real(found%vector(:, :request%modes), wp)) + &
+      elastic_squares(model%layout, aimag(found%vector(:, :request%modes))), &
+      abs(found%s(:request%modes))**2)
   end subroutine solve_damped_speed
 
   !> Real and imaginary parts of the vectors of all roots, two after each other, as modes of ±|s|².
@@ -249,20 +250,5 @@ contains
       end do
     end do
   end function with_roots_above
-
-  !> Elastic energies of roots, of unit mass, twice [1/s²].
-  pure function energies(layout, found, modes) result(energy)
-    type(layout_t), intent(in) :: layout
-    type(damped_modes_t), intent(in) :: found
-    integer, intent(in) :: modes
-    real(wp) :: energy(modes)
-
-    integer :: i
-
-    do i = 1, modes
-      energy(i) = elastic_square(layout, real(found%vector(:, i), wp)) + elastic_square(layout, &
-        aimag(found%vector(:, i)))
-    end do
-  end function energies
 
 end module damped_frequencies

@@ -4,8 +4,7 @@ module position_solver
   use axial_forces, only: total_force
   use border_loads, only: border_work
   use bordered_eigensolver, only: bordered_modes_t
-  use bordered_matrix, only: layout_t
-  use bordered_pencil, only: elastic_square
+  use bordered_pencil, only: elastic_squares
   use damped_frequencies, only: modes_for_dampers, solve_damped_speed
   use deformation_model, only: deformation_model_t
   use elastic_linkages, only: is_piece
@@ -159,7 +158,7 @@ contains
         result%error(:, k) = frequency_error(discretisation + (rounding + of_matrices))
         if (maxval(result%error(:, k)) > request%accuracy) result%cause(k) = &
           largest_error(discretisation, rounding, of_matrices, &
-          energies(models%continuum%layout, found(k), request%modes), &
+          elastic_squares(models%continuum%layout, found(k)%vector(:, :request%modes)), &
           found(k)%lambda(:request%modes))
       end do
     end associate
@@ -190,18 +189,6 @@ contains
     end select
     call move_alloc(found, work%continuum%found)
   end subroutine solve_assembled
-
-  !> Elastic energies of modes of unit mass, twice [1/s²].
-  pure function energies(layout, found, modes) result(energy)
-    type(layout_t), intent(in) :: layout
-    type(bordered_modes_t), intent(in) :: found
-    integer, intent(in) :: modes
-    real(wp) :: energy(modes)
-
-    integer :: i
-
-    energy = [(elastic_square(layout, found%vector(:, i)), i=1, modes)]
-  end function energies
 
   !> Largest static deflection of every link / its length, or that of one of its ways, at every
   !! speed.

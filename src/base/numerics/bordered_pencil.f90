@@ -6,7 +6,8 @@ module bordered_pencil
   implicit none (type, external)
   private
 
-  public :: bordered_pencil_t, new_bordered_pencil, stiffness_times_vector, elastic_square
+  public :: bordered_pencil_t, new_bordered_pencil, stiffness_times_vector, elastic_square, &
+    elastic_squares
 
   type :: bordered_pencil_t
     type(layout_t) :: layout             !! of both matrices
@@ -62,5 +63,16 @@ contains
       end associate
     end if
   end function elastic_square
+
+  !> The same of several vectors.
+  pure function elastic_squares(layout, vectors) result(squares)
+    type(layout_t), intent(in) :: layout !! of the unknowns
+    real(wp), intent(in) :: vectors(:, :) !! (unknowns, number)
+    real(wp) :: squares(size(vectors, 2))
+
+    integer :: i
+
+    squares = [(elastic_square(layout, vectors(:, i)), i=1, size(squares))]
+  end function elastic_squares
 
 end module bordered_pencil
