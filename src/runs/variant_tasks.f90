@@ -31,7 +31,7 @@ module variant_tasks
   implicit none (type, external)
   private
 
-  public :: variant_job_t, run_variant_tasks, help_with_variants, variants_announced
+  public :: variant_job_t, begin_variant_job, run_variant_tasks, help_with_variants, variants_announced
 
   !> What a thread keeps from one variant to the next.
   type :: thread_store_t
@@ -89,7 +89,7 @@ contains
     count = at_a_time*rank_count()
     room = max(1, min(most_at_a_time, rows_at_a_time/max(1, rows_of_variant)))
     room = max(min(count*room, most_of_all), 2*count)
-    call make_room(job, room, at_a_time, threads)
+    call begin_variant_job(job, room, at_a_time, threads)
     call put_string(bytes, variants_announced)
     call put_deck(bytes, job%deck)
     call put_integers(bytes, [room, threads])
@@ -112,19 +112,22 @@ contains
     call get_deck(bytes, at, settings, deck)
     call get_integers(bytes, at, numbers)
     job%deck => deck
-    call make_room(job, numbers(1), at_a_time, numbers(2))
+    call begin_variant_job(job, numbers(1), at_a_time, numbers(2))
     call help_with_tasks(job, at_a_time)
   end subroutine help_with_variants
 
-  subroutine make_room(job, room, at_a_time, threads)
-    type(variant_job_t), intent(inout) :: job
-    integer, intent(in) :: room, at_a_time, threads
+  !> Makes a job ready for its tasks.
+  subroutine begin_variant_job(job, room, at_a_time, threads)
+    type(variant_job_t), intent(inout) :: job !! with its deck
+    integer, intent(in) :: room               !! variants under way or waiting for their turn
+    integer, intent(in) :: at_a_time          !! variants that are computed at a time
+    integer, intent(in) :: threads            !! that compute one together
 
     job%threads = threads
     job%kinds = tables_of(job%deck%model)
     ! One thread more may serve other ranks.
     allocate (job%stores(at_a_time + 1), job%rows(0:room - 1), job%outcomes(0:room - 1))
-  end subroutine make_room
+  end subroutine begin_variant_job
 
   !> Place of a variant in the ring.
   pure integer function place_of(job, number)
