@@ -7,6 +7,7 @@ module deck_bytes
   use deck_source, only: source_from_text
   use diagnostics, only: diagnostics_t
   use report_table, only: reports
+  use settings, only: options_path
   use text, only: string_t
   use text_buffer, only: text_buffer_t
   use variants, only: read_deck_cards
@@ -22,8 +23,15 @@ contains
     type(text_buffer_t), intent(inout) :: buffer !! bytes, to be read by `get_deck`
     type(deck_t), intent(in) :: deck             !! without errors
 
+    integer :: length
+
+    ! Lines of `--set` are appended again where the deck is read again.
+    length = len(deck%source%text)
+    associate (last => deck%source%files(size(deck%source%files)))
+      if (last%path == options_path) length = deck%source%line_start(last%first_line) - 1
+    end associate
     call put_string(buffer, deck%source%path)
-    call put_string(buffer, deck%source%text)
+    call put_string(buffer, deck%source%text(:length))
     call put_cards(buffer, deck%cards%written)
   end subroutine put_deck
 
