@@ -5,7 +5,7 @@ module deck_runs
   use counterweight_notes, only: balance_log
   use deck_outputs, only: discard_outputs, open_outputs, outputs_t, publish_outputs, write_texts, &
     write_variant
-  use deck_readings, only: deck_t, read_variant
+  use deck_readings, only: deck_t
   use deck_summary, only: summary_text
   use diagnostics, only: diagnostics_t, warnings_of, diagnostic_t
   use echo, only: echo_text
@@ -35,6 +35,7 @@ module deck_runs
   use task_journal, only: close_journal, journal_t, open_journal, remove_journal
   use text, only: plural, string_t, to_string
   use transient_report, only: transient_log
+  use variant_readings, only: read_variant
   use variant_results, only: variant_results_t
   use variant_runs, only: begin_variant_run, compute_variant, variant_run_t
   use variant_tasks, only: run_variant_tasks, variant_job_t

@@ -1,23 +1,27 @@
 !> What a computed variant leaves: the rows of its tables, its findings and its totals. The journal
 !! of a run keeps them as bytes.
 module variant_rows
-  use byte_streams, only: get_integers, get_reals, get_string, put_integers, put_reals, put_string
+  use byte_streams, only: get_integers, get_logicals, get_reals, get_string, put_integers, &
+    put_logicals, put_reals, put_string
+  use errors, only: error_t
   use kinds, only: wp
   use report_kinds, only: table_kind_t
   use report_rows, only: find_rows
   use report_table, only: plan_table, table_notes, table_plan_t
   use result_failures, only: find_failures
   use result_warnings, only: find_warnings
-  use run_findings, only: findings_t, get_findings, put_findings
+  use run_findings, only: add_failure, failure_t, findings_t, get_findings, of_variant, &
+    put_findings
   use run_totals, only: get_totals, put_totals, run_totals_t, totals_of
-  use table_rows, only: get_rows, put_rows, rows_t
+  use table_rows, only: add_failed_row, get_rows, put_rows, rows_t
   use text, only: string_t
   use text_buffer, only: text_buffer_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
 
-  public :: variant_rows_t, table_part_t, find_variant_rows, put_variant_rows, get_variant_rows
+  public :: variant_rows_t, table_part_t, find_variant_rows, fail_variant, put_variant_rows, &
+    get_variant_rows
 
   !> The part of a table that belongs to a variant.
   type :: table_part_t
@@ -32,6 +36,7 @@ module variant_rows
     type(table_part_t), allocatable :: tables(:) !! in the order of the deck's tables
     type(findings_t) :: findings
     type(run_totals_t) :: totals
+    logical :: has_failed = .false.              !! as a whole: there are failed rows only
   end type variant_rows_t
 
 contains
@@ -64,6 +69,36 @@ contains
     end do
   end subroutine find_variant_rows
 
+  !> A variant that cannot be computed: a failed row in every table, and a failure of the run.
+  subroutine fail_variant(tables, variant, varied, error, rows)
+    integer, intent(in) :: tables             !! number of tables of the deck
+    character(len=*), intent(in) :: variant   !! `L=-5mm`
+    real(wp), intent(in) :: varied(:)         !! (parameters) values, in the units of their VARY
+                                              !! cards
+    type(error_t), intent(in) :: error        !! the reason
+    type(variant_rows_t), intent(out) :: rows !! with all that is to be written
+
+    type(failure_t) :: failure
+    real(wp) :: no_place(0)
+    integer :: i
+
+    rows%has_failed = .true.
+    rows%varied = varied
+    rows%totals%variants = 1
+    allocate (rows%tables(tables))
+    do i = 1, tables
+      allocate (rows%tables(i)%notes(0))
+      call add_failed_row(rows%tables(i)%rows, no_place, error%text)
+    end do
+    failure%stage = of_variant
+    failure%error = error
+    failure%variant = variant
+    failure%varied = varied
+    failure%crank_words = ""
+    failure%speed_words = ""
+    call add_failure(rows%findings, failure)
+  end subroutine fail_variant
+
   !> Appends rows, findings and totals to a buffer as bytes.
   pure subroutine put_variant_rows(buffer, rows)
     type(text_buffer_t), intent(inout) :: buffer !! bytes, to be read by `get_variant_rows`
@@ -72,6 +107,7 @@ contains
     integer :: i, k
 
     call put_integers(buffer, [size(rows%varied), size(rows%tables)])
+    call put_logicals(buffer, [rows%has_failed])
     call put_reals(buffer, rows%varied)
     do k = 1, size(rows%tables)
       associate (table => rows%tables(k))
@@ -93,8 +129,11 @@ contains
     type(variant_rows_t), intent(out) :: rows !! of a variant
 
     integer :: counts(2), notes(1), i, k
+    logical :: has_failed(1)
 
     call get_integers(bytes, at, counts)
+    call get_logicals(bytes, at, has_failed)
+    rows%has_failed = has_failed(1)
     allocate (rows%varied(counts(1)), rows%tables(counts(2)))
     call get_reals(bytes, at, rows%varied)
     do k = 1, size(rows%tables)

@@ -3,7 +3,7 @@
 module variant_tasks
   use cards, only: card_t
   use deck_outputs, only: outputs_t, write_found_rows
-  use deck_readings, only: deck_t, read_variant
+  use deck_readings, only: deck_t
   use diagnostics, only: diagnostics_t
   use errors, only: error_t, outcome_t
   use interruption, only: was_interrupted
@@ -18,6 +18,7 @@ module variant_tasks
   use task_journal, only: journal_t
   use tasks, only: job_t, run_tasks
   use text_buffer, only: text_buffer_t
+  use variant_readings, only: read_variant
   use variant_rows, only: find_variant_rows, get_variant_rows, put_variant_rows, variant_rows_t
   use variant_runs, only: begin_variant_run, compute_variant, variant_run_t
   use variants, only: variant_count
