@@ -2,14 +2,14 @@
 module diagnostic_bytes
   use byte_streams, only: get_integers, get_logicals, get_string, put_integers, put_logicals, &
     put_string
+  use card_bytes, only: get_token, put_token
   use diagnostics, only: append_message, diagnostic_t, diagnostics_t, message_list_t
   use text_buffer, only: text_buffer_t
-  use tokens, only: token_t
   use warnings, only: get_warning, put_warning
   implicit none (type, external)
   private
 
-  public :: put_diagnostics, get_diagnostics, put_token, get_token
+  public :: put_diagnostics, get_diagnostics
 
 contains
 
@@ -79,33 +79,5 @@ contains
     end do
     messages%total = counts(1)
   end subroutine get_messages
-
-  !> Appends a word with its places to a buffer as bytes.
-  pure subroutine put_token(buffer, token)
-    type(text_buffer_t), intent(inout) :: buffer !! bytes, to be read by `get_token`
-    type(token_t), intent(in) :: token           !! may be without text
-
-    call put_integers(buffer, [token%line, token%column, token%set_line, token%set_column])
-    call put_logicals(buffer, [allocated(token%text)])
-    if (allocated(token%text)) call put_string(buffer, token%text)
-  end subroutine put_token
-
-  !> Reads what `put_token` wrote.
-  pure subroutine get_token(bytes, at, token)
-    character(len=*), intent(in) :: bytes !! of `put_token`, among others
-    integer, intent(inout) :: at          !! place of the first byte; on return, after the last
-    type(token_t), intent(out) :: token   !! as it was put
-
-    integer :: places(4)
-    logical :: has_text(1)
-
-    call get_integers(bytes, at, places)
-    token%line = places(1)
-    token%column = places(2)
-    token%set_line = places(3)
-    token%set_column = places(4)
-    call get_logicals(bytes, at, has_text)
-    if (has_text(1)) call get_string(bytes, at, token%text)
-  end subroutine get_token
 
 end module diagnostic_bytes

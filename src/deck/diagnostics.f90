@@ -14,7 +14,7 @@ module diagnostics
   public :: diagnostics_t, add_error, add_warning, has_errors, has_other_errors, error_count, &
     render_errors, render_warnings, warning_texts, join_warnings, append_warnings, count_warnings
   public :: diagnostic_t, message_list_t, errors_of, warnings_of, untold_errors, untold_warnings
-  public :: append_message
+  public :: append_message, has_messages
 
   !> One message. Its place has no line if something is missing from the deck.
   type :: diagnostic_t
@@ -205,6 +205,14 @@ contains
 
     has = diagnostics%errors%total > 0
   end function has_errors
+
+  !> Whether there are errors or warnings.
+  pure function has_messages(diagnostics) result(has)
+    type(diagnostics_t), intent(in) :: diagnostics !! of the deck
+    logical :: has
+
+    has = diagnostics%errors%total > 0 .or. diagnostics%warnings%total > 0
+  end function has_messages
 
   !> Whether there are errors of other kinds than one.
   pure function has_other_errors(diagnostics, kind) result(has)

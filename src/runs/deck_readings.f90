@@ -82,6 +82,8 @@ contains
       call read_variant(deck%cards, 1, cards, deck%diagnostics, deck%model)
       call check_variant(deck%model, threads, available, deck%diagnostics)
       deck%verdict%leading = 1
+      deck%verdict%threads = threads
+      deck%verdict%available = available
       if (.not. has_errors(deck%diagnostics)) deck%model%echo = echo_cards(deck%cards, cards, &
         deck%model%effects, reports, deck%source)
     end if

@@ -7,14 +7,16 @@
 module variant_checks
   use available_memory, only: available_memory_t
   use byte_streams, only: get_integers, put_integers
+  use card_bytes, only: get_token, put_token
   use cards, only: card_t
-  use diagnostic_bytes, only: get_diagnostics, get_token, put_diagnostics, put_token
+  use diagnostic_bytes, only: get_diagnostics, put_diagnostics
   use diagnostics, only: add_error, add_warning, append_warnings, count_warnings, diagnostic_t, &
-    diagnostics_t, errors_of, has_errors, has_other_errors, join_warnings
+    diagnostics_t, errors_of, has_errors, has_messages, has_other_errors, join_warnings
   use errors, only: error_of_reach, error_of_writing
+  use jobs, only: job_t
   use models, only: model_t
   use task_journal, only: journal_t
-  use tasks, only: job_t, run_tasks
+  use tasks, only: run_tasks
   use text, only: to_string
   use text_buffer, only: text_buffer_t
   use tokens, only: token_t
@@ -40,6 +42,8 @@ module variant_checks
 
   !> What the checks of all variants come to.
   type :: verdict_t
+    integer :: threads = 1             !! for which they were made, and with how much memory
+    type(available_memory_t) :: available
     integer :: leading = 0             !! number of the first variant that is not refused; 0: none
     integer, allocatable :: refused(:) !! (at least refused_count) numbers of the variants that
                                        !! cannot be computed, ascending
@@ -52,8 +56,6 @@ module variant_checks
   !> The variants under way.
   type, extends(job_t) :: check_job_t
     type(deck_cards_t), pointer, private :: deck_cards => null()
-    integer, private :: threads = 1                      !! that will compute the deck
-    type(available_memory_t), private :: available
     type(card_t), allocatable, private :: cards(:)       !! of the variant read last
     type(block_t), allocatable, private :: blocks(:)     !! (tasks) not yet joined
     integer, private :: modes = 0, effects = 0           !! of the leading variant
@@ -122,8 +124,8 @@ contains
 
     blocks = (variant_count(deck_cards) - 1)/variants_at_a_time + 1
     job%deck_cards => deck_cards
-    job%threads = threads
-    job%available = available
+    job%verdict%threads = threads
+    job%verdict%available = available
     job%warnings = diagnostics
     allocate (job%blocks(blocks), job%verdict%refused(16))
   end subroutine begin_checks
@@ -194,7 +196,8 @@ contains
           checked%effects = model%effects
           checked%modes_word = model%modes_word
         end if
-        call check_variant(model, self%threads, self%available, checked%diagnostics)
+        call check_variant(model, self%verdict%threads, self%verdict%available, &
+          checked%diagnostics)
       end associate
     end do
   end subroutine check_block
@@ -260,7 +263,9 @@ contains
     character(len=:), allocatable :: name
 
     if (number == 1) self%first = checked%diagnostics
-    name = variant_text(self%deck_cards, number)
+    ! Nearly all variants have nothing to say, and do not need their names.
+    name = ""
+    if (has_messages(checked%diagnostics)) name = variant_text(self%deck_cards, number)
     call join_warnings(self%warnings, checked%diagnostics, name)
     if (has_other_errors(checked%diagnostics, error_of_reach)) then
       call take_refused(self%verdict, number)
@@ -280,6 +285,7 @@ contains
     self%verdict%unlike = self%verdict%unlike + 1
     self%verdict%last_unlike = number
     if (self%verdict%unlike > 1) return
+    name = variant_text(self%deck_cards, number)
     if (checked%modes /= self%modes) then
       call add_error(self%unlike, checked%modes_word, "with "//name//": "// &
         "all variants must have as many modes: they are columns of one table")

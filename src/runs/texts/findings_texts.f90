@@ -11,7 +11,7 @@ module findings_texts
   implicit none (type, external)
   private
 
-  public :: findings_messages, findings_log
+  public :: findings_messages, findings_log, failure_text
 
   !> Warnings, and failed rows, that standard error shows at most; the log lists more.
   integer, parameter :: most_shown = 20
@@ -22,7 +22,7 @@ contains
 
   !> `speed 20 rad/s, crank 45 deg: reason`, `response, speed 20 rad/s: reason` or `motion, time
   !! 2.5 s, crank 45 deg: reason`; of a variant as a whole, the reason alone
-  pure function failure_line(failure) result(line)
+  pure function failure_text(failure) result(line)
     type(failure_t), intent(in) :: failure
     character(len=:), allocatable :: line
 
@@ -46,14 +46,14 @@ contains
     case (in_transient)
       line = "transient, speed "//failure%speed_words
     case (of_variant)
-      line = failure%variant//": "//failure%error%text//line_feed
+      line = failure%variant//": "//failure%error%text
       return
     case default
       line = "speed "//failure%speed_words//", "//place_of_failure(failure)
     end select
-    line = line//": "//failure%error%text//line_feed
+    line = line//": "//failure%error%text
     if (len(failure%variant) > 0) line = failure%variant//", "//line
-  end function failure_line
+  end function failure_text
 
   !> Warnings, those of meaningless results first, then failed rows, for standard error. Each line
   !! begins with the deck's path.
@@ -79,7 +79,7 @@ contains
         " more warnings; run.log lists them"//line_feed
     end if
     do i = 1, min(findings%kept, most_shown)
-      text = text//path//": error: "//failure_line(findings%failed(i))
+      text = text//path//": error: "//failure_text(findings%failed(i))//line_feed
     end do
     if (findings%failures > most_shown) then
       text = text//path//": error: "//to_string(findings%failures - most_shown)// &
@@ -118,7 +118,7 @@ contains
     if (findings%failures > 0) call append_text(buffer, "failures: "// &
       to_string(findings%failures)//line_feed)
     do i = 1, findings%kept
-      call append_text(buffer, failure_line(findings%failed(i)))
+      call append_text(buffer, failure_text(findings%failed(i))//line_feed)
     end do
     if (untold_failures(findings) > 0) call append_text(buffer, "… and "// &
       to_string(untold_failures(findings))//" more: they are marked in the tables"//line_feed)
