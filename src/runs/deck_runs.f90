@@ -4,15 +4,15 @@ module deck_runs
   use byte_streams, only: get_integers, put_integers, put_string
   use cards, only: card_t
   use deck_bytes, only: get_deck, put_deck
-  use deck_outputs, only: discard_outputs, open_outputs, outputs_t, publish_outputs, write_texts, &
-    write_variant
-  use deck_readings, only: deck_t, read_variant
+  use deck_outputs, only: discard_outputs, open_outputs, outputs_t, publish_outputs, &
+    write_found_rows, write_texts, write_variant
+  use deck_readings, only: deck_t
   use deck_summary, only: summary_text
   use diagnostics, only: diagnostics_t, warnings_of, diagnostic_t
   use echo, only: echo_text
-  use errors, only: error_of_interruption, error_t, set_error
+  use errors, only: error_of_interruption, error_of_numerics, error_t, set_error
   use file_system, only: file_name, joined_path
-  use findings_texts, only: findings_log, findings_messages
+  use findings_texts, only: failure_text, findings_log, findings_messages
   use interruption, only: was_interrupted
   use kinds, only: wp
   use link_store, only: link_store_t
@@ -32,10 +32,12 @@ module deck_runs
   use text, only: plural, string_t, to_string
   use text_buffer, only: text_buffer_t
   use variant_log, only: log_of_variant
-  use variant_results, only: variant_results_t
+  use variant_checks, only: is_refused
+  use variant_readings, only: read_variant, refusal_of_variant
+  use variant_rows, only: fail_variant, variant_rows_t
   use variant_runs, only: begin_variant_run, compute_variant, help_with_sweep, variant_run_t
   use variant_tasks, only: run_variant_tasks, variant_job_t
-  use variants, only: parameter_names, variant_count, variant_text
+  use variants, only: parameter_names, variant_count, variant_text, variant_values
   use warnings, only: grade_meaningless
   implicit none (type, external)
   private
@@ -70,8 +72,9 @@ module deck_runs
     type(progress_t) :: progress
     type(run_totals_t) :: totals         !! of all variants so far
     type(findings_t) :: findings         !! of all variants so far
-    character(len=:), allocatable :: log !! of the first variant
-    integer :: method = 0                !! by which the first variant's frequencies were found
+    character(len=:), allocatable :: log !! of the first variant that was computed,
+    integer :: logged = 0                !! its number,
+    integer :: method = 0                !! by which its frequencies were found
   end type session_t
 
   !> A variant with more positions than this keeps all threads busy. One with more rows is computed
@@ -85,14 +88,13 @@ module deck_runs
 
   !> Form of the bytes in a journal: another number wherever they mean something else, since the
   !! version of the program may stay the same.
-  character(len=*), parameter :: journal_form = "journal 8"
+  character(len=*), parameter :: journal_form = "journal 9"
 
 contains
 
   !> Computes the reports of a sound deck and writes its files.
   !!
-  !! Errors: the run was interrupted, the own modes of a link could not be found, or files could
-  !! not be written. The output folder is then as it was before, except for the journal of a long
+  !! Errors: the run was interrupted, no variant could be computed, or files could not be written. The output folder is then as it was before, except for the journal of a long
   !! run.
   subroutine run_deck(deck, options, result, error)
     type(deck_t), intent(in) :: deck                 !! without errors
@@ -117,6 +119,12 @@ contains
       call run_variants(deck, options%threads, session, error)
       call lap(watch, times%variants)
       call end_progress(session%progress)
+      if (variants > 1 .and. session%outputs%computed == 0 .and. .not. (allocated(error) .or. &
+        was_interrupted())) then
+        call set_error(error, error_of_numerics, "none of the "//to_string(variants)// &
+          " variants could be computed; "//failure_text(session%findings%failed(1)), &
+          deck%source%path)
+      end if
     end if
     if (allocated(error)) then
       ! It would fail again: nothing to resume from.
@@ -222,7 +230,7 @@ contains
   end function parameter_columns
 
   !> Computes a variant on all threads and writes its rows; of the first one it also keeps the log.
-  !! Errors: the own modes of a link could not be found.
+  !! Errors: the own modes of a link could not be found, in the only variant of a deck.
   subroutine run_whole_variant(deck, number, threads, session, error)
     type(deck_t), intent(in) :: deck
     integer, intent(in) :: number !! of the variant, from 1
@@ -242,7 +250,13 @@ contains
     real(wp) :: computing, writing
 
     call start_stopwatch(watch)
-    if (number == 1) then
+    if (is_refused(deck%verdict, number)) then
+      call refusal_of_variant(deck%cards, number, deck%verdict%threads, deck%verdict%available, &
+        cards, error)
+      call write_failed_variant(deck, number, session, error)
+      return
+    end if
+    if (number == deck%verdict%leading) then
       call begin_variant_run(run, deck%model)
     else
       call read_variant(deck%cards, number, cards, none, model)
@@ -256,7 +270,11 @@ contains
     call compute_variant(run, threads, session%journal, number, store, error)
     if (variant_count(deck%cards) == 1) session%progress = run%progress
     call lap(watch, computing)
-    if (allocated(error) .or. was_interrupted()) return
+    if (was_interrupted()) return
+    if (allocated(error)) then
+      if (variant_count(deck%cards) > 1) call write_failed_variant(deck, number, session, error)
+      return
+    end if
     call write_variant(session%outputs, run%results, threads)
     call lap(watch, writing)
     totals = totals_of(run%results)
@@ -266,13 +284,31 @@ contains
     call find_failures(run%results, findings)
     call find_warnings(run%results, findings)
     call add_findings(session%findings, findings)
-    if (number > 1) return
+    if (session%logged > 0) return
     session%log = log_of_variant(run%results)
+    session%logged = number
     if (totals%has_frequencies) session%method = run%results%found%sweep%request%method
   end subroutine run_whole_variant
 
+  !> Writes the failed rows of a variant that could not be computed.
+  subroutine write_failed_variant(deck, number, session, error)
+    type(deck_t), intent(in) :: deck
+    integer, intent(in) :: number !! of the variant
+    type(session_t), intent(inout) :: session
+    type(error_t), allocatable, intent(inout) :: error !! the reason; not allocated on return
+
+    type(variant_rows_t) :: rows
+
+    call fail_variant(size(session%outputs%kinds), variant_text(deck%cards, number), &
+      variant_values(deck%cards, number), error, rows)
+    call write_found_rows(session%outputs, deck%model%title, rows)
+    call add_totals(session%totals, rows%totals)
+    call add_findings(session%findings, rows%findings)
+    deallocate (error)
+  end subroutine write_failed_variant
+
   !> Computes all variants and writes their rows in order. Several are computed at a time if one of
-  !! them has too few positions for all threads. Errors: the own modes of a link could not be found.
+  !! them has too few positions for all threads. Errors: as for `run_whole_variant`.
   subroutine run_variants(deck, threads, session, error)
     type(deck_t), intent(in), target :: deck
     integer, intent(in) :: threads
@@ -300,11 +336,12 @@ contains
       job%deck => deck
       job%outputs => session%outputs
       job%progress = session%progress
-      call run_variant_tasks(job, rows, threads/together, together, session%journal, error)
+      call run_variant_tasks(job, rows, threads/together, together, session%journal)
       session%findings = job%findings
       session%totals = job%totals
       session%progress = job%progress
       session%method = job%method
+      session%logged = job%logged
       if (allocated(job%log)) session%log = job%log
     end associate
   end subroutine run_variants
@@ -376,8 +413,9 @@ contains
 
     text = session%log
     if (session%totals%variants > 1) then
-      text = "first of "//to_string(session%totals%variants)//" variants, "// &
-        variant_text(deck%cards, 1)//":"//line_feed//text//"all variants, the last one with "// &
+      text = trim(merge("first of          ", "first computed of ", session%logged == 1))//" "// &
+        to_string(session%totals%variants)//" variants, "//variant_text(deck%cards, &
+        session%logged)//":"//line_feed//text//"all variants, the last one with "// &
         variant_text(deck%cards, session%totals%variants)//":"//line_feed
     end if
     if (session%totals%has_frequencies) text = text//accuracy_summary(session%method, &
