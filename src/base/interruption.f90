@@ -8,7 +8,7 @@ module interruption
   implicit none (type, external)
   private
 
-  public :: watch_for_interruption, limit_time, was_interrupted, was_out_of_time
+  public :: watch_for_interruption, limit_time, was_interrupted, was_out_of_time, interrupt
 
   !> SIGINT and SIGTERM of POSIX.
   integer(c_int), parameter :: interrupt_signal = 2_c_int, terminate_signal = 15_c_int
@@ -68,6 +68,11 @@ contains
     call system_clock(now)
     was = now >= last_tick
   end function was_out_of_time
+
+  !> Does what a termination request does: this process follows another one that has got it.
+  subroutine interrupt()
+    last_signal = terminate_signal
+  end subroutine interrupt
 
   subroutine note_signal(number) bind(c)
     integer(c_int), value :: number
