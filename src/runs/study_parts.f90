@@ -8,7 +8,7 @@ module study_parts
   implicit none (type, external)
   private
 
-  public :: part_t, read_part, first_variant, last_variant, part_of_variant, part_name, &
+  public :: part_t, read_part, first_variant, last_variant, part_name, &
     part_beginning, part_of_name
 
   !> Which part.
@@ -72,17 +72,6 @@ contains
     last = variants
     if (part%count > 0) last = int(int(part%number, long)*variants/part%count)
   end function last_variant
-
-  !> The part of `count` that has a variant.
-  pure function part_of_variant(variant, variants, count) result(part)
-    integer, intent(in) :: variant  !! its number, from 1
-    integer, intent(in) :: variants !! number of all of them
-    integer, intent(in) :: count    !! of parts, not more than variants
-    type(part_t) :: part
-
-    ! The least number whose last variant is not before this one.
-    part = part_t(int((int(variant, long)*count + variants - 1)/variants), count)
-  end function part_of_variant
 
   !> `my.part03of16`: as many digits as the number of parts has.
   pure function part_name(deck, part) result(name)

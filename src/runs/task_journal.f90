@@ -15,7 +15,7 @@ module task_journal
   implicit none (type, external)
   private
 
-  public :: journal_t, open_journal, add_journal_file, recall_task, has_task, keeps_tasks, &
+  public :: journal_t, open_journal, new_journal, add_journal_file, recall_task, has_task, keeps_tasks, &
     keep_task, close_journal, publish_journal, remove_journal, read_title
   public :: journal_name, begun
 
@@ -52,6 +52,7 @@ module task_journal
                                                     !! without it
     logical, private :: stays = .false.             !! it is a result: tasks of the shortest run are
                                                     !! kept, too
+    logical, private :: only_read = .false.         !! nothing is added
     integer, private :: blocks = 0                  !! of earlier runs
     type(block_t), allocatable, private :: list(:)  !! (at least blocks) in the order of the files,
                                                     !! from the first question on in that of tasks
@@ -95,6 +96,18 @@ contains
     if (journal%is_open) return
     call remove_file(journal%path)
   end subroutine open_journal
+
+  !> A journal to which nothing is added: its tasks are those of files of other runs.
+  subroutine new_journal(folder, title, journal)
+    character(len=*), intent(in) :: folder  !! of the outputs
+    character(len=*), intent(in) :: title   !! that the files must have
+    type(journal_t), intent(out) :: journal !! without tasks
+
+    journal%path = joined_path(folder, journal_name)
+    journal%title = title
+    journal%only_read = .true.
+    allocate (journal%list(64), journal%files(0))
+  end subroutine new_journal
 
   !> Goes on from a complete journal, if it is of this run and there is none under way.
   subroutine begin_again(path, journal)
@@ -343,7 +356,7 @@ contains
     integer(long) :: now, rate
 
     keeps = .false.
-    if (journal%broken .or. .not. allocated(journal%path)) return
+    if (journal%broken .or. journal%only_read .or. .not. allocated(journal%path)) return
     if (.not. journal%is_open) then
       call system_clock(now, rate)
       if (.not. journal%stays .and. &

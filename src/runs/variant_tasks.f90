@@ -20,6 +20,7 @@ module variant_tasks
   use report_kinds, only: table_kind_t
   use run_findings, only: add_findings, findings_t
   use run_totals, only: add_totals, run_totals_t
+  use study_parts, only: first_variant, last_variant, part_t
   use stopwatch, only: lap, start_stopwatch, stopwatch_t
   use task_journal, only: journal_t
   use tasks, only: run_tasks
@@ -31,7 +32,8 @@ module variant_tasks
   implicit none (type, external)
   private
 
-  public :: variant_job_t, run_variant_tasks, help_with_variants, variants_announced
+  public :: variant_job_t, run_variant_tasks, help_with_variants, variants_announced, &
+    group_of_variants
 
   !> What a thread keeps from one variant to the next.
   type :: thread_store_t
@@ -44,6 +46,7 @@ module variant_tasks
   type, extends(job_t) :: variant_job_t
     type(deck_t), pointer :: deck => null()                 !! with all variants
     type(outputs_t), pointer :: outputs => null()           !! opened
+    type(part_t) :: part                                    !! of the study that is computed
     type(findings_t) :: findings                            !! of all finished variants
     type(run_totals_t) :: totals                            !! of all finished variants
     type(progress_t) :: progress                            !! by number of variants
@@ -66,14 +69,14 @@ module variant_tasks
   integer, parameter :: rows_at_a_time = 8192, most_at_a_time = 256, most_of_all = 16384
 
   !> Group of these tasks in the journal.
-  integer, parameter :: journal_group = 0
+  integer, parameter :: group_of_variants = 0
 
   !> First word of what other ranks are told.
   character(len=*), parameter :: variants_announced = "variants"
 
 contains
 
-  !> Computes all variants and writes their rows in order. Errors: the own modes of a link could not
+  !> Computes the variants of a part, or all, and writes their rows in order. Errors: the own modes of a link could not
   !! be found.
   subroutine run_variant_tasks(job, rows_of_variant, at_a_time, threads, journal, error)
     type(variant_job_t), intent(inout) :: job        !! with its deck and outputs
@@ -84,7 +87,7 @@ contains
     type(error_t), allocatable, intent(out) :: error !! of the first variant that fails
 
     type(text_buffer_t) :: bytes
-    integer :: room, count
+    integer :: room, count, variants
 
     count = at_a_time*rank_count()
     room = max(1, min(most_at_a_time, rows_at_a_time/max(1, rows_of_variant)))
@@ -94,7 +97,9 @@ contains
     call put_deck(bytes, job%deck)
     call put_integers(bytes, [room, threads])
     job%announcement = bytes%storage(:bytes%length)
-    call run_tasks(job, 1, variant_count(job%deck%cards), at_a_time, journal, journal_group, room)
+    variants = variant_count(job%deck%cards)
+    call run_tasks(job, first_variant(job%part, variants), last_variant(job%part, variants), &
+      at_a_time, journal, group_of_variants, room)
     if (allocated(job%error)) error = job%error
   end subroutine run_variant_tasks
 
@@ -205,7 +210,7 @@ contains
     type(variant_rows_t) :: rows
     type(stopwatch_t) :: watch
     real(wp) :: writing
-    integer :: mine
+    integer :: mine, first, variants
 
     mine = place_of(self, number)
     if (allocated(self%outcomes(mine)%error)) then
@@ -223,7 +228,10 @@ contains
       self%method = self%rows(mine)%method
     end if
     self%rows(mine) = rows
-    call show_progress(self%progress, number, variant_count(self%deck%cards))
+    variants = variant_count(self%deck%cards)
+    first = first_variant(self%part, variants)
+    call show_progress(self%progress, number - first + 1, &
+      last_variant(self%part, variants) - first + 1)
   end subroutine finish_variant
 
 end module variant_tasks
