@@ -17,8 +17,8 @@ module deck_outputs
   implicit none (type, external)
   private
 
-  public :: outputs_t, open_outputs, open_folder, tables_of, write_variant, write_found_rows, write_texts, &
-    publish_outputs, discard_outputs
+  public :: outputs_t, open_outputs, open_folder, tables_of, write_variant, write_found_rows, &
+    write_texts, publish_outputs, discard_outputs
 
   !> The files of one output folder.
   type :: outputs_t

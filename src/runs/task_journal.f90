@@ -15,8 +15,8 @@ module task_journal
   implicit none (type, external)
   private
 
-  public :: journal_t, open_journal, new_journal, add_journal_file, recall_task, has_task, keeps_tasks, &
-    keep_task, close_journal, publish_journal, remove_journal, read_title
+  public :: journal_t, open_journal, new_journal, add_journal_file, recall_task, has_task, &
+    keeps_tasks, keep_task, close_journal, publish_journal, remove_journal, read_title
   public :: journal_name, begun
 
   !> Name of its file in the output folder.

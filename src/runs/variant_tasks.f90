@@ -76,8 +76,8 @@ module variant_tasks
 
 contains
 
-  !> Computes the variants of a part, or all, and writes their rows in order. Errors: the own modes of a link could not
-  !! be found.
+  !> Computes the variants of a part, or all, and writes their rows in order. Errors: the own modes
+  !! of a link could not be found.
   subroutine run_variant_tasks(job, rows_of_variant, at_a_time, threads, journal, error)
     type(variant_job_t), intent(inout) :: job        !! with its deck and outputs
     integer, intent(in) :: rows_of_variant           !! approximate number, of each table
