@@ -12,7 +12,7 @@ program main
   use kinds, only: wp
   use manual_page, only: manual_page_text
   use rank_service, only: dismiss_ranks, serve_leader
-  use ranks, only: leader, own_rank, start_ranks
+  use ranks, only: leader, own_rank, ranks_here, start_ranks
   use run_document, only: deck_outcome_t, document_text
   use shell_completion, only: completion_text
   use stopwatch, only: lap, start_stopwatch, stopwatch_t
@@ -26,11 +26,12 @@ program main
   type(error_t), allocatable :: error
   type(stopwatch_t) :: watch
   real(wp) :: so_far
-  integer :: i, j, status
+  integer :: i, j, status, processes
   logical :: refused
 
   call start_stopwatch(watch)
   call start_ranks()
+  processes = ranks_here()
   call read_command_line(command, error)
   if (own_rank() /= leader) then
     call watch_for_interruption()
@@ -73,7 +74,14 @@ program main
   allocate (decks(size(command%decks)), outcomes(size(command%decks)))
   refused = .false.
   do i = 1, size(decks)
-    call read_deck(command%decks(i)%text, command%threads, decks(i), command%settings)
+    call read_deck(command%decks(i)%text, command%threads, decks(i), command%settings, &
+      processes)
+    if (was_interrupted()) then
+      call complain(outcomes(i), "interrupted")
+      call say(command%decks(i)%text//": interrupted"//achar(10))
+      outcomes(i)%exit_status = 130
+      call finish(130, "")
+    end if
     if (.not. command%quiet) call say(decks(i)%warnings)
     call say(decks(i)%errors)
     if (len(decks(i)%errors) > 0) outcomes(i)%exit_status = 2
