@@ -8,6 +8,7 @@ module deck_outputs
   use report_kinds, only: table_kind_t
   use report_rows, only: find_rows
   use report_table, only: plan_table, reports, table_in_units, table_notes, table_plan_t
+  use table_columns, only: header_columns
   use table_rows, only: rows_t
   use tables, only: begin_variant, column_t, discard_table, finish_table, open_table, &
     publish_table, table_t, write_header, write_notes, write_rows
@@ -84,6 +85,7 @@ contains
       call open_table(folder, trim(outputs%kinds(i)%name), csv, outputs%tables(i), error, &
         .not. outputs%plain)
       if (allocated(error)) return
+      outputs%tables(i)%has_blocks = outputs%kinds(i)%has_blocks
     end do
     call open_output(folder, echo_name, outputs%echo, error)
     if (.not. allocated(error)) call open_output(folder, log_name, outputs%log, error)
@@ -128,6 +130,7 @@ contains
 
     type(table_plan_t) :: plan
     type(string_t), allocatable :: notes(:)
+    type(column_t), allocatable :: columns(:)
     integer :: i, first
 
     do i = 1, size(outputs%kinds)
@@ -138,7 +141,8 @@ contains
         if (allocated(table%columns)) then
           call write_notes(table, notes)
         else
-          call write_header(table, variant%model%title, notes, plan%layout%columns)
+          call header_columns(plan%layout, columns)
+          call write_header(table, variant%model%title, notes, columns)
         end if
         do first = 1, plan%items, items_at_a_time
           call write_items(table, plan, variant, first, &
