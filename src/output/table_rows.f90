@@ -9,8 +9,8 @@ module table_rows
   implicit none (type, external)
   private
 
-  public :: rows_t, row_item_t, keep_cells, add_row, add_gap, add_failed_row, append_rows, next_item, &
-    put_rows, get_rows
+  public :: rows_t, row_item_t, keep_cells, add_row, add_gap, add_failed_row, append_rows, &
+    next_item, put_rows, get_rows
   public :: item_row, item_gap, item_failure
 
   !> Kinds of items.

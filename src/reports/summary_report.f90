@@ -68,8 +68,8 @@ contains
             trim(summary%reports(i)))
         end do
         if (any(quantity_kinds(summary%quantities%kind)%has_error)) call append_string(notes, &
-          "..._error: the largest estimated error of these rows, relative to the frequency, or to "// &
-          "the largest value of the quantity over the turn")
+          "..._error: the largest estimated error of these rows, relative to the frequency, or "// &
+          "to the largest value of the quantity over the turn")
       end associate
       if (needs_frequencies(model)) then
         effects = effects_notes(model)

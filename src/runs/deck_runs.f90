@@ -16,7 +16,7 @@ module deck_runs
   use kinds, only: wp
   use link_store, only: link_store_t
   use linkage_notes, only: notes_on_linkage
-  use models, only: model_t, solver_band
+  use models, only: model_t, report_number, solver_band
   use linkage_motion_report, only: linkage_motion_log
   use motion_report, only: motion_log
   use program_version, only: version_number
@@ -157,9 +157,10 @@ contains
     type(string_t), allocatable :: of_run(:)
     character(len=:), allocatable :: warning, drawing
 
-    ! Of variants only frequencies are drawn.
+    ! Of variants only frequencies and summaries are drawn.
     drawing = command
-    if (session%totals%variants > 1 .and. .not. session%totals%has_frequencies) drawing = ""
+    if (session%totals%variants > 1 .and. .not. session%totals%has_frequencies .and. &
+      report_number(deck%model, "summary") == 0) drawing = ""
     warning = ""
     of_run = warnings_of_grade(session%findings, grade_meaningless)
     if (size(of_run) > 0) warning = of_run(1)%text

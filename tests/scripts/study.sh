@@ -345,3 +345,40 @@ for name, columns in wanted.items():
 END_OF_PYTHON
 }
 check "columns that are asked for, in plain and CSV" few
+
+# Figures of a study against each parameter; of tables without columns that a figure draws it is told which.
+drawn() {
+  FLEXMECH=$program sh plots/draw_figures.sh --format svg "$1" >"$scratch/drawn" 2>"$scratch/stderr" || { cat "$scratch/stderr"; return 1; }
+}
+figures() {
+  drawn "$out/four_bar" || return 1
+  for name in L t; do
+    grep -q "/figures/summary_by_$name.svg$" "$scratch/drawn" && grep -q "/figures/frequencies_by_$name.svg$" "$scratch/drawn" || { echo "no figure of $name"; return 1; }
+    # A panel for f1 and f3, ten others.
+    for title in 'natural frequency' torque 'transmission angle' 'elastic torque'; do
+      grep -q ">$title" "$out/four_bar/figures/summary_by_$name.svg" || { echo "no panel of $title"; return 1; }
+    done
+  done
+  # Another parameter than the one that varies is that of the first row.
+  grep -q 't = 1.6 mm' "$out/four_bar/figures/summary_by_L.svg" || { echo "the thickness is not told"; return 1; }
+}
+lacking() {
+  { four_bar; cat <<'END_OF_CARDS'; } | sed -e 's/\$t/1.6/' -e 's/\$L/279.4/' >"$scratch/lacking.deck"
+REPORT frequencies columns=f1,f3
+REPORT kinematics columns=transmission_angle,theta3,theta4
+REPORT reactions columns=torque
+REPORT pins columns=x,y
+SPEED 10
+END_OF_CARDS
+  run 0 --quiet --out "$out" "$scratch/lacking.deck" && drawn "$out/lacking" || return 1
+  says "pin_motion is not drawn: $out/lacking/pins.dat has no column vx vy ax ay (columns= of its REPORT card)" || return 1
+  says "reactions is not drawn" && says "kinematics_velocities is not drawn" && says "shaking_force is not drawn" || return 1
+  grep -q '/kinematics_angles.svg$' "$scratch/drawn" && grep -q '/frequencies.svg$' "$scratch/drawn" || { echo "figures are missing"; return 1; }
+  grep -q '>mode 3<' "$out/lacking/figures/frequencies.svg" && ! grep -q '>mode 2<' "$out/lacking/figures/frequencies.svg" || { echo "other modes are drawn"; return 1; }
+}
+if command -v gnuplot >/dev/null; then
+  check "figures of a study" figures
+  check "figures that lack columns are left out with a word" lacking
+else
+  skip "figures of a study" "there is no gnuplot"
+fi

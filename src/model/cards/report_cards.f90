@@ -60,7 +60,7 @@ module report_cards
     real(wp) :: fluctuation = 0.0_wp !! of REPORT sizing; 0: no flywheel is asked for [-]
     type(token_t) :: about_pin       !! value of `about=pin`; without a line if it is not given
     type(summary_card_t) :: summary  !! REPORT summary
-    type(token_t), allocatable :: columns(:) !! `columns=` but for motion: which ones its first table
+    type(token_t), allocatable :: columns(:) !! `columns=` of all but motion: what its first table
                                      !! has; not allocated: all
   end type report_t
 
@@ -71,10 +71,10 @@ contains
 
   !> Reads `REPORT kind`; shapes with `crank=`, `speed=` and `points=`, geometry with its crank
   !! angles, motion with start, end and step, frame with its point, summary with its quantities,
-  !! several with `columns=`. Errors: an unknown kind, words or keys that do not fit it, a missing or
-  !! unreadable value, fewer than two `points=`, an `accuracy=` out of range, a motion whose end or
-  !! step is not above 0, whose step exceeds its end, or which has more than a million steps, an
-  !! unknown quantity, a column named twice.
+  !! several with `columns=`. Errors: an unknown kind, words or keys that do not fit it, a
+  !! missing or unreadable value, fewer than two `points=`, an `accuracy=` out of range, a motion
+  !! whose end or step is not above 0, whose step exceeds its end, or which has more than a
+  !! million steps, an unknown quantity, a column named twice.
   pure subroutine read_report(card, reports, system, diagnostics, report, by_length)
     type(card_t), intent(in) :: card                  !! the REPORT card
     type(report_kind_t), intent(in) :: reports(:)     !! (kinds) all that exist
