@@ -10,9 +10,14 @@ endif
 export FC
 BLAS   ?= reference
 export BLAS
+# MPI=yes: the program for several processes, too. Its compiler is a wrapper around FC.
+export MPI
+export OMPI_FC  = $(FC)
+export MPICH_FC = $(FC)
 PREFIX ?= /usr/local
 
 program = build/release/flexmech
+of_mpi  = build/mpi/flexmech
 support = tests/support
 # The second stage uses every processor unless the caller has said how many. V=1 shows the commands in full.
 stage   = +@$(MAKE) --no-print-directory $(if $(V),,-s) $(if $(findstring -j,$(MAKEFLAGS)),,-j$(shell nproc))
@@ -24,8 +29,10 @@ ifndef kind
 .PHONY: all debug quad thesis run figures animate check documents bench bench-pictures stress stress-responses stress-stability accuracies linkages loads vibrations references fuzz memory golden \
         install setup clean help
 
+$(if $(MPI),$(if $(filter-out yes no,$(MPI)),$(error MPI=$(MPI): yes or no)))
+
 all: setup
-	$(stage) kind=release $(program)
+	$(stage) kind=release $(program) $(if $(filter yes,$(MPI)),$(of_mpi))
 
 debug: setup
 	$(stage) kind=debug build/debug/flexmech
@@ -73,7 +80,7 @@ animate: all
 
 check: setup
 	@rm -f build/check.count
-	$(stage) kind=release $(program) build/release/$(unit_tests) build/release/bench/bench
+	$(stage) kind=release $(program) build/release/$(unit_tests) build/release/bench/bench $(if $(shell command -v mpifort),$(of_mpi))
 	$(stage) kind=debug build/debug/flexmech build/debug/$(unit_tests) build/debug/bench/bench
 	@python3 -B $(support)/check.py $(unit_tests)
 
@@ -178,6 +185,7 @@ clean:
 
 help:
 	@echo "make                    build build/release/flexmech (installs missing tools first, as all targets that build)"
+	@echo "make MPI=yes            build build/mpi/flexmech too, for mpirun (docs/scaling.md)"
 	@echo "make debug              build build/debug/flexmech, with every check the compiler has"
 	@echo "make thesis             run both mechanisms of the thesis and draw their figures, in outputs/"
 	@echo "make run DECK=FILE      run one deck"
@@ -244,7 +252,7 @@ instead   := $(wildcard tests/quad/*.f90)
 endif
 
 # Sources lie in folders and in folders of these. File = module, so the objects of all can lie in one folder.
-found   := $(wildcard src/*.f90 src/*/*.f90 src/*/*/*.f90)
+found   := $(filter-out %/ranks_mpi.f90,$(wildcard src/*.f90 src/*/*.f90 src/*/*/*.f90))
 sources := $(filter-out $(addprefix %/,$(notdir $(instead))),$(found)) $(instead)
 modules := $(patsubst %.f90,$(build)/%.o,$(filter-out main.f90,$(notdir $(sources))))
 # What only tests use; the first is one of the modules of the quadruple build.
@@ -287,6 +295,16 @@ $(test_modules): $(build)/kinds.o
 $(build)/flexmech: $(modules) $(build)/main.o
 	@echo "link $@"
 	$(compile) $^ $(libraries) -o $@
+
+# ---------------------------------- the program for several processes: the same objects, but for the one that knows of MPI
+$(of_mpi): $(filter-out %/ranks_alone.o,$(modules)) $(build)/main.o build/mpi/ranks_mpi.o
+	@echo "link $@"
+	mpifort -fopenmp $(FFLAGS) $^ $(libraries) -o $@
+
+build/mpi/ranks_mpi.o: src/base/ranks_mpi.f90 $(build)/ranks.o $(build)/command
+	@echo "mpifort ($(kind)) $<"
+	mkdir -p $(@D)
+	mpifort -std=f2018 -fimplicit-none -fopenmp $(FFLAGS) $(options) -c $< -o $@
 
 # ------------------------------------------------------------- the program that times solvers; sources in the order of use
 bench_sources = $(patsubst %,tests/bench/%.f90,bench_cases exact_values nodal_runs nodal_parts bench_models bench_runs bench_corners bench_linkages bench_plans \

@@ -8,8 +8,11 @@ program main
   use deck_runs, only: run_deck, run_options_t
   use errors, only: error_of_interruption, error_t, rendered
   use figures_command, only: command_for_figures
-  use interruption, only: watch_for_interruption
+  use interruption, only: was_interrupted, watch_for_interruption
+  use kinds, only: wp
   use manual_page, only: manual_page_text
+  use rank_service, only: dismiss_ranks, serve_leader
+  use ranks, only: leader, own_rank, start_ranks
   use run_document, only: deck_outcome_t, document_text
   use shell_completion, only: completion_text
   use text, only: string_t
@@ -23,7 +26,13 @@ program main
   integer :: i, j, status
   logical :: refused
 
+  call start_ranks()
   call read_command_line(command, error)
+  if (own_rank() /= leader) then
+    call watch_for_interruption()
+    call serve_leader(command%settings)
+    stop 0, quiet=.true.
+  end if
   if (allocated(error)) then
     call say("flexmech: "//rendered(error)//achar(10))
     allocate (decks(0), outcomes(0))
@@ -31,19 +40,19 @@ program main
   end if
   if (command%help) then
     write (output_unit, "(a)", advance="no") help_text()
-    stop 0, quiet=.true.
+    call leave(0)
   else if (command%help_cards) then
     write (output_unit, "(a)", advance="no") card_help_text()
-    stop 0, quiet=.true.
+    call leave(0)
   else if (command%version) then
     write (output_unit, "(a)") version_text()
-    stop 0, quiet=.true.
+    call leave(0)
   else if (command%manual) then
     write (output_unit, "(a)", advance="no") manual_page_text()
-    stop 0, quiet=.true.
+    call leave(0)
   else if (allocated(command%shell)) then
     write (output_unit, "(a)", advance="no") completion_text(command%shell)
-    stop 0, quiet=.true.
+    call leave(0)
   end if
 
   allocate (decks(size(command%decks)), outcomes(size(command%decks)))
@@ -106,8 +115,19 @@ contains
       write (output_unit, "(a)", advance="no") document_text(status, complaint, command%decks, &
         decks, outcomes)
     end if
-    stop status, quiet=.true.
+    call leave(status)
   end subroutine finish
+
+  !> Ends the program on all ranks.
+  subroutine leave(status)
+    integer, intent(in) :: status !! of the program
+
+    !> Time for ranks that do something nobody needs any more [s].
+    real(wp), parameter :: after_interruption = 2.0_wp
+
+    call dismiss_ranks(status, merge(after_interruption, huge(1.0_wp), was_interrupted()))
+    stop status, quiet=.true.
+  end subroutine leave
 
   !> Keeps an error that concerns a deck as a whole.
   subroutine complain(outcome, complaint)

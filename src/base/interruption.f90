@@ -7,7 +7,7 @@ module interruption
   implicit none (type, external)
   private
 
-  public :: watch_for_interruption, was_interrupted
+  public :: watch_for_interruption, was_interrupted, interrupt
 
   !> SIGINT and SIGTERM of POSIX.
   integer(c_int), parameter :: interrupt_signal = 2_c_int, terminate_signal = 15_c_int
@@ -39,6 +39,11 @@ contains
 
     was = last_signal /= 0_c_int
   end function was_interrupted
+
+  !> Does what a termination request does: this process follows another one that has got it.
+  subroutine interrupt()
+    last_signal = terminate_signal
+  end subroutine interrupt
 
   subroutine note_signal(number) bind(c)
     integer(c_int), value :: number

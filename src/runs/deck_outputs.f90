@@ -18,7 +18,7 @@ module deck_outputs
   implicit none (type, external)
   private
 
-  public :: outputs_t, open_outputs, write_variant, write_found_rows, write_texts, &
+  public :: outputs_t, open_outputs, tables_of, write_variant, write_found_rows, write_texts, &
     publish_outputs, discard_outputs
 
   !> The files of one output folder.
@@ -95,7 +95,7 @@ contains
   !> The tables that a model requests: the first table of every report, in the order of all
   !! reports, then the second ones.
   pure function tables_of(model) result(list)
-    type(model_t), intent(in) :: model
+    type(model_t), intent(in) :: model !! of the first variant
     type(table_kind_t), allocatable :: list(:)
 
     integer :: i, t, number
@@ -164,17 +164,24 @@ contains
     call write_rows(table, rows)
   end subroutine write_items
 
-  !> Writes the rows, already found, of a variant other than the first.
-  subroutine write_found_rows(outputs, found)
-    type(outputs_t), intent(inout) :: outputs !! with the first variant written
+  !> Writes the rows, already found, of a variant. The first one brings the columns of the tables.
+  subroutine write_found_rows(outputs, title, found)
+    type(outputs_t), intent(inout) :: outputs !! opened
+    character(len=*), intent(in) :: title     !! of the deck; may be empty
     type(variant_rows_t), intent(in) :: found !! rows of all tables
 
     integer :: i
 
     do i = 1, size(outputs%tables)
-      call begin_variant(outputs%tables(i), outputs%parameters, found%varied)
-      call write_notes(outputs%tables(i), found%tables(i)%notes)
-      call write_rows(outputs%tables(i), found%tables(i)%rows)
+      associate (table => outputs%tables(i), part => found%tables(i))
+        call begin_variant(table, outputs%parameters, found%varied)
+        if (allocated(table%columns)) then
+          call write_notes(table, part%notes)
+        else
+          call write_header(table, title, part%notes, part%columns)
+        end if
+        call write_rows(table, part%rows)
+      end associate
     end do
   end subroutine write_found_rows
 

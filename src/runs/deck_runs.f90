@@ -1,8 +1,9 @@
 !> The run of one deck: its variants are computed, its files written.
 module deck_runs
   use, intrinsic :: iso_fortran_env, only: compiler_version
+  use byte_streams, only: get_integers, put_integers, put_string
   use cards, only: card_t
-  use counterweight_notes, only: balance_log
+  use deck_bytes, only: get_deck, put_deck
   use deck_outputs, only: discard_outputs, open_outputs, outputs_t, publish_outputs, write_texts, &
     write_variant
   use deck_readings, only: deck_t, read_variant
@@ -15,18 +16,13 @@ module deck_runs
   use interruption, only: was_interrupted
   use kinds, only: wp
   use link_store, only: link_store_t
-  use linkage_notes, only: notes_on_linkage
   use models, only: model_t, report_number, solver_band
-  use linkage_motion_report, only: linkage_motion_log
-  use motion_report, only: motion_log
   use program_version, only: version_number
   use progress, only: end_progress, progress_t, show_progress, start_progress
-  use response_notes, only: response_log
   use result_failures, only: find_failures
   use result_warnings, only: find_warnings
   use run_findings, only: add_findings, findings_t, warnings_of_grade
-  use run_log, only: model_summary
-  use run_statistics, only: accuracy_summary, run_times_t, statistics_text, sweep_summary
+  use run_statistics, only: accuracy_summary, run_times_t, statistics_text
   use run_totals, only: add_totals, run_totals_t, totals_of
   use stopwatch, only: lap, start_stopwatch, stopwatch_t
   use study_requests, only: motion_instants_of
@@ -34,16 +30,17 @@ module deck_runs
   use tables, only: column_t, real_column
   use task_journal, only: close_journal, journal_t, open_journal, remove_journal
   use text, only: plural, string_t, to_string
-  use transient_report, only: transient_log
+  use text_buffer, only: text_buffer_t
+  use variant_log, only: log_of_variant
   use variant_results, only: variant_results_t
-  use variant_runs, only: begin_variant_run, compute_variant, variant_run_t
+  use variant_runs, only: begin_variant_run, compute_variant, help_with_sweep, variant_run_t
   use variant_tasks, only: run_variant_tasks, variant_job_t
   use variants, only: parameter_names, variant_count, variant_text
   use warnings, only: grade_meaningless
   implicit none (type, external)
   private
 
-  public :: run_options_t, run_result_t, run_deck
+  public :: run_options_t, run_result_t, run_deck, help_with_blocks, blocks_announced
 
   !> Options of the command line that hold for every deck.
   type :: run_options_t
@@ -77,14 +74,18 @@ module deck_runs
     integer :: method = 0                !! by which the first variant's frequencies were found
   end type session_t
 
-  !> A variant with more positions than this keeps all threads busy.
-  integer, parameter :: many_positions = 1024
+  !> A variant with more positions than this keeps all threads busy. One with more rows is computed
+  !! by all ranks together, and its rows do not wait in memory.
+  integer, parameter :: many_positions = 1024, many_rows = 100000
+
+  !> First word of what other ranks are told of the blocks of a sweep.
+  character(len=*), parameter :: blocks_announced = "blocks"
 
   character(len=*), parameter :: line_feed = achar(10)
 
   !> Form of the bytes in a journal: another number wherever they mean something else, since the
   !! version of the program may stay the same.
-  character(len=*), parameter :: journal_form = "journal 7"
+  character(len=*), parameter :: journal_form = "journal 8"
 
 contains
 
@@ -112,14 +113,9 @@ contains
         session%journal, blocks)
       call start_progress(session%progress, deck%base, &
         trim(merge("variants ", "positions", variants > 1)), .not. options%quiet)
-      call run_whole_variant(deck, 1, options%threads, session, error)
-      times%first_computing = session%totals%computing
-      times%first_writing = session%totals%writing
       call start_stopwatch(watch)
-      if (variants > 1 .and. .not. allocated(error)) then
-        call run_other_variants(deck, options%threads, session, error)
-        call lap(watch, times%others)
-      end if
+      call run_variants(deck, options%threads, session, error)
+      call lap(watch, times%variants)
       call end_progress(session%progress)
     end if
     if (allocated(error)) then
@@ -243,6 +239,7 @@ contains
     type(findings_t) :: findings
     type(run_totals_t) :: totals
     type(stopwatch_t) :: watch
+    type(text_buffer_t) :: announced
     real(wp) :: computing, writing
 
     call start_stopwatch(watch)
@@ -253,6 +250,10 @@ contains
       call begin_variant_run(run, model)
     end if
     if (variant_count(deck%cards) == 1) run%progress = session%progress
+    call put_string(announced, blocks_announced)
+    call put_deck(announced, deck)
+    call put_integers(announced, [number])
+    run%announcement = announced%storage(:announced%length)
     call compute_variant(run, threads, session%journal, number, store, error)
     if (variant_count(deck%cards) == 1) session%progress = run%progress
     call lap(watch, computing)
@@ -267,44 +268,68 @@ contains
     call find_warnings(run%results, findings)
     call add_findings(session%findings, findings)
     if (number > 1) return
-    session%log = first_log(run%results)
+    session%log = log_of_variant(run%results)
     if (totals%has_frequencies) session%method = run%results%found%sweep%request%method
   end subroutine run_whole_variant
 
-  !> Computes all variants but the first and writes their rows in order. Several are computed at a
-  !! time if one of them has too few positions for all threads. Errors: the own modes of a link
-  !! could not be found.
-  subroutine run_other_variants(deck, threads, session, error)
+  !> Computes all variants and writes their rows in order. Several are computed at a time if one of
+  !! them has too few positions for all threads. Errors: the own modes of a link could not be found.
+  subroutine run_variants(deck, threads, session, error)
     type(deck_t), intent(in), target :: deck
     integer, intent(in) :: threads
     type(session_t), intent(inout), target :: session
     type(error_t), allocatable, intent(out) :: error
 
     type(variant_job_t) :: job
-    integer :: i
+    integer :: variants, rows, i, together
 
+    variants = variant_count(deck%cards)
     associate (model => deck%model)
-      ! Only one thread at a time can use ARPACK.
-      if (size(model%crank%value) > many_positions .or. model%solver == solver_band) then
-        do i = 2, variant_count(deck%cards)
+      rows = size(model%crank%value)*size(model%speed%value) + motion_instants_of(model)
+      if (variants == 1 .or. rows > many_rows) then
+        do i = 1, variants
           call run_whole_variant(deck, i, threads, session, error)
           if (allocated(error) .or. was_interrupted()) return
-          call show_progress(session%progress, i, variant_count(deck%cards))
+          if (variants > 1) call show_progress(session%progress, i, variants)
         end do
         return
       end if
+      ! Only one thread at a time can use ARPACK.
+      together = 1
+      if (size(model%crank%value) > many_positions .or. model%solver == solver_band) &
+        together = threads
       job%deck => deck
       job%outputs => session%outputs
-      job%findings = session%findings
-      job%totals = session%totals
       job%progress = session%progress
-      call run_variant_tasks(job, size(model%crank%value)*size(model%speed%value) + &
-        motion_instants_of(model), threads, session%journal, error)
+      call run_variant_tasks(job, rows, threads/together, together, session%journal, error)
       session%findings = job%findings
       session%totals = job%totals
       session%progress = job%progress
+      session%method = job%method
+      if (allocated(job%log)) session%log = job%log
     end associate
-  end subroutine run_other_variants
+  end subroutine run_variants
+
+  !> Helps the leader with the blocks of a sweep that it has announced.
+  subroutine help_with_blocks(bytes, at, settings, threads)
+    character(len=*), intent(in) :: bytes     !! that announce them
+    integer, intent(inout) :: at              !! place of the first byte; on return, after the last
+    type(string_t), intent(in) :: settings(:) !! of the command line
+    integer, intent(in) :: threads            !! number to use
+
+    type(deck_t) :: deck
+    type(variant_run_t) :: run
+    type(model_t) :: model
+    type(card_t), allocatable :: cards(:)
+    type(diagnostics_t) :: none
+    integer :: number(1)
+
+    call get_deck(bytes, at, settings, deck)
+    call get_integers(bytes, at, number)
+    call read_variant(deck%cards, number(1), cards, none, model)
+    call begin_variant_run(run, model)
+    call help_with_sweep(run, threads)
+  end subroutine help_with_blocks
 
   !> Writes the texts beside the tables, and puts all files in place. Errors: the run was
   !! interrupted, or a file is not complete.
@@ -342,31 +367,6 @@ contains
     hint = ""
     if (blocks > 0) hint = "; --resume continues from what it has computed"
   end function resume_hint
-
-  !> The first variant in the log: model, notes on the linkage, motion, how its response and its
-  !! frequencies were found.
-  function first_log(variant) result(text)
-    type(variant_results_t), intent(in) :: variant
-    character(len=:), allocatable :: text
-
-    type(string_t), allocatable :: notes(:)
-    integer :: i
-
-    text = model_summary(variant%model, variant%mechanism)
-    notes = notes_on_linkage(variant)
-    do i = 1, size(notes)
-      text = text//notes(i)%text//line_feed
-    end do
-    associate (found => variant%found)
-      if (allocated(found%balance%partial)) text = text//balance_log(variant)
-      if (allocated(found%motion%samples)) text = text//motion_log(found%motion)
-      if (allocated(found%linkage_motion%samples)) text = text//linkage_motion_log(variant)
-      if (allocated(found%response%at_speed)) text = text//response_log(variant)
-      if (allocated(found%transient%at_speed)) text = text//transient_log(variant)
-      if (allocated(found%sweep%results)) text = text//sweep_summary(found%sweep, &
-        variant%mechanism%mesh)
-    end associate
-  end function first_log
 
   !> The text of `run.log`: what the deck describes, accuracy of its results, warnings, failed
   !! rows.

@@ -1,7 +1,8 @@
 !> What a computed variant leaves: the rows of its tables, its findings and its totals. The journal
 !! of a run keeps them as bytes.
 module variant_rows
-  use byte_streams, only: get_integers, get_reals, get_string, put_integers, put_reals, put_string
+  use byte_streams, only: get_integers, get_logicals, get_reals, get_string, put_integers, &
+    put_logicals, put_reals, put_string
   use kinds, only: wp
   use report_kinds, only: table_kind_t
   use report_rows, only: find_rows
@@ -11,8 +12,10 @@ module variant_rows
   use run_findings, only: findings_t, get_findings, put_findings
   use run_totals, only: get_totals, put_totals, run_totals_t, totals_of
   use table_rows, only: get_rows, put_rows, rows_t
+  use tables, only: column_t
   use text, only: string_t
   use text_buffer, only: text_buffer_t
+  use variant_log, only: log_of_variant
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -21,7 +24,9 @@ module variant_rows
 
   !> The part of a table that belongs to a variant.
   type :: table_part_t
-    type(string_t), allocatable :: notes(:) !! lines of its head
+    type(string_t), allocatable :: notes(:)   !! lines of its head
+    type(column_t), allocatable :: columns(:) !! without those of what varies; of the variant that
+                                              !! leads
     type(rows_t) :: rows
   end type table_part_t
 
@@ -32,15 +37,20 @@ module variant_rows
     type(table_part_t), allocatable :: tables(:) !! in the order of the deck's tables
     type(findings_t) :: findings
     type(run_totals_t) :: totals
+    character(len=:), allocatable :: log         !! what `run.log` says of it, and
+    integer :: method = 0                        !! how its frequencies were found; of the variant
+                                                 !! that leads
   end type variant_rows_t
 
 contains
 
   !> Rows, findings and totals of a computed variant. Several threads may call it at the same time,
   !! for different variants.
-  subroutine find_variant_rows(tables, variant, rows)
+  subroutine find_variant_rows(tables, variant, threads, leads, rows)
     type(table_kind_t), intent(in) :: tables(:)    !! of the deck
     type(variant_results_t), intent(in) :: variant !! computed
+    integer, intent(in) :: threads                 !! number to use
+    logical, intent(in) :: leads                   !! whether heads of tables and log are to be its
     type(variant_rows_t), intent(out) :: rows      !! with all that is to be written
 
     type(table_plan_t) :: plans(size(tables))
@@ -57,10 +67,15 @@ contains
     do i = 1, size(tables)
       call plan_table(tables(i), variant, plans(i))
       call table_notes(plans(i)%name, variant, rows%tables(i)%notes)
+      if (leads) rows%tables(i)%columns = plans(i)%layout%columns
     end do
+    if (leads) then
+      rows%log = log_of_variant(variant)
+      if (rows%totals%has_frequencies) rows%method = variant%found%sweep%request%method
+    end if
     !$omp end critical (one_at_a_time)
     do i = 1, size(tables)
-      call find_rows(plans(i), variant, 1, plans(i)%items, 1, rows%tables(i)%rows)
+      call find_rows(plans(i), variant, 1, plans(i)%items, threads, rows%tables(i)%rows)
     end do
   end subroutine find_variant_rows
 
@@ -79,12 +94,33 @@ contains
         do i = 1, size(table%notes)
           call put_string(buffer, table%notes(i)%text)
         end do
+        call put_columns(buffer, table%columns)
         call put_rows(buffer, table%rows)
       end associate
     end do
     call put_findings(buffer, rows%findings)
     call put_totals(buffer, rows%totals)
+    call put_logicals(buffer, [allocated(rows%log)])
+    if (.not. allocated(rows%log)) return
+    call put_string(buffer, rows%log)
+    call put_integers(buffer, [rows%method])
   end subroutine put_variant_rows
+
+  pure subroutine put_columns(buffer, columns)
+    type(text_buffer_t), intent(inout) :: buffer
+    type(column_t), allocatable, intent(in) :: columns(:) !! may be unallocated
+
+    integer :: i
+
+    call put_logicals(buffer, [allocated(columns)])
+    if (.not. allocated(columns)) return
+    call put_integers(buffer, [size(columns)])
+    do i = 1, size(columns)
+      call put_string(buffer, columns(i)%name)
+      call put_string(buffer, columns(i)%unit)
+      call put_integers(buffer, [columns(i)%width])
+    end do
+  end subroutine put_columns
 
   !> Reads what `put_variant_rows` wrote.
   pure subroutine get_variant_rows(bytes, at, rows)
@@ -92,7 +128,8 @@ contains
     integer, intent(inout) :: at              !! place of the first byte; on return, after the last
     type(variant_rows_t), intent(out) :: rows !! of a variant
 
-    integer :: counts(2), notes(1), i, k
+    integer :: counts(2), notes(1), method(1), i, k
+    logical :: leads(1)
 
     call get_integers(bytes, at, counts)
     allocate (rows%varied(counts(1)), rows%tables(counts(2)))
@@ -104,11 +141,37 @@ contains
         do i = 1, size(table%notes)
           call get_string(bytes, at, table%notes(i)%text)
         end do
+        call get_columns(bytes, at, table%columns)
         call get_rows(bytes, at, table%rows)
       end associate
     end do
     call get_findings(bytes, at, rows%findings)
     call get_totals(bytes, at, rows%totals)
+    call get_logicals(bytes, at, leads)
+    if (.not. leads(1)) return
+    call get_string(bytes, at, rows%log)
+    call get_integers(bytes, at, method)
+    rows%method = method(1)
   end subroutine get_variant_rows
+
+  pure subroutine get_columns(bytes, at, columns)
+    character(len=*), intent(in) :: bytes
+    integer, intent(inout) :: at
+    type(column_t), allocatable, intent(out) :: columns(:)
+
+    integer :: numbers(1), i
+    logical :: are_there(1)
+
+    call get_logicals(bytes, at, are_there)
+    if (.not. are_there(1)) return
+    call get_integers(bytes, at, numbers)
+    allocate (columns(numbers(1)))
+    do i = 1, size(columns)
+      call get_string(bytes, at, columns(i)%name)
+      call get_string(bytes, at, columns(i)%unit)
+      call get_integers(bytes, at, numbers)
+      columns(i)%width = numbers(1)
+    end do
+  end subroutine get_columns
 
 end module variant_rows

@@ -5,6 +5,7 @@ module variant_runs
   use frequency_study, only: begin_sweep, block_count, block_of, finish_sweep, missed_states, &
     most_attempts, solve_block
   use interruption, only: was_interrupted
+  use jobs, only: job_t
   use kinds, only: wp
   use link_store, only: link_store_t
   use linkage_motion_study, only: begin_linkage_motion, continue_linkage_motion, &
@@ -17,6 +18,7 @@ module variant_runs
   use position_study, only: find_all_positions
   use positions, only: by_crank_angle
   use progress, only: progress_t, show_progress
+  use rank_tasks, only: help_with_tasks
   use reach_texts, only: open_linkage_text, reachable_text
   use report_table, only: find_study, study_names
   use response_study, only: find_response
@@ -27,7 +29,7 @@ module variant_runs
   use sweep_bytes, only: get_result, put_result
   use sweeps, only: sweep_t
   use task_journal, only: journal_t
-  use tasks, only: job_t, run_tasks
+  use tasks, only: run_tasks
   use text_buffer, only: text_buffer_t
   use variant_results, only: variant_results_t
   use transient_responses, only: find_transients
@@ -35,7 +37,7 @@ module variant_runs
   implicit none (type, external)
   private
 
-  public :: variant_run_t, begin_variant_run, compute_variant
+  public :: variant_run_t, begin_variant_run, compute_variant, help_with_sweep
 
   !> A variant under way. Its tasks are the blocks of its sweep.
   type, extends(job_t) :: variant_run_t
@@ -77,18 +79,11 @@ contains
     type(link_store_t), intent(inout) :: store   !! own modes of links found before
     type(error_t), allocatable, intent(out) :: error !! of the variant as a whole
 
-    real(wp) :: none(0)
     integer :: i
 
     associate (model => run%results%model, linkage => run%results%mechanism%linkage, &
         found => run%results%found)
-      ! Crank angles that no report needs must not fail.
-      if (needs_positions(model)) then
-        call find_all_positions(linkage, model%crank%value, threads, found%positions, &
-          has_law(model))
-      else
-        call find_all_positions(linkage, none, threads, found%positions)
-      end if
+      call find_positions_of(run%results, threads)
       call name_positions(run%results)
       if (run%results%mechanism%is_four_bar) then
         call classify_linkage(linkage, found%class)
@@ -135,6 +130,24 @@ contains
       call name_parts(run%results%mechanism, found%linkage_motion%error)
     end associate
   end subroutine compute_variant
+
+  !> The positions that the reports need.
+  subroutine find_positions_of(variant, threads)
+    type(variant_results_t), intent(inout) :: variant !! with model and mechanism
+    integer, intent(in) :: threads
+
+    real(wp) :: none(0)
+
+    associate (model => variant%model, linkage => variant%mechanism%linkage)
+      ! Crank angles that no report needs must not fail.
+      if (needs_positions(model)) then
+        call find_all_positions(linkage, model%crank%value, threads, variant%found%positions, &
+          has_law(model))
+      else
+        call find_all_positions(linkage, none, threads, variant%found%positions)
+      end if
+    end associate
+  end subroutine find_positions_of
 
   !> Puts names into the errors of positions.
   pure subroutine name_positions(variant)
@@ -311,15 +324,11 @@ contains
     type(link_store_t), intent(inout) :: store
     type(error_t), allocatable, intent(out) :: error
 
-    type(mode_request_t) :: request
     integer :: attempt, made
 
-    associate (model => run%results%model, mechanism => run%results%mechanism, &
-        positions => run%results%found%positions, sweep => run%results%found%sweep)
-      request = mode_request_of(model, mechanism)
-      call begin_sweep(request, drawn_states(model, positions, request%speed), &
-        size(positions%states), sweep)
-      run%states = by_crank_angle(positions)
+    associate (mechanism => run%results%mechanism, positions => run%results%found%positions, &
+        sweep => run%results%found%sweep)
+      call begin_sweep_of(run)
       made = store%made
       do attempt = 1, most_attempts
         call new_vibration_models(mechanism%structure_t, positions, run%states, sweep%request, &
@@ -331,6 +340,8 @@ contains
         call run_tasks(run, 1, block_count(size(run%states)), &
           merge(1, threads, sweep%request%method == by_band), journal, &
           merge(group, -1, attempt == 1))
+        ! Other ranks do not know which positions are solved again. They are few.
+        if (allocated(run%announcement)) deallocate (run%announcement)
         run%states = missed_states(sweep, run%states)
         if (size(run%states) == 0 .or. was_interrupted()) exit
       end do
@@ -339,6 +350,39 @@ contains
       call name_links(mechanism, sweep)
     end associate
   end subroutine compute_sweep
+
+  !> The sweep without results, and its states by crank angle.
+  subroutine begin_sweep_of(run)
+    type(variant_run_t), intent(inout) :: run !! with positions
+
+    type(mode_request_t) :: request
+
+    associate (model => run%results%model, positions => run%results%found%positions)
+      request = mode_request_of(model, run%results%mechanism)
+      call begin_sweep(request, drawn_states(model, positions, request%speed), &
+        size(positions%states), run%results%found%sweep)
+      run%states = by_crank_angle(positions)
+    end associate
+  end subroutine begin_sweep_of
+
+  !> Helps the leader with the blocks of a sweep that it has announced: does all that comes before
+  !! them, and then the blocks that it hands out.
+  subroutine help_with_sweep(run, threads)
+    type(variant_run_t), intent(inout) :: run !! begun
+    integer, intent(in) :: threads            !! number to use
+
+    type(link_store_t) :: store
+    type(error_t), allocatable :: error
+
+    call find_positions_of(run%results, threads)
+    call begin_sweep_of(run)
+    associate (sweep => run%results%found%sweep)
+      ! An error is that of the leader too, who does not call for help then.
+      call new_vibration_models(run%results%mechanism%structure_t, run%results%found%positions, &
+        run%states, sweep%request, sweep%request%accuracy, store, run%models, sweep%counts, error)
+      call help_with_tasks(run, merge(1, threads, sweep%request%method == by_band))
+    end associate
+  end subroutine help_with_sweep
 
   !> Puts the name of the link before every error that is about one: a sweep knows its number only.
   pure subroutine name_links(mechanism, sweep)

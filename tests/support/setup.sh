@@ -27,6 +27,10 @@ need_command gnuplot gnuplot-nox # its libraries bring a font along, so text app
 need_command numdiff numdiff
 need_library libarpack2-dev libarpack.a
 need_library libgsl-dev libgsl.a
+if test "$MPI" = yes; then
+  need_command mpifort libopenmpi-dev
+  need_command mpirun openmpi-bin
+fi
 if test -n "$SANITIZERS"; then
   need_library "libgcc-$("$compiler" -dumpversion 2> /dev/null | sed 's/\..*//')-dev" libasan.so libasan.a
   need_library "libgcc-$("$compiler" -dumpversion 2> /dev/null | sed 's/\..*//')-dev" libubsan.so libubsan.a

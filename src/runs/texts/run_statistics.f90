@@ -14,10 +14,8 @@ module run_statistics
 
   !> Times of the parts of a run, besides those in its totals.
   type :: run_times_t
-    real(wp) :: first_computing = 0.0_wp !! studies of the first variant [s]
-    real(wp) :: first_writing = 0.0_wp   !! its rows found and written [s]
-    real(wp) :: others = 0.0_wp          !! all other variants [s]
-    real(wp) :: files = 0.0_wp           !! texts written, files put in place [s]
+    real(wp) :: variants = 0.0_wp !! all variants, computed and written [s]
+    real(wp) :: files = 0.0_wp    !! texts written, files put in place [s]
   end type run_times_t
 
 contains
@@ -48,13 +46,12 @@ contains
       text = text//name//": skipped beams, matrices and eigenproblems: no report needs them"// &
         line_feed
     end if
-    text = text//name//": computing "//milliseconds(times%first_computing)//", writing "// &
-      milliseconds(times%first_writing)
-    if (totals%variants > 1) then
-      text = text//", other variants "//milliseconds(times%others)// &
-        " (all threads: computing "//milliseconds(totals%computing - times%first_computing)// &
-        ", writing "//milliseconds(totals%writing - times%first_writing)//")"
-    end if
+    text = text//name//": "
+    if (totals%variants > 1) text = text//"variants "//milliseconds(times%variants)// &
+      " (all threads: "
+    text = text//"computing "//milliseconds(totals%computing)//", writing "// &
+      milliseconds(totals%writing)
+    if (totals%variants > 1) text = text//")"
     text = text//", files "//milliseconds(times%files)//line_feed
   end function statistics_text
 
